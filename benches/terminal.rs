@@ -9,10 +9,7 @@ mod support;
 
 use std::time::{Duration, Instant};
 
-use support::{Answers, Terminal};
-
-/// The program, as optimised as this bench.
-const PROGRAM: &str = env!("CARGO_BIN_EXE_hopfscope");
+use support::{Answers, PROGRAM, Terminal};
 
 /// The sizes that are measured.
 const SIZES: [(u16, u16); 3] = [(80, 24), (120, 40), (200, 60)];

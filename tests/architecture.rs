@@ -1,5 +1,5 @@
-//! The rings of the house: imports point inwards only, no files import each other in a circle, and the
-//! inner rings touch nothing outside.
+//! The rings of modules: imports point inwards only, no files import each other in a circle, and the inner rings
+//! use nothing from outside.
 //!
 //! `src/lib.rs` describes the rings; these tests read the paths in the sources and keep it so.
 

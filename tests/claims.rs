@@ -41,7 +41,7 @@ fn every_claim_is_decided_by_numbers() {
 }
 
 #[test]
-fn what_is_printed_wrong_fails_and_its_corrected_form_holds() {
+fn misprints_fail_and_their_corrections_hold() {
     for (equation, words) in [
         ("after (3)", "c/m"),
         ("(6)", "2 D ="),
@@ -68,7 +68,7 @@ fn what_is_printed_wrong_fails_and_its_corrected_form_holds() {
 }
 
 #[test]
-fn what_is_said_and_not_so_is_found_false() {
+fn false_statements_are_found_false() {
     for (equation, words) in [
         ("5", "periodic solution"),
         ("5.1", "trapped"),
@@ -87,7 +87,7 @@ fn what_is_said_and_not_so_is_found_false() {
 
 /// The first of them in the paper's own range.
 #[test]
-fn what_is_said_of_all_cases_fails_in_some() {
+fn general_statements_fail_in_some_cases() {
     for (equation, words, fails) in [
         ("Fig. 10", "D3 > 0", "D = -0.637, D3 = 0.25, r = 1"),
         ("Fig. 10", "D3 < 0", "D = -1, D3 = -0.1, r = 0.1"),

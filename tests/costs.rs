@@ -54,7 +54,7 @@ fn folds_are_the_tops_of_the_graph_of_all_cycles() {
 }
 
 #[test]
-fn where_the_cycle_grazes_the_sticking_set_folds_are_not_sought_in_vain() {
+fn no_evaluations_are_wasted_on_folds_where_the_cycle_grazes_the_sticking_set() {
     let found = border(&at(0.0, 0.0, 0.0, 1.0), Symbol::D3, (8.0, 12.0), 5, LIMITS).unwrap();
     assert!(found.points.iter().all(|point| point.fold.is_some_and(|fold| fold.grazes)));
     assert!(found.cost.evaluations <= 230_000, "{:?}", found.cost);

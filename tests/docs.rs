@@ -65,7 +65,7 @@ fn every_answer_shown_is_the_one_that_is_given() {
 fn commands() -> BTreeSet<String> {
     let help = run(&["--help"]).out;
     let listed = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
-    // A description that is wrapped goes on further to the right.
+    // A description that is wrapped continues further to the right.
     let rows = listed.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
     let names = rows.filter_map(|line| line.split_whitespace().next());
     names.filter(|name| *name != "help").map(str::to_owned).collect()
@@ -144,6 +144,6 @@ fn manuals_and_completions_name_every_command() {
     // A second run changes nothing; a page of somebody else's stays.
     assert_eq!(run(&["man", path]).code, 0);
     fs::write(folder.path().join("hopfscope.1"), "mine").unwrap();
-    run(&["man", path]).is_refused(&[]);
+    run(&["man", path]).is_refused(&["hopfscope.1", "--force replaces it"]);
     assert_eq!(fs::read_to_string(folder.path().join("hopfscope.1")).unwrap(), "mine");
 }

@@ -18,7 +18,7 @@ fn between(random: &mut Random, interval: Interval) -> f64 {
 enum Force {
     /// Always with the motion: the worst.
     Along,
-    /// With the motion, but for a part of the time against it.
+    /// With the motion, except for a part of the time against it.
     Mostly(f64),
     /// Harmonic, of this frequency and phase.
     Harmonic(f64, f64),
@@ -197,8 +197,8 @@ fn where_there_may_be_no_friction_nothing_is_guaranteed_and_no_number_is_below_z
 
 #[test]
 fn a_border_far_out_on_one_side_is_that_of_the_plain_system() {
-    // D2 brakes on one side and drives on the other, and a D3 of nearly nothing closes the way out: the far end lies where
-    // swings have forgotten their starts.
+    // D2 brakes on one side and drives on the other, and a D3 of nearly nothing closes the way out: the far end
+    // lies where swings have forgotten their starts.
     let far = [(0.1157, -5e-3), (0.1157, -5e-4), (0.1157, -1e-9), (0.65, -1e-3), (0.36, -2e-4)];
     for (d, d3) in far {
         let plain = Parameters { d, d2: 0.3517, d3, r: 0.22 };

@@ -59,7 +59,7 @@ fn parts_in_any_order_are_the_whole_to_the_last_byte_and_no_file_is_lost() {
         assert_eq!((ran.code, ran.err.as_str(), ran.out.as_str()), (0, "", ""));
         let whole = read(folder, &format!("whole.{ending}"));
         assert!(read(folder, &format!("all.{ending}")) == whole);
-        // A folder stands for the parts in it; the same whole again is no loss.
+        // A folder stands for the parts in it; the same whole again is not a loss.
         assert_eq!(run_in(folder, &format!("merge parts --output all.{ending}")).code, 0);
         // What a merge has written is a scan in one part.
         assert_eq!(run_in(folder, &format!("merge all.{ending} --check")).code, 0);
@@ -75,7 +75,7 @@ fn parts_in_any_order_are_the_whole_to_the_last_byte_and_no_file_is_lost() {
 }
 
 #[test]
-fn what_is_missing_is_named_by_shard_and_row_and_the_commands_given_compute_just_that() {
+fn missing_rows_are_named_by_shard_and_the_suggested_commands_compute_just_them() {
     let folder = folder_with_parts(4, "csv");
     let folder = folder.path();
     // Shards of 15 rows: the first stops after 10, the second has a hole, the third is not there.
@@ -238,7 +238,7 @@ fn the_dag_for_htcondor_names_every_shard_and_its_lines_compute_the_whole() {
 }
 
 #[test]
-fn a_recipe_goes_to_its_file_and_wrong_wishes_are_refused() {
+fn a_recipe_goes_to_its_file_and_wrong_options_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let line = format!("{SCAN} --plan snakemake --shards 40");

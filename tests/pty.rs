@@ -7,22 +7,11 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use rustix::process::Signal;
-use support::{Answers, Terminal};
-
-/// The program under test.
-const PROGRAM: &str = env!("CARGO_BIN_EXE_hopfscope");
-
-/// What the title of the plain scene says.
-const TITLE: &str = "The plain oscillator";
-
-/// As long as this without a byte, a picture is complete: the program sends a frame within 16 ms.
-const QUIET: Duration = Duration::from_millis(200);
+use support::{Answers, PROGRAM, QUIET, TITLE, Terminal};
 
 /// The explorer with its first picture complete.
 fn explorer(arguments: &[&str], environment: &[(&str, &str)], size: (u16, u16)) -> Terminal {
-    let program: Vec<&str> = [PROGRAM].iter().chain(arguments).copied().collect();
-    let mut terminal = Terminal::start(&program, environment, size, Answers::AtOnce);
-    terminal.wait("the first picture", |terminal| terminal.screen().alternate_screen());
+    let mut terminal = Terminal::explorer(arguments, environment, size);
     terminal.quiet(QUIET);
     terminal
 }
@@ -34,13 +23,6 @@ fn picture(terminal: &Terminal) -> String {
     rows.map(str::trim_end).collect::<Vec<_>>().join("\n")
 }
 
-/// Leaves with `q` and checks what is left behind.
-fn leave(mut terminal: Terminal) {
-    terminal.types("q");
-    assert_eq!(terminal.end(), 0);
-    terminal.assert_restored();
-}
-
 #[test]
 fn it_shows_the_paper_s_oscillator_and_leaves_the_terminal_as_it_was() {
     let mut terminal = explorer(&[], &[], (80, 24));
@@ -50,7 +32,7 @@ fn it_shows_the_paper_s_oscillator_and_leaves_the_terminal_as_it_was() {
     }
     let braille = |char| ('\u{2801}'..='\u{28ff}').contains(&char);
     assert!(terminal.text().contains(braille), "no curve\n{}", terminal.text());
-    leave(terminal);
+    terminal.leave();
 }
 
 #[test]
@@ -64,7 +46,7 @@ fn a_step_moves_the_value_and_the_picture() {
     let after = picture(&terminal);
     let moved = before.lines().zip(after.lines()).filter(|(before, after)| before != after).count();
     assert!(moved > 10, "only {moved} rows changed");
-    leave(terminal);
+    terminal.leave();
 }
 
 #[test]
@@ -75,7 +57,7 @@ fn a_pasted_script_is_offered_and_played() {
     terminal.types("\r");
     terminal.wait_for("-0.05");
     terminal.wait_for("replay done");
-    leave(terminal);
+    terminal.leave();
 }
 
 #[test]
@@ -90,7 +72,7 @@ fn no_size_breaks_it_and_the_picture_comes_back() {
     }
     terminal.resize(80, 24);
     terminal.wait("the picture again", |terminal| picture(terminal) == before);
-    leave(terminal);
+    terminal.leave();
 }
 
 #[test]
@@ -106,7 +88,7 @@ fn a_full_picture_and_a_step_are_a_few_bytes() {
     }
     let stepped = (terminal.written.len() - full) / 5;
     assert!(stepped <= 1_300, "{stepped} bytes a step");
-    leave(terminal);
+    terminal.leave();
 }
 
 /// What stands in every cell, and how it looks.
@@ -133,7 +115,7 @@ fn a_changed_cell_costs_at_most_five_bytes_at_every_size() {
         }
         assert!(changed > 500, "{changed} cells at {size:?}");
         assert!(bytes <= 5 * changed, "{bytes} bytes for {changed} cells at {size:?}");
-        leave(terminal);
+        terminal.leave();
     }
 }
 
@@ -162,7 +144,7 @@ fn idle_it_writes_nothing_and_does_not_wake_up() {
     let before = activity(&terminal);
     assert_eq!(terminal.watch(Duration::from_secs(3)), 0, "bytes while idle");
     assert_eq!(activity(&terminal), before, "processor time or wake-ups while idle");
-    leave(terminal);
+    terminal.leave();
 }
 
 #[test]
@@ -188,8 +170,8 @@ fn five_hundred_arrows_at_once_end_where_five_hundred_slow_ones_do() {
     fast.quiet(QUIET);
     let bytes = fast.written.len() - before;
     assert!(bytes < 50_000, "{bytes} bytes for 500 keys at once");
-    leave(slow);
-    leave(fast);
+    slow.leave();
+    fast.leave();
 }
 
 /// Keys that need an answer, after one that asks for a new one, each as a terminal sends it.
@@ -232,8 +214,8 @@ fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one()
             slow.text(),
             fast.text()
         );
-        leave(slow);
-        leave(fast);
+        slow.leave();
+        fast.leave();
     }
 }
 
@@ -253,15 +235,15 @@ fn the_mouse_starts_a_motion_and_zooms_if_it_is_wanted() {
     // F2 leaves the mouse to the terminal, and turns it on again.
     terminal.types("\x1bOQ");
     terminal.wait_for("mouse off");
-    assert!(terminal.written.ends_with(b"\x1b[6n") || terminal.quiet(QUIET) > 0);
-    let written = String::from_utf8_lossy(&terminal.written).into_owned();
-    assert!(written.contains("\x1b[?1006l\x1b[?1000l"));
+    terminal.wait("the end of the mouse's reports", |terminal| {
+        String::from_utf8_lossy(&terminal.written).contains("\x1b[?1006l\x1b[?1000l")
+    });
     terminal.types("\x1bOQ");
     terminal.wait_for("mouse on");
-    leave(terminal);
+    terminal.leave();
     let without = explorer(&[], &[], (80, 24));
     assert!(!String::from_utf8_lossy(&without.written).contains("\x1b[?1000h"));
-    leave(without);
+    without.leave();
 }
 
 /// The last text that was sent to the clipboard.
@@ -302,7 +284,7 @@ fn a_copied_command_line_gives_the_numbers_on_the_screen() {
     terminal.types("\x1by");
     terminal.quiet(QUIET);
     assert!(clipboard(&terminal).contains(TITLE));
-    leave(terminal);
+    terminal.leave();
 }
 
 #[test]

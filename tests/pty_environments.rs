@@ -4,18 +4,7 @@ mod support;
 
 use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
-use std::time::Duration;
-
-use support::{Answers, Terminal};
-
-/// The program under test.
-const PROGRAM: &str = env!("CARGO_BIN_EXE_hopfscope");
-
-/// What the title of the plain scene says.
-const TITLE: &str = "The plain oscillator";
-
-/// As long as this without a byte, a picture is complete: the program sends a frame within 16 ms.
-const QUIET: Duration = Duration::from_millis(200);
+use support::{Answers, PROGRAM, QUIET, TITLE, Terminal};
 
 /// The numbers of all sequences that set colours and attributes.
 fn attributes(written: &[u8]) -> BTreeSet<u8> {
@@ -71,9 +60,7 @@ fn every_kind_of_terminal_gets_what_it_can_show() {
         assert_eq!(terminal.written.is_ascii(), expected.ascii, "{environment:?}");
         let shown = terminal.text().chars().any(|char| expected.dots.contains(&char));
         assert!(shown, "{environment:?}\n{}", terminal.text());
-        terminal.types("q");
-        assert_eq!(terminal.end(), 0);
-        terminal.assert_restored();
+        terminal.leave();
     }
 }
 
@@ -101,8 +88,7 @@ fn the_theme_follows_the_background_that_the_terminal_tells_at_any_time() {
         let mut terminal = Terminal::start(chosen, &[], (80, 24), Answers::AtOnce);
         terminal.wait_for(TITLE);
         assert_eq!(asked(&terminal), 0, "{chosen:?}");
-        terminal.types("q");
-        assert_eq!(terminal.end(), 0);
+        terminal.leave();
     }
 }
 

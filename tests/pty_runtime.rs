@@ -120,9 +120,13 @@ fn program() -> Vec<String> {
 }
 
 fn start(answers: Answers) -> Terminal {
+    start_in(&[], answers)
+}
+
+fn start_in(environment: &[(&str, &str)], answers: Answers) -> Terminal {
     let program = program();
     let program: Vec<&str> = program.iter().map(String::as_str).collect();
-    let mut terminal = Terminal::start(&program, &[], (80, 24), answers);
+    let mut terminal = Terminal::start(&program, environment, (80, 24), answers);
     terminal.wait_for("count 0 confirmed 0");
     terminal
 }
@@ -145,11 +149,7 @@ fn what_was_done_is_kept_however_it_is_interrupted_and_not_when_it_is_left() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("kept");
     let started = |keys: &str| {
-        let program = program();
-        let program: Vec<&str> = program.iter().map(String::as_str).collect();
-        let keep = [("KEEP", path.to_str().unwrap())];
-        let mut terminal = Terminal::start(&program, &keep, (80, 24), Answers::AtOnce);
-        terminal.wait_for("count 0 confirmed 0");
+        let mut terminal = start_in(&[("KEEP", path.to_str().unwrap())], Answers::AtOnce);
         terminal.types(keys);
         terminal.wait_for("count 1 confirmed 1");
         terminal
@@ -183,8 +183,7 @@ fn it_follows_the_size_and_repaints() {
             terminal.wait_for("count 0 confirmed 0");
         }
     }
-    terminal.types("q");
-    assert_eq!(terminal.end(), 0);
+    terminal.leave();
 }
 
 #[test]
@@ -206,13 +205,11 @@ fn while_a_frame_is_under_way_no_other_is_sent() {
     assert_eq!(terminal.frames(), before + 2, "more than the newest state was drawn");
     terminal.answers = Answers::AtOnce;
     terminal.answer();
-    terminal.types("q");
-    assert_eq!(terminal.end(), 0);
-    terminal.assert_restored();
+    terminal.leave();
 }
 
 #[test]
-fn a_silent_terminal_is_served_all_the_same_and_soon_asked_no_more() {
+fn a_silent_terminal_is_still_served_and_soon_no_longer_queried() {
     let mut terminal = start(Answers::Never);
     for count in 1..=40 {
         terminal.types("\x1b[C");
@@ -220,9 +217,7 @@ fn a_silent_terminal_is_served_all_the_same_and_soon_asked_no_more() {
     }
     let owed = terminal.owed();
     assert!((1..=16).contains(&owed), "{owed} requests");
-    terminal.types("q");
-    assert_eq!(terminal.end(), 0);
-    terminal.assert_restored();
+    terminal.leave();
 }
 
 #[test]
@@ -250,12 +245,11 @@ fn five_hundred_arrows_at_once_are_not_five_hundred_frames() {
     terminal.wait_for("count 500 confirmed 500");
     let frames = terminal.frames() - before;
     assert!(frames <= 20, "{frames} frames");
-    terminal.types("q");
-    assert_eq!(terminal.end(), 0);
+    terminal.leave();
 }
 
 #[test]
-fn five_hundred_arrows_and_then_q_are_all_seen() {
+fn five_hundred_arrows_and_then_q_are_all_handled() {
     let mut terminal = start(Answers::AtOnce);
     terminal.types(&("\x1b[C".repeat(500) + "q"));
     assert_eq!(terminal.end(), 0);
@@ -267,8 +261,7 @@ fn a_paste_is_one_message() {
     let mut terminal = start(Answers::AtOnce);
     terminal.types(&format!("\x1b[200~{}\x1b[201~", "q\r".repeat(1000)));
     terminal.wait_for("pasted 1000");
-    terminal.types("q");
-    assert_eq!(terminal.end(), 0);
+    terminal.leave();
 }
 
 #[test]
@@ -289,9 +282,7 @@ fn a_panic_of_the_worker_is_shown_and_survived() {
     assert!(terminal.screen().alternate_screen() && !terminal.is_cooked());
     terminal.types("\x1b[C");
     terminal.wait_for("count 4 confirmed 4");
-    terminal.types("q");
-    assert_eq!(terminal.end(), 0);
-    terminal.assert_restored();
+    terminal.leave();
 }
 
 #[test]
@@ -314,8 +305,7 @@ fn without_job_control_nothing_stops_it() {
     terminal.signal(Signal::TSTP);
     terminal.types("\x1b[C");
     terminal.wait_for("count 2 confirmed 2");
-    terminal.types("q");
-    assert_eq!(terminal.end(), 0);
+    terminal.leave();
 }
 
 /// A shell with job control that has started the application.

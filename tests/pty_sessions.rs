@@ -8,30 +8,20 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use rustix::process::Signal;
-use support::{Answers, Terminal};
+use support::{Answers, PROGRAM, QUIET, Terminal};
 
 /// The explorer, whose memory is a folder of its own.
 fn explorer(arguments: &[&str], memory: &Path) -> Terminal {
     let mut terminal = begun(arguments, memory);
-    terminal.quiet(Duration::from_millis(200));
+    terminal.quiet(QUIET);
     terminal
 }
 
 /// The same as soon as there is a picture.
 fn begun(arguments: &[&str], memory: &Path) -> Terminal {
-    let program: Vec<&str> =
-        [env!("CARGO_BIN_EXE_hopfscope")].iter().chain(arguments).copied().collect();
     let state = memory.to_str().unwrap();
     let environment = [("XDG_STATE_HOME", state), ("XDG_CONFIG_HOME", state)];
-    let mut terminal = Terminal::start(&program, &environment, (100, 30), Answers::AtOnce);
-    terminal.wait("the first picture", |terminal| terminal.screen().alternate_screen());
-    terminal
-}
-
-fn leave(mut terminal: Terminal) {
-    terminal.types("q");
-    assert_eq!(terminal.end(), 0);
-    terminal.assert_restored();
+    Terminal::explorer(arguments, &environment, (100, 30))
 }
 
 /// The kept sessions in a folder.
@@ -46,10 +36,10 @@ fn the_first_start_says_what_to_press_and_the_next_one_does_not() {
     let memory = tempfile::tempdir().unwrap();
     let mut terminal = explorer(&[], memory.path());
     terminal.wait_for("arrows change the numbers; ? keys, space commands");
-    leave(terminal);
+    terminal.leave();
     let terminal = explorer(&[], memory.path());
     assert!(!terminal.text().contains("arrows change the numbers"));
-    leave(terminal);
+    terminal.leave();
 }
 
 #[test]
@@ -70,7 +60,7 @@ fn an_interrupted_session_is_kept_offered_and_brought_back() {
         terminal.wait_for("the interrupted session is back");
         terminal.wait_for("-0.345");
         assert_eq!(kept(memory.path()), [] as [PathBuf; 0]);
-        leave(terminal);
+        terminal.leave();
     }
 }
 
@@ -96,7 +86,7 @@ fn a_session_that_cannot_be_kept_says_so_when_it_is_left() {
 }
 
 #[test]
-fn a_session_is_written_and_gone_on_with() {
+fn a_session_is_saved_and_resumed() {
     let memory = tempfile::tempdir().unwrap();
     let file = memory.path().join("mine.toml");
     let line = |command: &str| format!(":{command} {}\r", file.display());
@@ -109,13 +99,13 @@ fn a_session_is_written_and_gone_on_with() {
     terminal.types(&line("write"));
     terminal.wait_for("is there already");
     assert_eq!(fs::read_to_string(&file).unwrap(), written);
-    leave(terminal);
+    terminal.leave();
 
     let mut terminal = explorer(&["--open", file.to_str().unwrap()], memory.path());
     terminal.wait_for("-0.345");
     terminal.types("u");
     terminal.wait_for("undo: D = -0.4");
-    leave(terminal);
+    terminal.leave();
 }
 
 #[test]
@@ -126,7 +116,7 @@ fn the_tour_goes_on_by_any_key_but_those_it_names_and_is_left_by_escape() {
     terminal.wait_for("dry friction");
     terminal.types(" ");
     terminal.wait_for("takes a step");
-    // The caption names the key that steps: it does its work, and the tour goes on as if it had not.
+    // The caption names the key that steps: it does its work, and the tour continues as if it had not.
     terminal.types("\x1b[C");
     terminal.wait_for("-0.35");
     assert!(terminal.text().contains("takes a step"), "the caption stays");
@@ -139,7 +129,7 @@ fn the_tour_goes_on_by_any_key_but_those_it_names_and_is_left_by_escape() {
     terminal.types("\x1b");
     terminal.wait_for("replay stopped");
     assert!(!terminal.text().contains("esc: leave"));
-    leave(terminal);
+    terminal.leave();
 }
 
 #[test]
@@ -162,7 +152,7 @@ fn a_key_writes_the_plot_in_use_as_a_figure_and_replaces_none() {
     press(&mut terminal);
     terminal.wait_for("is there already; ! behind the command replaces it");
     assert_eq!(fs::read_to_string(&file).unwrap(), written);
-    leave(terminal);
+    terminal.leave();
 }
 
 /// The rows of a screen that are not blank, without the line of costs, which are those of the machine.
@@ -183,10 +173,7 @@ fn rest(terminal: &mut Terminal) {
 /// The last screen of a recording, by the command `replay`.
 fn replayed(file: &Path) -> Vec<String> {
     let arguments = ["replay", file.to_str().unwrap()];
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_hopfscope"))
-        .args(arguments)
-        .output()
-        .unwrap();
+    let output = std::process::Command::new(PROGRAM).args(arguments).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     screen(&String::from_utf8(output.stdout).unwrap())
 }
@@ -194,12 +181,12 @@ fn replayed(file: &Path) -> Vec<String> {
 #[test]
 fn a_recording_plays_what_was_recorded_without_the_key_that_left() {
     let memory = tempfile::tempdir().unwrap();
-    leave(explorer(&[], memory.path()));
+    explorer(&[], memory.path()).leave();
     let saved = memory.path().join("saved.toml");
     let mut terminal = explorer(&["fig16b"], memory.path());
     terminal.types(&format!("\x1b[C\"a\x1b[C:write {}\r", saved.display()));
     terminal.wait_for("written to");
-    leave(terminal);
+    terminal.leave();
     for (arguments, keys) in [
         (&["supercritical", "--set", "q0=0.5"][..], "\x1b[C\x1b[C\x1b[C"),
         (&["--set", "D3=0.5", "--method", "rk4", "--step", "0.02", "--theme", "light"], "Ro"),
@@ -214,20 +201,19 @@ fn a_recording_plays_what_was_recorded_without_the_key_that_left() {
             rest(&mut terminal);
         }
         let last = screen(&terminal.text());
-        leave(terminal);
+        terminal.leave();
         assert_eq!(replayed(&file), last, "{}", fs::read_to_string(&file).unwrap());
     }
 }
 
 #[test]
-fn a_recording_is_there_whatever_ends_the_program_and_replaces_no_other_file() {
+fn a_recording_survives_any_end_of_the_program_and_replaces_no_other_file() {
     let memory = tempfile::tempdir().unwrap();
     let file = memory.path().join("scan.csv");
     fs::write(&file, "data\n").unwrap();
     let path = file.to_str().unwrap();
     let refused = |arguments: &[&str]| {
-        let program: Vec<&str> =
-            [env!("CARGO_BIN_EXE_hopfscope")].iter().chain(arguments).copied().collect();
+        let program = [&[PROGRAM], arguments].concat();
         let mut terminal = Terminal::start(&program, &[], (100, 30), Answers::AtOnce);
         assert_eq!(terminal.end(), 2);
         assert!(terminal.text().contains("is not a recording; --force replaces it"));
@@ -237,13 +223,13 @@ fn a_recording_is_there_whatever_ends_the_program_and_replaces_no_other_file() {
     let mut terminal = explorer(&["--record", path, "--force"], memory.path());
     terminal.types("-0.345\r");
     terminal.wait_for("-0.345");
-    terminal.quiet(Duration::from_millis(200));
+    terminal.quiet(QUIET);
     terminal.signal(Signal::KILL);
     terminal.end();
     let recorded = fs::read_to_string(&file).unwrap();
     assert!(recorded.contains("- 0 . 3 4 5 <enter>"), "{recorded}");
     // A recording is replaced by the next one, unasked.
-    leave(explorer(&["--record", path], memory.path()));
+    explorer(&["--record", path], memory.path()).leave();
     assert!(!fs::read_to_string(&file).unwrap().contains("<enter>"));
 }
 
@@ -264,13 +250,13 @@ fn keys_pressed_while_a_file_plays_are_not_mixed_into_it() {
     for row in [" D           -0.1 ", " r           0.25 "] {
         assert!(terminal.text().replace('\u{25b8}', " ").contains(row), "{}", terminal.text());
     }
-    leave(terminal);
+    terminal.leave();
 }
 
 #[test]
 fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one() {
     let memory = tempfile::tempdir().unwrap();
-    leave(explorer(&[], memory.path()));
+    explorer(&[], memory.path()).leave();
     for (scene, keys) in [
         ("supercritical", &["\x1b[C", "\x1b[C", "i", "\x1b[C", "o"][..]),
         ("supercritical", &[":set r=0.15\r", "\t", "\t", "w", "\x1b[C", "\t", "\r", "u"]),
@@ -284,7 +270,7 @@ fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one()
                 rest(&mut terminal);
             }
             let last = screen(&terminal.text());
-            leave(terminal);
+            terminal.leave();
             last
         };
         let one_by_one: Vec<String> = keys.iter().map(ToString::to_string).collect();
@@ -295,17 +281,17 @@ fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one()
 #[test]
 fn a_session_that_is_left_is_the_last_one_unless_nothing_was_done() {
     let memory = tempfile::tempdir().unwrap();
-    leave(explorer(&["linear"], memory.path()));
+    explorer(&["linear"], memory.path()).leave();
     assert!(!memory.path().join("hopfscope/last.toml").exists(), "nothing was done");
     let mut terminal = explorer(&["linear"], memory.path());
     terminal.types(":set D=-0.345\r");
     terminal.wait_for("-0.345");
-    leave(terminal);
+    terminal.leave();
     let mut terminal = explorer(&["--last"], memory.path());
     terminal.wait_for("-0.345");
     terminal.types("u");
     terminal.wait_for("undo: D = -0.4");
-    leave(terminal);
+    terminal.leave();
 }
 
 #[test]
@@ -329,7 +315,7 @@ fn interrupted_sessions_are_offered_newest_first_and_forgotten_all_at_once() {
     terminal.types("X");
     terminal.wait_for("2 interrupted sessions are not offered again");
     assert_eq!(kept(memory.path()), [] as [PathBuf; 0]);
-    leave(terminal);
+    terminal.leave();
     let last = fs::read_to_string(folder.join("last.toml")).unwrap();
     assert!(last.contains("-0.456"), "the newest is the last one");
 }

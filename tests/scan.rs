@@ -149,7 +149,7 @@ fn jumps(seed: u64) -> impl FnMut() -> usize {
 }
 
 #[test]
-fn a_scan_that_is_killed_and_gone_on_with_is_the_same_to_the_last_byte() {
+fn a_scan_that_is_killed_and_resumed_is_the_same_to_the_last_byte() {
     let folder = tempfile::tempdir().unwrap();
     for form in ["csv", "json"] {
         let whole = folder.path().join(format!("whole.{form}"));
@@ -276,7 +276,7 @@ fn an_interrupt_keeps_what_is_done_and_says_so() {
     let mut told = String::new();
     std::io::Read::read_to_string(child.stderr.as_mut().unwrap(), &mut told).unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(130), "{told}");
-    assert!(told.contains("of 1000 rows; --resume goes on"), "{told}");
+    assert!(told.contains("of 1000 rows; --resume continues"), "{told}");
     let text = fs::read_to_string(&path).unwrap();
     let done: usize = told.split_whitespace().nth(2).unwrap().parse().unwrap();
     assert_eq!(text.lines().count(), 1 + done);
@@ -332,7 +332,7 @@ fn the_line_for_slurm_makes_the_whole() {
 }
 
 #[test]
-fn a_file_that_holds_something_is_continued_or_replaced_only_when_told() {
+fn a_file_with_content_is_continued_or_replaced_only_on_request() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rows.csv");
     let name = path.to_str().unwrap();
@@ -346,9 +346,9 @@ fn a_file_that_holds_something_is_continued_or_replaced_only_when_told() {
     // Nor does --force mean anything without a file.
     assert_eq!(scan("--over D=-0.5:-0.1:3 --measure margin --force").code, 2);
     assert_eq!(fs::read_to_string(&path).unwrap(), whole);
-    // Another file under this name is no scan to go on with; --force begins one in its place.
+    // Another file under this name is not a scan to continue with; --force begins one in its place.
     fs::write(&path, "mine\n").unwrap();
-    own("--resume").is_refused(&[]);
+    own("--resume").is_refused(&[name, "line 1 names other columns"]);
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine\n");
     assert_eq!(own("--force").code, 0);
     assert_eq!(fs::read_to_string(&path).unwrap(), whole);

@@ -381,7 +381,7 @@ fn inside_both_models_agree_about_rest() {
 }
 
 #[test]
-fn a_text_about_a_start_leaves_with_it() {
+fn a_text_about_a_start_disappears_with_it() {
     let here = Stage::open("plain");
     assert!(here.0.said(&here.0.scene.look).contains("so the swings grow"));
     let inside = here.press("<right*5>");

@@ -194,9 +194,7 @@ fn a_held_key_over_a_slow_line_skips_pictures_and_ends_on_the_right_one() {
     );
     assert!(frames < KEYS / 2, "{frames} frames");
 
-    terminal.types("q");
-    assert_eq!(terminal.end(), 0);
-    terminal.assert_restored();
+    terminal.leave();
 }
 
 #[test]
@@ -218,9 +216,7 @@ fn a_key_is_answered_by_one_picture_over_a_slow_line() {
     terminal.types("\x1b");
     terminal
         .wait("the help is closed", |terminal| !terminal.text().contains("Select the row above"));
-    terminal.types("q");
-    assert_eq!(terminal.end(), 0);
-    terminal.assert_restored();
+    terminal.leave();
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Certificates of limit cycles, and the program that checks them.
 //!
-//! A certificate says that at some parameters there are so many limit cycles and no others, at any amplitude. Its
+//! A certificate says that at some parameters there is this number of limit cycles and no others, at any amplitude. Its
 //! steps cover all clearances `z > 0` of right turning points, from 0 to infinity, each by one statement about the
 //! return map G, which increases, for z between `from` and `to`; where `to` is left out it is infinite.
 //!
@@ -96,7 +96,7 @@ pub fn check(text: &str) -> Result<Certificate, String> {
     };
     let ordered = |[low, high]: Bounds| low <= high && low.is_finite() && high.is_finite();
     let sensible = given.parameters.into_iter().all(ordered) && given.parameters[3][0] >= 0.0;
-    known(sensible, "these are no bounds of parameters")
+    known(sensible, "these are not bounds of parameters")
         .map_err(|why| at_line("\"parameters\"", 0, why))?;
     let parameters = given.parameters.map(|[low, high]| Interval::new(low, high));
     // How far the steps have come.
@@ -114,7 +114,7 @@ pub fn check(text: &str) -> Result<Certificate, String> {
 }
 
 impl StepKind {
-    /// How many cycles there are by a theorem; `None` if this is none, or its conditions are not met by all of these
+    /// How many cycles there are by a theorem; `None` if this is not one, or its conditions are not met by all of these
     /// parameters.
     pub fn theorem(self, [d, d2, d3, r]: [Interval; 4]) -> Option<usize> {
         let zero = |it: Interval| it == Interval::point(0.0);

@@ -53,7 +53,7 @@ const STEPS: usize = 1_000;
 type Series = [[Interval; 4]; ORDER + 1];
 
 /// A box or a point: position and velocity.
-type Place = [Interval; 2];
+type StateBox = [Interval; 2];
 
 fn point(value: f64) -> Interval {
     Interval::point(value)
@@ -91,12 +91,12 @@ impl Field {
         a + v * (b.twice() + v * c * 3.0)
     }
 
-    fn acceleration(&self, [x, v]: Place) -> Interval {
+    fn acceleration(&self, [x, v]: StateBox) -> Interval {
         -x - self.force(v)
     }
 
     /// The Taylor coefficients of all motions from a place.
-    fn series(&self, [x, v]: Place) -> Series {
+    fn series(&self, [x, v]: StateBox) -> Series {
         let [a, b, c] = self.coefficients;
         let mut found = [[point(0.0); 4]; ORDER + 1];
         (found[0][0], found[0][1]) = (x, v);
@@ -124,7 +124,7 @@ impl Field {
 
     /// Whether what is at most at `x` and has at least the velocity `v` never comes back to `v = 0` (lemma 7): on the line
     /// through this corner motions cross upwards, because `P(v) = m - (a + 2) v - b v^2 - c v^3` is not negative from v on.
-    fn never_returns(&self, [x, v]: Place) -> bool {
+    fn never_returns(&self, [x, v]: StateBox) -> bool {
         let [a, b, c] = self.coefficients;
         let at = point(v.lower());
         let m = at - x.upper();
@@ -137,7 +137,7 @@ impl Field {
     }
 
     /// Whether the energy of what is at this place does not grow, and is too small to come further out than `reach`.
-    fn stays(&self, [x, v]: Place, reach: f64) -> bool {
+    fn stays(&self, [x, v]: StateBox, reach: f64) -> bool {
         let [a, b, c] = self.coefficients;
         let most = (x.square() + v.square()).sqrt().upper();
         let speeds = Interval::new(0.0, most);
@@ -289,12 +289,12 @@ pub struct Disc {
 
 impl Disc {
     /// Around a box of which one side is a point.
-    fn new(place: Place) -> Self {
+    fn new(place: StateBox) -> Self {
         let radius = place[0].radius().max(place[1].radius());
         Disc { centre: place.map(Interval::middle), radius, time: point(0.0), damping: point(0.0) }
     }
 
-    fn square(&self) -> Place {
+    fn square(&self) -> StateBox {
         self.centre.map(|middle| Interval::around(middle, self.radius))
     }
 
@@ -311,7 +311,7 @@ impl Disc {
     fn step(&self, field: &Field, series: &Series, h: f64) -> Option<Disc> {
         let (start, time) = (self.square(), Interval::new(0.0, h));
         let next =
-            |[x, v]: Place| [start[0] + time * v, start[1] + time * field.acceleration([x, v])];
+            |[x, v]: StateBox| [start[0] + time * v, start[1] + time * field.acceleration([x, v])];
         let mut place = start;
         let mut tries = 0..12;
         while let reached = next(place)

@@ -120,7 +120,7 @@ fn bounds_that_hold_no_parameters_are_refused() {
     };
     assert!(with("[0.1, 0.2]", "[0.1, 0.1]").is_ok());
     for (d, r) in [("[0.2, 0.1]", "[0.1, 0.1]"), ("[0.1, 0.2]", "[-0.1, 0.1]")] {
-        assert_eq!(with(d, r).unwrap_err(), "line 1: these are no bounds of parameters");
+        assert_eq!(with(d, r).unwrap_err(), "line 1: these are not bounds of parameters");
     }
     assert!(with("[0.1, 1e999]", "[0.1, 0.1]").is_err());
 }

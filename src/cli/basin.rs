@@ -12,7 +12,7 @@ use crate::proof::{ParameterBox, prove};
 use crate::report::{basin as report, certified};
 use crate::study::basin::{SurveyedBasin, Window};
 
-/// Says where the starts of a window end, and the margins of the sticking set
+/// Shows where the starts in a window end, and how large a kick is survived
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
@@ -25,13 +25,12 @@ pub struct Arguments {
     #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", default_value = "-3:3,-3:3",
           value_parser = input::window, allow_hyphen_values = true)]
     window: Window,
-    /// How many starts, evenly spaced, both ends of the window included
+    /// Number of starts, evenly spaced, including both ends of the window
     #[arg(long, value_name = "WxH", default_value = "320x384", value_parser = input::grid)]
     grid: (usize, usize),
 }
 
 impl Arguments {
-    /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();
         let parameters = self.start.problem()?.parameters;

@@ -26,7 +26,7 @@ pub struct Arguments {
     output: Output,
     #[command(flatten)]
     certify: Certify,
-    /// The second parameter (D2, D3 or r), its range, and how many values
+    /// The second parameter (D2, D3 or r), its range, and the number of values
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = second, allow_hyphen_values = true)]
     over: Over,
 }
@@ -44,7 +44,6 @@ fn second(text: &str) -> Result<Over, String> {
 }
 
 impl Arguments {
-    /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();
         let parameters = self.start.problem()?.parameters;

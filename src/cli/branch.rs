@@ -21,7 +21,7 @@ pub struct Arguments {
     output: Output,
     #[command(flatten)]
     certify: Certify,
-    /// The parameter (D, D2, D3 or r), its range, and about how many points
+    /// The parameter (D, D2, D3 or r), its range, and the approximate number of points
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = parameter, allow_hyphen_values = true)]
     over: Over,
 }
@@ -36,7 +36,6 @@ fn parameter(text: &str) -> Result<Over, String> {
 }
 
 impl Arguments {
-    /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();
         let problem = self.start.problem()?;

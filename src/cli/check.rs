@@ -10,7 +10,7 @@ use crate::check::check;
 use crate::report::certified::certificate_table;
 use crate::runtime::bounded;
 
-/// Checks a certificate that `cycles --certificate` wrote, step by step
+/// Verifies, step by step, a certificate written by `cycles --certificate`
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The certificate
@@ -19,7 +19,6 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Checks and prints what is certain.
     pub fn run(&self) -> Result<(), Failure> {
         let text = bounded::text(&self.file).map_err(|error| Failure::file(&self.file, &error))?;
         let refused = |why| Failure::Unanswered(format!("{}: refused, {why}", self.file.display()));

@@ -12,7 +12,7 @@ use crate::session::config::{Config, parse};
 /// Which settings file is read.
 #[derive(Clone, Debug, Args)]
 pub struct Settings {
-    /// Reads this settings file instead of the user's own
+    /// Reads this settings file instead of your own
     #[arg(long, value_name = "FILE", conflicts_with = "no_config")]
     config: Option<PathBuf>,
 

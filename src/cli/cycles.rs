@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::failure::Failure;
+use super::input;
 use super::output::{Format, Output, write, write_source};
 use super::start::StartOptions;
 use super::timing::timed;
@@ -20,7 +21,7 @@ use crate::study::cycle::cycles;
 use crate::study::harmonic_error::{HarmonicBalance, convergence};
 use crate::study::proved::proved;
 
-/// Finds every limit cycle and proves that there are no others; says what borders the basin
+/// Finds every limit cycle, proves that there are no others, and names the border of the basin
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
@@ -30,7 +31,7 @@ pub struct Arguments {
     /// Shows the harmonic balance beside the cycles: 1, 3, 5, .. up to N harmonics, and their errors
     #[arg(long, value_name = "N", value_parser = harmonics)]
     harmonics: Option<usize>,
-    /// Writes what is proved, step by step, for `hopfscope check`, and where it comes from to FILE.provenance
+    /// Writes the proof, step by step, for `hopfscope check`, and its provenance to FILE.provenance
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
     /// Replaces a file that holds something else
@@ -40,12 +41,10 @@ pub struct Arguments {
 
 /// A number of harmonics.
 fn harmonics(text: &str) -> Result<usize, String> {
-    let number = text.parse().ok().filter(|number| (1..=MOST).contains(number));
-    number.ok_or_else(|| format!("{text:?} is not a whole number in 1 .. {MOST}"))
+    input::whole(text, 1..=MOST)
 }
 
 impl Arguments {
-    /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();
         let known = self.start.known()?;

@@ -28,7 +28,7 @@ pub struct Explore {
     /// Scene to open; `hopfscope scenes` lists them
     #[arg(value_name = "SCENE", conflicts_with = "scene")]
     named: Option<String>,
-    /// Opens a machine in physical units: a file of one, or its name; see `hopfscope belt`
+    /// Opens a machine in physical units: a file, or the name of a built-in one; see `hopfscope belt`
     #[arg(long, value_name = "FILE", conflicts_with_all = ["named", "scene"])]
     belt: Option<String>,
     #[command(flatten)]
@@ -40,13 +40,13 @@ pub struct Explore {
     /// Resumes a saved session
     #[arg(long, value_name = "FILE", conflicts_with_all = ["named", "scene", "set", "method", "tol", "step", "epsilon"])]
     open: Option<PathBuf>,
-    /// Resumes the session that was left last
+    /// Resumes the last session
     #[arg(long, conflicts_with_all = ["named", "scene", "set", "method", "tol", "step", "epsilon", "belt", "open"])]
     last: bool,
-    /// Plays a keystroke file at the start, then goes on
+    /// Plays a keystroke file first, then hands over to the keyboard
     #[arg(long, value_name = "FILE")]
     play: Option<PathBuf>,
-    /// Writes what is pressed to a keystroke file
+    /// Records the keys that are pressed in a keystroke file
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
     /// Lets --record replace a file that is not a recording
@@ -55,7 +55,6 @@ pub struct Explore {
 }
 
 impl Explore {
-    /// Runs the explorer until it is left.
     pub fn run(&self) -> Result<ExitCode, Failure> {
         let config = self.settings.read()?;
         let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
@@ -87,9 +86,7 @@ impl Explore {
 fn last() -> Result<PathBuf, Failure> {
     let path = Memory::open().map(|memory| memory.last()).filter(|path| path.exists());
     path.ok_or_else(|| {
-        Failure::Usage(
-            "there is no last session: one in which nothing was done is not kept".to_owned(),
-        )
+        Failure::Usage("there is no last session; a session without changes is not kept".to_owned())
     })
 }
 
@@ -102,7 +99,7 @@ fn played(path: &Path) -> Result<Vec<Instruction>, Failure> {
     Ok(vec![Instruction::File { name, text }, run])
 }
 
-/// Makes a session the saved one of a file.
+/// Replaces a session by the one saved in a file.
 pub fn open(session: &mut Session, path: &Path) -> Result<(), Failure> {
     let text = Files::read(path).map_err(Failure::Usage)?;
     let refused = |why| Failure::Usage(format!("{}: {why}", path.display()));
@@ -122,7 +119,7 @@ pub fn go(
     let mut recorder = opening(&session).map_err(Failure::Unanswered)?;
     recorder.extend(play.iter().cloned());
     let mut recorder = Recorder::new(recorder);
-    // A file that cannot be written should be known before the session, not after.
+    // That a file cannot be written should be known before the session, not after it.
     let record =
         record.map(|(path, force)| RecordingFile::begin(path, force, &started, &mut recorder));
     let record = record.transpose().map_err(Failure::Usage)?;
@@ -184,7 +181,7 @@ fn started() -> String {
     std::iter::once("hopfscope".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
-/// The complaint about a first word that is neither a scene nor a command, with what it may have meant.
+/// The error for a first word that is neither a scene nor a command, with names that are similar.
 fn neither_scene_nor_command(name: &str) -> Failure {
     /// How much two names must have in common (0: nothing, 1: equal), and how much less than the best may do.
     const ALIKE: (f64, f64) = (0.7, 0.1);

@@ -9,14 +9,14 @@ use crate::scene::misread::printable;
 /// Why a command did not answer.
 #[derive(Debug)]
 pub enum Failure {
-    /// What was asked makes no sense; exit code 2.
+    /// The input is wrong; exit code 2.
     Usage(String),
-    /// What was asked could not be computed or shown; exit code 1.
+    /// The answer could not be computed or shown; exit code 1.
     Unanswered(String),
 }
 
 impl Failure {
-    /// What the parser of the command line complains about, as one line.
+    /// An error of the command line's parser as one line.
     pub fn from_parser(error: &clap::Error) -> Self {
         Failure::Usage(first_paragraphs(&error.render().to_string()))
     }

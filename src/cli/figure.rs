@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
+use super::input;
 use super::output::{print, write};
 use super::start::StartOptions;
 use super::wrapped::columns;
@@ -17,22 +18,22 @@ use crate::session::{Session, Size};
 use crate::view::screen;
 use crate::view::{self, Look};
 
-/// Writes what a scene shows as SVG, PNG, CSV or JSON, or draws it here
+/// Writes the plots of a scene as SVG, PNG, CSV or JSON, or draws them in the terminal
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Scene to show; a scene with several plots gives as many panels
+    /// Scene to show; each of its plots becomes a panel
     #[arg(value_name = "NAME", conflicts_with = "scene")]
     named: Option<String>,
     #[command(flatten)]
     start: StartOptions,
-    /// File to write; its ending says in which form: .svg, .png, .csv or .json
-    #[arg(long, value_name = "FILE", value_parser = file)]
+    /// File to write; its extension sets the format: .svg, .png, .csv or .json
+    #[arg(long, value_name = "FILE", value_parser = input::figure_file)]
     output: Option<(PathBuf, FileForm)>,
     /// Replaces what FILE holds
     #[arg(long, requires = "output")]
     force: bool,
-    /// Form of what is written to standard output without --output
-    #[arg(long, value_enum, default_value_t = Printed::Text, value_name = "FORM",
+    /// Format on standard output, without --output
+    #[arg(long, value_enum, default_value_t = Printed::Text, value_name = "FORMAT",
           conflicts_with = "output")]
     format: Printed,
 }
@@ -50,12 +51,6 @@ pub enum Printed {
     Svg,
 }
 
-/// A file with one of the known endings.
-fn file(text: &str) -> Result<(PathBuf, FileForm), String> {
-    let path = PathBuf::from(text);
-    FileForm::of_file(&path).map(|form| (path, form))
-}
-
 /// The size of a panel that is drawn with characters, where no terminal says how wide.
 const PANEL: (u16, u16) = (100, 30);
 
@@ -63,7 +58,6 @@ const PANEL: (u16, u16) = (100, 30);
 const NARROWEST: u16 = 40;
 
 impl Arguments {
-    /// Computes and writes.
     pub fn run(&self) -> Result<(), Failure> {
         let Some(name) = self.named.as_deref().or(self.start.scene.as_deref()) else {
             let line =
@@ -99,19 +93,4 @@ fn in_letters(session: &Session) -> String {
     let panels = view::panels(session, (width, height), &look);
     let parts: Vec<String> = panels.iter().map(screen::text).collect();
     format!("{}: {}\n\n{}", session.scene.name, session.scene.title, parts.join("\n"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_ending_of_a_file_says_in_which_form() {
-        assert_eq!(file("a/fig.SVG").unwrap().1, FileForm::Svg);
-        assert_eq!(file("fig.json").unwrap().1, FileForm::Json);
-        assert_eq!(file("fig.png").unwrap().1, FileForm::Png);
-        for wrong in ["fig", "fig.pdf", ".svg", ""] {
-            assert!(file(wrong).is_err(), "{wrong}");
-        }
-    }
 }

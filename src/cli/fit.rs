@@ -1,14 +1,15 @@
 //! `hopfscope fit`: what a recorded motion says about the oscillator.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::failure::Failure;
+use super::input;
 use super::output::{Format, Output, write};
+use super::progress::{Outlet, StatusLine};
 use super::timing::timed;
 use crate::figure::{self, Figure, FileForm};
 use crate::fit::contour::{RISES, contour};
@@ -38,74 +39,52 @@ pub struct Arguments {
     /// Rows are successive turning points, with or without times
     #[arg(long)]
     peaks: bool,
-    /// Numbers to estimate: omega0, offset, D, D2, D3, r; damping and friction not named are held (at 0 unless set)
+    /// Quantities to estimate: omega0, offset, D, D2, D3, r; damping and friction not listed are held (at 0 unless set)
     #[arg(long, value_name = "NAMES", value_parser = names)]
-    free: Option<Names>,
-    /// Holds a number at a value, such as D3=0; repeatable
+    free: Option<FreeNumbers>,
+    /// Holds a quantity at a value, such as D3=0; repeatable
     #[arg(long, value_name = "NAME=VALUE", value_parser = assigned, allow_hyphen_values = true)]
     set: Vec<(&'static NameSpec, f64)>,
-    /// How residuals count
-    #[arg(long, value_enum, default_value_t = Loss::Auto, value_name = "LOSS")]
-    loss: Loss,
+    /// How residuals are weighted
+    #[arg(long, value_enum, default_value_t = LossName::Auto, value_name = "LOSS")]
+    loss: LossName,
     /// Mass of the oscillator, such as "2 kg": forces and damping in N, N s/m
     #[arg(long, value_name = "MASS", value_parser = mass, conflicts_with = "stiffness")]
     mass: Option<f64>,
     /// Stiffness of the spring, such as "800 N/m", instead of the mass
     #[arg(long, value_name = "STIFFNESS", value_parser = stiffness)]
     stiffness: Option<f64>,
-    /// Unit of the displacements, where the file does not name it
+    /// Unit of the displacements, if the file does not name it
     #[arg(long, value_name = "UNIT", value_parser = length)]
     unit: Option<String>,
-    /// Draws from the estimate for the distribution of the margin
+    /// Number of draws from the estimate, for the distribution of the margin
     #[arg(long, value_name = "N", default_value_t = DRAWS, hide_default_value = true,
           value_parser = draws)]
     draws: usize,
-    /// Pictures to write as well: record and residuals, damping over amplitude, phase plane, margin; the ending says
-    /// in which form: .svg, .png, .csv or .json
-    #[arg(long = "output", value_name = "FILE", value_parser = picture)]
+    /// Also writes figures: record and residuals, damping over amplitude, phase plane, margin; the extension sets the
+    /// format: .svg, .png, .csv or .json
+    #[arg(long = "output", value_name = "FILE", value_parser = input::figure_file)]
     pictures: Option<(PathBuf, FileForm)>,
-    /// Replaces what that file holds
+    /// Replaces the file if it holds something else
     #[arg(long, requires = "pictures")]
     force: bool,
     #[command(flatten)]
     output: Output,
 }
 
-/// How residuals count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Loss {
-    /// Squared, without the samples that cannot belong to the motion.
-    Auto,
-    /// Squared, every one of them.
-    Linear,
-    /// Large ones by their size.
-    SoftL1,
-    /// Large ones hardly.
-    Cauchy,
-}
-
-impl From<Loss> for LossName {
-    fn from(loss: Loss) -> Self {
-        match loss {
-            Loss::Auto => LossName::Auto,
-            Loss::Linear => LossName::Linear,
-            Loss::SoftL1 => LossName::SoftL1,
-            Loss::Cauchy => LossName::Cauchy,
-        }
-    }
-}
-
-/// Names of numbers to estimate.
+/// Numbers to estimate.
 #[derive(Clone, Debug)]
-struct Names(Vec<&'static NameSpec>);
+struct FreeNumbers(Vec<&'static NameSpec>);
 
-fn names(text: &str) -> Result<Names, String> {
-    listed(text).map(Names)
+fn names(text: &str) -> Result<FreeNumbers, String> {
+    listed(text).map(FreeNumbers)
 }
 
 fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
     let form = || {
-        format!("{text:?} does not name columns; expected such as t=1,x=3, x=2, or t=time,x=weg")
+        format!(
+            "{text:?} does not name columns; expected for example t=1,x=3, x=2, or t=time,x=position"
+        )
     };
     let mut chosen = (None, None);
     for part in text.split(',') {
@@ -145,19 +124,11 @@ fn length(text: &str) -> Result<String, String> {
     length_in_metres(text).map(|_| text.to_owned()).ok_or_else(known)
 }
 
-/// A file with one of the known endings.
-fn picture(text: &str) -> Result<(PathBuf, FileForm), String> {
-    let path = PathBuf::from(text);
-    FileForm::of_file(&path).map(|form| (path, form))
-}
-
 fn draws(text: &str) -> Result<usize, String> {
-    let number = text.parse().ok().filter(|number| (40..=1_000_000).contains(number));
-    number.ok_or_else(|| format!("{text:?} is not a whole number in 40 .. 1000000"))
+    input::whole(text, 40..=1_000_000)
 }
 
 impl Arguments {
-    /// Reads, fits and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let fitted = self.fitted()?;
         if let Some((path, form)) = &self.pictures {
@@ -183,15 +154,24 @@ impl Arguments {
         record.unit = self.unit.clone().or(record.unit);
         let inertia = self.inertia(record.unit.as_deref()).map_err(|problem| bad(&problem))?;
         let question = self.question()?;
-        let watched = Watched::new();
-        let interrupted = || watched.step();
+        let place = if io::stderr().is_terminal() { Outlet::Line } else { Outlet::Nowhere };
+        let counted = Mutex::new((0_u64, StatusLine::new(place)));
+        let interrupted = || {
+            if let Ok((motions, line)) = counted.lock().as_deref_mut() {
+                *motions += 1;
+                line.renew(|_| format!("fitting: {motions} motions"));
+            }
+            false
+        };
         let (found, seconds) = timed(self.output.repeat, || {
             let estimate = estimate(&record, &question, &interrupted)?;
             let margins =
                 margins(&estimate, self.draws, &Limits::PATIENT).map_err(|_| Unfit::Interrupted)?;
             Ok::<_, Unfit>((estimate, margins))
         });
-        watched.end();
+        if let Ok((_, line)) = counted.into_inner() {
+            line.end();
+        }
         let (estimate, margins) = found.map_err(|reason| match reason {
             Unfit::TooFew { .. } | Unfit::NotAlternating { .. } => bad(&reason),
             _ => Failure::Unanswered(format!("{name}: {reason}")),
@@ -212,7 +192,7 @@ impl Arguments {
             )));
         }
         let choice = Choice { free, held: self.set.clone() };
-        Ok(Question { choice, loss: self.loss.into(), peaks: self.peaks })
+        Ok(Question { choice, loss: self.loss, peaks: self.peaks })
     }
 
     /// Mass or stiffness with the metres in the record's unit of length.
@@ -242,36 +222,4 @@ fn contours(found: &Estimate) -> Vec<Vec<[f64; 2]>> {
 
 fn short_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-}
-
-/// Counts motions on the last line of a terminal.
-struct Watched {
-    shown: bool,
-    state: Mutex<(u64, Instant, bool)>,
-}
-
-impl Watched {
-    fn new() -> Self {
-        Watched { shown: io::stderr().is_terminal(), state: Mutex::new((0, Instant::now(), false)) }
-    }
-
-    /// One motion more, without interruption.
-    fn step(&self) -> bool {
-        /// How often the line is written again.
-        const EVERY: Duration = Duration::from_millis(250);
-        if let Ok(mut state) = self.state.lock() {
-            state.0 += 1;
-            if self.shown && state.1.elapsed() >= EVERY {
-                (state.1, state.2) = (Instant::now(), true);
-                drop(std::write!(io::stderr(), "\rfitting: {} motions\x1b[K", state.0));
-            }
-        }
-        false
-    }
-
-    fn end(&self) {
-        if self.state.lock().is_ok_and(|state| state.2) {
-            drop(std::write!(io::stderr(), "\r\x1b[K"));
-        }
-    }
 }

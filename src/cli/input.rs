@@ -1,19 +1,35 @@
 //! Reading values of options: each refusal names the value and what is allowed.
 
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
 use std::str::FromStr;
 
+use crate::figure::FileForm;
 use crate::flow::{METHODS, Method};
 use crate::oscillator::{Interval, PARAMETERS, Symbol};
 use crate::scene::file::UNTIL_RANGE;
 use crate::study::basin::Window;
 
-/// A finite number; `1e400` is none, since no double is that large.
+/// A finite number; `1e400` is refused, as no double is that large.
 fn number(text: &str) -> Result<f64, String> {
     match f64::from_str(text.trim()) {
         Ok(value) if value.is_finite() => Ok(value),
         Ok(_) => Err(format!("{text:?} is not a finite number")),
         Err(_) => Err(format!("{text:?} is not a number")),
     }
+}
+
+/// A whole number within a range.
+pub fn whole(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> {
+    let (least, most) = (range.start(), range.end());
+    let number = text.trim().parse().ok().filter(|number| range.contains(number));
+    number.ok_or_else(|| format!("{text:?} is not a whole number in {least} .. {most}"))
+}
+
+/// Two numbers of a kind with a separator between them.
+pub fn pair<T: FromStr>(text: &str, separator: char) -> Option<(T, T)> {
+    let (one, other) = text.split_once(separator)?;
+    Some((one.parse().ok()?, other.parse().ok()?))
 }
 
 /// A number within a range, both ends included.
@@ -89,7 +105,7 @@ pub fn half_width(text: &str) -> Result<(Symbol, f64), String> {
     Ok((symbol, within(name, (0.0, symbol.spec().max), value)?))
 }
 
-/// A parameter and the values through which it goes.
+/// A parameter and the values that it takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Over {
     pub symbol: Symbol,
@@ -121,19 +137,18 @@ pub fn stepped(
         return Err(form.to_owned());
     };
     let (from, to) = ends(from, to)?;
-    let parsed = count.trim().parse().ok().filter(|count| (2..=most).contains(count));
-    let count =
-        parsed.ok_or_else(|| format!("COUNT = {count} is not a whole number in 2 .. {most}"))?;
+    let count = whole(count, 2..=most)
+        .map_err(|_| format!("COUNT = {count} is not a whole number in 2 .. {most}"))?;
     if from == to {
         return Err(format!("FROM and TO are both {from:?}"));
     }
     Ok(((from, to), count))
 }
 
-/// Reads a number, or says in one line why it is none.
+/// Reads a number, or says in one line what is wrong with it.
 type ReadNumber<'a> = &'a dyn Fn(&str) -> Result<f64, String>;
 
-/// `LOW:HIGH,LOW:HIGH`, the first side and the second each with what reads its numbers.
+/// `LOW:HIGH,LOW:HIGH`; each side has its own reader of numbers.
 pub fn sides(text: &str, form: &str, read: [ReadNumber; 2]) -> Result<[(f64, f64); 2], String> {
     let (first, second) = text.split_once(',').ok_or(form)?;
     let side = |part: &str, read: ReadNumber| {
@@ -155,12 +170,14 @@ pub fn window(text: &str) -> Result<Window, String> {
 
 /// `WxH` starts.
 pub fn grid(text: &str) -> Result<(usize, usize), String> {
-    /// Most starts on a side.
+    /// Maximum number of starts on a side.
     const MOST: usize = 100_000;
-    let side = |text: &str| usize::from_str(text).ok().filter(|side| (1..=MOST).contains(side));
-    text.split_once('x').and_then(|(width, height)| Some((side(width)?, side(height)?))).ok_or_else(
-        || format!("{text:?} is not a grid; expected WxH, such as 320x384, 1 .. {MOST} each"),
-    )
+    let allowed = 1..=MOST;
+    let sides =
+        pair(text, 'x').filter(|(one, other)| allowed.contains(one) && allowed.contains(other));
+    sides.ok_or_else(|| {
+        format!("{text:?} is not a grid; expected WxH, such as 320x384, 1 .. {MOST} each")
+    })
 }
 
 pub fn method(name: &str) -> Result<Method, String> {
@@ -172,10 +189,18 @@ pub fn method(name: &str) -> Result<Method, String> {
 
 /// `WIDTHxHEIGHT` in cells.
 pub fn size(text: &str) -> Result<(u16, u16), String> {
-    let side = |text: &str| u16::from_str(text).ok().filter(|side| (1..=1000).contains(side));
-    text.split_once('x').and_then(|(width, height)| Some((side(width)?, side(height)?))).ok_or_else(
-        || format!("{text:?} is not a size; expected WxH, such as 120x40, 1 .. 1000 each"),
-    )
+    let allowed = 1..=1000;
+    let sides =
+        pair(text, 'x').filter(|(one, other)| allowed.contains(one) && allowed.contains(other));
+    sides.ok_or_else(|| {
+        format!("{text:?} is not a size; expected WxH, such as 120x40, 1 .. 1000 each")
+    })
+}
+
+/// The file of a figure, and the form that its ending asks for.
+pub fn figure_file(text: &str) -> Result<(PathBuf, FileForm), String> {
+    let path = PathBuf::from(text);
+    FileForm::of_file(&path).map(|form| (path, form))
 }
 
 #[cfg(test)]
@@ -230,6 +255,16 @@ mod tests {
         assert_eq!(size("120x40"), Ok((120, 40)));
         for text in ["120", "0x1", "120x", "1x1001", "-1x5", "ax4"] {
             assert!(size(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_ending_of_a_file_says_in_which_form() {
+        assert_eq!(figure_file("a/fig.SVG").unwrap().1, FileForm::Svg);
+        assert_eq!(figure_file("fig.json").unwrap().1, FileForm::Json);
+        assert_eq!(figure_file("fig.png").unwrap().1, FileForm::Png);
+        for wrong in ["fig", "fig.pdf", ".svg", ""] {
+            assert!(figure_file(wrong).is_err(), "{wrong}");
         }
     }
 }

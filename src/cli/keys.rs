@@ -12,13 +12,13 @@ use crate::report::{csv, json};
 use crate::session::commands;
 use crate::session::state::context::{ContextSpec, contexts};
 
-/// Lists the keys of the explorer, with the changes of the settings file
+/// Lists the keys of the explorer, as the settings file changes them
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
     settings: Settings,
-    /// Form of the list
-    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORM")]
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     format: Format,
 }
 
@@ -32,7 +32,6 @@ struct KeyRow<K> {
 }
 
 impl Arguments {
-    /// Prints the list.
     pub fn run(&self) -> Result<(), Failure> {
         let keymap = self.settings.read()?.keymap;
         let mut rows = Vec::new();

@@ -1,4 +1,4 @@
-//! `hopfscope kicks`: which part of random kicks is lost, and how many in a row are survived.
+//! `hopfscope kicks`: what fraction of random kicks is lost, and how many in a row are survived.
 
 use clap::Args;
 
@@ -10,7 +10,7 @@ use crate::report::kicks;
 use crate::study::kicks::RandomKick as Distribution;
 use crate::study::repeated::repeated;
 
-/// Says which part of random kicks is lost, and how many in a row are survived
+/// Finds the share of random kicks that is lost, and how many in a row are survived
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
@@ -28,7 +28,6 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();
         let parameters = self.start.problem()?.parameters;

@@ -9,15 +9,15 @@ use crate::session::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, Wi
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Looks {
     #[arg(long, value_name = "KIND",
-          value_parser = |name: &str| one_of(&GLYPHS, name), help = help("What dots are made of", &GLYPHS))]
+          value_parser = |name: &str| one_of(&GLYPHS, name), help = help("Characters that dots are drawn with", &GLYPHS))]
     glyphs: Option<Glyphs>,
 
     #[arg(long, value_name = "DEPTH",
-          value_parser = |name: &str| one_of(&COLORS, name), help = help("How many colours", &COLORS))]
+          value_parser = |name: &str| one_of(&COLORS, name), help = help("Colour depth", &COLORS))]
     color: Option<Colors>,
 
     #[arg(long, value_name = "NAME",
-          value_parser = |name: &str| one_of(&THEMES, name), help = help("Which colours", &THEMES))]
+          value_parser = |name: &str| one_of(&THEMES, name), help = help("Colour theme", &THEMES))]
     theme: Option<Theme>,
 
     /// Lets the mouse start motions and zoom instead of selecting text

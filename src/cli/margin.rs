@@ -11,7 +11,7 @@ use crate::report::guarantee;
 use crate::scene::library::{PLAIN, find};
 use crate::study;
 
-/// Says how large a kick is survived whatever a bounded disturbance does, at all parameters of a box
+/// Finds how large a kick is survived under every bounded disturbance, at all parameters in a box
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// Scene to start from
@@ -29,9 +29,8 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
-        let scene = find(&self.scene).map_err(|missing| Failure::Usage(missing.to_string()))?;
+        let scene = find(&self.scene).map_err(Failure::Usage)?;
         let mut known = ParameterBox::from(&scene.problem.parameters);
         for &(symbol, interval) in &self.set {
             known.set(symbol, interval).map_err(Failure::Usage)?;

@@ -18,13 +18,13 @@ use crate::runtime::merging::{Conflict, Part, merge};
 use crate::runtime::provenance_file;
 use crate::words::provenance::Provenance;
 
-/// Puts the parts of a scan together, or says which rows are missing and how to compute them
+/// Merges the parts of a scan, or lists the rows that are missing and how to compute them
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Files that scan --output has written, each with its .provenance beside it, or folders of them
+    /// Files written by scan --output, each with its .provenance beside it, or directories of them
     #[arg(required = true, value_name = "PART")]
     parts: Vec<PathBuf>,
-    /// Writes the whole to FILE
+    /// Writes the merged rows to FILE
     #[arg(long, value_name = "FILE", required_unless_present = "check")]
     output: Option<PathBuf>,
     /// Computes the first and the last row of each part again and compares them
@@ -64,7 +64,7 @@ impl Arguments {
         let parts: Vec<Part> = sources.iter().map(PartSource::part).collect();
         let ScanRequest { scan, form, .. } = &first.asked;
         let recheck = self.check.then_some(&Limits::PATIENT);
-        let mut output = self.output.as_deref().map(Output::begin).transpose()?;
+        let mut output = self.output.as_deref().map(GrowingFile::begin).transpose()?;
         let mut write = |line: &[u8]| output.as_mut().map_or(Ok(()), |output| output.write(line));
         let missing =
             merge(scan, *form, &parts, recheck, &mut write).map_err(|conflict| match conflict {
@@ -106,7 +106,7 @@ impl Arguments {
             }
         }
         if sources.is_empty() {
-            let line = format!("{}: no part of a scan is there", self.parts[0].display());
+            let line = format!("{}: there is no part of a scan", self.parts[0].display());
             return Err(Failure::Usage(line));
         }
         Ok((sources, absent))
@@ -118,7 +118,9 @@ impl PartSource {
         let beside = provenance_file::beside(&path);
         let provenance = provenance_file::read(&path).map_err(|error| {
             let (path, beside) = (path.display(), beside.display());
-            Failure::Usage(format!("{path}: what it is a part of stands in {beside}: {error}"))
+            Failure::Usage(format!(
+                "{path}: {beside} should say which scan it is a part of: {error}"
+            ))
         })?;
         let arguments = provenance.arguments().unwrap_or_default();
         let Some(command) = ScanCommand::of_line(&arguments) else {
@@ -141,17 +143,17 @@ impl PartSource {
 
     /// Refuses a part of another scan or from another version.
     fn must_belong_with(&self, first: &Self) -> Result<(), Failure> {
-        let told = |what: &str, [own, other]: [&str; 2]| {
+        let refused = |what: &str, [own, other]: [&str; 2]| {
             let (path, first) = (self.path.display(), first.path.display());
             Err(Failure::Usage(format!("{path} and {first} {what}: {own}, and {other}")))
         };
         let builds = [self.provenance.build(), first.provenance.build()];
         if builds[0] != builds[1] {
-            return told("are from different versions", [&builds[0], &builds[1]]);
+            return refused("are from different versions", [&builds[0], &builds[1]]);
         }
         if self.asked.scan != first.asked.scan || self.asked.form != first.asked.form {
             let commands = [&self.provenance.command, &first.provenance.command];
-            return told("are parts of different scans", [commands[0], commands[1]]);
+            return refused("are parts of different scans", [commands[0], commands[1]]);
         }
         Ok(())
     }
@@ -210,14 +212,14 @@ fn command(mut arguments: Vec<String>, form: RowForm, path: &Path) -> String {
 }
 
 /// A file that appears under its name once it is complete.
-struct Output<'a> {
+struct GrowingFile<'a> {
     path: &'a Path,
     /// Where it grows; it is the file itself if that is a device or a pipe.
     growing: PathBuf,
     file: BufWriter<File>,
 }
 
-impl<'a> Output<'a> {
+impl<'a> GrowingFile<'a> {
     fn begin(path: &'a Path) -> Result<Self, Failure> {
         let (growing, file) = if fs::metadata(path).is_ok_and(|file| !file.is_file()) {
             (path.to_owned(), File::create(path))
@@ -229,14 +231,14 @@ impl<'a> Output<'a> {
             (growing, file)
         };
         let file = file.map_err(|error| Failure::file(path, &error))?;
-        Ok(Output { path, growing, file: BufWriter::new(file) })
+        Ok(GrowingFile { path, growing, file: BufWriter::new(file) })
     }
 
     fn write(&mut self, line: &[u8]) -> io::Result<()> {
         self.file.write_all(line)
     }
 
-    /// Gives the file its name, unless another one has it that holds something else.
+    /// Gives the file its name, unless a file with other content has it.
     fn end(mut self, force: bool, provenance: &Provenance) -> Result<(), Failure> {
         let name = self.path.display();
         let unwritten = |error| Failure::Unanswered(format!("{name} not written: {error}"));
@@ -270,8 +272,8 @@ impl<'a> Output<'a> {
     }
 }
 
-/// What was not completed is of no use.
-impl Drop for Output<'_> {
+/// Removes an incomplete file.
+impl Drop for GrowingFile<'_> {
     fn drop(&mut self) {
         if self.growing != self.path {
             drop(fs::remove_file(&self.growing));

@@ -14,22 +14,23 @@ use crate::runtime::provenance_file;
 /// How an answer is printed.
 #[derive(Clone, Debug, Args)]
 pub struct Output {
-    /// Form of the answer
-    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORM")]
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     pub format: Format,
 
-    /// Computes N times and reports the median of the times
+    /// Computes N times and reports the median time
     #[arg(long, value_name = "N", default_value_t = 1, hide_default_value = true,
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub repeat: u32,
 
-    /// Writes the answer to FILE, and where it comes from (program, version, command line) to FILE.provenance
+    /// Writes the answer to FILE, and its provenance (program, version, command line) to FILE.provenance
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
 }
 
 impl Output {
-    /// Computes as often as is asked for: the answer, and its seconds. `failed` says what there is not without it.
+    /// Computes as often as is asked for: the answer, and the median of the seconds. `failed` begins the message of a
+    /// failure.
     pub fn timed<T>(
         &self,
         failed: &str,
@@ -40,7 +41,7 @@ impl Output {
         Ok((found, seconds))
     }
 
-    /// The same of a list whose last column is text: a terminal shows it broken to its width.
+    /// Prints a list whose last column is text, which a terminal shows wrapped to its width.
     pub fn print_list(&self, answer: &str) -> Result<(), Failure> {
         if self.write.is_none() && self.format == Format::Table {
             return print(&on_terminal(answer));
@@ -64,13 +65,13 @@ impl Output {
     }
 }
 
-/// Writes beside a file where it comes from.
+/// Writes the provenance of a file beside it.
 pub fn write_source(path: &Path) -> Result<(), Failure> {
     provenance_file::write(path, &provenance_file::of_process())
         .map_err(|error| Failure::file(path, &error))
 }
 
-/// An answer, and within it, where it is a JSON document, where it comes from.
+/// An answer; a JSON document with its provenance.
 pub fn sourced(format: Format, answer: &str) -> String {
     match format {
         Format::Json => provenance_file::of_process().within(answer),
@@ -81,7 +82,7 @@ pub fn sourced(format: Format, answer: &str) -> String {
 /// Whether an answer is also enclosed.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Certify {
-    /// Encloses the answer, whatever the rounding, or says what is open
+    /// Encloses the answer between proved bounds, or says what remains open
     #[arg(long)]
     certify: bool,
 }
@@ -96,15 +97,15 @@ impl Certify {
 /// The form of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
-    /// Aligned columns, to read.
+    /// Aligned columns for reading.
     Table,
     /// One JSON document, all digits.
     Json,
-    /// One row each, all digits.
+    /// One row per result, all digits.
     Csv,
 }
 
-/// Prints an answer. A reader that has gone is no error: it has seen what it wanted.
+/// Prints an answer. A closed pipe is not an error: its reader has seen enough.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -115,7 +116,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Writes a file as a whole. One that holds something else is left alone, unless `force` says otherwise.
+/// Writes a whole file. Without `force` a file with other content is left alone.
 pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
     if !force && holds_something(path) && std::fs::read(path).ok().as_deref() != Some(content) {
         let name = path.display();
@@ -140,7 +141,7 @@ pub fn without(words: &[String], options: &[(&str, bool)]) -> Vec<String> {
     kept
 }
 
-/// Whether there is a file with something in it; a device or a pipe has nothing to lose.
+/// Whether there is a file that is not empty; a device or a pipe has nothing to lose.
 pub fn holds_something(path: &Path) -> bool {
     std::fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() > 0)
 }

@@ -9,7 +9,7 @@ use crate::flow::Limits;
 use crate::report::claims;
 use crate::study::claims::examine_all;
 
-/// Puts every equation and claim of the paper that can be tested to the test
+/// Tests every equation and claim of the paper that can be tested
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
@@ -17,7 +17,6 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let (examined, seconds) = timed(self.output.repeat, || examine_all(&Limits::PATIENT));
         let examined = examined

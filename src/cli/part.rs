@@ -5,20 +5,21 @@ use std::ops::Range;
 use clap::Args;
 
 use super::failure::Failure;
+use super::input::pair;
 
 /// The options that choose rows; at most one of them is given.
 #[derive(Clone, Copy, Debug, Default, Args)]
 #[group(id = "part", multiple = false)]
 pub struct Part {
-    /// Computes part K of N only (1 <= K <= N); the parts, put together in their order, are the whole
+    /// Computes only part K of N (1 <= K <= N); the parts in order make up the whole scan
     #[arg(long, value_name = "K/N", value_parser = shard)]
     shard: Option<Shard>,
-    /// The same where parts are counted from 0 (0 <= K < N)
+    /// The same, with parts counted from 0 (0 <= K < N)
     #[arg(long, value_name = "K/N", value_parser = shard_index0)]
     shard_index0: Option<Shard>,
-    /// Computes these rows only, counted from 1
+    /// Computes only these rows, counted from 1
     #[arg(long, value_name = "FIRST:LAST", value_parser = rows)]
-    rows: Option<Rows>,
+    rows: Option<RowRange>,
 }
 
 /// Part `number` (from 1) of `of`.
@@ -30,42 +31,39 @@ pub struct Shard {
 
 /// Rows `first` to `last`, both included, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Rows {
+struct RowRange {
     first: usize,
     last: usize,
 }
 
-/// Most shards.
+/// Maximum number of shards.
 pub const MOST: usize = 1_000_000;
 
-fn whole_numbers(text: &str, separator: char) -> Option<(usize, usize)> {
-    let (one, other) = text.split_once(separator)?;
-    Some((one.parse().ok()?, other.parse().ok()?))
-}
-
 fn shard(text: &str) -> Result<Shard, String> {
-    whole_numbers(text, '/')
+    pair(text, '/')
         .filter(|(number, of)| (1..=*of).contains(number) && *of <= MOST)
         .map(|(number, of)| Shard { number, of })
         .ok_or_else(|| format!("{text:?} is not a part; expected K/N with 1 <= K <= N <= {MOST}"))
 }
 
 fn shard_index0(text: &str) -> Result<Shard, String> {
-    whole_numbers(text, '/')
+    pair(text, '/')
         .filter(|(index, of)| index < of && *of <= MOST)
         .map(|(index, of)| Shard { number: index + 1, of })
         .ok_or_else(|| format!("{text:?} is not a part; expected K/N with 0 <= K < N <= {MOST}"))
 }
 
-fn rows(text: &str) -> Result<Rows, String> {
-    whole_numbers(text, ':')
+fn rows(text: &str) -> Result<RowRange, String> {
+    pair(text, ':')
         .filter(|(first, last)| (1..=*last).contains(first))
-        .map(|(first, last)| Rows { first, last })
-        .ok_or_else(|| format!("{text:?} are no rows; expected FIRST:LAST with 1 <= FIRST <= LAST"))
+        .map(|(first, last)| RowRange { first, last })
+        .ok_or_else(|| {
+            format!("{text:?} is not a range of rows; expected FIRST:LAST with 1 <= FIRST <= LAST")
+        })
 }
 
 impl Shard {
-    /// Its points: the parts are runs of points in order, as long as each other give or take one.
+    /// Its points: the parts are runs of points in order, of equal length, give or take one.
     pub fn points(self, all: usize) -> Range<usize> {
         let end = |number: usize| all / self.of * number + (all % self.of).min(number);
         end(self.number - 1)..end(self.number)
@@ -93,8 +91,8 @@ impl Part {
     pub fn points(self, all: usize) -> Result<Range<usize>, Failure> {
         match (self.shard(), self.rows) {
             (Some(shard), _) => Ok(shard.points(all)),
-            (None, Some(Rows { first, last })) if last <= all => Ok(first - 1..last),
-            (None, Some(Rows { first, last })) => {
+            (None, Some(RowRange { first, last })) if last <= all => Ok(first - 1..last),
+            (None, Some(RowRange { first, last })) => {
                 Err(Failure::Usage(format!("--rows {first}:{last}: the scan has {all} rows")))
             }
             (None, None) => Ok(0..all),
@@ -124,7 +122,7 @@ mod tests {
     fn parts_that_do_not_exist_are_refused() {
         assert_eq!(shard("2/3"), Ok(Shard { number: 2, of: 3 }));
         assert_eq!(shard_index0("1/3"), shard("2/3"));
-        assert_eq!(rows("4:4"), Ok(Rows { first: 4, last: 4 }));
+        assert_eq!(rows("4:4"), Ok(RowRange { first: 4, last: 4 }));
         for text in ["0/3", "4/3", "1", "1/0", "a/b", "-1/2", "1/2/3", "1/1000001"] {
             assert!(shard(text).unwrap_err().contains("1 <= K <= N"), "{text}");
         }
@@ -134,7 +132,7 @@ mod tests {
         for text in ["0:3", "4:3", "1", "1:", "a:b"] {
             assert!(rows(text).unwrap_err().contains("FIRST:LAST"), "{text}");
         }
-        let beyond = Part { rows: Some(Rows { first: 3, last: 8 }), ..Part::default() };
+        let beyond = Part { rows: Some(RowRange { first: 3, last: 8 }), ..Part::default() };
         assert!(beyond.points(7).is_err());
         assert_eq!(beyond.points(8).unwrap(), 2..8);
     }

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
+use super::input;
 use super::output::{print, without, write};
 use super::part::MOST;
 use crate::report::scan::RowForm;
@@ -14,7 +15,7 @@ use crate::words::provenance::{Provenance, quoted};
 /// The options that ask for a recipe.
 #[derive(Clone, Debug, Args)]
 pub struct Plan {
-    /// Prints a recipe that computes the scan in shards and merges them, instead of computing it. The rows go to
+    /// Instead of computing the scan, prints a recipe that computes it in shards and merges them. The rows go to
     /// rows.csv, or to an --output that ends in .csv, .json or .jsonl; any other --output is the recipe itself
     #[arg(long, value_enum, value_name = "ENGINE", requires = "shards",
           conflicts_with_all = ["part", "resume"])]
@@ -37,7 +38,7 @@ enum Engine {
     Parallel,
 }
 
-/// How often a shard that fails is tried again.
+/// How many times a failed shard is retried.
 const RETRIES: usize = 3;
 
 /// The file of the merged rows, where none is named.
@@ -54,8 +55,7 @@ const OWN: [(&str, bool); 6] = [
 ];
 
 fn shards(text: &str) -> Result<usize, String> {
-    let number = text.parse().ok().filter(|number| (1..=MOST).contains(number));
-    number.ok_or_else(|| format!("{text:?} is not a number of shards; allowed: 1 .. {MOST}"))
+    input::whole(text, 1..=MOST)
 }
 
 impl Engine {

@@ -1,27 +1,65 @@
-//! How far a long command is, on the last line of the terminal or in a log.
+//! The progress of a long command, on the last line of the terminal or in a log.
 
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
+use crate::numerics::count::real;
 use crate::words::number::{remaining, significant};
 
-/// Where progress is told.
+/// Where progress is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outlet {
-    /// Nobody wants to know.
+    /// Not at all.
     Nowhere,
-    /// A line of the terminal that is written again and again.
+    /// On a line of the terminal that is rewritten.
     Line,
-    /// Line after line of a log.
+    /// As lines of a log.
     Log,
 }
 
 impl Outlet {
-    /// How often it is told.
+    /// Minimum time between two messages.
     fn pause(self) -> Duration {
         match self {
             Outlet::Line => Duration::from_millis(250),
             Outlet::Nowhere | Outlet::Log => Duration::from_secs(10),
+        }
+    }
+}
+
+/// A message that is renewed from time to time.
+#[derive(Debug)]
+pub struct StatusLine {
+    place: Outlet,
+    started: Instant,
+    written: Option<Instant>,
+}
+
+impl StatusLine {
+    /// Nothing is written yet.
+    pub fn new(place: Outlet) -> Self {
+        StatusLine { place, started: Instant::now(), written: None }
+    }
+
+    /// Writes the message if it is time to; it is made of the seconds since the start.
+    pub fn renew(&mut self, message: impl FnOnce(f64) -> String) {
+        let now = Instant::now();
+        if now < self.written.unwrap_or(self.started) + self.place.pause() {
+            return;
+        }
+        let message = message((now - self.started).as_secs_f64());
+        match self.place {
+            Outlet::Nowhere => return,
+            Outlet::Line => write(&format!("\r{message}\x1b[K")),
+            Outlet::Log => write(&format!("hopfscope: {message}\n")),
+        }
+        self.written = Some(now);
+    }
+
+    /// Removes the line.
+    pub fn end(&self) {
+        if self.written.is_some() && self.place == Outlet::Line {
+            write("\r\x1b[K");
         }
     }
 }
@@ -33,51 +71,37 @@ pub struct Progress {
     /// Rows that were there before.
     before: usize,
     done: usize,
-    started: Instant,
-    written: Option<Instant>,
-    place: Outlet,
+    line: StatusLine,
 }
 
 impl Progress {
     /// The progress of `wanted` rows that begin now, after `before` that are done.
     pub fn new(wanted: usize, before: usize, place: Outlet) -> Self {
-        Progress { wanted, before, done: 0, started: Instant::now(), written: None, place }
+        Progress { wanted, before, done: 0, line: StatusLine::new(place) }
     }
 
-    /// One row more is done.
+    /// Counts a row.
     pub fn step(&mut self) {
         self.done += 1;
-        let now = Instant::now();
-        if now < self.written.unwrap_or(self.started) + self.place.pause() {
-            return;
-        }
-        let told = self.told((now - self.started).as_secs_f64());
-        match self.place {
-            Outlet::Nowhere => return,
-            Outlet::Line => write(&format!("\r{told}\x1b[K")),
-            Outlet::Log => write(&format!("hopfscope: {told}\n")),
-        }
-        self.written = Some(now);
+        let Progress { wanted, before, done, ref mut line } = *self;
+        line.renew(|seconds| message(done, before, wanted, seconds));
     }
 
-    /// What is told after so many seconds.
-    fn told(&self, seconds: f64) -> String {
-        #[expect(clippy::cast_precision_loss, reason = "a rough number")]
-        let rate = significant(self.done as f64 / seconds, 2);
-        let left = remaining(seconds, self.done, self.wanted);
-        let (done, all) = (self.before + self.done, self.before + self.wanted);
-        format!("{done} of {all} rows, {rate} rows a second, {left} left")
-    }
-
-    /// Takes the line away.
+    /// Removes the line.
     pub fn end(&self) {
-        if self.written.is_some() && self.place == Outlet::Line {
-            write("\r\x1b[K");
-        }
+        self.line.end();
     }
 }
 
-/// Who cannot see the progress misses nothing else.
+/// The message after this many seconds.
+fn message(done: usize, before: usize, wanted: usize, seconds: f64) -> String {
+    let rate = significant(real(done) / seconds, 2);
+    let left = remaining(seconds, done, wanted);
+    let (done, all) = (before + done, before + wanted);
+    format!("{done} of {all} rows, {rate} rows a second, {left} left")
+}
+
+/// Errors are ignored: only the progress is lost.
 fn write(text: &str) {
     let mut out = io::stderr().lock();
     drop(out.write_all(text.as_bytes()).and_then(|()| out.flush()));
@@ -89,7 +113,6 @@ mod tests {
 
     #[test]
     fn rows_that_were_there_count_as_done_but_not_as_fast() {
-        let progress = Progress { done: 300, ..Progress::new(900, 100, Outlet::Log) };
-        assert_eq!(progress.told(10.0), "400 of 1000 rows, 30 rows a second, 20 s left");
+        assert_eq!(message(300, 100, 900, 10.0), "400 of 1000 rows, 30 rows a second, 20 s left");
     }
 }

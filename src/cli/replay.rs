@@ -24,14 +24,14 @@ pub struct Arguments {
     /// Keystroke file
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Size of the screen in cells
+    /// Size of the screen, in cells
     #[arg(long, value_name = "WxH", value_parser = input::size, default_value = "120x40")]
     size: (u16, u16),
-    /// Writes the screens that the file names to this directory
+    /// Writes the screens named in the file to this directory
     #[arg(long, value_name = "DIR")]
     screens: Option<PathBuf>,
-    /// Form of these screens
-    #[arg(long, value_enum, default_value_t = ScreenFormat::Text, value_name = "FORM")]
+    /// Format of these screens
+    #[arg(long, value_enum, default_value_t = ScreenFormat::Text, value_name = "FORMAT")]
     screen_format: ScreenFormat,
     #[command(flatten)]
     start: StartOptions,
@@ -65,7 +65,6 @@ impl ScreenFormat {
 }
 
 impl Arguments {
-    /// Runs the file.
     pub fn run(&self) -> Result<(), Failure> {
         let script = script(&self.file)?;
         let (width, height) = self.size;

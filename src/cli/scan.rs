@@ -22,7 +22,7 @@ use crate::flow::Limits;
 use crate::oscillator::Symbol;
 use crate::report::scan::RowForm;
 use crate::runtime::provenance_file;
-use crate::runtime::scan_file::{Refusal, ScanFile};
+use crate::runtime::scan_file::{LineRefusal, ScanFile};
 use crate::runtime::scanning::{Processors, Taker, rows};
 use crate::runtime::signals::exit_code;
 use crate::study::basin::Window;
@@ -36,12 +36,12 @@ use crate::study::scan::{Scan, ScanRow, Sweep};
 pub struct ScanCommand {
     #[command(flatten)]
     start: StartOptions,
-    /// A parameter and its values, evenly spaced, or by equal ratios with log: before FROM; repeatable,
-    /// the last one varies fastest
+    /// A parameter and its values, evenly spaced, or at equal ratios with log: before FROM; repeatable, the last
+    /// one varies fastest
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", required = true, allow_hyphen_values = true)]
     over: Vec<Sweep>,
     #[arg(long, value_name = "NAME,..", required = true, value_delimiter = ',',
-          value_parser = Measure::named, help = measures_help())]
+          value_parser = Measure::named, help = measures_help(), long_help = measures_list())]
     measure: Vec<Measure>,
     /// Also measures `proved`, which is the same as naming it
     #[arg(long)]
@@ -66,61 +66,53 @@ pub struct ScanCommand {
         allow_hyphen_values = true
     )]
     kicks: RandomKick,
-    /// Time at which the motions of `outcome`, `rest`, `settling` and `finite-time` stop (default: that of the
-    /// scene)
+    /// Time at which the motions of `outcome`, `rest`, `settling` and `finite-time` stop (default: the scene's)
     #[arg(long, value_name = "T", value_parser = input::until, allow_hyphen_values = true)]
     until: Option<f64>,
-    /// Threads (default: as many as there are cores)
+    /// Number of threads (default: one per core)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// Form of the rows; json writes one object per line (default: csv, or what FILE ends with)
-    #[arg(long, value_enum, value_name = "FORM")]
-    format: Option<Rows>,
+    /// Output format; json writes one object per line (default: the extension of FILE, or csv)
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    format: Option<RowForm>,
     /// Writes the rows to FILE instead of standard output
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Continues an earlier scan to the same FILE where it ended
+    /// Continues an earlier scan to the same FILE
     #[arg(long, requires = "output")]
     resume: bool,
-    /// Starts over if FILE holds something
+    /// Starts over even if FILE is not empty
     #[arg(long, requires = "output", conflicts_with = "resume")]
     force: bool,
     #[command(flatten)]
     part: Part,
-    /// Which parts begin with the line of names; merge accepts both
-    #[arg(long, value_enum, value_name = "WHEN", default_value_t = Header::First)]
-    header: Header,
+    /// Which parts begin with the header line; merge accepts both
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t = HeaderWhen::First)]
+    header: HeaderWhen,
     #[command(flatten)]
     plan: Plan,
 }
 
-/// Which parts begin with the line of names.
+/// Which parts begin with the header line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Header {
+enum HeaderWhen {
     /// The first one, so that cat puts parts together.
     First,
     /// All, so that each can be read alone.
     Always,
 }
 
-/// The form of the rows, by its name on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Rows {
-    /// Aligned columns, to read.
-    Table,
-    /// One object per line, all digits.
-    #[value(alias = "jsonl")]
-    Json,
-    /// One row per line after a line of names, all digits.
-    Csv,
-}
-
 fn measures_help() -> String {
-    let names = MEASURES.map(|row| format!("{} ({})", row.name, row.meaning));
-    format!("What to measure; repeatable: {}", names.join("; "))
+    format!("What to measure; repeatable: {}", MEASURES.map(|row| row.name).join(", "))
 }
 
-/// What a command line asks for.
+/// The same with what each measure is, as clap lists possible values.
+fn measures_list() -> String {
+    let rows = MEASURES.map(|row| format!("- {}: {}", row.name, row.meaning));
+    format!("What to measure; repeatable:\n{}", rows.join("\n"))
+}
+
+/// A scan as it is asked for on a command line.
 #[derive(Clone, Debug)]
 pub struct ScanRequest {
     /// The whole scan.
@@ -142,7 +134,7 @@ enum Sink {
 }
 
 impl Sink {
-    /// How many rows wait in a journal for their turn.
+    /// How many rows wait in a journal for the rows before them.
     fn ahead(&self) -> usize {
         match self {
             Sink::Standard(_) => 0,
@@ -167,7 +159,7 @@ struct Writer<'a> {
     sink: Sink,
     tally: Tally,
     progress: Progress,
-    /// What ended the writing.
+    /// The error that ended the writing.
     broken: Option<io::Error>,
 }
 
@@ -245,9 +237,11 @@ impl ScanCommand {
         let took = rows(&scan, points, processors, &interrupted, &mut writer);
         let Writer { tally, progress, broken, .. } = writer;
         progress.end();
-        took.map_err(|error| Failure::Unanswered(format!("no threads to scan with: {error}")))?;
+        took.map_err(|error| {
+            Failure::Unanswered(format!("cannot start threads for the scan: {error}"))
+        })?;
         match broken {
-            // A reader that has gone has seen what it wanted.
+            // A closed pipe is not an error: its reader has seen enough.
             Some(error) if self.output.is_none() && error.kind() == io::ErrorKind::BrokenPipe => {
                 return Ok(ExitCode::SUCCESS);
             }
@@ -280,8 +274,8 @@ impl ScanCommand {
         let scan =
             Scan::new(base, self.over.clone(), measures, conditions).map_err(Failure::Usage)?;
         let points = self.part.points(scan.points())?;
-        // Without further wishes the parts are made to be put together by cat.
-        let headed = points.start == 0 || self.header == Header::Always;
+        // By default `cat` puts the parts together.
+        let headed = points.start == 0 || self.header == HeaderWhen::Always;
         Ok(ScanRequest { scan, form: self.form()?, points, headed, shard: self.part.shard() })
     }
 
@@ -298,8 +292,7 @@ impl ScanCommand {
         };
         let name = path.display();
         if !self.resume && !self.force && holds_something(path) {
-            let line =
-                format!("{name} holds something; --resume continues it, --force starts over");
+            let line = format!("{name} is not empty; --resume continues it, --force starts over");
             return Err(Failure::Usage(line));
         }
         let provenance = provenance_file::of_process();
@@ -318,7 +311,7 @@ impl ScanCommand {
             ScanFile::create(path, scan, form, headed, points.clone()).map(|file| (file, 0))
         };
         let (file, done) = opened.map_err(|refusal| match refusal {
-            Refusal::Io(error) => Failure::file(path, &error),
+            LineRefusal::Io(error) => Failure::file(path, &error),
             other => Failure::Usage(format!("{name}: {other}")),
         })?;
         provenance_file::write(path, &provenance).map_err(|error| Failure::file(path, &error))?;
@@ -326,12 +319,8 @@ impl ScanCommand {
     }
 
     fn form(&self) -> Result<RowForm, Failure> {
-        let form = match self.format {
-            Some(Rows::Json) => RowForm::Json,
-            Some(Rows::Table) => RowForm::Table,
-            Some(Rows::Csv) => RowForm::Csv,
-            None => self.output.as_deref().map_or(RowForm::Csv, RowForm::of_file),
-        };
+        let of_file = || self.output.as_deref().map_or(RowForm::Csv, RowForm::of_file);
+        let form = self.format.unwrap_or_else(of_file);
         if form == RowForm::Table && self.resume {
             let line = "--format table rounds its numbers; --resume needs csv or json";
             return Err(Failure::Usage(line.to_owned()));
@@ -339,15 +328,15 @@ impl ScanCommand {
         Ok(form)
     }
 
-    /// Says how it ended, where there is something to say.
+    /// Reports rows without numbers, or the signal that stopped the scan.
     fn report(&self, tally: &Tally, signal: Option<i32>) -> ExitCode {
         let Some(signal) = signal else {
             if tally.given_up > 0 {
-                eprintln!("hopfscope: note: {tally}; their reason stands in the last column");
+                eprintln!("hopfscope: note: {tally}; the last column says why");
             }
             return ExitCode::SUCCESS;
         };
-        let again = if self.output.is_some() { "; --resume goes on" } else { "" };
+        let again = if self.output.is_some() { "; --resume continues" } else { "" };
         eprintln!("hopfscope: stopped: {tally}{again}");
         exit_code(signal).into()
     }
@@ -371,7 +360,7 @@ impl std::fmt::Display for Tally {
     }
 }
 
-/// The signal that asks to stop, once it has come; a second one ends the process at once.
+/// The signal that asked the process to stop, if one has; a second one ends it at once.
 struct StopSignal(Arc<AtomicUsize>);
 
 impl StopSignal {
@@ -386,7 +375,7 @@ impl StopSignal {
         };
         for signal in [SIGINT, SIGTERM, SIGHUP] {
             listen(signal).map_err(|error| {
-                Failure::Unanswered(format!("signals cannot be heard: {error}"))
+                Failure::Unanswered(format!("cannot listen for signals: {error}"))
             })?;
         }
         Ok(StopSignal(came))

@@ -6,12 +6,12 @@ use super::failure::Failure;
 use super::timing::timed;
 use crate::flow::Limits;
 use crate::question::answer;
-use crate::report::scene_cost::{Question, SceneCost, StepCost};
+use crate::report::scene_cost::{QuestionCost, SceneCost, StepCost};
 use crate::scene::{Scene, library};
 use crate::session::act::parameters;
 use crate::session::{self, Msg, Row, Session, Size, update};
 
-/// How often a question that is answered quickly is answered for the median of its times.
+/// How many times a quickly answered question is repeated for the median of its times.
 const TIMES: u32 = 5;
 
 /// Seconds below which one measurement says little.
@@ -40,27 +40,27 @@ fn of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
     };
     Ok(SceneCost {
         scene: Arc::clone(scene),
-        formulas: session.drawn_by_formulas(),
+        formulas: session.drawn_by_formulas().iter().map(|layer| layer.spec().name).collect(),
         questions,
         steps: rows.map(step).collect::<Result<_, Failure>>()?,
     })
 }
 
 /// Answers what a session asks until it asks nothing more.
-fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<Question>, Failure> {
+fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<QuestionCost>, Failure> {
     let mut answered = Vec::new();
     let mut failed = None;
     session::settle(session, |session, request| {
         let layers = session.requirements().into_iter();
         let layers = layers.filter(|part| part.request == *request).flat_map(|part| part.layers);
-        let layers = layers.collect();
+        let layers = layers.map(|layer| layer.spec().name).collect();
         let ask = || answer(request, &Limits::PATIENT);
         let (result, once) = timed(1, ask);
         let seconds = if once < QUICK { timed(TIMES, ask).1 } else { once };
         let topic = request.topic();
         match result {
             Ok(found) => {
-                answered.push(Question { topic, layers, cost: found.cost(), seconds });
+                answered.push(QuestionCost { topic, layers, cost: found.cost(), seconds });
                 Some(Msg::answered(request.clone(), Ok(found), seconds))
             }
             Err(reason) => {

@@ -1,4 +1,4 @@
-//! `hopfscope scenes`: what there is to look at.
+//! `hopfscope scenes`: the list of scenes.
 
 use clap::Args;
 
@@ -11,8 +11,8 @@ use crate::scene::{Scene, library};
 /// Lists the scenes
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Form of the list
-    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORM")]
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
     format: Format,
     /// Shows what each scene computes, what that costs, and what a step of each number recomputes
     #[arg(long)]
@@ -20,7 +20,6 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Prints the list.
     pub fn run(&self) -> Result<(), Failure> {
         if self.cost {
             let found = scene_cost::measured()?;

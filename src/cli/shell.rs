@@ -11,7 +11,7 @@ use super::Cli;
 use super::failure::Failure;
 use super::output::{print, write};
 
-/// Prints the completions of a shell
+/// Prints shell completions
 #[derive(Debug, Args)]
 pub struct Completions {
     /// The shell
@@ -20,7 +20,6 @@ pub struct Completions {
 }
 
 impl Completions {
-    /// Prints them.
     pub fn run(&self) -> Result<(), Failure> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut Cli::command(), "hopfscope", &mut script);
@@ -28,10 +27,10 @@ impl Completions {
     }
 }
 
-/// Writes manual pages, one for the program and one for each command
+/// Writes manual pages: one for the program, one for each command
 #[derive(Debug, Args)]
 pub struct Manual {
-    /// Existing folder for the pages
+    /// Existing directory for the pages
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Replaces files that hold something else
@@ -40,10 +39,9 @@ pub struct Manual {
 }
 
 impl Manual {
-    /// Writes them.
     pub fn run(&self) -> Result<(), Failure> {
         if !self.folder.is_dir() {
-            return Err(Failure::Usage(format!("{}: no such folder", self.folder.display())));
+            return Err(Failure::Usage(format!("{}: no such directory", self.folder.display())));
         }
         let mut program = Cli::command().disable_help_subcommand(true);
         program.build();

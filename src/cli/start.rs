@@ -16,7 +16,7 @@ use crate::scene::library::{PLAIN, find};
 /// Which motion is meant.
 #[derive(Clone, Debug, Args)]
 pub struct StartOptions {
-    /// Scene to start from
+    /// Scene that sets what the other options leave open
     #[arg(long = "scene", value_name = "NAME")]
     pub scene: Option<String>,
 
@@ -31,11 +31,11 @@ pub struct StartOptions {
     #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
     tol: Option<f64>,
 
-    /// Length of the step of the methods that keep it fixed, 1e-7 .. 1
+    /// Step length of the fixed-step methods, 1e-7 .. 1
     #[arg(long, value_name = "H", value_parser = step, allow_hyphen_values = true)]
     step: Option<f64>,
 
-    /// Velocity over which the method smoothed smoothes friction, 1e-12 .. 1e6
+    /// Velocity scale over which the method `smoothed` smooths friction, 1e-12 .. 1e6
     #[arg(long, value_name = "E", value_parser = epsilon, allow_hyphen_values = true)]
     epsilon: Option<f64>,
 }
@@ -55,12 +55,12 @@ fn epsilon(text: &str) -> Result<f64, String> {
 
 fn parameters_help() -> String {
     let names = PARAMETERS.map(|row| format!("{} ({})", row.name, row.meaning));
-    format!("Sets a number; repeatable: {}", names.join(", "))
+    format!("Sets a parameter or start value; repeatable: {}", names.join(", "))
 }
 
 fn methods_help() -> String {
     let names: Vec<_> = METHODS.iter().map(|row| row.name).collect();
-    format!("How to integrate: {}", names.join(", "))
+    format!("Integration method: {}", names.join(", "))
 }
 
 impl StartOptions {
@@ -71,10 +71,11 @@ impl StartOptions {
 
     /// The same with another scene.
     pub fn scene_named(&self, name: &str) -> Result<Arc<Scene>, Failure> {
-        let scene = find(name).map_err(|missing| Failure::Usage(missing.to_string()))?;
+        let scene = find(name).map_err(Failure::Usage)?;
         if let Some((symbol, _)) = self.set.iter().find(|(_, value)| !value.is_point()) {
-            let line =
-                format!("{symbol}: an interval is for cycles and margin; here it is a number");
+            let line = format!(
+                "{symbol}: only cycles and margin take an interval; this command takes a number"
+            );
             return Err(Failure::Usage(line));
         }
         Ok(self.applied(scene))
@@ -104,7 +105,7 @@ impl StartOptions {
     /// The parameters, each as the interval in which it was given.
     pub fn known(&self) -> Result<ParameterBox, Failure> {
         let name = self.scene.as_deref().unwrap_or(PLAIN);
-        let scene = find(name).map_err(|missing| Failure::Usage(missing.to_string()))?;
+        let scene = find(name).map_err(Failure::Usage)?;
         let mut known = ParameterBox::from(&scene.problem.parameters);
         for &(symbol, interval) in &self.set {
             if !matches!(symbol, Symbol::Q0 | Symbol::V0) {
@@ -119,11 +120,11 @@ impl StartOptions {
         Ok(self.scene()?.problem)
     }
 
-    /// Says on standard error that a study of cycles goes its own way, if a method was asked for.
+    /// Notes on standard error that studies of cycles ignore `--method`, if it was given.
     pub fn note_own_method(&self) {
         if self.method.is_some() {
             eprintln!(
-                "hopfscope: note: cycles have their own way of integrating; --method is ignored"
+                "hopfscope: note: cycles are always followed by one method; --method is ignored"
             );
         }
     }

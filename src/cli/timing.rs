@@ -24,19 +24,19 @@ pub fn timed<T>(times: u32, mut compute: impl FnMut() -> T) -> (T, f64) {
 /// [`ROUNDS`] times, when no number of repetitions is asked for: the first run of a short one says little.
 const ENOUGH: f64 = 0.02;
 
-/// So many times all are computed, that one disturbed measurement does not count, unless they take
-/// [`LONG`].
+/// Rounds that are always measured, so that one disturbed measurement does not count, unless they take [`LONG`]
+/// together.
 const FEW: usize = 5;
 
 /// See [`FEW`].
 const LONG: f64 = 0.5;
 
-/// What takes less than this is computed once before it is measured, so that it does not pay for what
-/// the one before it left in the caches.
+/// What takes less than this is computed once before it is measured, so that the state of the caches does not
+/// count.
 const SHORT: f64 = 1e-3;
 
-/// What takes less than this is measured over as many runs as take so long: reading the clock is nothing
-/// beside it, and the processor has learnt which way each branch goes.
+/// What takes less than this is measured over as many runs as take so long, which makes the time of reading the
+/// clock negligible.
 const READABLE: f64 = 200e-6;
 
 /// See [`ENOUGH`].
@@ -44,7 +44,7 @@ const ROUNDS: usize = 25;
 
 /// The median seconds of each of `count` computations, `times` each (by default as often as they need).
 ///
-/// They take turns, so that whatever else the machine does disturbs all of them alike.
+/// They take turns, so that other work of the machine disturbs all of them alike.
 pub fn in_turn<T>(times: u32, count: usize, mut compute: impl FnMut(usize) -> T) -> Vec<f64> {
     let mut seconds = vec![Vec::new(); count];
     let rounds = if times > 1 { times as usize } else { ROUNDS };
@@ -71,7 +71,7 @@ fn settled<T>(mut compute: impl FnMut() -> T) -> f64 {
     mean(times, &mut compute)
 }
 
-/// The mean seconds of so many computations in a row.
+/// The mean seconds of this many computations in a row.
 fn mean<T>(times: u32, mut compute: impl FnMut() -> T) -> f64 {
     let started = Instant::now();
     for _ in 0..times {

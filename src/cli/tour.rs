@@ -1,4 +1,4 @@
-//! `hopfscope tour`: the explorer, shown around in.
+//! `hopfscope tour`: a tour of the explorer.
 
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use crate::scene::plain;
 use crate::session::replay::Instruction;
 use crate::session::{Session, Size};
 
-/// Gives a tour of the explorer: keys that a caption names work, any other goes on, Esc leaves the tour
+/// Guided tour of the explorer: the keys named in a caption work, any other key continues, Esc leaves
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
@@ -23,7 +23,6 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Runs the explorer until it is left.
     pub fn run(&self) -> Result<ExitCode, Failure> {
         let config = self.settings.read()?;
         let mut session = Session::new(plain(), Size { width: 80, height: 24 });

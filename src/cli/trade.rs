@@ -13,23 +13,22 @@ use crate::report::trade as report;
 use crate::study::trade::Trade as Found;
 use crate::view::trade_plot::in_letters;
 
-/// Shows what accuracy costs: every method over its tolerances on the same motion
+/// Shows what accuracy costs: every method at all its tolerances on the same motion
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Scene whose motion is followed
+    /// Scene whose motion is computed
     #[arg(value_name = "SCENE", conflicts_with = "scene")]
     named: Option<String>,
     #[command(flatten)]
     start: StartOptions,
     #[command(flatten)]
     output: Output,
-    /// Time at which to stop, 0 .. 1e9 (default: that of the scene)
+    /// Time at which to stop, 0 .. 1e9 (default: the scene's)
     #[arg(long, value_name = "T", value_parser = input::until, allow_hyphen_values = true)]
     until: Option<f64>,
 }
 
 impl Arguments {
-    /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let scene = match &self.named {
             Some(name) => self.start.scene_named(name),
@@ -41,7 +40,7 @@ impl Arguments {
             Failure::Unanswered(format!("there is nothing to measure errors against: {reason}"))
         })?;
         let seconds = in_turn(self.output.repeat, trade.rows.len(), |index| {
-            // A row that was given up is known to cost its whole budget and not tried again.
+            // A row that was given up costs its whole budget and is not tried again.
             let row = &trade.rows[index];
             row.error().map(|_| trajectory(&row.problem, Detail::default(), &Limits::PATIENT))
         });

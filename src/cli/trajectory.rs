@@ -15,7 +15,7 @@ use crate::proof::ParameterBox;
 use crate::proof::motion::{ProvedMotion, follow as enclosed};
 use crate::report::{certified, trajectory as report};
 
-/// Follows one motion: its turning points, how it ends, where the energy went
+/// Computes one motion: its turning points, how it ends, where its energy goes
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
@@ -24,13 +24,12 @@ pub struct Arguments {
     output: Output,
     #[command(flatten)]
     certify: Certify,
-    /// Time at which to stop, 0 .. 1e9 (default: that of the scene)
+    /// Time at which to stop, 0 .. 1e9 (default: the scene's)
     #[arg(long, value_name = "T", value_parser = input::until, allow_hyphen_values = true)]
     until: Option<f64>,
 }
 
 impl Arguments {
-    /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let mut problem = self.start.problem()?;
         problem.until = self.until.unwrap_or(problem.until);
@@ -38,7 +37,7 @@ impl Arguments {
             let detail = Detail { energy, ..Detail::default() };
             trajectory(&problem, detail, &Limits::PATIENT)
         };
-        // The ledger is a check on the motion and no part of what it costs: it is made apart.
+        // The ledger checks the motion and is not part of its cost, so it is computed separately.
         let (mut motion, seconds) = timed(self.output.repeat, || follow(false));
         if !matches!(motion.outcome, Outcome::GaveUp { .. }) {
             motion = follow(true);

@@ -15,6 +15,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::linear::Linear;
+use crate::numerics::count::real;
 use crate::numerics::elementary::{atan2, exp, exp_m1, ln, ln_1p, sin_cos};
 use crate::oscillator::State;
 
@@ -155,8 +156,7 @@ impl LinearCycle {
         if index == 0 {
             return State { q: -self.q_max, v: 0.0 };
         }
-        #[expect(clippy::cast_precision_loss, reason = "a count of points on a screen")]
-        let direction = std::f64::consts::PI * (index as f64 / points as f64);
+        let direction = std::f64::consts::PI * (real(index) / real(points));
         let (sin, cos) = sin_cos(direction);
         // Phase angle left until the end of the half swing.
         let left = atan2(omega.high * sin, d * sin - cos);

@@ -1,12 +1,14 @@
-//! Where texts stand beside their points: where they cover nothing, and are not taken for the name of
-//! another curve.
+//! Places texts beside their points, where they cover nothing and cannot be mistaken for the name of another
+//! curve.
 
 use std::fmt::Write;
 
-use super::content::{Caption, Panel};
+use super::content::Panel;
 use super::ink::{escaped, ink};
 use super::layout::{Frame, PLOT, Spot};
+use crate::numerics::count::real;
 use crate::numerics::elementary::hypot;
+use crate::picture::items::Caption;
 use crate::scene::Point;
 
 /// Width of a letter and height of a line, in pixels.
@@ -16,7 +18,7 @@ const LINE: f64 = 12.0;
 /// Room between a text and its point.
 const GAP: f64 = 6.0;
 
-/// Curves are looked at every so many pixels.
+/// Curves are examined at this spacing in pixels.
 const SPACING: f64 = 3.0;
 
 /// The box of a text, in pixels; y points down.
@@ -40,7 +42,7 @@ impl Rectangle {
     }
 }
 
-/// What a text should keep clear of, on paper.
+/// What a text should not cover, on paper.
 struct Surroundings {
     curves: Vec<Vec<Spot>>,
     /// Lines to be read against.
@@ -65,7 +67,7 @@ impl Surroundings {
                     last = None;
                     continue;
                 }
-                // A chord from far outside is looked at in so many places only.
+                // A chord from far outside is examined in this many places only.
                 let parts = (length / SPACING).ceil().clamp(1.0, 1000.0);
                 let mut part = 0.0;
                 while part < parts {
@@ -82,8 +84,7 @@ impl Surroundings {
             }
             spots
         };
-        let of_pairs =
-            |points: &Vec<[f64; 2]>| spots(&mut points.iter().map(|[x, y]| Point { x: *x, y: *y }));
+        let of_pairs = |points: &Vec<[f64; 2]>| spots(&mut points.iter().copied().map(Point::from));
         // Asymptotes and the line of the present value are there to be read against too.
         let sparse = panel.curves.iter().filter(|curve| curve.style == "sparse");
         Surroundings {
@@ -112,14 +113,13 @@ impl Surroundings {
     fn harm(&self, place: &Rectangle, spot: Spot, taken: &[Rectangle]) -> f64 {
         /// Harm of covering another text, a mark, a curve, a line that is there to be read against.
         const COVERED: [f64; 4] = [1000.0, 12.0, 30.0, 1.0];
-        /// Harm of standing nearer to another curve than to its own, within so many pixels.
+        /// Harm of standing nearer to another curve than to its own, within this many pixels.
         const MISTAKEN: (f64, f64) = (8.0, 16.0);
         let nearest = |spots: &[Spot]| {
             spots.iter().map(|spot| place.distance(*spot)).fold(f64::INFINITY, f64::min)
         };
         let count = |of: &[Vec<Spot>]| of.iter().filter(|spots| nearest(spots) < 1.0).count();
-        #[expect(clippy::cast_precision_loss, reason = "a few things")]
-        let weigh = |count: usize, harm: f64| count as f64 * harm;
+        let weigh = |count: usize, harm: f64| real(count) * harm;
         let covered = weigh(taken.iter().filter(|other| place.overlaps(other)).count(), COVERED[0])
             + weigh(
                 self.marks.iter().filter(|mark| place.distance(**mark) < 3.0).count(),
@@ -166,7 +166,7 @@ fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<Placed<'a>> {
     let (points, curves): (Vec<_>, Vec<_>) =
         panel.captions.iter().partition(|caption| caption.or_at.is_empty());
     for caption in points.into_iter().chain(curves) {
-        let said = |other: &&Placed| (other.0.at, &other.0.text) == (caption.at, &caption.text);
+        let said = |other: &&Placed| (other.0.at, &other.0.long) == (caption.at, &caption.long);
         if !frame.window.contains(caption.at) || placed.iter().find(said).is_some() {
             continue;
         }
@@ -174,7 +174,7 @@ fn places<'a>(panel: &'a Panel, frame: Frame) -> Vec<Placed<'a>> {
             let (harm, place) = best(caption, text, &surroundings, &taken, frame)?;
             Some((harm, text, place))
         };
-        let long = find(&caption.text);
+        let long = find(&caption.long);
         let short = long.filter(|(harm, ..)| *harm >= MUCH).and_then(|_| find(&caption.short));
         let found = [long, short].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((_, text, place)) = found {
@@ -226,7 +226,6 @@ fn best(
     best
 }
 
-/// Writes the texts of a panel.
 pub(super) fn write(out: &mut String, panel: &Panel, frame: Frame) {
     for (Caption { role, .. }, text, Rectangle { left, top, .. }) in places(panel, frame) {
         let (_, color) = ink(*role);

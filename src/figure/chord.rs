@@ -1,4 +1,4 @@
-//! How far the chords of a figure are from the curves that they stand for, and which points cannot be seen.
+//! How far the chords of a figure are from the curves that they approximate, and which points cannot be seen.
 //!
 //! Between neighbours of a smooth curve the chord misses it by an eighth of the second difference. What
 //! turns by more than [`CORNER`] at a point is a corner that is meant.
@@ -11,7 +11,7 @@ use crate::scene::Window;
 /// What is too small to be seen, in pixels.
 pub const FAINT: f64 = 0.05;
 
-/// An angle between two chords, in radians, that is no bend of a curve sampled for print.
+/// An angle between two chords, in radians, that is not a bend of a curve sampled for print.
 const CORNER: f64 = 0.3;
 
 impl Panel {
@@ -28,8 +28,7 @@ impl Panel {
 }
 
 impl Figure {
-    /// Leaves out all but one of `times` points where no one looks, so that what was computed for one
-    /// window does not fill a file.
+    /// Keeps only one of `times` points outside the windows, so that files stay small.
     pub fn thinned(mut self, times: usize) -> Self {
         if times > 1 {
             for panel in &mut self.panels {
@@ -76,7 +75,7 @@ fn missed(line: &[[f64; 2]], window: Window) -> f64 {
     seen.map(bend).fold(0.0, f64::max)
 }
 
-/// The points around the window, and every so many of the others.
+/// The points around the window, and every nth of the others.
 fn kept(line: &[[f64; 2]], window: Window, times: usize) -> Vec<[f64; 2]> {
     let around = |index: usize| {
         let near = &line[index.saturating_sub(times)..(index + times + 1).min(line.len())];
@@ -103,19 +102,20 @@ mod tests {
         (0..=points).map(angle).map(|angle| [cos(angle), sin(angle)]).collect()
     }
 
+    /// A window around (1, 0) in which a circle looks like one on paper.
     fn window(half: f64) -> Window {
-        let around = |middle: f64| Span::known(middle - half, middle + half);
-        Window { x: around(1.0), y: around(0.0) }
+        let around = |middle: f64, half: f64| Span::known(middle - half, middle + half);
+        Window { x: around(1.0, half * PLOT.0 / PLOT.1), y: around(0.0, half) }
     }
 
     #[test]
-    fn the_chords_of_a_circle_miss_it_as_they_should() {
+    fn the_chords_of_a_circle_miss_it_by_their_sagitta() {
         for (points, half) in [(200, 1.0), (2000, 0.01)] {
-            // The sagitta is s^2/8 in units of the radius, and at (1, 0) lies along x.
+            // 1 - cos(s/2) is s^2/8, to within a relative s^2/48.
             let chord = std::f64::consts::TAU / f64::from(points);
-            let sagitta = PLOT.0 * chord * chord / 8.0 / (2.0 * half);
+            let sagitta = PLOT.1 * chord * chord / 8.0 / (2.0 * half);
             let measured = missed(&circle(points), window(half));
-            assert!((0.7..1.5).contains(&(measured / sagitta)), "{measured} for {sagitta}");
+            assert!((measured / sagitta - 1.0).abs() < 1e-3, "{measured} for {sagitta}");
         }
         let corner = [[0.9, 0.0], [1.0, 0.0], [1.0, 0.1]];
         assert_eq!(missed(&corner, window(1.0)), 0.0);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::oscillator::{Parameters, State};
-use crate::picture::items;
+use crate::picture::items::{self, Caption};
 use crate::picture::role::{self, Role};
 use crate::picture::ticks::Scale;
 use crate::scene::{Point, Window};
@@ -68,18 +68,6 @@ pub struct Panel {
     /// Directions: where, and which way in the world.
     #[serde(skip)]
     pub arrows: Vec<(Point, Point)>,
-}
-
-/// A text beside a point.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Caption {
-    pub at: Point,
-    /// Points beside which it says the same.
-    pub or_at: Vec<Point>,
-    pub text: String,
-    /// What it says where the text would cover a curve.
-    pub short: String,
-    pub role: Role,
 }
 
 /// An axis: its name, and the values at its ends.

@@ -9,22 +9,22 @@ use crate::numerics::root::bisect;
 use crate::picture::items::{Fill, Texture};
 use crate::scene::{Point, Window};
 
-/// Strips that a window is cut into in any case.
+/// Strips that a window is cut into at least.
 const STRIPS: u32 = 150;
 
-/// Places along an edge that are looked at in any case.
+/// Places along an edge that are always evaluated.
 const PLACES: u32 = 190;
 
-/// How often the way between two places is halved: a border is known to a 1e-7 of the window.
+/// Number of halvings between two places: a border is known to 1e-7 of the window.
 const BISECTIONS: u32 = 16;
 
-/// How often a strip is halved at most.
+/// Maximum number of halvings of a strip.
 const HALVINGS: u32 = 6;
 
-/// Largest distance between a border and its chord, as a part of the window.
+/// Largest distance between a border and its chord, as a fraction of the window.
 const CHORD: f64 = 1e-4;
 
-/// How far inside of a strip its edges are looked at, as a part of the window: a border may lie on them.
+/// How far inside of a strip its edges are looked at, as a fraction of the window: a border may lie on them.
 const INSIDE: f64 = 1e-9;
 
 /// What fills the window, each part as the corners of a closed polygon.
@@ -39,9 +39,9 @@ pub(super) fn polygons(at: &Texture, window: Window) -> Vec<(Fill, Vec<Point>)> 
 }
 
 /// A part of an edge: where it ends, and what fills it.
-type Run = (f64, Option<Fill>);
+type FillRun = (f64, Option<Fill>);
 
-/// A polygon that the next strip may go on with.
+/// A polygon that the next strip may continue with.
 struct Open {
     fill: Option<Fill>,
     left: Vec<Point>,
@@ -56,7 +56,7 @@ struct Cutter<'a> {
 }
 
 impl Cutter<'_> {
-    /// Adds the strip between two heights, as parts of the window.
+    /// Adds the strip between two heights, as fractions of the window.
     fn strip(&mut self, low: f64, high: f64, halvings: u32) {
         let height = f64::midpoint(low, high);
         let (lower, upper) = (self.runs(low + INSIDE), self.runs(high - INSIDE));
@@ -73,10 +73,10 @@ impl Cutter<'_> {
     }
 
     /// What fills the window at a height, from left to right.
-    fn runs(&self, height: f64) -> Vec<Run> {
+    fn runs(&self, height: f64) -> Vec<FillRun> {
         let y = self.window.y.at(height);
         let fill = |part: f64| (self.at)(Point { x: self.window.x.at(part), y });
-        let mut runs: Vec<Run> = Vec::new();
+        let mut runs: Vec<FillRun> = Vec::new();
         let (mut last, mut filled) = (INSIDE, fill(INSIDE));
         for place in 1..=PLACES {
             let part = (f64::from(place) / f64::from(PLACES)).min(1.0 - INSIDE);
@@ -93,12 +93,12 @@ impl Cutter<'_> {
     }
 
     /// Adds a row of trapezoids, on top of those below where they fit.
-    fn add(&mut self, lower: (f64, &[Run]), upper: (f64, &[Run])) {
+    fn add(&mut self, lower: (f64, &[FillRun]), upper: (f64, &[FillRun])) {
         let point = |part: f64, height: f64| Point {
             x: self.window.x.at(part),
             y: self.window.y.at(height),
         };
-        let corners = |(height, runs): (f64, &[Run])| -> Vec<Point> {
+        let corners = |(height, runs): (f64, &[FillRun])| -> Vec<Point> {
             let ends = runs.iter().map(|(end, _)| *end);
             std::iter::once(0.0).chain(ends).map(|part| point(part, height)).collect()
         };
@@ -138,12 +138,12 @@ impl Cutter<'_> {
 }
 
 /// Whether two edges have the same fillings in the same order.
-fn alike(lower: &[Run], upper: &[Run]) -> bool {
+fn alike(lower: &[FillRun], upper: &[FillRun]) -> bool {
     lower.iter().map(|run| run.1).eq(upper.iter().map(|run| run.1))
 }
 
 /// Whether the borders on three edges lie on straight lines, as far as print shows.
-fn straight(lower: &[Run], middle: &[Run], upper: &[Run]) -> bool {
+fn straight(lower: &[FillRun], middle: &[FillRun], upper: &[FillRun]) -> bool {
     let ends = lower.iter().zip(middle).zip(upper).map(|((a, b), c)| (a.0, b.0, c.0));
     ends.into_iter().all(|(a, b, c)| (b - f64::midpoint(a, c)).abs() <= CHORD)
 }

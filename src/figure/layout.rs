@@ -26,7 +26,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// The plot of the panel with this number, from 0, of so many.
+    /// The plot of the panel with this number, from 0, among `count`.
     pub fn of(number: u32, panels: u32, window: Window) -> Self {
         let across = columns(panels);
         let (column, row) = (f64::from(number % across), f64::from(number / across));
@@ -42,7 +42,6 @@ impl Frame {
     }
 }
 
-/// Size of a panel.
 pub(super) fn panel() -> (f64, f64) {
     (MARGIN.0 + PLOT.0 + MARGIN.1, MARGIN.2 + PLOT.1 + MARGIN.3)
 }

@@ -2,8 +2,8 @@
 //!
 //! A [`Figure`] is what the plots of a session show, with every function sampled and every line a list
 //! of points; each form writes the same data, and with it the parameters, method, tolerance and version
-//! that it was computed with. The SVG is written here: the plotting libraries at hand round coordinates
-//! to whole pixels and have no dashed curves, and a picture of lines and letters needs neither. The PNG is
+//! that it was computed with. The SVG is written here: plotting libraries for Rust round coordinates
+//! to whole pixels and have no dashed curves. The PNG is
 //! that SVG, painted.
 
 mod captions;
@@ -25,7 +25,7 @@ pub use chord::FAINT;
 pub use data::{csv, json};
 pub use svg::svg;
 
-pub use content::{Area, Axis, Caption, Figure, FigureCurve, MarkedPoint, Panel};
+pub use content::{Area, Axis, Figure, FigureCurve, MarkedPoint, Panel};
 
 use std::path::Path;
 
@@ -34,7 +34,6 @@ use crate::picture;
 use crate::session::Session;
 use crate::words::provenance::Provenance;
 
-/// The form in which a figure is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileForm {
     Svg,
@@ -83,7 +82,6 @@ pub fn file(figure: &Figure, form: FileForm) -> Result<Vec<u8>, String> {
 const UNITS: &str =
     "dimensionless, as in equation (4): time tau in 1/omega_0, q in x0, v in omega_0 x0";
 
-/// What a plot of a session shows.
 fn panel(session: &Session, plot: usize) -> Panel {
     let mut picture = picture::of(session, plot);
     if session.has_equal_units(plot) {

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use super::content::{Area, Axis, Caption, FigureCurve, MarkedPoint, Panel};
+use super::content::{Area, Axis, FigureCurve, MarkedPoint, Panel};
 use super::filled;
 use super::sample;
 use crate::oscillator::{State, Symbol};
-use crate::picture::items::{Item, LineStyle, Marks, Picture, Variant};
+use crate::picture::items::{Item, LineStyle, Marks, Picture, VariantTag};
 use crate::picture::role::Dash;
 use crate::picture::ticks::Scale;
-use crate::scene::{Point, Span, Window};
+use crate::scene::{Point, Span, Window, rectangle};
 
 /// The parameters that hold all along a curve.
 type Held = BTreeMap<&'static str, f64>;
@@ -53,14 +53,14 @@ impl Panel {
         let window @ Window { x, y } = self.window;
         let mut add = |line: &LineStyle, points: &[Point]| {
             if line.name.is_empty() {
-                // A line without a name is no data.
+                // A line without a name is not data.
                 self.guides.push(points.to_vec());
             } else if let Some(curve) = curve(line, points, held(picture, line.variant.as_ref())) {
                 self.curve(curve);
             }
         };
         match item {
-            Item::Path(..) | Item::Cross(_) => {}
+            Item::Path(..) => {}
             Item::Curve(line, points) => add(line, points),
             Item::Graph(line, value) => add(line, &sample::graph(value, window)),
             Item::Upright(line, at) => {
@@ -94,14 +94,8 @@ impl Panel {
             }
             Item::Marks(marks) => self.marks(marks),
             // What a screen writes beside a curve stands in the legend.
-            Item::Caption { long, .. } if long.is_empty() => {}
-            Item::Caption { at, or_at, long, short, role } => self.captions.push(Caption {
-                at: *at,
-                or_at: or_at.clone(),
-                text: long.to_string(),
-                short: short.to_string(),
-                role: *role,
-            }),
+            Item::Caption(caption) if caption.long.is_empty() => {}
+            Item::Caption(caption) => self.captions.push(caption.clone()),
         }
     }
 
@@ -154,16 +148,14 @@ fn beyond(edge: &[Point], window: Window) -> Vec<Point> {
     let Window { x, y } = window;
     let reach = |ends: [f64; 2], inner: fn(&Point) -> f64| {
         let all = edge.iter().map(inner).chain(ends);
-        all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), it| (a.min(it), b.max(it)))
+        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], it| [a.min(it), b.max(it)])
     };
-    let (left, right) = reach([x.from(), x.to()], |at| at.x);
-    let (low, high) = reach([y.from(), y.to()], |at| at.y);
-    let corners = [(left, low), (right, low), (right, high), (left, high), (left, low)];
-    let corners = corners.map(|(x, y)| Point { x, y });
+    let across = reach([x.from(), x.to()], |at| at.x);
+    let corners = rectangle(across, reach([y.from(), y.to()], |at| at.y));
     corners.into_iter().chain(edge.iter().copied()).chain([corners[0]]).collect()
 }
 
-/// A line as data. One point is no line: a motion at rest has its mark.
+/// A line as data. One point is not a line: a motion at rest has its mark.
 fn curve(line: &LineStyle, points: &[Point], parameters: Held) -> Option<FigureCurve> {
     let finite = points.iter().filter(|point| point.x.is_finite() && point.y.is_finite());
     (finite.count() > 1).then(|| FigureCurve {
@@ -177,8 +169,8 @@ fn curve(line: &LineStyle, points: &[Point], parameters: Held) -> Option<FigureC
     })
 }
 
-/// The parameters of a variant, or of the first where something belongs to all, but for those on the axes.
-fn held(picture: &Picture, variant: Option<&Variant>) -> Held {
+/// The parameters of a variant, or of the first where something belongs to all, except for those on the axes.
+fn held(picture: &Picture, variant: Option<&VariantTag>) -> Held {
     let index = variant.map_or(0, |variant| variant.index);
     let Some(parameters) = picture.variants.get(index) else { return Held::new() };
     let value = |symbol: Symbol| symbol.get(parameters, &State { q: 0.0, v: 0.0 });
@@ -196,10 +188,5 @@ fn join(kind: &str, name: &mut String, parameters: &mut Held, others: &Held) {
 }
 
 fn pairs(points: &[Point]) -> Vec<[f64; 2]> {
-    points.iter().map(|point| [point.x, point.y]).collect()
-}
-
-fn rectangle([left, right]: [f64; 2], [bottom, top]: [f64; 2]) -> Vec<Point> {
-    let corners = [(left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)];
-    corners.map(|(x, y)| Point { x, y }).to_vec()
+    points.iter().map(|point| (*point).into()).collect()
 }

@@ -3,26 +3,25 @@
 use std::fmt::Write;
 
 use super::captions;
-use super::content::{Area, Figure, FigureCurve, MarkedPoint, Panel};
+use super::content::{Area, Figure, MarkedPoint, Panel};
 use super::data::remarks;
 use super::ink::{dashes, escaped, ink, shading};
 use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT};
 use super::region::loops;
+use crate::numerics::count::whole;
 use crate::numerics::elementary::hypot;
 use crate::picture::items::passes;
 use crate::picture::role::{self, Role};
 use crate::picture::ticks::Ticks;
 use crate::scene::Point;
 
-/// The figure as an SVG document.
 pub fn svg(figure: &Figure) -> String {
     let panels = u32::try_from(figure.panels.len()).unwrap_or(u32::MAX).max(1);
     let (width, height) = layout::panel();
     let width = width * f64::from(layout::columns(panels));
     let below = HEAD + height * f64::from(layout::rows(panels));
     let entries = legend(figure);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few columns")]
-    let across = ((width - 2.0 * MARGIN.1) / ENTRY.0).floor().max(1.0) as usize;
+    let across = whole(((width - 2.0 * MARGIN.1) / ENTRY.0).floor().max(1.0));
     let lines = u32::try_from(entries.len().div_ceil(across)).unwrap_or(0);
     let height = below + f64::from(lines) * ENTRY.1 + 12.0;
     let mut out = format!(
@@ -214,7 +213,7 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
     let rightward = Ticks::on(panel.scales[0], window.x, |ticks| ticks.len() <= 7);
     let mut upward = Ticks::on(panel.scales[1], window.y, |ticks| ticks.len() <= 7);
     if panel.y.name.is_empty() {
-        // What has no name is no quantity: a place on paper, the number of a line.
+        // What has no name is not a quantity: a place on paper, the number of a line.
         upward.ticks.clear();
     }
     let based = |name: &str, base: Option<&String>| {
@@ -246,67 +245,60 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
     let _ = writeln!(out, "<path d=\"{notches}\" stroke=\"#222222\" stroke-width=\"0.8\"/>");
 }
 
-/// What the legend explains.
-#[derive(Clone, PartialEq)]
-enum Explained {
-    Line(String, Role, &'static str),
-    Area(String, Role),
+/// A line of the legend.
+#[derive(PartialEq)]
+struct FigureLegendEntry<'a> {
+    name: &'a str,
+    role: Role,
+    /// How the line is drawn; `None` for an area.
+    style: Option<&'static str>,
 }
 
 /// Everything with a name that is seen, once; which of several variants a curve is stands beside it. An
-/// area whose edge has its name goes without saying.
-fn legend(figure: &Figure) -> Vec<Explained> {
-    let mut entries = Vec::new();
-    let mut add = |entry: Explained| {
-        if !entries.contains(&entry) {
-            entries.push(entry);
-        }
-    };
+/// area whose edge has its name needs no entry.
+fn legend(figure: &Figure) -> Vec<FigureLegendEntry<'_>> {
+    let mut entries: Vec<FigureLegendEntry> = Vec::new();
     for panel in &figure.panels {
-        for FigureCurve { kind, pen, style, points, .. } in &panel.curves {
-            let points: Vec<Point> = points.iter().map(|[x, y]| Point { x: *x, y: *y }).collect();
-            if passes(&points, panel.window) {
-                add(Explained::Line(kind.clone(), *pen, style));
+        let seen = panel.curves.iter().filter(|curve| {
+            let points: Vec<Point> = curve.points.iter().copied().map(Point::from).collect();
+            passes(&points, panel.window)
+        });
+        let lines = seen.map(|curve| (&curve.kind, curve.pen, Some(curve.style)));
+        let areas = panel.areas.iter().map(|area| (&area.kind, area.pen, None));
+        for (name, role, style) in lines.chain(areas) {
+            let entry = FigureLegendEntry { name, role, style };
+            if !entries.contains(&entry) {
+                entries.push(entry);
             }
         }
-        panel.areas.iter().for_each(|area| add(Explained::Area(area.kind.clone(), area.pen)));
     }
-    let lines: Vec<(String, Role)> = entries
+    let edges: Vec<(&str, Role)> = entries
         .iter()
-        .filter_map(|entry| match entry {
-            Explained::Line(name, role, _) => Some((name.clone(), *role)),
-            Explained::Area(..) => None,
-        })
+        .filter(|entry| entry.style.is_some())
+        .map(|entry| (entry.name, entry.role))
         .collect();
-    let is_edged =
-        |name: &str, role: Role| lines.iter().any(|line| *line == (name.to_owned(), role));
-    entries.retain(|entry| !matches!(entry, Explained::Area(name, role) if is_edged(name, *role)));
+    entries.retain(|entry| entry.style.is_some() || !edges.contains(&(entry.name, entry.role)));
     entries
 }
 
-fn sample(out: &mut String, entry: &Explained, (x, y): (f64, f64)) {
-    let name = match entry {
-        Explained::Line(name, role, style) => {
-            let (thickness, color) = ink(*role);
-            let thickness = if *style == "thick" { 3.0 } else { thickness };
-            let dashes = dashes(style);
-            let _ = writeln!(
-                out,
-                "<path d=\"M{x:.1} {y:.1}h30\" stroke=\"{color}\" stroke-width=\"{thickness}\"{dashes}/>"
-            );
-            name
-        }
-        Explained::Area(name, role) => {
-            let (color, opacity) = shading(*role);
-            let _ = writeln!(
-                out,
-                "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"30\" height=\"10\" fill=\"{color}\" \
+fn sample(out: &mut String, entry: &FigureLegendEntry, (x, y): (f64, f64)) {
+    if let Some(style) = entry.style {
+        let (thickness, color) = ink(entry.role);
+        let thickness = if style == "thick" { 3.0 } else { thickness };
+        let dashes = dashes(style);
+        let _ = writeln!(
+            out,
+            "<path d=\"M{x:.1} {y:.1}h30\" stroke=\"{color}\" stroke-width=\"{thickness}\"{dashes}/>"
+        );
+    } else {
+        let (color, opacity) = shading(entry.role);
+        let _ = writeln!(
+            out,
+            "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"30\" height=\"10\" fill=\"{color}\" \
                  fill-opacity=\"{opacity}\"/>",
-                y - 5.0
-            );
-            name
-        }
-    };
-    let (x, y, name) = (x + 37.0, y + 4.0, escaped(name));
+            y - 5.0
+        );
+    }
+    let (x, y, name) = (x + 37.0, y + 4.0, escaped(entry.name));
     let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"11\">{name}</text>");
 }

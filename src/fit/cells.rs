@@ -13,7 +13,7 @@ const MISSING: [&str; 14] = [
 pub enum Cell {
     /// A number, or seconds of a clock.
     Number(f64),
-    /// None, as instruments write it.
+    /// A missing number, as instruments write it.
     Missing,
     /// Something else.
     Text,
@@ -28,7 +28,7 @@ pub struct NumberedLine<'a> {
     pub text: &'a str,
 }
 
-/// The lines of a text but for empty ones and comments.
+/// The lines of a text, except empty ones and comments.
 pub fn lines(text: &str) -> Vec<NumberedLine<'_>> {
     let mut found = Vec::new();
     let parts = text.split('\n').flat_map(|part| {
@@ -48,7 +48,7 @@ pub fn lines(text: &str) -> Vec<NumberedLine<'_>> {
 /// How the cells of a line are told apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Separator {
-    /// This sign.
+    /// This character.
     Sign(char),
     /// Any number of blanks.
     Blanks,
@@ -57,7 +57,7 @@ pub enum Separator {
 impl Separator {
     /// The separator of the last rows, which are data in any file.
     pub fn of(lines: &[NumberedLine]) -> Self {
-        /// So many rows decide.
+        /// Rows that decide.
         const ROWS: usize = 20;
         let last = &lines[lines.len().saturating_sub(ROWS)..];
         let most = |sign: &dyn Fn(&str) -> bool| {
@@ -91,8 +91,8 @@ impl Separator {
     }
 }
 
-/// The parts between separators that stand outside of quotation marks; where these do not pair they are nothing
-/// special.
+/// The parts between separators that stand outside of quotation marks; where these do not pair they have no
+/// special meaning.
 fn split(text: &str, sign: char) -> Vec<&str> {
     let mut inside = false;
     let cells = text.split(|char| {
@@ -144,7 +144,7 @@ pub fn read(cell: &str, comma_is_decimal: bool) -> Cell {
     } else {
         cell.to_owned()
     };
-    // Words such as "infinity" are no numbers that an instrument measured.
+    // Words such as "infinity" are not numbers that an instrument measured.
     if plain.starts_with(|char: char| char.is_ascii_digit() || "+-.".contains(char)) {
         return match plain.parse::<f64>() {
             Ok(value) if value.is_finite() => Cell::Number(value),

@@ -1,9 +1,9 @@
 //! Times as a clock shows them.
 
-/// Dates repeat after so many days: numbers stay small enough for some 15 nanoseconds.
+/// Dates repeat after this many days: numbers stay small enough for some 15 nanoseconds.
 const REPEAT: i64 = 1000;
 
-/// Seconds of `12:34:56.789`, `34:56,789` or `2026-03-02T12:34:56.789Z`; `None` of all else.
+/// Seconds of `12:34:56.789`, `34:56,789` or `2026-03-02T12:34:56.789Z`; `None` for all else.
 pub fn seconds(cell: &str) -> Option<f64> {
     let (days, clock) = match cell.split_once(['T', ' ']) {
         Some((date, clock)) => (days(date)?, clock.trim()),
@@ -21,7 +21,7 @@ pub fn seconds(cell: &str) -> Option<f64> {
     Some(before * 86400.0 + within)
 }
 
-/// A number of digits and perhaps a point.
+/// A number written with digits and at most one point.
 fn plain(text: &str) -> Option<f64> {
     let digits = text.chars().all(|char| char.is_ascii_digit() || char == '.');
     text.parse().ok().filter(|_| digits)

@@ -9,12 +9,13 @@ use super::motion::{Way, follow};
 use super::observation::{Data, OMEGA0, parameters};
 use super::residuals::autocorrelations;
 use super::sampled::Sampled;
+use crate::numerics::count::{real, whole};
 use crate::oscillator::{Parameters, State};
 
 /// A point of a curve.
-pub type Place = [f64; 2];
+pub type PlotPoint = [f64; 2];
 
-/// The part of the world that a picture shows: from, to, from, to.
+/// The window of a picture: left, right, bottom, top.
 pub type Extent = [f64; 4];
 
 /// What is drawn of a fit.
@@ -25,8 +26,8 @@ pub struct Curves {
     /// Damping over amplitude.
     pub damping: Damping,
     /// The share of draws whose smallest displacement not survived is less than the abscissa.
-    pub spread: Vec<Place>,
-    /// What is worth seeing of that.
+    pub spread: Vec<PlotPoint>,
+    /// The window that shows it well.
     pub spread_extent: Extent,
 }
 
@@ -36,17 +37,17 @@ pub struct Damping {
     /// Measured: amplitude, loss, and the standard error of the loss.
     pub measured: Vec<[f64; 3]>,
     /// By the fitted motion, exactly.
-    pub exact: Vec<Place>,
+    pub exact: Vec<PlotPoint>,
     /// By averaging.
-    pub averaged: Vec<Place>,
+    pub averaged: Vec<PlotPoint>,
     /// Around nine tenths of the draws of that: below, and back above.
-    pub band: Vec<Place>,
+    pub band: Vec<PlotPoint>,
     /// What is worth seeing.
     pub extent: Extent,
 }
 
 impl Curves {
-    /// What is worth seeing of the residuals.
+    /// The window that shows the residuals well.
     pub fn residual_extent(&self, deviation: f64) -> Option<Extent> {
         let seen = self.sampled.as_ref()?;
         let sizes = seen.residual.iter().filter(|it| it.is_finite()).map(|it| it.abs());
@@ -67,29 +68,26 @@ impl Curves {
 }
 
 /// Autocorrelation of the residuals over lags in s, as far as two periods.
-pub fn memory(estimate: &Estimate) -> Vec<Place> {
+pub fn memory(estimate: &Estimate) -> Vec<PlotPoint> {
     const LAGS: usize = 400;
     let Data::Samples { t, .. } = &estimate.data else { return Vec::new() };
-    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-    let step = (t[t.len() - 1] - t[0]) / t.len() as f64;
+    let step = (t[t.len() - 1] - t[0]) / real(t.len());
     let kept: Vec<f64> = estimate.kept_residuals().collect();
     let periods = 2.0 * TAU / estimate.p[OMEGA0];
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped by n")]
-    let most = ((periods / step) as usize).clamp(4, (kept.len() / 2).max(4));
+    let most = (whole(periods / step)).clamp(4, (kept.len() / 2).max(4));
     let lags: Vec<usize> = (1..most).step_by(most.div_ceil(LAGS)).collect();
     let values = autocorrelations(&kept, &lags);
-    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-    lags.iter().zip(values).map(|(lag, rho)| [*lag as f64 * step, rho]).collect()
+    lags.iter().zip(values).map(|(lag, rho)| [real(*lag) * step, rho]).collect()
 }
 
 /// The relative loss of amplitude per unit of time between turning points two apart.
-fn pair(q: &[f64]) -> Option<Place> {
+fn pair(q: &[f64]) -> Option<PlotPoint> {
     let half = |k: usize| 0.5 * (q[k + 1] - q[k]).abs();
     (q.len() == 4 && half(1) > 0.0).then(|| [half(1), (half(0) - half(2)) / (TAU * half(1))])
 }
 
 /// The exact damping from motions that begin at rest at a displacement, as it is measured.
-fn exact(parameters: &Parameters, from: f64) -> Option<Place> {
+fn exact(parameters: &Parameters, from: f64) -> Option<PlotPoint> {
     let way = Way { linear: false, with_derivatives: false, reach: 1e3 * from, turns: 3 };
     let found = follow(parameters, State { q: from, v: 0.0 }, &[40.0], way, |_, _| {}).ok()?;
     let turns: Vec<f64> =
@@ -110,7 +108,7 @@ fn damping(estimate: &Estimate, margins: &Margins) -> Damping {
         .filter_map(pair)
         .map(|[a, delta]| [a, delta, error_of_decrement(estimate, a)])
         .collect();
-    let exact: Vec<Place> = amplitudes.iter().filter_map(|&a| exact(&parameters, a)).collect();
+    let exact: Vec<PlotPoint> = amplitudes.iter().filter_map(|&a| exact(&parameters, a)).collect();
     let own = |a: f64| averaged(parameters.d, parameters.d3, parameters.r, a);
     let heights = measured.iter().map(|it| it[1]).chain(exact.iter().map(|it| it[1])).chain([0.0]);
     let (low, high) = heights
@@ -130,9 +128,8 @@ fn damping(estimate: &Estimate, margins: &Margins) -> Damping {
 /// samples.
 fn error_of_decrement(estimate: &Estimate, a: f64) -> f64 {
     let read = match &estimate.data {
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
         Data::Samples { t, .. } => {
-            let rate = t.len() as f64 / (t[t.len() - 1] - t[0]);
+            let rate = real(t.len()) / (t[t.len() - 1] - t[0]);
             (rate * TAU / estimate.p[OMEGA0] / 6.0).max(1.0)
         }
         Data::Peaks { .. } => 1.0,
@@ -141,7 +138,7 @@ fn error_of_decrement(estimate: &Estimate, a: f64) -> f64 {
 }
 
 /// The averaged damping of nine tenths of the draws.
-fn band(margins: &Margins, amplitudes: &[f64]) -> Vec<Place> {
+fn band(margins: &Margins, amplitudes: &[f64]) -> Vec<PlotPoint> {
     let (mut below, mut above) = (Vec::new(), Vec::new());
     for &a in amplitudes {
         let mut values: Vec<f64> =
@@ -157,15 +154,14 @@ fn band(margins: &Margins, amplitudes: &[f64]) -> Vec<Place> {
     below
 }
 
-/// The steps of the distribution of the margin, and what is worth seeing of them.
-fn spread(estimate: &Estimate, margins: &Margins) -> (Vec<Place>, Extent) {
+/// The steps of the distribution of the margin, and the window that shows them well.
+fn spread(estimate: &Estimate, margins: &Margins) -> (Vec<PlotPoint>, Extent) {
     /// Largest amplitudes up to which margins are shown.
     const FAR: f64 = 10.0;
     let (_, largest) = estimate.amplitudes();
     let finite: Vec<f64> =
         margins.displacements.iter().copied().filter(|it| it.is_finite()).collect();
-    #[expect(clippy::cast_precision_loss, reason = "counts of draws")]
-    let share = |count: usize| count as f64 / margins.displacements.len() as f64;
+    let share = |count: usize| real(count) / real(margins.displacements.len());
     let mut steps = vec![[0.0, 0.0]];
     for (index, &x) in finite.iter().enumerate() {
         steps.extend([[x, share(index)], [x, share(index + 1)]]);

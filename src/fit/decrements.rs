@@ -38,7 +38,7 @@ pub fn averaged(d: f64, d3: f64, r: f64, amplitude: f64) -> f64 {
 /// guessed wildly.
 const TERMS: [&[usize]; 4] = [&[0, 1, 2], &[0, 1], &[1, 2], &[1]];
 
-/// Reads damping and offset off the turning points, with fewer and fewer terms; none for fewer than three.
+/// Reads damping and offset off the turning points, with fewer and fewer terms; empty for fewer than three.
 pub fn regressions(extremes: &[Extreme]) -> Vec<Averaged> {
     let largest =
         extremes.windows(2).map(|two| 0.5 * (two[1].x - two[0].x).abs()).fold(0.0, f64::max);

@@ -1,5 +1,7 @@
 //! What a record says: the best motion with its uncertainty.
 
+use serde::Serialize;
+
 use super::levenberg_marquardt::Runs;
 use super::names::{Choice, NAMES, NameSpec};
 use super::noise::Noise;
@@ -11,15 +13,17 @@ use super::residuals::{Whiteness, whiteness};
 use super::search::Minima;
 use super::turning_points::Extreme;
 use super::uncertainty::{Covariance, left_over};
+use crate::numerics::count::real;
 
 /// A minimum that competes with the best one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Rival {
     /// Half swings within the record.
     pub half_swings: usize,
     /// How much worse it is, in units of the noise's variance.
     pub delta_chi2: f64,
     /// Its unknowns.
+    #[serde(skip)]
     pub p: Unknowns,
 }
 
@@ -71,7 +75,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Samples that are no part of the motion, left out.
+    /// Samples left out because they do not belong to the motion.
     #[must_use]
     pub fn outliers(&self) -> usize {
         self.used.iter().filter(|used| !**used).count() - self.alike
@@ -100,7 +104,7 @@ impl Estimate {
     }
 }
 
-/// Residuals so many times the noise of the record are no noise, however it was filtered.
+/// Residuals this many times the noise of the record cannot be noise, however it was filtered.
 const ALIEN: f64 = 10.0;
 
 /// Judges a minimum: noise, covariance, intervals, rivals.
@@ -120,15 +124,14 @@ pub fn judged(
     let p = best.p;
     let kept: Vec<f64> = task.used_residuals(&best.seen).iter().map(|it| it.value).collect();
     let samples_per_period = match problem.data {
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
         Data::Samples { t, .. } => {
-            t.len() as f64 / (t[t.len() - 1] - t[0]) * std::f64::consts::TAU / p[OMEGA0]
+            real(t.len()) / (t[t.len() - 1] - t[0]) * std::f64::consts::TAU / p[OMEGA0]
         }
         Data::Peaks { .. } => 2.0,
     };
     let mut whiteness = whiteness(&kept, samples_per_period);
     if problem.data.has_peaks() {
-        // Of a few peaks, and of two kinds of residuals, no memory can be told.
+        // With a few peaks, or two kinds of residuals, correlation cannot be estimated.
         (whiteness.white, whiteness.autocorrelation) = (true, Vec::new());
     }
     let left_over = |noise: &[f64], lags: usize| left_over(&task, best, noise, lags);
@@ -139,7 +142,7 @@ pub fn judged(
     let (mut whiteness, covariance) = if let Some(covariance) = covariance(&restored) {
         (restored, covariance)
     } else {
-        // A memory that no noise has.
+        // A correlation that noise cannot have.
         (whiteness.systematic, whiteness.autocorrelation) = (true, Vec::new());
         let covariance = covariance(&whiteness).ok_or(Unfit::Blind)?;
         (whiteness, covariance)
@@ -171,7 +174,7 @@ pub fn judged(
             if !problem.free[place] {
                 continue;
             }
-            // Where the model leaves something out the likelihood is none, and its profile tells nothing.
+            // Where the model leaves something out there is no likelihood, and its profile means nothing.
             let one = if whiteness.systematic {
                 profile.straight(place)
             } else {

@@ -8,6 +8,7 @@ use super::observation::{D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, StartKind, Unkn
 use super::search::Beginning;
 use super::spectrum::dominant_frequency;
 use super::turning_points::{Extreme, smoothed, turning_points, without_jumps};
+use crate::numerics::count::real;
 use crate::numerics::elementary::{powi, sin_cos};
 
 /// First guesses and what they were read from.
@@ -82,8 +83,7 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
 
 /// How many samples a stretch of time holds on average, at least one.
 fn samples_within(t: &[f64], stretch: f64) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-    let rate = t.len() as f64 / (t[t.len() - 1] - t[0]);
+    let rate = real(t.len()) / (t[t.len() - 1] - t[0]);
     (rate * stretch).max(1.0)
 }
 
@@ -99,8 +99,7 @@ pub fn period_of(extremes: &[Extreme]) -> Option<f64> {
         number += (gap / half).round().max(1.0);
         rows.push((number, extreme.t));
     }
-    #[expect(clippy::cast_precision_loss, reason = "a count of extremes")]
-    let count = rows.len() as f64;
+    let count = real(rows.len());
     let (n, t) = rows.iter().fold((0.0, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
     let (n, t) = (n / count, t / count);
     let (up, down) = rows.iter().fold((0.0, 0.0), |sum, row| {
@@ -130,7 +129,7 @@ enum Begins {
     Moving,
 }
 
-/// A motion that is under way turns within half a period. What takes longer was held, if it scatters no more
+/// A mass in motion turns within half a period. What takes longer was held, if it scatters no more
 /// than the noise: a growth begins small and looks like a hold.
 fn begins(t: &[f64], x: &[f64], noise: &Noise, first: Extreme, period: f64) -> Begins {
     let natural = (first.t - t[0]) / period;
@@ -144,8 +143,8 @@ fn begins(t: &[f64], x: &[f64], noise: &Noise, first: Extreme, period: f64) -> B
     }
 }
 
-/// The first sample clearly off the hold, if that lies between the first two turning points: what is let go is held outside
-/// of them.
+/// The first sample clearly off the hold, if that lies between the first two turning points: what is let go is
+/// held outside of them.
 fn struck_at(
     t: &[f64],
     x: &[f64],
@@ -165,16 +164,16 @@ fn struck_at(
     BETWEEN.contains(&part).then_some(from.min(moving))
 }
 
-/// The last sample near the turning point after which a decay grows at once: a free motion that decays goes on decaying,
-/// since its swings keep their order.
+/// The last sample near the turning point after which a decay grows at once: a free motion that decays continues
+/// decaying, since its swings keep their order.
 fn excited_again(t: &[f64], x: &[f64], extremes: &[Extreme]) -> Option<usize> {
-    /// A swing so many times as wide as the one before it was not free.
+    /// A swing wider than the one before by this factor was not free.
     const WIDER: f64 = 1.5;
-    /// So many swings after it are wider, too: a wrong turning point spoils two.
+    /// This many swings after it are wider, too: one wrong turning point spoils two.
     const SWINGS: usize = 4;
     /// Noise makes a swing of a decay wider than the one before by less than this.
     const NARROWER: f64 = 0.9;
-    /// What is near, as a part of the new swing: more than a rest differs from the last turning point seen before it.
+    /// What is near, as a fraction of the new swing: more than a rest differs from the last turning point seen before it.
     const NEAR: f64 = 0.1;
     let widths: Vec<f64> = extremes.windows(2).map(|two| (two[1].x - two[0].x).abs()).collect();
     let grows = |swings: &[f64]| {

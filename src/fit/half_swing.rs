@@ -7,8 +7,9 @@
 //! damping is linear and stays so, all of it is a formula; elsewhere the Taylor coefficients of motion and
 //! derivatives obey one recurrence.
 
+use crate::numerics::count::real;
 use crate::numerics::elementary::{atan2, exp, pow, sin_cos};
-use crate::numerics::root::{Bracket, Change, newton};
+use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::oscillator::HalfPlane;
 
 /// Solutions of the variational equation: across the flow, by D, by D2 of this frame, by D3.
@@ -17,7 +18,7 @@ pub const WAYS: usize = 4;
 /// Order of the series.
 const ORDER: usize = 18;
 
-/// Largest truncation error of a step, in parts of the state.
+/// Largest truncation error of a step, relative to the state.
 const TOLERANCE: f64 = 1e-13;
 
 /// Longest step: no two arrivals at `v = 0` fit in.
@@ -134,7 +135,7 @@ impl Stretch {
                 let mut w = [0.0; WAYS];
                 for (order, term) in terms.iter().enumerate().skip(1).rev() {
                     for (w, term) in w.iter_mut().zip(&term[2..]) {
-                        *w = *w * t + count(order) * term;
+                        *w = *w * t + real(order) * term;
                     }
                 }
                 Jet { x, v, y, w }
@@ -161,11 +162,6 @@ fn linear_jet(d: f64, omega: f64, start: &Jet, t: f64) -> Jet {
     jet
 }
 
-#[expect(clippy::cast_precision_loss, reason = "an order")]
-fn count(order: usize) -> f64 {
-    order as f64
-}
-
 /// Computes the coefficients; returns how far they may be used.
 fn expand<const DERIVATIVES: bool>(
     terms: &mut [Lanes; ORDER + 1],
@@ -190,7 +186,7 @@ fn expand<const DERIVATIVES: bool>(
         for i in 0..=k {
             third += square[i] * v[k - i];
         }
-        let part = 1.0 / count(k + 1);
+        let part = 1.0 / real(k + 1);
         let x = terms[k][0];
         v[k + 1] = part * (-x - 2.0 * d * v[k] - d2 * second - d3 * third);
         terms[k + 1][0] = part * v[k];
@@ -215,7 +211,7 @@ fn expand<const DERIVATIVES: bool>(
     let size = start.x.abs().max(start.v.abs());
     let tail = |order: usize, size: f64| {
         let last = terms[order][0].abs().max(v[order].abs());
-        pow(TOLERANCE * size / last, 1.0 / count(order))
+        pow(TOLERANCE * size / last, 1.0 / real(order))
     };
     let step = tail(ORDER, size).min(tail(ORDER - 1, size));
     // NaN stays NaN and is refused by the caller; no tail at all allows any step.
@@ -228,12 +224,18 @@ fn velocity(terms: &[Lanes; ORDER + 1], t: f64) -> f64 {
 
 /// The first arrival at `v = 0` after the start, given `v(end) <= 0`.
 ///
-/// A start on `v = 0` is no arrival: there the polynomial is divided by its root.
+/// A start on `v = 0` does not count: there the polynomial is divided by its root.
 fn arrival(terms: &[Lanes; ORDER + 1], end: f64) -> f64 {
     let skip = usize::from(terms[0][1] == 0.0);
     let value = |t: f64| {
         let rest = terms[skip..].iter().rev();
         rest.fold((0.0, 0.0), |(value, slope), term| (value * t + term[1], slope * t + value))
     };
-    newton(Bracket::falling(0.0, end), end, Change::Absolute(2.0 * f64::EPSILON * end), value).at
+    newton(
+        Bracket::falling(0.0, end),
+        end,
+        PlaceTolerance::Absolute(2.0 * f64::EPSILON * end),
+        value,
+    )
+    .at
 }

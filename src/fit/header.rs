@@ -32,12 +32,12 @@ const DISPLACEMENTS: [&str; 11] = [
 /// Names and units of the columns.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Header {
-    columns: Vec<Named>,
+    columns: Vec<ColumnHeader>,
 }
 
 /// A column.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-struct Named {
+struct ColumnHeader {
     name: String,
     unit: Option<String>,
 }
@@ -48,24 +48,27 @@ pub fn seconds(unit: &str) -> Option<f64> {
     TIME_UNITS.iter().find(|(name, _)| *name == plain).map(|(_, seconds)| *seconds)
 }
 
-impl Named {
+impl ColumnHeader {
     /// `name [unit]`, `name (unit)`, `name / unit`, `name, unit` or `name_unit` for times.
     fn read(cell: &str) -> Self {
         for (open, close) in [('[', ']'), ('(', ')')] {
             if let Some((name, rest)) = cell.split_once(open) {
                 let unit = rest.split(close).next().unwrap_or_default().trim();
                 let unit = (!unit.is_empty() && unit != "-").then(|| unit.to_owned());
-                return Named { name: name.trim().to_owned(), unit };
+                return ColumnHeader { name: name.trim().to_owned(), unit };
             }
         }
         for sign in ["/", " in ", ", ", "_"] {
             if let Some((name, unit)) = cell.rsplit_once(sign)
                 && (sign != "_" || seconds(unit).is_some())
             {
-                return Named { name: name.trim().to_owned(), unit: Some(unit.trim().to_owned()) };
+                return ColumnHeader {
+                    name: name.trim().to_owned(),
+                    unit: Some(unit.trim().to_owned()),
+                };
             }
         }
-        Named { name: cell.trim().to_owned(), unit: None }
+        ColumnHeader { name: cell.trim().to_owned(), unit: None }
     }
 }
 
@@ -73,7 +76,7 @@ impl Header {
     /// The header that these lines make: the last one with a known name, and units that may follow it.
     pub fn of(lines: &[Vec<&str>]) -> Self {
         let read = |line: &Vec<&str>| Header {
-            columns: line.iter().map(|cell| Named::read(cell)).collect(),
+            columns: line.iter().map(|cell| ColumnHeader::read(cell)).collect(),
         };
         let known =
             |header: &Header| header.time().is_some() || header.displacement(None).is_some();

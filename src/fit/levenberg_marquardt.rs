@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use super::loss::Loss;
 use super::observation::{Observation, R, Residual, Seen, UNKNOWNS, Unknowns};
 use super::triangle::triangle;
+use crate::numerics::count::real;
 use crate::numerics::elementary::powi;
 
 /// What the iteration counts and whom it asks.
@@ -73,14 +74,14 @@ pub struct Task<'a> {
     pub loss: Loss,
     /// Which residuals count at all; empty: all of them.
     pub used: &'a [bool],
-    /// Only the first so many residuals count.
+    /// Only this many residuals, from the first on, count.
     pub horizon: usize,
 }
 
-/// Most iterations.
+/// Maximum number of iterations.
 const MOST: usize = 50;
 
-/// Most iterations where a rough answer will do.
+/// Maximum number of iterations where a rough answer will do.
 const FEW: usize = 12;
 
 /// The relative reduction of the loss below which the iteration has settled.
@@ -149,13 +150,12 @@ impl Task<'_> {
         self.solve_within(SETTLED, MOST, guess, runs)
     }
 
-    /// The same to a part of a standard error: enough for a start, or for the profile of the loss.
+    /// The same to a fraction of a standard error: enough for a start, or for the profile of the loss.
     ///
     /// # Errors
     /// As [`Task::solve`].
     pub fn solve_roughly(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, NoFit> {
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-        let count = self.observation.data.residuals().max(1) as f64;
+        let count = real(self.observation.data.residuals().max(1));
         self.solve_within(0.01 / count, FEW, guess, runs)
     }
 

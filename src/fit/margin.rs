@@ -6,11 +6,13 @@
 //! them suffice. Where the loss is not quadratic they come from the likelihood itself ([`super::posterior`]).
 
 use rayon::prelude::*;
+use serde::{Serialize, Serializer};
 
 use super::estimate::Estimate;
 use super::observation::parameters;
 use super::posterior::{Drawn, drawn};
 use crate::flow::{Limits, Reason};
+use crate::numerics::count::{real, whole};
 use crate::oscillator::Parameters;
 use crate::study::basin::Basin;
 use crate::study::closing::Equation;
@@ -19,7 +21,7 @@ use crate::study::fold::fold;
 use crate::study::margin::Margin;
 
 /// Quantiles of what may not exist, such as a margin where every kick is survived.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
     /// The median; `None` where most draws have none.
     pub median: Option<f64>,
@@ -31,10 +33,21 @@ pub struct Spread {
     pub none: f64,
 }
 
+impl Spread {
+    /// The same in another unit.
+    #[must_use]
+    pub fn scaled(&self, by: f64) -> Self {
+        let [median, lower, upper] =
+            [self.median, self.lower, self.upper].map(|it| it.map(|value| value * by));
+        Spread { median, lower, upper, none: self.none }
+    }
+}
+
 /// The distribution of the margins.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Margins {
     /// At the best parameters.
+    #[serde(skip)]
     pub best: Option<Margin>,
     /// The smallest displacement that is not captured.
     pub displacement: Spread,
@@ -44,18 +57,26 @@ pub struct Margins {
     pub cycle: Spread,
     /// The damping `D_F` of the fold, above which every motion is captured; none: the share without a fold.
     pub fold: Spread,
-    /// Every draw's smallest displacement in ascending order; infinite where all are survived.
-    pub displacements: Vec<f64>,
-    /// The parameters drawn.
-    pub draws: Vec<Parameters>,
-    /// Where draws were weighted by their likelihood: as many of equal weight would tell as much.
-    pub effective: Option<f64>,
-    /// Motions computed to weigh them.
-    pub motions: u64,
     /// Whether the median displacement lies outside the amplitudes measured.
     pub extrapolated: bool,
+    /// Every draw's smallest displacement in ascending order; infinite where all are survived.
+    #[serde(skip)]
+    pub displacements: Vec<f64>,
+    /// The parameters drawn.
+    #[serde(serialize_with = "number")]
+    pub draws: Vec<Parameters>,
+    /// Where draws were weighted by their likelihood: as many of equal weight would tell as much.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub effective: Option<f64>,
+    /// Motions computed to weigh them.
+    #[serde(skip)]
+    pub motions: u64,
     /// Draws whose margin could not be computed.
     pub failed: usize,
+}
+
+fn number<S: Serializer>(draws: &[Parameters], out: S) -> Result<S::Ok, S::Error> {
+    draws.len().serialize(out)
 }
 
 /// How many draws.
@@ -119,18 +140,11 @@ fn answer(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Margin
 
 fn spread(sorted: &[f64]) -> Spread {
     let at = |part: f64| -> Option<f64> {
-        #[expect(
-            clippy::cast_precision_loss,
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "an index"
-        )]
-        let index = (part * sorted.len() as f64) as usize;
+        let index = whole(part * real(sorted.len()));
         sorted.get(index.min(sorted.len().saturating_sub(1))).copied().filter(|it| it.is_finite())
     };
     let none = sorted.iter().filter(|it| it.is_infinite()).count();
-    #[expect(clippy::cast_precision_loss, reason = "a count of draws")]
-    let share = none as f64 / sorted.len().max(1) as f64;
+    let share = real(none) / real(sorted.len().max(1));
     Spread { median: at(0.5), lower: at(0.025), upper: at(0.975), none: share }
 }
 

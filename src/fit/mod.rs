@@ -84,7 +84,8 @@ use std::cell::Cell;
 
 use levenberg_marquardt::Runs;
 
-/// After so many motions nothing more is tried: records of this oscillator take some hundred, with a drift beside it some thousand.
+/// Motions after which a fit gives up: a record of this oscillator takes about a hundred, one with a drift
+/// about a thousand.
 const MOST_MOTIONS: u64 = 6000;
 
 /// Fits a record.

@@ -16,10 +16,10 @@ pub const NUMBERS: usize = 6;
 /// Place of r among the [`NUMBERS`].
 const R: usize = 3;
 
-/// Most half swings of one motion.
+/// Maximum number of half swings of one motion.
 const MOST: usize = 100_000;
 
-/// Most steps of one half swing, a hundred times what any recorded motion takes.
+/// Maximum number of steps of one half swing, a hundred times what any recorded motion takes.
 const STEPS: u32 = 5_000;
 
 /// The derivatives by the [`NUMBERS`].
@@ -27,7 +27,7 @@ pub type Gradient = [f64; NUMBERS];
 
 /// A point of a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Point {
+pub struct MotionPoint {
     /// Displacement.
     pub q: f64,
     /// Velocity.
@@ -67,7 +67,7 @@ pub struct Way {
     pub with_derivatives: bool,
     /// A motion larger than this is taken to be lost.
     pub reach: f64,
-    /// Most turning points; later times are not answered.
+    /// Maximum number of turning points; later times are not answered.
     pub turns: usize,
 }
 
@@ -92,19 +92,19 @@ pub fn follow(
     start: State,
     times: &[f64],
     way: Way,
-    mut see: impl FnMut(usize, Point),
+    mut see: impl FnMut(usize, MotionPoint),
 ) -> Result<FollowedMotion, MotionLost> {
     let r = parameters.r;
     let mut followed = FollowedMotion::default();
     let mut next = 0;
     let Some(mut side) = Side::entered_from(start, r) else {
         let by = [0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-        (0..times.len()).for_each(|index| see(index, Point { q: start.q, v: 0.0, by }));
+        (0..times.len()).for_each(|index| see(index, MotionPoint { q: start.q, v: 0.0, by }));
         followed.rests = true;
         return Ok(followed);
     };
     let sign = side.sign();
-    // A velocity of -0 would be one that has just arrived.
+    // A velocity of -0 would mean a motion that has just arrived.
     let (mut x, mut v) = (sign * start.q + r, start.v.abs());
     let mut chain = StartGradient::default();
     chain.x[R] = 1.0;
@@ -123,7 +123,7 @@ pub fn follow(
         x = 2.0 * r - end;
         v = 0.0;
         if x >= 0.0 {
-            let point = Point { q: turn.q, v: 0.0, by: turn.q_by };
+            let point = MotionPoint { q: turn.q, v: 0.0, by: turn.q_by };
             (next..times.len()).for_each(|index| see(index, point));
             followed.rests = true;
             return Ok(followed);
@@ -139,7 +139,7 @@ pub fn follow(
     Err(MotionLost)
 }
 
-/// A half swing about to begin.
+/// The start of a half swing.
 struct HalfSwing<'a> {
     parameters: &'a Parameters,
     side: Side,
@@ -191,7 +191,7 @@ impl<'a> HalfSwing<'a> {
         times: &[f64],
         next: &mut usize,
         way: Way,
-        see: &mut impl FnMut(usize, Point),
+        see: &mut impl FnMut(usize, MotionPoint),
     ) -> Result<(Option<FittedTurn>, f64), MotionLost> {
         let (sign, r) = (self.side.sign(), self.parameters.r);
         let Way { linear, with_derivatives, reach, .. } = way;
@@ -204,7 +204,7 @@ impl<'a> HalfSwing<'a> {
                 && time - tau <= until
             {
                 let (x, v, ways) = stretch.at(time - tau - passed);
-                let mut point = Point { q: sign * (x - r), v: sign * v, by: [0.0; NUMBERS] };
+                let mut point = MotionPoint { q: sign * (x - r), v: sign * v, by: [0.0; NUMBERS] };
                 if with_derivatives {
                     point.by = self.combined(&ways);
                     point.by[R] -= 1.0;
@@ -268,7 +268,7 @@ mod tests {
         Way { linear, with_derivatives, reach: 1e4, turns: usize::MAX }
     }
 
-    fn points(parameters: &Parameters, start: State, times: &[f64], way: Way) -> Vec<Point> {
+    fn points(parameters: &Parameters, start: State, times: &[f64], way: Way) -> Vec<MotionPoint> {
         let mut points = Vec::new();
         follow(parameters, start, times, way, |_, point| points.push(point)).unwrap();
         points
@@ -346,7 +346,8 @@ mod tests {
         for (parameters, start) in MOTIONS {
             let with = points(&parameters, start, &times(), way(false, true));
             let without = points(&parameters, start, &times(), way(false, false));
-            let same = |(one, other): (&Point, &Point)| (one.q, one.v) == (other.q, other.v);
+            let same =
+                |(one, other): (&MotionPoint, &MotionPoint)| (one.q, one.v) == (other.q, other.v);
             assert!(with.iter().zip(&without).all(same));
         }
     }

@@ -31,7 +31,7 @@ impl NameSpec {
     }
 }
 
-/// The numbers that are estimated from a record, but for those of its start.
+/// The numbers that are estimated from a record, except those of its start.
 pub const NAMES: [NameSpec; 6] = [
     NameSpec { name: "omega0", place: observation::OMEGA0, length: 0, time: -1 },
     NameSpec { name: "offset", place: observation::OFFSET, length: 1, time: 0 },
@@ -82,9 +82,9 @@ pub fn assigned(text: &str) -> Result<(&'static NameSpec, f64), String> {
 
 /// What a fit estimates, and what it holds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Named", into = "Named")]
+#[serde(try_from = "SavedChoice", into = "SavedChoice")]
 pub struct Choice {
-    /// Names to estimate; none: all that are not held.
+    /// Names to estimate; `None`: all that are not held.
     pub free: Option<Vec<&'static NameSpec>>,
     /// Values to hold.
     pub held: Vec<(&'static NameSpec, f64)>,
@@ -92,25 +92,25 @@ pub struct Choice {
 
 /// The same by names, as it is saved.
 #[derive(Serialize, Deserialize)]
-struct Named {
+struct SavedChoice {
     free: Option<Vec<String>>,
     held: Vec<(String, f64)>,
 }
 
-impl From<Choice> for Named {
+impl From<Choice> for SavedChoice {
     fn from(Choice { free, held }: Choice) -> Self {
         let name = |row: &NameSpec| row.name.to_owned();
-        Named {
+        SavedChoice {
             free: free.map(|rows| rows.into_iter().map(name).collect()),
             held: held.into_iter().map(|(row, value)| (name(row), value)).collect(),
         }
     }
 }
 
-impl TryFrom<Named> for Choice {
+impl TryFrom<SavedChoice> for Choice {
     type Error = String;
 
-    fn try_from(Named { free, held }: Named) -> Result<Self, String> {
+    fn try_from(SavedChoice { free, held }: SavedChoice) -> Result<Self, String> {
         let free = free.map(|names| names.iter().map(|name| known(name)).collect()).transpose()?;
         let held = held.iter().map(|(name, value)| assigned(&format!("{name}={value}")));
         Ok(Choice { free, held: held.collect::<Result<_, _>>()? })

@@ -3,9 +3,10 @@
 
 use std::f64::consts::PI;
 
+use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, powi};
 
-/// The median; 0 of nothing.
+/// The median; 0 for an empty list.
 pub fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;
     if values.is_empty() {
@@ -28,14 +29,15 @@ pub struct Noise {
     pub deviation: f64,
     /// Whether some samples jump impossibly.
     pub has_outliers: bool,
-    /// The smallest step from one sample to the next: of the converter, or of the last digit written; 0 of none.
+    /// The smallest step from one sample to the next: of the converter, or of the last digit written; 0 if
+    /// there is none.
     pub step: f64,
     /// Whether neighbouring samples differ by noise of more than a step, rather than by the motion alone.
     pub is_audible: bool,
 }
 
 impl Noise {
-    /// The noise of successive samples, of which a period has so many.
+    /// The noise of successive samples, `samples_per_period` of them a period.
     pub fn of(x: &[f64], samples_per_period: f64) -> Self {
         /// With fewer samples a period the motion itself has large second differences.
         const FEW: f64 = 12.0;
@@ -61,8 +63,7 @@ impl Noise {
         let high = sorted.get(sorted.len() * 7 / 10).copied().unwrap_or(0.0);
         let impossible = (8.0 * median(second)).max(4.0 * high);
         let jumps = sorted.iter().filter(|value| **value > impossible).count();
-        #[expect(clippy::cast_precision_loss, reason = "counts of samples")]
-        let has_outliers = impossible > 0.0 && jumps as f64 > SHARE * sorted.len() as f64;
+        let has_outliers = impossible > 0.0 && real(jumps) > SHARE * real(sorted.len());
         // Where most differences vanish there is the rounding of the converter, and that of decimals.
         let deviation = deviation.max(quantised);
         let is_audible = deviation > step && alternates(x);
@@ -70,7 +71,7 @@ impl Noise {
     }
 
     /// How many readings of a mass at rest tell as much as all of them, where residuals have this variance: the
-    /// converter rounds each to the same step, and only noise of a good part of a step averages that error out.
+    /// converter rounds each to the same step, and only noise of a good fraction of a step averages that error out.
     ///
     /// With normal noise of `s` steps the mean reading is off by `sum_k (-1)^k sin(2 pi k x)/(pi k)
     /// exp(-2 pi^2 k^2 s^2)` steps, the Fourier series of the rounding error, of which the mean square over all
@@ -98,7 +99,7 @@ fn alternates(x: &[f64]) -> bool {
     2 * changes > fourth.len()
 }
 
-/// The level and the weights of the sample before and of the one before that, which tell a sample best.
+/// The level, and the weights of the two samples before, that predict a sample best.
 fn told_by_two(x: &[f64]) -> Option<[f64; 3]> {
     let mut normal = nalgebra::Matrix3::zeros();
     let mut right = nalgebra::Vector3::zeros();
@@ -113,8 +114,8 @@ fn told_by_two(x: &[f64]) -> Option<[f64; 3]> {
 /// Which samples lie within full scale: a converter that saturates repeats its largest or smallest value far
 /// more often than the values next to it.
 ///
-/// What the record begins or ends with does not count where the noise is smaller than a step of the converter: a mass may
-/// be held, or rest, at its extreme. Noise that is larger cannot be silent there. Next to flattened
+/// What the record begins or ends with does not count where the noise is smaller than a step of the converter:
+/// a mass may be held, or rest, at its extreme. Noise that is larger cannot be silent there. Next to flattened
 /// samples noise has chosen which ones are left, so those are left out until the motion is clear of the limit.
 pub fn within_scale(x: &[f64], noise: &Noise) -> Vec<bool> {
     /// Deviations of the noise that are clear of the limit.
@@ -141,7 +142,7 @@ pub fn within_scale(x: &[f64], noise: &Noise) -> Vec<bool> {
 }
 
 fn is_saturated(x: &[f64], limit: f64, range: f64, noise: &Noise) -> bool {
-    /// The neighbouring values that are counted for comparison, as a part of the range.
+    /// The neighbouring values that are counted for comparison, as a fraction of the range.
     const BAND: f64 = 0.01;
     /// Fewest repetitions, and how much more frequent they must be.
     const FEWEST: usize = 8;

@@ -1,10 +1,11 @@
 //! What a record should show: the model of the observation and its residuals.
 //!
 //! `x(t) = offset + q(omega0 (t - t0); D, D2, D3, r, q0, v0)` in the unit of the record. Held until an unknown
-//! release, or in motion from the first sample on: both have the same eight unknowns but for the last. Turning
+//! release, or in motion from the first sample on: both have the same eight unknowns except for the last. Turning
 //! points, with or without times, are the same motion seen only where `v = 0`.
 
 use super::motion::{FittedTurn, Gradient, MotionLost, Way, follow};
+use crate::numerics::count::real;
 use crate::oscillator::{Parameters, State};
 
 /// How many unknowns there are.
@@ -186,17 +187,16 @@ fn peaks(
     ratio: f64,
     way: Way,
 ) -> Result<Seen, MotionLost> {
-    /// No half swing of a motion that goes on oscillating takes longer.
+    /// No half swing of a motion that keeps oscillating takes longer.
     const SLOWEST: f64 = 50.0;
-    #[expect(clippy::cast_precision_loss, reason = "a number of peaks")]
-    let patience = [SLOWEST * x.len() as f64];
+    let patience = [SLOWEST * real(x.len())];
     let way = Way { turns: x.len() - 1, ..way };
     let start = State { q: p[Q0], v: 0.0 };
     let followed = follow(&parameters(p), start, &patience, way, |_, _| {})?;
     let mut first = FittedTurn { q: p[Q0], ..Default::default() };
     first.q_by[4] = 1.0;
     let mut turns: Vec<_> = std::iter::once(first).chain(followed.turns.iter().copied()).collect();
-    // A swing that has died away goes on as one of no size: so nothing jumps where the last turning point crosses
+    // A swing that has died away continues with amplitude zero: so nothing jumps where the last turning point crosses
     // the rim of the sticking set.
     while followed.rests && turns.len() < x.len() {
         let last = turns[turns.len() - 1];

@@ -47,7 +47,7 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
         (p[OMEGA0], p[OFFSET], p[LAST]) = (omega0, averaged.offset, time(0));
         (p[D], p[D2], p[D3]) = (averaged.d, averaged.d2, averaged.d3);
         p[Q0] = x[0] - averaged.offset;
-        // A guess that rests before the last peak is none: less friction keeps it going.
+        // A guess that rests before the last peak is useless: less friction keeps the mass moving.
         for part in [1.0, 0.9, 0.7, 0.4, 0.0] {
             p[R] = part * averaged.r;
             guesses.push(placed(&held, p));

@@ -1,13 +1,16 @@
 //! Forces and damping constants of a fitted motion whose mass or stiffness is known.
 
+use serde::Serialize;
+
 use super::fitted::{Fitted, Inertia};
 use super::observation::{D, D2, D3, OMEGA0, R, UNKNOWNS};
 use crate::numerics::elementary::powi;
 
 /// A physical number.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EstimatedNumber {
     /// What it is.
+    #[serde(skip)]
     pub name: &'static str,
     /// Its value.
     pub value: f64,

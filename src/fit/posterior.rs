@@ -2,7 +2,7 @@
 //!
 //! Where the loss is quadratic they are normal. Elsewhere draws of all unknowns from the normal distribution are
 //! weighted by the ratio of the likelihood `exp(-delta chi^2/2)` to the density of the draw, and drawn again by
-//! these weights: with friction of less than none ruled out, that is the posterior of an even prior.
+//! these weights: with negative friction ruled out, this is the posterior for a uniform prior.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -12,6 +12,7 @@ use super::levenberg_marquardt::Runs;
 use super::observation::{D, D2, D3, R, UNKNOWNS, Unknowns, parameters};
 use super::refit::Refit;
 use crate::flow::{Limits, Reason};
+use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, ln, pow, powi};
 use crate::oscillator::Parameters;
 
@@ -19,7 +20,7 @@ use crate::oscillator::Parameters;
 pub struct Drawn {
     /// The parameters.
     pub draws: Vec<Parameters>,
-    /// Where they were weighted: as many independent draws would tell as much.
+    /// Where they were weighted: the number of independent draws that would carry as much information.
     pub effective: Option<f64>,
     /// Motions computed to weigh them.
     pub motions: u64,
@@ -28,7 +29,7 @@ pub struct Drawn {
 /// Weighted draws for each one that is kept.
 const SPARE: usize = 4;
 
-/// With fewer effective draws than this part of those wanted the normal distribution is no guide to the
+/// With fewer effective draws than this fraction of those wanted the normal distribution is not a guide to the
 /// likelihood, and its own draws stand.
 const FEWEST: f64 = 0.1;
 
@@ -46,14 +47,13 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
             .iter()
             .fold((0.0, 0.0), |(sum, squares), weight| (sum + weight, squares + weight * weight));
         let effective = sum * sum / squares;
-        #[expect(clippy::cast_precision_loss, reason = "a count of draws")]
-        if effective >= FEWEST * draws as f64 {
+        if effective >= FEWEST * real(draws) {
             let draws = resampled(&points, &weights, draws);
             return Ok(Drawn { draws, effective: Some(effective), motions });
         }
     }
     let normal = Normal::of(estimate, places);
-    // Negative friction, which the data may allow and the world does not, is none.
+    // Negative friction, which the data may allow but nature does not, counts as zero.
     let draw = |index: usize| {
         let mut p = normal.point(index);
         p[R] = p[R].max(0.0);
@@ -62,7 +62,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
     Ok(Drawn { draws: (0..draws).map(draw).collect(), effective: None, motions })
 }
 
-/// The ratio of likelihood to density of each point, to a factor.
+/// The ratio of likelihood to density at each point, up to a common factor.
 fn weights(
     estimate: &Estimate,
     normal: &Normal,
@@ -89,8 +89,7 @@ fn weights(
 /// Draws by weight, at even steps through their sum.
 fn resampled(points: &[Unknowns], weights: &[f64], draws: usize) -> Vec<Parameters> {
     let sum: f64 = weights.iter().sum();
-    #[expect(clippy::cast_precision_loss, reason = "a count of draws")]
-    let step = sum / draws as f64;
+    let step = sum / real(draws);
     let mut found = Vec::with_capacity(draws);
     let (mut passed, mut next) = (0.0, 0.5 * step);
     for (point, weight) in points.iter().zip(weights) {
@@ -156,7 +155,7 @@ impl Normal {
         p
     }
 
-    /// The density at a point, to a factor.
+    /// The density at a point, up to a common factor.
     fn density(&self, p: &Unknowns) -> f64 {
         let about = |center: &Unknowns| {
             let step = DVector::from_fn(self.columns.len(), |i, _| {
@@ -175,8 +174,7 @@ impl Normal {
 fn evenly(index: usize, dimensions: usize) -> Vec<f64> {
     /// Each iteration divides the error by the dimensions and more.
     const ITERATIONS: usize = 60;
-    #[expect(clippy::cast_precision_loss, reason = "counts of draws and dimensions")]
-    let (number, power) = (index as f64 + 1.0, 1.0 / (dimensions as f64 + 1.0));
+    let (number, power) = (real(index) + 1.0, 1.0 / (real(dimensions) + 1.0));
     let root = (0..ITERATIONS).fold(1.0_f64, |root, _| pow(1.0 + root, power));
     std::iter::successors(Some(1.0 / root), |part| Some(part / root))
         .take(dimensions)

@@ -5,6 +5,7 @@ use super::loss::Loss;
 use super::noise::robust_deviation;
 use super::observation::{D2, D3, Data, OMEGA0, Observation, StartKind, UNKNOWNS};
 use super::residuals::whiteness;
+use crate::numerics::count::real;
 
 /// What the search is told.
 #[derive(Clone, Copy, Debug)]
@@ -60,13 +61,12 @@ impl LeastSquares<'_> {
         let Data::Samples { t, .. } = self.data else { return Verdict::Unexplained };
         let residuals: Vec<f64> = self.residuals(optimum).collect();
         let deviation = robust_deviation(residuals.iter().copied());
-        // What a robust loss forgives must not look like a swing.
+        // What a robust loss tolerates must not look like a swing.
         let within: Vec<f64> = residuals
             .into_iter()
             .map(|value| value.clamp(-4.0 * deviation, 4.0 * deviation))
             .collect();
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-        let rate = t.len() as f64 / (t[t.len() - 1] - t[0]);
+        let rate = real(t.len()) / (t[t.len() - 1] - t[0]);
         let found = whiteness(&within, rate * std::f64::consts::TAU / optimum.p[OMEGA0]);
         if found.systematic || !self.is_small(deviation) {
             Verdict::Unexplained

@@ -33,13 +33,13 @@ impl ProfileInterval {
     }
 }
 
-/// How far the rise of the loss may be from quadratic, as a part of itself.
+/// How far the rise of the loss may be from quadratic, relative to itself.
 const QUADRATIC: f64 = 0.2;
 
-/// Most refits for one end.
+/// Maximum number of refits for one end.
 const REFITS: usize = 8;
 
-/// Beyond so many standard errors there is no bound.
+/// Standard errors beyond which no bound is sought.
 const FARTHEST: f64 = 60.0;
 
 /// The profile of one unknown about a minimum.
@@ -64,7 +64,7 @@ impl Profile<'_> {
         let mut quadratic = true;
         for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
             let straight = self.shifted(&self.optimum.p, unknown, sign * reach);
-            // No friction is less than none: r ends at 0, and what leans on r bends there.
+            // Friction cannot be negative: r ends at 0, and what depends on r has a kink there.
             let crosses = straight[R] < 0.0 && self.task.free[R];
             if !crosses && self.rises_by(&straight, rise, runs)? {
                 *end = Some(straight[unknown]);

@@ -10,16 +10,17 @@ use super::observation::{UNKNOWNS, Unknowns};
 
 /// How residuals count, as the user says it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "explorer", derive(clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 pub enum LossName {
-    /// Squared; samples that cannot belong to the motion are left out.
+    /// Squared, without the samples that cannot belong to the motion.
     #[default]
     Auto,
     /// Squared, every one of them.
     Linear,
     /// Large ones by their size.
     SoftL1,
-    /// Large ones hardly.
+    /// Large ones hardly at all.
     Cauchy,
 }
 
@@ -45,7 +46,7 @@ pub struct Question {
 /// Why there is no estimate.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unfit {
-    /// Too few samples or peaks for so many unknowns.
+    /// Too few samples or peaks for this many unknowns.
     TooFew {
         /// Numbers measured.
         measured: usize,

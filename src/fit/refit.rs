@@ -19,7 +19,7 @@ pub struct Refit<'a> {
 }
 
 impl<'a> Refit<'a> {
-    /// The estimate with these unknowns held, wherever that will be.
+    /// The estimate with these unknowns held, at values still to be given.
     pub fn without(estimate: &'a Estimate, places: &[usize]) -> Self {
         let mut free = estimate.free;
         for place in places {
@@ -72,7 +72,7 @@ impl<'a> Refit<'a> {
     }
 }
 
-/// The same estimate with some numbers held: all that follows from the new minimum, but for intervals and rivals.
+/// The same estimate with some numbers held: all that follows from the new minimum, except intervals and rivals.
 ///
 /// # Errors
 /// [`Unfit::NoMotion`] where the motion with these numbers escapes; [`Unfit::Interrupted`].

@@ -1,13 +1,17 @@
 //! What the residuals say: whether they are noise, and of which kind.
 
+use serde::Serialize;
+
+use crate::numerics::count::{real, whole};
 use crate::numerics::elementary::{ln, powi};
 
 /// What the residuals look like.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Whiteness {
     /// Correlation of neighbouring residuals.
     pub correlation: f64,
     /// Autocorrelation of the noise model at lags 1, 2, ..; empty where the residuals are white.
+    #[serde(skip)]
     pub autocorrelation: Vec<f64>,
     /// Whether they cannot be told from independent noise.
     pub white: bool,
@@ -24,7 +28,7 @@ const ORDERS: usize = 10;
 /// The longest memory of filtered noise, in periods of the motion.
 const LONG: f64 = 0.25;
 
-/// Judges residuals, in the order of time, of a motion with so many samples a period.
+/// Judges residuals in the order of time.
 pub fn whiteness(residuals: &[f64], samples_per_period: f64) -> Whiteness {
     /// Fewer residuals say nothing.
     const FEWEST: usize = 24;
@@ -35,8 +39,8 @@ pub fn whiteness(residuals: &[f64], samples_per_period: f64) -> Whiteness {
     }
     let rho = autocorrelations(residuals, &short_lags(n));
     let squares: f64 = rho.iter().map(|rho| rho * rho).sum();
-    let limit = chi_squared(count(rho.len()), RARE);
-    let white = count(n) * squares <= limit && rho[0].abs() * count(n).sqrt() <= RARE + 0.3;
+    let limit = chi_squared(real(rho.len()), RARE);
+    let white = real(n) * squares <= limit && rho[0].abs() * real(n).sqrt() <= RARE + 0.3;
     let white = white && !is_patchy(residuals, samples_per_period);
     let autocorrelation = if white { Vec::new() } else { autoregressive(&rho, n) };
     let found = Whiteness { correlation: rho[0], white, ..Whiteness::default() };
@@ -46,7 +50,8 @@ pub fn whiteness(residuals: &[f64], samples_per_period: f64) -> Whiteness {
 impl Whiteness {
     /// Judges what is left beside a noise with these autocorrelations.
     fn with_memory(self, noise: Vec<f64>, residuals: &[f64], samples_per_period: f64) -> Self {
-        // A memory as long as a good part of a swing is no filter's: a drift, or what the model leaves out.
+        // A correlation as long as a good fraction of a swing does not come from a filter, but from a drift or from
+        // what the model leaves out.
         let memory: f64 = noise.iter().sum();
         let systematic =
             memory > LONG * samples_per_period || swings(residuals, &noise, samples_per_period);
@@ -81,7 +86,7 @@ impl Whiteness {
     }
 }
 
-/// The lags at which autocorrelations of so many residuals are looked at.
+/// The lags at which autocorrelations of this many residuals are examined.
 fn short_lags(n: usize) -> Vec<usize> {
     (1..=ORDERS.min(n / 5)).collect()
 }
@@ -90,20 +95,14 @@ fn short_lags(n: usize) -> Vec<usize> {
 fn is_patchy(residuals: &[f64], samples_per_period: f64) -> bool {
     /// Deviations that chance does not reach in thousands of half swings.
     const FAR: f64 = 5.0;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped by n")]
-    let width = ((0.5 * samples_per_period).min(count(residuals.len())) as usize).max(8);
+    let width = (whole((0.5 * samples_per_period).min(real(residuals.len())))).max(8);
     let square = |e: &f64| e * e;
-    let variance = residuals.iter().map(square).sum::<f64>() / count(residuals.len());
+    let variance = residuals.iter().map(square).sum::<f64>() / real(residuals.len());
     residuals.chunks_exact(width).any(|part| {
-        let mean = part.iter().sum::<f64>() / (count(width) * variance).sqrt();
-        let power = part.iter().map(square).sum::<f64>() / variance - count(width);
-        mean.abs() > FAR || power > FAR * (2.0 * count(width)).sqrt()
+        let mean = part.iter().sum::<f64>() / (real(width) * variance).sqrt();
+        let power = part.iter().map(square).sum::<f64>() / variance - real(width);
+        mean.abs() > FAR || power > FAR * (2.0 * real(width)).sqrt()
     })
-}
-
-#[expect(clippy::cast_precision_loss, reason = "counts of samples")]
-fn count(count: usize) -> f64 {
-    count as f64
 }
 
 /// The autocorrelation of residuals at these lags.
@@ -125,7 +124,7 @@ fn chi_squared(freedom: f64, z: f64) -> f64 {
 /// The autocorrelation of the autoregressive noise that fits best: Levinson and Durbin's recursion, with the
 /// order that Bayes's criterion takes. Estimates at long lags would be mostly noise; the model's decay.
 fn autoregressive(rho: &[f64], n: usize) -> Vec<f64> {
-    /// Lags at which less is left than this are none.
+    /// Correlation below this counts as zero.
     const NOTHING: f64 = 0.01;
     let mut best = (f64::INFINITY, Vec::new());
     let (mut coefficients, mut power): (Vec<f64>, f64) = (Vec::new(), 1.0);
@@ -139,7 +138,7 @@ fn autoregressive(rho: &[f64], n: usize) -> Vec<f64> {
         next.push(reflection);
         coefficients = next;
         power *= 1.0 - reflection * reflection;
-        let criterion = count(n) * ln(power) + count(order) * ln(count(n));
+        let criterion = real(n) * ln(power) + real(order) * ln(real(n));
         if criterion < best.0 {
             best = (criterion, coefficients.clone());
         }
@@ -158,13 +157,12 @@ fn autoregressive(rho: &[f64], n: usize) -> Vec<f64> {
 /// Whether correlation comes back at lags of a sixth of a period to two periods, where filtered noise has
 /// forgotten itself.
 fn swings(residuals: &[f64], short: &[f64], samples_per_period: f64) -> bool {
-    /// So many lags are looked at, spread over the range.
+    /// Lags to look at, spread over the range.
     const LAGS: usize = 150;
     /// How far beyond chance.
     const FAR: f64 = 5.0;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped by n")]
     let lag =
-        |periods: f64| ((periods * samples_per_period).min(count(residuals.len())) as usize).max(1);
+        |periods: f64| (whole((periods * samples_per_period).min(real(residuals.len())))).max(1);
     let (from, to) = (lag(1.0 / 6.0).max(ORDERS), lag(2.0).min(residuals.len() / 3));
     if to <= from + 4 {
         return false;
@@ -174,9 +172,9 @@ fn swings(residuals: &[f64], short: &[f64], samples_per_period: f64) -> bool {
     let rho = autocorrelations(residuals, &lags);
     // Bartlett: beyond its memory, the estimates of correlated noise scatter by this much more.
     let spread = 1.0 + 2.0 * short.iter().map(|rho| rho * rho).sum::<f64>();
-    let sum: f64 = rho.iter().map(|rho| count(residuals.len()) * rho * rho).sum();
-    let independent = (count(lags.len()) * count(step) / spread).clamp(1.0, count(lags.len()));
-    (sum / (spread * count(lags.len())) - 1.0) * (independent / 2.0).sqrt() > FAR
+    let sum: f64 = rho.iter().map(|rho| real(residuals.len()) * rho * rho).sum();
+    let independent = (real(lags.len()) * real(step) / spread).clamp(1.0, real(lags.len()));
+    (sum / (spread * real(lags.len())) - 1.0) * (independent / 2.0).sqrt() > FAR
 }
 
 #[cfg(test)]
@@ -210,7 +208,7 @@ mod tests {
     fn a_swing_that_is_left_over_is_found_below_the_noise() {
         let mut residuals = noise(4000, 0.0);
         for (index, e) in residuals.iter_mut().enumerate() {
-            *e += 0.5 * sin(count(index) * std::f64::consts::TAU / 80.0);
+            *e += 0.5 * sin(real(index) * std::f64::consts::TAU / 80.0);
         }
         let found = whiteness(&residuals, 80.0);
         assert!(!found.white && found.systematic, "{found:?}");

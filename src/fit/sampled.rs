@@ -3,15 +3,16 @@
 use super::estimate::Estimate;
 use super::motion::{Way, follow};
 use super::observation::{Data, LAST, OMEGA0, Q0, StartKind, parameters};
+use crate::numerics::count::real;
 use crate::oscillator::State;
 
-/// Most points of a record that are drawn; of longer ones every second, third, .. is.
+/// Maximum number of points of a record that are drawn; of longer ones every second, third, .. is.
 const POINTS: usize = 4000;
 
 /// What is drawn of a sampled record.
 #[derive(Clone, Debug)]
 pub struct Sampled {
-    /// Times in s; not a number in a gap.
+    /// Times in s; NaN in a gap.
     pub t: Vec<f64>,
     /// Displacements.
     pub x: Vec<f64>,
@@ -24,7 +25,7 @@ pub struct Sampled {
 impl Sampled {
     /// What is drawn of a fitted record; `None` of peaks alone.
     pub fn of(estimate: &Estimate) -> Option<Self> {
-        /// A step of so many usual ones is a gap.
+        /// A step longer than the usual one by this factor is a gap.
         const GAP: f64 = 6.0;
         let Data::Samples { t, x } = &estimate.data else { return None };
         let every = t.len().div_ceil(POINTS);
@@ -34,8 +35,7 @@ impl Sampled {
             residual: Vec::new(),
             motion: motion(estimate, t),
         };
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-        let step = (t[t.len() - 1] - t[0]) * every as f64 / t.len() as f64;
+        let step = (t[t.len() - 1] - t[0]) * real(every) / real(t.len());
         for index in (0..t.len()).step_by(every) {
             if seen.t.last().is_some_and(|last| t[index] - last > GAP * step) {
                 seen.push([f64::NAN; 3]);
@@ -63,8 +63,7 @@ fn motion(estimate: &Estimate, t: &[f64]) -> Vec<[f64; 3]> {
         StartKind::Moving => (first, p[LAST]),
     };
     let count = (FINE * (estimate.half_swings + 2)).min(4 * POINTS);
-    #[expect(clippy::cast_precision_loss, reason = "counts of points")]
-    let at = |index: usize| origin + (last - origin) * index as f64 / count as f64;
+    let at = |index: usize| origin + (last - origin) * real(index) / real(count);
     let taus: Vec<f64> = (0..=count).map(|index| p[OMEGA0] * (at(index) - origin)).collect();
     let mut points = Vec::new();
     if first < origin {

@@ -11,14 +11,14 @@ use super::question::{LossName, Question, Unfit, placed, reach};
 use super::record::Record;
 use super::search::Minima;
 use super::spectrum::dominant_frequency;
+use crate::numerics::count::{real, whole};
 use crate::numerics::elementary::powi;
 
 /// Fits a record of samples. Fails with [`Unfit`].
 pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
     let all = record.t.as_deref().unwrap_or_default();
-    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
     let per_period = dominant_frequency(all, &record.x).map_or(f64::INFINITY, |frequency| {
-        all.len() as f64 / ((all[all.len() - 1] - all[0]) * frequency)
+        real(all.len()) / ((all[all.len() - 1] - all[0]) * frequency)
     });
     let within = within_scale(&record.x, &Noise::of(&record.x, per_period));
     let keep = |values: &[f64]| -> Vec<f64> {
@@ -69,7 +69,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     if question.loss == LossName::Auto {
         problem.loss = Loss::Linear;
         used = refined(&problem, loss.is_robust(), &mut found, runs)?;
-        // Where the motion is not understood nothing is known to rest.
+        // Where no motion fits, nothing is known about rest.
         if (LeastSquares { used: &used, ..problem }).comes_near(&found.valleys[0].optimum) {
             alike = telling(&problem, &noise, &mut used, &mut found, runs)?;
         }
@@ -82,8 +82,8 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     Ok(estimate)
 }
 
-/// Leaves out readings of a mass at rest that repeat the rounding error of others, and fits again; those that tell
-/// something.
+/// Leaves out readings of a mass at rest that repeat the rounding error of others, and fits again; keeps those
+/// that carry information.
 fn telling(
     problem: &LeastSquares,
     noise: &Noise,
@@ -118,7 +118,7 @@ fn telling(
     Ok(telling)
 }
 
-/// All samples in motion, and of those held and those at rest so many, evenly spread; at least two.
+/// All samples in motion, and this many of those held and those at rest, evenly spread; at least two.
 fn some_at_rest(problem: &LeastSquares, found: &Minima, enough: f64) -> Vec<bool> {
     const FEWEST: usize = 2;
     let Data::Samples { t, .. } = problem.data else { return vec![true; problem.data.residuals()] };
@@ -133,8 +133,7 @@ fn some_at_rest(problem: &LeastSquares, found: &Minima, enough: f64) -> Vec<bool
         end.map_or(t.len(), |turn| t.partition_point(|&t| t < release + turn.tau / best.p[OMEGA0]));
     let mut some = vec![true; t.len()];
     for stretch in [0..held, rest..t.len()] {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped")]
-        let kept = (enough.ceil().min(1e9) as usize).max(FEWEST);
+        let kept = (whole(enough.ceil().min(1e9))).max(FEWEST);
         let length = stretch.len();
         if length > kept {
             some[stretch.clone()].fill(false);
@@ -153,7 +152,7 @@ fn refined(
     found: &mut Minima,
     runs: &mut Runs,
 ) -> Result<Vec<bool>, NoFit> {
-    /// A model that leaves out more than this part of the record does not describe it.
+    /// A model that leaves out more than this fraction of the record does not describe it.
     const MOST: f64 = 0.15;
     const ROUNDS: usize = 4;
     let mut used = vec![true; problem.data.residuals()];
@@ -164,8 +163,7 @@ fn refined(
         let values = seen.residuals.iter().map(|residual| residual.value);
         let limit = limit_of(&values.clone().collect::<Vec<_>>());
         let possible: Vec<bool> = values.map(|value| value.abs() <= limit).collect();
-        #[expect(clippy::cast_precision_loss, reason = "counts of samples")]
-        let share = possible.iter().filter(|used| !**used).count() as f64 / used.len() as f64;
+        let share = real(possible.iter().filter(|used| !**used).count()) / real(used.len());
         let now = if share > MOST { vec![true; used.len()] } else { possible };
         if settled && now == used {
             break;
@@ -176,8 +174,8 @@ fn refined(
     Ok(used)
 }
 
-/// The size beyond which a residual is none of the motion's: so many deviations of those within it. Chance puts 7 in a
-/// million there.
+/// The size beyond which a residual does not belong to the motion: a multiple of the deviation of those within
+/// it. Chance puts 7 in a million there.
 fn limit_of(residuals: &[f64]) -> f64 {
     const IMPOSSIBLE: f64 = 4.5;
     const ROUNDS: usize = 5;

@@ -5,6 +5,7 @@ use super::loss::Loss;
 use super::observation::{D2, D3, Data, LAST, OMEGA0, R, StartKind, Unknowns};
 use super::problem::LeastSquares;
 use super::valley::{Valley, WIDE, by_cost, through_the_valley};
+use crate::numerics::count::real;
 
 /// A way in which a record may begin, with guesses of the unknowns.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +30,7 @@ pub struct Minima {
 /// The parts of a record through which a horizon grows.
 const HORIZONS: [f64; 4] = [0.2, 0.35, 0.6, 0.85];
 
-/// After so many motions with derivatives no further way is tried: what is not explained by then is no motion of
+/// Motions with derivatives after which no further way is tried: what is not explained by then is not a motion of
 /// this oscillator.
 const ENOUGH: u64 = 250;
 
@@ -90,14 +91,15 @@ impl LeastSquares<'_> {
         Ok(Minima { start, valleys })
     }
 
-    /// The minima that follow from those without D2 and D3: where noise leaves room for many valleys, these have fewer.
+    /// The minima that follow from those without D2 and D3: where noise leaves room for many valleys, these
+    /// have fewer.
     fn by_fewer_terms(
         &self,
         start: StartKind,
         guesses: Vec<Unknowns>,
         runs: &mut Runs,
     ) -> Result<Vec<Optimum>, NoFit> {
-        /// Most minima from which to go on.
+        /// Maximum number of minima from which to continue.
         const MOST: usize = 3;
         let mut fewer = *self;
         (fewer.free[D2], fewer.free[D3]) = (false, false);
@@ -125,8 +127,7 @@ impl LeastSquares<'_> {
 
     /// The root mean square of the residuals at a cost.
     fn typical(&self, cost: f64) -> f64 {
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-        let count = self.data.residuals().max(1) as f64;
+        let count = real(self.data.residuals().max(1));
         (cost / count).sqrt()
     }
 
@@ -144,18 +145,17 @@ impl LeastSquares<'_> {
         Ok(())
     }
 
-    /// Whether a minimum is better than the best one so far. A release that explains no more than a motion under
-    /// way is none: nothing was seen of the hold.
+    /// Whether a minimum is better than the best one so far. A release that explains no more than a mass in
+    /// motion does is not one: the record shows no hold.
     fn is_better(&self, found: &Optimum, start: StartKind, best: &Optimum) -> bool {
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-        let unit = best.cost / self.data.residuals().max(1) as f64;
+        let unit = best.cost / real(self.data.residuals().max(1));
         let needed = if start == StartKind::Release { 4.0 * unit } else { -4.0 * unit };
         let needed = if self.data.has_peaks() { 0.0 } else { needed };
         found.cost < best.cost - needed
     }
 
-    /// For each way of beginning the guess that comes closest to the record as it stands, with D2 and D3 or without: a
-    /// wrong one of these may let every motion escape.
+    /// For each way of beginning the guess that comes closest to the record as it stands, with D2 and D3 or
+    /// without: a wrong one of these may let every motion escape.
     fn ranked(
         &self,
         guesses: &[Beginning],
@@ -201,7 +201,7 @@ fn without(mut guess: Unknowns, places: &[usize], problem: &LeastSquares) -> Unk
     guess
 }
 
-/// Descends on a growing part of the record, with a loss that forgives what is still far off.
+/// Descends on a growing part of the record, with a loss that tolerates what is still far off.
 fn growing(
     problem: &LeastSquares,
     task: &Task,
@@ -212,8 +212,7 @@ fn growing(
     let Data::Samples { t, .. } = problem.data else { return task.solve(p, runs) };
     let (first, last) = (t[0], t[t.len() - 1]);
     let half_swing = std::f64::consts::PI / p[OMEGA0];
-    #[expect(clippy::cast_precision_loss, reason = "a few half swings")]
-    let shortest = FEWEST as f64 * half_swing;
+    let shortest = real(FEWEST) * half_swing;
     let begin = match task.observation.start {
         StartKind::Release => p[LAST].max(first),
         StartKind::Moving => first,

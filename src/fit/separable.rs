@@ -24,7 +24,7 @@ pub struct Combination {
     pub standard_error: f64,
 }
 
-/// The error of a term beyond which it is not known by itself, as a part of the largest damping seen.
+/// The error of a term beyond which it is not known by itself, as a fraction of the largest damping seen.
 const UNKNOWN: f64 = 0.5;
 
 /// The combinations to report; none where every number is known by itself.

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use crate::numerics::count::real;
 use crate::numerics::elementary::{powi, sin_cos};
 
-/// Most points of the evenly spaced copy that is transformed.
+/// Maximum number of points of the evenly spaced copy that is transformed.
 const MOST: usize = 1 << 14;
 
 /// The frequency in 1/s at which the record times its frequency has most power: without that factor a long
@@ -17,21 +18,16 @@ pub fn dominant_frequency(t: &[f64], x: &[f64]) -> Option<f64> {
         return None;
     }
     let even = resampled(t, x, count);
-    let mean = even.iter().sum::<f64>() / size(count);
+    let mean = even.iter().sum::<f64>() / real(count);
     let mut values: Vec<(f64, f64)> = even.iter().map(|x| (x - mean, 0.0)).collect();
     transform(&mut values);
-    let power = |k: usize| powi(size(k), 2) * (powi(values[k].0, 2) + powi(values[k].1, 2));
+    let power = |k: usize| powi(real(k), 2) * (powi(values[k].0, 2) + powi(values[k].1, 2));
     // Four times zero padding would place the peak more finely; the extremes do so later anyway.
     let best = (1..count / 2).max_by(|&one, &other| power(one).total_cmp(&power(other)))?;
-    let around = (best.saturating_sub(1).max(1)..=best + 1).map(|k| (size(k), power(k)));
+    let around = (best.saturating_sub(1).max(1)..=best + 1).map(|k| (real(k), power(k)));
     let (weighted, weight) =
         around.fold((0.0, 0.0), |sum, (k, power)| (sum.0 + k * power, sum.1 + power));
     Some(weighted / weight / span)
-}
-
-#[expect(clippy::cast_precision_loss, reason = "counts of samples")]
-fn size(count: usize) -> f64 {
-    count as f64
 }
 
 /// The record at evenly spaced times, by linear interpolation.
@@ -39,7 +35,7 @@ fn resampled(t: &[f64], x: &[f64], count: usize) -> Vec<f64> {
     let (first, last) = (t[0], t[t.len() - 1]);
     let mut after = 1;
     let at = |index: usize| {
-        let time = first + (last - first) * size(index) / size(count);
+        let time = first + (last - first) * real(index) / real(count);
         while after + 1 < t.len() && t[after] < time {
             after += 1;
         }
@@ -63,7 +59,7 @@ fn transform(values: &mut [(f64, f64)]) {
     let mut half = 1;
     while half < count {
         let turns: Vec<(f64, f64)> =
-            (0..half).map(|k| sin_cos(TAU * size(k) / size(2 * half))).collect();
+            (0..half).map(|k| sin_cos(TAU * real(k) / real(2 * half))).collect();
         for block in values.chunks_exact_mut(2 * half) {
             let (even, odd) = block.split_at_mut(half);
             for ((even, odd), (sine, cosine)) in even.iter_mut().zip(odd).zip(&turns) {

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::noise::median;
+use crate::numerics::count::real;
 use crate::numerics::elementary::{atan2, hypot, sin_cos};
 
 /// A turning point read off a record.
@@ -27,8 +28,7 @@ pub fn smoothed(t: &[f64], x: &[f64], window: f64) -> Vec<f64> {
             sum -= x[from];
             from += 1;
         }
-        #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-        out.push(sum / (to - from) as f64);
+        out.push(sum / real(to - from));
     }
     out
 }
@@ -41,7 +41,7 @@ pub fn without_jumps(x: &[f64]) -> Vec<f64> {
 
 /// The turning points of a record with this period: a zigzag through the smoothed record that turns only after
 /// it has come back by `hysteresis`, each corner refined by a parabola through the samples around it. The
-/// first sample is none.
+/// first sample is not counted.
 pub fn turning_points(t: &[f64], x: &[f64], period: f64, hysteresis: f64) -> Vec<Extreme> {
     let smooth = smoothed(t, x, period / 12.0);
     let corners = zigzag(&smooth, hysteresis);
@@ -55,7 +55,7 @@ pub fn turning_points(t: &[f64], x: &[f64], period: f64, hysteresis: f64) -> Vec
     without_bursts(found, 0.3 * period)
 }
 
-/// Removes pairs of corners closer than `least`: what jumps forth and back is no swing.
+/// Removes pairs of corners closer than `least`: what jumps back and forth is not a swing.
 fn without_bursts(mut found: Vec<Extreme>, least: f64) -> Vec<Extreme> {
     let mut index = 0;
     while index + 1 < found.len() {
@@ -69,7 +69,7 @@ fn without_bursts(mut found: Vec<Extreme>, least: f64) -> Vec<Extreme> {
     found
 }
 
-/// Indices of the corners, but for the first: where the first movement begins the record may be held.
+/// Indices of the corners, except for the first: where the first movement begins the record may be held.
 fn zigzag(x: &[f64], hysteresis: f64) -> Vec<usize> {
     let mut corners = Vec::new();
     let (mut lowest, mut highest) = (0, 0);
@@ -117,7 +117,7 @@ fn parabola(t: &[f64], x: &[f64], corner: usize, reach: f64) -> Option<Extreme> 
     (s.abs() <= 1.0).then(|| Extreme { t: t[corner] + s * reach, x: level + 0.5 * s * slope })
 }
 
-/// The sum of three functions of `s = (t - middle)/reach` that comes nearest to the samples within reach; `None` of
+/// The sum of three functions of `s = (t - middle)/reach` that comes nearest to the samples within reach; `None` for
 /// fewer than five.
 fn fitted(
     t: &[f64],

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::levenberg_marquardt::{Optimum, Task};
 use super::observation::{Data, Residual, UNKNOWNS, Unknowns};
+use crate::numerics::count::real;
 use crate::numerics::elementary::powi;
 
 /// The covariance of the free unknowns about a minimum.
@@ -19,7 +20,7 @@ pub struct Covariance {
     pub deviation: f64,
     /// Degrees of freedom: residuals less what the unknowns have absorbed of their noise.
     pub freedom: f64,
-    /// As many residuals' worth of noise the unknowns have absorbed.
+    /// How many residuals' worth of noise the unknowns have absorbed.
     absorbed: f64,
     /// Kinds of residuals, of each of which the size is estimated for itself.
     kinds: f64,
@@ -52,11 +53,11 @@ impl Covariance {
         };
         // Each unknown absorbs the noise along its gradient; of white noise that is one residual's worth.
         let absorbed = if autocorrelation.is_empty() {
-            size(width)
+            real(width)
         } else {
             (&upper * &spread * upper.transpose()).trace()
         };
-        let freedom = size(used.len()) - absorbed;
+        let freedom = real(used.len()) - absorbed;
         if freedom < 1.0 || !spread.iter().all(|value| value.is_finite()) {
             return None;
         }
@@ -105,12 +106,17 @@ impl Covariance {
         self.of(unknown, unknown).max(0.0).sqrt()
     }
 
+    /// Correlation of two free unknowns.
+    pub fn correlation(&self, one: usize, other: usize) -> f64 {
+        self.of(one, other) / (self.error(one) * self.error(other))
+    }
+
     /// How much larger the variance is than with white noise of the same size.
     pub fn inflation(&self, unknown: usize) -> f64 {
         self.place(unknown).map_or(1.0, |at| self.matrix[(at, at)] / self.white[(at, at)])
     }
 
-    /// As many independent residuals would tell as much about the variance of an unknown (Satterthwaite).
+    /// The number of independent residuals that would tell as much about the variance of an unknown (Satterthwaite).
     ///
     /// Of correlated noise the memory is estimated, too: for an autoregression of first order with the inflation
     /// `I = (1 + rho)/(1 - rho)` of slow unknowns the relative variance of their variance is `2 (1 + 2 I)/n`.
@@ -130,11 +136,6 @@ impl Covariance {
         }
         along
     }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "counts of samples")]
-fn size(count: usize) -> f64 {
-    count as f64
 }
 
 /// The sum over all pairs of rows of their correlation times their outer product.
@@ -204,7 +205,7 @@ pub fn left_over(task: &Task, optimum: &Optimum, noise: &[f64], lags: usize) -> 
     };
     let at = |lag: usize| -> f64 {
         let rho = if lag == 0 { 1.0 } else { noise.get(lag - 1).copied().unwrap_or(0.0) };
-        let mut sum = rho * size(q.len() - lag);
+        let mut sum = rho * real(q.len() - lag);
         for (t, later) in q.iter().skip(lag).enumerate() {
             let both: f64 =
                 (0..width).map(|j| later[j] * dot(&q[t], qsq.column(j).as_slice())).sum();

@@ -9,6 +9,7 @@ use std::cmp::Ordering;
 use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task, interrupted};
 use super::observation::{D2, D3, Data, R, UNKNOWNS, Unknowns};
 use super::problem::{LeastSquares, Verdict};
+use crate::numerics::count::real;
 
 /// A local minimum with its number of half swings.
 #[derive(Clone, Debug)]
@@ -22,7 +23,7 @@ pub struct Valley {
 impl LeastSquares<'_> {
     /// Whether the right valley may be far from this minimum: noise hides how many half swings there are.
     pub fn may_be_elsewhere(&self, task: &Task, optimum: &Optimum) -> bool {
-        /// An error of r of this part of it.
+        /// An error of r of this fraction of it.
         const LOOSE: f64 = 0.03;
         let r = optimum.p[R];
         self.free[R]
@@ -43,7 +44,7 @@ impl LeastSquares<'_> {
         optima: Vec<Optimum>,
         runs: &mut Runs,
     ) -> Result<Vec<Valley>, NoFit> {
-        /// Most minima around which others are sought.
+        /// Maximum number of minima around which others are sought.
         const MOST: usize = 8;
         let mut valleys = Vec::new();
         for optimum in optima {
@@ -98,7 +99,7 @@ pub fn by_cost(one: &Valley, other: &Valley) -> Ordering {
 /// Along the valley of r, with all other unknowns following as the linear model has it. Where the residuals
 /// are white and even the linear model puts the rim far outside the noise, there is no point worth asking.
 fn beyond_the_rim(optimum: &Optimum, way: &WayOfFriction, verdict: Verdict) -> Vec<Unknowns> {
-    /// How far beyond the rim: a part of the way to it, and standard errors.
+    /// How far beyond the rim: a fraction of the way to it, and standard errors.
     const BEYOND: f64 = 0.1;
     const ERRORS: f64 = 0.5;
     /// The farthest rim, in standard errors.
@@ -132,11 +133,11 @@ fn along_the_valley(
     known: &[Valley],
     runs: &mut Runs,
 ) -> Result<Vec<Unknowns>, NoFit> {
-    /// Steps on each side: parts of r, and standard errors.
+    /// Steps on each side: fractions of r, and standard errors.
     const PART: f64 = 0.012;
     const STEPS: u32 = 22;
     const ERRORS: u32 = 15;
-    /// A rise of chi squared beyond which a point is far off.
+    /// A rise of chi squared beyond which a point is too far off.
     const FAR: f64 = 500.0;
     let parts = (1..=STEPS).map(|k| PART * f64::from(k) * optimum.p[R]);
     let errors = (1..=ERRORS).map(|k| f64::from(k) * way.error);
@@ -149,8 +150,7 @@ fn along_the_valley(
             closest.see(seen.turns.len(), task.cost(&seen), p);
         }
     }
-    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-    let unit = optimum.cost / optimum.seen.residuals.len().max(1) as f64;
+    let unit = optimum.cost / real(optimum.seen.residuals.len().max(1));
     closest.0.retain(|(_, cost, _)| cost - optimum.cost <= FAR * unit);
     Ok(closest.beside(known))
 }
@@ -200,7 +200,7 @@ impl Closest {
 
     /// The closest few that are lower than the minimum known for their number of half swings.
     fn beside(mut self, known: &[Valley]) -> Vec<Unknowns> {
-        /// Most points from which to descend.
+        /// Maximum number of points from which to descend.
         const MOST: usize = 3;
         self.0.retain(|(half_swings, cost, _)| {
             let same = known.iter().find(|valley| valley.half_swings == *half_swings);
@@ -239,8 +239,7 @@ fn way_of_friction(task: &Task, optimum: &Optimum) -> Option<WayOfFriction> {
         along[column] = *value;
     }
     along[R] = 1.0;
-    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-    let deviation = (optimum.cost / optimum.seen.residuals.len().max(1) as f64).sqrt();
+    let deviation = (optimum.cost / real(optimum.seen.residuals.len().max(1))).sqrt();
     let error = deviation / factor[(last, last)].abs();
     error.is_finite().then_some(WayOfFriction { along, error })
 }

@@ -10,12 +10,12 @@
 
 use super::exact::Exact;
 use super::limits::Reason;
-use super::step::{Field, Point, Powers, Step, Stepper};
+use super::step::{Field, Powers, Step, StepPoint, Stepper};
 use super::stiff::Stiff;
 use super::taylor::Taylor;
 use crate::oscillator::HalfPlane;
 
-/// Damping times, as a part of its order, in a step of the series beyond which stability limits it.
+/// Damping times, as a fraction of its order, in a step of the series beyond which stability limits it.
 const LIMITED: f64 = 1.0 / 3.0;
 
 /// Damping times in an implicit step below which the series is cheaper, measured by `hopfscope trade`:
@@ -92,7 +92,7 @@ pub enum LastStep {
 
 impl LastStep {
     /// The point at `time` after the start of the step.
-    pub fn at(&self, time: f64) -> Point {
+    pub fn at(&self, time: f64) -> StepPoint {
         match self {
             LastStep::Series(step) => step.at(time),
             LastStep::Implicit(step) => step.at(time),
@@ -230,7 +230,7 @@ impl Stepper for Auto {
         }
     }
 
-    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         if self.linear {
             self.last = Taken::Closed;
             return self.exact.advance(from, longest.min(CLOSED));
@@ -238,7 +238,7 @@ impl Stepper for Auto {
         self.step(|taylor| taylor.advance(from, longest), |stiff| stiff.advance(from, longest))
     }
 
-    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         if self.linear {
             self.last = Taken::Closed;
             return self.exact.pass(from, longest.min(CLOSED));
@@ -254,7 +254,7 @@ impl Stepper for Auto {
         }
     }
 
-    fn at(&self, time: f64) -> Point {
+    fn at(&self, time: f64) -> StepPoint {
         match self.last {
             Taken::Closed => self.exact.at(time),
             _ => self.implicit().map_or_else(|| self.taylor.at(time), |stiff| stiff.at(time)),

@@ -1,12 +1,13 @@
 //! The closed form of the piecewise linear oscillator as a stepper: one step is a whole half swing.
 
 use super::limits::Reason;
-use super::step::{Point, Powers, Step, Stepper};
+use super::step::{Powers, Step, StepPoint, Stepper};
 use crate::closed_form::linear::Linear;
+use crate::numerics::count::whole;
 use crate::numerics::quadrature::GAUSS;
 use crate::oscillator::HalfPlane;
 
-/// Most pieces into which a step is cut for drawing and for quadrature; a piece is one unit of time.
+/// Maximum number of pieces into which a step is cut for drawing and for quadrature; a piece is one unit of time.
 const MOST_PIECES: f64 = 4096.0;
 
 /// The stepper. It serves fields with `D2 = D3 = 0` and is exact to rounding for every D.
@@ -14,7 +15,7 @@ const MOST_PIECES: f64 = 4096.0;
 pub struct Exact {
     field: HalfPlane,
     linear: Linear,
-    start: Point,
+    start: StepPoint,
     duration: f64,
     evaluations: u64,
 }
@@ -25,7 +26,7 @@ impl Exact {
         Exact {
             field: HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 },
             linear: Linear::new(0.0),
-            start: Point { x: 0.0, v: 0.0 },
+            start: StepPoint { x: 0.0, v: 0.0 },
             duration: 0.0,
             evaluations: 0,
         }
@@ -37,7 +38,7 @@ impl Exact {
     ///
     /// Velocity and acceleration obey the equation of displacement and velocity.
     pub fn fastest(&self) -> Option<f64> {
-        let Point { x, v } = self.start;
+        let StepPoint { x, v } = self.start;
         let acceleration = self.field.acceleration(x, v);
         let top = self.linear.first_standstill(v, acceleration)?;
         (acceleration > 0.0 && top.time <= self.duration).then_some(top.x)
@@ -55,14 +56,16 @@ impl Stepper for Exact {
         (self.field, self.linear) = (*field, Linear::new(field.d));
     }
 
-    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         self.start = from;
         self.evaluations += 1;
         let arrival = self.linear.first_standstill(from.x, from.v);
         let step = match arrival {
-            Some(arrival) if arrival.time <= longest => {
-                Step { duration: arrival.time, end: Point { x: arrival.x, v: 0.0 }, crossed: true }
-            }
+            Some(arrival) if arrival.time <= longest => Step {
+                duration: arrival.time,
+                end: StepPoint { x: arrival.x, v: 0.0 },
+                crossed: true,
+            },
             _ => {
                 self.duration = longest;
                 Step { duration: longest, end: self.at(longest), crossed: false }
@@ -72,7 +75,7 @@ impl Stepper for Exact {
         if step.end.size().is_finite() { Ok(step) } else { Err(Reason::OutOfRange) }
     }
 
-    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         self.start = from;
         self.evaluations += 1;
         self.duration = longest;
@@ -80,9 +83,9 @@ impl Stepper for Exact {
         if step.end.size().is_finite() { Ok(step) } else { Err(Reason::OutOfRange) }
     }
 
-    fn at(&self, time: f64) -> Point {
+    fn at(&self, time: f64) -> StepPoint {
         let (x, v) = self.linear.state(self.start.x, self.start.v, time);
-        Point { x, v }
+        StepPoint { x, v }
     }
 
     fn powers(&self) -> Powers {
@@ -100,14 +103,7 @@ impl Stepper for Exact {
     }
 
     fn pieces(&self) -> usize {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "between 1 and 4096"
-        )]
-        {
-            self.duration.clamp(1.0, MOST_PIECES).ceil() as usize
-        }
+        whole(self.duration.clamp(1.0, MOST_PIECES).ceil())
     }
 
     fn evaluations(&self) -> u64 {

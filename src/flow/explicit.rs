@@ -5,9 +5,9 @@
 //! shorter, until it ends there: Newton's method on the step length, so a crossing is as good as a step.
 
 use super::limits::Reason;
-use super::step::{ErrorScale, Field, LONGEST, Point, Powers, Step, Stepper, stopping_time};
+use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
 use super::tableau::{ErrorEstimate, Scheme, dop853, dopri5, rk4};
-use crate::numerics::root::{Bracket, Change, newton};
+use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scaling::{rough_exp2, rough_log2};
 use crate::oscillator::HalfPlane;
 
@@ -15,13 +15,13 @@ use crate::oscillator::HalfPlane;
 /// one more would change it by the square of this.
 const SETTLED: f64 = 1e-9;
 
-/// Most slopes that a dense output combines.
+/// Maximum number of slopes that a dense output combines.
 const MOST_SLOPES: usize = 16;
 
-/// Most coefficients of a dense output.
+/// Maximum number of coefficients of a dense output.
 const MOST_DENSE: usize = 7;
 
-/// A step of the classical method is stable while it is below this part of the damping time (it is
+/// A step of the classical method is stable while it is below this fraction of the damping time (it is
 /// 2.785 for real eigenvalues; the eigenvalue may grow within the step).
 const STABLE: f64 = 2.0;
 
@@ -34,8 +34,8 @@ pub struct Explicit<const S: usize, const R: usize, F: Field = HalfPlane> {
     tolerance: f64,
     /// Length to try next; 0 before the first step of an adaptive scheme.
     next: f64,
-    start: Point,
-    end: Point,
+    start: StepPoint,
+    end: StepPoint,
     duration: f64,
     /// Slopes of x (the velocities of the stages) and of v.
     velocity: [f64; S],
@@ -83,8 +83,8 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
             field,
             tolerance,
             next,
-            start: Point { x: 0.0, v: 0.0 },
-            end: Point { x: f64::NAN, v: f64::NAN },
+            start: StepPoint { x: 0.0, v: 0.0 },
+            end: StepPoint { x: f64::NAN, v: f64::NAN },
             duration: 0.0,
             velocity: [0.0; S],
             acceleration: [0.0; S],
@@ -100,7 +100,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
     }
 
     /// Makes `from` the start of the next attempts, and evaluates the slope there unless it is known.
-    fn start_at(&mut self, from: Point) {
+    fn start_at(&mut self, from: StepPoint) {
         let slope = if self.scheme.last_is_end && from == self.end {
             self.acceleration[S - 1]
         } else {
@@ -111,7 +111,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
     }
 
     /// One step of length `h` from `self.start`, whose first slope stands.
-    fn attempt(&mut self, h: f64) -> Point {
+    fn attempt(&mut self, h: f64) -> StepPoint {
         let columns = &self.scheme.columns;
         let (mut sum_x, mut sum_v) = ([0.0; R], [0.0; R]);
         for (j, column) in columns.iter().enumerate() {
@@ -131,12 +131,12 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         for (error, i) in self.errors.iter_mut().zip(S..R) {
             *error = (sum_x[i], sum_v[i]);
         }
-        Point { x: self.start.x + h * sum_x[S - 1], v: self.start.v + h * sum_v[S - 1] }
+        StepPoint { x: self.start.x + h * sum_x[S - 1], v: self.start.v + h * sum_v[S - 1] }
     }
 
     /// Error of the attempt in units of the tolerance, below 1 is accepted, and the power of the step
     /// with which it grows.
-    fn error(&self, h: f64, end: Point) -> (f64, f64) {
+    fn error(&self, h: f64, end: StepPoint) -> (f64, f64) {
         let scale = ErrorScale::new(self.tolerance, self.start, end);
         let norm = |(x, v): (f64, f64)| {
             let (x, v) = (x / scale.x, v / scale.v);
@@ -160,8 +160,8 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
     fn accepted(
         &mut self,
         longest: f64,
-        accept: impl Fn(Point) -> bool,
-    ) -> Result<(f64, Point), Reason> {
+        accept: impl Fn(StepPoint) -> bool,
+    ) -> Result<(f64, StepPoint), Reason> {
         if self.next == 0.0 {
             self.next = self.first_step();
         }
@@ -199,12 +199,12 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
     /// Shortens the step until it ends at `v = 0`.
     fn arrive(&mut self, h: f64) -> Step {
         let field = self.field;
-        let slope = |end: Point| field.acceleration(end.x, end.v);
+        let slope = |end: StepPoint| field.acceleration(end.x, end.v);
         let (mut length, mut end) = (h, self.end);
         if (end.v / slope(end)).abs() > SETTLED * h {
             let bracket = Bracket::falling(0.0, h);
             let start = bracket.inside(h - end.v / slope(end));
-            newton(bracket, start, Change::Relative(SETTLED), |shorter| {
+            newton(bracket, start, PlaceTolerance::Relative(SETTLED), |shorter| {
                 (length, end) = (shorter, self.attempt(shorter));
                 (end.v, slope(end))
             });
@@ -213,7 +213,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         let rest = if slope == 0.0 { 0.0 } else { -end.v / slope };
         // The stages belong to `length`: what is computed from them must not be stretched by `rest`.
         (self.duration, self.end) = (length, end);
-        let end = Point { x: end.x + rest * end.v + 0.5 * rest * rest * slope, v: 0.0 };
+        let end = StepPoint { x: end.x + rest * end.v + 0.5 * rest * rest * slope, v: 0.0 };
         Step { duration: (length + rest).max(0.0), end, crossed: true }
     }
 
@@ -243,10 +243,10 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
     fn begin(&mut self, field: &F) {
         self.field = *field;
         // The slope at the end of the last step belonged to another field.
-        self.end = Point { x: f64::NAN, v: f64::NAN };
+        self.end = StepPoint { x: f64::NAN, v: f64::NAN };
     }
 
-    fn advance(&mut self, from: Point, mut longest: f64) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, mut longest: f64) -> Result<Step, Reason> {
         let continues = from == self.end;
         self.start_at(from);
         if !continues {
@@ -254,7 +254,7 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
         }
         loop {
             // A step that turned around passed two crossings and is taken again, shorter.
-            let makes_sense = |end: Point| end.v <= 0.0 || end.x >= from.x;
+            let makes_sense = |end: StepPoint| end.v <= 0.0 || end.x >= from.x;
             let (duration, end) = self.accepted(longest, makes_sense)?;
             self.check_stability(duration)?;
             if end.v > 0.0 {
@@ -269,7 +269,7 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
         }
     }
 
-    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         self.start_at(from);
         let (duration, end) = self.accepted(longest, |_| true)?;
         self.check_stability(duration)?;
@@ -314,7 +314,7 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
         }
     }
 
-    fn at(&self, time: f64) -> Point {
+    fn at(&self, time: f64) -> StepPoint {
         let s = time / self.duration;
         let value = |from: f64, dense: &[f64; MOST_DENSE]| {
             // Nested alternately in s and 1 - s, as published.
@@ -323,7 +323,7 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
             });
             from + nested
         };
-        Point { x: value(self.start.x, &self.dense[0]), v: value(self.start.v, &self.dense[1]) }
+        StepPoint { x: value(self.start.x, &self.dense[0]), v: value(self.start.v, &self.dense[1]) }
     }
 
     /// The quadrature of the method itself: its stages are its nodes.

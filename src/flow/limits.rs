@@ -7,7 +7,7 @@ use serde::Serialize;
 /// Bounds on a computation: evaluations it may spend, and a way to be told to stop.
 #[derive(Clone, Copy)]
 pub struct Limits<'a> {
-    /// Most evaluations of the field (a Taylor series of order N counts as N).
+    /// Maximum number of evaluations of the field (a Taylor series of order N counts as N).
     pub evaluations: u64,
     /// Asked at every step; `true` ends the computation with [`Reason::Interrupted`].
     pub interrupted: &'a (dyn Fn() -> bool + Sync),

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// The cheapest method that meets the tolerance at hand.
+    /// The cheapest method that meets the tolerance asked for.
     Auto,
     /// Closed form of the piecewise linear oscillator.
     Exact,

@@ -119,6 +119,13 @@ pub struct Sample {
     pub v: f64,
 }
 
+impl Sample {
+    /// The point of the phase plane.
+    pub fn state(&self) -> State {
+        State { q: self.q, v: self.v }
+    }
+}
+
 /// What a computation cost, counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Cost {

@@ -6,8 +6,9 @@
 
 use super::limits::{Limits, Reason};
 use super::motion::{Cost, Problem};
-use super::step::{LONGEST, Point};
+use super::step::{LONGEST, StepPoint};
 use super::swing::time_to_blow_up;
+use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::scaling::{exponent, times_power};
 use crate::numerics::twofold::Twofold;
@@ -65,7 +66,7 @@ pub const FINE: Grain = Grain { order: 32, tolerance: 1e-30 };
 /// Three digits fewer by other steps: how far both differ says how good the finer one is at least.
 pub const COARSE: Grain = Grain { order: 28, tolerance: 1e-27 };
 
-/// Most coefficients.
+/// Maximum number of coefficients.
 const MOST: usize = 33;
 
 /// How many of the last coefficients decide on a step.
@@ -215,7 +216,7 @@ impl PreciseSwing {
             if last && longest.minus(self.time).high <= 0.0 {
                 return Ok(Arrival::Time);
             }
-            let point = Point { x: self.x[0].high, v: self.v[0].high };
+            let point = StepPoint { x: self.x[0].high, v: self.v[0].high };
             let now = elapsed + self.time.high;
             if let Some(rest) = time_to_blow_up(&self.field, point, SURE * now)
                 && rest <= longest.minus(self.time).high
@@ -302,8 +303,7 @@ impl PreciseSwing {
                 damping = product(&force, &self.v, k);
             }
             let acceleration = self.x[k].plus(self.v[k].times(2.0 * d)).plus(damping).opposite();
-            #[expect(clippy::cast_precision_loss, reason = "k is below 32")]
-            let divisor = Twofold::of((k + 1) as f64);
+            let divisor = Twofold::of(real(k + 1));
             self.x[k + 1] = scaled(self.v[k], self.time_exponent).over(divisor);
             self.v[k + 1] = scaled(acceleration, self.time_exponent).over(divisor);
         }
@@ -320,8 +320,7 @@ impl PreciseSwing {
             if !coefficient.is_finite() {
                 return None;
             }
-            #[expect(clippy::cast_precision_loss, reason = "k is at most 32")]
-            let power = k as f64;
+            let power = real(k);
             let part = |scale: f64| ln(scale / coefficient * self.grain.tolerance);
             steps[0] = steps[0].min(part(size) / power);
             steps[1] = steps[1].min(part(slope) / (power - 1.0));

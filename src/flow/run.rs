@@ -1,20 +1,21 @@
-//! A motion in the making: half swings glued where they end, and what is kept of them.
+//! A motion in progress: half swings glued where they end, and what is kept of them.
 
 use std::ops::ControlFlow;
 
 use super::limits::{Limits, Reason};
 use super::method::Method;
 use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
-use super::step::{Field, Point, Powers, Step, Stepper};
+use super::step::{Field, Powers, Step, StepPoint, Stepper};
 use super::stop::ComingToRest;
-use super::swing::{End, Failed, Swing, glide, swing};
+use super::swing::{Failed, Swing, SwingEnd, glide, swing};
+use crate::numerics::count::real;
 use crate::numerics::scaling::times_power;
 use crate::numerics::sum::Sum;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{HalfPlane, Ledger, Side, State};
 
-/// A motion in the making.
-pub struct Run {
+/// A motion in progress.
+pub struct MotionRun {
     pub(super) detail: Detail,
     /// What is known so far.
     pub(super) found: Trajectory,
@@ -31,7 +32,7 @@ pub(super) struct Works {
     pub(super) path: f64,
 }
 
-impl Run {
+impl MotionRun {
     /// At the start.
     pub fn new(problem: &Problem, method: Method, detail: Detail) -> Self {
         let moving = Outcome::Moving { tau: 0.0, q: problem.initial.q, v: problem.initial.v };
@@ -39,7 +40,7 @@ impl Run {
         if detail.samples_per_step > 0 {
             samples.push(Sample { tau: 0.0, q: problem.initial.q, v: problem.initial.v });
         }
-        Run {
+        MotionRun {
             detail,
             found: Trajectory {
                 problem: *problem,
@@ -101,12 +102,12 @@ impl Run {
             return Outcome::Moving { tau: until, q: initial.q, v: initial.v };
         }
         let field = HalfPlane::new(&parameters, Side::Upper);
-        let point = Point { x: initial.q, v: initial.v };
+        let point = StepPoint { x: initial.q, v: initial.v };
         let watch = self.watcher(Side::Upper, field);
         let result = glide(stepper, &field, point, until, limits, watch);
         match self.book(result) {
             Err(failed) => failed,
-            Ok(End::Stopped { point }) => self.stopped(State { q: point.x, v: point.v }),
+            Ok(SwingEnd::Stopped { point }) => self.stopped(State { q: point.x, v: point.v }),
             Ok(_) => Outcome::Escaped { tau: self.time.value() },
         }
     }
@@ -120,7 +121,7 @@ impl Run {
     ) -> Outcome {
         let Problem { parameters, initial, until, .. } = self.found.problem;
         let r = parameters.r;
-        let mut point = Point { x: side.position(initial.q, r), v: initial.v.abs() };
+        let mut point = StepPoint { x: side.position(initial.q, r), v: initial.v.abs() };
         let mut unit = 0;
         let mut last = initial;
         loop {
@@ -131,7 +132,7 @@ impl Run {
             let field = HalfPlane::new(&parameters, side);
             let stop = ComingToRest::of(&field, point).filter(|stop| stop.duration < remaining);
             let result = if let Some(ComingToRest { duration, .. }) = stop {
-                Ok(Swing { end: End::Crossing { x: point.x }, duration, steps: 0 })
+                Ok(Swing { end: SwingEnd::Crossing { x: point.x }, duration, steps: 0 })
             } else {
                 let watch = self.watcher(side, field);
                 swing(stepper, &field, (point, unit), remaining, limits, watch)
@@ -142,13 +143,13 @@ impl Run {
             };
             let tau = self.time.value();
             match end {
-                End::Escape => return Outcome::Escaped { tau },
-                End::Stopped { point: end } => {
+                SwingEnd::Escape => return Outcome::Escaped { tau },
+                SwingEnd::Stopped { point: end } => {
                     self.works.path += end.x - point.x;
                     let (q, v) = (side.displacement(end.x, r), side.sign() * end.v);
                     return self.stopped(State { q, v });
                 }
-                End::Crossing { x } => {
+                SwingEnd::Crossing { x } => {
                     let (way, q) = match stop {
                         Some(stop) => (stop.way(), last.q + side.sign() * stop.way()),
                         None => (x - point.x, side.displacement(x, r)),
@@ -168,7 +169,7 @@ impl Run {
                         return Outcome::Captured { tau, q };
                     }
                     side = side.opposite();
-                    (point, unit) = (Point { x: -clearance, v: 0.0 }, of);
+                    (point, unit) = (StepPoint { x: -clearance, v: 0.0 }, of);
                 }
             }
         }
@@ -200,7 +201,7 @@ impl Run {
     }
 
     /// Books steps and time; hands on how the piece ended, or the outcome where it failed.
-    fn book(&mut self, result: Result<Swing, Failed>) -> Result<End, Outcome> {
+    fn book(&mut self, result: Result<Swing, Failed>) -> Result<SwingEnd, Outcome> {
         let (duration, steps) = match &result {
             Ok(swing) => (swing.duration, swing.steps),
             Err(failed) => (failed.duration, failed.steps),
@@ -258,9 +259,9 @@ pub(super) fn sample<F: Field, S: Stepper<F>>(
     stepper: &mut S,
     step: &Step,
     count: usize,
-    mut keep: impl FnMut(f64, Point),
+    mut keep: impl FnMut(f64, StepPoint),
 ) {
-    let mut keep_number = |offset, point: Point| {
+    let mut keep_number = |offset, point: StepPoint| {
         if point.x.is_finite() && point.v.is_finite() {
             keep(offset, point);
         }
@@ -268,8 +269,7 @@ pub(super) fn sample<F: Field, S: Stepper<F>>(
     let count = count * stepper.pieces();
     stepper.prepare_dense();
     for index in 1..count {
-        #[expect(clippy::cast_precision_loss, reason = "a few hundred points")]
-        let offset = step.duration * (index as f64 / count as f64);
+        let offset = step.duration * (real(index) / real(count));
         keep_number(offset, stepper.at(offset));
     }
     keep_number(step.duration, step.end);

@@ -5,14 +5,14 @@ use crate::oscillator::HalfPlane;
 
 /// A point `(x, v)` in the frame of a half plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
+pub struct StepPoint {
     /// Position.
     pub x: f64,
     /// Velocity, not negative inside a half swing.
     pub v: f64,
 }
 
-impl Point {
+impl StepPoint {
     /// Size of the state, `max(abs(x), abs(v))`.
     pub fn size(self) -> f64 {
         self.x.abs().max(self.v.abs())
@@ -33,7 +33,7 @@ pub struct ErrorScale {
 
 impl ErrorScale {
     /// For a step between these points with this relative tolerance.
-    pub fn new(tolerance: f64, start: Point, end: Point) -> Self {
+    pub fn new(tolerance: f64, start: StepPoint, end: StepPoint) -> Self {
         ErrorScale {
             x: tolerance * start.size().max(end.size()),
             v: tolerance * start.v.abs().max(end.v.abs()),
@@ -61,7 +61,7 @@ pub trait Field: Copy {
     /// Divergence of the field, the derivative of the acceleration by v; that by x is -1.
     fn divergence(&self, v: f64) -> f64;
 
-    /// Sum of the magnitudes of all terms of the acceleration: what its rounding error is a part of.
+    /// Sum of the magnitudes of all terms of the acceleration: what its rounding error is relative to.
     fn magnitude(&self, x: f64, v: f64) -> f64;
 }
 
@@ -88,7 +88,7 @@ pub struct Step {
     /// How long it took.
     pub duration: f64,
     /// Where it ended.
-    pub end: Point,
+    pub end: StepPoint,
     /// Whether it ended by arriving at `v = 0`; then `end.v` is exactly 0.
     pub crossed: bool,
 }
@@ -132,16 +132,16 @@ pub trait Stepper<F: Field = HalfPlane> {
     /// Takes one step from a point with `v >= 0` (on `v = 0`: with `x < 0`), at most `longest` long,
     /// and not beyond the first arrival at `v = 0`. Fails with [`Reason::StepTooSmall`] or [`Reason::OutOfRange`]
     /// where no step meets the tolerance.
-    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason>;
+    fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason>;
 
     /// Takes one step, at most `longest` long, wherever it leads: `v = 0` is not looked for.
-    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason>;
+    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason>;
 
     /// Makes [`Stepper::at`] usable for the last step, if that costs something.
     fn prepare_dense(&mut self) {}
 
     /// The point at `time` after the start of the last step.
-    fn at(&self, time: f64) -> Point;
+    fn at(&self, time: f64) -> StepPoint;
 
     /// The integrals of powers of `v` over the last step.
     fn powers(&self) -> Powers;

@@ -16,8 +16,9 @@ mod arrival;
 use algebra::{MOST, differences, interpolated, solve, weighted};
 
 use super::limits::Reason;
-use super::step::{ErrorScale, Field, LONGEST, Point, Powers, Step, Stepper, stopping_time};
+use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
 use super::tableau::radau::{Collocation, FIVE, SEVEN, THREE};
+use crate::numerics::count::real;
 use crate::numerics::elementary::pow;
 use crate::numerics::root::bisect;
 use crate::numerics::scaling::{rough_exp2, rough_log2};
@@ -33,7 +34,7 @@ const SHORT_OF: f64 = 0.9;
 /// Newton iterations before a step is taken again, shorter. They converge quadratically.
 const ITERATIONS: usize = 12;
 
-/// Least tolerance for the embedded solution: its difference is not known better.
+/// Smallest tolerance for the embedded solution: its difference is not known better.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Difference to the embedded solution that rounding makes, in units of that of one velocity.
@@ -58,10 +59,10 @@ pub struct Stiff<F: Field = HalfPlane> {
     asked: f64,
     /// Length to try next; 0 before the first step.
     next: f64,
-    start: Point,
+    start: StepPoint,
     /// Slope of v at the start.
     slope: f64,
-    end: Point,
+    end: StepPoint,
     duration: f64,
     /// Velocities and accelerations of the stages.
     velocity: [f64; MOST],
@@ -90,9 +91,9 @@ impl<F: Field> Stiff<F> {
             tolerance: embedded_tolerance(tolerance, stages),
             asked: tolerance,
             next: 0.0,
-            start: Point { x: 0.0, v: 0.0 },
+            start: StepPoint { x: 0.0, v: 0.0 },
             slope: 0.0,
-            end: Point { x: f64::NAN, v: f64::NAN },
+            end: StepPoint { x: f64::NAN, v: f64::NAN },
             duration: 0.0,
             velocity: [0.0; MOST],
             acceleration: [0.0; MOST],
@@ -126,7 +127,7 @@ impl<F: Field> Stiff<F> {
         Some(self.at(time).v)
     }
 
-    fn start_at(&mut self, from: Point) {
+    fn start_at(&mut self, from: StepPoint) {
         self.slope = self.field.acceleration(from.x, from.v);
         self.evaluations += 1;
         // A first guess comes from the last polynomial only where this step continues it.
@@ -159,7 +160,7 @@ impl<F: Field> Stiff<F> {
     }
 
     /// Solves for the stages of a step of length `h`; `None` where Newton's method does not settle.
-    fn attempt(&mut self, h: f64, mut velocity: [f64; MOST]) -> Option<Point> {
+    fn attempt(&mut self, h: f64, mut velocity: [f64; MOST]) -> Option<StepPoint> {
         let Collocation { nodes, integrals, .. } = *self.scheme;
         let stages = nodes.len();
         let mut acceleration = [0.0; MOST];
@@ -203,7 +204,7 @@ impl<F: Field> Stiff<F> {
                 }
                 (self.velocity, self.acceleration) = (velocity, acceleration);
                 let x = self.start.x + h * weighted(integrals[stages - 1], &velocity);
-                return Some(Point { x, v: velocity[stages - 1] });
+                return Some(StepPoint { x, v: velocity[stages - 1] });
             }
             if shrunk > 2.0 {
                 return None;
@@ -218,14 +219,14 @@ impl<F: Field> Stiff<F> {
     /// On a slow manifold large terms balance: their rounding, divided by the damping, is what a velocity is
     /// worth there, however short the step.
     fn rounding(&self, h: f64) -> f64 {
-        let Point { x, v } = self.start;
+        let StepPoint { x, v } = self.start;
         let part = self.scheme.start * h;
         let damped = 1.0 + part * self.field.divergence(v).abs() + part * part;
         f64::EPSILON * self.field.magnitude(x, v) * part / damped
     }
 
     /// Tolerance for the embedded solution over a step of length `h` to `end`.
-    fn tolerance_of(&self, h: f64, end: Point) -> f64 {
+    fn tolerance_of(&self, h: f64, end: StepPoint) -> f64 {
         let rate = |v: f64| self.field.divergence(v).abs();
         let damping_times = h * rate(self.start.v).max(rate(end.v));
         let reduced = self.asked / self.scheme.reduced_order(damping_times);
@@ -233,7 +234,7 @@ impl<F: Field> Stiff<F> {
     }
 
     /// The error that an attempt over a step of length `h` to `end` may have.
-    fn scale(&self, h: f64, end: Point) -> ErrorScale {
+    fn scale(&self, h: f64, end: StepPoint) -> ErrorScale {
         let scale = ErrorScale::new(self.tolerance_of(h, end), self.start, end);
         ErrorScale { v: scale.v.max(NOISE * self.rounding(h)), ..scale }
     }
@@ -243,7 +244,7 @@ impl<F: Field> Stiff<F> {
         let Collocation { error: weights, start: own, .. } = *self.scheme;
         let part = h * own;
         let rate = self.field.divergence(self.start.v);
-        let sums = Point {
+        let sums = StepPoint {
             x: h * weighted(weights, &self.velocity),
             v: h * weighted(weights, &self.acceleration),
         };
@@ -251,12 +252,12 @@ impl<F: Field> Stiff<F> {
         // where damping is stiff.
         let filtered = |x: f64, v: f64| {
             let determinant = 1.0 - part * rate + part * part;
-            Point {
+            StepPoint {
                 x: ((1.0 - part * rate) * x + part * v) / determinant,
                 v: (v - part * x) / determinant,
             }
         };
-        let norm = |error: Point| (error.x / scale.x).abs().max((error.v / scale.v).abs());
+        let norm = |error: StepPoint| (error.x / scale.x).abs().max((error.v / scale.v).abs());
         let error = filtered(part * self.start.v + sums.x, part * self.slope + sums.v);
         if norm(error) < 1.0 || !first {
             return norm(error);
@@ -273,10 +274,9 @@ impl<F: Field> Stiff<F> {
     /// Steps until the error is below the tolerance; the step is not longer than `longest`.
     ///
     /// With `above`, also until no stage but the last ones lies below `v = 0` and the position grows.
-    fn accepted(&mut self, longest: f64, above: bool) -> Result<(f64, Point), Reason> {
+    fn accepted(&mut self, longest: f64, above: bool) -> Result<(f64, StepPoint), Reason> {
         let stages = self.scheme.nodes.len();
-        #[expect(clippy::cast_precision_loss, reason = "at most 7")]
-        let power = -1.0 / (stages as f64 + 1.0);
+        let power = -1.0 / (real(stages) + 1.0);
         let mut grow = 8.0;
         let mut first = self.duration == 0.0;
         let mut length = self.next.min(longest);
@@ -313,7 +313,7 @@ impl<F: Field> Stiff<F> {
     }
 
     /// Keeps an attempt as the last step.
-    fn keep(&mut self, duration: f64, end: Point) {
+    fn keep(&mut self, duration: f64, end: StepPoint) {
         (self.duration, self.end) = (duration, end);
         self.dense[1] = differences(self.scheme.nodes, self.start.v, &self.velocity);
     }
@@ -330,7 +330,7 @@ impl<F: Field> Stiff<F> {
         } else if rate > 0.0 {
             LONGEST.min(1.0 / rate)
         } else {
-            // The rate may be -0, whose reciprocal is no bound.
+            // The rate may be -0, whose reciprocal is not a bound.
             LONGEST
         }
     }
@@ -340,10 +340,10 @@ impl<F: Field> Stepper<F> for Stiff<F> {
     fn begin(&mut self, field: &F) {
         self.field = *field;
         // What is known of the last step belonged to another field.
-        self.end = Point { x: f64::NAN, v: f64::NAN };
+        self.end = StepPoint { x: f64::NAN, v: f64::NAN };
     }
 
-    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         let continues = from == self.end;
         self.start_at(from);
         let mut longest = longest.min(self.longest());
@@ -369,7 +369,7 @@ impl<F: Field> Stepper<F> for Stiff<F> {
         }
     }
 
-    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         self.start_at(from);
         let (duration, end) = self.accepted(longest.min(self.longest()), false)?;
         self.keep(duration, end);
@@ -384,10 +384,10 @@ impl<F: Field> Stepper<F> for Stiff<F> {
         self.dense[0] = differences(self.scheme.nodes, self.start.x, &position);
     }
 
-    fn at(&self, time: f64) -> Point {
+    fn at(&self, time: f64) -> StepPoint {
         let part = time / self.duration;
         let value = |dense| interpolated(self.scheme.nodes, dense, part);
-        Point { x: value(&self.dense[0]), v: value(&self.dense[1]) }
+        StepPoint { x: value(&self.dense[0]), v: value(&self.dense[1]) }
     }
 
     /// The quadrature of the collocation, exact for polynomials of its order.
@@ -412,8 +412,7 @@ impl<F: Field> Stepper<F> for Stiff<F> {
 /// The tolerance for the embedded solution of order S with which the solution of order `2 S - 1` has
 /// about the tolerance that was asked for (as in the authors' program), where damping is not stiff.
 fn embedded_tolerance(tolerance: f64, stages: usize) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "at most 7")]
-    let stages = stages as f64;
+    let stages = real(stages);
     0.1 * pow(tolerance, (stages + 1.0) / (2.0 * stages))
 }
 

@@ -5,7 +5,7 @@
 //! and where the rim repels (`D <= -1`) it grows forever. So it is computed by itself, and with its
 //! exponent, because it is quadratic in the velocity.
 
-use super::step::Point;
+use super::step::StepPoint;
 use crate::numerics::quadrature::GAUSS;
 use crate::numerics::scaling::{exponent, times_power};
 use crate::oscillator::HalfPlane;
@@ -26,10 +26,10 @@ impl ComingToRest {
     ///
     /// With x constant `v' = -(x + force)`, so the way is the integral of `v/(x + force)` over v, by
     /// Gauss's rule. Guarantee: a relative error of 1e-12 at most.
-    pub fn of(field: &HalfPlane, point: Point) -> Option<Self> {
-        /// Largest damping force as a part of the position.
+    pub fn of(field: &HalfPlane, point: StepPoint) -> Option<Self> {
+        /// Largest damping force as a fraction of the position.
         const WEAK: f64 = 1e-3;
-        /// Largest way as a part of the position: the force of the spring changes by as much.
+        /// Largest way as a fraction of the position: the force of the spring changes by as much.
         const NOTHING: f64 = 1e-12;
         let unit = exponent(point.v);
         let HalfPlane { d, d2, d3 } = field.in_units(unit);
@@ -75,34 +75,34 @@ mod tests {
     fn undamped_motions_stop_on_their_circle() {
         let field = HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 };
         for (x, v) in [(2.0, 1e-9), (3e-5, 1e-18), (1e200, 1e-100)] {
-            let stop = ComingToRest::of(&field, Point { x, v }).unwrap();
+            let stop = ComingToRest::of(&field, StepPoint { x, v }).unwrap();
             // In units of 2^-600 the last of these ways is a number.
             let way = times_power(stop.distance, stop.unit + 600);
             let expected = 0.5 * times_power(v, 300) * (times_power(v, 300) / x);
             assert!((way / expected - 1.0).abs() < 1e-15, "{stop:?}");
             assert!((stop.duration / (v / x) - 1.0).abs() < 1e-15);
         }
-        assert_eq!(ComingToRest::of(&field, Point { x: 2.0, v: 1e-5 }), None);
-        assert_eq!(ComingToRest::of(&field, Point { x: -2.0, v: 1e-30 }), None);
+        assert_eq!(ComingToRest::of(&field, StepPoint { x: 2.0, v: 1e-5 }), None);
+        assert_eq!(ComingToRest::of(&field, StepPoint { x: -2.0, v: 1e-30 }), None);
     }
 
     /// The way is quadratic in the velocity: it exists where its square underflows.
     #[test]
     fn ways_below_the_range_of_numbers_keep_their_digits() {
         let field = HalfPlane { d: -1.5, d2: 3.0, d3: 1e3 };
-        let stop = ComingToRest::of(&field, Point { x: 2.0, v: 3e-300 }).unwrap();
+        let stop = ComingToRest::of(&field, StepPoint { x: 2.0, v: 3e-300 }).unwrap();
         let log = ln(stop.distance) + f64::from(stop.unit) * std::f64::consts::LN_2;
         let expected = 2.0 * ln(3e-300) - ln(4.0);
         assert!((log / expected - 1.0).abs() < 1e-15, "{stop:?}");
     }
 
-    /// A damping force that is a part of the position changes the way by about two thirds of that part.
+    /// A damping force that is a fraction of the position changes the way by about two thirds of that fraction.
     #[test]
     fn damping_shortens_the_way() {
         let (x, v) = (1.0, 1e-9);
         let stop = |d: f64| {
             let stop =
-                ComingToRest::of(&HalfPlane { d, d2: 0.0, d3: 0.0 }, Point { x, v }).unwrap();
+                ComingToRest::of(&HalfPlane { d, d2: 0.0, d3: 0.0 }, StepPoint { x, v }).unwrap();
             stop.way()
         };
         // The integral of v/(1 + k v), as a series in k v.

@@ -6,7 +6,7 @@
 use std::ops::ControlFlow;
 
 use super::limits::{Limits, Reason};
-use super::step::{Point, Step, Stepper};
+use super::step::{Step, StepPoint, Stepper};
 use crate::numerics::elementary::ln_1p;
 use crate::numerics::scaling::{exponent, times_power};
 use crate::numerics::sum::Sum;
@@ -20,7 +20,7 @@ const BLOW_UP_ERROR: f64 = 1e-14;
 
 /// How a half swing ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End {
+pub enum SwingEnd {
     /// At `v = 0`, at this position.
     Crossing {
         /// Position in the frame of the half plane.
@@ -29,7 +29,7 @@ pub enum End {
     /// At the end time, or where the watcher said so.
     Stopped {
         /// Where.
-        point: Point,
+        point: StepPoint,
     },
     /// Before the end time the velocity becomes infinite.
     Escape,
@@ -39,7 +39,7 @@ pub enum End {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swing {
     /// How it ended.
-    pub end: End,
+    pub end: SwingEnd,
     /// How long it took (to the blow-up where it escaped).
     pub duration: f64,
     /// Accepted steps.
@@ -66,7 +66,7 @@ pub struct Failed {
 pub fn swing<S: Stepper>(
     stepper: &mut S,
     field: &HalfPlane,
-    (start, unit): (Point, i32),
+    (start, unit): (StepPoint, i32),
     longest: f64,
     limits: &Limits,
     watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
@@ -80,7 +80,7 @@ pub fn swing<S: Stepper>(
 pub fn glide<S: Stepper>(
     stepper: &mut S,
     field: &HalfPlane,
-    start: Point,
+    start: StepPoint,
     longest: f64,
     limits: &Limits,
     watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
@@ -91,15 +91,15 @@ pub fn glide<S: Stepper>(
 /// Takes steps by `advance` until it crosses, the time is over, or escape is certain.
 fn drive<S: Stepper>(
     stepper: &mut S,
-    advance: impl Fn(&mut S, Point, f64) -> Result<Step, Reason>,
+    advance: impl Fn(&mut S, StepPoint, f64) -> Result<Step, Reason>,
     field: &HalfPlane,
-    (start, unit): (Point, i32),
+    (start, unit): (StepPoint, i32),
     longest: f64,
     limits: &Limits,
     mut watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
 ) -> Result<Swing, Failed> {
     let size = exponent(start.size());
-    let mut point = Point { x: times_power(start.x, -size), v: times_power(start.v, -size) };
+    let mut point = StepPoint { x: times_power(start.x, -size), v: times_power(start.v, -size) };
     let mut unit = unit + size;
     let mut scaled = field.in_units(unit);
     let mut clock = Sum::default();
@@ -127,24 +127,28 @@ fn drive<S: Stepper>(
         point = step.end;
         let done = |end| Ok(Swing { end, duration: time, steps });
         if step.crossed {
-            return done(End::Crossing { x: times_power(point.x, unit) });
+            return done(SwingEnd::Crossing { x: times_power(point.x, unit) });
         }
         let in_time = step.duration < remaining;
         if !(in_time && goes_on) {
             let (x, v) = (times_power(point.x, unit), times_power(point.v, unit));
             let duration = if in_time { time } else { longest };
-            return Ok(Swing { end: End::Stopped { point: Point { x, v } }, duration, steps });
+            return Ok(Swing {
+                end: SwingEnd::Stopped { point: StepPoint { x, v } },
+                duration,
+                steps,
+            });
         }
         if let Some(rest) = time_to_blow_up(&scaled, point, time)
             && time + rest <= longest
         {
-            return Ok(Swing { end: End::Escape, duration: time + rest, steps });
+            return Ok(Swing { end: SwingEnd::Escape, duration: time + rest, steps });
         }
         let drift = exponent(point.size());
         if drift.abs() > FAR {
             unit += drift;
             scaled = field.in_units(unit);
-            point = Point { x: times_power(point.x, -drift), v: times_power(point.v, -drift) };
+            point = StepPoint { x: times_power(point.x, -drift), v: times_power(point.v, -drift) };
             stepper.begin(&scaled);
         }
     }
@@ -154,14 +158,14 @@ fn drive<S: Stepper>(
 ///
 /// Far out, where large terms balance, rounding makes points of rest of which the motion knows nothing: x
 /// moves on by less than its own rounding, and every further step would be the same again.
-fn progress(step: Step, from: Point, longest: f64) -> Step {
+fn progress(step: Step, from: StepPoint, longest: f64) -> Step {
     if step.crossed || step.end != from || from.v == 0.0 {
         return step;
     }
     let x = if from.v > 0.0 { from.x.next_up() } else { from.x.next_down() };
     let duration = (x - from.x) / from.v;
     if duration < longest {
-        Step { duration, end: Point { x, ..from }, crossed: false }
+        Step { duration, end: StepPoint { x, ..from }, crossed: false }
     } else {
         Step { duration: longest, ..step }
     }
@@ -171,24 +175,24 @@ fn progress(step: Step, from: Point, longest: f64) -> Step {
 ///
 /// The time is that of the two driving terms alone ([`blow_up`]); it is used when what the others change is
 /// below [`BLOW_UP_ERROR`] of the time so far.
-pub(super) fn time_to_blow_up(field: &HalfPlane, point: Point, elapsed: f64) -> Option<f64> {
+pub(super) fn time_to_blow_up(field: &HalfPlane, point: StepPoint, elapsed: f64) -> Option<f64> {
     let (rest, others) = blow_up(field, point)?;
     (rest * others <= BLOW_UP_ERROR * elapsed).then_some(rest)
 }
 
 /// Whether v is certain to become infinite.
-pub(crate) fn is_escaping(field: &HalfPlane, point: Point) -> bool {
+pub(crate) fn is_escaping(field: &HalfPlane, point: StepPoint) -> bool {
     blow_up(field, point).is_some()
 }
 
-/// Where escape is certain: the time to it by the terms that drive v alone, and the size of all others as a part
+/// Where escape is certain: the time to it by the terms that drive v alone, and the size of all others relative
 /// of theirs.
 ///
 /// For `v < 0` (met where there is no friction) the mirror image is asked. With `a = -D2` and `b = -D3`
 /// the terms `a v^2 + b v^3` drive v. Escape is certain once they exceed eight times all others together
 /// and x cannot catch up any more, and if `a` brakes, it does so with less than half of what `b` gives:
 /// from then on v grows, and these ratios with it.
-fn blow_up(field: &HalfPlane, point: Point) -> Option<(f64, f64)> {
+fn blow_up(field: &HalfPlane, point: StepPoint) -> Option<(f64, f64)> {
     let v = point.v.abs();
     let (a, b) = (if point.v < 0.0 { field.d2 } else { -field.d2 }, -field.d3);
     let drives = if a < 0.0 { b * v >= -2.0 * a } else { b >= 0.0 && (a > 0.0 || b > 0.0) };

@@ -9,12 +9,13 @@
 //! of a step is about `e h/(rho - h)` of the state.
 
 use super::limits::Reason;
-use super::step::{LONGEST, Point, Powers, Step, Stepper};
+use super::step::{LONGEST, Powers, Step, StepPoint, Stepper};
+use crate::numerics::count::real;
 use crate::numerics::polynomial::{
     derivative, reciprocals, value_and_slope_in_two as value_and_slope, value_in_two as value,
 };
 use crate::numerics::quadrature::GAUSS;
-use crate::numerics::root::{Bracket, Change, newton};
+use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scaling::{exponent, rough_exp2, rough_log2, times_power};
 use crate::oscillator::HalfPlane;
 
@@ -96,10 +97,7 @@ impl Taylor {
     }
 
     pub fn order(&self) -> f64 {
-        #[expect(clippy::cast_precision_loss, reason = "at most 28")]
-        {
-            self.order as f64
-        }
+        real(self.order)
     }
 
     /// Fills the coefficient arrays at a point.
@@ -108,7 +106,7 @@ impl Taylor {
     /// coefficients. The newest two enter it linearly and are kept in registers, so that each waits only
     /// for one product of the one before it; the sums over the others run over memory written at least
     /// two rounds ago.
-    fn expand(&mut self, from: Point) {
+    fn expand(&mut self, from: StepPoint) {
         let HalfPlane { d, d2, d3 } = self.field;
         let unit = times_power(1.0, self.time_exponent);
         let order = self.order.min(MOST);
@@ -188,7 +186,7 @@ impl Taylor {
     /// Newton's method on the polynomial starts at the root of the parabola through both ends with the slope
     /// of the first. `v > 0` just after 0 is known (from the side entered), whatever `v(0)` is.
     fn root(&self, end: f64, v_end: f64) -> f64 {
-        const SETTLED: Change = Change::Relative(1e-9);
+        const SETTLED: PlaceTolerance = PlaceTolerance::Relative(1e-9);
         let (v, slope) = (self.v[0], self.v[1]);
         let bend = ((v_end - v) / end - slope) / end;
         let spread = (slope * slope - 4.0 * bend * v).sqrt();
@@ -217,7 +215,7 @@ impl Taylor {
             return None;
         }
         // v is flat there: an error e of the time costs e^2 of v.
-        let settled = Change::Absolute(1e-9 * end);
+        let settled = PlaceTolerance::Absolute(1e-9 * end);
         let bracket = Bracket::falling(0.0, end);
         let peak = newton(bracket, 0.5 * end, settled, |t| value_and_slope(slopes, t));
         Some(value(&self.v[..=self.order], peak.at))
@@ -268,7 +266,7 @@ impl Inner {
 impl Taylor {
     /// Expands at a point; returns the step length that the tolerance allows, in units of the
     /// coefficients.
-    fn settle(&mut self, from: Point) -> Result<f64, Reason> {
+    fn settle(&mut self, from: StepPoint) -> Result<f64, Reason> {
         self.time_exponent = self.next_time_exponent;
         loop {
             self.expand(from);
@@ -284,7 +282,7 @@ impl Taylor {
         }
     }
 
-    fn accept(&mut self, duration: f64, end: Point) -> Step {
+    fn accept(&mut self, duration: f64, end: StepPoint) -> Step {
         self.duration = duration;
         // Keep the unit of time near the step, so that coefficients neither over- nor underflow.
         let drift = exponent(duration);
@@ -300,7 +298,7 @@ impl Stepper for Taylor {
         self.field = *field;
     }
 
-    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         let allowed = self.settle(from)?;
         let unit = times_power(1.0, self.time_exponent);
         let mut scaled = allowed.min(LONGEST / unit).min(longest / unit);
@@ -313,7 +311,7 @@ impl Stepper for Taylor {
             let v = value(&self.v[..=order], scaled);
             if v <= 0.0 {
                 let root = self.root(scaled, v);
-                let end = Point { x: value(&self.x[..=order], root), v: 0.0 };
+                let end = StepPoint { x: value(&self.x[..=order], root), v: 0.0 };
                 let step = Step { duration: root * unit, end, crossed: true };
                 if step.is_possible() {
                     self.duration = step.duration;
@@ -324,7 +322,7 @@ impl Stepper for Taylor {
                 let x = value(&self.x[..=order], scaled);
                 // Above v = 0 the position grows; if it did not, the step passed two crossings.
                 if x >= from.x {
-                    return Ok(self.accept(duration, Point { x, v }));
+                    return Ok(self.accept(duration, StepPoint { x, v }));
                 }
             }
             self.rejected += 1;
@@ -332,7 +330,7 @@ impl Stepper for Taylor {
         }
     }
 
-    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         let allowed = self.settle(from)?;
         let unit = times_power(1.0, self.time_exponent);
         let scaled = allowed.min(longest / unit);
@@ -341,14 +339,14 @@ impl Stepper for Taylor {
         }
         let order = self.order;
         let end =
-            Point { x: value(&self.x[..=order], scaled), v: value(&self.v[..=order], scaled) };
+            StepPoint { x: value(&self.x[..=order], scaled), v: value(&self.v[..=order], scaled) };
         Ok(self.accept(scaled * unit, end))
     }
 
-    fn at(&self, time: f64) -> Point {
+    fn at(&self, time: f64) -> StepPoint {
         let t = times_power(time, -self.time_exponent);
         let order = self.order;
-        Point { x: value(&self.x[..=order], t), v: value(&self.v[..=order], t) }
+        StepPoint { x: value(&self.x[..=order], t), v: value(&self.v[..=order], t) }
     }
 
     fn powers(&self) -> Powers {

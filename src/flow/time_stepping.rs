@@ -9,13 +9,13 @@
 //! Computer Methods in Applied Mechanics and Engineering 177, 1999).
 
 use super::limits::Reason;
-use super::step::{Point, Powers, Step, Stepper};
+use super::step::{Powers, Step, StepPoint, Stepper};
 use crate::oscillator::HalfPlane;
 
 /// Newton iterations for the velocity at the end of a step; the residual is nearly linear.
 const ITERATIONS: usize = 50;
 
-/// A step is solvable by a contraction while it is below this part of the damping time.
+/// A step is solvable by a contraction while it is below this fraction of the damping time.
 const STABLE: f64 = 2.0;
 
 /// The stepper, in coordinates `(q, v)` of the whole phase plane.
@@ -24,8 +24,8 @@ pub struct TimeStepping {
     field: HalfPlane,
     r: f64,
     length: f64,
-    start: Point,
-    end: Point,
+    start: StepPoint,
+    end: StepPoint,
     duration: f64,
     evaluations: u64,
 }
@@ -33,14 +33,14 @@ pub struct TimeStepping {
 impl TimeStepping {
     /// A stepper with friction `r` and steps of this length.
     pub fn new(field: HalfPlane, r: f64, length: f64) -> Self {
-        let start = Point { x: 0.0, v: 0.0 };
+        let start = StepPoint { x: 0.0, v: 0.0 };
         TimeStepping { field, r, length, start, end: start, duration: length, evaluations: 0 }
     }
 
     /// The impulse that is missing without friction if the step ends with velocity `v`.
     fn missing(&mut self, h: f64, v: f64) -> f64 {
         self.evaluations += 1;
-        let Point { x, v: before } = self.start;
+        let StepPoint { x, v: before } = self.start;
         let middle = 0.5 * (before + v);
         let position = x + 0.5 * h * middle;
         (v - before) - h * self.field.acceleration(position, middle)
@@ -73,11 +73,11 @@ impl Stepper for TimeStepping {
         self.field = *field;
     }
 
-    fn advance(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         self.pass(from, longest)
     }
 
-    fn pass(&mut self, from: Point, longest: f64) -> Result<Step, Reason> {
+    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         let h = self.length.min(longest);
         self.start = from;
         let rate = self.field.divergence(from.v).abs();
@@ -93,7 +93,7 @@ impl Stepper for TimeStepping {
             self.solve(h, if to_rest > 0.0 { self.r } else { -self.r })?
         };
         self.duration = h;
-        self.end = Point { x: from.x + 0.5 * h * (from.v + v), v };
+        self.end = StepPoint { x: from.x + 0.5 * h * (from.v + v), v };
         if !self.end.size().is_finite() {
             return Err(Reason::OutOfRange);
         }
@@ -101,10 +101,10 @@ impl Stepper for TimeStepping {
     }
 
     /// Between the ends of a step the velocity is taken to be linear, as the method does.
-    fn at(&self, time: f64) -> Point {
+    fn at(&self, time: f64) -> StepPoint {
         let part = time / self.duration;
         let v = self.start.v + part * (self.end.v - self.start.v);
-        Point { x: self.start.x + 0.5 * time * (self.start.v + v), v }
+        StepPoint { x: self.start.x + 0.5 * time * (self.start.v + v), v }
     }
 
     fn powers(&self) -> Powers {

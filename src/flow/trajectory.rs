@@ -7,7 +7,7 @@ use super::limits::{Limits, Reason};
 use super::method::Method;
 pub use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
 use super::regularized::{Regularized, SignLaw};
-use super::run::Run;
+use super::run::MotionRun;
 use super::stiff::Stiff;
 use super::taylor::Taylor;
 use super::time_stepping::TimeStepping;
@@ -23,7 +23,7 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
     let Problem { parameters, tolerance, step, epsilon, .. } = *problem;
     let linear = parameters.is_piecewise_linear();
     let field = HalfPlane::new(&parameters, Side::Upper);
-    let run = |method| Run::new(problem, method, detail);
+    let run = |method| MotionRun::new(problem, method, detail);
     match problem.method {
         Method::Auto | Method::Exact if linear => run(Method::Exact).go(&mut Exact::new(), limits),
         Method::Exact => run(Method::Exact).give_up(Reason::NotApplicable { needs: "D2 = D3 = 0" }),

@@ -2,13 +2,13 @@
 
 use super::limits::{Limits, Reason};
 use super::motion::{Crossing, Outcome, Problem, Sample, Trajectory};
-use super::run::{Run, sample};
-use super::step::{Field, Point, Step, Stepper};
+use super::run::{MotionRun, sample};
+use super::step::{Field, Step, StepPoint, Stepper};
 use super::swing::time_to_blow_up;
 use crate::oscillator::sticking::rests;
 use crate::oscillator::{HalfPlane, Side, State};
 
-impl Run {
+impl MotionRun {
     /// Takes steps until the end time, and counts the changes of sign of the velocity as crossings.
     ///
     /// `sticks` says whether a motion that this method brings to `v = 0` inside the sticking set stays
@@ -21,7 +21,7 @@ impl Run {
     ) -> Trajectory {
         let Problem { parameters, initial, until, .. } = self.found.problem;
         let field = HalfPlane::new(&parameters, Side::Upper);
-        let mut point = Point { x: initial.q, v: initial.v };
+        let mut point = StepPoint { x: initial.q, v: initial.v };
         let outcome = loop {
             let tau = self.time.value();
             let here = State { q: point.x, v: point.v };
@@ -64,12 +64,12 @@ impl Run {
         &mut self,
         stepper: &mut S,
         field: &HalfPlane,
-        start: Point,
+        start: StepPoint,
         step: &Step,
     ) {
         let (time, count) = (self.time, self.detail.samples_per_step);
         if count > 0 {
-            sample(stepper, step, count, |offset, Point { x: q, v }| {
+            sample(stepper, step, count, |offset, StepPoint { x: q, v }| {
                 self.found.samples.push(Sample { tau: time.plus(offset), q, v });
             });
         }
@@ -155,7 +155,7 @@ mod tests {
     fn an_implicit_method_creeps_to_the_same_place() {
         let problem = Problem { epsilon: 1e-4, ..from(0.4) };
         let field = Regularized::new(&problem.parameters, SignLaw::Tanh(problem.epsilon));
-        let start = || Run::new(&problem, Method::Smoothed, Detail::default());
+        let start = || MotionRun::new(&problem, Method::Smoothed, Detail::default());
         let explicit = start().walk(&mut Dop853::dop853(field, 1e-8), false, &Limits::PATIENT);
         let implicit = start().walk(&mut Stiff::new(field, 1e-8), false, &Limits::PATIENT);
         assert!((end(&explicit) - end(&implicit)).abs() < 1e-8);

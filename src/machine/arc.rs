@@ -12,7 +12,7 @@ use super::model::{Model, Phase};
 use super::series::{FINEST, Series};
 use crate::numerics::elementary::ln;
 use crate::numerics::polynomial::{derivative, value, value_and_slope};
-use crate::numerics::root::{Bracket, Change, newton};
+use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 
 /// Why a motion was not followed to the end of its phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,7 +116,7 @@ impl ArcEnd {
     }
 }
 
-/// Most steps of an arc.
+/// Maximum number of steps of an arc.
 const STEPS: u32 = 20_000;
 
 /// Steps of a loosened tolerance are no longer than this, in `1/omega_0`, so that none of them turns twice; at
@@ -292,7 +292,7 @@ fn crossing(series: &Series, phase: Phase, end: f64, (low, high): (f64, f64)) ->
 /// The time in a bracket on which y is monotone, with the given direction, at which it is at a level.
 fn root(series: &Series, level: f64, (low, high): (f64, f64), direction: f64) -> f64 {
     let bracket = Bracket { low, high, rising: direction > 0.0 };
-    let settled = Change::Absolute(1e-16 * high);
+    let settled = PlaceTolerance::Absolute(1e-16 * high);
     let ahead = |t: f64| {
         let (velocity, slope) = series.velocity(t);
         (velocity - level, slope)
@@ -304,5 +304,8 @@ fn root(series: &Series, level: f64, (low, high): (f64, f64), direction: f64) ->
 fn turning(series: &Series, end: f64) -> f64 {
     let slopes = derivative(&series.y);
     let bracket = Bracket { low: 0.0, high: end, rising: slopes[0] < 0.0 };
-    newton(bracket, 0.5 * end, Change::Absolute(1e-16 * end), |t| value_and_slope(&slopes, t)).at
+    newton(bracket, 0.5 * end, PlaceTolerance::Absolute(1e-16 * end), |t| {
+        value_and_slope(&slopes, t)
+    })
+    .at
 }

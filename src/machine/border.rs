@@ -1,8 +1,8 @@
-//! The border of the basin of rest where it is no cycle: followed backward in time from where the return map
+//! The border of the basin of rest where it is not a cycle: followed backward in time from where the return map
 //! jumps.
 
 use super::arc::{ArcEnd, Flow, Unfollowed};
-use super::curve::{MachineCurve, Piece};
+use super::curve::{CurvePiece, MachineCurve};
 use super::landmarks::Landmarks;
 use super::model::Phase;
 
@@ -32,7 +32,7 @@ impl Flow<'_> {
         if end.on_belt && end.x > marks.lines.release {
             end = self.arc(Phase::Above, (end.x, speed), true, curve)?;
         }
-        curve.pieces.push(Piece::Line { from: corner, to: end.x });
+        curve.pieces.push(CurvePiece::Line { from: corner, to: end.x });
         Ok(left)
     }
 
@@ -51,7 +51,7 @@ impl Flow<'_> {
                 let end = end?;
                 let lines = landmarks.map(|marks| marks.lines).filter(|_| end.on_belt);
                 lines.map_or(Ok(end.x), |lines| {
-                    curve.pieces.push(Piece::Line { from: lines.fold, to: end.x });
+                    curve.pieces.push(CurvePiece::Line { from: lines.fold, to: end.x });
                     self.left_before(lines.fold, speed, curve)
                 })?
             }

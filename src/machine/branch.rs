@@ -5,6 +5,7 @@ use super::special::{MachineSpecial, between};
 use super::subject::Subject;
 use super::survey::Trouble;
 use super::varied::Varied;
+use crate::numerics::count::real;
 
 #[derive(Clone, Debug)]
 pub struct MachineBranchPoint {
@@ -27,8 +28,7 @@ pub fn spaced((from, to): (f64, f64), index: usize, count: usize) -> f64 {
     if index + 1 == count {
         return to;
     }
-    #[expect(clippy::cast_precision_loss, reason = "branches have few points")]
-    let part = index as f64 / (count - 1) as f64;
+    let part = real(index) / real(count - 1);
     from + part * (to - from)
 }
 

@@ -6,10 +6,10 @@ use super::series::Terms;
 use crate::numerics::elementary::powi;
 use crate::numerics::polynomial::{value, value_and_slope};
 use crate::numerics::quadrature::gauss;
-use crate::numerics::root::{Bracket, Change, newton};
+use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 
 #[derive(Clone, Debug)]
-pub enum Piece {
+pub enum CurvePiece {
     /// A step in slip: its series hold everywhere between its ends.
     Slip(Slip),
     /// A ride on the belt, or another piece of its line, from one displacement to another.
@@ -43,7 +43,7 @@ impl Slip {
     /// The time at which a series takes a value, in an interval at whose ends it lies on both sides.
     fn when(terms: &Terms, target: f64, (low, high): (f64, f64)) -> f64 {
         let bracket = Bracket { low, high, rising: value(terms, high) > value(terms, low) };
-        let settled = Change::Absolute(1e-16 * span(low, high));
+        let settled = PlaceTolerance::Absolute(1e-16 * span(low, high));
         let height = |t: f64| {
             let (height, slope) = value_and_slope(terms, t);
             (height - target, slope)
@@ -130,7 +130,7 @@ impl Rectangle {
 #[derive(Clone, Debug, Default)]
 pub struct MachineCurve {
     /// Its pieces, in the order in which they were computed, forward or backward in time.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<CurvePiece>,
 }
 
 impl Watch for MachineCurve {
@@ -139,7 +139,7 @@ impl Watch for MachineCurve {
     }
 
     fn step(&mut self, model: &Model, step: &SeriesStep) {
-        self.pieces.push(Piece::Slip(Slip {
+        self.pieces.push(CurvePiece::Slip(Slip {
             phase: step.phase,
             duration: step.duration,
             peak: step.peak,
@@ -150,7 +150,7 @@ impl Watch for MachineCurve {
     }
 
     fn stick(&mut self, _: &Model, from: f64, to: f64) {
-        self.pieces.push(Piece::Line { from, to });
+        self.pieces.push(CurvePiece::Line { from, to });
     }
 }
 
@@ -161,7 +161,7 @@ impl MachineCurve {
         let mut found = (None, None);
         for piece in &self.pieces {
             match piece {
-                Piece::Slip(slip) => {
+                CurvePiece::Slip(slip) => {
                     if let Some(y) = slip.velocity_at(x) {
                         if slip.phase == Phase::Below {
                             found.1 = Some(y);
@@ -170,7 +170,7 @@ impl MachineCurve {
                         }
                     }
                 }
-                Piece::Line { from, to } => {
+                CurvePiece::Line { from, to } => {
                     if from.min(*to) <= x && x <= from.max(*to) {
                         found.0 = Some(speed);
                     }
@@ -184,9 +184,9 @@ impl MachineCurve {
     /// clamped to the window.
     pub fn area_within(&self, window: &Rectangle, speed: f64) -> f64 {
         let clamped = speed.clamp(window.y.0, window.y.1);
-        let of = |piece: &Piece| match piece {
-            Piece::Slip(slip) => slip.area(window),
-            Piece::Line { from, to } => {
+        let of = |piece: &CurvePiece| match piece {
+            CurvePiece::Slip(slip) => slip.area(window),
+            CurvePiece::Line { from, to } => {
                 let (left, right) = (from.min(*to).max(window.x.0), from.max(*to).min(window.x.1));
                 clamped * (right - left).max(0.0)
             }

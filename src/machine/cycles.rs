@@ -4,8 +4,8 @@ use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
 use super::return_map::{Image, MachineReturn};
-use super::search::{NOTHING, Sample, zeros};
-use super::turn::Place;
+use super::search::{GrowthSample, NOTHING, zeros};
+use super::turn::ContactState;
 use crate::numerics::elementary::{exp, ln, pow};
 use crate::numerics::root::bisect;
 use crate::numerics::scaling::{exponent, times_power};
@@ -95,18 +95,18 @@ pub struct FixedPoints {
 /// Logarithm of a multiplier from which on cycles are computed backward in time.
 const STRONG: f64 = 4.0;
 
-/// Stands for a value that does not exist: the mass comes to rest, or escapes.
+/// Stands for a value that does not exist, because the mass comes to rest or escapes.
 const FAR: f64 = 1e3;
 
 impl Flow<'_> {
     /// `ln(image/x)` of the return map over `u = ln(x/unit)`.
-    pub(super) fn growth(&mut self, u: f64, unit: f64) -> Result<Sample, Unfollowed> {
+    pub(super) fn growth(&mut self, u: f64, unit: f64) -> Result<GrowthSample, Unfollowed> {
         let x = unit * exp(u);
-        let lost = |f| Ok(Sample { u, f, slope: 0.0 });
+        let lost = |f| Ok(GrowthSample { u, f, slope: 0.0 });
         match self.returned(x) {
             Ok(MachineReturn::Turns(image)) => {
                 let slope = exp(image.log_slope) * x / image.x - 1.0;
-                Ok(Sample { u, f: ln(image.x / x), slope })
+                Ok(GrowthSample { u, f: ln(image.x / x), slope })
             }
             Ok(MachineReturn::Rests(_)) => lost(-FAR),
             Err(Unfollowed::Escaped) => lost(FAR),
@@ -126,7 +126,7 @@ impl Flow<'_> {
         let caught = match self.smallest(scale) {
             // What comes to rest does so at once, or leaves the law.
             Err(stop @ Unfollowed::OutsideLaw { .. }) => {
-                let held = Sample { u: at(self.model.guide_static), f: -FAR, slope: 0.0 };
+                let held = GrowthSample { u: at(self.model.guide_static), f: -FAR, slope: 0.0 };
                 found.stop = Some(stop);
                 found.end = scale * exp(self.edge(held, at(scale), scale).u);
                 return Ok(found);
@@ -152,7 +152,7 @@ impl Flow<'_> {
             Some(touch) if touch > smallest => {
                 let grazing = marks.map_or(touch, |marks| marks.grazing.image);
                 let slope = marks.map_or(0.0, |marks| exp(marks.grazing.log_slope));
-                Some(Sample {
+                Some(GrowthSample {
                     u: at(touch),
                     f: if grazing > 0.0 { ln(grazing / touch) } else { -FAR },
                     slope: slope * touch / grazing - 1.0,
@@ -249,8 +249,8 @@ impl Flow<'_> {
     /// The zeros of the growth between two samples.
     fn zeros_between(
         &mut self,
-        first: Sample,
-        last: Sample,
+        first: GrowthSample,
+        last: GrowthSample,
         scale: f64,
         found: &mut FixedPoints,
     ) -> Result<Vec<f64>, Unfollowed> {
@@ -308,7 +308,7 @@ impl Flow<'_> {
         from: f64,
         scale: f64,
         found: &mut FixedPoints,
-    ) -> Result<Sample, Unfollowed> {
+    ) -> Result<GrowthSample, Unfollowed> {
         /// How far beyond.
         const DOUBLINGS: u32 = 10;
         /// Doublings after which it counts how motions shrink.
@@ -324,7 +324,7 @@ impl Flow<'_> {
                 Ok(sample) => last = sample,
                 Err(stop) => {
                     found.stop = Some(stop);
-                    // Motions of too many steps are too dear to find the first of them.
+                    // Motions that take too many steps cost too much to look for the first of them.
                     let dear = stop == Unfollowed::Steps;
                     return Ok(if dear { last } else { self.edge(last, at(x), scale) });
                 }
@@ -339,14 +339,19 @@ impl Flow<'_> {
     }
 
     /// The last place up to which the map is known, between one where it is and one where it is not.
-    fn edge(&mut self, known: Sample, unknown: f64, unit: f64) -> Sample {
+    fn edge(&mut self, known: GrowthSample, unknown: f64, unit: f64) -> GrowthSample {
         let mut last = known;
         bisect(known.u, unknown, 40, |u| self.growth(u, unit).map(|sample| last = sample).is_err());
         last
     }
 
     /// Whether all motions in between are periodic.
-    fn is_neutral(&mut self, first: Sample, last: Sample, unit: f64) -> Result<bool, Unfollowed> {
+    fn is_neutral(
+        &mut self,
+        first: GrowthSample,
+        last: GrowthSample,
+        unit: f64,
+    ) -> Result<bool, Unfollowed> {
         let middle = self.growth(0.5 * (first.u + last.u), unit)?;
         let other = self.growth(0.3 * first.u + 0.7 * last.u, unit)?;
         Ok([first, middle, other, last].iter().all(|sample| sample.f.abs() < NOTHING))
@@ -397,8 +402,8 @@ impl Flow<'_> {
             self.arc(Phase::Below, (left, 0.0), true, watch)?;
             return Ok(left);
         }
-        let left = self.turn(Place::Slips(Phase::Below), (x, 0.0), watch)?.x;
-        self.turn(Place::Slips(Phase::Between), (left, 0.0), watch)?;
+        let left = self.turn(ContactState::Slips(Phase::Below), (x, 0.0), watch)?.x;
+        self.turn(ContactState::Slips(Phase::Between), (left, 0.0), watch)?;
         Ok(left)
     }
 }

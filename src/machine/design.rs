@@ -20,7 +20,7 @@ fn margin(portrait: &Portrait, kick: Kick) -> f64 {
     })
 }
 
-/// The logarithm of the guaranteed margin of this kind, as a part of `wanted`.
+/// The logarithm of the guaranteed margin of this kind, as a fraction of `wanted`.
 fn guaranteed_excess(
     subject: &Subject,
     known: &Tolerances,

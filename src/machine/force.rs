@@ -135,7 +135,7 @@ impl ForceBranch {
         Some(fall - forward * piece.coefficients.get(1).unwrap_or(&0.0) - higher)
     }
 
-    /// The force and its derivative; beyond the law the nearest piece goes on.
+    /// The force and its derivative; beyond the law the nearest piece continues.
     pub fn at(&self, y: f64) -> (f64, f64) {
         let found = self.pieces.iter().find(|piece| y <= piece.high).or(self.pieces.last());
         let Some(piece) = found else { return (0.0, 0.0) };

@@ -59,7 +59,7 @@ pub(super) enum Tendency {
     Inward,
     /// They are periodic.
     Nowhere,
-    /// They leave what is known.
+    /// They go where nothing is known.
     Lost(Unfollowed),
 }
 

@@ -58,7 +58,7 @@ pub struct Jumps {
 
 impl Jumps {
     /// The jumps at `value`, found from the states so far `aside` of it. What shrinks with the distance, as
-    /// a cycle does that is born at rest, is no jump.
+    /// a cycle does that is born at rest, is not a jump.
     pub fn at(family: Family, value: f64, aside: f64) -> Self {
         /// How much farther one looks as well.
         const FARTHER: f64 = 100.0;
@@ -79,9 +79,9 @@ impl Jumps {
 
 /// The first stable state of one machine that its neighbour does not have.
 fn jump(from: &Portrait, to: &Portrait) -> Option<Jump> {
-    /// A state that has moved by less, as a part of the largest cycle, is the same.
+    /// A state that has moved by less, as a fraction of the largest cycle, is the same.
     const MOVED: f64 = 1e-3;
-    /// The kick that shows whether rest holds, as a part of the same.
+    /// The kick that shows whether rest holds, as a fraction of the same.
     const KICK: f64 = 1e-9;
     let cycles = from.cycles.iter().chain(&to.cycles).map(|cycle| cycle.x.1);
     let size = cycles.fold(0.0, f64::max);

@@ -3,7 +3,7 @@
 use super::arc::{Flow, Unfollowed};
 use super::model::{Lines, Phase};
 use super::return_map::Divergence;
-use super::turn::Place;
+use super::turn::ContactState;
 use crate::numerics::elementary::ln;
 
 /// The orbit that touches the belt's line, if it went on slipping.
@@ -41,7 +41,8 @@ impl Flow<'_> {
         let model = self.model;
         let Some(lines) = model.lines else { return Ok(None) };
         let grazing = self.grazing(&lines)?;
-        let released = match self.turn(Place::Sticks, (lines.release, model.speed), &mut ()) {
+        let released = match self.turn(ContactState::Sticks, (lines.release, model.speed), &mut ())
+        {
             Ok(turn) => (!turn.rests).then_some(turn.x),
             Err(Unfollowed::Settled) => None,
             Err(stop) => return Err(stop),

@@ -1,5 +1,7 @@
 //! Where the energy of a motion comes from and goes: the belt's work against the damper's and the guide's.
 
+use serde::Serialize;
+
 use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
 use super::cycles::MachineCycle;
 use super::model::{Model, Phase};
@@ -7,7 +9,7 @@ use crate::numerics::polynomial::value;
 use crate::numerics::quadrature::GAUSS;
 
 /// Works along a motion, in J.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct MachineLedger {
     /// Energy of the mass and the spring at the start.
     pub start: f64,
@@ -22,7 +24,7 @@ pub struct MachineLedger {
 }
 
 impl MachineLedger {
-    /// What does not add up, as a part of all that was exchanged; by rounding alone some 1e-15.
+    /// What does not add up, as a fraction of all that was exchanged; by rounding alone some 1e-15.
     #[must_use]
     pub fn residual(&self) -> f64 {
         let MachineLedger { start, end, belt, damper, guide } = *self;

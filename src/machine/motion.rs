@@ -1,10 +1,12 @@
 //! A motion in time: its legs, the curve that it draws, and its ledger.
 
+use serde::Serialize;
+
 use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
-use super::curve::{MachineCurve, Piece};
+use super::curve::{CurvePiece, MachineCurve};
 use super::ledger::{MachineLedger, StepWorks};
 use super::model::{Model, Phase};
-use super::turn::Place;
+use super::turn::ContactState;
 
 /// How a motion ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +23,7 @@ pub enum MachineOutcome {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leg {
     /// What the mass does.
-    pub place: Place,
+    pub place: ContactState,
     /// When it begins, in s.
     pub t: f64,
     /// Displacement there, in m.
@@ -29,7 +31,7 @@ pub struct Leg {
 }
 
 /// A state in SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MachineState {
     /// Time, in s.
     pub t: f64,
@@ -96,7 +98,7 @@ impl Watch for Recorder {
             model,
             &SeriesStep { duration, peak: step.peak.filter(|t| *t < duration), ..*step },
         );
-        if let Some(Piece::Slip(slip)) = self.curve.pieces.last() {
+        if let Some(CurvePiece::Slip(slip)) = self.curve.pieces.last() {
             let ends = [slip.peak.map(|peak| slip.at(peak)), Some(slip.at(duration))];
             for (x, y) in ends.into_iter().flatten() {
                 self.state = (x, y);
@@ -119,7 +121,7 @@ impl Watch for Recorder {
     }
 }
 
-/// Most pieces that are kept of a motion.
+/// Maximum number of pieces that are kept of a motion.
 const MOST_PIECES: usize = 200_000;
 
 impl MachineMotion {
@@ -171,7 +173,7 @@ impl MachineMotion {
         }
     }
 
-    /// The states at the ends of its steps and at so many places evenly between them.
+    /// The states at the ends of its steps and at this many places evenly between them.
     #[must_use]
     pub fn samples(&self, between: u32) -> Vec<MachineState> {
         let Model { omega_0, speed, .. } = self.model;
@@ -180,15 +182,15 @@ impl MachineMotion {
         let mut found = Vec::new();
         for piece in &self.curve.pieces {
             let duration = match piece {
-                Piece::Slip(slip) => slip.duration,
-                Piece::Line { from, to } => (to - from) / speed,
+                CurvePiece::Slip(slip) => slip.duration,
+                CurvePiece::Line { from, to } => (to - from) / speed,
             };
             let first = u32::from(!found.is_empty());
             for part in first..=between + 1 {
                 let t = duration * f64::from(part) / parts;
                 let (x, y) = match piece {
-                    Piece::Slip(slip) => slip.at(t),
-                    Piece::Line { from, .. } => (from + t * speed, speed),
+                    CurvePiece::Slip(slip) => slip.at(t),
+                    CurvePiece::Line { from, .. } => (from + t * speed, speed),
                 };
                 found.push(MachineState { t: (begin + t) / omega_0, x, v: y * omega_0 });
             }
@@ -202,18 +204,18 @@ impl Flow<'_> {
     /// Follows one leg; returns where the next begins, `None` at rest.
     fn leg(
         &mut self,
-        place: Place,
+        place: ContactState,
         (x, y): (f64, f64),
         watch: &mut impl Watch,
-    ) -> Result<Option<(Place, f64, f64)>, Unfollowed> {
+    ) -> Result<Option<(ContactState, f64, f64)>, Unfollowed> {
         let phase = match place {
-            Place::Rests => return Ok(None),
-            Place::Sticks => {
+            ContactState::Rests => return Ok(None),
+            ContactState::Sticks => {
                 let release = self.model.lines.map_or(x, |lines| lines.release);
                 watch.stick(self.model, x, release);
-                return Ok(Some((Place::Slips(Phase::Between), release, y)));
+                return Ok(Some((ContactState::Slips(Phase::Between), release, y)));
             }
-            Place::Slips(phase) => phase,
+            ContactState::Slips(phase) => phase,
         };
         let end = self.arc(phase, (x, y), false, watch)?;
         let (place, x) = self.after(phase, &end);
@@ -235,7 +237,7 @@ impl Flow<'_> {
             match self.turn(place, (x, y), &mut ()) {
                 Ok(turn) if turn.rests => return Ok(turn.x),
                 Ok(turn) => (x, y) = (turn.x, 0.0),
-                Err(Unfollowed::Settled) if place == Place::Slips(Phase::Below) => {
+                Err(Unfollowed::Settled) if place == ContactState::Slips(Phase::Below) => {
                     return Ok(self.model.guide);
                 }
                 Err(Unfollowed::Settled) => return Ok(-self.model.guide),

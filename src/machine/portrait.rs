@@ -5,13 +5,13 @@
 //! start, which needs no more than the way to its next right turning point.
 
 use super::arc::{Flow, Unfollowed};
-use super::curve::{MachineCurve, Piece, Rectangle};
+use super::curve::{CurvePiece, MachineCurve, Rectangle};
 use super::cycles::MachineCycle;
 use super::gaps::{Divide, Gap, MachineFate, Tendency, gaps, jumps, ways};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
 use super::return_map::MachineReturn;
-use super::turn::Place;
+use super::turn::ContactState;
 use crate::numerics::root::bisect;
 
 /// What borders the basin of rest.
@@ -44,7 +44,7 @@ impl MachineBorder {
     /// holds borders the basin.
     #[must_use]
     pub fn touches(&self) -> bool {
-        let line = |piece: &Piece| matches!(piece, Piece::Line { .. });
+        let line = |piece: &CurvePiece| matches!(piece, CurvePiece::Line { .. });
         matches!(self, MachineBorder::Grazing(curve) if curve.pieces.iter().any(line))
     }
 
@@ -316,7 +316,7 @@ impl Flow<'_> {
             if turn.rests {
                 return Ok(None);
             }
-            if place != Place::Slips(Phase::Below) {
+            if place != ContactState::Slips(Phase::Below) {
                 return Ok(Some(turn.x));
             }
             (x, y) = (turn.x, 0.0);

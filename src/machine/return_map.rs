@@ -6,7 +6,7 @@
 
 use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
 use super::model::{Model, Phase};
-use super::turn::{Place, Turn};
+use super::turn::{ContactState, Turn};
 use crate::numerics::polynomial::value;
 use crate::numerics::quadrature::gauss;
 
@@ -51,13 +51,13 @@ impl Flow<'_> {
     /// [`Unfollowed`] where the motion does not turn; a motion that settles at a balance comes to rest instead.
     pub fn returned(&mut self, x: f64) -> Result<MachineReturn, Unfollowed> {
         let mut divergence = Divergence::default();
-        let left = match self.turn(Place::Slips(Phase::Below), (x, 0.0), &mut divergence) {
+        let left = match self.turn(ContactState::Slips(Phase::Below), (x, 0.0), &mut divergence) {
             Ok(Turn { x, rests: true, .. }) => return Ok(MachineReturn::Rests(x)),
             Ok(turn) => turn,
             Err(Unfollowed::Settled) => return Ok(MachineReturn::Rests(self.model.guide)),
             Err(stop) => return Err(stop),
         };
-        match self.turn(Place::Slips(Phase::Between), (left.x, 0.0), &mut divergence) {
+        match self.turn(ContactState::Slips(Phase::Between), (left.x, 0.0), &mut divergence) {
             Ok(Turn { x, rests: true, .. }) => Ok(MachineReturn::Rests(x)),
             Ok(Turn { x, way, .. }) => Ok(MachineReturn::Turns(Image {
                 x,

@@ -2,17 +2,17 @@
 //! time, with its derivative.
 //!
 //! Where the map carries one end of an interval beyond the other, it has no fixed point between them.
-//! An interval is halved until a cubic through both ends foretells the middle; then a zero shows as a change
-//! of sign, or two of them as an extremum beyond zero. What a cubic foretells to a few percent of its
+//! An interval is halved until a cubic through both ends predicts the middle; then a zero shows as a change
+//! of sign, or two of them as an extremum beyond zero. What a cubic predicts to a few percent of its
 //! distance from zero cannot hide a pair of zeros.
 
 use super::arc::Unfollowed;
 use crate::numerics::hermite::Hermite;
-use crate::numerics::root::{Bracket, Change, illinois, try_newton};
+use crate::numerics::root::{Bracket, PlaceTolerance, illinois, try_newton};
 
 /// A value of the function.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct GrowthSample {
     /// Where.
     pub u: f64,
     /// The value.
@@ -24,28 +24,28 @@ pub struct Sample {
 /// Halvings of an interval at most.
 const DEPTH: u32 = 12;
 
-/// Part of the distance from zero to which the cubic must foretell the middle.
-const FORETOLD: f64 = 0.05;
+/// Part of the distance from zero to which the cubic must predict the middle.
+const PREDICTED: f64 = 0.05;
 
-/// What is smaller is nothing.
+/// Smaller values count as zero.
 pub const NOTHING: f64 = 1e-12;
 
 /// Rounding of one evaluation.
 const ROUNDING: f64 = 1e-14;
 
-/// What a search found.
+/// The result of a search.
 #[derive(Clone, Debug, Default)]
 pub struct Zeros {
     /// The zeros, in their order.
     pub found: Vec<f64>,
-    /// Intervals in which no cubic foretold the function after all halvings: zeros may be missing there.
+    /// Intervals in which no cubic predicted the function after all halvings: zeros may be missing there.
     pub unresolved: Vec<(f64, f64)>,
 }
 
 /// The zeros of a function between two samples. Fails with the [`Unfollowed`] of an evaluation.
 pub fn zeros(
-    ends: (Sample, Sample),
-    evaluate: &mut impl FnMut(f64) -> Result<Sample, Unfollowed>,
+    ends: (GrowthSample, GrowthSample),
+    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Unfollowed>,
 ) -> Result<Zeros, Unfollowed> {
     /// Intervals to begin with.
     const FIRST: i32 = 8;
@@ -61,10 +61,10 @@ pub fn zeros(
 }
 
 fn within(
-    left: Sample,
-    right: Sample,
+    left: GrowthSample,
+    right: GrowthSample,
     depth: u32,
-    evaluate: &mut impl FnMut(f64) -> Result<Sample, Unfollowed>,
+    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Unfollowed>,
     found: &mut Zeros,
 ) -> Result<(), Unfollowed> {
     let h = right.u - left.u;
@@ -78,7 +78,7 @@ fn within(
     let error = (foretold - middle.f).abs();
     // One sign and slopes that all point one way leave no room for zeros, however rough the function.
     let monotone = left.slope * middle.slope > 0.0 && middle.slope * right.slope > 0.0;
-    let settled = error <= FORETOLD * least || error <= NOTHING || (monotone && error < 0.5 * h);
+    let settled = error <= PREDICTED * least || error <= NOTHING || (monotone && error < 0.5 * h);
     if depth > 0 && !settled {
         within(left, middle, depth - 1, evaluate, found)?;
         return within(middle, right, depth - 1, evaluate, found);
@@ -92,9 +92,9 @@ fn within(
 
 /// The zeros where the function is nearly a cubic.
 fn leaf(
-    left: Sample,
-    right: Sample,
-    evaluate: &mut impl FnMut(f64) -> Result<Sample, Unfollowed>,
+    left: GrowthSample,
+    right: GrowthSample,
+    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Unfollowed>,
     found: &mut Vec<f64>,
 ) -> Result<(), Unfollowed> {
     // Where all motions are periodic to rounding no zero can be told.
@@ -119,9 +119,9 @@ fn leaf(
 /// The zero between two samples of different sign: Newton's method inside a bracket. Fails with the [`Unfollowed`]
 /// of an evaluation.
 pub fn zero(
-    left: Sample,
-    right: Sample,
-    evaluate: &mut impl FnMut(f64) -> Result<Sample, Unfollowed>,
+    left: GrowthSample,
+    right: GrowthSample,
+    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Unfollowed>,
 ) -> Result<f64, Unfollowed> {
     let best = if left.f.abs() < right.f.abs() { left } else { right };
     if best.f == 0.0 {
@@ -129,7 +129,7 @@ pub fn zero(
     }
     let rising = (right.f > 0.0) == (left.u < right.u);
     let bracket = Bracket { low: left.u.min(right.u), high: left.u.max(right.u), rising };
-    let settled = Change::Absolute(2.0 * f64::EPSILON * (1.0 + best.u.abs()).min(2.0));
+    let settled = PlaceTolerance::Absolute(2.0 * f64::EPSILON * (1.0 + best.u.abs()).min(2.0));
     let start = bracket.inside(best.u - best.f / best.slope);
     let root = try_newton(bracket, start, settled, |u| {
         evaluate(u).map(|sample| (sample.f, sample.slope))
@@ -140,11 +140,11 @@ pub fn zero(
 /// Where the slope vanishes between two samples with slopes of different sign, or a place on the way there at which
 /// the function has another sign than at both. Fails with the [`Unfollowed`] of an evaluation.
 fn extremum(
-    left: Sample,
-    right: Sample,
-    evaluate: &mut impl FnMut(f64) -> Result<Sample, Unfollowed>,
-) -> Result<Sample, Unfollowed> {
-    const WIDTH: Change = Change::Absolute(1e-9);
+    left: GrowthSample,
+    right: GrowthSample,
+    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Unfollowed>,
+) -> Result<GrowthSample, Unfollowed> {
+    const WIDTH: PlaceTolerance = PlaceTolerance::Absolute(1e-9);
     let mut best = if left.f.abs() < right.f.abs() { left } else { right };
     // What ends the search early stands where an error would.
     let slope = |u| {

@@ -1,10 +1,11 @@
 //! The Taylor series of a motion within one phase.
 //!
-//! `x' = y`, `y' = -(x + offset) + h(y)`: h is a polynomial about the velocity at hand, composed with the
+//! `x' = y`, `y' = -(x + offset) + h(y)`: h is a polynomial about the present velocity, composed with the
 //! series by Horner's scheme, plus an exponential with a recurrence of its own. The step is the one that
 //! keeps the last terms below rounding (Jorba and Zou, Experimental Mathematics 14, 2005).
 
 use super::force::{Fall, ForceBranch, ForcePiece};
+use crate::numerics::count::real;
 use crate::numerics::elementary::{exp2, log2, pow};
 use crate::numerics::polynomial::{reciprocals, value_and_slope};
 
@@ -30,7 +31,7 @@ pub struct Series {
     pub x: Terms,
     /// Velocity.
     pub y: Terms,
-    /// Coefficients of h about the velocity at hand.
+    /// Coefficients of h about the present velocity.
     local: Vec<f64>,
     /// Partial sums of Horner's scheme, as series.
     rows: Vec<Terms>,
@@ -147,14 +148,14 @@ impl Series {
         } else {
             // slip P' = n slip' P for the power P of the slip.
             let ratio = (fall.slip(self.y[0]) / fall.velocity).max(LEAST_SLIP);
-            let weight = |j: usize| fall.exponent * count(j) - count(k - j);
+            let weight = |j: usize| fall.exponent * real(j) - real(k - j);
             let power = &self.powers[0];
             let sum: f64 = (1..=k).map(|j| weight(j) * toward * self.y[j] * power[k - j]).sum();
             self.powers[0][k] = sum / ratio * INVERSE[k];
         }
         let last = self.powers.len() - 1;
         let power = &self.powers[last];
-        let sum: f64 = (1..=k).map(|j| count(j) * power[j] * self.fall[k - j]).sum();
+        let sum: f64 = (1..=k).map(|j| real(j) * power[j] * self.fall[k - j]).sum();
         self.fall[k] = -sum * INVERSE[k];
         self.fall[k]
     }
@@ -177,17 +178,12 @@ impl Series {
 }
 
 /// Where a law with a broken exponent has no derivatives, at slip 0, it is expanded this far beside it, in
-/// units of its own velocity: a distance that velocities can still tell.
+/// units of its own velocity: a distance that velocities can still resolve.
 const LEAST_SLIP: f64 = 1e-10;
 
 /// The exponent as a whole number, if it is a small one.
 fn whole(fall: &Fall) -> Option<usize> {
-    (1..=10).find(|n| count(*n) == fall.exponent)
-}
-
-#[expect(clippy::cast_precision_loss, reason = "at most the order")]
-fn count(k: usize) -> f64 {
-    k as f64
+    (1..=10).find(|n| real(*n) == fall.exponent)
 }
 
 /// Coefficient k of the product of a series without its constant and another.

@@ -11,10 +11,10 @@ use super::jumps::{Family, Jumps};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
 use super::portrait::{MachineBorder, Portrait};
-use super::search::Sample;
-use super::turn::Place;
+use super::search::GrowthSample;
+use super::turn::ContactState;
 use crate::numerics::elementary::{exp, ln};
-use crate::numerics::root::{Change, illinois, try_bisect};
+use crate::numerics::root::{PlaceTolerance, illinois, try_bisect};
 
 /// A kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -80,7 +80,7 @@ impl Signs {
             return Ok(signs);
         };
         let mut left = |right: f64| {
-            let place = Place::Slips(Phase::Below);
+            let place = ContactState::Slips(Phase::Below);
             let turn = flow.turn(place, (right, 0.0), &mut ()).ok()?;
             (!turn.rests).then_some(turn.x)
         };
@@ -194,7 +194,9 @@ pub fn between(
 /// the way.
 fn zero(function: &dyn Fn(f64) -> Option<f64>, left: (f64, f64), right: (f64, f64)) -> Option<f64> {
     let function = |value| function(value).ok_or(());
-    illinois([left, right], 0.0, Change::Relative(WIDTH), function).ok().map(|ends| ends[0].0)
+    illinois([left, right], 0.0, PlaceTolerance::Relative(WIDTH), function)
+        .ok()
+        .map(|ends| ends[0].0)
 }
 
 /// How many cycles there are, of each kind; a fold takes one of each stability.
@@ -229,7 +231,7 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
     let gap = |pair: &&[super::MachineCycle]| pair[1].x.1 / pair[0].x.1;
     let pair = pairs.min_by(|one, other| gap(one).total_cmp(&gap(other)))?;
     let (low, high) = (pair[0].x.1, pair[1].x.1);
-    let extremum = |value: f64| -> Option<Sample> {
+    let extremum = |value: f64| -> Option<GrowthSample> {
         steepest(&family(value)?, (low * high).sqrt(), ln(high / low))
     };
     let ends = (extremum(with)?, extremum(without)?);
@@ -244,7 +246,7 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
 }
 
 /// The extremum of the growth `ln(image/x)` over `u = ln x` near a place, by secants on its exact slope.
-fn steepest(model: &Model, near: f64, width: f64) -> Option<Sample> {
+fn steepest(model: &Model, near: f64, width: f64) -> Option<GrowthSample> {
     let mut flow = Flow::new(model);
     let mut growth = |u: f64| flow.growth(u, 1.0).ok();
     let mut one = growth(ln(near))?;

@@ -4,10 +4,10 @@
 use super::arc::Unfollowed;
 use super::model::{Model, Phase};
 use super::motion::{Leg, MachineOutcome, MachineState};
-use super::turn::Place;
+use super::turn::ContactState;
 use crate::flow::Method;
 use crate::flow::explicit::{Dop853, Dopri5};
-use crate::flow::step::{Field, Point, Step, Stepper};
+use crate::flow::step::{Field, Step, StepPoint, Stepper};
 use crate::numerics::root::bisect;
 
 /// The methods that can follow a machine beside Taylor series.
@@ -83,13 +83,13 @@ impl Field for Slope<'_> {
     }
 }
 
-/// Longest step, in `1/omega_0`: a small part of a swing, in which the velocity turns once at most.
+/// Longest step, in `1/omega_0`: a small fraction of a swing, in which the velocity turns once at most.
 const LONGEST: f64 = 0.125;
 
 /// Halvings that narrow an event to rounding.
 const HALVINGS: u32 = 60;
 
-/// Most steps of a motion.
+/// Maximum number of steps of a motion.
 const STEPS: u64 = 2_000_000;
 
 /// A motion as its steps.
@@ -178,16 +178,16 @@ fn follow<'a>(
         }
         legs.push(Leg { place, t: trace.t(), x });
         let phase = match place {
-            Place::Rests => break MachineOutcome::Rests,
-            Place::Slips(phase) => phase,
-            Place::Sticks => {
+            ContactState::Rests => break MachineOutcome::Rests,
+            ContactState::Slips(phase) => phase,
+            ContactState::Sticks => {
                 let release = model.lines.map_or(x, |lines| lines.release);
                 let ride = (release - x) / model.speed;
                 let rides = ride <= trace.left;
                 x = if rides { release } else { x + trace.left * model.speed };
                 trace.left -= ride;
                 trace.comes(x, y);
-                place = Place::Slips(Phase::Between);
+                place = ContactState::Slips(Phase::Between);
                 continue;
             }
         };
@@ -210,7 +210,7 @@ fn arc<'a>(
 ) -> Result<(f64, f64), Unfollowed> {
     let Slope { model, phase } = field;
     let offset = model.offset(phase);
-    let mut from = Point { x: x + offset, v: y };
+    let mut from = StepPoint { x: x + offset, v: y };
     let (least, most) = model.range(phase);
     let pieces = &model.side(phase).pieces;
     let low = pieces.first().map_or(f64::INFINITY, |piece| piece.low);
@@ -236,12 +236,12 @@ fn arc<'a>(
                 return Ok(end);
             }
             // The shorter step was refused: it ends before the line.
-            from = Point { x: last.end.x, v: last.end.v.clamp(least, most) };
+            from = StepPoint { x: last.end.x, v: last.end.v.clamp(least, most) };
             trace.comes(from.x - offset, from.v);
             continue;
         }
         trace.left -= step.duration;
-        from = Point { x: step.end.x, v: step.end.v.clamp(least, most) };
+        from = StepPoint { x: step.end.x, v: step.end.v.clamp(least, most) };
         trace.comes(from.x - offset, from.v);
         if !(low..=high).contains(&from.v) {
             let end = if from.v < low { low } else { high };
@@ -255,13 +255,13 @@ fn arc<'a>(
 fn hit<'a>(
     stepper: &mut impl Stepper<Slope<'a>>,
     field: Slope<'a>,
-    (from, step): (Point, &Step),
+    (from, step): (StepPoint, &Step),
     (least, most): (f64, f64),
 ) -> Option<(f64, f64)> {
     let sign = field.phase.sign();
     let (outer, inner) = if sign > 0.0 { (most, least) } else { (least, most) };
-    let grows = |at: Point| sign * field.acceleration(at.x, at.v) > 0.0;
-    let beyond = |at: Point, level: f64| sign * (at.v - level) >= 0.0;
+    let grows = |at: StepPoint| sign * field.acceleration(at.x, at.v) > 0.0;
+    let beyond = |at: StepPoint, level: f64| sign * (at.v - level) >= 0.0;
     let turns = grows(from) && !grows(step.end);
     let falls = !beyond(step.end, inner) || step.end.v == inner;
     if !turns && !falls && !beyond(step.end, outer) {
@@ -269,7 +269,7 @@ fn hit<'a>(
     }
     stepper.prepare_dense();
     let end = step.duration;
-    let first = |from: f64, to: f64, holds: &dyn Fn(Point) -> bool| {
+    let first = |from: f64, to: f64, holds: &dyn Fn(StepPoint) -> bool| {
         bisect(from, to, HALVINGS, |time| holds(stepper.at(time))).1
     };
     let peak = if turns { first(0.0, end, &|at| !grows(at)) } else { end };

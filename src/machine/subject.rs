@@ -1,4 +1,4 @@
-//! What is asked about: a mass on a belt or a vibration mode, whose numbers can be set and varied alike.
+//! The subject of a question: a mass on a belt or a vibration mode, whose numbers are set and varied alike.
 
 use super::modal::Modal;
 use super::model::Model;
@@ -16,7 +16,7 @@ pub enum Body {
     Mode(Modal),
 }
 
-/// What is asked about, and how exactly.
+/// The subject of a question, and how exactly it is computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subject {
     /// What it is.

@@ -1,5 +1,5 @@
-//! Everything that is said about a machine: its portrait, one motion of it, and beside it what the oscillator
-//! of the paper says, which knows friction by its cubic expansion alone.
+//! What a machine does: its portrait and one motion of it; and beside it what the oscillator of the paper says, which
+//! knows friction by its cubic expansion alone.
 
 use std::fmt;
 
@@ -14,17 +14,24 @@ use crate::oscillator::Belt;
 use crate::oscillator::belt::{BeltError, Reduced};
 use crate::study::cycle::{Cycles, cycles};
 
-/// Everything about a machine.
+/// A mass on a belt by the cubic expansion of its friction.
 #[derive(Clone, Debug)]
-pub struct Survey {
+pub struct CubicExpansion {
     /// The machine.
     pub belt: Belt,
     /// Its dimensionless form.
     pub reduced: Reduced,
-    /// What it does.
-    pub course: Course,
-    /// The same by the cubic expansion of friction, or why that gave up.
-    pub expansion: Result<Cycles, Reason>,
+    /// Its cycles, or why the search gave up.
+    pub cycles: Result<Cycles, Reason>,
+}
+
+impl CubicExpansion {
+    /// Finds the cycles. Fails with [`BeltError`] where the machine has no dimensionless form.
+    pub fn new(belt: &Belt, limits: &Limits) -> Result<Self, BeltError> {
+        let reduced = belt.reduce()?;
+        let cycles = cycles(&reduced.parameters, true, limits);
+        Ok(CubicExpansion { belt: belt.clone(), reduced, cycles })
+    }
 }
 
 /// What a machine does, and one motion of it.
@@ -130,25 +137,4 @@ impl From<Unfollowed> for Trouble {
 /// has no model, or where motions leave the law before the border of rest is known.
 pub fn portrait(belt: &Belt) -> Result<Portrait, Trouble> {
     Ok(Portrait::new(&Model::new(belt)?)?)
-}
-
-/// Everything about a machine and its motion from `start` (m and m/s), followed for `until` seconds; without
-/// a tolerance, to rounding. Fails with [`Trouble`] where it has no model, or where motions leave the law before
-/// the border of rest is known.
-pub fn survey(
-    belt: &Belt,
-    start: (f64, f64),
-    until: f64,
-    tolerance: Option<f64>,
-    limits: &Limits,
-) -> Result<Survey, Trouble> {
-    let reduced = belt.reduce()?;
-    let mut model = Model::new(belt)?;
-    model.tolerance = tolerance.unwrap_or(model.tolerance);
-    Ok(Survey {
-        belt: belt.clone(),
-        reduced,
-        course: Course::new(&model, start, until)?,
-        expansion: cycles(&reduced.parameters, true, limits),
-    })
 }

@@ -85,7 +85,7 @@ const MONOTONE: [Varied; 4] = [
     Varied::StaticGuide,
 ];
 
-/// Most other numbers that may be uncertain together.
+/// Maximum number of other numbers that may be uncertain together.
 pub const MOST: usize = 5;
 
 /// The machines that all others lie between, each with the smallest damping and friction: three values of

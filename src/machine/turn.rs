@@ -8,7 +8,7 @@ use super::model::{Model, Phase};
 
 /// What the mass does at a place of the phase plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum ContactState {
     Slips(Phase),
     /// It rides on the belt.
     Sticks,
@@ -41,26 +41,26 @@ pub struct WayToTurn {
 
 impl Model {
     /// What the mass does at displacement `x` and velocity `y` (divided by the natural frequency).
-    pub fn place(&self, x: f64, y: f64) -> Place {
+    pub fn place(&self, x: f64, y: f64) -> ContactState {
         if y == 0.0 {
             return if self.rests_at(x) {
-                Place::Rests
+                ContactState::Rests
             } else {
-                Place::Slips(if x > 0.0 { Phase::Below } else { Phase::Between })
+                ContactState::Slips(if x > 0.0 { Phase::Below } else { Phase::Between })
             };
         }
         match (self.lines, y.total_cmp(&self.speed)) {
             (Some(lines), std::cmp::Ordering::Equal) => {
                 if x > lines.release {
-                    Place::Slips(Phase::Between)
+                    ContactState::Slips(Phase::Between)
                 } else if x < lines.low {
-                    Place::Slips(Phase::Above)
+                    ContactState::Slips(Phase::Above)
                 } else {
-                    Place::Sticks
+                    ContactState::Sticks
                 }
             }
-            (_, std::cmp::Ordering::Greater) => Place::Slips(Phase::Above),
-            _ => Place::Slips(if y < 0.0 { Phase::Below } else { Phase::Between }),
+            (_, std::cmp::Ordering::Greater) => ContactState::Slips(Phase::Above),
+            _ => ContactState::Slips(if y < 0.0 { Phase::Below } else { Phase::Between }),
         }
     }
 }
@@ -70,7 +70,7 @@ impl Flow<'_> {
     /// otherwise. Fails with [`Unfollowed`] where it does not turn.
     pub fn turn(
         &mut self,
-        place: Place,
+        place: ContactState,
         (mut x, mut y): (f64, f64),
         watch: &mut impl Watch,
     ) -> Result<Turn, Unfollowed> {
@@ -81,9 +81,9 @@ impl Flow<'_> {
         let mut place = place;
         for _ in 0..CONTACTS {
             let phase = match place {
-                Place::Rests => return Ok(Turn { x, rests: true, way }),
-                Place::Slips(phase) => phase,
-                Place::Sticks => {
+                ContactState::Rests => return Ok(Turn { x, rests: true, way }),
+                ContactState::Slips(phase) => phase,
+                ContactState::Sticks => {
                     let release = model.lines.map_or(x, |lines| lines.release);
                     watch.stick(model, x, release);
                     way.sticks_from = way.sticks_from.or(Some(x));
@@ -96,10 +96,10 @@ impl Flow<'_> {
             way.log_ratio += end.log_ratio();
             (place, x) = self.after(phase, &end);
             if !end.on_belt {
-                return Ok(Turn { x, rests: place == Place::Rests, way });
+                return Ok(Turn { x, rests: place == ContactState::Rests, way });
             }
             y = model.speed;
-            if place == Place::Slips(Phase::Above) {
+            if place == ContactState::Slips(Phase::Above) {
                 way.overtakes_from = Some(x);
             }
         }
@@ -107,7 +107,7 @@ impl Flow<'_> {
     }
 
     /// What follows an arc, and where; no motion arrives where its own side pushes away, but by rounding.
-    pub(super) fn after(&self, phase: Phase, end: &ArcEnd) -> (Place, f64) {
+    pub(super) fn after(&self, phase: Phase, end: &ArcEnd) -> (ContactState, f64) {
         let model = self.model;
         let x = match (end.on_belt, phase, model.lines) {
             (false, Phase::Below, _) => end.x.min(model.guide),

@@ -1,12 +1,13 @@
 //! Arithmetic that every other ring builds on, and that knows nothing of oscillators.
 //!
 //! - Numbers: [`interval`] rounds outwards, [`twofold`] carries twice the digits, [`wide`] a far wider range,
-//!   [`scaling`] multiplies by powers of two without error, [`sum`] remembers what rounding takes, [`random`]
-//!   simulates noise.
+//!   [`scaling`] multiplies by powers of two without error, [`sum`] remembers what rounding takes, [`mod@count`]
+//!   turns counts into real numbers and back, [`random`] simulates noise.
 //! - Functions: [`elementary`] has those of every pocket calculator, [`root`] finds zeros inside brackets,
 //!   [`quadrature`] integrates, [`polynomial`] evaluates, [`hermite`] interpolates by cubics, [`spline`] smooths
 //!   measured points.
 
+pub(crate) mod count;
 pub(crate) mod decimal;
 #[doc(hidden)]
 pub mod elementary;

@@ -1,13 +1,13 @@
 //! Polynomials and power series, lowest power first.
 
+use crate::numerics::count::real;
 /// `1, 1/2, 1/3, ..` behind a zero: the reciprocals of `0 .. N`, with 0 for that of 0.
 pub const fn reciprocals<const N: usize>() -> [f64; N] {
     let mut table = [0.0; N];
     let mut k = 1;
     while k < N {
-        #[expect(clippy::cast_precision_loss, reason = "tables are short")]
         {
-            table[k] = 1.0 / k as f64;
+            table[k] = 1.0 / real(k);
         }
         k += 1;
     }
@@ -16,9 +16,8 @@ pub const fn reciprocals<const N: usize>() -> [f64; N] {
 
 /// The coefficients of the derivative, with a zero at the end.
 pub fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
-    #[expect(clippy::cast_precision_loss, reason = "series are short")]
     std::array::from_fn(|k| match coefficients.get(k + 1) {
-        Some(next) => (k + 1) as f64 * next,
+        Some(next) => real(k + 1) * next,
         None => 0.0,
     })
 }

@@ -30,7 +30,7 @@ pub struct Integral {
 /// Integrates over a range, halving intervals until the rules of Gauss and of Kronrod agree on each to
 /// `tolerance`.
 ///
-/// Assumption: the function is smooth but for kinks. The error is the sum of the differences between both
+/// Assumption: the function is smooth except for kinks. The error is the sum of the differences between both
 /// rules, a large overestimate where the function is smooth.
 ///
 /// Hard-wired: an interval is halved 30 times at most, when a kink is within 1e-9 of the range.
@@ -55,7 +55,7 @@ pub fn integrate(function: &impl Fn(f64) -> f64, range: (f64, f64), tolerance: f
 ///
 /// Nodes and weights: Piessens et al., QUADPACK (1983), rounded to doubles.
 fn gauss_kronrod(function: &impl Fn(f64) -> f64, from: f64, to: f64) -> Integral {
-    /// Node, Kronrod weight, Gauss weight (0 where the node is no node of Gauss).
+    /// Node, Kronrod weight, Gauss weight (0 where the node is not a node of Gauss).
     const NODES: [(f64, f64, f64); 8] = [
         (0.991_455_371_120_812_6, 0.022_935_322_010_529_224, 0.0),
         (0.949_107_912_342_758_5, 0.063_092_092_629_978_55, 0.129_484_966_168_869_7),

@@ -49,18 +49,18 @@ impl Bracket {
 
 /// A change of the place so small that the search ends with it.
 #[derive(Clone, Copy, Debug)]
-pub enum Change {
+pub enum PlaceTolerance {
     /// So small by itself.
     Absolute(f64),
     /// So small a part of the place.
     Relative(f64),
 }
 
-impl Change {
+impl PlaceTolerance {
     fn at(self, place: f64) -> f64 {
         match self {
-            Change::Absolute(change) => change,
-            Change::Relative(part) => part * place.abs(),
+            PlaceTolerance::Absolute(change) => change,
+            PlaceTolerance::Relative(part) => part * place.abs(),
         }
     }
 }
@@ -86,7 +86,7 @@ pub struct Root {
 pub fn newton(
     bracket: Bracket,
     start: f64,
-    settled: Change,
+    settled: PlaceTolerance,
     mut function: impl FnMut(f64) -> (f64, f64),
 ) -> Root {
     let Ok(root) = try_newton(bracket, start, settled, |at| Ok::<_, Infallible>(function(at)));
@@ -98,7 +98,7 @@ pub fn newton(
 pub fn try_newton<E>(
     mut bracket: Bracket,
     start: f64,
-    settled: Change,
+    settled: PlaceTolerance,
     mut function: impl FnMut(f64) -> Result<(f64, f64), E>,
 ) -> Result<Root, E> {
     const EVALUATIONS: u32 = 200;
@@ -120,7 +120,7 @@ pub fn try_newton<E>(
     Ok(Root { at, bracket })
 }
 
-/// Where a condition begins to hold, on the way from `without` to `with`, in at most so many halvings.
+/// Where a condition begins to hold, on the way from `without` to `with`, in at most this many halvings.
 ///
 /// Assumption: it holds at `with` and not at `without`; neither is tried. Guarantee: the result is a pair
 /// of places, without and with it, that are apart by the way divided by `2^halvings`, or neighbouring
@@ -163,7 +163,7 @@ pub fn try_bisect<E>(
 pub fn illinois<E>(
     ends: [(f64, f64); 2],
     small: f64,
-    width: Change,
+    width: PlaceTolerance,
     mut function: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<[(f64, f64); 2], E> {
     const EVALUATIONS: u32 = 100;
@@ -251,7 +251,7 @@ mod tests {
             count.set(count.get() + 1);
             (x * x * x - 2.0, 3.0 * x * x)
         };
-        let root = newton(Bracket::rising(0.0, 2.0), 2.0, Change::Relative(1e-9), cube);
+        let root = newton(Bracket::rising(0.0, 2.0), 2.0, PlaceTolerance::Relative(1e-9), cube);
         assert!((root.at - cbrt(2.0)).abs() <= f64::EPSILON && count.get() <= 7, "{root:?}");
         assert!(root.bracket.low <= root.at && root.at <= root.bracket.high);
     }
@@ -259,24 +259,27 @@ mod tests {
     /// Newton's method by itself would run away from `atan`, divide by zero on the plateau, and cycle.
     #[test]
     fn newton_finds_what_newton_alone_would_lose() {
-        let far = newton(Bracket::rising(-30.0, 50.0), 50.0, Change::Absolute(0.0), |x: f64| {
-            (atan(x) - 0.25, 1.0 / (1.0 + x * x))
-        });
+        let far =
+            newton(Bracket::rising(-30.0, 50.0), 50.0, PlaceTolerance::Absolute(0.0), |x: f64| {
+                (atan(x) - 0.25, 1.0 / (1.0 + x * x))
+            });
         assert!((far.at - tan(0.25)).abs() < 1e-15, "{far:?}");
-        let flat = newton(Bracket::rising(0.0, 8.0), 1.0, Change::Absolute(0.0), |x: f64| {
-            if x < 3.0 { (-1.0, 0.0) } else { (x - 4.0, 1.0) }
-        });
+        let flat =
+            newton(Bracket::rising(0.0, 8.0), 1.0, PlaceTolerance::Absolute(0.0), |x: f64| {
+                if x < 3.0 { (-1.0, 0.0) } else { (x - 4.0, 1.0) }
+            });
         assert_eq!(flat.at, 4.0);
-        let cycling = newton(Bracket::rising(-2.0, 2.0), 0.0, Change::Relative(1e-9), |x: f64| {
-            (powi(x, 3) - 2.0 * x + 2.0 - 4.0, 3.0 * x * x - 2.0)
-        });
+        let cycling =
+            newton(Bracket::rising(-2.0, 2.0), 0.0, PlaceTolerance::Relative(1e-9), |x: f64| {
+                (powi(x, 3) - 2.0 * x + 2.0 - 4.0, 3.0 * x * x - 2.0)
+            });
         assert!((powi(cycling.at, 3) - 2.0 * cycling.at - 2.0).abs() < 1e-14, "{cycling:?}");
     }
 
     #[test]
     fn what_is_not_a_number_ends_the_search_as_a_bracket() {
         let count = Cell::new(0);
-        let root = newton(Bracket::falling(0.0, 1.0), 0.5, Change::Relative(1e-9), |_| {
+        let root = newton(Bracket::falling(0.0, 1.0), 0.5, PlaceTolerance::Relative(1e-9), |_| {
             count.set(count.get() + 1);
             (f64::NAN, f64::NAN)
         });
@@ -301,11 +304,12 @@ mod tests {
             Err::<f64, _>("no value")
         };
         let ends = [(0.0, -1.0), (1.0, 1.0)];
-        assert_eq!(illinois(ends, 0.0, Change::Relative(0.0), fail), Err("no value"));
+        assert_eq!(illinois(ends, 0.0, PlaceTolerance::Relative(0.0), fail), Err("no value"));
         assert_eq!(try_bisect(0.0, 1.0, 9, |at| fail(at).map(|it| it > 0.0)), Err("no value"));
-        let newton = try_newton(Bracket::rising(0.0, 1.0), 0.5, Change::Relative(0.0), |at| {
-            fail(at).map(|value| (value, 1.0))
-        });
+        let newton =
+            try_newton(Bracket::rising(0.0, 1.0), 0.5, PlaceTolerance::Relative(0.0), |at| {
+                fail(at).map(|value| (value, 1.0))
+            });
         assert_eq!((newton, count.get()), (Err("no value"), 3));
     }
 
@@ -332,7 +336,7 @@ mod tests {
                 ends.reverse();
             }
             let count = Cell::new(0);
-            let found = illinois(ends, 0.0, Change::Absolute(1e-15), |x| {
+            let found = illinois(ends, 0.0, PlaceTolerance::Absolute(1e-15), |x| {
                 count.set(count.get() + 1);
                 Ok::<_, Infallible>(function(x))
             });
@@ -348,7 +352,7 @@ mod tests {
                 let n = f64::from(power);
                 (pow((x - root).abs(), n).copysign(x - root), n * pow((x - root).abs(), n - 1.0))
             };
-            let found = newton(Bracket::rising(0.0, 1.0), start, Change::Relative(1e-9), function);
+            let found = newton(Bracket::rising(0.0, 1.0), start, PlaceTolerance::Relative(1e-9), function);
             let Bracket { low, high, .. } = found.bracket;
             prop_assert!(low <= root && root <= high && low <= found.at && found.at <= high);
             prop_assert!((found.at - root).abs() < 1e-7, "{:?}", found);

@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use super::polynomial::Derivatives;
 use super::quadrature::gauss;
 use super::root::bisect;
+use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, ln, powi};
 
 /// Fewest points that have a third derivative.
@@ -186,8 +187,7 @@ fn thrice([a, b, c]: [f64; 3], t: f64) -> f64 {
 
 fn quadratic_mean(one: &[f64], other: &[f64]) -> f64 {
     let squares: f64 = one.iter().zip(other).map(|(one, other)| powi(one - other, 2)).sum();
-    #[expect(clippy::cast_precision_loss, reason = "a number of points")]
-    let count = one.len() as f64;
+    let count = real(one.len());
     (squares / count).sqrt()
 }
 

@@ -22,7 +22,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// The side into which a motion through `state` goes on, or `None` where it rests.
+    /// The side into which a motion through `state` continues, or `None` where it rests.
     ///
     /// The side follows from the sign of `v`; on `v = 0` from `q` alone, which must lie beyond the
     /// sticking set.

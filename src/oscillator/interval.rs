@@ -67,7 +67,7 @@ impl ParameterBox {
     /// Replaces the interval of one parameter.
     ///
     /// # Errors
-    /// What is wrong: an end outside the range of the parameter, or a number that is no parameter.
+    /// What is wrong: an end outside the range of the parameter, or a number that is not a parameter.
     pub fn set(&mut self, symbol: Symbol, interval: Interval) -> Result<(), String> {
         for end in [interval.lower(), interval.upper()] {
             symbol.spec().check(end).map_err(|refused| refused.to_string())?;

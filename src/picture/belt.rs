@@ -1,13 +1,13 @@
 //! The mass on its belt (Fig. 1), where the motion has it at the moment that is played.
 //!
-//! Along the horizontal axis everything is in the units of the motion: the mass stands at its displacement
-//! from the static one, the marks of the belt move with its speed. Heights mean nothing.
+//! Along the horizontal axis everything is in the units of the motion: the mass is at its displacement
+//! from static equilibrium, the marks of the belt move with its speed. The vertical axis has no meaning.
 
 use super::items::{LineStyle, Picture};
 use super::role::{Dash, Role};
 use crate::flow::Sample;
-use crate::scene::{Layer, Point, Span, View};
-use crate::session::{self, Session};
+use crate::scene::{Layer, Point, Span, rectangle};
+use crate::session::Session;
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
 
@@ -23,19 +23,18 @@ const SPRING: f64 = 0.74;
 /// Height of the axis of the damper.
 const DAMPER: f64 = 0.48;
 
-/// Height at which it is shown where the mass may rest.
+/// Height of the bar of the sticking set.
 const REST: f64 = 0.03;
 
 /// Half the height of spring and damper.
 const HALF: f64 = 0.06;
 
-/// Windings of the spring.
-const WINDINGS: u32 = 9;
+const COILS: u32 = 9;
 
-/// Width of the mass, as a part of the window.
+/// Width of the mass, as a fraction of the window.
 const WIDTH: f64 = 0.14;
 
-/// Ends of the cylinder of the damper, and its piston at rest, as parts of the way from the wall to the
+/// Ends of the cylinder of the damper, and its piston at rest, as fractions of the way from the wall to the
 /// mass at rest.
 const CYLINDER: (f64, f64) = (0.15, 0.75);
 const PISTON: f64 = 0.45;
@@ -43,32 +42,24 @@ const PISTON: f64 = 0.45;
 /// Marks on each surface of the belt.
 const MARKS: u16 = 8;
 
-/// Gap between the marks of the belt, as a part of the window.
+/// Gap between the marks of the belt, as a fraction of the window.
 const GAP: f64 = 1.0 / 8.0;
 
-/// Length of the arrow of the belt's friction at rest, as a part of the window.
+/// Length of the arrow of the belt's friction at rest, as a fraction of the window.
 const ARROW: f64 = 0.16;
 
-/// What the plot with this index shows.
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
-    let session::Plot { window, cursor, .. } = session.plots[index];
-    let mut picture = Picture::new(View::Belt.spec().title, "q", "", window);
-    let moment = moment(session);
-    // A cursor reads a place; what moves stands for itself then.
-    let pointed = cursor.map(|Point { x: q, .. }| Sample { tau: 0.0, q, v: 0.0 });
+pub fn draw(picture: &mut Picture, session: &Session) {
+    picture.axes("q", "");
+    // Before the motion is played, its start.
+    let moment = session.head().or_else(|| session.trajectory()?.at(0.0));
+    // The cursor points to a position only.
+    let pointed = picture.cursor.map(|Point { x: q, .. }| Sample { tau: 0.0, q, v: 0.0 });
     picture.reading = pointed.or(moment).map(|moment| reading(session, &moment));
     if session.layers.contains(&Layer::Mass)
         && let Some(moment) = moment
     {
-        machine(&mut picture, session, window.x, &moment);
+        machine(picture, session, &moment);
     }
-    picture.cross(cursor);
-    picture
-}
-
-/// Where the motion is now; before it is played, at its start.
-fn moment(session: &Session) -> Option<Sample> {
-    session.head().or_else(|| session.trajectory()?.at(0.0))
 }
 
 /// The moment in numbers, physical ones where the scene is of a machine.
@@ -87,7 +78,8 @@ fn reading(session: &Session, moment: &Sample) -> String {
     )
 }
 
-fn machine(picture: &mut Picture, session: &Session, across: Span, moment: &Sample) {
+fn machine(picture: &mut Picture, session: &Session, moment: &Sample) {
+    let across = picture.window.x;
     let (wall, width) = (across.from(), across.width());
     let sticking = session.running().map(|running| running.reduced.sticking_velocity);
     belt(picture, across, sticking.unwrap_or(0.0) * moment.tau);
@@ -99,7 +91,7 @@ fn machine(picture: &mut Picture, session: &Session, across: Span, moment: &Samp
     for piece in damper(wall, -0.5 * WIDTH * width, left) {
         picture.curve(part("damper", Role::Text), piece);
     }
-    picture.curve(part("mass", Role::Trajectory), outline((left, right), MASS));
+    picture.curve(part("mass", Role::Trajectory), rectangle([left, right], MASS.into()));
     let middle = Point { x: moment.q, y: 0.5 * (MASS.0 + MASS.1) };
     picture.caption(middle, "m", Role::Trajectory);
     let rides = |ride: &&[Sample; 2]| (ride[0].tau..=ride[1].tau).contains(&moment.tau);
@@ -120,7 +112,7 @@ fn arrow(picture: &mut Picture, session: &Session, from: f64, width: f64, v: f64
     let tip = from + pull * ARROW * width;
     let barb = tip - (0.15 * ARROW * width).copysign(pull);
     let points = [(from, y), (tip, y), (barb, y + 0.5 * HALF), (tip, y), (barb, y - 0.5 * HALF)];
-    picture.curve(part("friction of the belt", Role::Special), points.map(|(x, y)| Point { x, y }));
+    picture.curve(part("friction of the belt", Role::Special), points.map(Point::from));
     let text = with_unit(pull * running.reduced.units.force, 3, "N");
     // Above the mass, where it covers nothing even at the edge of the window.
     let above = Point { x: from - 0.5 * WIDTH * width, y: MASS.1 + HALF };
@@ -155,11 +147,11 @@ fn belt(picture: &mut Picture, across: Span, way: f64) {
 
 /// The zigzag of a spring between two places.
 fn spring(from: f64, to: f64) -> Vec<Point> {
-    let windings = f64::from(WINDINGS);
+    let coils = f64::from(COILS);
     let at = |part: f64, y: f64| Point { x: from + part * (to - from), y };
-    let teeth = (0..WINDINGS).map(|tooth| {
+    let teeth = (0..COILS).map(|tooth| {
         let side = if tooth % 2 == 0 { HALF } else { -HALF };
-        at((f64::from(tooth) + 1.0) / (windings + 1.0), SPRING + side)
+        at((f64::from(tooth) + 1.0) / (coils + 1.0), SPRING + side)
     });
     std::iter::once(at(0.0, SPRING)).chain(teeth).chain([at(1.0, SPRING)]).collect()
 }
@@ -177,10 +169,4 @@ fn damper(wall: f64, rest: f64, mass: f64) -> [Vec<Point>; 3] {
         vec![at(end, HALF), at(start, HALF), at(start, -HALF), at(end, -HALF)],
         vec![at(piston, 0.8 * HALF), at(piston, -0.8 * HALF), at(piston, 0.0), at(mass, 0.0)],
     ]
-}
-
-/// The outline of a box.
-fn outline((left, right): (f64, f64), (low, high): (f64, f64)) -> [Point; 5] {
-    [(left, low), (right, low), (right, high), (left, high), (left, low)]
-        .map(|(x, y)| Point { x, y })
 }

@@ -11,7 +11,7 @@ use crate::scene::{Point, Running};
 use crate::session::Session;
 use crate::words::quantity::with_unit;
 
-/// Distance between marks, as a part of the window: room for a speed with its unit.
+/// Distance between marks, as a fraction of the window: room for a speed with its unit.
 const APART: (f64, f64) = (0.16, 0.07);
 
 /// Distance from the present point below which a mark would lie in its cross.
@@ -27,8 +27,7 @@ pub fn draw(picture: &mut Picture, session: &Session, right: Symbol, up: Symbol)
         let value = |symbol: Symbol| symbol.get(parameters, &State { q: 0.0, v: 0.0 });
         Point { x: value(right), y: value(up) }
     };
-    let nowhere = Point { x: f64::NAN, y: f64::NAN };
-    let place = |(_, parameters): Station| parameters.as_ref().map_or(nowhere, at);
+    let place = |(_, parameters): Station| parameters.as_ref().map_or(Point::NOWHERE, at);
     let line = LineStyle::new("over the speed of the belt", PEN, Dash::Dotted);
     let line = line.briefly("as the belt varies");
     picture.items.push(Item::Path(line, running.path().into_iter().map(place).collect()));

@@ -1,11 +1,10 @@
 //! Formulas drawn into the phase plane: levels of the energy, and the spirals that make the cycle.
 
-use super::items::{Item, LineStyle, Picture};
+use super::items::{Item, LineStyle, Picture, ellipse};
 use super::role::{Dash, Mark, Role};
 use crate::closed_form::linear::linear_flow;
 use crate::closed_form::lyapunov::energy_rate;
 use crate::closed_form::piecewise_linear::LinearCycle;
-use crate::numerics::elementary::{cos, sin};
 use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::oscillator::{Parameters, State};
 use crate::scene::{Point, Span};
@@ -14,7 +13,6 @@ use crate::scene::{Point, Span};
 pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
     /// Circles in the window.
     const LEVELS: u8 = 2;
-    const CORNERS: u16 = 240;
     let y = picture.window.y;
     for (from, to) in falling(parameters, y) {
         let line = LineStyle::new("energy falls", Role::Basin, Dash::Solid).briefly("V falls");
@@ -22,14 +20,8 @@ pub(super) fn levels(picture: &mut Picture, parameters: &Parameters) {
     }
     for level in 1..=LEVELS {
         let radius = 0.5 * y.width() * f64::from(level) / f64::from(LEVELS);
-        let circle = (0..=CORNERS).map(|corner| {
-            let angle = std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
-            Point { x: radius * cos(angle), y: radius * sin(angle) }
-        });
-        picture.curve(
-            LineStyle::new("level of the energy", Role::Field, Dash::Sparse).briefly("V constant"),
-            circle,
-        );
+        let line = LineStyle::new("level of the energy", Role::Field, Dash::Sparse);
+        picture.curve(line.briefly("V constant"), ellipse((0.0, radius), (0.0, radius)));
     }
 }
 
@@ -60,7 +52,7 @@ fn falling(parameters: &Parameters, among: Span) -> Vec<(f64, f64)> {
 }
 
 /// The half turns of two spirals, one shifted to the left by r and one to the right, whose ends meet
-/// (25, 30), and how each would go on.
+/// (25, 30), and their continuations.
 pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
     /// Points on a half turn.
     const POINTS: u16 = 160;
@@ -78,13 +70,13 @@ pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
             Point { x: side * (x - r), y: side * v }
         })
     };
-    for (side, name, on) in [
-        (1.0, "half turn about the left end", "the same spiral before and after"),
-        (-1.0, "half turn about the right end", "the same spiral before and after"),
-    ] {
+    for (side, name) in
+        [(1.0, "half turn about the left end"), (-1.0, "half turn about the right end")]
+    {
         for (from, to) in [(-2.0, 0.0), (1.0, 2.0)] {
-            let line = LineStyle::new(on, Role::Asymptote, Dash::Dotted).briefly("how they go on");
-            picture.curve(line, turn(from, to, side));
+            let name = "the same spiral before and after";
+            let line = LineStyle::new(name, Role::Asymptote, Dash::Dotted);
+            picture.curve(line.briefly("how they go on"), turn(from, to, side));
         }
         let line = LineStyle::new(name, Role::Trajectory, Dash::Solid).briefly("half turns");
         picture.curve(line, turn(0.0, 1.0, side));

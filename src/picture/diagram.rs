@@ -6,22 +6,21 @@
 //! cross.
 
 use super::equilibria::{self, at};
-use super::items::{Item, LineStyle, Picture, Text, Variant};
-use super::phase_plane::{stability, variants};
-use super::reading::reading;
-use super::role::{Dash, Mark, Role};
+use super::items::{LineStyle, Picture, Text, VariantTag};
+use super::phase_plane::variants;
+use super::role::{CycleStyle, Dash, Role, cycle_style};
 use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,
 };
 use crate::numerics::root::bisect;
 use crate::oscillator::{Parameters, Symbol};
-use crate::scene::{Axes, Height, Layer, Ordinate, Point, View};
+use crate::scene::{Axes, Height, Layer, Ordinate, Point};
 use crate::session::{self, Session, Shown};
 use crate::study::{Branch, BranchPoint, Special, SpecialKind};
 use crate::words::number::significant;
+use crate::words::stability;
 
-/// What the plot with this index shows.
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     let diagram = &session.plots[index];
     let Axes { abscissa, ordinate, .. } = diagram.axes;
     let (name, label) = (abscissa.spec().name, diagram.axes.label());
@@ -29,13 +28,10 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     let beside = session.layers.contains(&Layer::Extents) && velocity != label;
     let label: Text = if beside { format!("{label}, {velocity}").into() } else { label.into() };
     let window = diagram.window;
-    let mut picture = Picture::new(View::Diagram.spec().title, name, label.clone(), window);
+    picture.axes(name, label);
     picture.varied = vec![abscissa];
-    let pointed = held(session, index).or(diagram.cursor);
-    picture.reading = pointed.map(|point| {
-        let (value, height) = reading(point, window);
-        format!("{name} {value} {label} {height}")
-    });
+    picture.cursor = held(session, index).or(picture.cursor);
+    picture.reading = picture.cursor.map(|at| picture.coordinates(at));
     let shows = |layer| session.layers.contains(&layer);
     let current = session.value(abscissa);
     let all = session.shown(index);
@@ -46,7 +42,7 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             let height = session.height(index, variant);
             let Shown { label, present, .. } = all.get(variant)?.clone();
             Some(ComputedBranch {
-                variant: Variant { index: variant, label },
+                variant: VariantTag { index: variant, label },
                 branch,
                 height,
                 present,
@@ -67,22 +63,22 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
                 continue;
             }
             if shows(Layer::Asymptotes) {
-                asymptotes(&mut picture, shown, &variant, abscissa, height);
+                asymptotes(picture, shown, &variant, abscissa, height);
             }
             if shows(Layer::Harmonic) {
                 let largest = largest_amplitude(diagram, height, &found);
-                harmonic(&mut picture, (shown, &variant), abscissa, height, largest);
+                harmonic(picture, (shown, &variant), abscissa, height, largest);
             }
         }
     }
     if shows(Layer::Branch) {
         for found in &found {
             for piece in &found.branch.pieces {
-                branch(&mut picture, piece, found);
+                branch(picture, piece, found);
             }
         }
     }
-    // Over the branches, which come near it without reaching it and must not colour it.
+    // Over the branches, which come near it and must not take its cells.
     let has_present = all.iter().any(|one| one.present);
     let rest = |shown: &Shown| match (shown.present || all.len() == 1, has_present) {
         (true, _) => (equilibria::REST, Dash::Thick),
@@ -91,19 +87,19 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     };
     for (variant, shown) in variants(&all) {
         let height = diagram.axes.height(shown.problem.parameters.r);
-        equilibria::draw(&mut picture, (shown, &variant), rest(shown), abscissa, height);
+        equilibria::draw(picture, (shown, &variant), rest(shown), abscissa, height);
     }
     if shows(Layer::Branch) {
         for found in &found {
             for piece in &found.branch.pieces {
-                here(&mut picture, piece, found.height, current);
+                here(picture, piece, found.height, current);
             }
         }
     }
     if shows(Layer::Extents) {
         for found in &found {
             for piece in &found.branch.pieces {
-                extents(&mut picture, piece, found);
+                extents(picture, piece, found);
             }
         }
     }
@@ -113,19 +109,17 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             for special in &branch.special {
                 // Several variants may have one in common.
                 if !named.contains(&special) {
-                    caption(&mut picture, special, *height, window.y.to());
+                    caption(picture, special, *height, window.y.to());
                     named.push(special);
                 }
             }
         }
     }
-    picture.cross(pointed);
-    picture
 }
 
 /// A branch that was computed: whose it is, and how high its cycles stand.
 struct ComputedBranch<'a> {
-    variant: Variant,
+    variant: VariantTag,
     branch: &'a Branch,
     height: Height,
     /// Whether it is that of the present values.
@@ -147,7 +141,7 @@ fn held(session: &Session, index: usize) -> Option<Point> {
 fn asymptotes(
     picture: &mut Picture,
     shown: &Shown,
-    variant: &Variant,
+    variant: &VariantTag,
     abscissa: Symbol,
     height: Height,
 ) {
@@ -176,7 +170,7 @@ fn asymptotes(
 /// over the other parameters each amplitude is a curve of its own.
 fn harmonic(
     picture: &mut Picture,
-    (shown, variant): (&Shown, &Variant),
+    (shown, variant): (&Shown, &VariantTag),
     abscissa: Symbol,
     height: Height,
     largest: f64,
@@ -207,7 +201,7 @@ fn harmonic(
 
 /// Twice the largest amplitude that can be on show: beyond it the harmonic curve need not be followed.
 ///
-/// Where the ordinate is no length, that is twice the largest amplitude of the computed branches.
+/// Where the ordinate is not a length, that is twice the largest amplitude of the computed branches.
 fn largest_amplitude(diagram: &session::Plot, height: Height, found: &[ComputedBranch]) -> f64 {
     let y = diagram.window.y;
     let unit = height.friction.filter(|_| height.is_ratio()).unwrap_or(1.0);
@@ -234,16 +228,11 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) 
         let next = piece.iter().skip_while(|point| *point != last).nth(1);
         let end =
             next.map(|next| fold_between(last, next, special, *height).unwrap_or(place(next)));
-        let (role, dash) = stability(first.cycle.stable);
-        let name = if first.cycle.stable { "stable cycle" } else { "unstable cycle" };
+        let CycleStyle { role, dash, name, .. } = cycle_style(first.cycle.stable);
         let line = LineStyle::new(name, role, dash).of(variant);
         if *present {
             let points: Vec<Point> = run.iter().map(place).collect();
-            picture.label_curve(
-                &points,
-                if first.cycle.stable { "stable" } else { "unstable" },
-                role,
-            );
+            picture.label_curve(&points, stability(first.cycle.stable), role);
         }
         picture.curve(line, start.into_iter().chain(run.iter().map(place)).chain(end));
         // Without a fold the runs share a point, which this one has as its last.
@@ -286,8 +275,7 @@ fn here(picture: &mut Picture, piece: &[BranchPoint], height: Height, value: f64
             let place = |point: &BranchPoint| [point.value, height.of(point.value, &point.cycle)];
             let places: Vec<[f64; 2]> = piece.iter().map(place).collect();
             let y = between(&places, index, value);
-            let mark = if a.cycle.stable { Mark::Stable } else { Mark::Unstable };
-            picture.mark(mark, Point { x: value, y }, Role::Current);
+            picture.mark(cycle_style(a.cycle.stable).mark, Point { x: value, y }, Role::Current);
         }
     }
 }
@@ -332,13 +320,8 @@ fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
         picture.upright(line, special.value);
     }
     let y = special.cycle.map_or(top, |cycle| height.of(special.value, &cycle));
-    picture.items.push(Item::Caption {
-        at: Point { x: special.value, y },
-        or_at: Vec::new(),
-        long: format!("{letter} {}", significant(special.value, 4)).into(),
-        short: letter.into(),
-        role: Role::Special,
-    });
+    let at = Point { x: special.value, y };
+    picture.special(at, letter, &significant(special.value, 4));
 }
 
 #[cfg(test)]

@@ -1,50 +1,35 @@
 //! The eigenvalues of the rest without friction in the complex plane, and the way that they take as D
 //! moves (9): a circle on which the motion swings, and the real axis on which it does not.
 
-use super::items::{Item, LineStyle, Picture};
-use super::reading::reading;
-use super::role::{Dash, Mark, Role};
-use crate::numerics::elementary::{cos, sin};
+use super::items::{Item, LineStyle, Picture, ellipse};
+use super::role::{Dash, Role, cycle_style};
 use crate::oscillator::Symbol;
-use crate::scene::{Layer, Point, View};
-use crate::session::{self, Session};
+use crate::scene::{Layer, Point};
+use crate::session::Session;
 
-/// What the plot with this index shows.
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
-    let session::Plot { window, cursor, .. } = session.plots[index];
-    let title = View::Eigenvalues.spec().title;
-    let mut picture = Picture::new(title, "Re", "Im", window);
+pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
+    picture.axes("Re", "Im");
     picture.varied = vec![Symbol::D];
-    picture.reading = cursor.map(|cursor| {
-        let (re, im) = reading(cursor, window);
-        format!("Re {re} Im {im}")
-    });
+    picture.reading = picture.cursor.map(|at| picture.coordinates(at));
     if session.layers.contains(&Layer::Locus) {
-        locus(&mut picture);
+        locus(picture);
         for shown in session.shown(index) {
-            pair(&mut picture, shown.problem.parameters.d);
+            pair(picture, shown.problem.parameters.d);
         }
     }
-    picture.cross(cursor);
-    picture
 }
 
 /// The way of the eigenvalues over D; on the left of the imaginary axis, shaded, the rest is stable.
 fn locus(picture: &mut Picture) {
-    const CORNERS: u16 = 240;
     let left = picture.window.x.from();
     let stable = LineStyle::new("the rest is stable", Role::Basin, Dash::Solid);
     picture.items.push(Item::Columns(stable, left.min(0.0), 0.0));
     picture.upright(LineStyle::guide(), 0.0);
-    let circle = (0..=CORNERS).map(|corner| {
-        let angle = std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
-        Point { x: cos(angle), y: sin(angle) }
-    });
-    let way = || LineStyle::new("eigenvalues over D", Role::Asymptote, Dash::Dotted);
-    picture.curve(way(), circle);
-    picture.level(way(), 0.0);
-    for (at, name) in [((0.0, 1.0), "D = 0"), ((-1.0, 0.0), "D = 1"), ((1.0, 0.0), "D = -1")] {
-        picture.caption(Point { x: at.0, y: at.1 }, name, Role::Special);
+    let line = LineStyle::new("eigenvalues over D", Role::Asymptote, Dash::Dotted);
+    picture.curve(line.clone(), ellipse((0.0, 1.0), (0.0, 1.0)));
+    picture.level(line, 0.0);
+    for (at, name) in [([0.0, 1.0], "D = 0"), ([-1.0, 0.0], "D = 1"), ([1.0, 0.0], "D = -1")] {
+        picture.caption(at.into(), name, Role::Special);
     }
 }
 
@@ -62,7 +47,7 @@ fn eigenvalues(d: f64) -> [Point; 2] {
 }
 
 fn pair(picture: &mut Picture, d: f64) {
-    let mark = if d > 0.0 { Mark::Stable } else { Mark::Unstable };
+    let mark = cycle_style(d > 0.0).mark;
     for at in eigenvalues(d) {
         let arm = [Point { x: 0.0, y: 0.0 }, at];
         let line = LineStyle::new("from the origin", Role::Current, Dash::Sparse);

@@ -1,23 +1,20 @@
 //! The energy ledger: a bar for the work of each source, over one turn of each cycle and along the motion.
 //!
-//! Bars are parts of the largest work of their owner, numbers are energies in the units of the model.
+//! Bars are fractions of the largest work of their owner, numbers are energies in the units of the model.
 
 use super::items::{LineStyle, Picture};
 use super::role::{Dash, Mark, Role};
-use crate::scene::{Point, Span, View, Window};
+use crate::numerics::count::real;
+use crate::scene::{Point, Span};
 use crate::session::Session;
 use crate::session::ledger::{LedgerLine, Owner};
 use crate::words::number::significant;
 
-/// The same for a file: each work a bar with its name and number.
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
+/// The ledger in a figure: a bar for each work, with its name and number.
+pub fn draw(picture: &mut Picture, session: &Session) {
     let lines = session.ledger();
-    let spec = View::EnergyLedger.spec();
-    let window = Window {
-        y: Span::new(middle(lines.len()), 0.0).unwrap_or(Span::known(-1.0, 0.0)),
-        ..session.plots[index].window
-    };
-    let mut picture = Picture::new(spec.title, "part of the largest work", "", window);
+    picture.axes("part of the largest work", "");
+    picture.window.y = Span::new(middle(lines.len()), 0.0).unwrap_or(Span::known(-1.0, 0.0));
     picture.upright(LineStyle::guide(), 0.0);
     for (line, entry) in lines.iter().enumerate() {
         let from = Point { x: 0.0, y: middle(line) };
@@ -29,16 +26,14 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
                 picture.mark(Mark::Head, Point { x, ..from }, Role::Cursor);
             }
         }
-        let at = Point { x: window.x.at(0.02), ..from };
+        let at = Point { x: picture.window.x.at(0.02), ..from };
         picture.caption(at, reading(entry), Role::Text);
     }
-    picture
 }
 
 /// The height in the middle of a line.
-#[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
 pub fn middle(line: usize) -> f64 {
-    -(line as f64) - 0.5
+    -(real(line)) - 0.5
 }
 
 /// A line in numbers.

@@ -2,26 +2,20 @@
 //! feeds, what friction takes, and between which velocities friction takes more.
 
 use super::items::{LineStyle, Picture};
-use super::reading::{CELLS, reading};
 use super::role::{Dash, Mark, Role};
 use crate::closed_form::lyapunov::{self, energy_rate};
 use crate::oscillator::{Parameters, State};
-use crate::scene::{Layer, Point, View};
-use crate::session::{self, Session};
-use crate::words::number::resolved;
+use crate::scene::{Layer, Point};
+use crate::session::Session;
 
-/// What the plot with this index shows.
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
-    let session::Plot { window, cursor, .. } = session.plots[index];
-    let mut picture = Picture::new(View::EnergyRate.spec().title, "v", "V'", window);
+pub fn draw(picture: &mut Picture, session: &Session) {
+    picture.axes("v", "V'");
     let parameters = session.problem.parameters;
-    picture.reading = cursor.map(|cursor| {
-        let (v, _) = reading(cursor, window);
-        let rate = resolved(rate(&parameters, cursor.x), window.y.width() / CELLS);
-        format!("v {v} V' {rate}")
-    });
+    // The cursor reads the curve.
+    let on_curve = |at: Point| Point { y: rate(&parameters, at.x), ..at };
+    picture.reading = picture.cursor.map(|at| picture.coordinates(on_curve(at)));
     if session.layers.contains(&Layer::Rate) {
-        curves(&mut picture, parameters);
+        curves(picture, parameters);
     }
     let mut at = |mark, v, role| {
         picture.mark(mark, Point { x: v, y: rate(&parameters, v) }, role);
@@ -30,11 +24,8 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     if let Some(head) = session.head() {
         at(Mark::Head, head.v, Role::Cursor);
     }
-    picture.cross(cursor);
-    picture
 }
 
-/// V' at a velocity.
 fn rate(parameters: &Parameters, v: f64) -> f64 {
     energy_rate(parameters, State { q: 0.0, v })
 }
@@ -64,7 +55,7 @@ fn curves(picture: &mut Picture, parameters: Parameters) {
 mod tests {
     use super::*;
     use crate::picture::items::Item;
-    use crate::scene::find;
+    use crate::scene::{View, find};
     use crate::session::Size;
 
     #[test]
@@ -72,7 +63,7 @@ mod tests {
         let scene = find("fig04").unwrap();
         let session = Session::new(scene, Size { width: 120, height: 40 });
         let plot = session.plots.iter().position(|plot| plot.view == View::EnergyRate).unwrap();
-        let picture = picture(&session, plot);
+        let picture = crate::picture::of(&session, plot);
         let radius = lyapunov::radius(&session.problem.parameters).unwrap();
         let graphs: Vec<_> = picture
             .items

@@ -1,21 +1,21 @@
 //! Rest in a bifurcation diagram: with friction the sticking set, a band that attracts; without, the
 //! equilibrium at 0, stable on one side of the Hopf point and unstable on the other.
 
-use super::items::{Fill, Item, LineStyle, Pattern, Picture, Variant};
-use super::phase_plane::{AT_REST, stability};
-use super::role::{Dash, Role};
+use super::items::{Fill, Item, LineStyle, Pattern, Picture, VariantTag};
+use super::phase_plane::AT_REST;
+use super::role::{CycleStyle, Dash, Role, cycle_style};
 use crate::oscillator::{Parameters, Symbol};
 use crate::scene::{Height, Ordinate};
 use crate::session::Shown;
 
-/// What stands where the motion rests.
+/// The name of rest in every diagram.
 pub(super) const REST: &str = "rest (attracts)";
 
-/// Draws where one of the motions of a diagram can rest; nothing where the ordinate is no property of a
+/// Draws where one of the motions of a diagram can rest; nothing where the ordinate is not a property of a
 /// rest (its period, its multiplier).
 pub fn draw(
     picture: &mut Picture,
-    (shown, variant): (&Shown, &Variant),
+    (shown, variant): (&Shown, &VariantTag),
     (name, dash): (&'static str, Dash),
     abscissa: Symbol,
     height: Height,
@@ -76,14 +76,14 @@ fn is_stable(parameters: &Parameters) -> Option<bool> {
 }
 
 /// The equilibrium at 0 without friction.
-fn point(picture: &mut Picture, shown: &Shown, variant: &Variant, abscissa: Symbol) {
+fn point(picture: &mut Picture, shown: &Shown, variant: &VariantTag, abscissa: Symbol) {
     for stable in [true, false] {
         let (name, dash) = if stable {
             ("rest (stable)", Dash::Thick)
         } else {
             ("rest (unstable)", Dash::DashDot)
         };
-        let (role, _) = stability(stable);
+        let CycleStyle { role, .. } = cycle_style(stable);
         let of = shown.clone();
         picture.graph(LineStyle::new(name, role, dash).of(variant), move |value| {
             (is_stable(&at(&of, abscissa, value)) == Some(stable)).then_some(0.0)

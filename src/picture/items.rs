@@ -1,10 +1,13 @@
 //! The parts of a picture: curves, areas, marks and texts in world coordinates.
 
 use std::borrow::Cow;
+use std::f64::consts::TAU;
 use std::fmt;
 
+use super::reading::reading;
 use super::role::{Dash, Mark, Role};
 use super::ticks::Scale;
+use crate::numerics::elementary::sin_cos;
 use crate::oscillator::{Parameters, Symbol};
 use crate::scene::{Point, Window};
 
@@ -13,7 +16,7 @@ pub type Text = Cow<'static, str>;
 
 /// One of the variants that a plot shows.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Variant {
+pub struct VariantTag {
     /// Its place in [`Picture::variants`].
     pub index: usize,
     /// The values that tell it from the others; empty where the plot shows one motion.
@@ -28,7 +31,7 @@ pub struct LineStyle {
     /// What the legend of the screen says in place of the name; nothing where this is empty.
     pub brief: Option<&'static str>,
     /// The variant that it belongs to; `None` where it belongs to all.
-    pub variant: Option<Variant>,
+    pub variant: Option<VariantTag>,
     /// What it is, as far as its colour goes.
     pub role: Role,
     /// How it is interrupted.
@@ -36,13 +39,12 @@ pub struct LineStyle {
 }
 
 impl LineStyle {
-    /// A line of this name and look.
     pub fn new(name: impl Into<Text>, role: Role, dash: Dash) -> Self {
         LineStyle { name: name.into(), brief: None, variant: None, role, dash }
     }
 
     /// The same line of one of several variants.
-    pub fn of(self, variant: &Variant) -> Self {
+    pub fn of(self, variant: &VariantTag) -> Self {
         LineStyle { variant: Some(variant.clone()), ..self }
     }
 
@@ -83,11 +85,9 @@ pub enum Pattern {
 /// What a part of the world is filled with, and what it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fill {
-    /// How it is filled.
     pub pattern: Pattern,
     /// What it is, as far as its colour goes.
     pub role: Role,
-    /// What it is called.
     pub name: &'static str,
 }
 
@@ -122,7 +122,6 @@ impl Marks {
     }
 }
 
-/// Something in a picture.
 pub enum Item<'a> {
     /// A polyline; a point that is not finite interrupts it.
     Curve(LineStyle, Vec<Point>),
@@ -148,24 +147,24 @@ pub enum Item<'a> {
     Arrows(Role, Flow<'a>),
     /// Marks of one meaning.
     Marks(Marks),
-    /// A text beside a point, and a shorter one for where there is little room.
-    Caption {
-        at: Point,
-        /// Points beside which it says the same, for where there is no room beside the first; the best
-        /// first.
-        or_at: Vec<Point>,
-        long: Text,
-        /// The text for small plots.
-        short: Text,
-        role: Role,
-    },
-    /// The cross of the cursor.
-    Cross(Point),
+    Caption(Caption),
+}
+
+/// A text beside a point, and a shorter one for where there is little room.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Caption {
+    pub at: Point,
+    /// Points beside which it may stand as well, for where there is no room beside the first; the best first.
+    pub or_at: Vec<Point>,
+    /// Empty where a figure explains the curve in its legend.
+    pub long: Text,
+    /// The text for small plots.
+    pub short: Text,
+    pub role: Role,
 }
 
 /// What a plot shows, in the order in which it is painted.
 pub struct Picture<'a> {
-    /// What it is called.
     pub title: Text,
     /// Name of the horizontal axis.
     pub x: Text,
@@ -179,6 +178,8 @@ pub struct Picture<'a> {
     pub variants: Vec<Parameters>,
     /// The parameters on the axes, which differ along the curves.
     pub varied: Vec<Symbol>,
+    /// Where the cursor is.
+    pub cursor: Option<Point>,
     /// What the cursor reads.
     pub reading: Option<String>,
     /// From back to front.
@@ -209,11 +210,9 @@ impl Item<'_> {
             Item::Shade(line, edge) | Item::Beyond(line, edge) => (line, !edge.is_empty()),
             Item::Columns(line, from, to) => (line, *from < window.x.to() && *to > window.x.from()),
             Item::Rows(line, from, to) => (line, *from < window.y.to() && *to > window.y.from()),
-            Item::Texture(_)
-            | Item::Arrows(..)
-            | Item::Marks(_)
-            | Item::Caption { .. }
-            | Item::Cross(_) => return None,
+            Item::Texture(_) | Item::Arrows(..) | Item::Marks(_) | Item::Caption(_) => {
+                return None;
+            }
         };
         Some(line).filter(|line| seen && !line.name.is_empty())
     }
@@ -227,6 +226,15 @@ pub fn passes(points: &[Point], window: Window) -> bool {
     };
     points.iter().any(|point| window.contains(*point))
         || points.windows(2).any(|pair| window.contains(middle(pair)))
+}
+
+/// An ellipse as a closed polygon: its centre and its half axis in each direction.
+pub fn ellipse(x: (f64, f64), y: (f64, f64)) -> impl Iterator<Item = Point> {
+    const CORNERS: u16 = 240;
+    (0..=CORNERS).map(move |corner| {
+        let (sin, cos) = sin_cos(TAU * f64::from(corner) / f64::from(CORNERS));
+        Point { x: x.0 + x.1 * cos, y: y.0 + y.1 * sin }
+    })
 }
 
 /// Whether a graph is seen in a window.
@@ -254,9 +262,24 @@ impl<'a> Picture<'a> {
             window,
             variants: Vec::new(),
             varied: Vec::new(),
+            cursor: None,
             reading: None,
             items: Vec::new(),
         }
+    }
+
+    pub fn axes(&mut self, x: impl Into<Text>, y: impl Into<Text>) {
+        (self.x, self.y) = (x.into(), y.into());
+    }
+
+    pub fn add_to_title(&mut self, remark: &str) {
+        self.title = format!("{}, {remark}", self.title).into();
+    }
+
+    /// The coordinates of a point under the names of the axes, to the digits that the window resolves.
+    pub fn coordinates(&self, at: Point) -> String {
+        let (x, y) = reading(at, self.window);
+        format!("{} {x} {} {y}", self.x, self.y)
     }
 
     pub fn curve(&mut self, line: LineStyle, points: impl IntoIterator<Item = Point>) {
@@ -276,7 +299,6 @@ impl<'a> Picture<'a> {
         self.items.push(Item::Upright(line, x));
     }
 
-    /// Adds a thick straight line.
     pub fn bar(&mut self, line: LineStyle, from: Point, to: Point) {
         self.items.push(Item::Bar(line, from, to));
     }
@@ -287,8 +309,16 @@ impl<'a> Picture<'a> {
 
     pub fn caption(&mut self, at: Point, text: impl Into<Text>, role: Role) {
         let long = text.into();
-        let or_at = Vec::new();
-        self.items.push(Item::Caption { at, or_at, short: long.clone(), long, role });
+        let short = long.clone();
+        self.items.push(Item::Caption(Caption { at, or_at: Vec::new(), short, long, role }));
+    }
+
+    /// Adds the letter of a special point, and its value where there is room.
+    pub fn special(&mut self, at: Point, letter: &'static str, value: &str) {
+        let long = format!("{letter} {value}").into();
+        let caption =
+            Caption { at, or_at: Vec::new(), long, short: letter.into(), role: Role::Special };
+        self.items.push(Item::Caption(caption));
     }
 
     /// Adds the name of a curve, beside the highest of its points in the window that has room.
@@ -310,13 +340,8 @@ impl<'a> Picture<'a> {
         let step = points.len().div_ceil(PLACES).max(1);
         let mut places = points.into_iter().step_by(step);
         if let Some(at) = places.next().filter(|_| !name.is_empty()) {
-            let or_at = places.collect();
-            self.items.push(Item::Caption { at, or_at, short: name.to_owned().into(), long, role });
+            let (or_at, short) = (places.collect(), name.to_owned().into());
+            self.items.push(Item::Caption(Caption { at, or_at, long, short, role }));
         }
-    }
-
-    /// Adds the cross of the cursor, if there is one.
-    pub fn cross(&mut self, cursor: Option<Point>) {
-        self.items.extend(cursor.map(Item::Cross));
     }
 }

@@ -1,11 +1,8 @@
-//! Random kicks over the basin: where they lead, and which part of them is lost.
+//! Random kicks over the basin: their distribution, and what fraction of them is lost.
 
-use std::f64::consts::TAU;
-
-use super::items::{LineStyle, Picture};
+use super::items::{LineStyle, Picture, ellipse};
 use super::role::{Dash, Role};
-use crate::numerics::elementary::sin_cos;
-use crate::scene::{Answer, Layer, Point, Topic};
+use crate::scene::{Answer, Layer, Topic, rectangle};
 use crate::session::Session;
 use crate::study::kicks::{Distribution, RandomKick};
 use crate::words::number::significant;
@@ -17,29 +14,31 @@ const NORMAL: [(&str, f64, Dash); 3] = [
     ("kicks, 3 standard deviations", 3.0, Dash::Dotted),
 ];
 
-/// Draws the density of the kicks into a phase plane, and tells the lost part in its title.
+/// Draws the density of the kicks into a phase plane, and adds the lost part to its title.
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     if !session.layers.contains(&Layer::Kicks) {
         return;
     }
-    let kicks = &session.kicks;
-    match kicks.law {
+    let RandomKick { q, v, law, .. } = session.kicks;
+    match law {
         Distribution::Normal => {
             for (name, distance, dash) in NORMAL {
                 let line = LineStyle::new(name, Role::Harmonic, dash).briefly("kicks: 1, 2, 3 sd");
-                picture.curve(line, ellipse(kicks, distance));
+                let half = |spread: f64| distance * spread;
+                picture.curve(line, ellipse((q.0, half(q.1)), (v.0, half(v.1))));
             }
         }
         Distribution::Uniform => {
             let line = LineStyle::new("all kicks, evenly", Role::Harmonic, Dash::Solid);
-            picture.curve(line, rectangle(kicks));
+            let ends = |(middle, half): (f64, f64)| [middle - half, middle + half];
+            picture.curve(line, rectangle(ends(q), ends(v)));
         }
     }
-    picture.title = format!("{}, {}", picture.title, told(session, index)).into();
+    picture.add_to_title(&lost_part(session, index));
 }
 
 /// The lost part with its error, at the present parameters; or why it is not known.
-fn told(session: &Session, index: usize) -> String {
+fn lost_part(session: &Session, index: usize) -> String {
     if session.draws_whole() {
         return "kicks lost: not known of the whole model".to_owned();
     }
@@ -55,21 +54,4 @@ fn told(session: &Session, index: usize) -> String {
         }
         _ => "kicks lost: ..".to_owned(),
     }
-}
-
-fn ellipse(kicks: &RandomKick, distance: f64) -> impl Iterator<Item = Point> {
-    /// Corners of the polygon that stands for the ellipse.
-    const CORNERS: u16 = 120;
-    let RandomKick { q, v, .. } = *kicks;
-    (0..=CORNERS).map(move |corner| {
-        let (sin, cos) = sin_cos(TAU * f64::from(corner) / f64::from(CORNERS));
-        Point { x: q.0 + distance * q.1 * cos, y: v.0 + distance * v.1 * sin }
-    })
-}
-
-fn rectangle(kicks: &RandomKick) -> impl Iterator<Item = Point> {
-    const CORNERS: [(f64, f64); 5] =
-        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)];
-    let RandomKick { q, v, .. } = *kicks;
-    CORNERS.into_iter().map(move |(x, y)| Point { x: q.0 + x * q.1, y: v.0 + y * v.1 })
 }

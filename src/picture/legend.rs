@@ -5,7 +5,7 @@ use super::role::{Dash, Mark, Role};
 
 /// What a sample in the legend shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Sample {
+pub enum LegendSample {
     Line(Dash),
     /// The single point that a bar can be.
     Spot,
@@ -16,8 +16,7 @@ pub enum Sample {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegendEntry {
-    /// How it is drawn.
-    pub sample: Sample,
+    pub sample: LegendSample,
     /// What it stands for, as far as its colour goes.
     pub role: Role,
     pub text: String,
@@ -28,7 +27,7 @@ pub fn entries(pictures: &[Picture]) -> Vec<LegendEntry> {
     let mut entries: Vec<LegendEntry> = Vec::new();
     for picture in pictures {
         for entry in picture.items.iter().filter_map(|item| entry(picture, item)) {
-            // An area whose edge has its name goes without saying.
+            // An area whose edge has its name needs no entry.
             let known =
                 |other: &LegendEntry| (other.role, &other.text) == (entry.role, &entry.text);
             if !entry.text.is_empty() && !entries.iter().any(known) {
@@ -43,23 +42,25 @@ fn entry(picture: &Picture, item: &Item) -> Option<LegendEntry> {
     let sample = match item {
         Item::Marks(Marks { mark, role, brief, .. }) => {
             return Some(LegendEntry {
-                sample: Sample::Point(*mark),
+                sample: LegendSample::Point(*mark),
                 role: *role,
                 text: (*brief).to_owned(),
             });
         }
         Item::Arrows(role, _) => {
             let text = "flow".to_owned();
-            return Some(LegendEntry { sample: Sample::Arrow, role: *role, text });
+            return Some(LegendEntry { sample: LegendSample::Arrow, role: *role, text });
         }
-        Item::Bar(_, from, to) if from == to => Sample::Spot,
-        Item::Bar(..) => Sample::Line(Dash::Thick),
-        Item::Shade(..) | Item::Beyond(..) | Item::Columns(..) | Item::Rows(..) => Sample::Shade,
+        Item::Bar(_, from, to) if from == to => LegendSample::Spot,
+        Item::Bar(..) => LegendSample::Line(Dash::Thick),
+        Item::Shade(..) | Item::Beyond(..) | Item::Columns(..) | Item::Rows(..) => {
+            LegendSample::Shade
+        }
         Item::Curve(line, _)
         | Item::Path(line, _)
         | Item::Graph(line, _)
-        | Item::Upright(line, _) => Sample::Line(line.dash),
-        Item::Texture(_) | Item::Caption { .. } | Item::Cross(_) => return None,
+        | Item::Upright(line, _) => LegendSample::Line(line.dash),
+        Item::Texture(_) | Item::Caption(_) => return None,
     };
     let line = item.seen(picture.window)?;
     let text = line.brief.unwrap_or(&line.name).to_owned();

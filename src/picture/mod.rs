@@ -31,8 +31,9 @@ pub(crate) mod units;
 use items::Picture;
 use ticks::Scale;
 
+use crate::fit::Fitted;
 use crate::scene::View;
-use crate::session::Session;
+use crate::session::{Plot, Session};
 
 /// What the numbers along the axes of the plot with this index stand for.
 pub fn scales(session: &Session, index: usize) -> [Scale; 2] {
@@ -47,55 +48,52 @@ pub fn scales(session: &Session, index: usize) -> [Scale; 2] {
 const EXPANDED: [View; 5] =
     [View::Diagram, View::ReturnMap, View::Regimes, View::EnergyRate, View::Trade];
 
-/// A picture of the fit in its window.
-fn of_fit(
-    session: &Session,
-    index: usize,
-    draw: fn(&crate::fit::Fitted) -> Option<Picture<'static>>,
-) -> Picture<'static> {
-    let plot = &session.plots[index];
-    let drawn = session.fitted().and_then(|fitted| draw(&fitted.fit));
-    let title = plot.view.spec().title;
-    let mut picture = drawn.unwrap_or_else(|| Picture::new(title, "", "", plot.window));
-    picture.window = plot.window;
-    picture.cross(plot.cursor);
-    picture
-}
-
 /// What the plot with this index shows.
 pub fn of(session: &Session, index: usize) -> Picture<'_> {
-    let mut picture = match session.plots[index].view {
-        View::Phase => phase_plane::picture(session, index),
-        View::Diagram => diagram::picture(session, index),
-        View::TimeSeries => time_series::picture(session, index),
-        View::EnergyLedger => energy_ledger::picture(session, index),
-        View::ReturnMap => return_map::picture(session, index),
-        View::Regimes => regimes::picture(session, index),
-        View::Trade => trade::picture(session, index),
-        View::EnergyRate => energy_rate::picture(session, index),
-        View::Eigenvalues => eigenvalues::picture(session, index),
-        View::Scan => scan::picture(session, index),
-        View::Speeds => speeds::picture(session, index),
-        View::Belt => belt::picture(session, index),
-        View::Damping => of_fit(session, index, fit::damping),
-        View::Residuals => of_fit(session, index, fit::residuals),
-        View::Spread => of_fit(session, index, fit::margin),
+    let Plot { view, window, cursor, .. } = session.plots[index];
+    let mut picture = Picture { cursor, ..Picture::new(view.spec().title, "", "", window) };
+    let fitted = |draw: fn(&Fitted) -> Option<Picture<'static>>| {
+        let drawn = session.fitted().and_then(|found| draw(&found.fit))?;
+        Some(Picture { window, cursor, ..drawn })
     };
-    // Until the draws with what is held are there, the distribution stays that of the whole fit.
-    let drawn = session.fitted().is_none_or(|found| found.drawn);
-    if session.plots[index].view == View::Spread && session.doubt.holds_any() && !drawn {
-        picture.title = format!("{}, all numbers free", picture.title).into();
+    match view {
+        View::Phase => phase_plane::draw(&mut picture, session, index),
+        View::Diagram => diagram::draw(&mut picture, session, index),
+        View::TimeSeries => time_series::draw(&mut picture, session),
+        View::EnergyLedger => energy_ledger::draw(&mut picture, session),
+        View::ReturnMap => return_map::draw(&mut picture, session, index),
+        View::Regimes => regimes::draw(&mut picture, session, index),
+        View::Trade => trade::draw(&mut picture, session, index),
+        View::EnergyRate => energy_rate::draw(&mut picture, session),
+        View::Eigenvalues => eigenvalues::draw(&mut picture, session, index),
+        View::Scan => scan::draw(&mut picture, session),
+        View::Speeds => speeds::draw(&mut picture, session, index),
+        View::Belt => belt::draw(&mut picture, session),
+        View::Damping => picture = fitted(fit::damping).unwrap_or(picture),
+        View::Residuals => picture = fitted(fit::residuals).unwrap_or(picture),
+        View::Spread => picture = fitted(fit::margin).unwrap_or(picture),
     }
-    if session.draws_whole() && EXPANDED.contains(&session.plots[index].view) {
-        picture.title = format!("{}, cubic expansion", picture.title).into();
+    // Until margins are drawn for the held values, the distribution stays that of the whole fit.
+    let drawn = session.fitted().is_none_or(|found| found.drawn);
+    if view == View::Spread && session.doubt.holds_any() && !drawn {
+        picture.add_to_title("all numbers free");
+    }
+    if session.draws_whole() && EXPANDED.contains(&view) {
+        picture.add_to_title("cubic expansion");
     }
     picture.scales = scales(session, index);
     let shown = session.shown(index);
     picture.variants = shown.iter().map(|shown| shown.problem.parameters).collect();
-    // What all of a plot is held at stands in its title; what tells several apart, at their curves.
+    // Values that all variants hold stand in the title; those that distinguish them, beside their curves.
     let held = session.held_alike(index);
     if !held.is_empty() {
-        picture.title = format!("{}, {held}", picture.title).into();
+        picture.add_to_title(&held);
     }
     picture
+}
+
+/// The pictures of all plots of a session.
+#[cfg(test)]
+pub fn all(session: &Session) -> Vec<Picture<'_>> {
+    (0..session.plots.len()).map(|index| of(session, index)).collect()
 }

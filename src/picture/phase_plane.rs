@@ -2,39 +2,35 @@
 //!
 //! Layers from back to front: directions of the flow, shading of the basin, borders of the capture bands,
 //! the point left for a mark, the line `v = 0`, the Lyapunov circle, the motion, cycles, the sticking set, markers,
-//! cursor. Formulas show the present parameters; what had to be computed shows the last answer, and the title says if
-//! it is old.
+//! cursor. Formulas show the present parameters; computed layers show the last answer, and the title
+//! says when that is stale.
 
 use super::construction;
-use super::items::{Item, LineStyle, Picture, Variant};
+use super::items::{Item, LineStyle, Picture, VariantTag, ellipse};
 use super::kicks;
-use super::reading::{CELLS, reading};
-use super::role::{Dash, Mark, Role};
+use super::role::{CycleStyle, Dash, Mark, Role, cycle_style};
 use super::units;
 use crate::closed_form::lyapunov;
-use crate::flow::{Outcome, Problem, Sample, Trajectory};
+use crate::flow::{Outcome, Problem, Trajectory};
 use crate::machine;
-use crate::numerics::elementary::{hypot, sin_cos};
+use crate::numerics::elementary::hypot;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 use crate::question::Fitted;
 use crate::question::zones::Extent;
-use crate::scene::{Answer, Layer, Point, Topic, View};
+use crate::scene::{Answer, Layer, Point, Topic};
 use crate::session::starts::MOST_MOTIONS;
-use crate::session::{self, Session, Shown};
+use crate::session::{Session, Shown};
 use crate::study::{Cycles, Edge};
 
-/// What the plot with this index shows.
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
-    let session::Plot { window, cursor, .. } = session.plots[index];
-    let mut picture = Picture::new(View::Phase.spec().title, "q", "v", window);
+pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
+    picture.axes("q", "v");
     if session.scene.machine.is_some() {
         let model = if session.draws_whole() { "whole model" } else { "cubic expansion" };
-        picture.title = format!("{}, {model}", picture.title).into();
+        picture.add_to_title(model);
     }
-    picture.reading = cursor.map(|cursor| {
-        let (q, v) = reading(cursor, window);
-        units::reading(session, cursor.x, cursor.y, window, CELLS)
-            .unwrap_or_else(|| format!("q {q} v {v}"))
+    picture.reading = picture.cursor.map(|at| {
+        let physical = units::reading(session, at, picture.window);
+        physical.unwrap_or_else(|| picture.coordinates(at))
     });
     let shows = |layer| session.layers.contains(&layer);
     let shown = session.shown(index);
@@ -48,64 +44,64 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
     if shows(Layer::Levels)
         && let Some(first) = shown.first()
     {
-        construction::levels(&mut picture, &first.problem.parameters);
+        construction::levels(picture, &first.problem.parameters);
     }
     if shows(Layer::Basin) {
         for (variant, answer) in found(session, Topic::Cycles, index) {
             if let Answer::Cycles(found) = answer {
-                basin(&mut picture, found, &variant, shows(Layer::Cycles));
+                basin(picture, found, &variant, shows(Layer::Cycles));
             }
         }
     }
     if let Some(found) = session.zones() {
         if shows(Layer::Safe) {
-            safe(&mut picture, &found.safe);
+            safe(picture, &found.safe);
         }
         if shows(Layer::Lost) {
-            lost(&mut picture, &found.hopeful);
+            lost(picture, &found.hopeful);
         }
     }
     if shows(Layer::Bands) {
         for border in session.borders(index).iter().flat_map(|found| &found.curves) {
             let line = LineStyle::new("border of a band of capture", Role::Bands, Dash::Dotted);
             let line = line.briefly("one half swing more");
-            picture.curve(line, border.iter().map(point));
+            picture.curve(line, points(border));
         }
     }
     if shows(Layer::Ghost) && session.variants(index).is_none() {
-        ghost(&mut picture, session);
+        ghost(picture, session);
     }
-    kicks::draw(&mut picture, session, index);
+    kicks::draw(picture, session, index);
     picture.level(LineStyle::guide(), 0.0);
     if shows(Layer::Lyapunov) {
         for (variant, shown) in variants(&shown) {
-            circle(&mut picture, &shown.problem.parameters, &variant);
+            circle(picture, &shown.problem.parameters, &variant);
         }
     }
     if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Recorded)) {
-        record(&mut picture, fitted);
+        record(picture, fitted);
     }
     if shows(Layer::Trajectory) {
-        motions(&mut picture, session, index);
+        motions(picture, session, index);
     }
     // The cycle lies over the half turns that it is made of, so that its dashes are seen.
     if shows(Layer::Spirals) {
         for shown in &shown {
-            construction::spirals(&mut picture, &shown.problem.parameters);
+            construction::spirals(picture, &shown.problem.parameters);
         }
     }
     if shows(Layer::Cycles) {
         for (variant, answer) in found(session, Topic::Cycles, index) {
             if let Answer::Cycles(found) = answer {
                 let kinds = session.kinds().filter(|_| session.draws_whole());
-                cycles(&mut picture, found, &variant, kinds.map_or(&[], |kinds| &kinds.cycles));
+                cycles(picture, found, &variant, kinds.map_or(&[], |kinds| &kinds.cycles));
             }
         }
     }
     if shows(Layer::Balance) {
         for found in session.balance().iter().flat_map(|balance| &balance.balanced) {
             let line = LineStyle::new("cycle of N harmonics", Role::Harmonic, Dash::Dotted);
-            picture.curve(line.briefly("N harmonics"), found.curve.iter().map(point));
+            picture.curve(line.briefly("N harmonics"), points(&found.curve));
         }
     }
     if shows(Layer::Sticking) {
@@ -116,16 +112,14 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         }
     }
     if shows(Layer::Belt) {
-        belt(&mut picture, session);
+        belt(picture, session);
     }
     if shows(Layer::Trajectory) {
-        ends(&mut picture, session, index, &shown);
+        ends(picture, session, index, &shown);
     }
-    if let Some(Sample { q, v, .. }) = session.head() {
-        picture.mark(Mark::Head, Point { x: q, y: v }, Role::Cursor);
+    if let Some(head) = session.head() {
+        picture.mark(Mark::Head, head.state().into(), Role::Cursor);
     }
-    picture.cross(cursor);
-    picture
 }
 
 /// What was measured; the velocities are those of the fit.
@@ -169,7 +163,7 @@ fn rides(picture: &mut Picture, session: &Session, y: f64) {
     }
 }
 
-/// The kind of a cycle in the words of the legend, and as its own caption where it is no plain slip.
+/// The kind of a cycle in the words of the legend, and as its own caption where it is not a plain slip.
 fn kind(cycle: &machine::MachineCycle) -> (&'static str, &'static str) {
     match (cycle.stable, cycle.sticks, cycle.overtakes) {
         (_, true, false) => ("stick-slip cycle", "stick-slip"),
@@ -182,15 +176,15 @@ fn kind(cycle: &machine::MachineCycle) -> (&'static str, &'static str) {
 }
 
 /// The answers of a kind that a plot has, each with its variant.
-fn found(session: &Session, topic: Topic, index: usize) -> Vec<(Variant, &Answer)> {
+fn found(session: &Session, topic: Topic, index: usize) -> Vec<(VariantTag, &Answer)> {
     let found = session.found(topic, index).into_iter();
-    found.map(|(index, label, answer)| (Variant { index, label }, answer)).collect()
+    found.map(|(index, label, answer)| (VariantTag { index, label }, answer)).collect()
 }
 
 /// What a plot shows, each with its variant.
-pub(super) fn variants(shown: &[Shown]) -> impl Iterator<Item = (Variant, &Shown)> {
+pub(super) fn variants(shown: &[Shown]) -> impl Iterator<Item = (VariantTag, &Shown)> {
     let all = shown.iter().enumerate();
-    all.map(|(index, shown)| (Variant { index, label: shown.label.clone() }, shown))
+    all.map(|(index, shown)| (VariantTag { index, label: shown.label.clone() }, shown))
 }
 
 /// The motions of a plot.
@@ -207,13 +201,12 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
             let (line, variant) = if family {
                 (LineStyle::new("motion", Role::Trajectory, Dash::Solid), variant)
             } else {
-                (motion(session, place), Variant::default())
+                (motion(session, place), VariantTag::default())
             };
             // Where the mass sticks to its belt the model ends, and the curve with it.
             let last = session.contact_of(found).map_or(f64::INFINITY, |(tau, _)| tau);
             let samples = found.samples.iter().take_while(|sample| sample.tau <= last);
-            let points = samples.map(|sample| Point { x: sample.q, y: sample.v });
-            let points: Vec<Point> = points.collect();
+            let points: Vec<Point> = samples.map(|sample| sample.state().into()).collect();
             if !family {
                 number_curve(picture, session.number(place), &points, line.role);
             }
@@ -264,8 +257,8 @@ pub(super) fn sticking_set(r: f64) -> LineStyle {
     LineStyle::new("sticking set", Role::Sticking, Dash::Solid).briefly(AT_REST)
 }
 
-fn point(state: &State) -> Point {
-    Point { x: state.q, y: state.v }
+fn points(states: &[State]) -> Vec<Point> {
+    states.iter().map(|state| Point::from(*state)).collect()
 }
 
 /// Direction of the flow (equation 8); on `v = 0` it is that of the upper side.
@@ -278,9 +271,9 @@ fn flow(parameters: &Parameters, Point { x: q, y: v }: Point) -> Point {
 
 /// The shaded basin of the sticking set, if it has an edge; an edge that is one of the cycles is drawn
 /// with these, where they are, so that its dashes are those of one curve.
-fn basin(picture: &mut Picture, found: &Cycles, variant: &Variant, with_cycles: bool) {
+fn basin(picture: &mut Picture, found: &Cycles, variant: &VariantTag, with_cycles: bool) {
     let Some(drawn) = found.picture.as_ref().filter(|drawn| !drawn.edge.is_empty()) else { return };
-    let edge: Vec<Point> = drawn.edge.iter().map(point).collect();
+    let edge = points(&drawn.edge);
     let area = LineStyle::new("basin of the sticking set", Role::Basin, Dash::Solid).of(variant);
     picture.items.push(Item::Shade(area.briefly("comes to rest"), edge.clone()));
     if with_cycles && found.edge == Edge::Cycle {
@@ -293,7 +286,7 @@ fn basin(picture: &mut Picture, found: &Cycles, variant: &Variant, with_cycles: 
 /// What no motion leaves, whatever the parameters and the disturbance are.
 fn safe(picture: &mut Picture, extent: &Extent) {
     let Extent::Within(border) = extent else { return };
-    let border: Vec<Point> = border.iter().map(point).collect();
+    let border = points(border);
     let area = LineStyle::new("surely safe", Role::Safe, Dash::Solid);
     picture.items.push(Item::Shade(area, border.clone()));
     let line = LineStyle::new("border of the surely safe", Role::Safe, Dash::Dotted);
@@ -302,10 +295,10 @@ fn safe(picture: &mut Picture, extent: &Extent) {
 
 /// Beyond which nothing comes to rest, whatever the parameters and the disturbance are.
 fn lost(picture: &mut Picture, extent: &Extent) {
-    /// Ends of a closed border are this near to each other, as a part of its width.
+    /// Ends of a closed border are this near to each other, as a fraction of its width.
     const CLOSED: f64 = 1e-3;
     let Extent::Within(border) = extent else { return };
-    let mut border: Vec<Point> = border.iter().map(point).collect();
+    let mut border = points(border);
     let (Some(first), Some(last)) = (border.first().copied(), border.last().copied()) else {
         return;
     };
@@ -320,35 +313,27 @@ fn lost(picture: &mut Picture, extent: &Extent) {
     picture.curve(line.briefly("surely lost outside"), border);
 }
 
-fn circle(picture: &mut Picture, parameters: &Parameters, variant: &Variant) {
-    /// Corners of the polygon that stands for the circle.
-    const CORNERS: u16 = 180;
+fn circle(picture: &mut Picture, parameters: &Parameters, variant: &VariantTag) {
     if let Some(radius) = lyapunov::radius(parameters) {
-        let corners = (0..=CORNERS).map(|corner| {
-            let (sin, cos) =
-                sin_cos(std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS));
-            Point { x: radius * cos, y: radius * sin }
-        });
         let line = LineStyle::new("Lyapunov circle", Role::Lyapunov, Dash::Dotted);
-        picture.curve(line.of(variant), corners);
+        picture.curve(line.of(variant), ellipse((0.0, radius), (0.0, radius)));
     }
 }
 
 fn cycles(
     picture: &mut Picture,
     found: &Cycles,
-    variant: &Variant,
+    variant: &VariantTag,
     kinds: &[machine::MachineCycle],
 ) {
     let curves = found.picture.iter().flat_map(|picture| &picture.curves);
     for (index, (cycle, curve)) in found.cycles.iter().zip(curves).enumerate() {
-        let plain = if cycle.stable { "stable cycle" } else { "unstable cycle" };
+        let CycleStyle { role, dash, name: plain, .. } = cycle_style(cycle.stable);
         let (name, own): (_, &str) = match kinds.get(index) {
             Some(cycle) => kind(cycle),
             None => (plain, &variant.label),
         };
-        let (role, dash) = stability(cycle.stable);
-        let points: Vec<Point> = curve.iter().map(point).collect();
+        let points: Vec<Point> = points(curve);
         picture.name_curve(&points, own, role);
         // Of a machine the caption says of which kind it is.
         picture.curve(LineStyle::new(name, role, dash).briefly(plain).of(variant), points);
@@ -360,7 +345,7 @@ fn ghost(picture: &mut Picture, session: &Session) {
     for answer in session.answers_left() {
         match answer {
             Answer::Trajectory(found) => {
-                let samples = found.samples.iter().map(|sample| Point { x: sample.q, y: sample.v });
+                let samples = found.samples.iter().map(|sample| Point::from(sample.state()));
                 let line = LineStyle::new("motion left", Role::Ghost, Dash::Dotted);
                 picture.curve(line.briefly("the point left"), samples);
             }
@@ -369,17 +354,12 @@ fn ghost(picture: &mut Picture, session: &Session) {
                 for (cycle, curve) in found.cycles.iter().zip(curves) {
                     let role = if cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
                     let line = LineStyle::new("cycle left", role, Dash::Dashed);
-                    picture.curve(line.briefly("the point left"), curve.iter().map(point));
+                    picture.curve(line.briefly("the point left"), points(curve));
                 }
             }
             _ => {}
         }
     }
-}
-
-/// How stable and unstable cycles are drawn, here and in the diagram.
-pub fn stability(stable: bool) -> (Role, Dash) {
-    if stable { (Role::Stable, Dash::Solid) } else { (Role::Unstable, Dash::Dashed) }
 }
 
 /// Where motions start and where they are in the end. One of a family that rests from the start is there
@@ -400,10 +380,10 @@ fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[Shown])
     for (place, Problem { parameters, initial, .. }) in problems.iter().enumerate() {
         let role = if family { Role::Trajectory } else { motion(session, place).role };
         if initial.v != 0.0 || initial.q.abs() > parameters.r {
-            picture.mark(Mark::Start, point(initial), role);
+            picture.mark(Mark::Start, Point::from(*initial), role);
         }
         if let Some(number) = session.number(place).filter(|_| !family) {
-            picture.caption(point(initial), number.to_string(), role);
+            picture.caption(Point::from(*initial), number.to_string(), role);
         }
     }
 }

@@ -6,39 +6,32 @@
 
 use super::belt_path;
 use super::items::{Fill, Item, LineStyle, Pattern, Picture};
-use super::reading::reading;
 use super::role::{Dash, Mark, Role};
 use crate::oscillator::Symbol;
-use crate::scene::{Axes, Layer, Point, View};
-use crate::session::{self, Session};
+use crate::scene::{Axes, Layer, Point, Window};
+use crate::session::Session;
 use crate::study::chart::{BoundaryKind, Chart};
 use crate::study::regime::{REGIMES, Regime};
 
-/// What the plot with this index shows.
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
-    let session::Plot { window, cursor, axes, .. } = session.plots[index];
-    let Axes { abscissa, against, .. } = axes;
-    let (right, up) = (abscissa.spec().name, against.spec().name);
+pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
+    let Axes { abscissa, against, .. } = session.plots[index].axes;
     let here = Point { x: session.value(abscissa), y: session.value(against) };
     let found = session.chart(index);
-    let mut picture = Picture::new(View::Regimes.spec().title, right, up, window);
+    picture.axes(abscissa.spec().name, against.spec().name);
     picture.varied = vec![abscissa, against];
-    let read = |point: Point| found.and_then(|chart| chart.regime_at(point.x, point.y));
-    picture.reading = Some(cursor.map_or_else(
-        || read(here).map_or_else(String::new, |regime| regime.name().into()),
-        |cursor| {
-            let (x, y) = reading(cursor, window);
-            let regime = read(cursor).map_or("", Regime::name);
-            format!("{right} {x} {up} {y} {regime}")
-        },
-    ));
+    let regime =
+        |at: Point| found.and_then(|chart| chart.regime_at(at.x, at.y)).map_or("", Regime::name);
+    picture.reading = Some(match picture.cursor {
+        Some(at) => format!("{} {}", picture.coordinates(at), regime(at)),
+        None => regime(here).to_owned(),
+    });
     let shows = |layer| session.layers.contains(&layer);
 
     if let Some(chart) = found.filter(|_| shows(Layer::Regimes)) {
         let texture = |point: Point| chart.regime_at(point.x, point.y).and_then(texture);
         picture.items.push(Item::Texture(Box::new(texture)));
     }
-    signs(&mut picture, abscissa, against, session.value(Symbol::R));
+    signs(picture, abscissa, against, session.value(Symbol::R));
     if let Some(chart) = found {
         let mut boundary = |boundary, line: LineStyle| {
             for run in chart.boundary(boundary) {
@@ -54,19 +47,21 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             boundary(BoundaryKind::Harmonic, line.briefly("first harmonic"));
         }
         if shows(Layer::Regimes) {
-            names_of_regimes(&mut picture, chart);
+            names_of_regimes(picture, chart);
         }
     }
     let present = || LineStyle::new("present value", Role::Current, Dash::Sparse);
     picture.upright(present(), here.x);
-    let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: here.y });
-    picture.curve(present(), level);
+    picture.curve(present(), across(picture.window, here.y));
     if shows(Layer::BeltPath) {
-        belt_path::draw(&mut picture, session, abscissa, against);
+        belt_path::draw(picture, session, abscissa, against);
     }
     picture.mark(Mark::Head, here, Role::Current);
-    picture.cross(cursor);
-    picture
+}
+
+/// A level line from one side of the window to the other: a curve of two points in files.
+fn across(window: Window, y: f64) -> [Point; 2] {
+    [window.x.from(), window.x.to()].map(|x| Point { x, y })
 }
 
 /// What a regime looks like; nothing where every kick is survived.
@@ -86,8 +81,7 @@ fn texture(regime: Regime) -> Option<Fill> {
 fn signs(picture: &mut Picture, right: Symbol, up: Symbol, friction: f64) {
     let window = picture.window;
     picture.upright(LineStyle::guide(), 0.0);
-    let level = [window.x.from(), window.x.to()].map(|x| Point { x, y: 0.0 });
-    picture.curve(LineStyle::guide(), level);
+    picture.curve(LineStyle::guide(), across(window, 0.0));
     let without = friction == 0.0;
     let hopf = match (right, up) {
         (Symbol::D, Symbol::R) | (Symbol::R, Symbol::D) => Some(Point { x: 0.0, y: 0.0 }),
@@ -95,9 +89,7 @@ fn signs(picture: &mut Picture, right: Symbol, up: Symbol, friction: f64) {
         (_, Symbol::D) if without => Some(Point { x: window.x.from(), y: 0.0 }),
         _ => None,
     };
-    if let Some(place) =
-        hopf.filter(|place| window.x.contains(place.x) && window.y.contains(place.y))
-    {
+    if let Some(place) = hopf.filter(|place| window.contains(*place)) {
         picture.caption(place, "H", Role::Quiet);
     }
 }
@@ -105,7 +97,7 @@ fn signs(picture: &mut Picture, right: Symbol, up: Symbol, friction: f64) {
 /// Cells of a lattice across the window, to find room for names.
 const LATTICE: u8 = 16;
 
-/// Width and height of a name, as parts of a window.
+/// Width and height of a name, as fractions of a window.
 const NAME: (f64, f64) = (0.2, 0.1);
 
 /// Writes each name where its regime has most room around it.

@@ -6,18 +6,16 @@
 use super::items::{Item, LineStyle, Marks, Picture};
 use super::phase_plane::{self, sticking_set};
 use super::reading::reading;
-use super::role::{Dash, Mark, Role};
+use super::role::{CycleStyle, Dash, Mark, Role, cycle_style};
 use crate::flow::{Outcome, Trajectory};
-use crate::scene::{Layer, Point, View};
+use crate::scene::{Layer, Point};
+use crate::session::Session;
 use crate::session::motion::turning_points;
-use crate::session::{self, Session};
 
-/// What the plot with this index shows.
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
-    let session::Plot { window, cursor, .. } = session.plots[index];
-    let mut picture = Picture::new(View::ReturnMap.spec().title, "q", "next q", window);
-    picture.reading = cursor.map(|cursor| {
-        let (q, next) = reading(cursor, window);
+pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
+    picture.axes("q", "next q");
+    picture.reading = picture.cursor.map(|at| {
+        let (q, next) = reading(at, picture.window);
         format!("q {q} next {next}")
     });
     let shows = |layer| session.layers.contains(&layer);
@@ -46,23 +44,17 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         picture.bar(sticking_set(held), from, to);
     }
     if shows(Layer::Cobweb) {
-        cobweb(&mut picture, session);
+        cobweb(picture, session);
     }
     if shows(Layer::FixedPoints) {
         let cycles = session.cycles().filter(|_| !session.draws_whole());
         for cycle in cycles.into_iter().flat_map(|found| &found.cycles) {
-            let (mark, role, brief) = if cycle.stable {
-                (Mark::Stable, Role::Stable, "stable cycle")
-            } else {
-                (Mark::Unstable, Role::Unstable, "unstable cycle")
-            };
+            let CycleStyle { mark, role, name: brief, .. } = cycle_style(cycle.stable);
             let turning = [cycle.q_min, cycle.q_max].map(|q| Point { x: q, y: q });
             let marks = Marks { brief, ..Marks::new(mark, role, turning.to_vec()) };
             picture.items.push(Item::Marks(marks));
         }
     }
-    picture.cross(cursor);
-    picture
 }
 
 /// The turning points of the motion, each side for itself: up or down to the map, across to the diagonal.
@@ -85,7 +77,7 @@ fn turns(picture: &mut Picture, motion: &Trajectory, like: &LineStyle) {
     };
     for side in 0..2 {
         let mut turns: Vec<f64> = points.iter().skip(side).step_by(2).copied().collect();
-        // The side on which the motion does not come to rest learns of it too.
+        // The side on which the motion does not come to rest gets that point too.
         if let Some(rest) = rest.filter(|rest| turns.last().is_some_and(|last| last != rest)) {
             turns.push(rest);
         }

@@ -1,105 +1,80 @@
 //! What a part of a picture stands for, and how it is told apart without colour: roles, dashes, marks.
 
-/// What a piece of the screen is, as far as its style goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
-    Text,
-    /// Text of second rank: labels, units, explanations.
-    Quiet,
-    Title,
-    /// Heading of the pane that the keys go to.
-    Focus,
-    Selected,
-    /// A value that the last key changed.
-    Changed,
-    /// Keys in footer and help.
-    Key,
-    /// What needs attention: stale, busy, a limit reached.
-    Warning,
-    Failure,
-    /// Axes, ticks and their labels.
-    Axis,
-    Field,
-    /// Shading of the basin of attraction.
-    Basin,
-    /// Borders of the bands of capture.
-    Bands,
-    /// Motion of the point that is compared with.
-    Ghost,
-    /// Its stable and its unstable cycles.
-    GhostStable,
-    GhostUnstable,
-    /// Circle of the Lyapunov estimate.
-    Lyapunov,
-    /// The segment of equilibria.
-    Sticking,
-    /// The motion on show; of several the newest.
-    Trajectory,
-    /// Motions beside the one on show.
-    Beside,
-    Velocity,
-    Energy,
-    Map,
-    Stable,
-    /// Unstable cycles, and the separatrix.
-    Unstable,
-    /// What a map shades, the stronger the more dangerous.
-    Danger,
-    /// Its other end: what is least dangerous.
-    Calm,
-    /// What is survived for certain.
-    Safe,
-    /// Work that feeds the motion, and work that brakes it.
-    Gain,
-    Loss,
-    Harmonic,
-    Asymptote,
-    /// Special points and their names.
-    Special,
-    /// The current parameter value in the diagram.
-    Current,
-    /// The cursor and its read-out.
-    Cursor,
+/// Makes [`Role`] and [`ROLES`] from one list: each role with its name in theme files, and its glyph in a plot
+/// without dots.
+macro_rules! roles {
+    ($($(#[$doc:meta])* $role:ident = $name:literal, $glyph:literal,)*) => {
+        /// What a part of the screen stands for, as far as its style goes.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Role {
+            $($(#[$doc])* $role,)*
+        }
+
+        /// Name in theme files, and glyph in a plot without dots, of every role in order.
+        pub const ROLES: [(Role, &str, char); [$($name),*].len()] =
+            [$((Role::$role, $name, $glyph)),*];
+    };
 }
 
-/// Name in theme files, and glyph in a plot without dots, of every role in order.
-pub const ROLES: [(Role, &str, char); 35] = [
-    (Role::Text, "text", '*'),
-    (Role::Quiet, "quiet", '.'),
-    (Role::Title, "title", '*'),
-    (Role::Focus, "focus", '*'),
-    (Role::Selected, "selected", '*'),
-    (Role::Changed, "changed", '*'),
-    (Role::Key, "key", '*'),
-    (Role::Warning, "warning", '!'),
-    (Role::Failure, "failure", '!'),
-    (Role::Axis, "axis", '.'),
-    (Role::Field, "field", '.'),
-    (Role::Basin, "basin", '.'),
-    (Role::Bands, "bands", '-'),
-    (Role::Ghost, "ghost", ','),
-    (Role::GhostStable, "ghost-stable", ','),
-    (Role::GhostUnstable, "ghost-unstable", ','),
-    (Role::Lyapunov, "lyapunov", ':'),
-    (Role::Sticking, "sticking", '='),
-    (Role::Trajectory, "trajectory", '*'),
-    (Role::Beside, "beside", 'x'),
-    (Role::Velocity, "velocity", 'v'),
-    (Role::Energy, "energy", 'e'),
-    (Role::Map, "map", '#'),
-    (Role::Stable, "stable", '#'),
-    (Role::Unstable, "unstable", 'o'),
-    (Role::Danger, "danger", '#'),
-    (Role::Calm, "calm", '.'),
-    (Role::Safe, "safe", '.'),
-    (Role::Gain, "gain", '#'),
-    (Role::Loss, "loss", '='),
-    (Role::Harmonic, "harmonic", '~'),
-    (Role::Asymptote, "asymptote", '\''),
-    (Role::Special, "special", '*'),
-    (Role::Current, "current", '|'),
-    (Role::Cursor, "cursor", '+'),
-];
+roles! {
+    Text = "text", '*',
+    /// Text of second rank: labels, units, explanations.
+    Quiet = "quiet", '.',
+    Title = "title", '*',
+    /// Heading of the pane that the keys go to.
+    Focus = "focus", '*',
+    Selected = "selected", '*',
+    /// A value that the last key changed.
+    Changed = "changed", '*',
+    /// Keys in footer and help.
+    Key = "key", '*',
+    /// What needs attention: stale, busy, a limit reached.
+    Warning = "warning", '!',
+    Failure = "failure", '!',
+    /// Axes, ticks and their labels.
+    Axis = "axis", '.',
+    Field = "field", '.',
+    /// Shading of the basin of attraction.
+    Basin = "basin", '.',
+    /// Borders of the bands of capture.
+    Bands = "bands", '-',
+    /// Motion of the point that is compared with.
+    Ghost = "ghost", ',',
+    /// Its stable and its unstable cycles.
+    GhostStable = "ghost-stable", ',',
+    GhostUnstable = "ghost-unstable", ',',
+    /// Circle of the Lyapunov estimate.
+    Lyapunov = "lyapunov", ':',
+    /// The segment of equilibria.
+    Sticking = "sticking", '=',
+    /// The motion on show; of several the newest.
+    Trajectory = "trajectory", '*',
+    /// Motions beside the one on show.
+    Beside = "beside", 'x',
+    Velocity = "velocity", 'v',
+    Energy = "energy", 'e',
+    Map = "map", '#',
+    Stable = "stable", '#',
+    /// Unstable cycles, and the separatrix.
+    Unstable = "unstable", 'o',
+    /// What a map shades, the stronger the more dangerous.
+    Danger = "danger", '#',
+    /// Its other end: what is least dangerous.
+    Calm = "calm", '.',
+    /// What is survived for certain.
+    Safe = "safe", '.',
+    /// Work that feeds the motion, and work that brakes it.
+    Gain = "gain", '#',
+    Loss = "loss", '=',
+    Harmonic = "harmonic", '~',
+    Asymptote = "asymptote", '\'',
+    /// Special points and their names.
+    Special = "special", '*',
+    /// The current parameter value in the diagram.
+    Current = "current", '|',
+    /// The cursor and its read-out.
+    Cursor = "cursor", '+',
+}
 
 impl Role {
     /// The name in theme files and figures.
@@ -163,14 +138,21 @@ impl Mark {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// How cycles of one kind are drawn and called, in every plot.
+#[derive(Clone, Copy, Debug)]
+pub struct CycleStyle {
+    pub role: Role,
+    pub dash: Dash,
+    pub mark: Mark,
+    pub name: &'static str,
+}
 
-    #[test]
-    fn every_role_stands_at_its_own_row() {
-        for (index, (role, ..)) in ROLES.iter().enumerate() {
-            assert_eq!(*role as usize, index);
-        }
-    }
+/// How stable and unstable cycles are drawn.
+pub fn cycle_style(stable: bool) -> CycleStyle {
+    let (role, dash, mark, name) = if stable {
+        (Role::Stable, Dash::Solid, Mark::Stable, "stable cycle")
+    } else {
+        (Role::Unstable, Dash::Dashed, Mark::Unstable, "unstable cycle")
+    };
+    CycleStyle { role, dash, mark, name }
 }

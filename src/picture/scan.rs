@@ -3,7 +3,7 @@
 use super::items::{LineStyle, Picture};
 use super::role::{Dash, Role};
 use super::ticks::Scale;
-use crate::scene::{Point, View};
+use crate::scene::Point;
 use crate::session::Session;
 use crate::session::scan::Scanned;
 use crate::study::scan::{Spacing, Sweep};
@@ -33,18 +33,14 @@ pub fn scales(scanned: &Scanned) -> [Scale; 2] {
 }
 
 /// The curve over one parameter as data; a map of shades is for the screen, and its rows for files.
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
-    let title = View::Scan.spec().title;
-    let window = session.plots[index].window;
-    let Some(scanned) = &session.scanned else { return Picture::new(title, "", "", window) };
+pub fn draw(picture: &mut Picture, session: &Session) {
+    let Some(scanned) = &session.scanned else { return };
     let (x, y) = names(scanned);
-    let mut picture = Picture::new(title, x, y, window);
+    picture.axes(x, y);
     picture.varied = scanned.scan.over().iter().map(|sweep| sweep.symbol).collect();
     if !scanned.is_grid() {
         let line = LineStyle::new(y, Role::Trajectory, Dash::Solid);
-        let nowhere = Point { x: f64::NAN, y: f64::NAN };
         let points = 0..scanned.rows.len();
-        picture.curve(line, points.map(|index| scanned.place(index).unwrap_or(nowhere)));
+        picture.curve(line, points.map(|index| scanned.place(index).unwrap_or(Point::NOWHERE)));
     }
-    picture
 }

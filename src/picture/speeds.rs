@@ -2,16 +2,16 @@
 //! where it is stable and dashed where it is not, stick-slip in thick ones, overtaking dotted; and where a
 //! stable state ends, the jump to the one that is left.
 
-use super::items::{Item, LineStyle, Picture};
+use super::items::{LineStyle, Picture};
 use super::phase_plane::AT_REST;
 use super::reading::reading;
 use super::role::{Dash, Role};
 use crate::machine::MachineCycle;
 use crate::machine::jumps::{Jump, Landing};
 use crate::machine::special::{MachineSpecial, MachineSpecialKind};
-use crate::question::speeds::Speed;
-use crate::scene::{Layer, Point, View};
-use crate::session::{self, Session};
+use crate::question::speeds::SpeedPoint;
+use crate::scene::{Layer, Point};
+use crate::session::Session;
 use crate::words::quantity::with_unit;
 
 /// A kind of cycle: what it is called, also by the legend of the screen, how it is drawn, and which cycles are of it.
@@ -36,13 +36,11 @@ const KINDS: [CycleKind; 5] = [
     }),
 ];
 
-/// What the plot with this index shows.
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
-    let session::Plot { window, cursor, .. } = session.plots[index];
-    let title = View::Speeds.spec().title;
-    let mut picture = Picture::new(format!("{title}, whole model"), "v0 m/s", "x_max m", window);
-    picture.reading = cursor.map(|cursor| {
-        let (speed, x) = reading(cursor, window);
+pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
+    picture.axes("v0 m/s", "x_max m");
+    picture.add_to_title("whole model");
+    picture.reading = picture.cursor.map(|at| {
+        let (speed, x) = reading(at, picture.window);
         format!("v0 {speed} x_max {x}")
     });
     if let Some(running) = session.running() {
@@ -55,22 +53,24 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
         && let Some(found) = session.speeds(index)
     {
         for row in KINDS {
-            cycles(&mut picture, &found.points, row);
+            cycles(picture, &found.points, row);
         }
-        rest(&mut picture, &found.points);
+        rest(picture, &found.points);
         for special in &found.special {
-            changes(&mut picture, special);
+            changes(picture, special);
         }
     }
-    picture.cross(cursor);
-    picture
 }
 
 /// The cycles of a kind: the smallest of it at all speeds are one curve, the next ones another.
-fn cycles(picture: &mut Picture, points: &[Speed], ([name, brief], role, dash, is): CycleKind) {
+fn cycles(
+    picture: &mut Picture,
+    points: &[SpeedPoint],
+    ([name, brief], role, dash, is): CycleKind,
+) {
     let most = points.iter().map(|at| at.cycles.iter().filter(|it| is(it)).count()).max();
     for rank in 0..most.unwrap_or(0) {
-        let place = |at: &Speed| {
+        let place = |at: &SpeedPoint| {
             let cycle = at.cycles.iter().filter(|it| is(it)).nth(rank);
             Point { x: at.v0, y: cycle.map_or(f64::NAN, |cycle| cycle.x.1) }
         };
@@ -80,7 +80,7 @@ fn cycles(picture: &mut Picture, points: &[Speed], ([name, brief], role, dash, i
 }
 
 /// Rest, where it is stable, and how far its basin goes where the motion that touches the belt borders it.
-fn rest(picture: &mut Picture, points: &[Speed]) {
+fn rest(picture: &mut Picture, points: &[SpeedPoint]) {
     let stable =
         points.iter().map(|at| Point { x: at.v0, y: if at.rests { 0.0 } else { f64::NAN } });
     let rest = LineStyle::new("rest", Role::Sticking, Dash::Thick).briefly(AT_REST);
@@ -112,11 +112,6 @@ fn changes(picture: &mut Picture, special: &MachineSpecial) {
         let ends = [from, to].map(|y| Point { x: at, y });
         picture.curve(LineStyle::new(name, Role::Warning, dash), ends);
     }
-    picture.items.push(Item::Caption {
-        at: Point { x: at, y: special.x_max.unwrap_or(0.0) },
-        or_at: Vec::new(),
-        long: format!("{letter} {}", with_unit(at, 4, "m/s")).into(),
-        short: letter.into(),
-        role: Role::Special,
-    });
+    let place = Point { x: at, y: special.x_max.unwrap_or(0.0) };
+    picture.special(place, letter, &with_unit(at, 4, "m/s"));
 }

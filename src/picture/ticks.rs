@@ -1,4 +1,4 @@
-//! Round ticks, with labels that say neither too little nor too much.
+//! Ticks at round numbers, with labels of as many digits as they need.
 //!
 //! Ticks are integers times a power of ten, and labels are written from those integers, so two ticks
 //! never share a label, whatever the rounding of floating point. Where the range is so narrow that
@@ -78,7 +78,7 @@ const DECADES: [(&[i64], usize); 8] = [
     (&[1], 100),
 ];
 
-/// Most ticks that are ever considered: more than any screen can label.
+/// Maximum number of ticks that are ever considered: more than any screen can label.
 const MOST: f64 = 60.0;
 
 /// Part of a step by which rounding may push a tick over the end of the axis.
@@ -131,7 +131,7 @@ impl Ticks {
     }
 }
 
-/// Ticks at these digits of every so many decades, on an axis of decimal logarithms.
+/// Ticks at these digits of every nth decade, on an axis of decimal logarithms.
 fn decades(axis: Span, sign: &str, digits: &[i64], every: usize) -> Vec<Tick> {
     let (first, last) = (axis.from().floor() as i32, axis.to().ceil() as i32);
     let numbers = (first..=last)

@@ -1,18 +1,18 @@
 //! The motion over time: displacement, velocity, force of dry friction, energy.
 //!
 //! Displacement and energy change smoothly through the turning points, where the force of friction
-//! jumps from one end of `[-r, r]` to the other; at rest it is what the spring asks for.
+//! jumps from one end of `[-r, r]` to the other; at rest it balances the spring.
 
 use super::items::{Item, LineStyle, Marks, Picture};
 use super::phase_plane::{motion, number_curve};
 use super::reading::CELLS;
 use super::role::{Dash, Mark, Role};
-use crate::flow::{Outcome, Trajectory};
+use crate::flow::{Outcome, Sample, Trajectory};
 use crate::oscillator::State;
 use crate::oscillator::energy::energy;
-use crate::scene::{Layer, Point, View};
+use crate::scene::{Layer, Point};
+use crate::session::Session;
 use crate::session::motion::friction_force;
-use crate::session::{self, Session};
 use crate::words::number::resolved;
 
 /// A quantity over time: its layer, its letter, its name, how it is drawn, and how it is read from a
@@ -25,16 +25,14 @@ const QUANTITIES: [Quantity; 3] = [
     (Layer::Position, "q", "displacement q", Role::Trajectory, Dash::Solid, |state| state.q),
 ];
 
-/// What the plot with this index shows.
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
-    let session::Plot { window, cursor, .. } = session.plots[index];
+pub fn draw(picture: &mut Picture, session: &Session) {
+    let window = picture.window;
     let shows = |layer| session.layers.contains(&layer);
     let shown = || QUANTITIES.iter().rev().filter(|(layer, ..)| shows(*layer));
     let friction = shows(Layer::Friction).then_some("f");
     let letters: Vec<&str> = shown().map(|(_, letter, ..)| *letter).chain(friction).collect();
-    let title = View::TimeSeries.spec().title;
-    let mut picture = Picture::new(title, "tau", letters.join(" "), window);
-    picture.reading = cursor.map(|Point { x: tau, .. }| {
+    picture.axes("tau", letters.join(" "));
+    picture.reading = picture.cursor.map(|Point { x: tau, .. }| {
         let time = format!("tau {}", resolved(tau, window.x.width() / CELLS));
         let value = |value: f64| resolved(value, window.y.width() / CELLS);
         let Some(state) = session.state_at(tau) else { return time };
@@ -58,63 +56,59 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
                 if let Some(first) = points.first() {
                     picture.caption(*first, text, line.role);
                 }
-                number_curve(&mut picture, number, &points, line.role);
+                number_curve(picture, number, &points, line.role);
                 let name = format!("{name}, {}", line.name);
                 picture
                     .curve(LineStyle::new(name, line.role, dash).briefly("other motions"), points);
             }
         }
     }
-    // The force of the guide on a mass that is held by the belt too is another story.
+    // In the whole model the belt holds the mass too: the force of the guide alone is not known.
     let whole = session.draws_whole();
     let force = session.trajectory().filter(|_| shows(Layer::Friction) && !whole);
     let force = force.map(|motion| friction_force(motion, motion.problem.until));
     if let Some(motion) = session.trajectory() {
         let end = motion.problem.until;
         if let Some(force) = force.clone() {
-            let points: Vec<Point> = force.into_iter().map(|(x, y)| Point { x, y }).collect();
+            let points: Vec<Point> = force.into_iter().map(Point::from).collect();
             let first = points.first().copied();
             picture
                 .curve(LineStyle::new("friction force f", Role::Sticking, Dash::DashDot), points);
-            label(&mut picture, first, "f", Role::Sticking);
+            label(picture, first, "f", Role::Sticking);
         }
         for (layer, letter, name, role, dash, read) in QUANTITIES {
             if shows(layer) {
                 let points = curve(motion, end, read);
-                number_curve(&mut picture, session.number(0), &points, role);
+                number_curve(picture, session.number(0), &points, role);
                 let line = LineStyle::new(name, role, dash);
-                // It is the motion of the phase plane, drawn like it.
+                // The same motion as in the phase plane, drawn in the same way.
                 let line = if layer == Layer::Position { line.briefly("motion") } else { line };
                 picture.curve(line, points);
                 let first = motion.samples.first();
-                let first = first.map(|s| Point { x: s.tau, y: read(State { q: s.q, v: s.v }) });
-                label(&mut picture, first, letter, role);
+                let first = first.map(|sample| at(sample, read));
+                label(picture, first, letter, role);
             }
         }
         for ride in session.course().iter().flat_map(|motion| &motion.rides) {
             for (.., read) in QUANTITIES.iter().filter(|(layer, ..)| shows(*layer)) {
-                let [from, to] =
-                    ride.map(|end| Point { x: end.tau, y: read(State { q: end.q, v: end.v }) });
+                let [from, to] = ride.map(|end| at(&end, *read));
                 let line = LineStyle::new("sticks to the belt", Role::Trajectory, Dash::Thick);
                 picture.bar(line.briefly("motion on the belt"), from, to);
             }
         }
         if shows(Layer::Events) {
-            events(&mut picture, motion);
+            events(picture, motion);
         }
     }
     if let Some(head) = session.head() {
         picture.upright(LineStyle::new("", Role::Cursor, Dash::Sparse), head.tau);
         for (.., read) in QUANTITIES.iter().filter(|(layer, ..)| shows(*layer)) {
-            let y = read(State { q: head.q, v: head.v });
-            picture.mark(Mark::Head, Point { x: head.tau, y }, Role::Cursor);
+            picture.mark(Mark::Head, at(&head, *read), Role::Cursor);
         }
         if let Some(y) = force.and_then(|force| force_at(&force, head.tau)) {
             picture.mark(Mark::Head, Point { x: head.tau, y }, Role::Cursor);
         }
     }
-    picture.cross(cursor);
-    picture
 }
 
 /// The force at a time on its polyline; where it jumps, the force after the jump.
@@ -125,13 +119,14 @@ fn force_at(force: &[(f64, f64)], tau: f64) -> Option<f64> {
     Some(before.1 + part * next.map_or(0.0, |next| next.1 - before.1))
 }
 
+/// A quantity at a moment of the motion.
+fn at(sample: &Sample, read: fn(State) -> f64) -> Point {
+    Point { x: sample.tau, y: read(sample.state()) }
+}
+
 /// A quantity along a motion, and on while it rests.
 fn curve(motion: &Trajectory, end: f64, read: fn(State) -> f64) -> Vec<Point> {
-    let mut points: Vec<Point> = motion
-        .samples
-        .iter()
-        .map(|sample| Point { x: sample.tau, y: read(State { q: sample.q, v: sample.v }) })
-        .collect();
+    let mut points: Vec<Point> = motion.samples.iter().map(|sample| at(sample, read)).collect();
     if let Outcome::Captured { tau, q } = motion.outcome {
         let y = read(State { q, v: 0.0 });
         points.extend([Point { x: tau, y }, Point { x: end, y }]);

@@ -6,20 +6,17 @@
 use super::items::{Item, LineStyle, Marks, Picture};
 use super::role::{Dash, Mark, Role};
 use crate::flow::{METHODS, Method};
-use crate::scene::{Layer, Point, View};
-use crate::session::{self, Session};
+use crate::scene::{Layer, Point};
+use crate::session::Session;
 use crate::study::trade::{Trade, Tried};
 use crate::words::number::{count, significant};
 
-/// What the plot with this index shows.
-pub fn picture(session: &Session, index: usize) -> Picture<'_> {
-    let session::Plot { window, cursor, .. } = session.plots[index];
-    let title = View::Trade.spec().title;
-    let mut picture = Picture::new(title, "evaluations", "error", window);
+pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
+    picture.axes("evaluations", "error");
     picture.reading = session.row_under_cursor(index).map(words);
     if let Some(found) = session.trade() {
         if session.layers.contains(&Layer::Rows) {
-            curves(&mut picture, found);
+            curves(picture, found);
         }
         if session.layers.contains(&Layer::Front) {
             let front = found.front(&found.evaluations());
@@ -31,15 +28,13 @@ pub fn picture(session: &Session, index: usize) -> Picture<'_> {
             }
         }
         if session.layers.contains(&Layer::Rows) {
-            names(&mut picture, found);
+            names(picture, found);
         }
         if let Some(at) = found.nearest_to(&session.problem).and_then(place) {
             picture.mark(Mark::Head, at, Role::Cursor);
             picture.caption(at, "now", Role::Cursor);
         }
     }
-    picture.cross(cursor);
-    picture
 }
 
 fn curves(picture: &mut Picture, found: &Trade) {
@@ -58,7 +53,7 @@ fn curves(picture: &mut Picture, found: &Trade) {
 
 /// The names of the methods at their finest rows, over everything else.
 fn names(picture: &mut Picture, found: &Trade) {
-    // Where auto does as another method, that one's curve lies over its own.
+    // Where auto chooses a method, the curve of that method covers its own.
     for spec in METHODS.iter().filter(|spec| spec.method != Method::Auto) {
         let role = if spec.events { Role::Trajectory } else { Role::Beside };
         let own = found.rows.iter().filter(|row| row.problem.method == spec.method);

@@ -1,8 +1,9 @@
 //! The axes of a machine in its own units: metres, seconds, and parts of these.
 
+use super::reading::CELLS;
 use super::ticks::Scale;
 use crate::oscillator::belt::Units as Physical;
-use crate::scene::{Layer, Span, View, Window};
+use crate::scene::{Layer, Point, Span, View, Window};
 use crate::session::Session;
 use crate::words::number::resolved;
 
@@ -56,15 +57,15 @@ pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
 }
 
 /// A place of the phase plane in the units of the machine, to the digits that can be told apart.
-pub fn reading(session: &Session, x: f64, y: f64, window: Window, cells: f64) -> Option<String> {
+pub fn reading(session: &Session, at: Point, window: Window) -> Option<String> {
     let units = shown(session)?;
     let text = |table: &AxisUnits, one: f64, value: f64, span: Span| {
         let (_, unit, factor) = chosen(table, one, span);
-        format!("{} {unit}", resolved(factor * value, factor * span.width() / cells))
+        format!("{} {unit}", resolved(factor * value, factor * span.width() / CELLS))
     };
     Some(format!(
         "x {} v {}",
-        text(&LENGTHS, units.displacement, x, window.x),
-        text(&VELOCITIES, units.velocity, y, window.y)
+        text(&LENGTHS, units.displacement, at.x, window.x),
+        text(&VELOCITIES, units.velocity, at.y, window.y)
     ))
 }

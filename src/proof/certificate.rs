@@ -14,7 +14,7 @@ use crate::numerics::elementary::cbrt;
 /// Makes the certificate of a proof.
 ///
 /// # Errors
-/// Why it cannot be had.
+/// Why there is no certificate.
 pub fn certificate(proof: &Proof) -> Result<Certificate, String> {
     if !proof.is_complete() {
         return Err("the number of cycles is not proved".to_owned());
@@ -45,7 +45,7 @@ pub fn certificate(proof: &Proof) -> Result<Certificate, String> {
 /// The file: a line for each step, every number in its shortest form that reads back exactly.
 ///
 /// # Errors
-/// If a number is infinite or none.
+/// If a number is infinite or NaN.
 pub fn text(of: &Certificate) -> Result<String, serde_json::Error> {
     let steps: Result<Vec<_>, _> = of.steps.iter().map(serde_json::to_string).collect();
     let mut out = format!("{{\n\"parameters\": {},\n", serde_json::to_string(&of.parameters)?);
@@ -54,7 +54,7 @@ pub fn text(of: &Certificate) -> Result<String, serde_json::Error> {
     Ok(out)
 }
 
-/// On the way outwards.
+/// The walk from the sticking set outwards.
 struct Walk {
     parameters: [Interval; 4],
     at: f64,
@@ -100,7 +100,7 @@ impl Walk {
         self.step(most).map_err(|_| "no start is certain to come to rest within a turn".to_owned())
     }
 
-    /// Goes a step.
+    /// Takes one step.
     fn take(&mut self, kind: StepKind, to: Option<f64>, clearance: Option<Bounds>, fences: Fences) {
         self.steps.push(CertificateStep { kind, from: self.at, to, clearance, fences });
         self.at = to.unwrap_or(f64::INFINITY);
@@ -110,7 +110,7 @@ impl Walk {
         if self.above { StepKind::Above } else { StepKind::Below }
     }
 
-    /// How far the image of the place allows to go; infinitely far if it never turns.
+    /// How far the image of the present point lets the walk go; infinitely far if it never turns.
     fn reach(&self) -> (f64, Fences) {
         let at = Interval::point(self.at);
         let reaches = self
@@ -129,7 +129,7 @@ impl Walk {
 
     /// One step, to a place at most.
     fn step(&mut self, most: f64) -> Result<(), String> {
-        /// A part of what the image allows, so that it is not a matter of rounding.
+        /// A little less than the image allows, so that rounding cannot matter.
         const PART: f64 = 0.95;
         let (from, (reach, fences)) = (self.at, self.reach());
         let to = if reach < f64::INFINITY { most.min(from + PART * (reach - from)) } else { most };
@@ -140,10 +140,10 @@ impl Walk {
         Ok(())
     }
 
-    /// To a cycle and past it.
+    /// Walks up to a cycle and past it.
     fn pass(&mut self, cycle: &ProvedCycle) -> Result<(), String> {
-        /// Widths of the step, as parts of the clearance, widest first; and how much wider than the proof's the bounds of
-        /// the clearance are, narrowest first.
+        /// Widths of the step, as fractions of the clearance, widest first; and how much wider than the proof's the
+        /// bounds of the clearance are, narrowest first.
         const WIDTHS: [f64; 11] = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10];
         const WIDER: [f64; 11] =
             [1e-13, 1e-12, 1e-11, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1];
@@ -177,7 +177,7 @@ impl Walk {
         Err(why.to_owned())
     }
 
-    /// Beyond all cycles.
+    /// Leaves the last cycle behind.
     fn leave(&mut self) -> Result<(), String> {
         let all = Interval::new(0.0, f64::INFINITY);
         let [_, (fences, map)] = self.maps(false);
@@ -196,7 +196,8 @@ impl Walk {
     }
 }
 
-/// The velocity of a fence for these coefficients: where the slope of the damping is as large as makes the motions meet.
+/// The velocity of a fence for these coefficients: where the slope of the damping is large enough for the
+/// motions to meet.
 pub fn fence([linear, square, cube]: [f64; 3]) -> f64 {
     let steep = 8.0_f64.max(4.0 * linear);
     let steep = if square < 0.0 { steep.max(6.0 * cbrt(square * square / cube)) } else { steep };

@@ -1,5 +1,5 @@
 //! The count of limit cycles: every clearance between the inner and the outer end is excluded, or lies in an
-//! interval that holds exactly one cycle, or is told to be open.
+//! interval that holds exactly one cycle, or is reported as open.
 //!
 //! Where the return map G lies above the diagonal at A, no cycle has its clearance in `[A, G(A))`: G
 //! increases, so that `G(z) >= G(A) > z` there. The three other cases are the same with the inverse and with
@@ -18,7 +18,7 @@ const NARROWEST: f64 = 1e-13;
 /// An end of a gap, with the side of the diagonal on which the map lies there.
 pub type GapEnd = (f64, Sign);
 
-/// What became of the gaps.
+/// The outcome for all gaps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Count {
     /// Intervals of clearances that hold exactly one cycle each, and whether it attracts.
@@ -36,7 +36,7 @@ impl Count {
         mut high: GapEnd,
         halvings: u32,
     ) {
-        /// A walk goes on while each step takes this part of the gap away.
+        /// A walk continues while each step closes this fraction of the gap.
         const WORTH: f64 = 0.25;
         /// Two cycles' worth of walking before the derivative is asked.
         const NEAR: f64 = 0.15;
@@ -149,7 +149,8 @@ mod tests {
     use super::*;
     use crate::proof::ParameterBox;
 
-    /// Next to a fold the derivative of G differs from 1 by little, and there are two cycles, at 0.415062 and 0.416022.
+    /// Next to a fold the derivative of G differs from 1 by little, and there are two cycles, at 0.415062 and
+    /// 0.416022.
     #[test]
     fn cycles_next_to_a_fold_are_told_apart() {
         let [d, d2, d3, r] = [-0.172_784_28, 0.2, 0.5, 0.1].map(Interval::point);

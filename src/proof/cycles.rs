@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::affine::affine_cycle;
 use super::count::Count;
 use super::enclose::{Enclosure, enclose};
-use super::ends::{End, inner_end, outer_end};
+use super::ends::{SearchEnd, inner_end, outer_end};
 use super::field::{ParameterBox, scaled};
 use super::map::ProvedMap;
 use super::theorems::{Theorem, theorem};
@@ -19,7 +19,7 @@ pub struct ProvedCycle {
     pub within: Interval,
     /// Whether it attracts.
     pub stable: bool,
-    /// Bounds of its numbers, where they could be had.
+    /// Bounds of its numbers, where they could be computed.
     pub enclosure: Option<Enclosure>,
 }
 
@@ -127,14 +127,14 @@ fn counted(map: &mut ProvedMap) -> Count {
     let all =
         |from: f64| Count { unique: Vec::new(), open: vec![Interval::new(from, f64::INFINITY)] };
     let low = match inner_end(map) {
-        End::At(clearance, sign) => (clearance, sign),
-        End::Empty => return count,
-        End::Open => return all(0.0),
+        SearchEnd::At(clearance, sign) => (clearance, sign),
+        SearchEnd::Empty => return count,
+        SearchEnd::Open => return all(0.0),
     };
     let high = match outer_end(map, low.0) {
-        End::At(clearance, sign) => (clearance, sign),
-        End::Empty => return count,
-        End::Open => return all(low.0),
+        SearchEnd::At(clearance, sign) => (clearance, sign),
+        SearchEnd::Empty => return count,
+        SearchEnd::Open => return all(low.0),
     };
     count.decide(map, low, high, HALVINGS);
     count

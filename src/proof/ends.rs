@@ -15,7 +15,7 @@ pub enum Sign {
 
 /// What lies at an end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End {
+pub enum SearchEnd {
     /// No cycle has its clearance beyond this one, at which the map has this sign.
     At(f64, Sign),
     /// There is no cycle at all.
@@ -25,20 +25,20 @@ pub enum End {
 }
 
 /// The inner end.
-pub fn inner_end(map: &mut ProvedMap) -> End {
-    /// Halvings of a clearance that comes to rest, where the inverse is not to be had.
+pub fn inner_end(map: &mut ProvedMap) -> SearchEnd {
+    /// Halvings of a clearance that comes to rest, where the inverse is not known.
     const HALVINGS: i32 = 40;
     // The last clearances from which the second swing, and both swings, end in the sticking set.
     let second = map.half(1, Direction::Backward, Interval::point(0.0));
     if second.lower() == f64::INFINITY {
-        return End::Empty;
+        return SearchEnd::Empty;
     }
     let first = map.half(0, Direction::Backward, Interval::point(second.lower()));
     if first.lower() == f64::INFINITY {
-        return End::Empty;
+        return SearchEnd::Empty;
     }
     if first.lower() > 0.0 {
-        return End::At(first.lower(), Sign::Below);
+        return SearchEnd::At(first.lower(), Sign::Below);
     }
     let (gap, fields) = (map.gap, map.halves.map(|half| *half.field(Direction::Forward)));
     if fields[0].a.upper() <= -2.0 {
@@ -53,24 +53,24 @@ pub fn inner_end(map: &mut ProvedMap) -> End {
             // No image is smaller, if every motion comes back at all.
             let returns = map.parameters.d3.lower() > 0.0 && least[0] > 0.0;
             let sign = if returns { Some(Sign::Above) } else { sign_at(map, bound) };
-            return sign.map_or(End::Open, |sign| End::At(bound, sign));
+            return sign.map_or(SearchEnd::Open, |sign| SearchEnd::At(bound, sign));
         }
         if bound == f64::INFINITY {
-            return End::Empty;
+            return SearchEnd::Empty;
         }
     }
     let mut clearance = gap.lower();
     for _ in 0..HALVINGS {
         if map.image(Direction::Forward, Interval::point(clearance)).upper() == f64::NEG_INFINITY {
-            return End::At(clearance, Sign::Below);
+            return SearchEnd::At(clearance, Sign::Below);
         }
         clearance *= 0.5;
     }
-    End::Open
+    SearchEnd::Open
 }
 
 /// The outer end; `inner` is the clearance at the inner one.
-pub fn outer_end(map: &mut ProvedMap, inner: f64) -> End {
+pub fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
     let [first, second] = [0, 1].map(|index| {
         let greatest = map.greatest(index, Direction::Forward);
         if greatest < f64::INFINITY {
@@ -80,7 +80,7 @@ pub fn outer_end(map: &mut ProvedMap, inner: f64) -> End {
         }
     });
     if first <= 0.0 || second <= 0.0 {
-        return End::Empty;
+        return SearchEnd::Empty;
     }
     let through = if first < f64::INFINITY {
         map.half(1, Direction::Forward, Interval::point(first)).upper()
@@ -89,13 +89,13 @@ pub fn outer_end(map: &mut ProvedMap, inner: f64) -> End {
     };
     let bound = second.min(through);
     if bound < inner {
-        return End::Empty;
+        return SearchEnd::Empty;
     }
     if bound < f64::INFINITY {
         // No image is larger: the map is not above the diagonal there, unless the motion never turns again.
         let sign =
             if map.parameters.d3.lower() > 0.0 { Some(Sign::Below) } else { sign_at(map, bound) };
-        return sign.map_or(End::Open, |sign| End::At(bound, sign));
+        return sign.map_or(SearchEnd::Open, |sign| SearchEnd::At(bound, sign));
     }
     // The same for the inverse, which brings everything below its greatest image.
     let back = map.greatest(1, Direction::Backward);
@@ -103,13 +103,13 @@ pub fn outer_end(map: &mut ProvedMap, inner: f64) -> End {
     let through = map.half(0, Direction::Backward, Interval::point(back)).upper();
     let bound = through.min(whole);
     if bound < f64::INFINITY && bound > inner {
-        return End::At(bound, Sign::Above);
+        return SearchEnd::At(bound, Sign::Above);
     }
     escape(map, inner)
 }
 
 /// A clearance from which no motion turns twice.
-fn escape(map: &mut ProvedMap, inner: f64) -> End {
+fn escape(map: &mut ProvedMap, inner: f64) -> SearchEnd {
     let mut clearance = inner.max(map.gap.upper());
     for _ in 0..200 {
         clearance *= 4.0;
@@ -117,10 +117,10 @@ fn escape(map: &mut ProvedMap, inner: f64) -> End {
             break;
         }
         if map.image(Direction::Forward, Interval::point(clearance)).lower() == f64::INFINITY {
-            return End::At(clearance, Sign::Above);
+            return SearchEnd::At(clearance, Sign::Above);
         }
     }
-    End::Open
+    SearchEnd::Open
 }
 
 /// On which side of the diagonal the map certainly lies at a clearance.

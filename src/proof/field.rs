@@ -13,7 +13,7 @@ impl ParameterBox {
         ParameterBox { d: self.d, d2: scaled(self.d2, k), d3, r: scaled(self.r, -k) }
     }
 
-    /// The same with one parameter replaced; a start is none of them.
+    /// The same with one parameter replaced; a start is not a parameter.
     #[must_use]
     pub fn with(&self, symbol: Symbol, value: Interval) -> Self {
         let mut changed = *self;

@@ -20,7 +20,7 @@ pub enum ProvedEdge {
     None,
     /// The innermost cycle.
     Cycle,
-    /// An orbit that is no cycle.
+    /// An orbit that is not a cycle.
     Separatrix,
 }
 

@@ -1,6 +1,6 @@
 //! The return map of the right turning point, bounded on both sides, and its inverse.
 //!
-//! Values are clearances `z > 0` from the sticking set, and two that are none: `-inf` for a motion that
+//! Values are clearances `z > 0` from the sticking set, and two special values: `-inf` for a motion that
 //! has come to rest, `+inf` for one that never turns again. Both keep the map increasing, so that one
 //! order serves for all of them. It also increases where damping or friction is taken away (lemma 8), so that
 //! bounds over intervals of parameters come from their ends.
@@ -51,7 +51,7 @@ pub enum Direction {
 /// Steps of integration after which nothing more is computed: some 50 milliseconds.
 const MOST_WORK: u32 = 30_000;
 
-/// Starts closer together than this part of themselves are one ball where the derivative is asked for.
+/// Starts closer together than this fraction of themselves are one ball where the derivative is asked for.
 const NARROW: f64 = 1e-9;
 
 /// Starts that differ by rounding only are one ball where the end is asked for.
@@ -156,7 +156,8 @@ impl ProvedMap {
         funnel.filter(|it| from <= it.reach).map_or(f64::INFINITY, |it| it.greatest())
     }
 
-    /// Lower bound of where a swing ends. Where it can't be had, one that starts further in ends below it.
+    /// Lower bound of where a swing ends. Where none can be computed, that of a start further in serves: it
+    /// ends below.
     fn least(&mut self, index: usize, direction: Direction, start: f64) -> f64 {
         /// How many times a start is quartered in search of one that is not stiff.
         const SHORTENINGS: i32 = 6;

@@ -19,7 +19,7 @@ impl Norm {
         /// Beyond this it is too flat.
         const FLATTEST: f64 = 1.999;
         let skew = if skew.is_nan() { 0.0 } else { skew.clamp(-FLATTEST, FLATTEST) };
-        // 4 - s^2 is at least 0.0039; its absolute error of 4.5e-16 is a part 1.2e-13 of it.
+        // 4 - s^2 is at least 0.0039; its absolute error of 4.5e-16 is 1.2e-13 of it.
         Norm { skew, stretch: 2.0 / (4.0 - skew * skew).sqrt() * INFLATE }
     }
 
@@ -31,7 +31,7 @@ impl Norm {
     /// At most how many times larger a vector is in another norm.
     ///
     /// The ratio of the squares on the unit circle is `(2 + s' y)/(2 + s y)` with `y = sin 2 phi`, monotone in y. Its
-    /// terms are at least 0.001, and their absolute error of 2.3e-16 is a part 2.3e-13 of them.
+    /// terms are at least 0.001, and their absolute error of 2.3e-16 is 2.3e-13 of them.
     pub fn into(self, other: Norm) -> f64 {
         if self.skew == other.skew {
             return 1.0;

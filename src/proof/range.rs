@@ -9,7 +9,7 @@ use crate::oscillator::Symbol;
 
 /// Part of a range with what is proved for all values in it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
+pub struct RangePiece {
     /// The values.
     pub over: Interval,
     /// Whether each cycle attracts, smallest first; `None` where their number is open.
@@ -26,14 +26,14 @@ pub fn cycles_at(parameters: &ParameterBox) -> Option<Vec<bool>> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Range {
     /// Its pieces, in order.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<RangePiece>,
     /// Where the number of cycles changes.
-    pub changes: Vec<Change>,
+    pub changes: Vec<CountChange>,
 }
 
 /// Values of a parameter between which cycles appear or vanish.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Change {
+pub struct CountChange {
     /// The number is proved at both ends.
     pub between: Interval,
     /// Whether each cycle attracts, at the lower end.
@@ -64,7 +64,7 @@ pub fn range(base: &ParameterBox, symbol: Symbol, (low, high): (f64, f64)) -> Ra
             && below != above
         {
             let between = narrowed(&mut ask, open.over, [below, above]);
-            changes.push(Change { between, below: below.clone(), above: above.clone() });
+            changes.push(CountChange { between, below: below.clone(), above: above.clone() });
         }
     }
     Range { pieces, changes }
@@ -75,7 +75,7 @@ fn split(
     ask: &mut impl FnMut(Interval) -> Option<Vec<bool>>,
     over: Interval,
     halvings: u32,
-    pieces: &mut Vec<Piece>,
+    pieces: &mut Vec<RangePiece>,
 ) {
     let middle = over.middle();
     let cycles = ask(over);
@@ -85,7 +85,7 @@ fn split(
     }
     match pieces.last_mut() {
         Some(last) if last.cycles == cycles => last.over = last.over.hull(over),
-        _ => pieces.push(Piece { over, cycles }),
+        _ => pieces.push(RangePiece { over, cycles }),
     }
 }
 
@@ -110,22 +110,27 @@ fn narrowed(
 }
 
 /// The change between two values a part `away` of a third below and above it, if there is one.
-pub fn change_within(base: &ParameterBox, symbol: Symbol, at: f64, away: f64) -> Option<Change> {
+pub fn change_within(
+    base: &ParameterBox,
+    symbol: Symbol,
+    at: f64,
+    away: f64,
+) -> Option<CountChange> {
     let ask = |value: f64| cycles_at(&base.with(symbol, Interval::point(value)));
     let (low, high) = (at - away * at.abs(), at + away * at.abs());
     let (below, above) = (ask(low)?, ask(high)?);
     let between = Interval::new(low, high);
-    (below != above).then_some(Change { between, below, above })
+    (below != above).then_some(CountChange { between, below, above })
 }
 
 /// The change nearest to a value, if there is one: between values on both sides at which the numbers of cycles are
 /// proved and differ.
-pub fn change_near(base: &ParameterBox, symbol: Symbol, hint: f64) -> Option<Change> {
-    /// Powers of ten, as parts of the value, at which to ask.
+pub fn change_near(base: &ParameterBox, symbol: Symbol, hint: f64) -> Option<CountChange> {
+    /// Powers of ten, as fractions of the value, at which to ask.
     const AWAY: std::ops::RangeInclusive<i32> = -12..=-3;
     let mut ask = |value: Interval| cycles_at(&base.with(symbol, value));
     let mut found = AWAY.map(|power| powi(10.0, power));
     let found = found.find_map(|away| change_within(base, symbol, hint, away))?;
     let between = narrowed(&mut ask, found.between, [&found.below, &found.above]);
-    Some(Change { between, ..found })
+    Some(CountChange { between, ..found })
 }

@@ -1,4 +1,4 @@
-//! On the way through a half plane: where a motion is at a time, and when one that never turns blows up.
+//! Within a half swing: where a motion is at a time, and when one that never turns blows up.
 
 use super::field::{Field, scaled};
 use super::norm::Norm;
@@ -108,7 +108,7 @@ impl Ride {
 
 /// Position and velocity at a time after the start, of all motions of a box of starts and fields.
 ///
-/// `None` where they cannot be had, or where the velocity may have come to 0 before.
+/// `None` where they are not known, or where the velocity may have come to 0 before.
 pub fn state_at(field: &Field, start: &StartBox, time: Interval) -> Option<(Interval, Interval)> {
     let mut ride = Ride::new(field, start)?;
     let target = time.middle();
@@ -143,7 +143,7 @@ fn about(field: &Field, (x, v): (Interval, Interval), off: f64) -> Option<(Inter
 
 /// The time at which the velocity becomes infinite, of motions that never turn; `None` where it has no bound.
 pub fn blow_up(field: &Field, start: &StartBox) -> Option<Interval> {
-    /// The bound is good enough when it leaves this part of the time open.
+    /// The bound is good enough when it leaves this fraction of the time open.
     const GOOD: f64 = 1e-12;
     let mut ride = Ride::new(field, start)?;
     let mut best: Option<Interval> = None;

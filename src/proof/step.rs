@@ -69,7 +69,7 @@ impl Prepared {
     ///
     /// Any answer is right; this one keeps balls small.
     fn norm(&self, before: Norm, [now, next]: [f64; 2], h: f64) -> Norm {
-        /// How far the present step is taken to go on, in time.
+        /// How much longer the present conditions are assumed to last, in time.
         const WHILE: f64 = 0.6;
         /// A change that gains less than this, in the logarithm of the ball, is left alone.
         const WORTH: f64 = 0.25;
@@ -120,19 +120,20 @@ pub struct Reached {
 /// - 2: `x_(k+1)` is `v_k` times a rounded inverse.
 /// - 4: x passes a sum and a difference, then the inverse and its product.
 /// - 6: a passes two sums in `damping`, its product, a difference, and two for the inverse.
-/// - 11 + k/4: `b v_i` passes 3 on the way into f, `k/4 + 2` in the sum of products, two sums into `earlier`, a sum, a
-///   difference and two for the inverse. Half of a quarter of the degree goes to each of the two factors.
+/// - 11 + k/4: `b v_i` passes 3 on the way into f, `k/4 + 2` in the sum of products, two sums into `earlier`, a
+///   sum, a difference and two for the inverse. Half of a quarter of the degree goes to each of the two factors.
 /// - 13 + (i + k)/4: so does `c v^2`, which passes `i/4 + 5` on the way into f. Of the degrees of three factors two
 ///   add up to i, and all to k: five twelfths of each, three times.
 const ROUNDINGS: [f64; 7] = [2.0, 4.0, 6.0, 11.0, 0.5, 13.0, 1.25];
 
-/// Roundings by Horner's rule in even and odd powers: two for each term, and so many for each degree of it.
+/// Roundings by Horner's rule in even and odd powers: two for each term, and this many for each degree of it.
 const HORNER: [f64; 2] = [2.0, 1.5];
 
-/// Roundings of a coefficient of `v^2`, of degree 27 at most: `k/4 + 2` in the sum of products, and two sums (lemma 3).
+/// Roundings of a coefficient of `v^2`, of degree 27 at most: `k/4 + 2` in the sum of products, and two sums
+/// (lemma 3).
 const SQUARE: f64 = 11.0;
 
-/// More than the roundings of the integral of `v^2` but for its coefficients, for each term after it is divided by
+/// More than the roundings of the integral of `v^2` except for its coefficients, for each term after it is divided by
 /// `k + 1`: 10 for the first, 9 sums and the time; others, which pass `k + 12`, have fewer (end of lemma 4).
 const INTEGRAL: f64 = 12.0;
 
@@ -170,7 +171,7 @@ struct Sums {
 /// Of three degrees that add up to [`ORDER`] and more, one is larger than this.
 const THIRD: usize = ORDER / 3;
 
-/// Sums run in so many lanes, which do not wait for each other.
+/// Sums run in this many lanes, which do not wait for each other.
 const LANES: usize = 4;
 
 /// The degrees, and each times the one before.
@@ -222,7 +223,7 @@ impl Sums {
             *place = tail;
         }
         let v = tail;
-        // `x_(k+1)` is `v_k/(k + 1)` but for two roundings.
+        // `x_(k+1)` is `v_k/(k + 1)` except for two roundings.
         let x_degree = h * v * INFLATE;
         Sums {
             x: series.x[0].abs() + x_degree,
@@ -267,8 +268,9 @@ const NEXT: [f64; LENGTH] = {
 };
 
 impl Prepared {
-    /// Carries a ball around the start of a series over a step of length h to its `end` by [`Series::at`]; `None` where nothing can be said, because
-    /// the ball grows too much or the motion might turn around `v = 0` unseen.
+    /// Carries a ball around the start of a series over a step of length h to its `end` by [`Series::at`];
+    /// `None` where nothing can be said, because the ball grows too much or the motion might turn around
+    /// `v = 0` unseen.
     #[must_use]
     pub fn carry(
         &self,

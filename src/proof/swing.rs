@@ -10,7 +10,7 @@ use super::series::Series;
 use super::step::{Prepared, Reached};
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
-use crate::numerics::root::{Bracket, Change, illinois, newton};
+use crate::numerics::root::{Bracket, PlaceTolerance, illinois, newton};
 use crate::numerics::scaling::exponent;
 
 /// Where a half swing starts: any point of a box. On `v = 0` it starts left of the centre, `x < 0`.
@@ -144,7 +144,7 @@ fn run(
         return Passage::Never;
     }
     let norm = Norm::fitting(local.field().a.middle());
-    let mut run = Run {
+    let mut run = SwingRun {
         local,
         norm,
         x,
@@ -222,8 +222,8 @@ pub fn never_returns(field: &Field, x: f64, v: f64) -> bool {
     holds(p0 - half * two * t * t * t) && holds(linear + half * three * t * t)
 }
 
-/// A half swing under way, in units in which its start is near 1.
-struct Run {
+/// A half swing in progress, in units in which its start is near 1.
+struct SwingRun {
     local: Prepared,
     norm: Norm,
     x: f64,
@@ -264,7 +264,7 @@ enum Arrival {
     Never,
 }
 
-impl Run {
+impl SwingRun {
     fn advance(&mut self, series: &mut Series, wants_fastest: bool) -> Option<Arrival> {
         series.expand(self.local.middles(), self.x, self.v);
         let mut h = series.step(TOLERANCE);
@@ -359,7 +359,7 @@ impl Run {
             return Speed::StillRising;
         }
         let ends = [0.0, h].map(|at| (at, series.velocity(at).1));
-        let Ok([near, _]) = illinois(ends, 0.0, Change::Absolute(NEAR * h), |at| {
+        let Ok([near, _]) = illinois(ends, 0.0, PlaceTolerance::Absolute(NEAR * h), |at| {
             Ok::<_, Infallible>(series.velocity(at).1)
         });
         let near = (near.0, series.at(near.0));
@@ -420,7 +420,7 @@ fn arrival(series: &Series, h: f64, ahead: f64) -> Option<(f64, bool)> {
     /// How far beyond the step its polynomial is trusted.
     const BEYOND: f64 = 1.02;
     let bracket = Bracket::falling(0.0, if ahead > 0.0 { BEYOND * h } else { h });
-    let at = newton(bracket, h, Change::Relative(1e-9), |at| series.velocity(at)).at;
+    let at = newton(bracket, h, PlaceTolerance::Relative(1e-9), |at| series.velocity(at)).at;
     if at > 0.0 && at < BEYOND * h * (1.0 - 1e-9) {
         Some((at, true))
     } else if ahead > 0.0 {

@@ -130,11 +130,15 @@ impl From<Unfit> for Fit {
 
 impl Fit {
     /// Fits a record, and tells how many motions it has computed so far. Fails with [`Reason::Interrupted`].
-    pub fn of(recording: &Recording, limits: &Limits, told: &dyn Fn(u64)) -> Result<Self, Reason> {
+    pub fn of(
+        recording: &Recording,
+        limits: &Limits,
+        report: &dyn Fn(u64),
+    ) -> Result<Self, Reason> {
         let motions = Cell::new(0);
         let interrupted = || {
             motions.set(motions.get() + 1);
-            told(motions.get());
+            report(motions.get());
             (limits.interrupted)()
         };
         let peaks = recording.peaks || recording.record.t.is_none();

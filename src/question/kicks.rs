@@ -1,4 +1,4 @@
-//! Which part of random kicks is lost.
+//! What fraction of random kicks is lost.
 
 use super::kind::{Question, numbers};
 use super::means::Means;
@@ -15,7 +15,7 @@ pub struct Asked {
     pub kicks: RandomKick,
 }
 
-/// The part of the kicks that leads out of the basin of the sticking set.
+/// The fraction of the kicks that leads out of the basin of the sticking set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LostShare {
     /// The part and its error.

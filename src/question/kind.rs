@@ -18,7 +18,7 @@ pub trait Question: Sized + PartialEq {
         None
     }
 
-    /// The numbers that it depends on, but for those that say how finely it is to be answered: two questions
+    /// The numbers that it depends on, except for those that say how finely it is to be answered: two questions
     /// are the more alike the more of them are equal.
     fn numbers(&self) -> [f64; 8] {
         [0.0; 8]

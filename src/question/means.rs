@@ -49,7 +49,7 @@ pub struct Fineness {
     pub(super) branch: usize,
     /// On a side of a return map.
     pub(super) map: u16,
-    /// Largest distance of the borders of a chart from their chords, as a part of the range.
+    /// Largest distance of the borders of a chart from their chords, as a fraction of the range.
     pub(super) chord: f64,
 }
 

@@ -23,7 +23,7 @@ macro_rules! questions {
             /// What is safe and what is lost for certain.
             Zones(zones) "certainty" costs |found| found.cost,
                 or MachineZones(machine_zones) answered by Answer::Zones;
-            /// Which part of random kicks is lost.
+            /// What fraction of random kicks is lost.
             Kicks(kicks) "kicks" costs |found| found.cost;
             /// The borders of the bands of capture.
             Capture(capture) "bands" costs |found| found.cost;

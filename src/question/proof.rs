@@ -1,4 +1,4 @@
-//! The proof of how many cycles there are. Nothing waits for it: the screen says so once it is there.
+//! The proof of how many cycles there are. Nothing waits for it; the screen shows it once it is there.
 
 use super::kind::{Question, numbers};
 use super::means::Means;

@@ -1,5 +1,7 @@
 //! Requests, topics and answers: what the table of questions makes of each kind.
 
+use serde::{Serialize, Serializer};
+
 use super::kind::Question;
 use super::means::{Fineness, Means, Rows};
 use super::whole::{Course, Kinds};
@@ -102,6 +104,13 @@ macro_rules! types {
 }
 
 questions!(types);
+
+impl Serialize for Topic {
+    /// Its name.
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        out.serialize_str(self.name())
+    }
+}
 
 impl Topic {
     /// Whether it is asked of each variant that a plot shows.

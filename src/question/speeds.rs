@@ -19,7 +19,7 @@ use crate::oscillator::belt::Quantity;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Speeds {
     /// What was found at each speed that has an answer.
-    pub points: Vec<Speed>,
+    pub points: Vec<SpeedPoint>,
     /// The changes.
     pub special: Vec<MachineSpecial>,
     /// What the speeds took; the changes between them are not counted.
@@ -28,7 +28,7 @@ pub struct Speeds {
 
 /// The cycles at one speed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Speed {
+pub struct SpeedPoint {
     /// Speed of the belt, in m/s.
     pub v0: f64,
     /// The cycles, by amplitude.
@@ -99,7 +99,7 @@ impl Question for Asked {
             let (kind, margin) = (found.border.kind(), found.margin);
             let touching = margin.filter(|_| kind == "grazing").map(|margin| margin.displacement.0);
             let rests = kind != "no-basin";
-            Some(Speed { v0: *value, cycles: found.cycles.clone(), touching, rests })
+            Some(SpeedPoint { v0: *value, cycles: found.cycles.clone(), touching, rests })
         };
         let steps = found.points.iter().filter_map(|point| point.found.as_ref().ok());
         let steps = steps.map(|found| found.steps).sum::<u64>();

@@ -3,10 +3,10 @@
 
 use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
 use crate::flow::{Cost, Limits, Method, Problem, Reason};
-use crate::machine::curve::{MachineCurve, Piece};
+use crate::machine::curve::{CurvePiece, MachineCurve};
 use crate::machine::motion::{self, MachineMotion};
 use crate::machine::stepped::{SteppedMethod, Traced, traced};
-use crate::machine::turn::Place;
+use crate::machine::turn::ContactState;
 use crate::machine::{Flow, MachineFate, MachineLedger, Model, Phase, Portrait, Unfollowed};
 use crate::numerics::elementary::ln;
 use crate::oscillator::{Belt, Parameters, State};
@@ -52,15 +52,15 @@ pub struct Kinds {
 
 /// What 1 stands for, in SI units.
 #[derive(Clone, Copy)]
-struct Units {
+struct DrawingUnits {
     x: f64,
     v: f64,
     t: f64,
 }
 
-impl Units {
+impl DrawingUnits {
     fn of(model: &Model) -> Self {
-        Units { x: model.pull, v: model.pull * model.omega_0, t: 1.0 / model.omega_0 }
+        DrawingUnits { x: model.pull, v: model.pull * model.omega_0, t: 1.0 / model.omega_0 }
     }
 
     fn ledger(self, ledger: &MachineLedger, model: &Model) -> MachineLedger {
@@ -95,7 +95,7 @@ fn model(belt: &Belt) -> Result<Model, Reason> {
     })
 }
 
-/// The motion of a machine, with so many places between the ends of each step.
+/// The motion of a machine, with this many places between the ends of each step.
 pub fn motion(
     belt: &Belt,
     problem: &Problem,
@@ -104,7 +104,7 @@ pub fn motion(
     let mut model = model(belt)?;
     let portrait = Portrait::new(&model).map_err(reason)?;
     model.tolerance = problem.tolerance;
-    let units = Units::of(&model);
+    let units = DrawingUnits::of(&model);
     let way = SteppedMethod::of(problem.method).map_err(|_| Reason::NotApplicable {
         needs: "to know both switching lines of a machine, as auto, taylor, dop853 and dopri5 do",
     })?;
@@ -141,7 +141,7 @@ struct Drawn {
 }
 
 impl Drawn {
-    /// By Taylor series, with so many places between the ends of each step.
+    /// By Taylor series, with this many places between the ends of each step.
     fn series(found: &MachineMotion, between: u32) -> Self {
         Drawn {
             method: Method::Taylor,
@@ -163,7 +163,7 @@ impl Drawn {
     }
 }
 
-fn trajectory(found: &Drawn, problem: &Problem, units: Units) -> Trajectory {
+fn trajectory(found: &Drawn, problem: &Problem, units: DrawingUnits) -> Trajectory {
     let start = Sample { tau: 0.0, q: problem.initial.q, v: problem.initial.v };
     let sampled = found.samples.iter().skip(1).map(|at| units.sample(at));
     let samples = std::iter::once(start).chain(sampled);
@@ -176,9 +176,9 @@ fn trajectory(found: &Drawn, problem: &Problem, units: Units) -> Trajectory {
     };
     // A leg begins at a turning point unless it begins on the belt's line.
     let turns = found.legs.windows(2).filter(|pair| match pair[1].place {
-        Place::Slips(Phase::Between) => pair[0].place == Place::Slips(Phase::Below),
-        Place::Slips(Phase::Below) | Place::Rests => true,
-        Place::Slips(Phase::Above) | Place::Sticks => false,
+        ContactState::Slips(Phase::Between) => pair[0].place == ContactState::Slips(Phase::Below),
+        ContactState::Slips(Phase::Below) | ContactState::Rests => true,
+        ContactState::Slips(Phase::Above) | ContactState::Sticks => false,
     });
     let crossing =
         |pair: &[motion::Leg]| Crossing { tau: pair[1].t / units.t, q: pair[1].x / units.x };
@@ -199,15 +199,15 @@ fn cost(steps: u64) -> Cost {
 }
 
 /// Where a motion rides on the belt, whose speed is `v0`.
-fn rides(found: &Drawn, v0: f64, units: Units) -> Vec<[Sample; 2]> {
+fn rides(found: &Drawn, v0: f64, units: DrawingUnits) -> Vec<[Sample; 2]> {
     let ends = found.legs.iter().skip(1).map(|leg| (leg.t, leg.x));
     let ends = ends.chain([(found.end.t, found.end.x)]);
-    let legs = found.legs.iter().zip(ends).filter(|(leg, _)| leg.place == Place::Sticks);
+    let legs = found.legs.iter().zip(ends).filter(|(leg, _)| leg.place == ContactState::Sticks);
     let at = |t, x| units.sample(&motion::MachineState { t, x, v: v0 });
     legs.map(|(leg, (t, x))| [at(leg.t, leg.x), at(t, x)]).collect()
 }
 
-/// The cycles of a machine with their curves, so many points on each step, and the border of the basin;
+/// The cycles of a machine with their curves, this many points on each step, and the border of the basin;
 /// `cubic` draws those of the cubic expansion in their place.
 pub fn portrait(
     belt: &Belt,
@@ -235,7 +235,7 @@ pub fn portrait(
 
 /// The ledgers of its cycles.
 fn works(found: &Portrait) -> Vec<MachineLedger> {
-    let (mut flow, units) = (Flow::new(&found.model), Units::of(&found.model));
+    let (mut flow, units) = (Flow::new(&found.model), DrawingUnits::of(&found.model));
     let ledger = |cycle| flow.works_around(cycle).unwrap_or_default();
     found.cycles.iter().map(ledger).map(|one| units.ledger(&one, &found.model)).collect()
 }
@@ -247,7 +247,7 @@ pub fn found(belt: &Belt) -> Result<Portrait, Reason> {
 
 /// The kicks that a machine survives; `None` where every one is.
 pub fn margin(found: &Portrait) -> Option<Margin> {
-    let units = Units::of(&found.model);
+    let units = DrawingUnits::of(&found.model);
     found.margin.map(|margin| Margin {
         displacement: Some(margin.least_displacement() / units.x),
         impulse: Some(margin.least_velocity() / units.v),
@@ -256,7 +256,7 @@ pub fn margin(found: &Portrait) -> Option<Margin> {
 
 /// Kicks in m and N s, infinite where every one is survived, without units.
 pub fn margin_of(model: &Model, displacement: f64, impulse: f64) -> Margin {
-    let units = Units::of(model);
+    let units = DrawingUnits::of(model);
     let finite = |value: f64| Some(value).filter(|it| it.is_finite());
     Margin {
         displacement: finite(displacement / units.x),
@@ -265,7 +265,7 @@ pub fn margin_of(model: &Model, displacement: f64, impulse: f64) -> Margin {
 }
 
 fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycles, Reason> {
-    let (model, units) = (&found.model, Units::of(&found.model));
+    let (model, units) = (&found.model, DrawingUnits::of(&found.model));
     let mut flow = Flow::new(model);
     let mut curves = Vec::new();
     for cycle in &found.cycles {
@@ -303,11 +303,11 @@ pub(super) fn places(curve: &MachineCurve, model: &Model, points: u16) -> Vec<St
     let mut found = Vec::new();
     for piece in &curve.pieces {
         match piece {
-            Piece::Slip(slip) => found.extend((0..=points).map(|point| {
+            CurvePiece::Slip(slip) => found.extend((0..=points).map(|point| {
                 let (x, y) = slip.at(slip.duration * f64::from(point) / f64::from(points.max(1)));
                 state(x, y)
             })),
-            Piece::Line { from, to } => {
+            CurvePiece::Line { from, to } => {
                 found.extend([*from, *to].map(|x| state(x, model.speed)));
             }
         }
@@ -316,7 +316,7 @@ pub(super) fn places(curve: &MachineCurve, model: &Model, points: u16) -> Vec<St
     found
 }
 
-fn scaled(cycle: &crate::machine::MachineCycle, model: &Model, units: Units) -> Cycle {
+fn scaled(cycle: &crate::machine::MachineCycle, model: &Model, units: DrawingUnits) -> Cycle {
     /// What all numbers of the reference machines keep, generously.
     const ERROR: f64 = 1e-12;
     let clearance = (cycle.x.1 - model.guide) / units.x;

@@ -65,7 +65,7 @@ fn extent(basin: Option<&Basin>, otherwise: Extent, points: u16) -> Extent {
     }
 }
 
-/// The zones of an oscillator, with so many points on each step of a border. Fails with the [`Reason`] why a border
+/// The zones of an oscillator, with this many points on each step of a border. Fails with the [`Reason`] why a border
 /// could not be computed.
 fn of_oscillator(
     known: &ParameterBox,

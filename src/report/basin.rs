@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::certified::{Survived, survived};
 use super::csv;
-use super::json::{self, Price};
+use super::json::{self, CountedCost};
 use super::table::{Table, parameters, rounded};
 use crate::proof::kicks::ProvedKicks;
 use crate::study::basin::{Counts, SurveyedBasin};
@@ -12,16 +12,16 @@ use crate::study::{Edge, Margin};
 use crate::words::number::{duration, significant};
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct BasinDocument<'a> {
     #[serde(flatten)]
     found: &'a SurveyedBasin,
     #[serde(skip_serializing_if = "Option::is_none")]
     certified: Option<Survived>,
-    cost: Price,
+    cost: CountedCost,
 }
 
 #[derive(Serialize)]
-struct Row {
+struct BasinRow {
     #[serde(flatten)]
     counts: Counts,
     #[serde(flatten)]
@@ -34,15 +34,15 @@ struct Row {
 }
 
 pub fn json(found: &SurveyedBasin, certified: Option<&ProvedKicks>, seconds: f64) -> String {
-    json::text(&Document {
+    json::text(&BasinDocument {
         found,
         certified: certified.map(survived),
-        cost: Price { counted: found.cost, seconds },
+        cost: CountedCost { counted: found.cost, seconds },
     })
 }
 
 pub fn csv(found: &SurveyedBasin, certified: Option<&ProvedKicks>) -> String {
-    let row = |certified| Row {
+    let row = |certified| BasinRow {
         counts: found.counts,
         margin: found.margin,
         area: found.area,
@@ -82,8 +82,7 @@ pub fn table(found: &SurveyedBasin, seconds: f64) -> String {
     out += &format!("{counts}\n{kicks}\n");
     out += &format!("area of the basin: {}\n", rounded(found.area, PLACES));
     if let Some(share) = found.lyapunov_share {
-        let verdict =
-            if share > 1.0 { ": too much is promised, D2 and D3 are left out" } else { "" };
+        let verdict = if share > 1.0 { ": too large, as it ignores D2 and D3" } else { "" };
         out += &format!("Lyapunov's disk (24): {} of the margin{verdict}\n", significant(share, 4));
     }
     out + &format!("{} evaluations, {}\n", found.cost.evaluations, duration(seconds))

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::certified::{Bordered, Bounds};
+use super::certified::{Bordered, IntervalDocument};
 use super::csv::Sheet;
-use super::json::{self, Price};
+use super::json::{self, CountedCost};
 use super::table::{Table, parameters, rounded};
 use crate::numerics::Interval;
 use crate::oscillator::{Parameters, Symbol};
@@ -12,18 +12,18 @@ use crate::study::fold::{Boundary, BoundaryPoint};
 use crate::words::number::{duration, significant};
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct BorderDocument<'a> {
     parameters: &'a Parameters,
     parameter: Symbol,
     points: &'a [BoundaryPoint],
     #[serde(skip_serializing_if = "Option::is_none")]
     certified: Option<&'a [Bordered]>,
-    cost: Price,
+    cost: CountedCost,
 }
 
 /// What is known at a value of the second parameter.
 #[derive(Default, Serialize)]
-struct Row<'a> {
+struct BorderRow<'a> {
     value: f64,
     #[serde(rename = "D_F")]
     fold: Option<f64>,
@@ -35,51 +35,51 @@ struct Row<'a> {
     escape: Option<f64>,
     reason: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<Sure>,
+    certified: Option<BorderBounds>,
 }
 
 /// What is enclosed there, a column for each bound.
 #[derive(Serialize)]
-struct Sure {
+struct BorderBounds {
     #[serde(rename = "D_F")]
-    fold: Option<Bounds>,
+    fold: Option<IntervalDocument>,
     #[serde(rename = "D_c")]
-    escape: Option<Bounds>,
+    escape: Option<IntervalDocument>,
     proved: bool,
     open: String,
 }
 
 pub fn json(found: &Boundary, certified: Option<&[Bordered]>, seconds: f64) -> String {
-    json::text(&Document {
+    json::text(&BorderDocument {
         parameters: &found.parameters,
         parameter: found.second,
         points: &found.points,
         certified,
-        cost: Price { counted: found.cost, seconds },
+        cost: CountedCost { counted: found.cost, seconds },
     })
 }
 
 /// One row for each value of the second parameter.
 pub fn csv(found: &Boundary, certified: Option<&[Bordered]>) -> String {
     let all = || Some(Interval::ALL.into());
-    let like = Row {
-        certified: certified.map(|_| Sure {
+    let like = BorderRow {
+        certified: certified.map(|_| BorderBounds {
             fold: all(),
             escape: all(),
             proved: false,
             open: String::new(),
         }),
-        ..Row::default()
+        ..BorderRow::default()
     };
     let mut sheet = Sheet::like(&like, &[("value", found.second.spec().name)]);
     for (index, point) in found.points.iter().enumerate() {
-        let certified = certified.and_then(|all| all.get(index)).map(|it| Sure {
+        let certified = certified.and_then(|all| all.get(index)).map(|it| BorderBounds {
             fold: it.fold,
             escape: it.escape,
             proved: it.proved,
             open: it.open.join(", "),
         });
-        sheet.row(&Row {
+        sheet.row(&BorderRow {
             value: point.value,
             fold: point.fold.map(|fold| fold.d),
             q_max: point.fold.map(|fold| fold.q_max),

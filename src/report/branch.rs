@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::certified::{Decided, PieceBounds, decided};
 use super::csv::Sheet;
 use super::cycles::{COLUMNS, cells};
-use super::json::{self, Price};
+use super::json::{self, CountedCost};
 use super::table::{Table, digits, parameters, rounded};
 use crate::oscillator::{Parameters, Symbol};
 use crate::proof::range::Range;
@@ -14,7 +14,7 @@ use crate::words::number::{duration, significant};
 
 /// A point, with the number of the connected piece that it belongs to.
 #[derive(Default, Serialize)]
-struct Row {
+struct BranchRow {
     piece: Option<usize>,
     #[serde(flatten)]
     point: Option<BranchPoint>,
@@ -22,10 +22,10 @@ struct Row {
     certified: Option<PieceBounds>,
 }
 
-fn rows(branch: &Branch) -> impl Iterator<Item = Row> {
+fn rows(branch: &Branch) -> impl Iterator<Item = BranchRow> {
     let pieces = branch.pieces.iter().enumerate();
     pieces.flat_map(|(piece, points)| {
-        points.iter().map(move |point| Row {
+        points.iter().map(move |point| BranchRow {
             piece: Some(piece),
             point: Some(*point),
             certified: None,
@@ -34,24 +34,24 @@ fn rows(branch: &Branch) -> impl Iterator<Item = Row> {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct BranchDocument<'a> {
     parameter: Symbol,
-    points: Vec<Row>,
+    points: Vec<BranchRow>,
     special: &'a [Special],
     vague: &'a [f64],
     #[serde(skip_serializing_if = "Option::is_none")]
     certified: Option<Decided>,
-    cost: Price,
+    cost: CountedCost,
 }
 
 pub fn json(branch: &Branch, certified: Option<&Range>, seconds: f64) -> String {
-    json::text(&Document {
+    json::text(&BranchDocument {
         parameter: branch.parameter,
         points: rows(branch).collect(),
         special: &branch.special,
         vague: &branch.vague,
         certified: certified.map(decided),
-        cost: Price { counted: branch.cost, seconds },
+        cost: CountedCost { counted: branch.cost, seconds },
     })
 }
 
@@ -60,16 +60,16 @@ pub fn csv(branch: &Branch, certified: Option<&Range>) -> String {
     let name = branch.parameter.spec().name;
     let bounds = ["lower", "upper"].map(|end| (format!("value_{end}"), format!("{name}_{end}")));
     let called = [("value", name), (&bounds[0].0, &bounds[0].1), (&bounds[1].0, &bounds[1].1)];
-    let like = Row {
+    let like = BranchRow {
         point: Some(BranchPoint::default()),
         certified: certified.map(|_| PieceBounds::like()),
-        ..Row::default()
+        ..BranchRow::default()
     };
     let mut sheet = Sheet::like(&like, &called);
     rows(branch).for_each(|row| sheet.row(&row));
     let parts = certified.map(PieceBounds::of).unwrap_or_default();
     for part in parts {
-        sheet.row(&Row { certified: Some(part), ..Row::default() });
+        sheet.row(&BranchRow { certified: Some(part), ..BranchRow::default() });
     }
     sheet.into_text()
 }

@@ -4,14 +4,14 @@ use serde::Serialize;
 
 use super::proof::certain;
 use super::table::Table;
-use crate::check::{Bounds as Pair, Certificate, StepKind};
+use crate::check::{Bounds, Certificate, StepKind};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{log10, pow};
 use crate::oscillator::Symbol;
 use crate::proof::cycles::Proof;
 use crate::proof::kicks::{ProvedEdge, ProvedKicks};
 use crate::proof::motion::{ProvedFate, ProvedMotion};
-use crate::proof::range::{Change, Piece, Range};
+use crate::proof::range::{CountChange, Range, RangePiece};
 use crate::study::fold::BoundaryPoint;
 use crate::words::number::significant;
 use crate::words::stability;
@@ -20,41 +20,38 @@ const PLACES: usize = 12;
 
 /// An interval as a document has it; what is infinite is null.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Bounds {
+pub struct IntervalDocument {
     lower: f64,
     upper: f64,
 }
 
-impl From<Interval> for Bounds {
+impl From<Interval> for IntervalDocument {
     fn from(it: Interval) -> Self {
-        Bounds { lower: it.lower(), upper: it.upper() }
+        IntervalDocument { lower: it.lower(), upper: it.upper() }
     }
 }
 
 #[derive(Serialize)]
 struct TurnRow {
-    tau: Bounds,
-    q: Bounds,
+    tau: IntervalDocument,
+    q: IntervalDocument,
 }
 
 #[derive(Serialize)]
-pub struct Followed {
+pub struct MotionDocument {
     outcome: &'static str,
     half_swings: usize,
-    tau: Bounds,
-    q: Option<Bounds>,
-    v: Option<Bounds>,
     turns: Vec<TurnRow>,
-    proved: bool,
-    open: Option<&'static str>,
+    #[serde(flatten)]
+    end: PointBounds,
 }
 
 /// What is enclosed of a point of a motion, a column for each bound.
 #[derive(Serialize)]
 pub struct PointBounds {
-    tau: Bounds,
-    q: Option<Bounds>,
-    v: Option<Bounds>,
+    tau: IntervalDocument,
+    q: Option<IntervalDocument>,
+    v: Option<IntervalDocument>,
     proved: bool,
     open: Option<&'static str>,
 }
@@ -72,13 +69,12 @@ impl PointBounds {
     }
 
     pub fn of_end(motion: &ProvedMotion, until: f64) -> Self {
-        let Followed { tau, q, v, proved, open, .. } = followed(motion, until);
-        PointBounds { tau, q, v, proved, open }
+        followed(motion, until).end
     }
 }
 
 /// A motion until a time, for documents.
-pub fn followed(motion: &ProvedMotion, until: f64) -> Followed {
+pub fn followed(motion: &ProvedMotion, until: f64) -> MotionDocument {
     let turns = motion.turns.iter().map(|turn| TurnRow { tau: turn.tau.into(), q: turn.q.into() });
     let (outcome, tau, q, v, open) = match motion.fate {
         ProvedFate::Captured { tau, q } => ("captured", tau, Some(q), None, None),
@@ -86,16 +82,9 @@ pub fn followed(motion: &ProvedMotion, until: f64) -> Followed {
         ProvedFate::Escaped { tau } => ("escaped", tau, None, None, None),
         ProvedFate::Open { tau, reason } => ("open", tau, None, None, Some(reason)),
     };
-    Followed {
-        outcome,
-        half_swings: motion.turns.len(),
-        tau: tau.into(),
-        q: q.map(Bounds::from),
-        v: v.map(Bounds::from),
-        turns: turns.collect(),
-        proved: open.is_none(),
-        open,
-    }
+    let [q, v] = [q, v].map(|it| it.map(IntervalDocument::from));
+    let end = PointBounds { tau: tau.into(), q, v, proved: open.is_none(), open };
+    MotionDocument { outcome, half_swings: motion.turns.len(), turns: turns.collect(), end }
 }
 
 pub fn motion_line(motion: &ProvedMotion, until: f64) -> String {
@@ -124,8 +113,8 @@ pub fn motion_line(motion: &ProvedMotion, until: f64) -> String {
 #[derive(Serialize)]
 pub struct Survived {
     edge: Option<&'static str>,
-    displacement: Option<Bounds>,
-    impulse: Option<Bounds>,
+    displacement: Option<IntervalDocument>,
+    impulse: Option<IntervalDocument>,
     proved: bool,
     open: Option<&'static str>,
 }
@@ -141,8 +130,8 @@ fn name(edge: ProvedEdge) -> &'static str {
 pub fn survived(kicks: &ProvedKicks) -> Survived {
     Survived {
         edge: kicks.edge.map(name),
-        displacement: kicks.displacement.map(Bounds::from),
-        impulse: kicks.impulse.map(Bounds::from),
+        displacement: kicks.displacement.map(IntervalDocument::from),
+        impulse: kicks.impulse.map(IntervalDocument::from),
         proved: kicks.open.is_none() && kicks.edge.is_some(),
         open: kicks.open.or_else(|| kicks.edge.is_none().then_some("what borders the basin")),
     }
@@ -167,7 +156,7 @@ pub fn kicks_lines(kicks: &ProvedKicks) -> String {
 impl Survived {
     /// With a column for everything.
     pub fn like() -> Self {
-        let all = Some(Bounds::from(Interval::ALL));
+        let all = Some(IntervalDocument::from(Interval::ALL));
         Survived { edge: None, displacement: all, impulse: all, proved: false, open: None }
     }
 }
@@ -175,11 +164,11 @@ impl Survived {
 /// What holds for every value in a piece of a range, a column for each bound.
 #[derive(Clone, Copy, Serialize)]
 pub struct PieceBounds {
-    value: Bounds,
+    value: IntervalDocument,
     cycles: Option<usize>,
     proved: bool,
     /// Where in an open piece the number of cycles changes.
-    change: Option<Bounds>,
+    change: Option<IntervalDocument>,
 }
 
 impl PieceBounds {
@@ -190,7 +179,7 @@ impl PieceBounds {
     }
 
     pub fn of(range: &Range) -> Vec<Self> {
-        let row = |piece: &Piece| {
+        let row = |piece: &RangePiece| {
             let mut changes = range.changes.iter();
             let change = changes.find(|change| change.between.is_within(piece.over));
             let (cycles, value) = (piece.cycles.as_ref().map(Vec::len), piece.over.into());
@@ -204,7 +193,7 @@ impl PieceBounds {
 #[derive(Serialize)]
 struct PieceRow {
     #[serde(flatten)]
-    over: Bounds,
+    over: IntervalDocument,
     cycles: Option<usize>,
     stable: Option<Vec<bool>>,
     proved: bool,
@@ -213,7 +202,7 @@ struct PieceRow {
 #[derive(Serialize)]
 struct ChangeRow {
     #[serde(flatten)]
-    between: Bounds,
+    between: IntervalDocument,
     below: usize,
     above: usize,
 }
@@ -223,25 +212,25 @@ struct ChangeRow {
 pub struct Decided {
     pieces: Vec<PieceRow>,
     changes: Vec<ChangeRow>,
-    open: Vec<Bounds>,
+    open: Vec<IntervalDocument>,
     proved: bool,
 }
 
 /// A range, for documents.
 pub fn decided(range: &Range) -> Decided {
-    let piece = |piece: &Piece| PieceRow {
+    let piece = |piece: &RangePiece| PieceRow {
         over: piece.over.into(),
         cycles: piece.cycles.as_ref().map(Vec::len),
         stable: piece.cycles.clone(),
         proved: piece.cycles.is_some(),
     };
-    let change = |change: &Change| ChangeRow {
+    let change = |change: &CountChange| ChangeRow {
         between: change.between.into(),
         below: change.below.len(),
         above: change.above.len(),
     };
     let open = range.pieces.iter().filter(|piece| piece.cycles.is_none());
-    let open: Vec<Bounds> = open.map(|piece| piece.over.into()).collect();
+    let open: Vec<IntervalDocument> = open.map(|piece| piece.over.into()).collect();
     Decided {
         pieces: range.pieces.iter().map(piece).collect(),
         changes: range.changes.iter().map(change).collect(),
@@ -272,8 +261,8 @@ pub fn range_table(range: &Range, symbol: Symbol) -> String {
 #[derive(Serialize)]
 pub struct Bordered {
     pub value: f64,
-    pub fold: Option<Bounds>,
-    pub escape: Option<Bounds>,
+    pub fold: Option<IntervalDocument>,
+    pub escape: Option<IntervalDocument>,
     /// Whether what the search found is proved.
     pub proved: bool,
     /// What of it is not.
@@ -291,8 +280,8 @@ impl Bordered {
             missing.into_iter().filter_map(|(what, open)| open.then_some(what)).collect();
         Bordered {
             value: point.value,
-            fold: fold.map(Bounds::from),
-            escape: escape.map(Bounds::from),
+            fold: fold.map(IntervalDocument::from),
+            escape: escape.map(IntervalDocument::from),
             proved: open.is_empty(),
             open,
         }
@@ -301,7 +290,7 @@ impl Bordered {
 
 pub fn border_lines(points: &[Bordered], symbol: Symbol) -> String {
     let mut table = Table::new(&[symbol.spec().name, "D_F, proved", "D_c, proved"]);
-    let cell = |it: Option<Bounds>| {
+    let cell = |it: Option<IntervalDocument>| {
         it.map_or("-".to_owned(), |it| certain(Interval::new(it.lower, it.upper), PLACES))
     };
     for point in points {
@@ -394,24 +383,24 @@ pub fn boxed(proof: &Proof) -> impl Serialize {
 /// The same as rows.
 pub fn box_csv(proof: &Proof) -> String {
     #[derive(Serialize)]
-    struct Row {
+    struct BoxRow {
         stable: Option<bool>,
         certified: super::proof::CycleBounds,
     }
-    let cycles = proof.cycles.iter().map(|cycle| Row {
+    let cycles = proof.cycles.iter().map(|cycle| BoxRow {
         stable: Some(cycle.stable),
         certified: super::proof::CycleBounds::of(cycle.enclosure),
     });
     let open = super::proof::CycleBounds::open(proof);
-    let open = open.map(|certified| Row { stable: None, certified });
-    let like = Row { stable: None, certified: super::proof::CycleBounds::like() };
+    let open = open.map(|certified| BoxRow { stable: None, certified });
+    let like = BoxRow { stable: None, certified: super::proof::CycleBounds::like() };
     super::csv::sheet(&like, cycles.chain(open))
 }
 
 /// What a checked certificate says.
 pub fn certificate_table(certificate: &Certificate) -> String {
-    let interval = |[lower, upper]: Pair| Interval::new(lower, upper);
-    let value = |(name, it): (&str, Pair)| {
+    let interval = |[lower, upper]: Bounds| Interval::new(lower, upper);
+    let value = |(name, it): (&str, Bounds)| {
         if it[0] == it[1] {
             format!("{name} = {:?}", it[0])
         } else {

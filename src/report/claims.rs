@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::csv;
+use super::json::{Seconds, text};
 use crate::flow::Reason;
 use crate::numerics::Interval;
 use crate::study::claims::{Certainty, Examined, Finding, Sense, Verdict};
@@ -10,7 +11,7 @@ use crate::words::claim;
 use crate::words::number::{duration, significant};
 
 #[derive(Default, Serialize)]
-struct Row<'a> {
+struct ClaimRow<'a> {
     equation: &'a str,
     section: &'a str,
     claim: &'a str,
@@ -35,21 +36,16 @@ struct Row<'a> {
 
 /// One claim of a document.
 #[derive(Serialize)]
-struct ClaimRow<'a> {
+struct ReasonedClaim<'a> {
     #[serde(flatten)]
-    row: Row<'a>,
+    row: ClaimRow<'a>,
     reason: Option<String>,
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
-    claims: Vec<ClaimRow<'a>>,
-    cost: Cost,
-}
-
-#[derive(Serialize)]
-struct Cost {
-    seconds: f64,
+struct ClaimDocument<'a> {
+    claims: Vec<ReasonedClaim<'a>>,
+    cost: Seconds,
 }
 
 fn sense(sense: Sense) -> &'static str {
@@ -62,12 +58,12 @@ fn sense(sense: Sense) -> &'static str {
     }
 }
 
-fn row(examined: &Examined) -> Row<'_> {
+fn row(examined: &Examined) -> ClaimRow<'_> {
     let claim = examined.claim;
     let finding = examined.finding.as_ref().ok();
     let verdict = finding.map(Finding::verdict);
     let bounds = finding.and_then(|finding| finding.computed.bounds);
-    Row {
+    ClaimRow {
         equation: claim.equation,
         section: claim.section,
         claim: claim.statement,
@@ -92,14 +88,14 @@ fn row(examined: &Examined) -> Row<'_> {
 /// One document with every claim.
 pub fn json(examined: &[Examined], seconds: f64) -> String {
     let reason = |examined: &Examined| examined.finding.as_ref().err().map(Reason::to_string);
-    let claim = |examined| ClaimRow { row: row(examined), reason: reason(examined) };
+    let claim = |examined| ReasonedClaim { row: row(examined), reason: reason(examined) };
     let claims = examined.iter().map(claim).collect();
-    super::json::text(&Document { claims, cost: Cost { seconds } })
+    text(&ClaimDocument { claims, cost: Seconds { seconds } })
 }
 
 /// One row for each claim.
 pub fn csv(examined: &[Examined]) -> String {
-    csv::sheet(&Row::default(), examined.iter().map(row))
+    csv::sheet(&ClaimRow::default(), examined.iter().map(row))
 }
 
 /// Columns for reading: the numbers first, because what is claimed has no fixed length.

@@ -107,7 +107,7 @@ mod tests {
     use super::*;
 
     #[derive(Serialize, Default)]
-    struct Row {
+    struct SampleRow {
         name: &'static str,
         number: f64,
         #[serde(flatten)]
@@ -123,8 +123,9 @@ mod tests {
 
     #[test]
     fn columns_are_the_fields_and_numbers_have_all_digits() {
-        let row = |number| Row { name: "a,b", number, ..Row::default() };
-        let text = sheet(&Row::default(), [row(0.1 + 0.2), row(-3.0), row(5e-5), row(f64::NAN)]);
+        let row = |number| SampleRow { name: "a,b", number, ..SampleRow::default() };
+        let text =
+            sheet(&SampleRow::default(), [row(0.1 + 0.2), row(-3.0), row(5e-5), row(f64::NAN)]);
         let lines = [
             "name,number,count,unknown",
             "\"a,b\",0.30000000000000004,0,",
@@ -138,7 +139,7 @@ mod tests {
     #[test]
     fn bounds_have_two_columns() {
         #[derive(Serialize)]
-        struct Sure {
+        struct CertifiedRow {
             q: f64,
             certified: Bounds,
         }
@@ -147,7 +148,7 @@ mod tests {
             q: [f64; 2],
             proved: bool,
         }
-        let row = |q: [f64; 2]| Sure { q: 1.0, certified: Bounds { q, proved: true } };
+        let row = |q: [f64; 2]| CertifiedRow { q: 1.0, certified: Bounds { q, proved: true } };
         let rows = [row([0.5, 1.5]), row([0.5, f64::INFINITY])];
         let lines = ["q,q_lower,q_upper,proved", "1.0,0.5,1.5,true", "1.0,0.5,,true"];
         assert_eq!(sheet(&rows[0], &rows).lines().collect::<Vec<_>>(), lines);
@@ -155,7 +156,7 @@ mod tests {
 
     #[test]
     fn a_row_fills_the_columns_that_it_knows() {
-        let mut sheet = Sheet::like(&Row::default(), &[("count", "how many")]);
+        let mut sheet = Sheet::like(&SampleRow::default(), &[("count", "how many")]);
         sheet.row(&More { count: 2, unknown: Some(1.0) });
         assert_eq!(sheet.into_text(), "name,number,how many,unknown\n,,2,1.0\n");
     }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::csv;
-use super::json::{self, Price};
+use super::json::{self, CountedCost};
 use super::proof::{self, CycleBounds, certain, enclosure};
 use super::table::{Table, parameters};
 use super::{basin, harmonic_balance};
@@ -22,15 +22,15 @@ struct Basin {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct CycleDocument<'a> {
     parameters: &'a Parameters,
-    cycles: Vec<proof::Row<'a>>,
+    cycles: Vec<proof::ProvedCycleDocument<'a>>,
     count: proof::Count<'a>,
     harmonic: &'a [Harmonic],
     #[serde(skip_serializing_if = "Option::is_none")]
-    balance: Option<Vec<harmonic_balance::Row>>,
+    balance: Option<Vec<harmonic_balance::BalanceRow>>,
     basin: Basin,
-    cost: Price,
+    cost: CountedCost,
 }
 
 /// Every cycle with what is proved about it, and beside them the harmonic balance if asked for.
@@ -40,31 +40,31 @@ pub fn json(
     rungs: Option<&[HarmonicBalance]>,
     seconds: f64,
 ) -> String {
-    json::text(&Document {
+    json::text(&CycleDocument {
         parameters: &found.parameters,
         cycles: proof::rows(&found.cycles, proof),
         count: proof::count(proof),
         harmonic: &found.harmonic,
         balance: rungs.map(harmonic_balance::rows),
         basin: Basin { edge: found.edge },
-        cost: Price { counted: found.cost, seconds },
+        cost: CountedCost { counted: found.cost, seconds },
     })
 }
 
 /// One row for each cycle, and for each interval of clearances that is open.
 pub fn csv(found: &Cycles, proof: &Proof) -> String {
     #[derive(Serialize)]
-    struct Row<'a> {
+    struct CycleRow<'a> {
         #[serde(flatten)]
         cycle: Option<&'a Cycle>,
         certified: CycleBounds,
     }
-    let cycles = found.cycles.iter().map(|cycle| Row {
+    let cycles = found.cycles.iter().map(|cycle| CycleRow {
         cycle: Some(cycle),
         certified: CycleBounds::of(enclosure(proof, cycle)),
     });
-    let open = CycleBounds::open(proof).map(|certified| Row { cycle: None, certified });
-    let like = Row { cycle: Some(&Cycle::default()), certified: CycleBounds::like() };
+    let open = CycleBounds::open(proof).map(|certified| CycleRow { cycle: None, certified });
+    let like = CycleRow { cycle: Some(&Cycle::default()), certified: CycleBounds::like() };
     csv::sheet(&like, cycles.chain(open))
 }
 

@@ -36,7 +36,7 @@ pub fn table(verdicts: &[SetVerdict]) -> String {
     );
     format!(
         "Every limit cycle by amplitude, or why the search gave up within {BUDGET} evaluations of a half \
-         map.\nResidual: by what part of the clearance a turn fails to close, followed again by other \
+         map.\nResidual: by what fraction of the clearance a turn fails to close, followed again by other \
          steps.\n\n{}\n{}",
         rows.aligned_left(),
         summary(verdicts)
@@ -45,7 +45,7 @@ pub fn table(verdicts: &[SetVerdict]) -> String {
 
 /// As comma-separated values: one row for each cycle, or for a set without any.
 pub fn csv(verdicts: &[SetVerdict]) -> String {
-    let row = |verdict: &SetVerdict, answer, found: Option<&LatticeCycle>| Row {
+    let row = |verdict: &SetVerdict, answer, found: Option<&LatticeCycle>| ExtremeCyclesRow {
         parameters: verdict.parameters,
         answer,
         reason: match &verdict.answer {
@@ -63,7 +63,7 @@ pub fn csv(verdicts: &[SetVerdict]) -> String {
             cycles.iter().map(|found| row(verdict, "cycle", Some(found))).collect()
         }
     });
-    let like = Row {
+    let like = ExtremeCyclesRow {
         parameters: Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 },
         answer: "",
         reason: None,
@@ -76,7 +76,7 @@ pub fn csv(verdicts: &[SetVerdict]) -> String {
 
 /// A set of parameters with one of its cycles.
 #[derive(Serialize)]
-struct Row {
+struct ExtremeCyclesRow {
     #[serde(flatten)]
     parameters: Parameters,
     answer: &'static str,
@@ -88,14 +88,14 @@ struct Row {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct ExtremeCyclesDocument<'a> {
     budget: u64,
     sets: &'a [SetVerdict],
 }
 
 /// As one JSON document.
 pub fn json(verdicts: &[SetVerdict]) -> String {
-    json::text(&Document { budget: BUDGET, sets: verdicts })
+    json::text(&ExtremeCyclesDocument { budget: BUDGET, sets: verdicts })
 }
 
 /// The answer in a few words.
@@ -110,7 +110,7 @@ fn sentence(answer: &SetAnswer) -> String {
     }
 }
 
-/// How often which answer came.
+/// How many times each answer came.
 fn summary(verdicts: &[SetVerdict]) -> String {
     let gave_up = |it: &&SetVerdict| matches!(it.answer, SetAnswer::GaveUp { .. });
     let with = |count: usize| {

@@ -5,14 +5,15 @@ use serde::Serialize;
 use super::csv;
 use super::json;
 use super::table::Table;
+use super::trajectory::ending;
 use crate::flow::{Method, Outcome};
 use crate::oscillator::Parameters;
 use crate::study::extremes::verdict::{BUDGET, METHODS};
-use crate::study::extremes::{MethodAnswer, MethodsVerdict, Named};
+use crate::study::extremes::{MethodAnswer, MethodsVerdict, NamedExtreme};
 use crate::words::number::{exact as short, significant};
 
 /// As a table to read: the answer of `auto` and its cost, then the digits that each method lost.
-pub fn table(verdicts: &[MethodsVerdict], named: &[Named], tolerance: f64) -> String {
+pub fn table(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: f64) -> String {
     let mut titles = vec!["D", "r", "D2", "D3", "start", "answer", "evaluations", "sensitive"];
     titles.extend(METHODS.map(|method| method.spec().name));
     let mut rows = Table::new(&titles);
@@ -39,16 +40,16 @@ pub fn table(verdicts: &[MethodsVerdict], named: &[Named], tolerance: f64) -> St
 
 /// As comma-separated values: one row for each motion and method, all digits.
 pub fn csv(verdicts: &[MethodsVerdict]) -> String {
-    let rows = verdicts
-        .iter()
-        .flat_map(|verdict| verdict.answers.iter().map(move |answer| Row::new(verdict, answer)));
-    let rows: Vec<Row> = rows.collect();
+    let rows = verdicts.iter().flat_map(|verdict| {
+        verdict.answers.iter().map(move |answer| ExtremesRow::new(verdict, answer))
+    });
+    let rows: Vec<ExtremesRow> = rows.collect();
     rows.first().map_or_else(String::new, |first| csv::sheet(first, &rows))
 }
 
 /// A motion by one method.
 #[derive(Serialize)]
-struct Row {
+struct ExtremesRow {
     #[serde(flatten)]
     parameters: Parameters,
     start: String,
@@ -67,19 +68,14 @@ struct Row {
     steps: u64,
 }
 
-impl Row {
+impl ExtremesRow {
     fn new(verdict: &MethodsVerdict, answer: &MethodAnswer) -> Self {
-        let (kind, tau, q, v) = match answer.outcome {
-            Outcome::Captured { tau, q } => ("captured", tau, Some(q), Some(0.0)),
-            Outcome::Moving { tau, q, v } => ("moving", tau, Some(q), Some(v)),
-            Outcome::Escaped { tau } => ("escaped", tau, None, None),
-            Outcome::GaveUp { tau, .. } => ("gave-up", tau, None, None),
-        };
+        let (kind, tau, q, v) = ending(&answer.outcome);
         let reason = match answer.outcome {
             Outcome::GaveUp { reason, .. } => Some(reason.to_string()),
             _ => None,
         };
-        Row {
+        ExtremesRow {
             parameters: verdict.case.parameters,
             start: verdict.case.start.to_string(),
             q0: verdict.case.initial.q,
@@ -100,16 +96,16 @@ impl Row {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct ExtremesDocument<'a> {
     tolerance: f64,
     budget: u64,
     motions: &'a [MethodsVerdict],
-    named: &'a [Named],
+    named: &'a [NamedExtreme],
 }
 
 /// As one JSON document.
-pub fn json(verdicts: &[MethodsVerdict], named: &[Named], tolerance: f64) -> String {
-    json::text(&Document { tolerance, budget: BUDGET, motions: verdicts, named })
+pub fn json(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: f64) -> String {
+    json::text(&ExtremesDocument { tolerance, budget: BUDGET, motions: verdicts, named })
 }
 
 /// What became of a motion, in a few words.
@@ -138,7 +134,7 @@ fn mark(answer: &MethodAnswer) -> String {
     }
 }
 
-/// How often each method answered how well.
+/// How many times each method answered, and how well.
 fn summary(verdicts: &[MethodsVerdict]) -> String {
     type Asked<'a> = (Method, Vec<&'a MethodAnswer>);
     let asked = |method| (method, verdicts.iter().filter_map(|it| it.answer(method)).collect());
@@ -171,7 +167,7 @@ fn summary(verdicts: &[MethodsVerdict]) -> String {
     table.to_string()
 }
 
-fn names(named: &[Named]) -> String {
+fn names(named: &[NamedExtreme]) -> String {
     let table = Table::of(
         named,
         &[

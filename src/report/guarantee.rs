@@ -3,24 +3,24 @@
 use serde::Serialize;
 
 use super::csv;
-use super::json::{Price, text};
+use super::json::{CountedCost, text};
 use crate::oscillator::{Interval, ParameterBox, Symbol};
 use crate::study::Margin;
 use crate::study::guarantee::{Guarantee, Guaranteed};
 use crate::words::number::{duration, significant};
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct GuaranteeDocument<'a> {
     nominal: Margin,
     guaranteed: Guaranteed,
     disturbance: f64,
     parameters: &'a ParameterBox,
-    cost: Price,
+    cost: CountedCost,
 }
 
 /// One of the two margins.
 #[derive(Serialize)]
-struct Row {
+struct GuaranteeRow {
     margin: &'static str,
     #[serde(flatten)]
     found: Margin,
@@ -28,21 +28,21 @@ struct Row {
 }
 
 pub fn json(found: &Guarantee, seconds: f64) -> String {
-    text(&Document {
+    text(&GuaranteeDocument {
         nominal: found.nominal,
         guaranteed: found.guaranteed,
         disturbance: found.disturbance,
         parameters: &found.known,
-        cost: Price { counted: found.cost, seconds },
+        cost: CountedCost { counted: found.cost, seconds },
     })
 }
 
 /// One row for the nominal and one for the guaranteed margin.
 pub fn csv(found: &Guarantee) -> String {
-    let nominal = Row { margin: "nominal", found: found.nominal, reason: None };
+    let nominal = GuaranteeRow { margin: "nominal", found: found.nominal, reason: None };
     let Guaranteed { margin, reason } = found.guaranteed;
     let reason = reason.map(|reason| reason.to_string());
-    csv::sheet(&nominal, [&nominal, &Row { margin: "guaranteed", found: margin, reason }])
+    csv::sheet(&nominal, [&nominal, &GuaranteeRow { margin: "guaranteed", found: margin, reason }])
 }
 
 /// What keeps a number of 12 digits from being rounded up.

@@ -15,7 +15,7 @@ use crate::words::stability;
 
 /// One number of harmonics on the branch of one first-order answer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Row {
+pub struct BalanceRow {
     harmonics: usize,
     stable: bool,
     amplitude: Option<f64>,
@@ -32,11 +32,11 @@ pub struct Row {
     lost: Option<String>,
 }
 
-impl Row {
+impl BalanceRow {
     fn new(harmonics: usize, balanced: &Balanced) -> Self {
         let cycle = balanced.cycle.as_ref();
         let of = |number: fn(&HarmonicCycle) -> f64| cycle.ok().map(number);
-        Row {
+        BalanceRow {
             harmonics,
             stable: balanced.first.stable,
             amplitude: of(HarmonicCycle::amplitude),
@@ -56,10 +56,10 @@ impl Row {
 }
 
 /// All rows, branch by branch.
-pub fn rows(rungs: &[HarmonicBalance]) -> Vec<Row> {
+pub fn rows(rungs: &[HarmonicBalance]) -> Vec<BalanceRow> {
     let branches = rungs.first().map_or(0, |rung| rung.balanced.len());
     let row = |branch: usize, rung: &HarmonicBalance| {
-        rung.balanced.get(branch).map(|balanced| Row::new(rung.harmonics, balanced))
+        rung.balanced.get(branch).map(|balanced| BalanceRow::new(rung.harmonics, balanced))
     };
     (0..branches)
         .flat_map(|branch| rungs.iter().filter_map(move |rung| row(branch, rung)))
@@ -103,7 +103,7 @@ pub fn table(rungs: &[HarmonicBalance]) -> String {
 }
 
 /// What is to be said about a row.
-fn note(row: &Row) -> Option<String> {
+fn note(row: &BalanceRow) -> Option<String> {
     let crossings = row.crossings.filter(|crossings| *crossings != 2);
     let more = crossings.map(|crossings| {
         let harmonics = row.harmonics;
@@ -113,5 +113,5 @@ fn note(row: &Row) -> Option<String> {
 }
 
 pub fn csv(rungs: &[HarmonicBalance]) -> String {
-    csv::sheet(&Row::default(), rows(rungs))
+    csv::sheet(&BalanceRow::default(), rows(rungs))
 }

@@ -6,9 +6,16 @@ use crate::flow::Cost;
 
 /// What an answer cost, counted and timed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Price {
+pub struct CountedCost {
     #[serde(flatten)]
     pub counted: Cost,
+    /// Wall-clock seconds inside the process.
+    pub seconds: f64,
+}
+
+/// What an answer cost that has nothing to count.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Seconds {
     /// Wall-clock seconds inside the process.
     pub seconds: f64,
 }

@@ -3,26 +3,21 @@
 use serde::Serialize;
 
 use super::csv;
-use super::json::{Price, text};
+use super::json::{CountedCost, text};
 use super::table::parameters as named;
 use crate::oscillator::Parameters;
 use crate::study::kicks::RandomKick;
 use crate::study::repeated::Repeated;
+use crate::study::stability::Share;
 use crate::words::number::{duration, significant};
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct KicksDocument<'a> {
     parameters: &'a Parameters,
     kicks: String,
-    lost: LostRow,
+    lost: Share,
     repeated: Again<'a>,
-    cost: Price,
-}
-
-#[derive(Serialize)]
-struct LostRow {
-    part: f64,
-    error: f64,
+    cost: CountedCost,
 }
 
 #[derive(Serialize)]
@@ -35,31 +30,31 @@ struct Again<'a> {
 
 /// How dense the places of rest are at one of them.
 #[derive(Default, Serialize)]
-struct Row {
+struct KicksRow {
     q: f64,
     density: f64,
 }
 
 /// One document; `mean` is null where no kick is ever lost.
 pub fn json(parameters: &Parameters, kicks: &RandomKick, found: &Repeated, seconds: f64) -> String {
-    text(&Document {
+    text(&KicksDocument {
         parameters,
         kicks: kicks.to_string(),
-        lost: LostRow { part: found.first.part, error: found.first.error },
+        lost: found.first,
         repeated: Again {
             lost: found.later,
             mean: found.mean.is_finite().then_some(found.mean),
             error: found.error,
             density: &found.density,
         },
-        cost: Price { counted: found.cost, seconds },
+        cost: CountedCost { counted: found.cost, seconds },
     })
 }
 
 /// The density of the places of rest, one cell a row.
 pub fn csv(parameters: &Parameters, found: &Repeated) -> String {
-    let row = |(q, density)| Row { q, density };
-    csv::sheet(&Row::default(), found.places(parameters.r).map(row))
+    let row = |(q, density)| KicksRow { q, density };
+    csv::sheet(&KicksRow::default(), found.places(parameters.r).map(row))
 }
 
 pub fn table(

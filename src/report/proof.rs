@@ -14,7 +14,7 @@ use crate::words::number::significant;
 
 /// A cycle with what is proved about it.
 #[derive(Serialize)]
-pub(super) struct Row<'a> {
+pub(super) struct ProvedCycleDocument<'a> {
     #[serde(flatten)]
     cycle: &'a Cycle,
     /// Whether it exists, is the only one near by, and is enclosed.
@@ -81,10 +81,10 @@ pub(super) struct Count<'a> {
 }
 
 /// The rows of a document.
-pub(super) fn rows<'a>(cycles: &'a [Cycle], proof: &Proof) -> Vec<Row<'a>> {
+pub(super) fn rows<'a>(cycles: &'a [Cycle], proof: &Proof) -> Vec<ProvedCycleDocument<'a>> {
     let row = |cycle| {
         let enclosure = enclosure(proof, cycle);
-        Row { cycle, proved: enclosure.is_some(), enclosure }
+        ProvedCycleDocument { cycle, proved: enclosure.is_some(), enclosure }
     };
     cycles.iter().map(row).collect()
 }

@@ -1,8 +1,9 @@
-//! Rows of a scan as text, one line each: the one writer of the command line, of files and of the
-//! explorer.
+//! Rows of a scan as text, one line each, for the command line, for files and for the explorer.
 //!
-//! A line states all that its row depends on before what was measured, so that lines can be checked,
-//! sorted, and put together with those of other scans, whatever file they come from.
+//! A line begins with everything that its row depends on, so that lines can be checked, sorted, and combined
+//! with those of other scans, whatever file they come from.
+
+use clap::ValueEnum;
 
 use super::csv;
 use crate::study::measure::Value;
@@ -10,14 +11,15 @@ use crate::study::scan::{Scan, ScanRow};
 use crate::words::measured::{exact, rounded};
 
 /// The form of the rows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum RowForm {
-    /// Names in the first line, then one row a line, all digits.
-    Csv,
-    /// One JSON object a line, all digits.
-    Json,
     /// Aligned columns, to read.
     Table,
+    /// One object per line, all digits.
+    #[value(alias = "jsonl")]
+    Json,
+    /// One row per line after a line of names, all digits.
+    Csv,
 }
 
 /// Width of a column of the table: eight digits, sign, point and exponent.

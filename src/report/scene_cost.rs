@@ -8,17 +8,18 @@ use serde::Serialize;
 use super::csv::Sheet;
 use super::table::Table;
 use crate::flow::Cost;
-use crate::scene::{Layer, Scene, Topic};
+use crate::scene::{Scene, Topic};
 use crate::session::requirement::named;
 use crate::words::number::{count, duration};
 
-/// A question that was answered, and its price.
-#[derive(Clone, Debug)]
-pub struct Question {
+/// A question that was answered, and what it cost.
+#[derive(Clone, Debug, Serialize)]
+pub struct QuestionCost {
+    #[serde(rename = "question")]
     pub topic: Topic,
-    /// The layers that draw the answer.
-    pub layers: Vec<Layer>,
-    /// What it cost, counted.
+    /// The names of the layers that draw the answer.
+    pub layers: Vec<&'static str>,
+    #[serde(flatten)]
     pub cost: Cost,
     pub seconds: f64,
 }
@@ -28,7 +29,7 @@ pub struct Question {
 pub struct StepCost {
     pub name: &'static str,
     /// What was asked again.
-    pub recomputed: Vec<Question>,
+    pub recomputed: Vec<QuestionCost>,
     /// What stayed as it was.
     pub reused: Vec<Topic>,
 }
@@ -37,112 +38,87 @@ pub struct StepCost {
 pub struct SceneCost {
     pub scene: Arc<Scene>,
     /// The questions with which it opens.
-    pub questions: Vec<Question>,
-    /// The layers that formulas draw.
-    pub formulas: Vec<Layer>,
+    pub questions: Vec<QuestionCost>,
+    /// The names of the layers that formulas draw.
+    pub formulas: Vec<&'static str>,
     /// What a step of each of its numbers costs.
     pub steps: Vec<StepCost>,
 }
 
 #[derive(Serialize)]
-struct QuestionDocument {
-    question: &'static str,
-    layers: Vec<&'static str>,
-    evaluations: u64,
-    steps: u64,
-    rejected: u64,
-    seconds: f64,
-}
-
-#[derive(Serialize)]
-struct StepDocument {
+struct StepDocument<'a> {
     parameter: &'static str,
-    recomputed: Vec<&'static str>,
-    reused: Vec<&'static str>,
+    recomputed: Vec<Topic>,
+    reused: &'a [Topic],
     evaluations: u64,
     steps: u64,
     seconds: f64,
 }
 
 #[derive(Serialize)]
-struct SceneDocument<'a> {
+struct SceneCostDocument<'a> {
     scene: &'a str,
-    questions: Vec<QuestionDocument>,
-    formulas: Vec<&'static str>,
+    questions: &'a [QuestionCost],
+    formulas: &'a [&'static str],
     evaluations: u64,
     seconds: f64,
-    steps: Vec<StepDocument>,
+    steps: Vec<StepDocument<'a>>,
 }
 
-fn sum(questions: &[Question]) -> (Cost, f64) {
+fn sum(questions: &[QuestionCost]) -> (Cost, f64) {
     questions.iter().fold((Cost::default(), 0.0), |(mut cost, seconds), question| {
         cost += question.cost;
         (cost, seconds + question.seconds)
     })
 }
 
-fn layers(layers: &[Layer]) -> Vec<&'static str> {
-    layers.iter().map(|layer| layer.spec().name).collect()
-}
-
-fn questions(questions: &[Question]) -> Vec<&'static str> {
-    questions.iter().map(|question| question.topic.name()).collect()
-}
-
-fn topics(topics: &[Topic]) -> Vec<&'static str> {
-    topics.iter().map(|topic| topic.name()).collect()
-}
-
 /// One document with all scenes.
 pub fn json(scenes: &[SceneCost]) -> String {
-    let question = |question: &Question| QuestionDocument {
-        question: question.topic.name(),
-        layers: layers(&question.layers),
-        evaluations: question.cost.evaluations,
-        steps: question.cost.steps,
-        rejected: question.cost.rejected,
-        seconds: question.seconds,
-    };
-    let step = |step: &StepCost| {
-        let (cost, seconds) = sum(&step.recomputed);
+    super::json::text(&scenes.iter().map(SceneCostDocument::from).collect::<Vec<_>>())
+}
+
+impl<'a> From<&'a SceneCost> for SceneCostDocument<'a> {
+    fn from(found: &'a SceneCost) -> Self {
+        let (cost, seconds) = sum(&found.questions);
+        SceneCostDocument {
+            scene: &found.scene.name,
+            questions: &found.questions,
+            formulas: &found.formulas,
+            evaluations: cost.evaluations,
+            seconds,
+            steps: found.steps.iter().map(StepDocument::from).collect(),
+        }
+    }
+}
+
+impl<'a> From<&'a StepCost> for StepDocument<'a> {
+    fn from(StepCost { name, recomputed, reused }: &'a StepCost) -> Self {
+        let (cost, seconds) = sum(recomputed);
         StepDocument {
-            parameter: step.name,
-            recomputed: questions(&step.recomputed),
-            reused: topics(&step.reused),
+            parameter: name,
+            recomputed: recomputed.iter().map(|question| question.topic).collect(),
+            reused,
             evaluations: cost.evaluations,
             steps: cost.steps,
             seconds,
         }
-    };
-    let mut documents = Vec::new();
-    for found in scenes {
-        let (cost, seconds) = sum(&found.questions);
-        documents.push(SceneDocument {
-            scene: &found.scene.name,
-            questions: found.questions.iter().map(question).collect(),
-            formulas: layers(&found.formulas),
-            evaluations: cost.evaluations,
-            seconds,
-            steps: found.steps.iter().map(step).collect(),
-        });
     }
-    super::json::text(&documents)
 }
 
 /// One line for each question of each scene, when it opens and after each step.
 pub fn csv(scenes: &[SceneCost]) -> String {
-    let mut sheet = Sheet::like(&Row::default(), &[]);
+    let question = &QuestionCost {
+        topic: Topic::Trajectory,
+        layers: Vec::new(),
+        cost: Cost::default(),
+        seconds: 0.0,
+    };
+    let mut sheet = Sheet::like(&SceneCostRow { scene: "", after: "", question }, &[]);
     for found in scenes {
         let steps = found.steps.iter().map(|step| (step.name, &step.recomputed));
         for (after, questions) in std::iter::once(("opening", &found.questions)).chain(steps) {
-            for Question { topic, cost, seconds, .. } in questions {
-                sheet.row(&Row {
-                    scene: &found.scene.name,
-                    after,
-                    question: topic.name(),
-                    cost: *cost,
-                    seconds: *seconds,
-                });
+            for question in questions {
+                sheet.row(&SceneCostRow { scene: &found.scene.name, after, question });
             }
         }
     }
@@ -150,14 +126,12 @@ pub fn csv(scenes: &[SceneCost]) -> String {
 }
 
 /// A question of a scene, when it opens or after a step.
-#[derive(Default, Serialize)]
-struct Row<'a> {
+#[derive(Serialize)]
+struct SceneCostRow<'a> {
     scene: &'a str,
     after: &'a str,
-    question: &'a str,
     #[serde(flatten)]
-    cost: Cost,
-    seconds: f64,
+    question: &'a QuestionCost,
 }
 
 /// To read: one paragraph for each scene.
@@ -175,7 +149,7 @@ pub fn table(scenes: &[SceneCost]) -> String {
         };
         for question in &found.questions {
             let price = (question.cost, question.seconds);
-            let remark = format!("for {}", layers(&question.layers).join(", "));
+            let remark = format!("for {}", question.layers.join(", "));
             row(question.topic.name().to_owned(), price, remark);
         }
         row("all of it".to_owned(), sum(&found.questions), String::new());
@@ -191,7 +165,7 @@ pub fn table(scenes: &[SceneCost]) -> String {
         }
         let formulas = match &found.formulas[..] {
             [] => String::new(),
-            formulas => format!("by formulas: {}\n", layers(formulas).join(", ")),
+            formulas => format!("by formulas: {}\n", formulas.join(", ")),
         };
         format!("{}: {}\n{table}{formulas}", found.scene.name, found.scene.title)
     };

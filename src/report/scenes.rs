@@ -10,7 +10,7 @@ use crate::scene::said::{Condition, said};
 use crate::session::Keymap;
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct SceneDocument<'a> {
     name: &'a str,
     title: &'a str,
     look: String,
@@ -22,7 +22,7 @@ struct Document<'a> {
 
 /// A scene and what it is called.
 #[derive(Default, Serialize)]
-struct Row<'a> {
+struct SceneRow<'a> {
     name: &'a str,
     title: &'a str,
 }
@@ -32,7 +32,7 @@ pub fn json<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
     // What always holds, and what holds of the numbers given here.
     let here = |one| matches!(one, Condition::Here | Condition::Path | Condition::Opened);
     let sentence = |text: &str| keymap.fill(&said(text, here), |key| key.to_string());
-    let document = |scene: &'a Scene, name: &'a str| Document {
+    let document = |scene: &'a Scene, name: &'a str| SceneDocument {
         name,
         title: &scene.title,
         look: sentence(&scene.look),
@@ -47,6 +47,6 @@ pub fn json<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
 
 /// One row for each name of a scene.
 pub fn csv<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
-    let rows = |scene: &'a Scene| scene.names().map(|name| Row { name, title: &scene.title });
-    csv::sheet(&Row::default(), scenes.into_iter().flat_map(rows))
+    let rows = |scene: &'a Scene| scene.names().map(|name| SceneRow { name, title: &scene.title });
+    csv::sheet(&SceneRow::default(), scenes.into_iter().flat_map(rows))
 }

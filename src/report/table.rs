@@ -14,8 +14,8 @@ pub struct Table {
     rows: Vec<Vec<String>>,
 }
 
-/// A column: its title, and what stands in it for a row.
-pub type Column<'a, R> = (&'static str, &'a dyn Fn(&R) -> String);
+/// A column: its title, and the cell of a row.
+pub type TableColumn<'a, R> = (&'static str, &'a dyn Fn(&R) -> String);
 
 impl Table {
     /// Whether there are no rows.
@@ -28,8 +28,8 @@ impl Table {
         Table { titles: titles.to_vec(), rows: Vec::new() }
     }
 
-    /// Columns by their titles, and what stands in each for a row.
-    pub fn of<R>(rows: &[R], columns: &[Column<R>]) -> Self {
+    /// A table with these columns, and a line for each row.
+    pub fn of<R>(rows: &[R], columns: &[TableColumn<R>]) -> Self {
         let cells = |row: &R| columns.iter().map(|(_, cell)| cell(row)).collect();
         let titles = columns.iter().map(|(title, _)| *title).collect();
         Table { titles, rows: rows.iter().map(cells).collect() }

@@ -23,7 +23,7 @@ pub struct Timed {
 /// One method at one accuracy that has an error.
 #[derive(Clone, Debug, Serialize)]
 #[expect(clippy::struct_excessive_bools, reason = "fields of a document")]
-struct Row {
+struct TradeRow {
     method: Method,
     /// The method that `auto` chose.
     used: Method,
@@ -59,7 +59,7 @@ struct Unanswered {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct TradeDocument<'a> {
     parameters: &'a Parameters,
     initial: &'a State,
     until: f64,
@@ -67,7 +67,7 @@ struct Document<'a> {
     reference_error: f64,
     scale: f64,
     turns: usize,
-    rows: Vec<Row>,
+    rows: Vec<TradeRow>,
     unanswered: Vec<Unanswered>,
 }
 
@@ -75,7 +75,7 @@ struct Document<'a> {
 #[derive(Serialize)]
 struct Reasoned<'a> {
     #[serde(flatten)]
-    row: &'a Row,
+    row: &'a TradeRow,
     reason: Option<&'a str>,
 }
 
@@ -90,7 +90,7 @@ fn dials(row: &trade::Tried) -> [Option<f64>; 3] {
 
 impl Timed {
     /// The rows that have an error.
-    fn rows(&self) -> Vec<Row> {
+    fn rows(&self) -> Vec<TradeRow> {
         let trade = &self.trade;
         let by_time = trade.front(&self.seconds);
         let by_evaluations = trade.front(&trade.evaluations());
@@ -100,7 +100,7 @@ impl Timed {
             .filter_map(|((row, &seconds), (front, front_by_evaluations))| {
                 let deviation = row.deviation.ok()?;
                 let [tolerance, step, epsilon] = dials(row);
-                Some(Row {
+                Some(TradeRow {
                     method: row.problem.method,
                     used: row.method,
                     tolerance,
@@ -162,7 +162,7 @@ pub fn reference(trade: &Trade) -> String {
 
 pub fn json(timed: &Timed) -> String {
     let Trade { problem, reference: known, .. } = &timed.trade;
-    super::json::text(&Document {
+    super::json::text(&TradeDocument {
         parameters: &problem.parameters,
         initial: &problem.initial,
         until: problem.until,
@@ -272,7 +272,7 @@ pub fn digits(timed: &Timed) -> String {
     let mut table = Table::new(&titles);
     let rows = timed.rows();
     for spec in METHODS {
-        let own: Vec<&Row> = rows.iter().filter(|row| row.method == spec.method).collect();
+        let own: Vec<&TradeRow> = rows.iter().filter(|row| row.method == spec.method).collect();
         if own.is_empty() {
             continue;
         }
@@ -281,7 +281,7 @@ pub fn digits(timed: &Timed) -> String {
     table.to_string()
 }
 
-fn line_of_digits(spec: &MethodSpec, rows: &[&Row]) -> Vec<String> {
+fn line_of_digits(spec: &MethodSpec, rows: &[&TradeRow]) -> Vec<String> {
     let cheapest = |error: f64| {
         let good = rows.iter().filter(|row| row.error <= error);
         good.min_by_key(|row| row.evaluations)
@@ -304,7 +304,7 @@ fn line_of_digits(spec: &MethodSpec, rows: &[&Row]) -> Vec<String> {
 }
 
 /// By what factor one digit more multiplies the evaluations, from the worst row to the best.
-fn growth(rows: &[&Row]) -> Option<f64> {
+fn growth(rows: &[&TradeRow]) -> Option<f64> {
     let known = || rows.iter().filter(|row| row.error > 0.0 && row.evaluations > 0);
     let worst = known().max_by(|one, other| one.error.total_cmp(&other.error))?;
     let best = known().min_by(|one, other| one.error.total_cmp(&other.error))?;

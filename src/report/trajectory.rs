@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::certified::{Followed, PointBounds, followed};
+use super::certified::{MotionDocument, PointBounds, followed};
 use super::csv;
-use super::json::{self, Price};
+use super::json::{self, CountedCost};
 use super::table::{Table, digits, motion as question};
 use crate::flow::{Crossing, Method, Outcome, Trajectory};
 use crate::numerics::Interval;
@@ -14,7 +14,7 @@ use crate::words::motion::sentence;
 use crate::words::number::{duration, exact, significant};
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct TrajectoryDocument<'a> {
     parameters: &'a Parameters,
     initial: &'a State,
     method: Method,
@@ -23,13 +23,13 @@ struct Document<'a> {
     events: &'a [Crossing],
     energy: Option<&'a Ledger>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<Followed>,
-    cost: Price,
+    certified: Option<MotionDocument>,
+    cost: CountedCost,
 }
 
 /// A point of a motion: its start, every arrival at `v = 0`, and its end.
 #[derive(Default, Serialize)]
-struct Row {
+struct TrajectoryRow {
     what: &'static str,
     tau: f64,
     q: Option<f64>,
@@ -39,7 +39,7 @@ struct Row {
 }
 
 pub fn json(motion: &Trajectory, certified: Option<&ProvedMotion>, seconds: f64) -> String {
-    json::text(&Document {
+    json::text(&TrajectoryDocument {
         parameters: &motion.problem.parameters,
         initial: &motion.problem.initial,
         method: motion.method,
@@ -48,35 +48,44 @@ pub fn json(motion: &Trajectory, certified: Option<&ProvedMotion>, seconds: f64)
         events: &motion.crossings,
         energy: motion.ledger.as_ref(),
         certified: certified.map(|certified| followed(certified, motion.problem.until)),
-        cost: Price { counted: motion.cost, seconds },
+        cost: CountedCost { counted: motion.cost, seconds },
     })
+}
+
+/// How a motion ends, when, and the displacement and velocity there.
+pub(super) fn ending(outcome: &Outcome) -> (&'static str, f64, Option<f64>, Option<f64>) {
+    match *outcome {
+        Outcome::Captured { tau, q } => ("captured", tau, Some(q), Some(0.0)),
+        Outcome::Moving { tau, q, v } => ("moving", tau, Some(q), Some(v)),
+        Outcome::Escaped { tau } => ("escaped", tau, None, None),
+        Outcome::GaveUp { tau, .. } => ("gave-up", tau, None, None),
+    }
 }
 
 /// One row for each point.
 pub fn csv(motion: &Trajectory, certified: Option<&ProvedMotion>) -> String {
     let State { q, v } = motion.problem.initial;
-    let row = |what, tau, q, v| Row { what, tau, q, v, certified: None };
+    let row = |what, tau, q, v| TrajectoryRow { what, tau, q, v, certified: None };
     let mut start = row("start", 0.0, Some(q), Some(v));
-    let mut end = match motion.outcome {
-        Outcome::Captured { tau, q } => row("captured", tau, Some(q), Some(0.0)),
-        Outcome::Moving { tau, q, v } => row("moving", tau, Some(q), Some(v)),
-        Outcome::Escaped { tau } => row("escaped", tau, None, None),
-        Outcome::GaveUp { tau, .. } => row("gave-up", tau, None, None),
-    };
+    let (what, tau, last_q, last_v) = ending(&motion.outcome);
+    let mut end = row(what, tau, last_q, last_v);
     if let Some(certified) = certified {
         let [tau, q, v] = [0.0, q, v].map(Interval::point);
         start.certified = Some(PointBounds::of(tau, q, v));
         end.certified = Some(PointBounds::of_end(certified, motion.problem.until));
     }
     let enclosed = certified.map_or(&[][..], |certified| &certified.turns);
-    let turn = |(index, crossing): (usize, &Crossing)| Row {
+    let turn = |(index, crossing): (usize, &Crossing)| TrajectoryRow {
         certified: enclosed
             .get(index)
             .map(|turn| PointBounds::of(turn.tau, turn.q, Interval::point(0.0))),
         ..row("turn", crossing.tau, Some(crossing.q), Some(0.0))
     };
     let turns = motion.crossings.iter().enumerate().map(turn);
-    let like = Row { certified: certified.map(|_| PointBounds::like()), ..Row::default() };
+    let like = TrajectoryRow {
+        certified: certified.map(|_| PointBounds::like()),
+        ..TrajectoryRow::default()
+    };
     csv::sheet(&like, std::iter::once(start).chain(turns).chain([end]))
 }
 

@@ -9,7 +9,7 @@ use ratatui::layout::Size;
 use super::event::LoopEnd;
 use super::figure_writer::Work;
 use crate::scene::Request;
-use crate::session::{Effect, Key, Msg, Place};
+use crate::session::{Effect, Key, Msg, PointerTarget};
 
 /// A session and the way it is drawn; tests have simpler ones.
 pub trait Application {
@@ -39,7 +39,7 @@ pub trait Application {
     }
 
     /// What a cell of a screen of this size stands for, if anything.
-    fn place(&self, _size: Size, _column: u16, _row: u16) -> Option<Place> {
+    fn place(&self, _size: Size, _column: u16, _row: u16) -> Option<PointerTarget> {
         None
     }
 

@@ -15,9 +15,9 @@ pub enum Event {
     Background { is_light: bool },
     /// The terminal's size may have changed.
     Resized,
-    /// The process is asked to stop until it is told to go on.
+    /// The process is asked to stop until it is told to continue.
     Suspend,
-    /// The process goes on after having been stopped.
+    /// The process continues after having been stopped.
     Continued,
     /// A signal asks the program to end.
     Ended { signal: i32 },
@@ -36,7 +36,7 @@ pub enum LoopEnd {
     Mouse(bool),
     /// A signal asks this process to stop until it is continued.
     Suspended,
-    /// The process goes on after a stop.
+    /// The process continues after a stop.
     Continued,
     /// A signal ends the program.
     Ended { signal: i32 },

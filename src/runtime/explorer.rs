@@ -1,4 +1,4 @@
-//! The explorer: a session, drawn for the terminal at hand.
+//! The explorer: a session, drawn for the present terminal.
 
 use std::cell::Cell;
 use std::io;
@@ -21,7 +21,7 @@ use crate::flow::{Limits, Reason};
 use crate::question::{self, Fineness, Fit, Means, Recording};
 use crate::scene::{Answer, Request};
 use crate::session::replay::Script;
-use crate::session::{Effect, Key, Msg, Place, Session, save, settings, update};
+use crate::session::{Effect, Key, Msg, PointerTarget, Session, save, settings, update};
 use crate::study::scan::Scan;
 use crate::terminal::Environment;
 use crate::view::{self, Look};
@@ -81,7 +81,7 @@ impl Application for Explorer {
         wants
     }
 
-    fn place(&self, size: Size, column: u16, row: u16) -> Option<Place> {
+    fn place(&self, size: Size, column: u16, row: u16) -> Option<PointerTarget> {
         let screen = Rect::from((Position::ORIGIN, size));
         view::place(screen, &self.session, Position { x: column, y: row })
     }

@@ -23,11 +23,11 @@ pub type Report = Arc<dyn Fn(Msg) + Send + Sync>;
 pub struct FigureWriter {
     report: Report,
     notes: Notes,
-    task: Option<Task>,
+    task: Option<FigureTask>,
 }
 
 /// A file that is being written.
-struct Task {
+struct FigureTask {
     stop: Arc<AtomicBool>,
     thread: JoinHandle<()>,
 }
@@ -78,7 +78,7 @@ impl FigureWriter {
         };
         let thread = thread::Builder::new().name("figures".to_owned()).spawn(writes);
         let thread = thread.map_err(|why| format!("{failed}: {why}"))?;
-        self.task = Some(Task { stop, thread });
+        self.task = Some(FigureTask { stop, thread });
         Ok(())
     }
 

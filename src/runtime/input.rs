@@ -45,7 +45,7 @@ pub fn start(events: Sender<Event>) -> io::Result<()> {
 }
 
 /// Says that there will be no more input, however its reader ends: a program that cannot be quit by a
-/// key must not go on.
+/// key must not continue.
 struct LastWord(Sender<Event>);
 
 impl Drop for LastWord {
@@ -86,11 +86,12 @@ fn read(terminal: &impl AsFd, mut send: impl FnMut(Event)) {
     }
 }
 
-/// Parses bytes and sends what has been understood; returns whether that was anything. `escape` says that an escape byte
-/// waits for the rest of its sequence.
+/// Parses bytes and sends what has been understood; returns whether that was anything. `escape` says that an
+/// escape byte waits for the rest of its sequence.
 ///
-/// What follows an escape byte is no second one: the first was the key, and the second begins a sequence, as where
-/// the terminal reports its cursor while the key is pressed. The parser would take both for one key, and the report for text.
+/// What follows an escape byte is not a second one: the first was the key, and the second begins a sequence, as where
+/// the terminal reports its cursor while the key is pressed. The parser would take both for one key, and the
+/// report for text.
 fn understood(
     parser: &mut Parser,
     mut bytes: &[u8],

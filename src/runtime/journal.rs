@@ -1,9 +1,9 @@
 //! Rows that are known before their turn: a file beside that of a scan, `rows.csv.ahead` beside `rows.csv`.
 //!
-//! Rows stand in the file of a scan in their order, and a slow one holds up those behind it. What is known of these is
-//! noted here at once, so that a process that is killed loses only what it was computing. The first line names the
-//! columns; each other one is the number of a point, a tab, and its row. A journal of anything else is no loss and is
-//! ignored: all in it can be computed again.
+//! Rows stand in the file of a scan in their order, and a slow one holds up those behind it. What is known of
+//! these is noted here at once, so that a process that is killed loses only what it was computing. The first
+//! line names the columns; each other one is the number of a point, a tab, and its row. A journal of anything
+//! else is not a loss and is ignored: all in it can be computed again.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;

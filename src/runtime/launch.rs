@@ -93,7 +93,7 @@ pub fn launch(
         eprintln!("hopfscope: the session is not kept: {why}");
     }
     let code = match ended? {
-        // A thread that listens has panicked; without it there was nothing to go on for.
+        // A thread that listens has panicked; without it there was nothing to continue for.
         LoopEnd::Closed if let Some(note) = notes.take() => return Err(io::Error::other(note)),
         LoopEnd::Ended { signal } => exit_code(signal).into(),
         LoopEnd::Closed => exit_code(HANG_UP).into(),
@@ -121,7 +121,7 @@ fn conduct<M: Application>(
     pump: &mut Pump<M, std::sync::Arc<std::fs::File>>,
     guard: &Guard,
 ) -> io::Result<LoopEnd> {
-    // A stop from here is followed by a message that the process goes on, which then says nothing new.
+    // A stop from here is followed by a message that the process continues, which then says nothing new.
     let mut expected = false;
     loop {
         match pump.run()? {

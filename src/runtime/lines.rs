@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader, Read};
 
 /// Why a file cannot take rows.
 #[derive(Debug)]
-pub enum Refusal {
+pub enum LineRefusal {
     /// It cannot be opened, read or written.
     Io(io::Error),
     /// Another process writes to it.
@@ -21,21 +21,21 @@ pub enum Refusal {
     Interrupted,
 }
 
-impl From<io::Error> for Refusal {
+impl From<io::Error> for LineRefusal {
     fn from(error: io::Error) -> Self {
-        Refusal::Io(error)
+        LineRefusal::Io(error)
     }
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for LineRefusal {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Refusal::Io(error) => write!(out, "{error}"),
-            Refusal::Busy => write!(out, "another scan is writing to it"),
-            Refusal::Foreign { line, why } => {
+            LineRefusal::Io(error) => write!(out, "{error}"),
+            LineRefusal::Busy => write!(out, "another scan is writing to it"),
+            LineRefusal::Foreign { line, why } => {
                 write!(out, "not a part of this scan: line {line} {why}")
             }
-            Refusal::Interrupted => write!(out, "interrupted"),
+            LineRefusal::Interrupted => write!(out, "interrupted"),
         }
     }
 }
@@ -66,7 +66,7 @@ impl<R: Read> Lines<R> {
     }
 
     /// Reads this heading, if it is not empty; false where the file ends within it.
-    pub(super) fn heading(&mut self, heading: &str) -> Result<bool, Refusal> {
+    pub(super) fn heading(&mut self, heading: &str) -> Result<bool, LineRefusal> {
         if heading.is_empty() {
             return Ok(true);
         }
@@ -96,7 +96,7 @@ impl<R: Read> Lines<R> {
         self.bytes
     }
 
-    pub(super) fn foreign(&self, why: &'static str) -> Refusal {
-        Refusal::Foreign { line: self.number, why }
+    pub(super) fn foreign(&self, why: &'static str) -> LineRefusal {
+        LineRefusal::Foreign { line: self.number, why }
     }
 }

@@ -10,7 +10,7 @@ use std::io;
 use std::ops::Range;
 use std::path::PathBuf;
 
-use super::lines::{FileLine, Lines, Refusal};
+use super::lines::{FileLine, LineRefusal, Lines};
 use super::scan_file::compare;
 use crate::flow::Limits;
 use crate::report::scan::RowForm;
@@ -29,7 +29,7 @@ pub struct Part {
 #[derive(Debug)]
 pub enum Conflict {
     /// A part cannot be read, or holds something else.
-    Part(PathBuf, Refusal),
+    Part(PathBuf, LineRefusal),
     /// Two parts hold the same row.
     Twice {
         /// The row, from 1.
@@ -70,7 +70,7 @@ pub fn merge(
     let mut missing = Vec::new();
     let mut expected = 0;
     write(form.heading(scan).as_bytes()).map_err(Conflict::Output)?;
-    let task = Task { scan, form, recheck };
+    let task = MergeTask { scan, form, recheck };
     loop {
         let first = reading.iter().enumerate().min_by_key(|(_, reader)| reader.index);
         let next = first.map(|(place, reader)| (place, reader.index));
@@ -103,7 +103,7 @@ pub fn merge(
 }
 
 /// What is put together, and whether rows are computed again.
-struct Task<'a> {
+struct MergeTask<'a> {
     scan: &'a Scan,
     form: RowForm,
     recheck: Option<&'a Limits<'a>>,
@@ -120,7 +120,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// A part at its first row; nothing if it has none.
-    fn open(task: &Task, part: &'a Part) -> Result<Option<Self>, Refusal> {
+    fn open(task: &MergeTask, part: &'a Part) -> Result<Option<Self>, LineRefusal> {
         let mut lines = Lines::new(File::open(&part.path)?);
         if part.headed && !lines.heading(&task.form.heading(task.scan))? {
             return Ok(None);
@@ -134,7 +134,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Goes to the next row; false if there is none.
-    fn advance(&mut self, task: &Task) -> Result<bool, Refusal> {
+    fn advance(&mut self, task: &MergeTask) -> Result<bool, LineRefusal> {
         let number = self.lines.number();
         let more = self.read(task, self.index + 1)?;
         if !more {
@@ -143,8 +143,8 @@ impl<'a> Reader<'a> {
         Ok(more)
     }
 
-    /// Reads a row of point number `from` or a later one of this part; a line without an end is none.
-    fn read(&mut self, task: &Task, from: usize) -> Result<bool, Refusal> {
+    /// Reads a row of point number `from` or a later one of this part; a line without an end does not count.
+    fn read(&mut self, task: &MergeTask, from: usize) -> Result<bool, LineRefusal> {
         let FileLine::Whole(line) = self.lines.next(usize::MAX)? else { return Ok(false) };
         let is_of =
             |index: &usize| line.starts_with(task.form.beginning(task.scan, *index).as_bytes());
@@ -155,7 +155,7 @@ impl<'a> Reader<'a> {
         Ok(true)
     }
 
-    fn compare(&self, task: &Task, number: usize) -> Result<(), Refusal> {
+    fn compare(&self, task: &MergeTask, number: usize) -> Result<(), LineRefusal> {
         let Some(limits) = task.recheck else { return Ok(()) };
         compare(task.scan, task.form, (self.index, &self.line), number, limits)
     }

@@ -24,7 +24,7 @@ impl Notes {
 /// Makes a panic of the thread `interface` give the terminal back before it is reported as usual.
 ///
 /// A panic in any other thread is not reported and leaves the terminal alone, since the interface
-/// goes on and shows it; the notes tell what to show.
+/// continues and shows it; the notes tell what to show.
 pub fn install(guard: Guard, interface: ThreadId) -> Notes {
     let notes = Notes::default();
     let kept = notes.clone();

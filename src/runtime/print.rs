@@ -40,7 +40,7 @@ pub fn figure(session: &mut Session, plots: &[usize], limits: &Limits) -> Figure
     const MOST: f64 = 48.0;
     /// The estimate of a chord's error is one.
     const MARGIN: f64 = 1.2;
-    /// How often that is tried.
+    /// How many times that is tried.
     const ROUNDS: usize = 3;
     let mut figure = Figure::of(session, plots.iter().copied());
     let mut times = vec![1; plots.len()];

@@ -20,8 +20,8 @@ pub struct RecordingFile {
 }
 
 impl RecordingFile {
-    /// Begins the file with what is known already; see [`RecordingFile::admit`]. Fails with one line: the file may not be
-    /// replaced, or cannot be written.
+    /// Begins the file with what is known already; see [`RecordingFile::admit`]. Fails with one line: the file
+    /// may not be replaced, or cannot be written.
     pub fn begin(
         path: &Path,
         replace: bool,
@@ -48,13 +48,13 @@ impl RecordingFile {
         match std::fs::metadata(&path) {
             Err(why) if why.kind() == io::ErrorKind::NotFound => return Ok(()),
             Err(why) => return Err(format!("{name}: {why}")),
-            Ok(found) if !found.is_file() => return Err(format!("{name} is no file")),
+            Ok(found) if !found.is_file() => return Err(format!("{name} is not a file")),
             Ok(found) if found.len() == 0 || replace => return Ok(()),
             Ok(_) => {}
         }
         let mut head = String::new();
         let begin = File::open(&path).map_err(|why| format!("{name}: {why}"))?;
-        // What is no text is no recording.
+        // What is not text is not a recording.
         let read = begin.take(HEADER.len() as u64).read_to_string(&mut head);
         if read.is_ok() && head == HEADER {
             return Ok(());

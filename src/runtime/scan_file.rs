@@ -12,7 +12,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::journal::Journal;
-pub use super::lines::Refusal;
+pub use super::lines::LineRefusal;
 use super::lines::{FileLine, Lines};
 use super::provenance_file;
 use crate::flow::{Limits, Reason};
@@ -41,7 +41,7 @@ impl ScanFile {
         form: RowForm,
         headed: bool,
         points: Range<usize>,
-    ) -> Result<Self, Refusal> {
+    ) -> Result<Self, LineRefusal> {
         let mut this = ScanFile {
             file: opened(path)?,
             form,
@@ -58,7 +58,7 @@ impl ScanFile {
     }
 
     /// The file with the rows of these points that it holds already, and how many those are; a new file
-    /// if there is none. Fails with the [`Refusal`]; then the file is as it was.
+    /// if there is none. Fails with the [`LineRefusal`]; then the file is as it was.
     pub fn resume(
         path: &Path,
         scan: &Scan,
@@ -66,7 +66,7 @@ impl ScanFile {
         headed: bool,
         points: Range<usize>,
         limits: &Limits,
-    ) -> Result<(Self, usize), Refusal> {
+    ) -> Result<(Self, usize), LineRefusal> {
         let mut file = opened(path)?;
         let kept = kept((&mut file, form), scan, headed, &points, limits)?;
         let rows = kept.map_or(0, |kept| kept.rows);
@@ -138,13 +138,13 @@ fn kept(
     headed: bool,
     points: &Range<usize>,
     limits: &Limits,
-) -> Result<Option<Kept>, Refusal> {
+) -> Result<Option<KeptRows>, LineRefusal> {
     let mut lines = Lines::new(file);
     let heading = if headed { form.heading(scan) } else { String::new() };
     if !lines.heading(&heading)? {
         return Ok(None);
     }
-    let mut kept = Kept { rows: 0, bytes: lines.bytes() };
+    let mut kept = KeptRows { rows: 0, bytes: lines.bytes() };
     let mut last = None;
     loop {
         let index = points.start + kept.rows;
@@ -165,7 +165,7 @@ fn kept(
         if !line.starts_with(form.beginning(scan, index).as_bytes()) {
             return Err(lines.foreign("is of another point"));
         }
-        kept = Kept { rows: kept.rows + 1, bytes: lines.bytes() };
+        kept = KeptRows { rows: kept.rows + 1, bytes: lines.bytes() };
         if kept.rows == 1 {
             compare(scan, form, (index, &line), lines.number(), limits)?;
         } else {
@@ -186,20 +186,20 @@ pub(super) fn compare(
     (index, line): (usize, &[u8]),
     number: usize,
     limits: &Limits,
-) -> Result<(), Refusal> {
-    let row = scan.row(index, limits).map_err(|_: Reason| Refusal::Interrupted)?;
+) -> Result<(), LineRefusal> {
+    let row = scan.row(index, limits).map_err(|_: Reason| LineRefusal::Interrupted)?;
     if form.line(scan, index, &row).as_bytes() == line {
         Ok(())
     } else {
-        Err(Refusal::Foreign { line: number, why: "is different when computed again" })
+        Err(LineRefusal::Foreign { line: number, why: "is different when computed again" })
     }
 }
 
 /// Opens a file for one scan at a time, without changing what is in it.
-fn opened(path: &Path) -> Result<File, Refusal> {
+fn opened(path: &Path) -> Result<File, LineRefusal> {
     let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
     match file.try_lock() {
-        Err(TryLockError::WouldBlock) => Err(Refusal::Busy),
+        Err(TryLockError::WouldBlock) => Err(LineRefusal::Busy),
         // Where files cannot be locked, it is up to the user that no other process writes.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
     }
@@ -239,7 +239,7 @@ pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Notice {
 
 /// How much of a file is good.
 #[derive(Clone, Copy, Debug)]
-struct Kept {
+struct KeptRows {
     rows: usize,
     bytes: u64,
 }

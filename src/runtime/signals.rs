@@ -78,7 +78,7 @@ pub fn suspend_job() -> io::Result<()> {
     Ok(kill_current_process_group(Signal::TSTP)?)
 }
 
-/// Stops this process; returns when it goes on. Fails if the system refuses.
+/// Stops this process; returns when it continues. Fails if the system refuses.
 pub fn stop() -> io::Result<()> {
     emulate_default_handler(SIGTSTP)
 }

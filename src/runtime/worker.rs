@@ -1,6 +1,6 @@
 //! The worker: one thread that answers the requests wanted now, and drops those wanted no longer.
 //!
-//! [`Worker::submit`] replaces the set of wanted requests. The running job goes on if it is among them;
+//! [`Worker::submit`] replaces the set of wanted requests. The running job continues if it is among them;
 //! else one atomic counter moves on, the job sees that at its next step, and what it found is thrown
 //! away. A long job tells what it has so far: each piece is reported at once, with `complete: false`, and
 //! the request is answered only when its last piece is there. A job whose turn is over while others wait is

@@ -1,7 +1,7 @@
 //! Two workers and a writer of figures: one worker for what the next picture needs, one for what takes long.
 //!
 //! A scan of minutes must not stand between a key and its picture. So long requests have a worker of
-//! their own, which goes on while the other one answers.
+//! their own, which continues while the other one answers.
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -118,7 +118,7 @@ fn scene(name: &str, read: SceneFile) -> Result<Scene, Complaint> {
     })
 }
 
-/// A scene that says twice or not at all what its numbers are.
+/// A scene that defines its parameters twice or not at all.
 fn either(given: &str) -> Complaint {
     let message =
         format!("a scene has {given}; it takes one of them: terms = [..] or machine = \"..\"");
@@ -189,7 +189,7 @@ fn plot_setup(
         against: against.as_ref().map_or(usual.against, |against| *against.get_ref()),
     };
     if let Some(unit) = unit.as_ref().filter(|_| axes.ordinate.spec().ratio.is_none()) {
-        let message = format!("{} is no length; leave its unit out", axes.ordinate.spec().name);
+        let message = format!("{} is not a length; leave its unit out", axes.ordinate.spec().name);
         return Err(Complaint { at: unit.span(), message });
     }
     for axis in [over, against].into_iter().flatten() {
@@ -365,7 +365,7 @@ plot = [
                 "over",
                 "ordinate = \"period\", unit = \"r\", over",
                 "9:51",
-                "period is no length; leave its unit out",
+                "period is not a length; leave its unit out",
             ),
             ("\"phase\"", "\"plane\"", "8:12", "unknown variant `plane`"),
             ("\"diagram\"", "\"phase\"", "9:28", "has no such axis"),

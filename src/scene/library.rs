@@ -1,12 +1,11 @@
 //! The scenes that come with the program, and how to find one by its name.
 
-use std::fmt;
 use std::sync::{Arc, LazyLock};
 
 use super::file::parse;
 use super::scene::Scene;
 
-/// The scene without a phenomenon: where everything starts from.
+/// The scene that opens where none is named.
 pub const PLAIN: &str = "plain";
 
 /// Name and text of a scene file.
@@ -107,32 +106,11 @@ pub fn plain() -> Arc<Scene> {
     Arc::clone(&library()[0])
 }
 
-/// A name that no scene has.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NoScene {
-    pub name: String,
-    /// The names that look like it, best first.
-    pub nearest: Vec<&'static str>,
-}
-
-impl fmt::Display for NoScene {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "no scene {:?}; ", self.name)?;
-        if self.nearest.is_empty() {
-            write!(out, "there are {}", names().collect::<Vec<_>>().join(", "))
-        } else {
-            write!(out, "did you mean {}?", self.nearest.join(" or "))
-        }
-    }
-}
-
-impl std::error::Error for NoScene {}
-
 /// How much two names must have in common to be suggested (0: nothing, 1: equal).
 const ALIKE: f64 = 0.7;
 
-/// The scene with this name. Fails with [`NoScene`] with the names that look like it.
-pub fn find(name: &str) -> Result<Arc<Scene>, NoScene> {
+/// The scene with this name. Fails with one line with the names that look like it.
+pub fn find(name: &str) -> Result<Arc<Scene>, String> {
     let known = library().iter().find(|scene| scene.names().any(|own| own == name));
     known.cloned().ok_or_else(|| {
         let wanted = name.to_lowercase();
@@ -141,8 +119,12 @@ pub fn find(name: &str) -> Result<Arc<Scene>, NoScene> {
             .filter(|(likeness, _)| *likeness >= ALIKE)
             .collect();
         rated.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let nearest = rated.into_iter().take(3).map(|(_, name)| name).collect();
-        NoScene { name: name.to_owned(), nearest }
+        let nearest: Vec<&str> = rated.into_iter().take(3).map(|(_, name)| name).collect();
+        if nearest.is_empty() {
+            let all = names().collect::<Vec<_>>().join(", ");
+            return format!("no scene {name:?}; there are {all}");
+        }
+        format!("no scene {name:?}; did you mean {}?", nearest.join(" or "))
     })
 }
 
@@ -231,7 +213,7 @@ mod tests {
                         assert!(x.contains(value(abscissa)) && y.contains(value(against)));
                     }
                     View::EnergyRate => assert!(x.contains(initial.v)),
-                    // What other views open with hangs on no number of the scene.
+                    // The windows of other views do not depend on the numbers of the scene.
                     _ => {}
                 }
             }
@@ -280,9 +262,13 @@ mod tests {
 
     #[test]
     fn a_wrong_name_gets_the_nearest_ones() {
-        assert_eq!(find("super-critical").unwrap_err().nearest[0], "supercritical");
-        assert_eq!(find("Linear").unwrap_err().nearest[0], "linear");
-        let line = find("xyz").unwrap_err().to_string();
-        assert!(line.starts_with("no scene \"xyz\"; there are plain, capture"), "{line}");
+        for (wrong, expected) in [
+            ("super-critical", "; did you mean supercritical"),
+            ("Linear", "; did you mean linear"),
+            ("xyz", "; there are plain, capture"),
+        ] {
+            let line = find(wrong).unwrap_err();
+            assert!(line.starts_with(&format!("no scene {wrong:?}{expected}")), "{line}");
+        }
     }
 }

@@ -27,8 +27,8 @@ impl fmt::Display for Misread {
 
 impl std::error::Error for Misread {}
 
-/// The same text with its control characters written out: a message quotes what it complains about, and
-/// a terminal must not obey that.
+/// The same text with its control characters escaped: a message quotes the file, and a terminal must not
+/// interpret that.
 pub fn printable(message: &str) -> Cow<'_, str> {
     if !message.contains(char::is_control) {
         return message.into();

@@ -14,11 +14,11 @@ pub mod views;
 pub mod window;
 
 pub use crate::question::{Answer, Answered, Fit, Fitted, Recording, Request, TOPICS, Topic};
-pub use library::{NoScene, find, library, plain};
+pub use library::{find, library, plain};
 pub use machine::{Machine, Running, ScaledMachine, Setting};
 pub use misread::Misread;
 pub use ordinate::{ABSCISSAE, Height, ORDINATES, Ordinate, Unit};
 pub use plot_setup::{ARRANGEMENTS, Arrangement, Axes, MOST_PLOTS, PlotSetup};
 pub use scene::{Scene, Variant};
 pub use views::{LAYERS, Layer, LayerSpec, VIEWS, View, ViewSpec, letters};
-pub use window::{Point, Span, Window};
+pub use window::{Point, Span, Window, rectangle};

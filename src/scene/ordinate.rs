@@ -51,7 +51,7 @@ pub struct OrdinateSpec {
     pub name: &'static str,
     /// Its name at the axis.
     pub label: &'static str,
-    /// Its name at the axis in units of r; `None` where it is no length.
+    /// Its name at the axis in units of r; `None` where it is not a length.
     pub ratio: Option<&'static str>,
     /// What it is, in a few words.
     pub meaning: &'static str,

@@ -59,6 +59,13 @@ pub struct PlotSetup {
     pub family: Option<usize>,
 }
 
+impl From<View> for PlotSetup {
+    /// A view over its usual axes, in a window fitted to it.
+    fn from(view: View) -> Self {
+        PlotSetup { view, axes: Axes::default(), window: None, family: None }
+    }
+}
+
 impl PlotSetup {
     /// The window with which the plot opens; where none is given, the one from which fitting begins.
     pub fn opening(&self) -> Window {

@@ -63,7 +63,7 @@ pub fn said(text: &str, holds: impl Fn(Condition) -> bool) -> String {
             out.push_str(said);
             rest = after;
         } else {
-            // One of the blanks around it goes with it.
+            // One of the blanks around it is removed too.
             rest = if out.ends_with(' ') || out.is_empty() { after.trim_start() } else { after };
         }
     }

@@ -1,15 +1,15 @@
-//! A scene: one phenomenon, set up to be looked at.
+//! A scene: the setup in which one phenomenon is seen.
 //!
 //! A scene declares the terms of the model that it needs. Only those parameters stand in the pane, and
-//! a term that is not declared is zero, so that nothing is evaluated for it. It also says where to look
-//! (windows, layers) and, in a few sentences, what for.
+//! a term that is not declared is zero, so that nothing is evaluated for it. It also sets windows and
+//! layers, and says in a few sentences what to look for.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
 use super::machine::ScaledMachine;
-use super::plot_setup::{Arrangement, Axes, PlotSetup};
+use super::plot_setup::{Arrangement, PlotSetup};
 use super::usual::{TOLERANCE, UNTIL};
 use super::views::{Layer, View};
 use crate::fit::length_in_metres;
@@ -17,7 +17,7 @@ use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::question::Recording;
 
-/// A phenomenon, set up to be looked at.
+/// The setup in which one phenomenon is seen.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
@@ -95,8 +95,6 @@ impl ScaledMachine {
             Layer::Branch,
             Layer::Special,
         ];
-        let plot_setup =
-            |view| PlotSetup { view, axes: Axes::default(), window: None, family: None };
         Scene {
             name: self.machine.name.clone(),
             also: None,
@@ -107,8 +105,8 @@ impl ScaledMachine {
             terms: self.terms(),
             problem: self.problem(),
             steps: BTreeMap::new(),
-            layers: layers.into_iter().collect(),
-            plots: [View::Phase, View::Belt].map(plot_setup).to_vec(),
+            layers: layers.into(),
+            plots: [View::Phase, View::Belt].map(PlotSetup::from).to_vec(),
             families: Vec::new(),
             arrangement: Arrangement::Rows,
             machine: Some(Box::new(self)),
@@ -132,8 +130,6 @@ impl Recording {
             Layer::Cycles,
             Layer::Basin,
         ];
-        let plot_setup =
-            |view| PlotSetup { view, axes: Axes::default(), window: None, family: None };
         let unit = self.record.unit.clone().unwrap_or_else(|| "the file's unit".to_owned());
         let reduced = format!("lengths are in {unit} and times in 1/omega0");
         let units = match self.record.unit.as_deref().and_then(length_in_metres) {
@@ -153,12 +149,12 @@ impl Recording {
             press: "{step-up} and {step-down} hold a number beside its best value, and all others are fitted again; \
                     {reset-row} lets it go, {reset-scene} all. {views} picks what a plot shows: residuals too."
                 .to_owned(),
-            terms: [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R].into_iter().collect(),
+            terms: [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R].into(),
             problem: Problem { until: UNTIL, tolerance: TOLERANCE, ..Problem::default() },
             steps: BTreeMap::new(),
-            layers: layers.into_iter().collect(),
+            layers: layers.into(),
             plots: [View::Damping, View::TimeSeries, View::Phase, View::Spread]
-                .map(plot_setup)
+                .map(PlotSetup::from)
                 .to_vec(),
             families: Vec::new(),
             arrangement: Arrangement::Auto,

@@ -104,62 +104,6 @@ impl View {
     }
 }
 
-/// Something drawn in a view that can be switched on and off; [`LAYERS`] says what that is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Layer {
-    Trajectory,
-    Sticking,
-    Cycles,
-    Basin,
-    Field,
-    Lyapunov,
-    Bands,
-    Balance,
-    Ghost,
-    Belt,
-    Mass,
-    Branch,
-    Harmonic,
-    Asymptotes,
-    Special,
-    Position,
-    Velocity,
-    Friction,
-    Energy,
-    Events,
-    CycleWorks,
-    MotionWorks,
-    Map,
-    Cobweb,
-    FixedPoints,
-    Regimes,
-    #[serde(alias = "borders")]
-    Boundaries,
-    #[serde(alias = "harmonic-border")]
-    HarmonicFold,
-    Rows,
-    Front,
-    Extents,
-    Levels,
-    Spirals,
-    Rate,
-    Locus,
-    BeltPath,
-    Record,
-    Recorded,
-    Whole,
-    Speeds,
-    Safe,
-    Lost,
-    #[serde(rename = "decrements")]
-    Damping,
-    #[serde(rename = "differences")]
-    Residuals,
-    Spread,
-    Kicks,
-}
-
 /// One row of [`LAYERS`].
 #[derive(Clone, Copy, Debug)]
 pub struct LayerSpec {
@@ -176,66 +120,77 @@ pub struct LayerSpec {
     pub usual: bool,
 }
 
-/// Every layer, in the order in which they are listed.
-#[rustfmt::skip]
-pub const LAYERS: [LayerSpec; 46] = [
-    layer(Layer::Trajectory, "trajectory", View::Phase, Some(Topic::Trajectory), true, "the motion from (q0, v0)"),
-    layer(Layer::Sticking, "sticking", View::Phase, None, true, "the sticking set: every point of it is at rest"),
-    layer(Layer::Cycles, "cycles", View::Phase, Some(Topic::Cycles), true, "limit cycles, stable and unstable"),
-    layer(Layer::Basin, "basin", View::Phase, Some(Topic::Cycles), true, "starts that come to rest, shaded"),
-    layer(Layer::Field, "field", View::Phase, None, false, "directions of the flow"),
-    layer(Layer::Lyapunov, "lyapunov", View::Phase, None, false, "the circle of starts whose capture is proved"),
-    layer(Layer::Bands, "bands", View::Phase, Some(Topic::Capture), false, "bands of capture: one more half swing in each"),
-    layer(Layer::Balance, "balance", View::Phase, Some(Topic::Balance), false, "cycles of N harmonics, and their error"),
-    layer(Layer::Ghost, "ghost", View::Phase, None, false, "the point left for a mark, its motion and cycles"),
-    layer(Layer::Belt, "belt", View::Phase, None, false, "the speed of the belt, at which the mass sticks"),
-    layer(Layer::Mass, "mass", View::Belt, Some(Topic::Trajectory), true, "the mass on its belt, moving with the motion"),
-    layer(Layer::Branch, "branch", View::Diagram, Some(Topic::Branch), true, "computed limit cycles, stable and unstable"),
-    layer(Layer::Harmonic, "harmonic", View::Diagram, None, false, "amplitudes of the first-order harmonic balance"),
-    layer(Layer::Asymptotes, "asymptotes", View::Diagram, None, false, "asymptotes A1 and A2 of the harmonic amplitudes"),
-    layer(Layer::Special, "special", View::Diagram, Some(Topic::Branch), true, "special points: fold, crossing, escape, Hopf"),
-    layer(Layer::Position, "position", View::TimeSeries, Some(Topic::Trajectory), true, "displacement q"),
-    layer(Layer::Velocity, "velocity", View::TimeSeries, Some(Topic::Trajectory), false, "velocity v"),
-    layer(Layer::Friction, "friction", View::TimeSeries, Some(Topic::Trajectory), true, "force of dry friction, between -r and r"),
-    layer(Layer::Energy, "energy", View::TimeSeries, Some(Topic::Trajectory), false, "energy (q^2 + v^2)/2"),
-    layer(Layer::Events, "events", View::TimeSeries, Some(Topic::Trajectory), true, "turning points, capture"),
-    layer(Layer::CycleWorks, "cycle-works", View::EnergyLedger, Some(Topic::Cycles), true, "works over one turn of each cycle"),
-    layer(Layer::MotionWorks, "motion-works", View::EnergyLedger, Some(Topic::Trajectory), true, "works along the motion"),
-    layer(Layer::Map, "map", View::ReturnMap, Some(Topic::ReturnMap), true, "the next turning point on the same side"),
-    layer(Layer::Cobweb, "cobweb", View::ReturnMap, Some(Topic::Trajectory), true, "the turning points of the motion, step by step"),
-    layer(Layer::FixedPoints, "fixed-points", View::ReturnMap, Some(Topic::Cycles), true, "limit cycles, stable and unstable"),
-    layer(Layer::Regimes, "regimes", View::Regimes, Some(Topic::Regimes), true, "what becomes of kicks"),
-    layer(Layer::Boundaries, "boundaries", View::Regimes, Some(Topic::Regimes), true, "computed fold and escape point"),
-    layer(Layer::HarmonicFold, "harmonic-fold", View::Regimes, Some(Topic::Regimes), false, "the fold by one harmonic (48)"),
-    layer(Layer::Rows, "rows", View::Trade, Some(Topic::Trade), true, "every method over its tolerances, steps or widths"),
-    layer(Layer::Front, "front", View::Trade, Some(Topic::Trade), true, "the best choices: nothing else is better for less"),
-    layer(Layer::Extents, "extents", View::Diagram, Some(Topic::Branch), false, "largest velocity of the cycles, beside the ordinate"),
-    layer(Layer::Levels, "levels", View::Phase, None, false, "levels of the energy, and shaded where it falls"),
-    layer(Layer::Spirals, "spirals", View::Phase, None, false, "the two shifted spirals that make the cycle"),
-    layer(Layer::Rate, "rate", View::EnergyRate, None, true, "V', what damping feeds and what friction takes"),
-    layer(Layer::Locus, "locus", View::Eigenvalues, None, true, "the eigenvalues, and their way over D"),
-    layer(Layer::BeltPath, "belt-path", View::Regimes, None, true, "the machine over the speed of its belt"),
-    layer(Layer::Record, "record", View::TimeSeries, Some(Topic::Fit), false, "measured displacements of the record"),
-    layer(Layer::Recorded, "recorded", View::Phase, Some(Topic::Fit), false, "measured displacements over their fitted velocity"),
-    layer(Layer::Whole, "whole", View::Phase, None, false, "the whole model in place of its cubic expansion"),
-    layer(Layer::Speeds, "speeds", View::Speeds, Some(Topic::Speeds), true, "cycles over the belt's speed, and the jumps"),
-    layer(Layer::Safe, "safe", View::Phase, Some(Topic::Zones), false, "surely safe, for all half widths and disturbances"),
-    layer(Layer::Lost, "lost", View::Phase, Some(Topic::Zones), false, "surely lost, for the same"),
-    layer(Layer::Damping, "decrements", View::Damping, Some(Topic::Fit), true, "measured decrements, exact and averaged damping"),
-    layer(Layer::Residuals, "differences", View::Residuals, Some(Topic::Fit), true, "measured less fitted, and two deviations"),
-    layer(Layer::Spread, "spread", View::Spread, Some(Topic::Fit), true, "distribution of the margin, by draws"),
-    layer(Layer::Kicks, "kicks", View::Phase, Some(Topic::Kicks), false, "density of random kicks, and the part lost"),
-];
+/// Makes [`Layer`] and [`LAYERS`] from one list, in the order in which layers are listed: name, view, question,
+/// whether it is usual, meaning.
+macro_rules! layers {
+    ($($(#[$attribute:meta])* $layer:ident: $name:literal, $view:ident, $needs:expr, $usual:literal, $meaning:literal;)*) => {
+        /// Something drawn in a view that can be switched on and off; [`LAYERS`] says what that is.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+        pub enum Layer {
+            $($(#[$attribute])* #[serde(rename = $name)] $layer,)*
+        }
 
-const fn layer(
-    layer: Layer,
-    name: &'static str,
-    view: View,
-    needs: Option<Topic>,
-    usual: bool,
-    meaning: &'static str,
-) -> LayerSpec {
-    LayerSpec { layer, name, view, meaning, needs, usual }
+        /// Every layer, in the order in which they are listed.
+        pub const LAYERS: [LayerSpec; [$($name),*].len()] = [$(LayerSpec {
+            layer: Layer::$layer,
+            name: $name,
+            view: View::$view,
+            meaning: $meaning,
+            needs: $needs,
+            usual: $usual,
+        }),*];
+    };
+}
+
+layers! {
+    Trajectory: "trajectory", Phase, Some(Topic::Trajectory), true, "the motion from (q0, v0)";
+    Sticking: "sticking", Phase, None, true, "the sticking set: every point of it is at rest";
+    Cycles: "cycles", Phase, Some(Topic::Cycles), true, "limit cycles, stable and unstable";
+    Basin: "basin", Phase, Some(Topic::Cycles), true, "starts that come to rest, shaded";
+    Field: "field", Phase, None, false, "directions of the flow";
+    Lyapunov: "lyapunov", Phase, None, false, "the circle of starts whose capture is proved";
+    Bands: "bands", Phase, Some(Topic::Capture), false, "bands of capture: one more half swing in each";
+    Balance: "balance", Phase, Some(Topic::Balance), false, "cycles of N harmonics, and their error";
+    Ghost: "ghost", Phase, None, false, "the point left for a mark, its motion and cycles";
+    Belt: "belt", Phase, None, false, "the speed of the belt, at which the mass sticks";
+    Mass: "mass", Belt, Some(Topic::Trajectory), true, "the mass on its belt, moving with the motion";
+    Branch: "branch", Diagram, Some(Topic::Branch), true, "computed limit cycles, stable and unstable";
+    Harmonic: "harmonic", Diagram, None, false, "amplitudes of the first-order harmonic balance";
+    Asymptotes: "asymptotes", Diagram, None, false, "asymptotes A1 and A2 of the harmonic amplitudes";
+    Special: "special", Diagram, Some(Topic::Branch), true, "special points: fold, crossing, escape, Hopf";
+    Position: "position", TimeSeries, Some(Topic::Trajectory), true, "displacement q";
+    Velocity: "velocity", TimeSeries, Some(Topic::Trajectory), false, "velocity v";
+    Friction: "friction", TimeSeries, Some(Topic::Trajectory), true, "force of dry friction, between -r and r";
+    Energy: "energy", TimeSeries, Some(Topic::Trajectory), false, "energy (q^2 + v^2)/2";
+    Events: "events", TimeSeries, Some(Topic::Trajectory), true, "turning points, capture";
+    CycleWorks: "cycle-works", EnergyLedger, Some(Topic::Cycles), true, "works over one turn of each cycle";
+    MotionWorks: "motion-works", EnergyLedger, Some(Topic::Trajectory), true, "works along the motion";
+    Map: "map", ReturnMap, Some(Topic::ReturnMap), true, "the next turning point on the same side";
+    Cobweb: "cobweb", ReturnMap, Some(Topic::Trajectory), true, "the turning points of the motion, step by step";
+    FixedPoints: "fixed-points", ReturnMap, Some(Topic::Cycles), true, "limit cycles, stable and unstable";
+    Regimes: "regimes", Regimes, Some(Topic::Regimes), true, "what becomes of kicks";
+    #[serde(alias = "borders")]
+    Boundaries: "boundaries", Regimes, Some(Topic::Regimes), true, "computed fold and escape point";
+    #[serde(alias = "harmonic-border")]
+    HarmonicFold: "harmonic-fold", Regimes, Some(Topic::Regimes), false, "the fold by one harmonic (48)";
+    Rows: "rows", Trade, Some(Topic::Trade), true, "every method over its tolerances, steps or widths";
+    Front: "front", Trade, Some(Topic::Trade), true, "the best choices: nothing else is better for less";
+    Extents: "extents", Diagram, Some(Topic::Branch), false, "largest velocity of the cycles, beside the ordinate";
+    Levels: "levels", Phase, None, false, "levels of the energy, and shaded where it falls";
+    Spirals: "spirals", Phase, None, false, "the two shifted spirals that make the cycle";
+    Rate: "rate", EnergyRate, None, true, "V', what damping feeds and what friction takes";
+    Locus: "locus", Eigenvalues, None, true, "the eigenvalues, and their way over D";
+    BeltPath: "belt-path", Regimes, None, true, "the machine over the speed of its belt";
+    Record: "record", TimeSeries, Some(Topic::Fit), false, "measured displacements of the record";
+    Recorded: "recorded", Phase, Some(Topic::Fit), false, "measured displacements over their fitted velocity";
+    Whole: "whole", Phase, None, false, "the whole model in place of its cubic expansion";
+    Speeds: "speeds", Speeds, Some(Topic::Speeds), true, "cycles over the belt's speed, and the jumps";
+    Safe: "safe", Phase, Some(Topic::Zones), false, "surely safe, for all half widths and disturbances";
+    Lost: "lost", Phase, Some(Topic::Zones), false, "surely lost, for the same";
+    Damping: "decrements", Damping, Some(Topic::Fit), true, "measured decrements, exact and averaged damping";
+    Residuals: "differences", Residuals, Some(Topic::Fit), true, "measured less fitted, and two deviations";
+    Spread: "spread", Spread, Some(Topic::Fit), true, "distribution of the margin, by draws";
+    Kicks: "kicks", Phase, Some(Topic::Kicks), false, "density of random kicks, and the part lost";
 }
 
 impl Layer {
@@ -290,12 +245,12 @@ mod tests {
     }
 
     #[test]
-    fn every_layer_stands_at_its_own_row_under_the_name_of_scene_files() {
+    fn every_layer_is_found_by_its_name_and_by_the_one_it_once_had() {
         for row in &LAYERS {
-            assert_eq!(row.layer.spec().name, row.name);
-            assert_eq!(serde_json::to_value(row.layer).unwrap(), row.name);
+            assert_eq!(row.layer.spec().layer, row.layer);
             assert_eq!(Layer::named(row.name), Some(row.layer));
             assert!(row.meaning.len() <= 52, "{} is cut at 80 columns", row.name);
         }
+        assert_eq!(Layer::named("harmonic-border"), Some(Layer::HarmonicFold));
     }
 }

@@ -3,9 +3,9 @@
 //! Everything that a plot divides by is the width of a [`Span`], so a span that exists is one that can
 //! be drawn: both ends finite, the right one larger, and wide enough that its ticks differ.
 
-use std::fmt;
-
 use serde::{Deserialize, Serialize};
+
+use crate::oscillator::State;
 
 /// Largest magnitude of an end, so that sums and products of a few of them stay finite.
 const FARTHEST: f64 = 1e300;
@@ -24,36 +24,20 @@ pub struct Span {
     to: f64,
 }
 
-/// Two numbers that are no [`Span`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NoSpan {
-    /// The left end asked for.
-    pub from: f64,
-    /// The right end asked for.
-    pub to: f64,
-}
-
-impl fmt::Display for NoSpan {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { from, to } = self;
-        write!(
-            out,
-            "[{from:?}, {to:?}] is not an interval: two finite numbers up to {FARTHEST:?} are needed, \
-             the second larger"
-        )
-    }
-}
-
-impl std::error::Error for NoSpan {}
-
 impl Span {
-    /// The interval between two numbers. Fails with [`NoSpan`] unless both are finite, `from < to`, and far enough
+    /// The interval between two numbers. Fails with one line unless both are finite, `from < to`, and far enough
     /// apart to be told apart.
-    pub fn new(from: f64, to: f64) -> Result<Self, NoSpan> {
+    pub fn new(from: f64, to: f64) -> Result<Self, String> {
         let largest = from.abs().max(to.abs());
         // Written so that NaN fails.
         let valid = largest <= FARTHEST && to - from >= TINIEST.max(NARROWEST * largest);
-        if valid { Ok(Span { from, to }) } else { Err(NoSpan { from, to }) }
+        let refused = || {
+            format!(
+                "[{from:?}, {to:?}] is not an interval: two finite numbers up to {FARTHEST:?} are needed, \
+                    the second larger"
+            )
+        };
+        valid.then_some(Span { from, to }).ok_or_else(refused)
     }
 
     /// The interval between two numbers of a table, of which the compiler sees that they make one.
@@ -140,9 +124,9 @@ impl Span {
 }
 
 impl TryFrom<[f64; 2]> for Span {
-    type Error = NoSpan;
+    type Error = String;
 
-    fn try_from([from, to]: [f64; 2]) -> Result<Self, NoSpan> {
+    fn try_from([from, to]: [f64; 2]) -> Result<Self, String> {
         Span::new(from, to)
     }
 }
@@ -167,6 +151,36 @@ pub struct Point {
     pub x: f64,
     /// Along the vertical axis.
     pub y: f64,
+}
+
+impl Point {
+    /// A point that interrupts a curve.
+    pub const NOWHERE: Self = Point { x: f64::NAN, y: f64::NAN };
+}
+
+impl From<State> for Point {
+    /// The point of the phase plane.
+    fn from(State { q, v }: State) -> Self {
+        Point { x: q, y: v }
+    }
+}
+
+impl From<[f64; 2]> for Point {
+    fn from([x, y]: [f64; 2]) -> Self {
+        Point { x, y }
+    }
+}
+
+impl From<(f64, f64)> for Point {
+    fn from((x, y): (f64, f64)) -> Self {
+        Point { x, y }
+    }
+}
+
+impl From<Point> for [f64; 2] {
+    fn from(point: Point) -> Self {
+        [point.x, point.y]
+    }
 }
 
 impl Window {
@@ -199,6 +213,11 @@ impl Window {
     pub fn center(self) -> Point {
         Point { x: self.x.center(), y: self.y.center() }
     }
+}
+
+/// The edge of a rectangle, from its lower left corner counter-clockwise and back to it.
+pub fn rectangle([left, right]: [f64; 2], [low, high]: [f64; 2]) -> [Point; 5] {
+    [(left, low), (right, low), (right, high), (left, high), (left, low)].map(Point::from)
 }
 
 #[cfg(test)]

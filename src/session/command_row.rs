@@ -12,7 +12,7 @@ pub(super) type Act = fn(&mut Session, Key) -> Vec<Effect>;
 
 /// How a command is run.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Run {
+pub(super) enum CommandAction {
     /// It changes the session.
     Act(Act),
     /// It switches a layer.
@@ -24,7 +24,7 @@ pub(super) enum Run {
 #[derive(Debug)]
 pub(super) struct CommandRow {
     pub(super) command: Command,
-    pub(super) run: Run,
+    pub(super) run: CommandAction,
 }
 
 /// A row of the table.
@@ -35,7 +35,7 @@ pub(super) const fn row(
     doc: &'static str,
     act: Act,
 ) -> CommandRow {
-    CommandRow { command: Command { name, keys, hint, doc }, run: Run::Act(act) }
+    CommandRow { command: Command { name, keys, hint, doc }, run: CommandAction::Act(act) }
 }
 
 /// A row of the table, of a command that chooses another one.
@@ -46,5 +46,5 @@ pub(super) const fn chooses(
     doc: &'static str,
     choose: fn(&mut Session) -> Option<Chosen>,
 ) -> CommandRow {
-    CommandRow { command: Command { name, keys, hint, doc }, run: Run::Choose(choose) }
+    CommandRow { command: Command { name, keys, hint, doc }, run: CommandAction::Choose(choose) }
 }

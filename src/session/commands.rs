@@ -13,7 +13,7 @@ use crate::session::act::{
     axes, copy, entry, files, focus, general, history, lists, macros, mouse, palette, parameters,
     pending, playback, plots, prompt, scan, screen_setup, starts, typing, walk,
 };
-use crate::session::command_row::{CommandRow, Run, chooses, row};
+use crate::session::command_row::{CommandAction, CommandRow, chooses, row};
 use crate::session::effect::Effect;
 use crate::session::lines::lines;
 use crate::session::state::command::Command;
@@ -38,7 +38,7 @@ const LETTERS: &[&str] = &[
 /// Digits with which a count can begin where no number is typed.
 const DIGITS: &[&str] = &["1", "2", "3", "4", "5", "6", "7", "8", "9"];
 
-/// Digits with which a count goes on.
+/// Digits with which a count continues.
 const MORE_DIGITS: &[&str] = &["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
 
 /// Every command, in the order in which the help lists them.
@@ -143,7 +143,7 @@ const COMMANDS: &[CommandRow] = &[
     row("scan-table", &[(In(Scan), &["t"])], "table",
         "List the rows of the scan, or plot them", |s, _| scan::table(s)),
     row("scan-pause", &[(In(Scan), &["P"])], "pause",
-        "Pause the scan and keep what is done, or go on with it", |s, _| scan::pause(s)),
+        "Pause the scan and keep what is done, or continue it", |s, _| scan::pause(s)),
     row("scan-save", &[(In(Scan), &["S"])], "save",
         "Write the rows to scan.csv, as the command scan does", |s, _| scan::save(s, scan::FILE.into())),
 
@@ -414,7 +414,7 @@ fn toggles() -> &'static [CommandRow] {
                 &[(Everywhere, &[])]
             };
             let command = Command { name, keys, hint: "", doc };
-            CommandRow { command, run: Run::Toggle(spec.layer) }
+            CommandRow { command, run: CommandAction::Toggle(spec.layer) }
         };
         LAYERS.iter().map(row).collect()
     });
@@ -430,7 +430,7 @@ pub fn commands() -> impl Iterator<Item = &'static Command> {
     rows().map(|row| &row.command)
 }
 
-pub(super) fn run(name: &str) -> Option<Run> {
+pub(super) fn run(name: &str) -> Option<CommandAction> {
     rows().find(|row| row.command.name == name).map(|row| row.run)
 }
 

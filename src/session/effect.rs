@@ -5,12 +5,15 @@ use std::path::PathBuf;
 use crate::session::message::Purpose;
 use crate::session::replay::script::Script;
 
+/// What a line has done, or one line that says why not.
+pub type Done = Result<Vec<Effect>, String>;
+
 /// What a session asks of the outer rings; `update` itself touches nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
     /// End the program with exit code 0.
     Quit,
-    /// Stop the process as Ctrl-Z does; repaint when it goes on.
+    /// Stop the process as Ctrl-Z does; repaint when it continues.
     Suspend,
     /// Repaint everything (the screen may be disturbed).
     Repaint,
@@ -34,7 +37,7 @@ pub enum Effect {
     /// Write what was pressed since the start as a keystroke file.
     Record {
         path: PathBuf,
-        /// How many presses at the end are no part of it.
+        /// How many presses at the end are not part of it.
         forget: u32,
         /// Whether a file that is there may be replaced.
         replace: bool,

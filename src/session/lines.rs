@@ -5,13 +5,13 @@
 //! and a line that is refused says what is allowed.
 
 use crate::session::act::{files, measurement, scan, values};
-use crate::session::effect::Effect;
+use crate::session::effect::Done;
 use crate::session::message::Purpose;
 use crate::session::state::command::{LineCommand, Words};
 use crate::session::state::session::Session;
 
 /// What a line does to a session, given the words behind its name; or one line that says why not.
-pub(super) type RunLine = fn(&mut Session, &str) -> Result<Vec<Effect>, String>;
+pub(super) type RunLine = fn(&mut Session, &str) -> Done;
 
 /// A command that takes words, and what it does.
 #[derive(Debug)]

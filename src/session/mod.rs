@@ -32,7 +32,7 @@ pub use commands::commands;
 pub use effect::Effect;
 pub use lines::lines;
 pub use message::key::{self, Code, Key};
-pub use message::pointer::{Gesture, Place, Pointed};
+pub use message::pointer::{Gesture, Pointed, PointerTarget};
 pub use message::{Msg, Notice, Purpose};
 pub use press::run_line;
 pub use read::contexts::Hint;

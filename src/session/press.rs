@@ -2,11 +2,11 @@
 
 use crate::scene::misread::printable;
 use crate::session::act::focus::focus_on;
-use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::{general, macros, marks, typing};
-use crate::session::command_row::Run;
+use crate::session::command_row::CommandAction;
 use crate::session::commands;
-use crate::session::effect::Effect;
+use crate::session::effect::{Done, Effect};
 use crate::session::lines;
 use crate::session::message::key::{Code, Key};
 use crate::session::read::completion::names;
@@ -44,7 +44,7 @@ fn act(session: &mut Session, key: Key) -> Vec<Effect> {
         return run_where_it_belongs(session, command, key);
     } else {
         let text = format!("{} has no meaning here; {{help}} lists the keys", key.said());
-        let text = told(session, &text);
+        let text = with_keys(session, &text);
         inform(session, text);
     }
     Vec::new()
@@ -132,13 +132,13 @@ fn missing(session: &Session, place: Context) -> String {
     match place.view() {
         Some(view) => {
             let spec = view.spec();
-            told(
+            with_keys(
                 session,
                 &format!("needs the {}: {{views}} or :view {} shows it", spec.title, spec.name),
             )
         }
         None if place == Context::Walk => {
-            told(session, "needs a branch: {walk} on a diagram takes hold of one")
+            with_keys(session, "needs a branch: {walk} on a diagram takes hold of one")
         }
         None => format!("works only there: {}", place.title().to_lowercase()),
     }
@@ -147,9 +147,9 @@ fn missing(session: &Session, place: Context) -> String {
 /// Runs a command, and what it chooses.
 fn run(session: &mut Session, command: &Command, key: Key) -> Vec<Effect> {
     match commands::run(command.name) {
-        Some(Run::Act(act)) => act(session, key),
-        Some(Run::Toggle(layer)) => general::toggle(session, layer),
-        Some(Run::Choose(choose)) => match choose(session) {
+        Some(CommandAction::Act(act)) => act(session, key),
+        Some(CommandAction::Toggle(layer)) => general::toggle(session, layer),
+        Some(CommandAction::Choose(choose)) => match choose(session) {
             Some(Chosen::Command(command)) => run_where_it_belongs(session, command, key),
             Some(Chosen::Line(text)) => run_typed(session, &text),
             None => Vec::new(),
@@ -171,7 +171,7 @@ fn run_typed(session: &mut Session, text: &str) -> Vec<Effect> {
 
 /// Runs a line; nothing is open any more. Fails with one line that says what is wrong and what is allowed; the
 /// session is as it was.
-pub fn run_line(session: &mut Session, text: &str) -> Result<Vec<Effect>, String> {
+pub fn run_line(session: &mut Session, text: &str) -> Done {
     let (name, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
     let (name, rest) = (full_name(name), rest.trim());
     let (line, command) = (session.keymap.line(name), session.keymap.named(name));

@@ -7,7 +7,7 @@
 use crate::flow::Reason;
 use crate::question::Failure;
 use crate::scene::{Answered, Request};
-use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::{answers, files, history, macros, mouse, typing, walk};
 use crate::session::effect::Effect;
 use crate::session::message::Msg;
@@ -15,7 +15,7 @@ use crate::session::press::{ENTER, press, run_untyped};
 use crate::session::read::waiting;
 use crate::session::replay::parse::parse;
 use crate::session::replay::script::Instruction;
-use crate::session::state::overlay::{Caption, Entry, Overlay};
+use crate::session::state::overlay::{Entry, Overlay, SessionCaption};
 use crate::session::state::plot::Pane;
 use crate::session::state::rows::Row;
 use crate::session::state::session::{Price, Session, Size};
@@ -43,8 +43,9 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
     effects
 }
 
-/// Rounds of questions after which a session is taken to ask forever: windows are fitted after the first.
-const ROUNDS: usize = 5;
+/// Rounds of questions after which a session is taken to ask forever: windows are fitted after the first, and a press
+/// may wait for the answers about several motions one after the other.
+const ROUNDS: usize = 12;
 
 /// Answers what a session asks until it asks nothing more; what `answer` gives no message for stays open.
 pub fn settle(session: &mut Session, mut answer: impl FnMut(&Session, &Request) -> Option<Msg>) {
@@ -92,8 +93,11 @@ fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
             if caption.is_empty() {
                 macros::end(session);
             }
-            session.caption =
-                if caption.is_empty() { Caption::Nothing } else { Caption::Tour(caption, place) };
+            session.caption = if caption.is_empty() {
+                SessionCaption::Nothing
+            } else {
+                SessionCaption::Tour(caption, place)
+            };
             Vec::new()
         }
         Msg::Read { path, purpose, result } => files::read(session, &path, purpose, result),
@@ -159,7 +163,7 @@ fn take(session: &mut Session, answered: Answered) {
     if let Some(failure) = failure.filter(|_| asked)
         && failure != Failure::Reason(Reason::Interrupted)
     {
-        let again = told(session, "{retry} tries again");
+        let again = with_keys(session, "{retry} tries again");
         refuse(session, format!("{name}: {failure}; {again}"));
     }
 }

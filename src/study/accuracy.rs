@@ -2,7 +2,7 @@
 //!
 //! The better one is the same motion in numbers of twice the working precision
 //! ([`crate::flow::precise`]), computed twice with different orders and steps: how far these two differ is
-//! its own error, typically `1e-26`, and it is always told. Where that would take too long (stiff motions,
+//! its own error, typically `1e-26`, and it is always reported. Where that would take too long (stiff motions,
 //! millions of swings) the closed form takes its place, or else an implicit run near rounding; then the
 //! difference of a further method from it is taken as its own error, and no smaller error can be measured.
 
@@ -11,7 +11,7 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Crossing, Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
 use crate::numerics::twofold::Twofold;
 
-/// Evaluations in twice the working precision that are spent at most: about a second.
+/// Maximum number of evaluations in twice the working precision: about a second.
 const MOST: u64 = 1_000_000;
 
 /// Tolerances of the two methods where the motion is too long or too stiff for twice the precision.
@@ -283,7 +283,7 @@ mod tests {
         let Outcome::Moving { tau, q, v } = wrong.outcome else { panic!("{:?}", wrong.outcome) };
         wrong.outcome = Outcome::Moving { tau, q, v: v - 1e-3 };
         assert!((reference.compare(&wrong).unwrap().error - 1e-3).abs() < 1e-12);
-        // A half swing too many or too few is no small error.
+        // A half swing too many or too few is not a small error.
         let mut wrong = exact.clone();
         wrong.crossings.pop();
         let deviation = reference.compare(&wrong).unwrap();

@@ -11,7 +11,7 @@ use crate::flow::exact::Exact;
 use crate::flow::step::{Powers, Stepper};
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::quadrature::gauss;
-use crate::numerics::root::{Bracket, Change, newton};
+use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scaling::times_power;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 
@@ -21,7 +21,7 @@ const TOLERANCE: f64 = 1e-14;
 /// Part of its start below which an arc is not resolved: it is drawn and compared, not continued.
 const DETAIL: f64 = 1e-12;
 
-/// Most evaluations of an arc. All its steps are kept, and this many take some ten megabytes.
+/// Maximum number of evaluations of an arc. All its steps are kept, and this many take some ten megabytes.
 const BUDGET: u64 = 400_000;
 
 /// The direction in which an arc is computed; as a curve it is the same.
@@ -245,7 +245,7 @@ impl ArcStep {
         // The position is monotone in time.
         let target = times_power(target, -self.unit);
         let bracket = Bracket::rising(0.0, self.duration);
-        let settled = Change::Absolute(1e-12 * self.duration);
+        let settled = PlaceTolerance::Absolute(1e-12 * self.duration);
         let found = newton(bracket, bracket.middle(), settled, |time| {
             let point = self.step.at(time);
             (point.x - target, point.v)

@@ -1,6 +1,6 @@
 //! The closing of a cycle weighed as energy, for cycles whose multiplier is close to 1.
 //!
-//! As `D -> 0-` one turn changes the amplitude by a part `2 pi abs(D)` only, and the difference of two
+//! As `D -> 0-` one turn changes the amplitude only by a factor of `1 + 2 pi abs(D)`, and the difference of two
 //! turning points keeps as few digits. The works over the turn keep all of theirs. With
 //! `K = (v^2/2 + x/(2 D2) - 1/(4 D2^2)) exp(2 D2 x)` (the first integral of the motion with D2 alone)
 //! `K' = -exp(2 D2 x) (2 D v^2 + D3 v^4)`, so that D2 itself, which takes on one side what it gives on

@@ -235,9 +235,9 @@ pub struct SurveyedBasin {
     pub margin: Margin,
     /// Area of the basin, where it is finite.
     pub area: Option<f64>,
-    /// Basin stability: the part of the starts that is captured.
+    /// Basin stability: the fraction of the starts that is captured.
     pub captured: f64,
-    /// Radius of Lyapunov's disk (24) as a part of the margin.
+    /// Radius of Lyapunov's disk (24) as a fraction of the margin.
     pub lyapunov_share: Option<f64>,
     /// What it cost.
     #[serde(skip)]

@@ -1,5 +1,5 @@
 //! The oscillator of the paper as a machine: its margins in physical units, and where a motion of it reaches
-//! the speed of the belt, which is no part of its equation.
+//! the speed of the belt, which is not a part of its equation.
 
 use serde::Serialize;
 
@@ -34,7 +34,7 @@ impl PhysicalMargin {
 
 /// A motion until it first reaches a velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Followed {
+pub struct FollowedOnBelt {
     /// Smallest and largest velocity.
     pub velocity: (f64, f64),
     /// Smallest and largest displacement of the samples.
@@ -43,13 +43,13 @@ pub struct Followed {
     pub sticks: Option<(f64, f64)>,
 }
 
-impl Followed {
+impl FollowedOnBelt {
     /// Follows the samples of a motion; between two of them the velocity is the cubic with the values and
     /// accelerations at both, whose error is of fourth order in their small distance.
     pub fn of(motion: &Trajectory, sticking: f64) -> Self {
         let parameters = &motion.problem.parameters;
         let State { q, v } = motion.problem.initial;
-        let mut found = Followed { velocity: (v, v), displacement: (q, q), sticks: None };
+        let mut found = FollowedOnBelt { velocity: (v, v), displacement: (q, q), sticks: None };
         if v >= sticking {
             found.sticks = Some((0.0, q));
             return found;

@@ -96,7 +96,7 @@ impl Border {
     fn around_nodes(parameters: &Parameters, far: Length, limits: &Limits) -> Result<Self, Reason> {
         /// Turns before giving up. As long as no cycle is near, two do.
         const TURNS: usize = 100;
-        /// Relative change of a clearance that is none.
+        /// Relative change of a clearance that counts as none.
         const SAME: f64 = 1e-13;
         let mut captured = [Some(Length::ZERO); 2];
         let mut change = f64::INFINITY;

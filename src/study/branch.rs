@@ -33,6 +33,7 @@ use super::special::{Special, SpecialKind, VANISHING};
 use super::weak::weak_closing;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::count::real;
 use crate::numerics::elementary::{cbrt, ln, pow, powi};
 use crate::oscillator::{Parameters, Side, Symbol};
 
@@ -64,7 +65,7 @@ pub struct Branch {
 /// How many points a connected piece of a branch has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Points {
-    /// So many, evenly spaced.
+    /// This many, evenly spaced.
     Even(usize),
     /// Those that were needed to follow it, in long strides, and not to where its cycles cannot be told
     /// from the sticking set: a picture on a screen shows no difference.
@@ -120,7 +121,7 @@ pub fn branch(
     Ok(found)
 }
 
-/// A branch over D or D3 ends at this part of the range from where its cycle is infinite, and at this part of the
+/// A branch over D or D3 ends at this fraction of the range from where its cycle is infinite, and at this fraction of the
 /// natural amplitude where it shrinks to nothing.
 const NEAREST: f64 = 1e-4;
 
@@ -130,10 +131,10 @@ const POLISHED: f64 = 1e5;
 /// Relative error of a clearance at which a cycle on its way to infinity is followed no further.
 const VAGUE: f64 = 1e-3;
 
-/// Folds closer than this part of the range are one.
+/// Folds closer than this fraction of the range are one.
 const SAME: f64 = 1e-9;
 
-/// A branch over r begins at this part of the largest r.
+/// A branch over r begins at this fraction of the largest r.
 const LEAST_FRICTION: f64 = 1e-6;
 
 /// Longest stride of [`Points::Followed`], in units of the usual one.
@@ -154,7 +155,7 @@ const LINEAR_POINTS: usize = 40;
 const DEEPEST: f64 = -600.0;
 const SHALLOW: f64 = 28.0;
 
-/// A branch in the making.
+/// A branch in progress.
 struct Tracer<'a> {
     curve: CycleCurve<'a>,
     parameter: Symbol,
@@ -267,8 +268,8 @@ impl Tracer<'_> {
 
     /// Smallest and largest `ln c0` followed: beyond, a curve counts as gone to nothing or to infinity.
     ///
-    /// Over D3 a cycle goes to infinity at `D3 = 0`: it is followed to a [`NEAREST`] part of the range from
-    /// there, because values of the parameter are known to a part of the range.
+    /// Over D3 a cycle goes to infinity at `D3 = 0`: it is followed to within [`NEAREST`] of the range from
+    /// there, because values of the parameter are known relative to the range.
     fn bounds_of_u(&self) -> (f64, f64) {
         let Parameters { d, d2, d3, r } = self.curve.parameters_at(self.curve.scale);
         let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
@@ -286,7 +287,7 @@ impl Tracer<'_> {
             if self.parameter == Symbol::D3 {
                 let least = NEAREST * self.curve.scale;
                 // Sizes there: by linear and cubic damping alone (52), by friction and cubic damping (50),
-                // on the slow manifold by asymmetric and cubic damping; at last those of the cycles that go
+                // on the slow manifold by asymmetric and cubic damping; finally those of the cycles that go
                 // through D3 = 0.
                 let sizes = [
                     (8.0 * d.abs() / (3.0 * least)).sqrt(),
@@ -334,7 +335,7 @@ impl Tracer<'_> {
             if (one.log_multiplier > 0.0) != (other.log_multiplier > 0.0)
                 && let Some(fold) = self.curve.fold_between(one, other)?
             {
-                // Next to a fold the multiplier may cross 1 to and fro by rounding.
+                // Next to a fold the multiplier may cross 1 back and forth by rounding.
                 let near = |it: &Special| {
                     it.kind == SpecialKind::Fold
                         && (it.value - fold.p).abs() <= SAME * self.curve.scale
@@ -438,8 +439,7 @@ fn linear_branch(r: f64, from: f64, to: f64, points: Points) -> Option<Vec<Branc
         Points::Followed => LINEAR_POINTS,
     };
     let point = |index: usize| {
-        #[expect(clippy::cast_precision_loss, reason = "counts of points are small")]
-        let fraction = index as f64 / (count - 1) as f64;
+        let fraction = real(index) / real(count - 1);
         let d = if index == 0 { from } else { from * pow(to / from, fraction) };
         let cycle = LinearCycle::new(d, r).ok()?;
         Some(BranchPoint { value: d, cycle: Cycle::from(&cycle) })

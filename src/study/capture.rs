@@ -23,7 +23,7 @@ pub struct Bands {
     pub cost: Cost,
 }
 
-/// Clearance between borders, as a part of the clearance, below which bands count as one.
+/// Clearance between borders, as a fraction of the clearance, below which bands count as one.
 const RESOLVED: f64 = 1e-9;
 
 /// Finds the borders of at most `most` bands whose turning points lie within `reach`.
@@ -43,7 +43,7 @@ pub fn bands(
         beyond: [None; 2],
         cost: Cost::default(),
     };
-    // Clearance from which a swing on the upper, on the lower side comes to rest just so many arrivals
+    // Clearance from which a swing on the upper, on the lower side comes to rest exactly this many arrivals
     // later; None once there is none within reach.
     let mut starts = [Some(Length { value: 0.0, log: f64::NEG_INFINITY }); 2];
     let mut from_infinity = [false; 2];

@@ -72,7 +72,7 @@ impl Plane {
 pub struct Resolution {
     /// Lines that it has in any case, about.
     pub lines: usize,
-    /// Largest distance between a boundary and its chord from line to line, as a part of the range; where
+    /// Largest distance between a boundary and its chord from line to line, as a fraction of the range; where
     /// it is more, further lines are drawn between. Infinite: none are.
     pub chord: f64,
     /// Relative error of the clearance at a fold; that of the boundaries is at most a hundred times this.
@@ -80,7 +80,7 @@ pub struct Resolution {
 }
 
 /// Draws a chart; the two parameters of the plane do not matter. Fails with [`Reason::Interrupted`], or
-/// [`Reason::NotApplicable`] where the plane is none. What fails on a line is said there.
+/// [`Reason::NotApplicable`] where the plane is invalid. What fails on a line is reported there.
 pub fn chart(
     parameters: &Parameters,
     plane: Plane,

@@ -243,7 +243,7 @@ fn brackets(
         search(here, next, blur, &mut function, &mut found)?;
         let beyond = unknown(next.at);
         here = if beyond > next.at { function(beyond, exact)? } else { next };
-        // A swing that never starts out, or never ends, is no end of the domain: from further out it may.
+        // A swing that never starts out, or never ends, is not an end of the domain: from further out it may.
         let escapes = here.rise == f64::INFINITY || here.fall == f64::INFINITY;
         // One of them may turn out to be no cycle.
         if found.len() > most || (found.len() == most && parameters.d > -1.0) || escapes {

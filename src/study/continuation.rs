@@ -23,16 +23,16 @@ use crate::oscillator::{Parameters, Side, State, Symbol};
 /// Tolerance of the integration steps, in units of that of the points.
 const STEP: f64 = 1e-2;
 
-/// Most evaluations of one swing, a hundred times the usual: beyond, a curve is not followed.
+/// Maximum number of evaluations of one swing, a hundred times the usual: beyond, a curve is not followed.
 const SWING_BUDGET: u64 = 60_000;
 
-/// Least relative error of the clearance at a fold.
+/// Smallest relative error of the clearance at a fold.
 const FOLD_TOLERANCE: f64 = 1e-13;
 
-/// Least logarithm of the multiplier that counts as zero at a fold.
+/// Smallest logarithm of the multiplier that counts as zero at a fold.
 const LEAST_LOG: f64 = 1e-10;
 
-/// Smallest and largest stride of a difference quotient in p, in parts of the range: rounding stays behind.
+/// Smallest and largest stride of a difference quotient in p, as fractions of the range: rounding stays behind.
 const PROBES: (f64, f64) = (1e-11, 1e-5);
 
 /// Newton steps of a correction before it counts as failed.
@@ -53,7 +53,7 @@ pub struct CycleCurve<'a> {
     /// Evaluations after which [`CycleCurve::follow`] stops where it is.
     pub budget: u64,
     limits: &'a Limits<'a>,
-    /// Stride of a difference quotient in p, in parts of the range.
+    /// Stride of a difference quotient in p, as a fraction of the range.
     probe: f64,
     /// Difference quotient in p of the residual of a route, kept from point to point.
     slope_in_p: Option<(Route, f64)>,
@@ -199,7 +199,7 @@ impl<'a> CycleCurve<'a> {
     pub fn bracketed(&mut self, u: f64, range: (f64, f64)) -> Result<Option<CurvePoint>, Reason> {
         /// Halvings after which the bracket is as fine as the parameter.
         const HALVINGS: u32 = 60;
-        /// Newton's method is tried after so many of them.
+        /// Newton's method is tried after this many of them.
         const OFTEN: u32 = 4;
         let (mut halvings, mut found) = (0, None);
         // What Newton's method finds ends the bisection where an error would.
@@ -253,9 +253,9 @@ impl<'a> CycleCurve<'a> {
         direction: f64,
         leaves: &dyn Fn(&CurvePoint) -> bool,
     ) -> Result<Vec<CurvePoint>, Reason> {
-        /// First and smallest stride, in parts of the range.
+        /// First and smallest stride, as fractions of the range.
         const STRIDES: (f64, f64) = (2e-3, 1e-9);
-        /// Most points of a curve; a closed or endless one stops here.
+        /// Maximum number of points of a curve; a closed or endless one stops here.
         const MOST: usize = 4000;
         let mut points = vec![start];
         let Some(mut tangent) = self.first_tangent(&start, direction)? else {
@@ -307,10 +307,10 @@ impl<'a> CycleCurve<'a> {
     /// The longest stride from a point in the direction of `tangent`.
     ///
     /// Swings that begin next to the sticking set are those of the linearised field, whose closing
-    /// depends on u almost linearly: there u may change by a part of how far it is below `ln r`. This is
+    /// depends on u almost linearly: there u may change by a fraction of how far it is below `ln r`. This is
     /// where cycles go as D goes to -1, and u to minus infinity.
     fn longest_stride(&self, point: &CurvePoint, tangent: Tangent) -> f64 {
-        /// In parts of the range, and of the unit of u or the depth.
+        /// As a fraction of the range, and of the unit of u or the depth.
         const LONGEST: f64 = 0.06;
         let friction = self.parameters_at(point.p).r;
         let depth = if friction > 0.0 { (ln(friction) - point.u) / UNIT_OF_U } else { 0.0 };

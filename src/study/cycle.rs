@@ -43,7 +43,7 @@ pub fn cycles(parameters: &Parameters, curves: bool, limits: &Limits) -> Result<
     found(parameters, curves.then_some(CURVE_POINTS), limits)
 }
 
-/// The same with a picture, of so many points on each integration step of a curve.
+/// The same with a picture, of this many points on each integration step of a curve.
 ///
 /// # Errors
 /// The [`Reason`] why the search could not be completed.

@@ -11,7 +11,7 @@ use super::basin::basin;
 use super::margin::Margin;
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::{exp, ln};
-use crate::numerics::root::{Change, illinois};
+use crate::numerics::root::{PlaceTolerance, illinois};
 use crate::oscillator::Parameters;
 
 /// A kick out of rest.
@@ -90,7 +90,7 @@ pub fn friction_for(
         return Err(Reason::NotApplicable { needs: "a positive margin" });
     }
     let mut cost = Cost::default();
-    // Logarithm of the margin, as a part of the one wanted.
+    // Logarithm of the margin, as a fraction of the one wanted.
     let mut excess = |r: f64| -> Result<f64, Reason> {
         let found = basin(&Parameters { r, ..*parameters }, wanted, limits)?;
         cost += found.cost;
@@ -153,10 +153,10 @@ fn smallest(
     if high.1 < 0.0 || low.1 >= 0.0 {
         return Err(lost);
     }
-    // In the logarithm of r, as a part of the first upper end.
+    // In the logarithm of r, as a fraction of the first upper end.
     let unit = high.0;
     let ends = [(ln(low.0 / unit), low.1), (0.0, high.1)];
-    let searched = illinois(ends, WIDTH, Change::Absolute(WIDTH), |log| {
+    let searched = illinois(ends, WIDTH, PlaceTolerance::Absolute(WIDTH), |log| {
         let r = unit * exp(log);
         let here = match excess(r) {
             // The upper end is the safe one, and known: that ends the search where an error would.

@@ -20,7 +20,7 @@ use super::balance::weighed_residual;
 use super::closing::{Equation, Route};
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::ln;
-use crate::numerics::root::{Change, illinois};
+use crate::numerics::root::{PlaceTolerance, illinois};
 use crate::oscillator::Parameters;
 
 /// `D_c` at these values of D2 and r, or `None` where no cycle escapes (`D3 != 0`, `D2 = 0` or `r = 0`); and what it
@@ -66,7 +66,8 @@ fn least_without_cycle(
     if !(low.1 > 0.0 && high.1 < 0.0) {
         return Ok(None);
     }
-    let [(d, _), _] = illinois([low, high], 0.0, Change::Relative(2.0 * f64::EPSILON), excess)?;
+    let [(d, _), _] =
+        illinois([low, high], 0.0, PlaceTolerance::Relative(2.0 * f64::EPSILON), excess)?;
     Ok(Some(d))
 }
 
@@ -92,7 +93,8 @@ pub fn escape_product(d: f64, limits: &Limits) -> Result<(Option<f64>, Cost), Re
     if !(ends[0].1 > 0.0 && ends[1].1 < 0.0) {
         return Ok((None, cost));
     }
-    let [(product, _), _] = illinois(ends, 0.0, Change::Relative(2.0 * f64::EPSILON), &mut excess)?;
+    let [(product, _), _] =
+        illinois(ends, 0.0, PlaceTolerance::Relative(2.0 * f64::EPSILON), &mut excess)?;
     Ok((Some(product), cost))
 }
 

@@ -164,7 +164,7 @@ impl System<'_> {
         /// Tolerance of coarse integration steps, and the change for which they are too coarse.
         const COARSE: f64 = 1e-8;
         const ROUGHLY: f64 = 1e-4;
-        /// Least changes of u and of the logarithm of the parameter that matter: an error of u counts by its square.
+        /// Smallest changes of u and of the logarithm of the parameter that matter: an error of u counts by its square.
         const SMALL: [f64; 2] = [1e-9, 1e-13];
         /// Largest change that can be due to rounding, beside weak damping.
         const ROUNDING: f64 = 1e-7;

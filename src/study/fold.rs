@@ -32,10 +32,10 @@ use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::{Parameters, State, Symbol};
 
-/// Most evaluations of one swing: a cycle that takes more is not followed.
+/// Maximum number of evaluations of one swing: a cycle that takes more is not followed.
 const BUDGET: u64 = 200_000;
 
-/// Least relative error of the clearance at the fold; that of `D_F` is its square.
+/// Smallest relative error of the clearance at the fold; that of `D_F` is its square.
 const TOLERANCE: f64 = 1e-13;
 
 /// Finds the fold in D, or `None` where cycles have none (`D3 <= 0` or `r = 0`).

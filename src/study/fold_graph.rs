@@ -68,7 +68,7 @@ struct Outset {
 /// The harmonic estimate where it is near, else a cycle close to the sticking set, which lies below the
 /// fold.
 fn start(parameters: &Parameters) -> Option<Outset> {
-    /// Mean shift, as a part of the amplitude, and damping up to which the harmonic estimate is near.
+    /// Mean shift, as a fraction of the amplitude, and damping up to which the harmonic estimate is near.
     const NEAR: (f64, f64) = (0.3, 0.8);
     /// Clearance that is small, in units of r.
     const CLOSE: f64 = 0.2;

@@ -8,7 +8,7 @@ use super::closings::{STEP, all_closings};
 use super::fold_point::FoldPoint;
 use super::rim::WayFromRim;
 use crate::flow::{Cost, Limits, Reason};
-use crate::numerics::root::{Change, illinois};
+use crate::numerics::root::{PlaceTolerance, illinois};
 use crate::oscillator::Parameters;
 
 /// Just beyond critical damping, and the largest damping tried.
@@ -33,7 +33,7 @@ fn found(
     limits: &Limits,
     cost: &mut Cost,
 ) -> Result<Option<FoldPoint>, Reason> {
-    /// How far above it cycles are looked for, as a part of the damping.
+    /// How far above it cycles are looked for, as a fraction of the damping.
     const BESIDE: f64 = 1e-9;
     let Some((d, way)) = damping(parameters, limits, cost)? else { return Ok(None) };
     // Above it no motion leaves the end of the set: a cycle further out means that two meet.
@@ -73,6 +73,6 @@ fn damping(
         }
     }
     let excess = |d: f64| way(d).map(|way| way.excess);
-    let [(d, _), _] = illinois([below, above], 0.0, Change::Relative(ROUNDING), excess)?;
+    let [(d, _), _] = illinois([below, above], 0.0, PlaceTolerance::Relative(ROUNDING), excess)?;
     Ok(Some((d, way(d)?)))
 }

@@ -24,7 +24,7 @@ use super::margin::Margin;
 use super::search::Bracket;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
-use crate::numerics::root::{Change, illinois};
+use crate::numerics::root::{PlaceTolerance, illinois};
 use crate::oscillator::{HalfPlane, ParameterBox, Parameters, Side};
 
 /// An oscillator with parameters of its own on each side of `v = 0`, the friction being the same.
@@ -160,7 +160,7 @@ fn refine(
     /// A value of 0 does not end the search, which is for both ends of the bracket.
     const BOTH_ENDS: f64 = -1.0;
     let mut slope = low.slope;
-    let width = Change::Absolute(4.0 * f64::EPSILON * low.at.abs().max(1.0));
+    let width = PlaceTolerance::Absolute(4.0 * f64::EPSILON * low.at.abs().max(1.0));
     let ends = [(low.at, low.value()), (high.at, high.value())];
     let [one, other] = illinois(ends, BOTH_ENDS, width, |at| {
         let node = equation.at(Route::Mixed, at, limits)?.node;

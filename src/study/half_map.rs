@@ -14,14 +14,14 @@ use std::ops::ControlFlow;
 use super::roundoff::{Errors, Roundoff};
 use crate::closed_form::linear::first_standstill;
 use crate::flow::auto::Auto;
-use crate::flow::step::{Point, Step, Stepper};
-use crate::flow::swing::{End, Failed, is_escaping, swing};
+use crate::flow::step::{Step, StepPoint, Stepper};
+use crate::flow::swing::{Failed, SwingEnd, is_escaping, swing};
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::{atan2, exp, hypot, ln, ln_1p, sin_cos};
 use crate::numerics::scaling::times_power;
 use crate::oscillator::HalfPlane;
 
-/// Below this part of its natural scale, in units of the tolerance of a step, the damping is linear to far
+/// Below this fraction of its natural scale, in units of the tolerance of a step, the damping is linear to far
 /// below that tolerance.
 const LINEAR_BELOW: f64 = 1e-5;
 
@@ -180,7 +180,7 @@ impl HalfMap {
         if spent > limits.evaluations {
             return Err(NoEnd::Failed(Reason::Budget { evaluations: spent }));
         }
-        let mut leg = Leg { point: Point { x: -start.value, v: 0.0 }, duration: 0.0 };
+        let mut leg = Leg { point: StepPoint { x: -start.value, v: 0.0 }, duration: 0.0 };
         if self.linear_below > 0.0 && self.field.d < 1.0 {
             match Spiral::of(self.field.d).grow(start, self.linear_below) {
                 Growth::Whole(end, duration) => {
@@ -238,10 +238,10 @@ impl HalfMap {
         self.steps += done.steps;
         let duration = leg.duration + done.duration;
         let (end, rest) = match done.end {
-            End::Crossing { x } => (Length::new(x), 0.0),
-            End::Escape => return Err(NoEnd::Escapes),
-            End::Stopped { .. } if escapes => return Err(NoEnd::Escapes),
-            End::Stopped { point } if point.size() < small => {
+            SwingEnd::Crossing { x } => (Length::new(x), 0.0),
+            SwingEnd::Escape => return Err(NoEnd::Escapes),
+            SwingEnd::Stopped { .. } if escapes => return Err(NoEnd::Escapes),
+            SwingEnd::Stopped { point } if point.size() < small => {
                 if self.field.d < 1.0 {
                     Spiral::of(self.field.d).arrive(point)
                 } else {
@@ -249,7 +249,7 @@ impl HalfMap {
                     end.map(|end| (Length::new(end.x), end.time)).ok_or(NoEnd::Never)?
                 }
             }
-            End::Stopped { .. } => return Err(NoEnd::Never),
+            SwingEnd::Stopped { .. } => return Err(NoEnd::Never),
         };
         let errors = roundoff.map(|roundoff| roundoff.done(&self.field, end.log, rest));
         let errors = errors.unwrap_or_default();
@@ -280,7 +280,7 @@ impl HalfMap {
 
 /// A state and when it was reached.
 struct Leg {
-    point: Point,
+    point: StepPoint,
     duration: f64,
 }
 
@@ -314,7 +314,10 @@ impl Spiral {
         // The spiral scales as e^(-D t); beside this factor it is at most 1 + t in size.
         let room = ln(bound) - start.log - ln_1p(half_turn);
         if room <= 0.0 {
-            return Growth::Until(Leg { point: Point { x: -start.value, v: 0.0 }, duration: 0.0 });
+            return Growth::Until(Leg {
+                point: StepPoint { x: -start.value, v: 0.0 },
+                duration: 0.0,
+            });
         }
         if -self.d * half_turn <= room {
             return Growth::Whole(Length::from_log(start.log - self.d * half_turn), half_turn);
@@ -323,14 +326,14 @@ impl Spiral {
         let (sine, cosine) = sin_cos(self.omega * time);
         let size = exp(start.log + room);
         let velocity = sine / self.omega;
-        let point = Point { x: -size * (cosine + self.d * velocity), v: size * velocity };
+        let point = StepPoint { x: -size * (cosine + self.d * velocity), v: size * velocity };
         Growth::Until(Leg { point, duration: time })
     }
 
     /// Follows the spiral from a point with `v > 0` to `v = 0`: position there, and duration.
     ///
     /// `x^2 + 2 D x v + v^2` decays as `e^(-2 D t)` exactly and equals `x^2` at the end.
-    fn arrive(&self, point: Point) -> (Length, f64) {
+    fn arrive(&self, point: StepPoint) -> (Length, f64) {
         let along = point.x + self.d * point.v;
         let across = self.omega * point.v;
         let time = atan2(across, along) / self.omega;

@@ -1,4 +1,4 @@
-//! Random kicks: which part of them is lost.
+//! Random kicks: what fraction of them is lost.
 //!
 //! A kick displaces the mass from its rest at the origin and gives it a velocity; both are random, independent
 //! and normal or uniform. What is lost is an integral of their density over the exact basin, whose border is a
@@ -150,7 +150,7 @@ impl RandomKick {
         self.q.0.abs() + self.law.reach() * self.q.1
     }
 
-    /// The part of the kicks that is lost: that leads out of the basin of the sticking set.
+    /// The fraction of the kicks that is lost: that leads out of the basin of the sticking set.
     ///
     /// The basin has to be known as far as [`RandomKick::reach`]. Quadrature as in [`Basin::captured_share`].
     pub fn lost(&self, basin: &Basin) -> Share {

@@ -90,7 +90,7 @@ pub struct BasinPicture {
     pub margin: Margin,
     /// Area of the basin, where it is finite.
     pub area: Option<f64>,
-    /// Radius of Lyapunov's disk (24) as a part of the margin; above 1 it promises too much, because it
+    /// Radius of Lyapunov's disk (24) as a fraction of the margin; above 1 it promises too much, because it
     /// leaves out D2 and D3.
     pub lyapunov_share: Option<f64>,
 }

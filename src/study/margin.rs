@@ -55,7 +55,7 @@ impl Basin {
         self.margin_from(0.0)
     }
 
-    /// Radius of the disk that Lyapunov's method proves to be captured (equation 24), as a part of the
+    /// Radius of the disk that Lyapunov's method proves to be captured (equation 24), as a fraction of the
     /// true margin: how conservative it is.
     #[must_use]
     pub fn lyapunov_share(&self) -> Option<f64> {
@@ -93,7 +93,7 @@ impl Basin {
         Some(distance(f64::midpoint(low, high)).min(far(&curve[nearest])))
     }
 
-    /// The part of the basin's area that this circle fills; `None` where the area is infinite.
+    /// The fraction of the basin's area that this circle fills; `None` where the area is infinite.
     #[must_use]
     pub fn integrity(&self) -> Option<f64> {
         let radius = self.inner_radius()?;

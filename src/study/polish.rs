@@ -21,7 +21,7 @@ const FLAT: f64 = 0.3;
 /// Relative error of a clearance above which it is computed to more digits.
 const SHARP: f64 = 1e-8;
 
-/// Relative error of a clearance above which it is no answer.
+/// Relative error of a clearance above which it is not an answer.
 pub(super) const VAGUE: f64 = 1e-3;
 
 /// Newton steps without progress, all within the error bound of the residual, that are enough.
@@ -114,7 +114,8 @@ fn newton(
     }
     let ends = root::Bracket { low, high, rising };
     let mut steps = Steps::new(equation, beyond_the_end(&bracket), start.1);
-    let found = try_newton(ends, start.0, root::Change::Absolute(NEVER), |u| steps.at(u, limits));
+    let found =
+        try_newton(ends, start.0, root::PlaceTolerance::Absolute(NEVER), |u| steps.at(u, limits));
     let Steps { settled, change, .. } = steps;
     let lost = Reason::NoConvergence { sought: "a limit cycle", change };
     match found {
@@ -169,7 +170,7 @@ impl<'a> Steps<'a> {
         let last = std::mem::replace(&mut self.change, (newton - u).abs());
         let change = self.change;
         // Rounding moves the root by an ulp, divided by the slope where the residual is a plain
-        // difference. A weighed one does better: it goes on while it does.
+        // difference. A weighed one does better: it continues while it does.
         let rounding = 4.0 * f64::EPSILON * u.abs().max(1.0);
         let blurred = change.is_finite() && change <= rounding / slope.abs().min(1.0);
         // Where rounding of the swings is larger than that, Newton's method stops making progress.

@@ -13,7 +13,7 @@ use crate::numerics::elementary::ln_1p;
 use crate::numerics::twofold::Twofold;
 use crate::oscillator::{HalfPlane, Parameters, Side};
 
-/// Rounding and truncation here, as a part of those of a double, with a few digits to spare.
+/// Rounding and truncation here, as a fraction of those of a double, with a few digits to spare.
 pub const FINER: f64 = 1e-12;
 
 /// Truncation well below that.
@@ -22,7 +22,7 @@ const GRAIN: Grain = Grain { order: 30, tolerance: 1e-29 };
 /// What an evaluation costs in units of one in doubles.
 const COSTLIER: u64 = 100;
 
-/// Most evaluations of one swing.
+/// Maximum number of evaluations of one swing.
 const BUDGET: u64 = 20_000;
 
 /// Both swings of a turn, in either direction.
@@ -35,7 +35,7 @@ pub struct PreciseEquation {
 
 /// How far two swings are from closing.
 #[derive(Clone, Copy, Debug)]
-pub struct Residual {
+pub struct ClosingResidual {
     /// The residual of the route, as a closing in doubles has it.
     pub value: f64,
     /// Clearance at which the second swing starts.
@@ -78,7 +78,7 @@ impl PreciseEquation {
         route: Route,
         start: Twofold,
         limits: &Limits,
-    ) -> Result<Option<Residual>, Reason> {
+    ) -> Result<Option<ClosingResidual>, Reason> {
         let gap = self.gap;
         let positive = |length: Twofold| Some(length).filter(|length| length.high > 0.0);
         let (second, times, difference, unit) = match route {
@@ -112,7 +112,7 @@ impl PreciseEquation {
         };
         let value = ln_1p(difference.over(unit).value());
         let duration = times[0].plus(times[1]).value();
-        let residual = Residual { value, second: second.value(), duration };
+        let residual = ClosingResidual { value, second: second.value(), duration };
         let sound = value.is_finite() && residual.second > 0.0;
         Ok(sound.then_some(residual))
     }

@@ -15,14 +15,15 @@ use super::kicks::RandomKick;
 use super::stability::Share;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Outcome, Problem, Reason};
+use crate::numerics::count::{real, whole};
 use crate::oscillator::{Parameters, State};
 
 /// What becomes of repeated kicks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Repeated {
-    /// The part of the first kicks, from the middle of the sticking set, that is lost.
+    /// The fraction of the first kicks, from the middle of the sticking set, that is lost.
     pub first: Share,
-    /// The part of the kicks that is lost after many that were not.
+    /// The fraction of the kicks that is lost after many that were not.
     pub later: f64,
     /// Mean number of kicks until one is lost, that one included, from the middle; infinite where none is.
     pub mean: f64,
@@ -39,7 +40,7 @@ const CELLS: usize = 64;
 /// Columns of starts for one spread of a kick; twice as many rows.
 const FINENESS: f64 = 10.0;
 
-/// Most columns of starts.
+/// Maximum number of columns of starts.
 const COLUMNS: f64 = 600.0;
 
 /// Kicks beyond this many spreads are too rare to matter for where kicks end.
@@ -121,12 +122,7 @@ impl Chain {
                 };
                 // Shared between the two cells whose centres it lies between.
                 let place = ((rest + r) / width - 0.5).clamp(0.0, real(cells - 1));
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "a cell"
-                )]
-                let left = (place as usize).min(cells - 2);
+                let left = (whole(place)).min(cells - 2);
                 let part = place - real(left);
                 for &(from, weight) in &column.weights {
                     steps[(from, left)] += weight * share * (1.0 - part);
@@ -223,8 +219,7 @@ fn rows(kicks: &RandomKick, fineness: f64) -> Vec<(f64, f64)> {
 
 /// Middles of steps of about this length, over `half` on either side of `mean`.
 fn steps(mean: f64, half: f64, step: f64) -> impl Iterator<Item = f64> {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some hundred")]
-    let count = (2.0 * half / step).ceil().max(1.0) as usize;
+    let count = whole((2.0 * half / step).ceil().max(1.0));
     (0..count).map(move |index| mean - half + 2.0 * half * (real(index) + 0.5) / real(count))
 }
 
@@ -252,12 +247,6 @@ fn rest_of(
         Outcome::GaveUp { reason: Reason::Interrupted, .. } => Err(Reason::Interrupted),
         _ => Ok(None),
     }
-}
-
-fn real(count: usize) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "small counts")]
-    let real = count as f64;
-    real
 }
 
 #[cfg(test)]

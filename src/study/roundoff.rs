@@ -9,7 +9,7 @@
 //!
 //! Assumption: errors are small beside what they are errors of, and a step rounds by [`UNIT`] at most.
 
-use crate::flow::step::{Field, Point, Step};
+use crate::flow::step::{Field, Step, StepPoint};
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::scaling::{exponent, times_power};
 use crate::oscillator::HalfPlane;
@@ -50,7 +50,7 @@ pub struct Roundoff {
     field: HalfPlane,
     tolerance: f64,
     unit: i32,
-    from: Point,
+    from: StepPoint,
     /// Areas in units of `2^(2 unit)`: of all roundings, and of a relative error 1 of the start.
     area: [f64; 2],
     errors: [Errors; 2],
@@ -64,12 +64,12 @@ impl Roundoff {
     pub fn new(
         field: HalfPlane,
         tolerance: f64,
-        (log_start, from, skipped): (f64, Point, f64),
+        (log_start, from, skipped): (f64, StepPoint, f64),
     ) -> Self {
         let rounding = UNIT.max(tolerance);
         let unit = exponent(from.size());
         let scaled = |value| times_power(value, -unit);
-        let from = Point { x: scaled(from.x), v: scaled(from.v) };
+        let from = StepPoint { x: scaled(from.x), v: scaled(from.v) };
         // The linear field spans `c^2 exp(-2 D t)`.
         let log_size = f64::from(unit) * std::f64::consts::LN_2;
         let area = exp(2.0 * (log_start - field.d * skipped - log_size));
@@ -92,7 +92,7 @@ impl Roundoff {
         let shift = self.unit - unit;
         if shift != 0 {
             let scaled = |value| times_power(value, shift);
-            self.from = Point { x: scaled(self.from.x), v: scaled(self.from.v) };
+            self.from = StepPoint { x: scaled(self.from.x), v: scaled(self.from.v) };
             self.area = self.area.map(|area| scaled(scaled(area)));
             self.unit = unit;
         }

@@ -9,9 +9,10 @@ use std::str::FromStr;
 
 use super::basin::Window;
 use super::kicks::RandomKick;
-use super::measure::{Conditions, Measure, Need, Value, measure, needs_of};
+use super::measure::{Conditions, Measure, MeasureNeed, Value, measure, needs_of};
 use crate::flow::method::Dial;
 use crate::flow::{Cost, Limits, Problem, Reason};
+use crate::numerics::count::real;
 use crate::numerics::elementary::{log10, pow};
 use crate::oscillator::{ParameterBox, Parameters, State, Symbol};
 
@@ -82,8 +83,7 @@ impl Sweep {
         if index >= last {
             return self.to;
         }
-        #[expect(clippy::cast_precision_loss, reason = "at most a million values")]
-        let [done, left, all] = [index, last - index, last].map(|count| count as f64);
+        let [done, left, all] = [index, last - index, last].map(real);
         let mean = |from: f64, to: f64| (from * left + to * done) / all;
         match self.spacing {
             Spacing::Even => {
@@ -261,11 +261,11 @@ impl Scan {
         let mut inputs: Vec<(&str, Value)> =
             vec![("D", d.into()), ("D2", d2.into()), ("D3", d3.into()), ("r", r.into())];
         let needs = needs_of(&self.measures);
-        if needs.contains(&Need::Motion) {
+        if needs.contains(&MeasureNeed::Motion) {
             let State { q, v } = initial;
             inputs.extend([("q0", q.into()), ("v0", v.into())]);
         }
-        if needs.contains(&Need::Motion) || needs.contains(&Need::Settling) {
+        if needs.contains(&MeasureNeed::Motion) || needs.contains(&MeasureNeed::Settling) {
             let name = method.spec().name;
             inputs.push(("until", until.into()));
             inputs.push(("method", Value::Word(name)));

@@ -12,7 +12,7 @@
 //! error was measured. Assumption: the function varies on scales not below 1e-4.
 
 use crate::numerics::hermite::Hermite;
-use crate::numerics::root::{Change, illinois};
+use crate::numerics::root::{PlaceTolerance, illinois};
 
 /// Intervals of this length are not halved any more.
 const FINEST: f64 = 1e-4;
@@ -159,7 +159,7 @@ fn extremum_towards_zero<E>(
         }
         if sign * node.value() < 0.0 { Err(None) } else { Ok(node.slope) }
     };
-    let width = Change::Absolute(4.0 * f64::EPSILON * high.at.abs().max(1.0));
+    let width = PlaceTolerance::Absolute(4.0 * f64::EPSILON * high.at.abs().max(1.0));
     match illinois([(low.at, low.slope), (high.at, high.slope)], 0.0, width, slope) {
         Err(Some(error)) => Err(error),
         Ok(_) | Err(None) => Ok(Some(best)),

@@ -1,4 +1,4 @@
-//! Basin stability: which part of a window of starts is captured.
+//! Basin stability: what fraction of a window of starts is captured.
 //!
 //! The edge of the basin is a graph over the displacement ([`super::arc`]), so the captured part is an
 //! integral, and no start has to be followed: at each displacement, how much of the window's velocities
@@ -6,14 +6,16 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use serde::Serialize;
+
 use super::basin::{Basin, Fate, Window};
 use super::border::Border;
 use crate::numerics::elementary::{asin, cos, powi, sin};
 use crate::numerics::quadrature::{Integral, integrate};
 use crate::numerics::root::{TO_ROUNDING, bisect};
 
-/// A part of a whole, and a bound on its error.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A fraction, and a bound on its error.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Share {
     pub part: f64,
     /// Estimated absolute error.
@@ -30,7 +32,7 @@ impl Share {
 }
 
 impl Basin {
-    /// The part of a window's area that belongs to the basin of the sticking set.
+    /// The fraction of a window's area that belongs to the basin of the sticking set.
     ///
     /// Adaptive Gauss-Kronrod quadrature over the displacements inside the edge. The error is ten times the sum of the
     /// differences between its two rules.

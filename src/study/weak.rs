@@ -3,7 +3,7 @@
 //! Measured at a cycle of amplitude A, damping and friction are D, `r/A`, `D2 A` and `D3 A^2`. Let all of them
 //! be at most e. The equation of the amplitude (42) is odd in D, D3 and r, which change their signs when time
 //! runs backward, and D2 by itself conserves the first integral K of [`super::balance`]: so what (42) leaves
-//! out is a part e^2 of it. Extremes and period follow to first order; the next terms are parts e^2 again.
+//! out is e^2 of it. Extremes and period follow to first order; the next terms are smaller by e^2 again.
 //!
 //! There is no other cycle. On any motion K changes, at each step along q, by the weight `exp(2 D2 q)` times
 //! `f = r + 2 D w + D3 w^3`, w being the speed. Let f have one zero, at w*. A motion that reaches four times this

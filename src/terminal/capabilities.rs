@@ -88,7 +88,7 @@ impl Environment {
         }
     }
 
-    /// The user's wishes with every `Auto` decided by the terminal at hand.
+    /// The user's wishes with every `Auto` decided by the present terminal.
     pub fn fit(&self, wish: Wishes) -> Wishes {
         let glyphs = match wish.glyphs {
             Glyphs::Auto => self.glyphs(),
@@ -135,7 +135,8 @@ impl Environment {
     /// The colours to start with: none where the user or the terminal wants none, 16 elsewhere.
     ///
     /// Sixteen even where the terminal has more, since those follow the user's own palette and cost
-    /// the fewest bytes; `--color 256` and `--color true` ask for more. [`Environment::fine`] is for what sixteen cannot show.
+    /// the fewest bytes; `--color 256` and `--color true` ask for more. [`Environment::fine`] is for what
+    /// sixteen cannot show.
     pub fn colors(&self) -> Colors {
         let term = self.term.as_deref().unwrap_or_default();
         if self.no_color.is_some() || MONOCHROME.iter().any(|name| term.starts_with(name)) {

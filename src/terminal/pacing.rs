@@ -13,7 +13,7 @@
 
 use std::time::{Duration, Instant};
 
-/// Least time between two frames: 60 a second.
+/// Minimum time between two frames: 60 a second.
 pub const FRAME_TIME: Duration = Duration::from_millis(16);
 
 /// Requests without an answer after which a terminal counts as silent.
@@ -63,7 +63,7 @@ impl Pacing {
         }
     }
 
-    /// A request was sent by itself.
+    /// A request was sent on its own, without a frame.
     pub fn asked(&mut self, now: Instant) {
         self.waiting_since = Some(now);
         self.unanswered += 1;
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn an_answer_that_nobody_asked_for_is_none() {
+    fn an_answer_without_a_request_does_not_count() {
         assert!(!Pacing::default().answered(Instant::now()));
     }
 

@@ -286,7 +286,7 @@ mod tests {
 
     /// Any picture of 12x4 cells.
     fn picture() -> impl Strategy<Value = Buffer> {
-        let symbol = prop_oneof![Just(" "), Just("a"), Just("\u{28ff}")];
+        let symbol = prop::sample::select(vec![" ", "a", "\u{28ff}", "\u{b7}", "\u{25cb}"]);
         prop::collection::vec((0..12u16, 0..4u16, symbol, style()), 0..60).prop_map(|cells| {
             let mut buffer = Buffer::empty(ratatui::layout::Rect::new(0, 0, 12, 4));
             for (x, y, symbol, style) in cells {

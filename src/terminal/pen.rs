@@ -67,8 +67,8 @@ impl Pen {
         out.push('m');
     }
 
-    /// Parameters that turn this pen into another: switching off what it has too much, and on what
-    /// it lacks.
+    /// Parameters that turn this pen into another: they switch off the attributes that the other lacks
+    /// and switch on those that it adds.
     fn difference(self, to: Pen) -> Vec<u16> {
         let mut parameters = Vec::new();
         let mut present = self.attributes;
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_much_is_switched_off_or_everything_begun_anew_whichever_is_shorter() {
+    fn superfluous_attributes_are_switched_off_or_all_are_reset_whichever_is_shorter() {
         let bold_red = pen(Color::Red, Modifier::BOLD);
         assert_eq!(change(Some(bold_red), Pen::PLAIN), "\x1b[m");
         assert_eq!(change(Some(bold_red), pen(Color::Red, Modifier::empty())), "\x1b[22m");

@@ -104,7 +104,7 @@ impl<W: Write> Screen<W> {
     }
 }
 
-/// The size, unless it is none.
+/// The size, unless it is empty.
 fn known(size: Size) -> Size {
     if size.width == 0 || size.height == 0 { UNKNOWN } else { size }
 }

@@ -1,8 +1,8 @@
 //! Strokes: the changed cells of a frame in the order and with the cursor moves that cost least.
 //!
 //! A stroke is text in one pen on one row. Blanks look alike in most pens, so they join whatever stroke
-//! they touch, and a stroke also goes over a few cells that have not changed where that is shorter than
-//! a cursor move. The strokes are then drawn either row by row or pen by pen, whichever takes fewer
+//! they touch, and a stroke also redraws a few unchanged cells where that is shorter than a cursor
+//! move. The strokes are then drawn either row by row or pen by pen, whichever takes fewer
 //! bytes: a curve along a row wants the first, a line down the screen the second.
 
 use std::fmt::Write;
@@ -284,7 +284,7 @@ fn relative_move(target: Position, cursor: Cursor, size: Size) -> Option<String>
     }
     let down = steps(target.y - y, "\n", 'B');
     let from_margin = format!("\r{down}{}", steps(target.x, "", 'C'));
-    if !certain && target.y != y {
+    if !certain && (target.y != y || target.x < x) {
         return Some(from_margin);
     }
     let along =
@@ -395,6 +395,10 @@ mod tests {
         board.put(4, 1, "a", Color::Reset);
         board.put(4, 2, "b", Color::Reset);
         assert_eq!(board.draw(), "\x1b[3C\u{25cb}\x1b[2;5Ha\n\x08b");
+        board.put(0, 3, "\u{25cb}", Color::Reset);
+        board.draw();
+        board.put(0, 3, "c", Color::Reset);
+        assert_eq!(board.draw(), "\rc");
     }
 
     #[test]

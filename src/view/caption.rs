@@ -12,7 +12,7 @@ use super::pane;
 use super::prose;
 use crate::picture::role::Role;
 use crate::session::Session;
-use crate::session::overlay::Caption;
+use crate::session::overlay::SessionCaption;
 
 const WIDTH: u16 = 100;
 
@@ -20,24 +20,24 @@ const WIDTH: u16 = 100;
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let filled = |text: &str| session.keymap.fill(text, |key| keys::name(key, look));
     let (heading, paragraphs) = match &session.caption {
-        Caption::Tour(caption, place) => {
+        SessionCaption::Tour(caption, place) => {
             let place = place.map_or(String::new(), |(step, of)| format!("{step} of {of}, "));
             let named = caption.contains('{');
             let on = if named { "keys named here work, any other: on" } else { "any key: on" };
             let heading = format!(" {place}{on}, backspace: back, esc: leave ");
             (heading, vec![filled(caption)])
         }
-        Caption::Scene => {
+        SessionCaption::Scene => {
             let heading = filled(" {explain}: hide ");
             let [look, press] = [&session.scene.look, &session.scene.press];
             (heading, [look, press].map(|text| filled(&session.said(text))).to_vec())
         }
-        Caption::Nothing => return,
+        SessionCaption::Nothing => return,
     };
     let width = area.width.min(WIDTH);
     let inner = width.saturating_sub(4);
-    // Who presents is read from afar.
-    let role = if session.caption == Caption::Scene { Role::Text } else { Role::Title };
+    // A tour is read from a distance.
+    let role = if session.caption == SessionCaption::Scene { Role::Text } else { Role::Title };
     let styled = |text| Line::styled(text, look.style(role));
     let lines: Vec<Line> = paragraphs.into_iter().map(styled).collect();
     let height = prose::rows(&lines, inner).saturating_add(2).min(area.height);

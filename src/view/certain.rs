@@ -8,7 +8,7 @@ use crate::study::Margin;
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
 
-/// Columns of a screen from which on margins are told as forces, too.
+/// Columns of a screen that has room for margins as forces too.
 const WIDE: u16 = 110;
 
 /// Digits of a margin.
@@ -37,7 +37,7 @@ pub fn line(session: &Session, width: usize) -> Option<String> {
         Some(size) => format!("sure {size}"),
         None => "sure: every kick".to_owned(),
     };
-    // Rather fewer digits than a number cut short.
+    // Fewer digits are better than a number that is cut.
     (1..=PLACES).rev().map(text).find(|text| text.chars().count() < width)
 }
 

@@ -47,7 +47,7 @@ pub(super) fn in_depth(mut style: Style, fine: Option<Rgb>, colors: Colors) -> S
     }
 }
 
-/// How a terminal with more than sixteen colours is told one.
+/// How a colour is sent to a terminal with more than sixteen.
 pub(super) fn color_of(colors: Colors) -> Option<fn(Rgb) -> Color> {
     match colors {
         Colors::Indexed => Some(|rgb| Color::Indexed(nearest(rgb))),
@@ -56,7 +56,7 @@ pub(super) fn color_of(colors: Colors) -> Option<fn(Rgb) -> Color> {
     }
 }
 
-/// A colour so many steps on the way from one to another.
+/// A colour this many steps on the way from one to another.
 pub(super) fn mixed(from: Rgb, to: Rgb, step: u8) -> Rgb {
     let last = u16::from(STEPS - 1);
     let part = |a: u8, b: u8| {

@@ -1,8 +1,6 @@
 //! The list of costs: what each question of the picture took, and what a step of each number asks again.
 
-use ratatui::text::Span;
-
-use super::content::{Content, ListLine};
+use super::content::ListContent;
 use super::look::Look;
 use crate::picture::role::Role;
 use crate::scene::{Answered, Layer, Topic};
@@ -13,14 +11,11 @@ use crate::words::number::{count, duration};
 /// Columns of what a row is about.
 const NAME: usize = 14;
 
-/// The rows of the list.
-pub(super) fn content(session: &Session, list: &List, look: &Look) -> Content {
-    let mut rows = Vec::new();
-    let mut stepping = false;
+pub(super) fn content(session: &Session, list: &List, look: &Look) -> ListContent {
+    let mut content = ListContent::new("what the picture costs");
     for row in session.cost_rows(list) {
-        if matches!(row, CostRow::Step(..)) && !stepping {
-            stepping = true;
-            rows.push(ListLine::Heading("a step of"));
+        if matches!(row, CostRow::Step(..)) {
+            content.group("a step of");
         }
         let (name, text) = match row {
             CostRow::Asked(requirement) => asked(session, &requirement),
@@ -29,12 +24,10 @@ pub(super) fn content(session: &Session, list: &List, look: &Look) -> Content {
                 (row.name_in(&session.problem), consequence(&reused, &anew))
             }
         };
-        rows.push(ListLine::Row(vec![
-            Span::styled(format!("{name:<NAME$}"), look.style(Role::Key)),
-            Span::styled(text, look.style(Role::Text)),
-        ]));
+        let name = format!("{name:<NAME$}");
+        content.row([look.span(name, Role::Key), look.span(text, Role::Text)]);
     }
-    Content { title: "what the picture costs", rows, about: Vec::new(), below: 0 }
+    content
 }
 
 fn names(layers: &[Layer]) -> String {

@@ -24,18 +24,15 @@ use crate::session::settings::Glyphs;
 /// What a curve is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pen {
-    /// What the curve is.
     pub role: Role,
-    /// How it is interrupted.
     pub dash: Dash,
 }
 
 /// A point in dots from the top left corner.
-type Point = (f64, f64);
+type DotPoint = (f64, f64);
 
-/// What a cell shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-enum Content {
+enum CellContent {
     #[default]
     Empty,
     Texture(char, Role),
@@ -56,22 +53,21 @@ pub enum Covering {
     Outside,
 }
 
-/// The raster of one plot.
 #[derive(Clone, Debug)]
 pub struct Dots {
     area: Rect,
     glyphs: Glyphs,
-    cells: Vec<Content>,
+    cells: Vec<CellContent>,
 }
 
 impl Dots {
     /// An empty raster over `area`.
     pub fn new(area: Rect, glyphs: Glyphs) -> Self {
         let cells = usize::from(area.width) * usize::from(area.height);
-        Dots { area, glyphs, cells: vec![Content::Empty; cells] }
+        Dots { area, glyphs, cells: vec![CellContent::Empty; cells] }
     }
 
-    pub fn size(&self) -> Point {
+    pub fn size(&self) -> DotPoint {
         let (across, down) = self.glyphs.dots();
         (
             f64::from(self.area.width) * f64::from(across),
@@ -80,7 +76,7 @@ impl Dots {
     }
 
     /// The cell (column, row) in which a point lies, if it lies on the raster.
-    pub fn cell_at(&self, (x, y): Point) -> Option<(u16, u16)> {
+    pub fn cell_at(&self, (x, y): DotPoint) -> Option<(u16, u16)> {
         let (width, height) = self.size();
         let (across, down) = self.glyphs.dots();
         let inside = (0.0..=width).contains(&x) && (0.0..=height).contains(&y);
@@ -90,14 +86,14 @@ impl Dots {
     }
 
     /// Draws a polyline; a point that is not finite interrupts it.
-    pub fn stroke(&mut self, points: impl IntoIterator<Item = Point>, pen: Pen) {
+    pub fn stroke(&mut self, points: impl IntoIterator<Item = DotPoint>, pen: Pen) {
         if pen.dash == Dash::Thick && self.glyphs != Glyphs::Ascii {
             // At an edge both of its dots stand inside.
             let height = self.size().1;
             let inside = |y: f64| {
                 if (0.0..=height).contains(&y) { y.min(height - 1.0).max(0.5) } else { y }
             };
-            let points: Vec<Point> = points.into_iter().map(|(x, y)| (x, inside(y))).collect();
+            let points: Vec<DotPoint> = points.into_iter().map(|(x, y)| (x, inside(y))).collect();
             for offset in [-0.5, 0.5] {
                 self.line(points.iter().map(|(x, y)| (*x, y + offset)), pen);
             }
@@ -106,9 +102,9 @@ impl Dots {
         }
     }
 
-    fn line(&mut self, points: impl IntoIterator<Item = Point>, pen: Pen) {
-        let mut stroke = Stroke::default();
-        let mut previous: Option<Point> = None;
+    fn line(&mut self, points: impl IntoIterator<Item = DotPoint>, pen: Pen) {
+        let mut stroke = PenState::default();
+        let mut previous: Option<DotPoint> = None;
         let size = self.size();
         for point in points {
             if !(point.0.is_finite() && point.1.is_finite()) {
@@ -135,7 +131,7 @@ impl Dots {
 
     /// Moves a stroke to a dot. A dot that would only make a corner between its neighbours is left
     /// out, so that curves stay one dot wide.
-    fn visit(&mut self, stroke: &mut Stroke, pen: Pen, dot: (i32, i32)) {
+    fn visit(&mut self, stroke: &mut PenState, pen: Pen, dot: (i32, i32)) {
         let Some(waiting) = stroke.waiting else {
             stroke.waiting = Some(dot);
             return;
@@ -152,14 +148,14 @@ impl Dots {
         stroke.waiting = Some(dot);
     }
 
-    fn commit(&mut self, stroke: &mut Stroke, pen: Pen, dot: (i32, i32)) {
+    fn commit(&mut self, stroke: &mut PenState, pen: Pen, dot: (i32, i32)) {
         let (pattern, period) = self.glyphs.dash(pen.dash);
         self.ink(dot, pen, pattern >> (stroke.length % period) & 1 == 1);
         stroke.length += 1;
         stroke.last = Some(dot);
     }
 
-    fn lift(&mut self, stroke: &mut Stroke, pen: Pen) {
+    fn lift(&mut self, stroke: &mut PenState, pen: Pen) {
         if let Some(waiting) = stroke.waiting.take() {
             self.commit(stroke, pen, waiting);
         }
@@ -177,43 +173,46 @@ impl Dots {
         let Some(content) = self.at(column, row) else { return };
         let guide = matches!(dash, Dash::DashDot | Dash::Dotted | Dash::Sparse);
         *content = match *content {
-            Content::Symbol(..) => return,
-            Content::Ink(..) if guide => return,
-            Content::Ink(bits, _) => Content::Ink(bits | bit, role),
-            Content::Guide(bits, _) if guide && on => Content::Guide(bits | bit, role),
-            Content::Empty | Content::Texture(..) if guide && on => Content::Guide(bit, role),
+            CellContent::Symbol(..) => return,
+            CellContent::Ink(..) if guide => return,
+            CellContent::Ink(bits, _) => CellContent::Ink(bits | bit, role),
+            CellContent::Guide(bits, _) if guide && on => CellContent::Guide(bits | bit, role),
+            CellContent::Empty | CellContent::Texture(..) if guide && on => {
+                CellContent::Guide(bit, role)
+            }
             _ if guide => return,
-            _ => Content::Ink(bit, role),
+            _ => CellContent::Ink(bit, role),
         };
     }
 
     /// Puts texture into a cell, if nothing else is there.
     pub fn texture(&mut self, column: u16, row: u16, symbol: char, role: Role) {
-        if let Some(content @ (Content::Empty | Content::Texture(..))) = self.at(column, row) {
-            *content = Content::Texture(symbol, role);
+        if let Some(content @ (CellContent::Empty | CellContent::Texture(..))) =
+            self.at(column, row)
+        {
+            *content = CellContent::Texture(symbol, role);
         }
     }
 
     /// Puts a symbol into a cell, over everything else.
     pub fn symbol(&mut self, column: u16, row: u16, symbol: char, role: Role) {
         if let Some(content) = self.at(column, row) {
-            *content = Content::Symbol(symbol, role);
+            *content = CellContent::Symbol(symbol, role);
         }
     }
 
-    /// What a cell shows.
     pub fn covering(&self, column: u16, row: u16) -> Covering {
         let index = usize::from(row) * usize::from(self.area.width) + usize::from(column);
         match self.cells.get(index).filter(|_| column < self.area.width) {
-            Some(Content::Empty | Content::Texture(..)) => Covering::Texture,
-            Some(Content::Guide(..)) => Covering::Guide,
-            Some(Content::Ink(..)) => Covering::Curve,
-            Some(Content::Symbol(..)) => Covering::Symbol,
+            Some(CellContent::Empty | CellContent::Texture(..)) => Covering::Texture,
+            Some(CellContent::Guide(..)) => Covering::Guide,
+            Some(CellContent::Ink(..)) => Covering::Curve,
+            Some(CellContent::Symbol(..)) => Covering::Symbol,
             None => Covering::Outside,
         }
     }
 
-    fn at(&mut self, column: u16, row: u16) -> Option<&mut Content> {
+    fn at(&mut self, column: u16, row: u16) -> Option<&mut CellContent> {
         let index = usize::from(row) * usize::from(self.area.width) + usize::from(column);
         if column < self.area.width { self.cells.get_mut(index) } else { None }
     }
@@ -222,9 +221,11 @@ impl Dots {
     pub fn paint(&self, buffer: &mut Buffer, look: &Look) {
         for (position, content) in self.area.positions().zip(&self.cells) {
             let (symbol, role) = match *content {
-                Content::Empty | Content::Ink(0, _) => continue,
-                Content::Texture(symbol, role) | Content::Symbol(symbol, role) => (symbol, role),
-                Content::Guide(bits, role) | Content::Ink(bits, role) => {
+                CellContent::Empty | CellContent::Ink(0, _) => continue,
+                CellContent::Texture(symbol, role) | CellContent::Symbol(symbol, role) => {
+                    (symbol, role)
+                }
+                CellContent::Guide(bits, role) | CellContent::Ink(bits, role) => {
                     (self.glyphs.draw(bits, look.letter(role)), role)
                 }
             };
@@ -235,9 +236,9 @@ impl Dots {
     }
 }
 
-/// Where the pen is: the dot drawn last, the one to be drawn next, and how many were drawn.
+/// The state of a line being drawn: its last dot, the one to be drawn next, and how many were drawn.
 #[derive(Default)]
-struct Stroke {
+struct PenState {
     last: Option<(i32, i32)>,
     waiting: Option<(i32, i32)>,
     length: u32,
@@ -281,7 +282,7 @@ impl Glyphs {
 
 /// The part of a segment that lies on a raster of this size, by Liang and Barsky: its two ends, drawn back
 /// from the far borders so that they are on dots, and whether the second is the segment's own.
-fn clip(start: Point, end: Point, size: Point) -> Option<(Point, Point, bool)> {
+fn clip(start: DotPoint, end: DotPoint, size: DotPoint) -> Option<(DotPoint, DotPoint, bool)> {
     const SHORT: f64 = 1e-6;
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     let limits = (size.0 - SHORT, size.1 - SHORT);

@@ -1,36 +1,37 @@
 //! The energy ledger: a bar for the work of each source, over one turn of each cycle and along the
 //! motion. What feeds points to the right, what brakes to the left; the number stands on the other side.
 //!
-//! Bars are parts of the largest work of their owner, numbers are energies in the units of the model. While
+//! Bars are fractions of the largest work of their owner, numbers are energies in the units of the model. While
 //! the motion is played, a mark on each of its bars shows what has been done so far.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::look::Look;
+use super::paint::symbol;
 use super::pane::Heading;
 use super::plot::{Canvas, Names, rows};
+use crate::numerics::count::real;
 use crate::picture::energy_ledger::{middle, reading};
-use crate::picture::role::{Dash, Role};
+use crate::picture::role::{CycleStyle, Dash, Role, cycle_style};
 use crate::picture::ticks::{Tick, Ticks};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::ledger::{LedgerLine, Owner};
 use crate::session::{self, Pane, Session};
 use crate::words::number::significant;
-use crate::words::stability;
 
 const DIGITS: usize = 4;
 
 const ERROR_DIGITS: usize = 2;
 
-/// Draws the plot with this index.
 pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
     let session::Plot { window, cursor, .. } = session.plots[index];
     let lines = session.ledger();
     let (window, marks) = marks(area, session, window);
     let title = View::EnergyLedger.spec().title;
     let scales = Default::default();
-    let names = Names { title, x: "part of the largest", y: "work", scales, marks: Some(marks) };
+    let names =
+        Names { title, x: "fraction of the largest", y: "work", scales, marks: Some(marks) };
     let mut heading = Heading::of(session, Pane::Plot(index));
     heading.reading = cursor.map(|cursor| {
         lines
@@ -54,13 +55,10 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
         match entry {
             LedgerLine::Title(Owner::Motion(..)) => plot.write(y, &reading(entry), Role::Title),
             LedgerLine::Title(Owner::Cycle(cycle)) => {
-                let (symbol, role) = if cycle.stable {
-                    (symbols.points[0], Role::Stable)
-                } else {
-                    (symbols.points[1], Role::Unstable)
-                };
-                let short = format!("{symbol} q_max {}", significant(cycle.q_max, DIGITS));
-                let full = format!("{short}, {} cycle", stability(cycle.stable));
+                let CycleStyle { mark, role, name, .. } = cycle_style(cycle.stable);
+                let short =
+                    format!("{} q_max {}", symbol(mark, symbols), significant(cycle.q_max, DIGITS));
+                let full = format!("{short}, {name}");
                 let room = usize::from(plot.inner().width);
                 let fits = full.chars().count() <= room;
                 plot.write(y, if fits { &full } else { &short }, role);
@@ -112,12 +110,11 @@ fn half_a_row(area: Rect, window: Window) -> f64 {
 }
 
 /// The height at which a line is drawn: the middle of its first row.
-#[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
 fn seat(line: usize, half: f64) -> f64 {
-    -(line as f64) - half
+    -(real(line)) - half
 }
 
-/// Whether a line of so many is seen: its first row is in the window, and does not say that others are not.
+/// Whether one of this many lines is seen: its first row is in the window, and does not say that others are not.
 fn is_seen(line: usize, window: Window, half: f64, lines: usize) -> bool {
     let y = seat(line, half);
     let marks = left_out(lines, window, half);

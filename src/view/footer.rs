@@ -35,19 +35,19 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         (Some(Overlay::Offer(script)), _) => {
             let text =
                 format!(" pasted {} steps of a keystroke file: press them?", script.steps.len());
-            vec![Span::styled(text, look.style(Role::Warning))]
+            vec![look.span(text, Role::Warning)]
         }
         (_, Some(Notice { error, text })) => {
             let role = if *error { Role::Failure } else { Role::Text };
             let text = pane::cut(&format!(" {text}"), usize::from(area.width), look);
-            vec![Span::styled(text, look.style(role))]
+            vec![look.span(text, role)]
         }
         _ => {
             let taken: usize = right.iter().map(Span::width).sum();
             fitting(&others, usize::from(area.width).saturating_sub(taken + 1), look)
         }
     };
-    pane::line(area, 0, left, right, look, buffer);
+    pane::both_ends(area, 0, left, right, look, buffer);
 }
 
 /// The first hints that fit into `width`, whole.
@@ -67,11 +67,8 @@ fn fitting(hints: &[&Hint], width: usize, look: &Look) -> Vec<Span<'static>> {
 
 fn spans(hint: &Hint, look: &Look) -> [Span<'static>; 2] {
     [
-        Span::styled(
-            format!(" {}", keys::names(hint.keys.iter().copied(), look)),
-            look.style(Role::Key),
-        ),
-        Span::styled(format!(" {} ", hint.text), look.style(Role::Quiet)),
+        look.span(format!(" {}", keys::names(hint.keys.iter().copied(), look)), Role::Key),
+        look.span(format!(" {} ", hint.text), Role::Quiet),
     ]
 }
 
@@ -79,8 +76,8 @@ fn spans(hint: &Hint, look: &Look) -> [Span<'static>; 2] {
 fn waiting(session: &Session, look: &Look) -> Vec<Span<'static>> {
     let topic = session.waiting.as_ref().map_or("", |waiting| waiting.request.topic().name());
     vec![
-        Span::styled(format!(" waiting for: {topic} "), look.style(Role::Title)),
-        Span::styled(" esc forgets the key that waits", look.style(Role::Quiet)),
+        look.span(format!(" waiting for: {topic} "), Role::Title),
+        look.span(" esc forgets the key that waits", Role::Quiet),
     ]
 }
 
@@ -92,53 +89,51 @@ fn pending(pending: Option<Pending>, look: &Look) -> Span<'static> {
         Some(Pending::Letter { what, .. }) => format!(" {}", what.question()),
         None => String::new(),
     };
-    Span::styled(text, look.style(Role::Title))
+    look.span(text, Role::Title)
 }
 
 /// The value being typed, with its caret, and what is allowed or why it was refused.
 fn entry(entry: &Entry, session: &Session, look: &Look) -> Vec<Span<'static>> {
-    let remark = match (&entry.refused, entry.row) {
-        (Some(why), _) => Span::styled(format!("  {why}"), look.style(Role::Failure)),
-        (None, Row::Parameter(symbol)) => {
+    let remark = match &entry.refused {
+        Some(why) => look.span(format!("  {why}"), Role::Failure),
+        None => look.span(format!("  {}", allowed(entry.row, session)), Role::Quiet),
+    };
+    let lead = look.span(format!(" {} = ", entry.row.name_in(&session.problem)), Role::Title);
+    std::iter::once(lead).chain(typed(&entry.input, look)).chain([remark]).collect()
+}
+
+/// What can be typed as the value of a row.
+fn allowed(row: Row, session: &Session) -> String {
+    match row {
+        Row::Parameter(symbol) => {
             let spec = symbol.spec();
-            let range = format!("  {} .. {}, {}", spec.min, spec.max, spec.meaning);
-            Span::styled(range, look.style(Role::Quiet))
+            format!("{} .. {}, {}", spec.min, spec.max, spec.meaning)
         }
-        (None, Row::Tolerance) => {
+        Row::Tolerance => {
             let (min, max) = session.problem.method.spec().dial.range();
             let names = QUALITIES.map(|quality| quality.name).join(", ");
-            Span::styled(format!("  {min:e} .. {max}, or {names}"), look.style(Role::Quiet))
+            format!("{min:e} .. {max}, or {names}")
         }
-        (None, Row::BELT) => {
-            let text = "  speed of the belt, such as 0.3 m/s or 30 cm/s";
-            Span::styled(text, look.style(Role::Quiet))
-        }
-        (None, Row::Quantity(quantity)) => {
+        Row::BELT => "speed of the belt, such as 0.3 m/s or 30 cm/s".to_owned(),
+        Row::Quantity(quantity) => {
             let spec = quantity.spec();
-            let text = format!("  {}, in {} or with its unit", spec.meaning, spec.unit);
-            Span::styled(text, look.style(Role::Quiet))
+            format!("{}, in {} or with its unit", spec.meaning, spec.unit)
         }
-        (None, Row::Disturbance) => {
-            let text = "  bound on a force that varies in any way, in the unit of r or in N";
-            Span::styled(text, look.style(Role::Quiet))
+        Row::Disturbance => {
+            "bound on a force that varies in any way, in the unit of r or in N".to_owned()
         }
-        (None, Row::Until | Row::Method) => Span::raw(""),
-    };
-    let lead = Span::styled(
-        format!(" {} = ", entry.row.name_in(&session.problem)),
-        look.style(Role::Title),
-    );
-    std::iter::once(lead).chain(typed(&entry.input, look)).chain([remark]).collect()
+        Row::Until | Row::Method => String::new(),
+    }
 }
 
 /// The command being typed, with what it can become, what it takes, or why it was refused.
 fn prompt(prompt: &Prompt, keymap: &Keymap, look: &Look) -> Vec<Span<'static>> {
-    let mut line = vec![Span::styled(" :", look.style(Role::Title))];
+    let mut line = vec![look.span(" :", Role::Title)];
     line.extend(typed(&prompt.input, look));
-    let quiet = |text: &str| Span::styled(format!("  {text}"), look.style(Role::Quiet));
+    let quiet = |text: &str| look.span(format!("  {text}"), Role::Quiet);
     match (&prompt.refused, &prompt.completion) {
         (Some(why), _) => {
-            line.push(Span::styled(format!("  {why}"), look.style(Role::Failure)));
+            line.push(look.span(format!("  {why}"), Role::Failure));
         }
         (None, Some(completion)) => {
             line.push(Span::raw(" "));

@@ -69,7 +69,6 @@ fn framed(area: Rect, session: &Session, index: usize) -> Picture<'_> {
     picture
 }
 
-/// Draws the plot with this index.
 fn plot(
     area: Rect,
     session: &Session,

@@ -5,7 +5,6 @@ use crate::session::Keymap;
 use crate::session::key::{Code, Key};
 use crate::session::settings::Glyphs;
 
-/// The name of a key on the screen.
 pub fn name(key: Key, look: &Look) -> String {
     let arrow = match key.code {
         Code::Left => Some('←'),

@@ -2,7 +2,7 @@
 //!
 //! Designed for 80 columns and 24 rows up. Where there is less, parts drop in this order: plots that
 //! would be smaller than [`SMALLEST_PLOT`], the last one without focus first; below 20 rows the second
-//! status line; below 60 x 16 everything, and a card says what is needed.
+//! status line; below 60 x 16 everything, and a message says what is needed.
 
 use ratatui::layout::Rect;
 
@@ -85,7 +85,7 @@ fn plots(area: Rect, session: &Session) -> Vec<Rect> {
     }
 }
 
-/// Divides an area among so many plots.
+/// Divides an area among this many plots.
 fn divided(area: Rect, count: usize, arrangement: Arrangement) -> Vec<Rect> {
     match (count, arrangement) {
         (0 | 1, _) => vec![area],

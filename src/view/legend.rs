@@ -7,13 +7,11 @@ use super::dots::{Dots, Pen};
 use super::look::Look;
 use super::paint::symbol;
 use crate::picture::items::Picture;
-use crate::picture::legend::{LegendEntry, Sample, entries};
+use crate::picture::legend::{LegendEntry, LegendSample, entries};
 use crate::picture::role::{Dash, Role};
 
-/// Columns of a sample.
 const SAMPLE: u16 = 3;
 
-/// Columns between entries.
 const GAP: u16 = 2;
 
 /// Columns of what says how much is left out.
@@ -43,7 +41,7 @@ pub fn draw(area: Rect, pictures: &[Picture], look: &Look, buffer: &mut Buffer) 
     }
 }
 
-/// Where entries of these widths stand, each in the first row with room, the last of which ends so many columns
+/// Where entries of these widths stand, each in the first row with room, the last of which ends this many columns
 /// earlier; and where that row ends.
 fn places(widths: &[u16], area: Rect, reserved: u16) -> (Vec<Option<Rect>>, u16) {
     let mut ends: Vec<u16> = area.rows().map(|row| row.x + 1).collect();
@@ -64,29 +62,29 @@ fn places(widths: &[u16], area: Rect, reserved: u16) -> (Vec<Option<Rect>>, u16)
 }
 
 /// What is drawn through is asked for first.
-fn rank(sample: Sample) -> u8 {
+fn rank(sample: LegendSample) -> u8 {
     match sample {
-        Sample::Line(Dash::Solid | Dash::Thick | Dash::Dashed) | Sample::Spot => 0,
-        Sample::Line(Dash::DashDot | Dash::Dotted | Dash::Sparse) => 1,
-        Sample::Point(_) | Sample::Shade | Sample::Arrow => 2,
+        LegendSample::Line(Dash::Solid | Dash::Thick | Dash::Dashed) | LegendSample::Spot => 0,
+        LegendSample::Line(Dash::DashDot | Dash::Dotted | Dash::Sparse) => 1,
+        LegendSample::Point(_) | LegendSample::Shade | LegendSample::Arrow => 2,
     }
 }
 
-fn draw_sample(place: Rect, role: Role, sample: Sample, look: &Look, buffer: &mut Buffer) {
+fn draw_sample(place: Rect, role: Role, sample: LegendSample, look: &Look, buffer: &mut Buffer) {
     let mut dots = Dots::new(place, look.glyphs);
     let (width, height) = dots.size();
     let mut line = |y: f64, dash| dots.stroke([(0.0, y), (width - 0.5, y)], Pen { role, dash });
     match sample {
-        Sample::Line(dash) => line(height / 2.0, dash),
-        Sample::Spot => {
+        LegendSample::Line(dash) => line(height / 2.0, dash),
+        LegendSample::Spot => {
             let at = (width / 2.0, height / 2.0);
             dots.stroke([at, at], Pen { role, dash: Dash::Thick });
         }
-        Sample::Shade => {
+        LegendSample::Shade => {
             (0..SAMPLE).for_each(|x| dots.texture(x, 0, look.symbols().shade, role));
         }
-        Sample::Point(mark) => dots.symbol(1, 0, symbol(mark, look.symbols()), role),
-        Sample::Arrow => dots.texture(1, 0, look.symbols().arrows[0], role),
+        LegendSample::Point(mark) => dots.symbol(1, 0, symbol(mark, look.symbols()), role),
+        LegendSample::Arrow => dots.texture(1, 0, look.symbols().arrows[0], role),
     }
     dots.paint(buffer, look);
 }

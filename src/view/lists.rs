@@ -4,9 +4,9 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
-use super::content::{Content, ListLine, TEXT};
+use super::content::{ListContent, ListLine, TEXT};
 use super::costs;
 use super::keys;
 use super::look::Look;
@@ -16,9 +16,9 @@ use super::prose;
 use crate::picture::role::Role;
 use crate::scene::library::Group;
 use crate::scene::said::said;
-use crate::scene::{Layer, ViewSpec, letters};
+use crate::scene::{Layer, letters};
 use crate::session::read::palette::PaletteRow;
-use crate::session::{Kept, List, Listed, Overlay, Session};
+use crate::session::{List, Listed, Overlay, Session};
 
 const WIDTH: u16 = 90;
 
@@ -27,16 +27,15 @@ const KEYS: usize = 16;
 
 /// Draws the open list, if there is one, into the middle of the screen.
 pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    let (list, content) = match &session.overlay {
-        Some(Overlay::List(Listed::Scenes, list)) => (list, scenes(session, list, look)),
-        Some(Overlay::List(Listed::Layers, list)) => (list, layers(session, list, look)),
-        Some(Overlay::List(Listed::Views, list)) => (list, views(session, list, look)),
-        Some(Overlay::List(Listed::Cost, list)) => (list, costs::content(session, list, look)),
-        Some(Overlay::List(Listed::Paper, list)) => (list, paper::content(session, list, look)),
-        Some(Overlay::List(Listed::Palette, list)) => (list, palette(session, list, look)),
-        Some(Overlay::List(Listed::Interrupted, list)) => (list, interrupted(session, list, look)),
-        Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_))
-        | None => return,
+    let Some(Overlay::List(listed, list)) = &session.overlay else { return };
+    let content = match listed {
+        Listed::Scenes => scenes(session, list, look),
+        Listed::Layers => layers(session, list, look),
+        Listed::Views => views(session, list, look),
+        Listed::Cost => costs::content(session, list, look),
+        Listed::Paper => paper::content(session, list, look),
+        Listed::Palette => palette(session, list, look),
+        Listed::Interrupted => interrupted(session, list, look),
     };
     let below = if content.about.is_empty() { 0 } else { content.below + 1 };
     let wanted = u16::try_from(content.rows.len()).unwrap_or(u16::MAX).saturating_add(2 + below);
@@ -85,7 +84,7 @@ fn rows(
             ListLine::Heading(text) => Line::styled(*text, look.style(Role::Title)),
             ListLine::Row(spans) => {
                 let pointer = if place == index { look.symbols().pointer } else { " " };
-                let mut line = vec![Span::styled(format!("{pointer} "), look.style(Role::Focus))];
+                let mut line = vec![look.span(format!("{pointer} "), Role::Focus)];
                 line.extend(spans.iter().cloned().map(|span| {
                     if place == index { span.patch_style(look.style(Role::Selected)) } else { span }
                 }));
@@ -133,36 +132,31 @@ pub(super) fn frame(area: Rect, heading: &str, remark: &str, look: &Look, buffer
 }
 
 /// Everything that has a name: with headings where nothing is searched, the best first where something is.
-fn palette(session: &Session, list: &List, look: &Look) -> Content {
+fn palette(session: &Session, list: &List, look: &Look) -> ListContent {
     let found = session.palette_rows(list);
-    let mut rows = Vec::new();
-    let mut group = "";
+    let mut content = ListContent { below: 2, ..ListContent::new("everything") };
     for row in &found {
-        let heading = session.heading(*row);
-        if list.search.is_empty() && group != heading {
-            group = heading;
-            rows.push(ListLine::Heading(heading));
+        if list.search.is_empty() {
+            content.group(session.heading(*row));
         }
         let keys = keys_of(session, *row, look);
         let spaced = keys.join(" ");
         let keys = if spaced.chars().count() > KEYS { keys.concat() } else { spaced };
         let keys = if keys.is_empty() { row.name().to_owned() } else { keys };
-        rows.push(ListLine::Row(vec![
-            Span::styled(format!("{keys:<KEYS$} "), look.style(Role::Key)),
-            Span::styled(row.meaning(), look.style(Role::Text)),
-        ]));
+        let keys = format!("{keys:<KEYS$} ");
+        content.row([look.span(keys, Role::Key), look.span(row.meaning(), Role::Text)]);
     }
-    let about = found.get(list.selected).map_or(Vec::new(), |row| {
-        let quiet = look.style(Role::Quiet);
+    if let Some(row) = found.get(list.selected) {
         let name = match row {
             PaletteRow::Line(line) => format!(":{} {}", line.name, line.arguments),
             row => row.name().to_owned(),
         };
-        let name = Span::styled(format!("{name}   "), look.style(Role::Title));
-        let kind = Span::styled(session.heading(*row).to_lowercase(), quiet);
-        vec![Line::from(vec![name, kind]), Line::styled(row.meaning(), quiet)]
-    });
-    Content { title: "everything", rows, about, below: 2 }
+        let name = look.span(format!("{name}   "), Role::Title);
+        let kind = look.span(session.heading(*row).to_lowercase(), Role::Quiet);
+        let meaning = Line::styled(row.meaning(), look.style(Role::Quiet));
+        content.about = vec![Line::from(vec![name, kind]), meaning];
+    }
+    content
 }
 
 /// The keys of a row where it is run; the colon of a command that takes words.
@@ -181,80 +175,66 @@ fn keys_of(session: &Session, row: PaletteRow, look: &Look) -> Vec<String> {
 }
 
 /// The scenes in their groups, and what there is to see and to do in the selected one.
-fn scenes(session: &Session, list: &List, look: &Look) -> Content {
+fn scenes(session: &Session, list: &List, look: &Look) -> ListContent {
     let found = session.scene_rows(list);
-    let whole = list.search.is_empty();
-    let mut rows = Vec::new();
-    let mut group = None;
+    let mut content = ListContent { below: TEXT, ..ListContent::new("scenes") };
     for scene in &found {
-        if whole && group != Some(Group::of(scene)) {
-            group = Some(Group::of(scene));
-            rows.extend(group.map(|group| ListLine::Heading(group.title())));
+        if list.search.is_empty() {
+            content.group(Group::of(scene).title());
         }
         let figure = scene.also.as_deref().unwrap_or_default();
-        rows.push(ListLine::Row(vec![
-            Span::styled(format!("{:<14}", scene.name), look.style(Role::Key)),
-            Span::styled(format!("{figure:<7}"), look.style(Role::Quiet)),
-            Span::styled(scene.title.as_str(), look.style(Role::Text)),
-        ]));
+        content.row([
+            look.span(format!("{:<14}", scene.name), Role::Key),
+            look.span(format!("{figure:<7}"), Role::Quiet),
+            look.span(scene.title.as_str(), Role::Text),
+        ]);
     }
-    let about = found.get(list.selected).map(|scene| {
+    if let Some(scene) = found.get(list.selected) {
         let quiet = look.style(Role::Quiet);
         // Nothing is known yet of a scene that is not open.
         let always = |text: &str| said(text, |_| false);
         let text =
             |text: &str| Line::styled(keys::sentence(&always(text), &session.keymap, look), quiet);
-        vec![text(&scene.look), Line::default(), text(&scene.press)]
-    });
-    Content { title: "scenes", rows, about: about.unwrap_or_default(), below: TEXT }
+        content.about = vec![text(&scene.look), Line::default(), text(&scene.press)];
+    }
+    content
 }
 
 /// The layers, and which of them are on; those of the plot in use with the letter that switches them.
-fn layers(session: &Session, list: &List, look: &Look) -> Content {
-    let mut rows = Vec::new();
-    let mut group = None;
+fn layers(session: &Session, list: &List, look: &Look) -> ListContent {
+    let mut content = ListContent::new("layers");
     let letters: Vec<(char, Layer)> = letters(session.view_in_use()).collect();
     for spec in session.layer_rows(list) {
-        if group != Some(spec.view) {
-            group = Some(spec.view);
-            rows.push(ListLine::Heading(spec.view.spec().title));
-        }
+        content.group(spec.view.spec().title);
         let letter = letters.iter().find(|(_, layer)| *layer == spec.layer);
         let letter = letter.map_or(' ', |(letter, _)| *letter);
         let on = if session.layers.contains(&spec.layer) { "[x]" } else { "[ ]" };
-        rows.push(ListLine::Row(vec![
-            Span::styled(format!("{letter} "), look.style(Role::Key)),
-            Span::styled(format!("{on} {:<16}", spec.name), look.style(Role::Key)),
-            Span::styled(
-                session.not_drawn(spec.layer).unwrap_or(spec.meaning),
-                look.style(Role::Text),
-            ),
-        ]));
+        let meaning = session.not_drawn(spec.layer).unwrap_or(spec.meaning);
+        content.row([
+            look.span(format!("{letter} {on} {:<16}", spec.name), Role::Key),
+            look.span(meaning, Role::Text),
+        ]);
     }
-    Content { title: "layers", rows, about: Vec::new(), below: 0 }
+    content
 }
 
 /// The views, with those on show marked.
-fn views(session: &Session, list: &List, look: &Look) -> Content {
-    let row = |spec: &ViewSpec| {
+fn views(session: &Session, list: &List, look: &Look) -> ListContent {
+    let mut content = ListContent::new("show");
+    for spec in session.view_rows(list) {
         let shown = session.plots.iter().any(|plot| plot.view == spec.view);
         let on = if shown { "[x]" } else { "[ ]" };
-        ListLine::Row(vec![
-            Span::styled(format!("{on} {:<14}", spec.title), look.style(Role::Key)),
-            Span::styled(spec.meaning, look.style(Role::Text)),
-        ])
-    };
-    let rows = session.view_rows(list).into_iter().map(row).collect();
-    Content { title: "show", rows, about: Vec::new(), below: 0 }
+        let title = format!("{on} {:<14}", spec.title);
+        content.row([look.span(title, Role::Key), look.span(spec.meaning, Role::Text)]);
+    }
+    content
 }
 
-fn interrupted(session: &Session, list: &List, look: &Look) -> Content {
-    let row = |(_, kept): (usize, &Kept)| {
-        ListLine::Row(vec![
-            Span::styled(format!("{:<12} ", kept.when), look.style(Role::Key)),
-            Span::styled(kept.what.clone(), look.style(Role::Text)),
-        ])
-    };
-    let rows = session.interrupted_rows(list).into_iter().map(row).collect();
-    Content { title: "interrupted sessions", rows, about: Vec::new(), below: 0 }
+fn interrupted(session: &Session, list: &List, look: &Look) -> ListContent {
+    let mut content = ListContent::new("interrupted sessions");
+    for (_, kept) in session.interrupted_rows(list) {
+        let when = format!("{:<12} ", kept.when);
+        content.row([look.span(when, Role::Key), look.span(kept.what.clone(), Role::Text)]);
+    }
+    content
 }

@@ -4,11 +4,14 @@
 //! colours, attributes, and a finer colour for terminals that have more. Without colour the attributes
 //! remain, and every distinction that matters is also made by marker, dash or text.
 
-use std::fmt;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 use ratatui::style::Style;
+use ratatui::text::Span;
 
 use super::colour::{STEPS, color_of, in_depth, mixed, parsed};
+use crate::numerics::count::whole;
 use crate::picture::role::{ROLES, Role};
 use crate::session::settings::{self, Colors, Glyphs, Theme};
 
@@ -22,7 +25,7 @@ fn text_of(theme: Theme) -> &'static str {
     }
 }
 
-/// Symbols that exist in a plain and in a letters-only form.
+/// Symbols, which exist as Unicode and as ASCII characters.
 #[derive(Clone, Copy, Debug)]
 pub struct Symbols {
     /// Marks the selected row.
@@ -30,7 +33,7 @@ pub struct Symbols {
     pub plus_minus: &'static str,
     /// Separates remarks on a line.
     pub dot: &'static str,
-    /// A cut text goes on.
+    /// A cut text continues.
     pub more: &'static str,
     pub rule: &'static str,
     pub upright: &'static str,
@@ -89,36 +92,6 @@ const LETTERS: Symbols = Symbols {
     cross: ['+', '-', '|'],
 };
 
-/// A theme that cannot be used, and where it is wrong.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum ThemeError {
-    /// Not a TOML table of texts; the message has line and column.
-    Syntax(String),
-    /// A role that does not exist.
-    Role(String),
-    /// A role without a line.
-    Missing(&'static str),
-    /// A word that is neither a colour nor an attribute.
-    Word { role: &'static str, word: String },
-}
-
-impl fmt::Display for ThemeError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            ThemeError::Syntax(message) => write!(out, "theme: {message}"),
-            ThemeError::Role(role) => write!(out, "theme: {role:?} is nothing that has a style"),
-            ThemeError::Missing(role) => write!(out, "theme: {role} has no style"),
-            ThemeError::Word { role, word } => write!(
-                out,
-                "theme: {role}: {word:?} is not a colour (red, light-red, #ff8800, default), \
-                 and not bold, dim, italic, underlined or reversed"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for ThemeError {}
-
 /// Everything that decides how the screen looks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
@@ -146,28 +119,29 @@ impl Look {
     }
 
     /// The look that a theme file describes, in colours of one depth for all and, where that is sixteen, of
-    /// another for what they have no colour for. Fails with a [`ThemeError`] that names the line, the role or the
+    /// another for what they have no colour for. Fails with a message that names the line, the role or the
     /// word that is wrong.
-    pub fn from_text(
-        text: &str,
-        glyphs: Glyphs,
-        [colors, fine]: [Colors; 2],
-    ) -> Result<Self, ThemeError> {
+    fn from_text(text: &str, glyphs: Glyphs, [colors, fine]: [Colors; 2]) -> Result<Self, String> {
         let fine = match (colors, fine) {
             (Colors::Sixteen, Colors::Indexed | Colors::True) => fine,
             _ => colors,
         };
-        let lines: std::collections::BTreeMap<String, String> =
-            toml::from_str(text).map_err(|error| ThemeError::Syntax(error.to_string()))?;
+        let lines: BTreeMap<String, String> =
+            toml::from_str(text).map_err(|error| format!("theme: {error}"))?;
         if let Some(role) = lines.keys().find(|key| ROLES.iter().all(|(_, name, _)| name != key)) {
-            return Err(ThemeError::Role(role.clone()));
+            return Err(format!("theme: there is no role {role:?}"));
         }
         let mut styles = [Style::new(); ROLES.len()];
         let mut rgb = [None; ROLES.len()];
         for (index, (role, name, _)) in ROLES.into_iter().enumerate() {
-            let words = lines.get(name).ok_or(ThemeError::Missing(name))?;
-            let (style, fine_colour) =
-                parsed(words).map_err(|word| ThemeError::Word { role: name, word: word.into() })?;
+            let words = lines.get(name).ok_or_else(|| format!("theme: {name} has no style"))?;
+            let unknown = |word| {
+                format!(
+                    "theme: {name}: {word:?} is not a colour (red, light-red, #ff8800, default), \
+                        and not bold, dim, italic, underlined or reversed"
+                )
+            };
+            let (style, fine_colour) = parsed(words).map_err(unknown)?;
             let depth = if FINE.contains(&role) { fine } else { colors };
             (styles[index], rgb[index]) = (in_depth(style, fine_colour, depth), fine_colour);
         }
@@ -184,19 +158,19 @@ impl Look {
 
     /// The style of a place on a map: `part` grows from 0 to 1 with what is dangerous. Where there are colours
     /// enough its ground says it, and hides the letter that says it elsewhere.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a part of a few steps"
-    )]
     pub fn danger(&self, part: f64) -> Style {
-        let step = (part.clamp(0.0, 1.0) * f64::from(STEPS)) as usize;
+        let step = whole(part.clamp(0.0, 1.0) * f64::from(STEPS));
         let ground = self.ramp.get(step.min(usize::from(STEPS) - 1));
         ground.copied().unwrap_or(self.style(Role::Danger))
     }
 
     pub fn style(&self, role: Role) -> Style {
         self.styles[role as usize]
+    }
+
+    /// A text in the style of a role.
+    pub fn span<'a>(&self, text: impl Into<Cow<'a, str>>, role: Role) -> Span<'a> {
+        Span::styled(text, self.style(role))
     }
 
     /// Whether the grounds of maps say how dangerous a place is.
@@ -289,8 +263,7 @@ mod tests {
         let green = [Role::Stable, Role::GhostStable];
         for (theme, name) in THEMES {
             for (role, text, _) in ROLES {
-                let lines: std::collections::BTreeMap<String, String> =
-                    toml::from_str(text_of(theme)).unwrap();
+                let lines: BTreeMap<String, String> = toml::from_str(text_of(theme)).unwrap();
                 let (style, fine) = parsed(&lines[text]).unwrap();
                 let is_red = matches!(style.fg, Some(Color::Red | Color::LightRed));
                 let is_green = matches!(style.fg, Some(Color::Green | Color::LightGreen));
@@ -341,9 +314,8 @@ mod tests {
 
     #[test]
     fn a_wrong_theme_says_what_is_wrong() {
-        let refused = |text: &str| {
-            Look::from_text(text, Glyphs::Braille, [Colors::Sixteen; 2]).unwrap_err().to_string()
-        };
+        let refused =
+            |text: &str| Look::from_text(text, Glyphs::Braille, [Colors::Sixteen; 2]).unwrap_err();
         assert!(refused("text = 3").contains("line 1"), "{}", refused("text = 3"));
         assert!(refused("tex = 'red'").contains("\"tex\""));
         assert!(refused("text = 'default'").contains("quiet"));

@@ -10,7 +10,6 @@ use crate::study::Margin;
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
 
-/// Digits of a quantity.
 const PLACES: usize = 4;
 
 /// What becomes of the motion by the whole model.

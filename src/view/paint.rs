@@ -5,8 +5,8 @@ use ratatui::layout::Rect;
 
 use super::look::{Look, Symbols};
 use super::pane::Heading;
-use super::plot::{Canvas, Name, Names};
-use crate::picture::items::{Item, Marks, Pattern, Picture};
+use super::plot::{Canvas, Names};
+use crate::picture::items::{Caption, Item, Marks, Pattern, Picture};
 use crate::picture::role::Mark;
 
 /// Plots at least this wide have the long form of captions.
@@ -18,37 +18,35 @@ const LABELLED: u16 = 30;
 /// Columns between marks that are left out where they would touch.
 const APART: usize = 4;
 
-/// Paints a picture under its heading.
 pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, buffer: &mut Buffer) {
-    let Picture { title, x, y, scales, window, reading, items, .. } = picture;
+    let Picture { title, x, y, scales, window, cursor, reading, items, .. } = picture;
     heading.reading = reading;
     let (x, y) = (scales[0].title(&x), scales[1].title(&y));
     let names = Names { title: &title, x, y, scales, marks: None };
     let mut plot = Canvas::new(area, window, names, &heading, look, buffer);
     // Texts find their places when all else is there; names of curves last, since they have many places
     // to go to.
-    let is_text = |item: &Item| matches!(item, Item::Caption { .. } | Item::Cross(_));
-    let (texts, rest): (Vec<&Item>, Vec<&Item>) = items.iter().partition(|item| is_text(item));
-    let labelled = plot.inner().width >= LABELLED;
-    let names = texts.iter().copied().filter_map(name);
-    let names = names.filter(|name| labelled || !name.only_free).collect::<Vec<_>>();
-    let beside_points = texts.iter().copied().filter(|item| name(item).is_none());
-    for item in rest.into_iter().chain(beside_points) {
-        put(&mut plot, item, look);
-    }
-    plot.names(&names);
-    plot.finish(buffer);
-}
-
-/// The name of a curve: a caption that may stand beside several points.
-fn name<'a>(item: &'a Item) -> Option<Name<'a>> {
-    match item {
-        Item::Caption { at, or_at, long, short, role } if !or_at.is_empty() => {
-            let points = std::iter::once(at).chain(or_at).copied().collect();
-            Some(Name { text: short, points, role: *role, only_free: long.is_empty() })
+    let mut captions = Vec::new();
+    for item in &items {
+        match item {
+            Item::Caption(caption) => captions.push(caption),
+            item => put(&mut plot, item, look),
         }
-        _ => None,
     }
+    let (names, beside_points): (Vec<&Caption>, Vec<&Caption>) =
+        captions.into_iter().partition(|caption| !caption.or_at.is_empty());
+    for Caption { at, long, short, role, .. } in beside_points {
+        let texts: [&str; 2] = [long, short];
+        let texts = if plot.inner().width >= WIDE { &texts[..] } else { &texts[1..] };
+        plot.caption(*at, texts, *role);
+    }
+    if let Some(cursor) = cursor {
+        plot.cross(cursor);
+    }
+    let labelled = plot.inner().width >= LABELLED;
+    let named = |name: &&Caption| labelled || !name.long.is_empty();
+    plot.names(&names.into_iter().filter(named).collect::<Vec<_>>());
+    plot.finish(buffer);
 }
 
 fn put(plot: &mut Canvas, item: &Item, look: &Look) {
@@ -79,12 +77,7 @@ fn put(plot: &mut Canvas, item: &Item, look: &Look) {
                 }
             }
         }
-        Item::Caption { at, long, short, role, .. } => {
-            let texts: [&str; 2] = [long, short];
-            let texts = if plot.inner().width >= WIDE { &texts[..] } else { &texts[1..] };
-            plot.caption(*at, texts, *role);
-        }
-        Item::Cross(at) => plot.cross(*at),
+        Item::Caption(_) => {}
     }
 }
 

@@ -48,7 +48,6 @@ pub struct Heading {
     pub focused: bool,
     /// Why the picture is not up to date.
     pub mark: Option<&'static str>,
-    /// What the cursor reads.
     pub reading: Option<String>,
 }
 
@@ -78,7 +77,7 @@ fn mark(session: &Session, plot: usize) -> Option<&'static str> {
         Standing::Stale(_) => Some("stale"),
         Standing::None => Some("computing"),
     });
-    // In the order of the alphabet.
+    // The worse state comes later in the alphabet.
     worst.max().flatten()
 }
 
@@ -97,41 +96,41 @@ pub fn title(
     let width = usize::from(area.width);
     let mut right = Line::default();
     if let Some(mark) = heading.mark {
-        right.push_span(Span::styled(format!(" {mark}"), look.style(Role::Warning)));
+        right.push_span(look.span(format!(" {mark}"), Role::Warning));
     }
     if let Some(reading) = &heading.reading {
-        right.push_span(Span::styled(format!(" {reading}"), look.style(Role::Cursor)));
+        right.push_span(look.span(format!(" {reading}"), Role::Cursor));
     }
     // What the cursor reads matters more than the end of the title.
     let right = fitted(right, width, look);
     let room = width.saturating_sub(right.width());
     let whole = |text: &str| pointer.chars().count() + text.chars().count() <= room;
     let both = whole(&format!("{title}  {names}")) && !names.is_empty();
-    // Where there is no room for both, what is held tells more than what is drawn; and the axes say more
-    // than a short title, and two plots of a view differ in them.
+    // Where there is no room for both, held values matter more than the view, and the axes more than a short
+    // title: two plots of a view differ in them.
     let held = title.split_once(", ").map_or(title, |(_, held)| held);
     let names_first = heading.reading.is_none() && names.len() > title.len();
     let order = if names_first { [names, title, held] } else { [title, held, names] };
     let shown = order.into_iter().find(|text| whole(text) && !text.is_empty());
-    // Of a title that has room for a few letters only, nothing is better than a stump beside a reading.
+    // Beside a reading, a title of which only a few letters fit is left out.
     let stump = heading.reading.is_some() && 2 * room < title.chars().count();
     let otherwise = if stump { "" } else { title };
     let shown = shown.filter(|_| !both).unwrap_or(otherwise);
-    let mut left = vec![Span::styled(format!("{pointer}{shown}"), look.style(role))];
+    let mut left = vec![look.span(format!("{pointer}{shown}"), role)];
     if both {
-        left.push(Span::styled(format!("  {names}"), look.style(Role::Quiet)));
+        left.push(look.span(format!("  {names}"), Role::Quiet));
     }
     let left = fitted(left.into(), room, look);
-    line(area, 0, left, right, look, buffer);
+    both_ends(area, 0, left, right, look, buffer);
     if heading.focused {
-        // The pane that has the keys is told at a glance, in any colours: its heading is a bar.
+        // The focused pane is recognized in any colours: its heading is a bar.
         let bar = look.style(Role::Focus).remove_modifier(Modifier::DIM);
         let row = Rect { height: area.height.min(1), ..area };
         buffer.set_style(row, bar.add_modifier(Modifier::REVERSED));
     }
 }
 
-/// How many of the letters of a text stand before a mark that it goes on, where it has `width` columns:
+/// How many of the letters of a text stand before a mark that it continues, where it has `width` columns:
 /// all where it fits, and never a part of a word with digits, which could be taken for another number.
 fn kept(text: &str, width: usize, mark: usize) -> usize {
     let letters: Vec<char> = text.chars().collect();
@@ -185,9 +184,19 @@ pub fn fitting(texts: impl IntoIterator<Item = String>, width: usize) -> String 
     last
 }
 
-/// Writes a row of `area`: `left` from its left end, as far as it fits, and `right` at its right end where
-/// it fits whole.
+/// Writes a row of `area` from its left end, as far as it fits.
 pub fn line(
+    area: Rect,
+    row: u16,
+    left: impl Into<Line<'static>>,
+    look: &Look,
+    buffer: &mut Buffer,
+) {
+    both_ends(area, row, left, "", look, buffer);
+}
+
+/// [`line`] with a text at its right end where that fits whole.
+pub fn both_ends(
     area: Rect,
     row: u16,
     left: impl Into<Line<'static>>,

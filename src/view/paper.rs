@@ -1,8 +1,8 @@
 //! The page of the paper: its claims with their verdicts, and the numbers of the selected one.
 
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
-use super::content::{Content, ListLine, TEXT};
+use super::content::{ListContent, TEXT};
 use super::look::Look;
 use crate::picture::role::Role;
 use crate::session::{List, Session};
@@ -11,31 +11,30 @@ use crate::words::claim;
 use crate::words::number::significant;
 
 /// The list, section by section.
-pub(super) fn content(session: &Session, list: &List, look: &Look) -> Content {
+pub(super) fn content(session: &Session, list: &List, look: &Look) -> ListContent {
     let found = session.claim_rows(list);
-    let mut rows = Vec::new();
-    let mut section = None;
+    let mut content =
+        ListContent { below: TEXT, ..ListContent::new("the paper against computation") };
     for (claim, examined) in &found {
-        if section != Some(claim.section) {
-            section = Some(claim.section);
-            rows.push(ListLine::Heading(heading(claim.section)));
-        }
+        content.group(heading(claim.section));
         let (verdict, role) = match examined {
             Some(examined) => (claim::verdict(examined), role(examined)),
             None => ("computing".to_owned(), Role::Quiet),
         };
-        rows.push(ListLine::Row(vec![
-            Span::styled(format!("{:<14} ", claim.equation), look.style(Role::Key)),
-            Span::styled(format!("{verdict:<17} "), look.style(role)),
-            Span::styled(claim.statement, look.style(Role::Text)),
-        ]));
+        content.row([
+            look.span(format!("{:<14} ", claim.equation), Role::Key),
+            look.span(format!("{verdict:<17} "), role),
+            look.span(claim.statement, Role::Text),
+        ]);
     }
-    let about = found.get(list.selected).map(|(claim, examined)| about(claim, *examined, look));
-    let mut about = about.unwrap_or_default();
+    if let Some((claim, examined)) = found.get(list.selected) {
+        content.about = about(claim, *examined, look);
+    }
     if !session.examined().is_empty() {
-        about.push(Line::styled(claim::summary(session.examined()), look.style(Role::Quiet)));
+        let summary = claim::summary(session.examined());
+        content.about.push(Line::styled(summary, look.style(Role::Quiet)));
     }
-    Content { title: "the paper against computation", rows, about, below: TEXT }
+    content
 }
 
 /// What stands above the claims of a section.

@@ -9,11 +9,12 @@ use super::fitted::{fitted, spread};
 use super::keys;
 use super::layout::DESIGNED;
 use super::look::Look;
+use super::paint::symbol;
 use super::pane::{self, Heading};
 use super::prose;
 use crate::flow::Problem;
 use crate::oscillator::Symbol;
-use crate::picture::role::Role;
+use crate::picture::role::{CycleStyle, Role, cycle_style};
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
 use crate::study::belt::PhysicalMargin;
@@ -43,18 +44,11 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         let selected = row == session.selected;
         let step = (selected || wide).then(|| step(session, row, look)).flatten();
         let line = row_line(session, row, step, area.width, look);
-        pane::line(area, y, line, "", look, buffer);
+        pane::line(area, y, line, look, buffer);
         y += 1;
     }
     if let Some(folded) = folded(session) {
-        pane::line(
-            area,
-            y,
-            Span::styled(format!(" {folded}"), look.style(Role::Quiet)),
-            "",
-            look,
-            buffer,
-        );
+        pane::line(area, y, look.span(format!(" {folded}"), Role::Quiet), look, buffer);
         y += 1;
     }
     let below = Rect {
@@ -69,16 +63,16 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     }
 }
 
-/// What to look at in this scene and what to press. Where there is no room for both texts whole, the second
-/// makes way for the key that shows it.
+/// What to look at in this scene and what to press. Where there is no room for both texts, the key that shows
+/// the second stands in its place.
 fn guide(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    let quiet = |text: &str| Span::styled(text.to_owned(), look.style(Role::Quiet));
+    let quiet = |text: &str| look.span(text.to_owned(), Role::Quiet);
     let sentence = |text: &str| keys::sentence(text, &session.keymap, look);
     let section = |heading: &'static str, remark: &str, text: &str| {
-        let title = vec![Span::styled(heading, look.style(Role::Title)), quiet(&sentence(remark))];
+        let title = vec![look.span(heading, Role::Title), quiet(&sentence(remark))];
         [Line::from(title), Line::from(quiet(&sentence(&session.said(text))))]
     };
-    // What to press leads on from where the scene opens.
+    // The text starts from the values with which the scene opens.
     let moved = session.setup() != Setup::of_scene(&session.scene);
     let remark = if moved { "  as opened; {reset-scene} goes back" } else { "" };
     let watch = section("look", "", &session.scene.look);
@@ -153,7 +147,7 @@ fn row_line(
         let physical = physical.filter(|text| (!selected || recorded) && fits(text));
         physical.map_or(step, |physical| format!("  {physical}"))
     };
-    line.push(Span::styled(text, look.style(Role::Quiet)));
+    line.push(look.span(text, Role::Quiet));
     line
 }
 
@@ -245,10 +239,10 @@ fn folded(session: &Session) -> Option<String> {
 }
 
 /// A column of the table of cycles: heading, width, and what stands in it.
-type Column = (&'static str, usize, fn(&Cycle) -> String);
+type CycleColumn = (&'static str, usize, fn(&Cycle) -> String);
 
 /// The columns, of which as many are shown as fit.
-const CYCLE_COLUMNS: [Column; 5] = [
+const CYCLE_COLUMNS: [CycleColumn; 5] = [
     ("q_max", 10, |cycle| significant(cycle.q_max, 5)),
     ("period", 8, |cycle| significant(cycle.period, 4)),
     ("v_max", 9, |cycle| significant(cycle.v_max, 5)),
@@ -265,12 +259,12 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
     const SYMBOL: usize = 3;
     let Some(found) = session.cycles() else { return 0 };
     let mut used = SYMBOL;
-    let fits = |(_, width, _): &&Column| {
+    let fits = |(_, width, _): &&CycleColumn| {
         used += width;
         used <= usize::from(area.width)
     };
-    let columns: Vec<&Column> = CYCLE_COLUMNS.iter().take_while(fits).collect();
-    let cells = |text: &dyn Fn(&Column) -> String| -> String {
+    let columns: Vec<&CycleColumn> = CYCLE_COLUMNS.iter().take_while(fits).collect();
+    let cells = |text: &dyn Fn(&CycleColumn) -> String| -> String {
         columns
             .iter()
             .fold(String::new(), |line, column| format!("{line}{:>1$}", text(column), column.1))
@@ -278,36 +272,25 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
     let title = " cycles";
     let headings = cells(&|(heading, ..)| (*heading).to_owned());
     let headings = headings.split_at(title.len() - SYMBOL).1.to_owned();
-    let heading = vec![
-        Span::styled(title, look.style(Role::Title)),
-        Span::styled(headings, look.style(Role::Quiet)),
-    ];
-    pane::line(area, 0, heading, "", look, buffer);
+    let heading = vec![look.span(title, Role::Title), look.span(headings, Role::Quiet)];
+    pane::line(area, 0, heading, look, buffer);
     let mut y = 1;
-    let [stable, unstable] = look.symbols().points;
     for cycle in &found.cycles {
-        let (symbol, role) =
-            if cycle.stable { (stable, Role::Stable) } else { (unstable, Role::Unstable) };
+        let CycleStyle { mark, role, .. } = cycle_style(cycle.stable);
+        let symbol = symbol(mark, look.symbols());
         let numbers = cells(&|(.., number)| number(cycle));
-        let line = vec![Span::styled(format!(" {symbol} "), look.style(role)), Span::raw(numbers)];
-        pane::line(area, y, line, "", look, buffer);
+        let line = vec![look.span(format!(" {symbol} "), role), Span::raw(numbers)];
+        pane::line(area, y, line, look, buffer);
         y += 1;
     }
     let (count, role) = counted(session, found, usize::from(area.width));
-    pane::line(area, y, Span::styled(format!(" {count}"), look.style(role)), "", look, buffer);
+    pane::line(area, y, look.span(format!(" {count}"), role), look, buffer);
     y += 1;
     let words = basin(session, found, usize::from(area.width), look)
         .into_iter()
         .chain(balance(session, usize::from(area.width)));
     for text in words {
-        pane::line(
-            area,
-            y,
-            Span::styled(format!(" {text}"), look.style(Role::Quiet)),
-            "",
-            look,
-            buffer,
-        );
+        pane::line(area, y, look.span(format!(" {text}"), Role::Quiet), look, buffer);
         y += 1;
     }
     y + 1
@@ -351,29 +334,19 @@ fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<St
         let (q, v) = (margin.displacement?, margin.impulse?);
         let text =
             |digits| format!("kick q {} v {}", significant(q, digits), significant(v, digits));
-        // Rather fewer digits than a number cut short.
+        // Fewer digits are better than a number that is cut.
         (1..=5).rev().map(text).find(|text| text.len() < width)
     });
-    let kicks = kicks.into_iter().chain(spread(session, look));
-    let physical = on_the_machine(session, found, width);
-    let certain = certain::line(session, width);
-    let lines = std::iter::once(edge.to_owned());
-    if session.size.height >= DESIGNED {
-        // The second status line says the rest.
-        return lines
-            .chain(spread(session, look))
-            .chain(physical)
-            .chain(certain)
-            .chain(area(found))
-            .collect();
-    }
+    // Where there is a second status line, it says what kicks are survived.
+    let low = session.size.height < DESIGNED;
+    let mut lines = vec![edge.to_owned()];
+    lines.extend(kicks.filter(|_| low));
+    lines.extend(spread(session, look));
+    lines.extend(on_the_machine(session, found, width));
+    lines.extend(certain::line(session, width));
+    lines.extend(share(found).filter(|_| low));
+    lines.extend(area(found));
     lines
-        .chain(kicks)
-        .chain(physical)
-        .chain(certain)
-        .chain(share(found))
-        .chain(area(found))
-        .collect()
 }
 
 /// The margin on the machine, and which cycles overtake its belt.
@@ -386,15 +359,14 @@ fn on_the_machine(session: &Session, found: &Cycles, width: usize) -> Vec<String
     let kick = margin.and_then(|margin| {
         let (x, impulse) = (margin.displacement?, margin.impulse?);
         let kick = format!("{}, {}", with_unit(x, 3, "m"), with_unit(impulse, 3, "N s"));
-        // The word goes before a unit does.
+        // Where there is little room, the word is left out before a unit.
         Some(format!("kick {kick}")).filter(|text| text.len() < width).or(Some(kick))
     });
-    // The whole model knows what happens there.
+    // The whole model covers what happens there.
     let sticking = running.reduced.sticking_velocity;
     let fast = |cycle: &&Cycle| !session.draws_whole() && cycle.v_max >= sticking;
-    let alarms = found.cycles.iter().filter(fast).map(|cycle| {
-        format!("! {} > belt", if cycle.stable { "stable cycle" } else { "unstable cycle" })
-    });
+    let alarms = found.cycles.iter().filter(fast);
+    let alarms = alarms.map(|cycle| format!("! {} > belt", cycle_style(cycle.stable).name));
     let units = &running.reduced.units;
     let d = significant(session.value(Symbol::D), 3);
     let hertz = with_unit(units.omega_0 / std::f64::consts::TAU, 3, "Hz");
@@ -403,7 +375,7 @@ fn on_the_machine(session: &Session, found: &Cycles, width: usize) -> Vec<String
     std::iter::once(natural).chain(kick).chain(alarms).collect()
 }
 
-/// What the cycles of N harmonics are worth: the errors of amplitude and frequency of each.
+/// The errors of amplitude and frequency of the cycles of N harmonics.
 fn balance(session: &Session, width: usize) -> Vec<String> {
     let Some(found) = session.balance().filter(|_| session.shows(Layer::Balance)) else {
         return Vec::new();
@@ -426,18 +398,16 @@ fn balance(session: &Session, width: usize) -> Vec<String> {
     }
 }
 
-/// How large the basin is.
 fn area(found: &Cycles) -> Option<String> {
     let picture = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
-    let area = picture.and_then(|picture| picture.area);
-    area.map(|area| format!("area {}", significant(area, 5)))
+    picture?.area.map(|area| format!("area {}", significant(area, 5)))
 }
 
-/// How much of the margin the Lyapunov circle (24) proves: that knows the linear damping only, and where D2
-/// or D3 feed the motion it can promise more than holds.
+/// How much of the margin the Lyapunov circle (24) proves. It accounts for linear damping only: where D2 or D3
+/// feed the motion it can be larger than the basin.
 fn share(found: &Cycles) -> Option<String> {
     let picture = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
-    picture.and_then(|picture| picture.lyapunov_share).map(|share| {
+    picture?.lyapunov_share.map(|share| {
         if share > 1.0 {
             "Lyapunov: not valid".to_owned()
         } else {

@@ -8,14 +8,16 @@ use super::plot::{point_at, shown};
 use super::scan;
 use crate::picture;
 use crate::scene::View;
-use crate::session::{Place, Session};
+use crate::session::{PointerTarget, Session};
 
 /// What a cell of the screen stands for, if anything: a row of the parameter pane or a point of a plot.
-pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<Place> {
+pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<PointerTarget> {
     let parts = layout(screen, session)?;
     if parts.parameters.contains(cell) {
         // The first line is the title.
-        return (cell.y - parts.parameters.y).checked_sub(1).map(|row| Place::Row(row.into()));
+        return (cell.y - parts.parameters.y)
+            .checked_sub(1)
+            .map(|row| PointerTarget::Row(row.into()));
     }
     let index = parts.plots.iter().position(|area| area.contains(cell))?;
     let area = parts.plots[index];
@@ -29,5 +31,5 @@ pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<Place> {
         View::Scan => point_at(scan::body(area), window, scales, None, cell),
         _ => point_at(area, window, scales, None, cell),
     };
-    point.map(|point| Place::Plot(index, point))
+    point.map(|point| PointerTarget::Plot(index, point))
 }

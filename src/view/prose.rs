@@ -1,4 +1,4 @@
-//! Sentences in a box: broken between words, and with a mark where they go on below it.
+//! Sentences in a box: broken between words, and with a mark where the rest does not fit.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -23,7 +23,7 @@ pub fn write(area: Rect, lines: Vec<Line<'static>>, look: &Look, buffer: &mut Bu
         }
     }
     for (row, line) in (0..area.height).zip(rows) {
-        pane::line(area, row, line, "", look, buffer);
+        pane::line(area, row, line, look, buffer);
     }
 }
 

@@ -1,12 +1,12 @@
 //! A scan: a curve over one parameter, a map of shades over two, or the table of its rows.
 //!
 //! Rows appear as they are computed. The title says how far the scan is. Of the two lines below the plot the
-//! first says what stands at the point that is looked at, the second what the shades, or the numbers that
+//! first says the values at the selected point, the second what the shades, or the numbers that
 //! stand for words, mean.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::{Line, Span};
+use ratatui::text::Line;
 
 use super::look::Look;
 use super::pane::{self, Heading};
@@ -34,7 +34,6 @@ pub fn body(area: Rect) -> Rect {
     Rect { height: area.height.saturating_sub(BELOW), ..area }
 }
 
-/// Draws the plot with this index.
 pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
     let heading = Heading::of(session, Pane::Plot(index));
     let Some(scanned) = &session.scanned else {
@@ -70,7 +69,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
         if running && !whole { format!(" {}", progress(scanned)) } else { reading(scanned, width) };
     let reading = Line::styled(reading, look.style(Role::Cursor));
     for (row, line) in (area.height.saturating_sub(BELOW)..area.height).zip([reading, legend]) {
-        pane::line(area, row, line, "", look, buffer);
+        pane::line(area, row, line, look, buffer);
     }
 }
 
@@ -80,7 +79,7 @@ fn empty(area: Rect, keymap: &Keymap, heading: &Heading, look: &Look, buffer: &m
     let key =
         keymap.key_of("scan-form").map(|key| super::keys::name(key, look)).unwrap_or_default();
     let text = format!(" no scan yet; {key} asks what to scan over and what to measure");
-    pane::line(area, 2, Span::styled(text, look.style(Role::Quiet)), "", look, buffer);
+    pane::line(area, 2, look.span(text, Role::Quiet), look, buffer);
 }
 
 /// How far a scan is: `120 of 400, 3 s left`.
@@ -121,7 +120,7 @@ fn reading(scanned: &Scanned, width: usize) -> String {
 
 /// The measured number over one parameter; where there is none the curve has a gap.
 fn curve(plot: &mut Canvas, scanned: &Scanned, look: &Look) {
-    let point = |index| scanned.place(index).unwrap_or(Point { x: f64::NAN, y: f64::NAN });
+    let point = |index| scanned.place(index).unwrap_or(Point::NOWHERE);
     let role = Role::Trajectory;
     let all = 0..scanned.rows.len();
     if !scanned.plots_words() {

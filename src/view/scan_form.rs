@@ -2,7 +2,6 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::Span;
 
 use super::footer::typed;
 use super::lists::frame;
@@ -13,7 +12,6 @@ use crate::session::state::scan_form::{FIELDS, FormField, ScanForm};
 use crate::session::{Overlay, Session};
 use crate::study::measure::MEASURES;
 
-/// Columns of the form.
 const WIDTH: u16 = 74;
 
 /// Rows below the fields: about the field, and why the form was refused.
@@ -36,28 +34,21 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         let pointer = if active { look.symbols().pointer } else { " " };
         let name = format!("{pointer} {:<9}", spec.name);
         let role = if active { Role::Focus } else { Role::Quiet };
-        let mut line = vec![Span::styled(name, look.style(role))];
+        let mut line = vec![look.span(name, role)];
         let input = &form.inputs[index];
         if active {
             line.extend(typed(input, look));
         } else {
-            line.push(Span::styled(input.text().to_owned(), look.style(Role::Text)));
+            line.push(look.span(input.text().to_owned(), Role::Text));
         }
-        pane::line(inner, row, line, "", look, buffer);
+        pane::line(inner, row, line, look, buffer);
     }
     let below = inner.height.saturating_sub(2);
-    let quiet = |text: String| Span::styled(text, look.style(Role::Quiet));
-    pane::line(inner, below, quiet(about(form)), "", look, buffer);
+    let quiet = |text: String| look.span(text, Role::Quiet);
+    pane::line(inner, below, quiet(about(form)), look, buffer);
     if let Some(why) = &form.refused {
         let text = pane::cut(why, inner.width.into(), look);
-        pane::line(
-            inner,
-            below + 1,
-            Span::styled(text, look.style(Role::Failure)),
-            "",
-            look,
-            buffer,
-        );
+        pane::line(inner, below + 1, look.span(text, Role::Failure), look, buffer);
     }
     frame(area, " scan ", "", look, buffer);
 }

@@ -1,6 +1,6 @@
 //! A scan over two parameters: a map of shades of one hue, the stronger the more dangerous.
 //!
-//! Where values spread over several decades, each shade takes an equal part of their logarithms.
+//! Where values spread over several decades, each shade takes an equal range of their logarithms.
 
 use ratatui::buffer::Buffer;
 use ratatui::style::Style;
@@ -9,6 +9,7 @@ use ratatui::text::{Line, Span};
 use super::look::Look;
 use super::pane;
 use super::plot::Canvas;
+use crate::numerics::count::{real, whole};
 use crate::numerics::elementary::{ln, pow};
 use crate::picture::role::Role;
 use crate::picture::scan::measured;
@@ -25,7 +26,7 @@ const SMALL_IS_DANGEROUS: [&str; 4] = ["displacement", "impulse", "captured_part
 const SHADES: &str = "\u{b7}\u{2591}\u{2592}\u{2593}\u{2588}";
 const LETTERS: &str = ".-+*#";
 
-/// The letters of words, in the order of [`WORDS`], and how dangerous each is; nobody knows of the last.
+/// The letters of words, in the order of [`WORDS`], and how dangerous each is; of the last that is unknown.
 const OF_WORDS: [(char, Option<f64>); 4] =
     [('.', Some(0.0)), ('o', Some(0.5)), ('^', Some(1.0)), ('?', None)];
 
@@ -66,20 +67,13 @@ impl Ramp {
             (value - self.low) / (self.high - self.low)
         };
         let last = self.shades.len() - 1;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            clippy::cast_precision_loss,
-            reason = "a part of a few shades"
-        )]
-        let step = if part.is_finite() { (part * self.shades.len() as f64) as usize } else { 0 };
+        let step = if part.is_finite() { whole(part * real(self.shades.len())) } else { 0 };
         (self.shades[step.min(last)], if self.reversed { 1.0 - part } else { part })
     }
 
     /// The value at which a shade begins.
-    #[expect(clippy::cast_precision_loss, reason = "a few shades")]
     fn begin(&self, step: usize) -> f64 {
-        let part = step as f64 / self.shades.len() as f64;
+        let part = real(step) / real(self.shades.len());
         if self.logarithmic {
             self.low * pow(self.high / self.low, part)
         } else {
@@ -92,10 +86,9 @@ impl Ramp {
 pub fn draw(plot: &Canvas, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
     let words = scanned.plots_words();
     let ramp = Ramp::of(scanned, look);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "number of a word")]
     let shade = |value: f64| match &ramp {
         _ if words => {
-            let (letter, danger) = OF_WORDS[(value as usize).min(OF_WORDS.len() - 1)];
+            let (letter, danger) = OF_WORDS[(whole(value)).min(OF_WORDS.len() - 1)];
             (letter, of_word(danger, look))
         }
         Some(ramp) => {
@@ -191,14 +184,8 @@ pub fn legend(scanned: &Scanned, width: usize, look: &Look) -> Line<'static> {
 fn nearest(sweep: &Sweep, place: f64) -> Option<usize> {
     let last = sweep.count - 1;
     let [from, to] = [0, last].map(|index| Scanned::coordinate(sweep, index));
-    #[expect(clippy::cast_precision_loss, reason = "at most a million")]
-    let steps = (place - from) / (to - from) * last as f64;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "within the sweep, as has just been seen"
-    )]
-    let index = (steps >= -0.5 && steps.is_finite()).then_some((steps + 0.5) as usize);
+    let steps = (place - from) / (to - from) * real(last);
+    let index = (steps >= -0.5 && steps.is_finite()).then_some(whole(steps + 0.5));
     index.filter(|index| *index <= last)
 }
 

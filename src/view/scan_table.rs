@@ -15,7 +15,6 @@ use crate::study::scan::Sweep;
 use crate::words::measured::rounded;
 use crate::words::number::significant;
 
-/// Digits of a number.
 const DIGITS: usize = 8;
 
 /// Draws the names and the rows around the one that is looked at. The column that is plotted comes
@@ -48,7 +47,7 @@ pub fn draw(area: Rect, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
         cells.collect::<Vec<_>>().concat()
     };
     let names = Line::styled(line(0) + more, look.style(Role::Title));
-    pane::line(area, 0, names, "", look, buffer);
+    pane::line(area, 0, names, look, buffer);
     for (row, index) in (1..).zip(seen) {
         let reason = &scanned.rows[index].reason;
         let role = match (index == scanned.at, reason) {
@@ -57,7 +56,7 @@ pub fn draw(area: Rect, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
             (false, None) => Role::Text,
         };
         let text = line(usize::from(row)) + reason.as_deref().unwrap_or_default();
-        pane::line(area, row, Line::styled(text, look.style(role)), "", look, buffer);
+        pane::line(area, row, Line::styled(text, look.style(role)), look, buffer);
     }
 }
 

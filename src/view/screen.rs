@@ -45,7 +45,6 @@ impl Paper {
     pub const LIGHT: Self = Paper { ink: "#1c1c1c", ground: "#fafafa" };
 }
 
-/// The picture of a screen.
 pub fn svg(screen: &Buffer, paper: Paper) -> String {
     let ground = paper.ground;
     let (width, height) = (f64::from(screen.area.width), f64::from(screen.area.height));
@@ -148,7 +147,6 @@ fn runs<K: PartialEq>(row: &[ScreenCell], key: impl Fn(&Paint) -> K) -> Vec<(usi
     runs
 }
 
-/// Draws the grounds of a row.
 fn grounds(out: &mut String, row: &[ScreenCell], top: f64) {
     for (column, length, ground) in runs(row, |paint| paint.ground.clone()) {
         if let Some(ground) = ground {
@@ -214,7 +212,6 @@ fn shape(path: &mut String, symbol: &str, x: f64, top: f64) {
     }
 }
 
-/// Appends a rectangle to a path.
 fn rectangle(path: &mut String, (x, y): (f64, f64), (width, height): (f64, f64)) {
     let _ = write!(path, "M{x} {y}h{width}v{height}h{}z", -width);
 }
@@ -291,7 +288,6 @@ fn letters(out: &mut String, row: &[ScreenCell], top: f64) {
     }
 }
 
-/// Whether a symbol is drawn as a shape.
 fn is_shape(symbol: &str) -> bool {
     let mut chars = symbol.chars();
     let shaped = |char| braille(char).is_some() || block(char).is_some() || strokes(char).is_some();

@@ -1,9 +1,8 @@
-//! The lines that say it in words: what becomes of the motion, and which kicks are survived; while its accuracy is
-//! turned, how it was computed and what that cost.
+//! The status lines: what becomes of the motion, and which kicks are survived; while the accuracy is changed, how
+//! the motion was computed and what that cost.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::text::Span;
 
 use super::certain;
 use super::keys;
@@ -24,9 +23,9 @@ use crate::words::quantity::with_unit;
 
 /// Draws the title line: what the scene is, and its name.
 pub fn title(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    let left = Span::styled(format!(" {}", session.scene.title), look.style(Role::Title));
-    let right = Span::styled(format!("{} ", session.scene.name), look.style(Role::Quiet));
-    pane::line(area, 0, left, right, look, buffer);
+    let left = look.span(format!(" {}", session.scene.title), Role::Title);
+    let right = look.span(format!("{} ", session.scene.name), Role::Quiet);
+    pane::both_ends(area, 0, left, right, look, buffer);
 }
 
 /// Draws the status lines: the outcome first, then method, cost and error.
@@ -52,28 +51,28 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Some((register, _)) => format!("{busy}recording {register} "),
         None => busy,
     };
-    // That a computation goes on matters more than the end of the sentence.
+    // That a computation is running matters more than the end of the sentence.
     let room = usize::from(area.width).saturating_sub(busy.chars().count());
     let text = pane::cut(&shorter(session, format!(" {text}"), room), room, look);
-    let left = Span::styled(text, look.style(role));
-    pane::line(area, 0, left, Span::styled(busy, look.style(Role::Warning)), look, buffer);
+    let left = look.span(text, role);
+    pane::both_ends(area, 0, left, look.span(busy, Role::Warning), look, buffer);
 
-    let quiet = |text| Span::styled(text, look.style(Role::Quiet));
-    // What it cost is listed by a key of its own; while its accuracy is turned, it stands here.
+    let quiet = |text| look.span(text, Role::Quiet);
+    // While the accuracy is changed, the cost stands here; at other times a key of its own lists it.
     if !session.measures() {
         let width = usize::from(area.width).saturating_sub(1);
         let margin = margin(session, width).unwrap_or_default();
-        return pane::line(area, 1, quiet(format!(" {margin}")), "", look, buffer);
+        return pane::line(area, 1, quiet(format!(" {margin}")), look, buffer);
     }
     let line = |words| (work(session, look, words), price(session, look, words));
     let fits = |(left, right): &(String, String)| {
         left.chars().count() + right.chars().count() + 4 <= usize::from(area.width)
     };
     let (left, right) = WORDS.iter().map(line).find(fits).unwrap_or_else(|| line(&WORDS[3]));
-    pane::line(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")), look, buffer);
+    pane::both_ends(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")), look, buffer);
 }
 
-/// A verdict that fits into so many columns, if that is possible: why it is so matters more than after how many
+/// A verdict that fits into this many columns, if that is possible: why it is so matters more than after how many
 /// half swings, or how large a cycle is that the parameter pane lists.
 fn shorter(session: &Session, mut text: String, room: usize) -> String {
     let too_long = |text: &String| text.chars().count() > room;
@@ -142,7 +141,7 @@ fn outcome(session: &Session) -> (String, Role) {
         return (format!("no motion: {failure}"), Role::Failure);
     }
     match session.trajectory() {
-        // Nobody asks for it where no plot shows it.
+        // Where no plot shows it, it is not computed.
         None if !asked => ("the motion is not shown".into(), Role::Quiet),
         None => ("computing the motion".into(), Role::Quiet),
         Some(found) if session.course().is_some() => (machine::outcome(session, found), Role::Text),
@@ -178,7 +177,7 @@ fn held_motions(session: &Session) -> Option<String> {
     (!parts.is_empty()).then(|| format!("{} motions: {}", outcomes.len(), parts.join(", ")))
 }
 
-/// What is said in place of the outcome where the mass would overtake its belt before.
+/// What stands in place of the outcome where the mass would overtake its belt earlier.
 fn alarm(session: &Session) -> Option<(String, Role)> {
     let (tau, q) = session.contact()?;
     let units = session.running()?.reduced.units;
@@ -191,7 +190,7 @@ fn alarm(session: &Session) -> Option<(String, Role)> {
     Some((text, Role::Warning))
 }
 
-/// The mark at the end of the motion in the phase plane, so that the eye connects the two.
+/// The mark at the end of the motion in the phase plane.
 fn symbol(session: &Session, look: &Look) -> String {
     let symbols = look.symbols();
     match session.trajectory().map(|found| found.outcome) {

@@ -1,6 +1,6 @@
-//! Numbers as people read them: a few significant digits, or exactly, and never wider than the place
-//! they stand in.
+//! Numbers as text: with a few significant digits, or exactly, within a given width.
 
+use crate::numerics::count::{real, whole};
 use crate::numerics::elementary::log10;
 
 /// Writes `value` with at most `digits` significant digits, without trailing zeros.
@@ -30,12 +30,7 @@ pub fn significant(value: f64, digits: usize) -> String {
 /// Writes `value` with the digits that matter where numbers `resolution` apart are told apart.
 pub fn resolved(value: f64, resolution: f64) -> String {
     let ratio = log10(value.abs() / resolution);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "the number of digits of a double"
-    )]
-    let digits = (ratio.ceil() + 1.0).clamp(1.0, 17.0) as usize;
+    let digits = whole((ratio.ceil() + 1.0).clamp(1.0, 17.0));
     if ratio < 0.0 { "0".into() } else { significant(value, digits) }
 }
 
@@ -81,11 +76,10 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// Writes how long `wanted` equal parts take of which `done` took `elapsed` seconds, from now on:
+/// Writes the time that the rest of `wanted` equal parts takes, where `done` took `elapsed` seconds:
 /// `12 s`, `3 min`, `2.5 h`.
 pub fn remaining(elapsed: f64, done: usize, wanted: usize) -> String {
-    #[expect(clippy::cast_precision_loss, reason = "a rough number")]
-    let seconds = elapsed * wanted.saturating_sub(done) as f64 / done.max(1) as f64;
+    let seconds = elapsed * real(wanted.saturating_sub(done)) / real(done.max(1));
     if seconds < 90.0 {
         format!("{} s", seconds.ceil())
     } else if seconds < 5400.0 {

@@ -1,4 +1,4 @@
-//! Physical quantities as engineers read them: a few digits, a prefix, a unit.
+//! Physical quantities as text: a few digits, a prefix, a unit.
 
 use super::number::significant;
 

@@ -28,7 +28,7 @@ fn a_played_motion_moves_with_the_time_it_is_told_and_then_stands_still() {
     assert!(session.is_playing() && (head.tau - std::f64::consts::PI).abs() < 1e-12);
     assert!(head.q < -0.1 && head.v.abs() < 0.01, "{head:?}");
     assert_ne!(start, half);
-    // Held, time does not count; stepped, it goes on by a fortieth of a period.
+    // Held, time does not count; stepped, it continues by a fortieth of a period.
     let (held, _) = screen(figure(), "<f8> <elapse 2> <f8> <elapse 5> <f9> <f9> <f7>");
     let step = std::f64::consts::TAU / 40.0;
     assert!((held.head().unwrap().tau - std::f64::consts::PI - step).abs() < 1e-12);

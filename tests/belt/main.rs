@@ -1,4 +1,4 @@
-//! The engineer's door: machines in physical units, from files to answers.
+//! `hopfscope belt`: machines in physical units, from files to answers.
 
 mod explorer;
 mod guarantee;
@@ -94,7 +94,7 @@ fn file(folder: &tempfile::TempDir, quantities: &str, friction: &str) -> String 
 }
 
 #[test]
-fn a_machine_is_answered_by_the_whole_model_and_the_expansion_is_told_with_its_error() {
+fn a_machine_is_answered_by_the_whole_model_and_by_the_expansion_with_its_error() {
     let folder = tempfile::tempdir().unwrap();
     // The open benchmark of basin stability, at a belt speed of 1.5.
     let name = file(
@@ -133,7 +133,7 @@ fn a_machine_is_answered_by_the_whole_model_and_the_expansion_is_told_with_its_e
 }
 
 #[test]
-fn no_kick_is_called_survived_that_ends_on_the_belt() {
+fn no_kick_that_ends_on_the_belt_is_reported_as_survived() {
     // The cubic knows no border at all; by the law itself a displacement of -4 mm ends in stick-slip.
     let folder = tempfile::tempdir().unwrap();
     let name = file(
@@ -253,14 +253,14 @@ fn a_mode_is_answered_by_the_same_command() {
     assert_eq!(found["motion"]["outcome"]["kind"], "cycle");
     assert_eq!(found["cycles"].as_array().unwrap().len(), 2);
     // What has no belt has no speed of one, and no tolerances.
-    for refused in [
-        ["--sweep", "v0=1:2:3"],
-        ["--branch", "mu_s=0.1:1:3"],
-        ["--set", "ratio3=1"],
-        ["--set", "R=3N+-1N"],
-        ["--disturbance", "1 N"],
+    for (option, value, words) in [
+        ("--sweep", "v0=1:2:3", "this mode has no v0"),
+        ("--branch", "mu_s=0.1:1:3", "this mode has no mu_s"),
+        ("--set", "ratio3=1", "this mode has no ratio3"),
+        ("--set", "R=3N+-1N", "takes no tolerances"),
+        ("--disturbance", "1 N", "no --disturbance"),
     ] {
-        run(&["belt", name, refused[0], refused[1]]).is_refused(&[]);
+        run(&["belt", name, option, value]).is_refused(&[words]);
     }
     fs::write(&path, text.replace("-0.05", "\"1 kg\"")).unwrap();
     run(&["belt", name]).is_refused(&["damping_ratio: has another dimension"]);
@@ -325,8 +325,13 @@ fn a_mode_is_set_swept_followed_and_designed_as_a_belt_is() {
         assert!(close(&point["margin"]["displacement"], amplitude(0.05, force)), "{point}");
     }
     let wanted = amplitude(0.05, 4.0);
-    let designed = belt(&[name, "--design", &format!("{wanted:?} m")]);
+    let design = ["belt", name, "--design", &format!("{wanted:?} m")];
+    let designed = belt(&design[1..]);
     assert!((number(&designed["design"]["R"]) - 4.0).abs() < 1e-9, "{}", designed["design"]);
+    let rows = run(&[&design[..], &["--format", "csv"]].concat()).out;
+    assert!(
+        rows.contains(&format!("\nR for the margin,,{:?},N\n", number(&designed["design"]["R"])))
+    );
     // Damping of third degree bounds the growth; the two cycles fold where friction takes all that is fed, at a
     // ratio that is larger the more friction there is.
     let bounded = text.replace("[-0.05]", "[-0.05, 0, 0.02]");

@@ -7,18 +7,18 @@ mod reports;
 mod usage;
 
 use program::{json, number, run};
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use hopfscope::numerics::elementary::cos;
 use hopfscope::oscillator::Symbol;
 use hopfscope::scene::find;
 
 /// The keys of an object, in alphabetical order.
-fn keys(value: &Value) -> Vec<&str> {
-    let object: &Map<String, Value> = value.as_object().expect("an object");
-    let mut keys: Vec<&str> = object.keys().map(String::as_str).collect();
+fn keys(value: &Value) -> String {
+    let mut keys: Vec<&str> =
+        value.as_object().expect("an object").keys().map(String::as_str).collect();
     keys.sort_unstable();
-    keys
+    keys.join(" ")
 }
 
 fn close(found: &Value, expected: f64, tolerance: f64) -> bool {
@@ -30,34 +30,21 @@ fn a_trajectory_document_has_its_fields() {
     let motion = json("trajectory --until 50 --set D=-0.1 --set r=0.5 --set q0=2");
     assert_eq!(
         keys(&motion),
-        [
-            "cost",
-            "energy",
-            "events",
-            "initial",
-            "method",
-            "outcome",
-            "parameters",
-            "provenance",
-            "tolerance"
-        ]
+        "cost energy events initial method outcome parameters provenance tolerance"
     );
     assert_eq!(
         motion["parameters"],
         serde_json::json!({"D": -0.1, "D2": 0.0, "D3": 0.0, "r": 0.5})
     );
     assert_eq!(motion["initial"], serde_json::json!({"q": 2.0, "v": 0.0}));
-    assert_eq!(keys(&motion["outcome"]), ["kind", "q", "tau"]);
+    assert_eq!(keys(&motion["outcome"]), "kind q tau");
     assert_eq!(motion["outcome"]["kind"], "captured");
     assert!(close(&motion["outcome"]["q"], -0.116_144_440_390_138, 1e-9));
-    assert_eq!(
-        keys(&motion["energy"]),
-        ["cubic", "end", "friction", "linear", "quadratic", "residual", "start"]
-    );
-    assert_eq!(keys(&motion["cost"]), ["evaluations", "rejected", "seconds", "steps"]);
+    assert_eq!(keys(&motion["energy"]), "cubic end friction linear quadratic residual start");
+    assert_eq!(keys(&motion["cost"]), "evaluations rejected seconds steps");
     let events = motion["events"].as_array().unwrap();
     assert_eq!(events.len(), 3);
-    assert_eq!(keys(&events[2]), ["q", "tau"]);
+    assert_eq!(keys(&events[2]), "q tau");
     assert_eq!(events[2]["q"], motion["outcome"]["q"], "the capture is the last event");
     assert!(number(&motion["cost"]["seconds"]) > 0.0);
 }
@@ -65,13 +52,13 @@ fn a_trajectory_document_has_its_fields() {
 #[test]
 fn each_outcome_has_its_own_fields() {
     let moving = json("trajectory --until 7 --set D=0 --set r=0");
-    assert_eq!(keys(&moving["outcome"]), ["kind", "q", "tau", "v"]);
+    assert_eq!(keys(&moving["outcome"]), "kind q tau v");
     assert_eq!(moving["outcome"]["kind"], "moving");
     assert_eq!(moving["outcome"]["tau"], 7.0);
     assert!(close(&moving["outcome"]["q"], cos(7.0), 1e-8));
 
     let escaped = json("trajectory --until 7 --set D3=-1 --set r=0 --set q0=10");
-    assert_eq!(keys(&escaped["outcome"]), ["kind", "tau"]);
+    assert_eq!(keys(&escaped["outcome"]), "kind tau");
     assert_eq!(escaped["outcome"]["kind"], "escaped");
     assert_eq!(escaped["energy"], Value::Null, "infinite works do not exist");
 }
@@ -86,7 +73,7 @@ fn a_motion_that_cannot_be_followed_exits_with_1_and_says_how_far_it_came() {
     assert!(ran.err.contains("tau = ") && ran.err.contains("100000"), "{}", ran.err);
     let document: Value = serde_json::from_str(&ran.out).unwrap();
     assert_eq!(document["outcome"]["kind"], "gave-up");
-    assert_eq!(keys(&document["outcome"]), ["kind", "reason", "tau"]);
+    assert_eq!(keys(&document["outcome"]), "kind reason tau");
     assert!(document["outcome"]["reason"].is_string());
 }
 
@@ -157,11 +144,8 @@ fn the_last_of_two_values_counts_and_scenes_give_the_others() {
 #[test]
 fn a_cycles_document_has_its_fields() {
     let answer = json("cycles --set D=-0.2 --set D2=0.2 --set D3=0.5 --set r=0.1");
-    assert_eq!(
-        keys(&answer),
-        ["basin", "cost", "count", "cycles", "harmonic", "parameters", "provenance"]
-    );
-    assert_eq!(keys(&answer["cost"]), ["evaluations", "rejected", "seconds", "steps"]);
+    assert_eq!(keys(&answer), "basin cost count cycles harmonic parameters provenance");
+    assert_eq!(keys(&answer["cost"]), "evaluations rejected seconds steps");
     let cycles = answer["cycles"].as_array().unwrap();
     assert_eq!(cycles.len(), 2);
     for field in [
@@ -183,17 +167,14 @@ fn a_cycles_document_has_its_fields() {
     assert!(close(&cycles[1]["multiplier"], 0.355_865_264_037_352_1, 1e-7));
     assert_eq!(answer["basin"]["edge"], "cycle");
     let harmonic = json("cycles --set D=-0.4 --set r=0.1");
-    assert_eq!(keys(&harmonic["harmonic"][0]), ["amplitude", "mean", "stable"]);
+    assert_eq!(keys(&harmonic["harmonic"][0]), "amplitude mean stable");
     assert!(close(&harmonic["harmonic"][0]["amplitude"], 0.5 / std::f64::consts::PI, 1e-14));
 }
 
 #[test]
 fn a_harmonic_balance_stands_beside_the_cycles_if_asked_for() {
     let answer = json("cycles --set D=-0.7 --set r=0.1 --harmonics 9");
-    assert_eq!(
-        keys(&answer),
-        ["balance", "basin", "cost", "count", "cycles", "harmonic", "parameters", "provenance"]
-    );
+    assert_eq!(keys(&answer), "balance basin cost count cycles harmonic parameters provenance");
     let rows = answer["balance"].as_array().unwrap();
     let harmonics: Vec<f64> = rows.iter().map(|row| number(&row["harmonics"])).collect();
     assert_eq!(harmonics, [1.0, 3.0, 5.0, 9.0]);
@@ -253,7 +234,7 @@ fn without_a_cycle_the_list_is_empty_and_the_basin_has_no_edge() {
 fn a_branch_document_has_its_fields_and_finds_the_fold() {
     let line = "branch --over D=-0.95:0:60 --set r=0.1 --set D2=0.2 --set D3=0.5 --tol 1e-10";
     let answer = json(line);
-    assert_eq!(keys(&answer), ["cost", "parameter", "points", "provenance", "special", "vague"]);
+    assert_eq!(keys(&answer), "cost parameter points provenance special vague");
     assert_eq!(answer["parameter"], "D");
     let points = answer["points"].as_array().unwrap();
     assert!(points.len() >= 60, "{}", points.len());

@@ -323,11 +323,14 @@ fn a_relaxation_by_d2_turns_where_its_slow_curve_does() {
             let parameters = Parameters { d, d2: 1e6, d3: -1e-12, r };
             let found = cycles(&parameters, false, &LIMITS).unwrap().cycles;
             let outermost = found.last().unwrap();
-            if outermost.q_min < -1e40 {
-                assert!((outermost.q_min / (-4.0 / 27.0 * 1e42) - 1.0).abs() < 1e-11);
-                assert!((outermost.v_max / 1e18 - 1.0).abs() < 1e-11);
-                assert!((outermost.period / 1e24 - 1.0).abs() < 1e-11);
+            if (d, r) == (-0.1, 1e-12) {
+                // So small a cycle is that of linear damping.
+                assert!((outermost.q_max / 6.386_823e-12 - 1.0).abs() < 1e-5);
+                continue;
             }
+            assert!((outermost.q_min / (-4.0 / 27.0 * 1e42) - 1.0).abs() < 1e-11);
+            assert!((outermost.v_max / 1e18 - 1.0).abs() < 1e-11);
+            assert!((outermost.period / 1e24 - 1.0).abs() < 1e-11);
         }
     }
 }
@@ -349,7 +352,7 @@ fn a_fold_and_the_escape_point_end_the_branches_that_lead_to_them() {
 }
 
 #[test]
-fn over_cubic_damping_the_branch_ends_before_its_cycles_are_known_no_more() {
+fn the_branch_over_cubic_damping_ends_before_its_cycles_become_uncertain() {
     // Which cycle passes D3 = 0, if one does; the other one comes from infinity there.
     for (d, d2, passes) in [
         (-0.3, 0.0, Some(false)),

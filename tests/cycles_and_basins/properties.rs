@@ -1,5 +1,5 @@
 //! Over the whole range of floating-point numbers: motions and cycles have typed answers, within their
-//! budget, and no number in them is none.
+//! budget, and every number in them is finite.
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, METHODS, Outcome, Problem};

@@ -227,13 +227,9 @@ fn no_chord_misses_its_curve_after_zooming_either() {
         ("fig13", 2, 0.3),
         ("return-map", 1, 0.5),
     ] {
-        let open = |fineness: Fineness| {
-            let scene = find(scene).expect("a scene");
-            let mut session = Session::new(scene, Size { width: 100, height: 30 });
-            complete(&mut session, fineness, &Limits::PATIENT).expect("an answer");
-            session
-        };
-        let mut session = open(Fineness::PRINT);
+        let open = || Session::new(find(scene).expect("a scene"), Size { width: 100, height: 30 });
+        let mut session = open();
+        complete(&mut session, Fineness::PRINT, &Limits::PATIENT).expect("an answer");
         let whole = Figure::of(&session, [panel]);
         // A point of the longest curve that is in the window.
         let Window { x, y } = whole.panels[0].window;
@@ -260,7 +256,7 @@ fn no_chord_misses_its_curve_after_zooming_either() {
         complete(&mut session, Fineness::PRINT, &Limits::PATIENT).expect("an answer");
         coarse += usize::from(Figure::of(&session, [panel]).panels[0].chord() > FAINT);
         let shown = print::figure(&mut session, &[panel], &Limits::PATIENT);
-        let mut truth = open(Fineness::PRINT.finer(40));
+        let mut truth = open();
         look(&mut truth);
         complete(&mut truth, Fineness::PRINT.finer(40), &Limits::PATIENT).expect("an answer");
         let truth = Figure::of(&truth, [panel]);

@@ -48,7 +48,7 @@ fn extents_of_the_basin_are_those_of_the_formulas() {
     for [d, v] in &curves(&drawn, 0, "largest velocity A_v")[0].points[1..] {
         assert!((v / linear_extents(*d, 0.1).1 - 1.0).abs() < 1e-12);
     }
-    // The mark at the present value is no chord either: A_q at D = -0.4.
+    // The mark at the present value is not a chord either: A_q at D = -0.4.
     let mark = drawn.panels[0].marks.iter().find(|mark| mark.x == -0.4).unwrap();
     assert!((mark.y / linear_extents(-0.4, 0.1).0 - 1.0).abs() < 1e-9, "{}", mark.y);
 }

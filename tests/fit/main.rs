@@ -8,7 +8,7 @@ mod strange;
 
 use std::fs;
 
-use hopfscope::fit::names::{Choice, NAMES, named};
+use hopfscope::fit::names::{Choice, NAMES, NameSpec, named};
 use hopfscope::fit::observation::{Data, Observation, StartKind, Unknowns};
 use hopfscope::fit::{Estimate, Question, Record, estimate};
 use hopfscope::numerics::elementary::powi;
@@ -76,7 +76,7 @@ fn records_of_an_independent_simulator_are_understood_from_the_file_alone() {
 }
 
 #[test]
-fn what_cannot_be_separated_is_told_as_the_combination_that_is_known() {
+fn parameters_that_cannot_be_separated_are_reported_as_a_known_combination() {
     let found = fitted("d_or_r");
     let combination = &found["separable"][0];
     let weight = |name: &str| combination["combination"][name].as_f64().unwrap();
@@ -94,7 +94,7 @@ fn what_cannot_be_separated_is_told_as_the_combination_that_is_known() {
 }
 
 #[test]
-fn a_margin_seen_in_the_record_is_found_and_one_beyond_it_is_called_extrapolated() {
+fn a_margin_within_the_record_is_found_and_one_beyond_it_is_marked_as_extrapolated() {
     for (name, extrapolated) in [("near_fold", false), ("negative_captured", true)] {
         let line = format!("fit {} --draws 80", path(name));
         let margin = &json(&line)["margin"];
@@ -147,37 +147,44 @@ impl Simulated {
 /// omega0, offset, D, D2, D3, r, q0, t0: fourteen half swings and a rest.
 const DECAY: Unknowns = [10.0, 0.5, 0.02, 0.005, 0.0005, 0.15, 6.0, 0.3];
 
-#[test]
-fn a_guess_in_the_valley_of_another_number_of_half_swings_is_led_out_of_it() {
-    // Correlated noise and asymmetric damping: the first descent ends with a half swing too many.
-    let p = [8.0, -3.0, 0.01, -0.04, 0.001, 0.15, -6.0, 0.7];
-    let decay = Simulated {
-        p,
-        start: StartKind::Release,
-        seconds: 14.0,
-        samples: 800,
-        noise: 0.05,
-        memory: 0.6,
-    };
-    let r = named("r").unwrap().place;
-    for seed in [3, 5, 6] {
-        let found = decay.fitted(seed);
-        assert_eq!(found.half_swings, 15, "{:?}", found.rivals);
-        let off = (found.p[r] - p[r]) / found.covariance.error(r);
-        assert!(off.abs() < 3.5, "seed {seed}: r is {off} standard errors off");
+/// The same for six seconds, with independent noise.
+const RELEASED: Simulated = Simulated {
+    p: DECAY,
+    start: StartKind::Release,
+    seconds: 6.0,
+    samples: 600,
+    noise: 0.05,
+    memory: 0.0,
+};
+
+/// Fails unless each of these numbers is less than so many standard errors off the truth.
+fn assert_near<'a>(
+    found: &Estimate,
+    truth: &Unknowns,
+    errors: f64,
+    rows: impl IntoIterator<Item = &'a NameSpec>,
+) {
+    for row in rows {
+        let off = (found.p[row.place] - truth[row.place]) / found.covariance.error(row.place);
+        assert!(off.abs() < errors, "{} is {off} standard errors off", row.name);
     }
 }
 
 #[test]
-fn a_drift_that_the_model_does_not_know_is_told() {
-    let decay = Simulated {
-        p: DECAY,
-        start: StartKind::Release,
-        seconds: 6.0,
-        samples: 600,
-        noise: 0.02,
-        memory: 0.0,
-    };
+fn a_first_guess_with_a_wrong_number_of_half_swings_is_corrected() {
+    // Correlated noise and asymmetric damping: the first descent ends with a half swing too many.
+    let p = [8.0, -3.0, 0.01, -0.04, 0.001, 0.15, -6.0, 0.7];
+    let decay = Simulated { p, seconds: 14.0, samples: 800, memory: 0.6, ..RELEASED };
+    for seed in [3, 5, 6] {
+        let found = decay.fitted(seed);
+        assert_eq!(found.half_swings, 15, "{:?}", found.rivals);
+        assert_near(&found, &p, 3.5, named("r"));
+    }
+}
+
+#[test]
+fn a_drift_outside_the_model_is_reported() {
+    let decay = Simulated { noise: 0.02, ..RELEASED };
     let mut record = decay.record(4);
     let times = decay.times();
     record.x.iter_mut().zip(times).for_each(|(x, t)| *x += 0.1 * t);
@@ -198,31 +205,21 @@ fn ten_thousand_samples_take_at_most_forty_motions_with_derivatives() {
         seconds: 30.0,
         samples: 10_000,
         noise: 0.006,
-        memory: 0.0,
+        ..RELEASED
     };
     let mut record = ringing.record(3);
     record.x.iter_mut().for_each(|x| *x = (*x / 0.005).round() * 0.005);
     let found = estimate(&record, &Question::default(), &|| false).unwrap();
     assert!(found.motions.0 <= 40, "{:?}", found.motions);
     assert_eq!(found.half_swings, 300);
-    for row in &NAMES {
-        let off = (found.p[row.place] - ringing.p[row.place]) / found.covariance.error(row.place);
-        assert!(off.abs() < 3.5, "{}: {off}", row.name);
-    }
-    let decay = Simulated {
-        p: DECAY,
-        start: StartKind::Release,
-        seconds: 6.0,
-        samples: 10_000,
-        noise: 0.05,
-        memory: 0.0,
-    };
+    assert_near(&found, &ringing.p, 3.5, &NAMES);
+    let decay = Simulated { samples: 10_000, ..RELEASED };
     let found = decay.fitted(11);
     assert!(found.motions.0 <= 40, "{:?}", found.motions);
 }
 
 #[test]
-fn numbers_that_are_held_stay_and_only_those_asked_for_are_told() {
+fn held_numbers_stay_and_only_the_requested_ones_are_reported() {
     let file = path("coulomb_rest");
     let found = json(&format!("fit {file} --free D,r --draws 40"));
     let told: Vec<&String> = found["parameters"].as_object().unwrap().keys().collect();
@@ -238,7 +235,7 @@ fn numbers_that_are_held_stay_and_only_those_asked_for_are_told() {
 }
 
 #[test]
-fn with_a_mass_forces_are_told_in_newtons() {
+fn with_a_mass_forces_are_given_in_newtons() {
     let found = json(&format!("fit {} --mass 2kg --draws 40", path("coulomb_rest")));
     let number = |name: &str| found["physical"]["numbers"][name]["value"].as_f64().unwrap();
     // c = m omega0^2, R = c r with r = 0.15 mm, d1 = 2 D m omega0.
@@ -293,7 +290,7 @@ fn the_zeros_of_the_damping_over_amplitude_are_the_cycles() {
 }
 
 #[test]
-fn peaks_without_times_tell_all_but_the_frequency() {
+fn peaks_without_times_determine_all_but_the_frequency() {
     let text = fs::read_to_string(path("peaks_times")).unwrap();
     let rows = text.lines().map(|line| line.rsplit(',').next().unwrap());
     let folder = tempfile::tempdir().unwrap();
@@ -346,14 +343,7 @@ fn bad_files_and_options_get_one_line() {
 #[test]
 fn a_fit_is_the_same_in_any_unit() {
     // The scaling symmetry: D2 per length, D3 per length squared.
-    let decay = Simulated {
-        p: DECAY,
-        start: StartKind::Release,
-        seconds: 6.0,
-        samples: 300,
-        noise: 0.05,
-        memory: 0.0,
-    };
+    let decay = Simulated { samples: 300, ..RELEASED };
     let record = decay.record(9);
     let larger = Record { x: record.x.iter().map(|x| 1000.0 * x).collect(), ..record.clone() };
     let question = Question { choice: Choice::default(), ..Question::default() };
@@ -367,7 +357,7 @@ fn a_fit_is_the_same_in_any_unit() {
 }
 
 #[test]
-fn peaks_go_on_where_the_motion_rests_so_that_intervals_do_not_end_at_that_rim() {
+fn peaks_continue_at_rest_so_that_intervals_do_not_end_there() {
     // The last two readings are a swing that has nearly died away.
     let decay = [1.0, 0.3, 0.012, 0.004, 0.0004, 0.1, 8.0, 0.0];
     let data = Data::Peaks { t: None, x: vec![0.0; 24], ratio: 1.0 };
@@ -387,7 +377,7 @@ fn peaks_go_on_where_the_motion_rests_so_that_intervals_do_not_end_at_that_rim()
 }
 
 #[test]
-fn what_is_no_decay_is_answered_the_same_every_time() {
+fn a_record_that_is_not_a_decay_gets_the_same_answer_every_time() {
     let t: Vec<f64> = (0..210_u8).map(|i| 0.01 * f64::from(i)).collect();
     let x = (0..210_u8).map(|i| 0.01 * f64::from(i % 7)).collect();
     let record = Record { t: Some(t), x, ..Record::default() };

@@ -15,14 +15,7 @@ fn covered(estimates: &[Estimate], p: &Unknowns) -> Vec<usize> {
 
 #[test]
 fn intervals_of_95_percent_hold_the_truth_in_93_to_97_of_100_noisy_decays() {
-    let decay = Simulated {
-        p: DECAY,
-        start: StartKind::Release,
-        seconds: 6.0,
-        samples: 200,
-        noise: 0.05,
-        memory: 0.0,
-    };
+    let decay = Simulated { samples: 200, ..RELEASED };
     let estimates: Vec<Estimate> =
         (1..=200_u64).into_par_iter().map(|seed| decay.fitted(seed)).collect();
     let covered = covered(&estimates, &DECAY);
@@ -30,15 +23,8 @@ fn intervals_of_95_percent_hold_the_truth_in_93_to_97_of_100_noisy_decays() {
 }
 
 #[test]
-fn correlated_noise_is_told_and_paid_for() {
-    let decay = Simulated {
-        p: DECAY,
-        start: StartKind::Release,
-        seconds: 6.0,
-        samples: 400,
-        noise: 0.05,
-        memory: 0.8,
-    };
+fn correlated_noise_is_reported_and_widens_the_errors() {
+    let decay = Simulated { samples: 400, memory: 0.8, ..RELEASED };
     let estimates: Vec<Estimate> =
         (1..=16_u64).into_par_iter().map(|seed| decay.fitted(seed)).collect();
     for estimate in &estimates {
@@ -57,15 +43,8 @@ fn correlated_noise_is_told_and_paid_for() {
 }
 
 #[test]
-fn impossible_samples_are_left_out_and_the_rest_is_fitted_as_if_they_had_not_been() {
-    let decay = Simulated {
-        p: DECAY,
-        start: StartKind::Release,
-        seconds: 6.0,
-        samples: 1200,
-        noise: 0.05,
-        memory: 0.0,
-    };
+fn outliers_are_left_out_and_do_not_change_the_fit() {
+    let decay = Simulated { samples: 1200, ..RELEASED };
     let clean = decay.record(5);
     let mut dirty = clean.clone();
     let mut chance = Random::new(77);
@@ -89,7 +68,7 @@ fn impossible_samples_are_left_out_and_the_rest_is_fitted_as_if_they_had_not_bee
 }
 
 #[test]
-fn readings_at_rest_of_a_coarse_converter_do_not_count_as_if_their_errors_were_independent() {
+fn readings_at_rest_of_a_coarse_converter_do_not_count_as_independent() {
     // Steps of five times the noise: every reading at rest is off by the same part of a step.
     let p = [31.4, 0.0, 0.01, 0.0, 0.0, 0.15, 8.0, 0.35];
     let (r, mut covered) = (named("r").unwrap().place, 0);
@@ -97,14 +76,7 @@ fn readings_at_rest_of_a_coarse_converter_do_not_count_as_if_their_errors_were_i
         let offset = 0.05 * (f64::from(u8::try_from(seed).unwrap()) / 8.0);
         let mut at = p;
         at[1] = offset;
-        let coarse = Simulated {
-            p: at,
-            start: StartKind::Release,
-            seconds: 4.0,
-            samples: 2000,
-            noise: 0.01,
-            memory: 0.0,
-        };
+        let coarse = Simulated { p: at, seconds: 4.0, samples: 2000, noise: 0.01, ..RELEASED };
         let mut record = coarse.record(seed);
         record.x.iter_mut().for_each(|x| *x = (*x / 0.05).round() * 0.05);
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
@@ -119,7 +91,7 @@ fn readings_at_rest_of_a_coarse_converter_do_not_count_as_if_their_errors_were_i
 }
 
 #[test]
-fn a_rest_that_two_numbers_of_half_swings_explain_is_told_with_both() {
+fn a_rest_explained_by_two_numbers_of_half_swings_is_reported_with_both() {
     // Weak friction and much noise: the last turning point may lie on either side of the rim.
     let unclear = Simulated {
         p: [14.0, 0.1, 0.002, 0.0, 0.01, 0.02, 5.0, 0.4],
@@ -127,7 +99,7 @@ fn a_rest_that_two_numbers_of_half_swings_explain_is_told_with_both() {
         seconds: 20.0,
         samples: 1000,
         noise: 0.06,
-        memory: 0.0,
+        ..RELEASED
     };
     let found = unclear.fitted(2);
     let rivals: Vec<usize> = found.contenders().map(|rival| rival.half_swings).collect();
@@ -143,14 +115,7 @@ fn a_rest_that_two_numbers_of_half_swings_explain_is_told_with_both() {
 fn noise_of_several_times_the_friction_does_not_hide_the_number_of_half_swings() {
     // A descent with all numbers free ends with two or three half swings too many, D3 < 0 and a third of the friction.
     let p = [18.0, 1.0, 0.02, 0.0, 0.0, 0.15, 5.0, 0.3];
-    let loud = Simulated {
-        p,
-        start: StartKind::Release,
-        seconds: 8.0,
-        samples: 1200,
-        noise: 0.6,
-        memory: 0.0,
-    };
+    let loud = Simulated { p, seconds: 8.0, samples: 1200, noise: 0.6, ..RELEASED };
     let outside: Vec<usize> = (1..=4_u64)
         .into_par_iter()
         .map(|seed| {

@@ -13,6 +13,7 @@ use hopfscope::flow::precise::{COARSE, FINE, precise};
 use hopfscope::flow::{Limits, Problem};
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::{exp, pow, powi};
+use hopfscope::numerics::random::Random;
 use hopfscope::oscillator::{Parameters, State, Symbol};
 use hopfscope::proof::cycles::{Proof, prove};
 use hopfscope::proof::derivatives::{cycle_derivatives, derivatives};
@@ -92,40 +93,26 @@ fn every_reference_cycle_is_proved_and_enclosed_to_twelve_digits() {
     }
 }
 
-/// A generator of numbers in `0 .. 1`, the same on every machine.
-struct Dice(u64);
+/// 0 in one of five cases, else of either sign and between 1e-3 and 1e3.
+fn magnitude(chance: &mut Random) -> f64 {
+    let (kind, size) = (chance.even(), pow(10.0, 6.0 * chance.even() - 3.0));
+    if kind < 0.2 { 0.0 } else { size.copysign(kind - 0.6) }
+}
 
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-        let value = (self.0 >> 11) as f64;
-        value * powi(2.0, -53)
-    }
-
-    /// 0 in one of five cases, else of either sign and between 1e-3 and 1e3.
-    fn magnitude(&mut self) -> f64 {
-        let (kind, size) = (self.roll(), pow(10.0, 6.0 * self.roll() - 3.0));
-        if kind < 0.2 { 0.0 } else { size.copysign(kind - 0.6) }
-    }
-
-    fn parameters(&mut self) -> Parameters {
-        let d = 4.0 * self.roll() - 2.0;
-        let (d2, d3) = (self.magnitude(), self.magnitude());
-        Parameters { d, d2, d3, r: pow(10.0, 9.0 * self.roll() - 6.0) }
-    }
+fn any_parameters(chance: &mut Random) -> Parameters {
+    let d = 4.0 * chance.even() - 2.0;
+    let (d2, d3) = (magnitude(chance), magnitude(chance));
+    Parameters { d, d2, d3, r: pow(10.0, 9.0 * chance.even() - 6.0) }
 }
 
 /// Half swings enclosed, and the same in twice the precision: each enclosure holds its motion.
 fn check_half_swings(count: usize) {
-    let mut dice = Dice(88_172_645_463_325_252);
+    let mut chance = Random::new(88_172_645_463_325_252);
     let (mut enclosed, mut unknown, mut wide) = (0, 0, 0);
     for _ in 0..count {
-        let d = 1.6 * dice.roll() - 0.9;
-        let (d2, d3) = (dice.roll() - 0.5, 1.2 * dice.roll() - 0.4);
-        let x = 1e-3 * pow(5e3, dice.roll());
+        let d = 1.6 * chance.even() - 0.9;
+        let (d2, d3) = (chance.even() - 0.5, 1.2 * chance.even() - 0.4);
+        let x = 1e-3 * pow(5e3, chance.even());
         let point = Interval::point;
         let field = Field { a: point(2.0 * d), b: point(d2), c: point(d3) };
         let start = StartBox::at_rest(point(x));
@@ -222,10 +209,10 @@ fn proofs_of_mirrored_and_of_scaled_parameters_agree() {
 
 /// Random parameters of all signs and sizes: what is proved agrees with the search.
 fn check_sets(count: usize) -> usize {
-    let mut dice = Dice(0x9e37_79b9_7f4a_7c15);
+    let mut chance = Random::new(0x9e37_79b9_7f4a_7c15);
     let mut open = 0;
     for _ in 0..count {
-        let parameters = dice.parameters();
+        let parameters = any_parameters(&mut chance);
         let proof = match cycles(&parameters, false, &Limits::PATIENT) {
             Ok(found) => proved(&found).unwrap_or_else(|wrong| panic!("{parameters:?}: {wrong}")),
             Err(_) => prove(&ParameterBox::from(&parameters), &[]),

@@ -18,6 +18,15 @@ use rustix::termios::{LocalModes, tcgetattr};
 /// How long a condition may take to come true before the test fails.
 const DEADLINE: Duration = Duration::from_secs(30);
 
+/// The program under test.
+pub const PROGRAM: &str = env!("CARGO_BIN_EXE_hopfscope");
+
+/// What the title of the plain scene says.
+pub const TITLE: &str = "The plain oscillator";
+
+/// As long as this without a byte, a picture is complete: the program sends a frame within 16 ms.
+pub const QUIET: Duration = Duration::from_millis(200);
+
 /// A request for the cursor position.
 const REQUEST: &[u8] = b"\x1b[6n";
 
@@ -47,9 +56,11 @@ pub struct Terminal {
     owed: usize,
     /// How far requests were looked for.
     searched: usize,
+    /// How far the emulator has read.
+    emulated: usize,
 }
 
-/// Waits until a condition holds of which nobody tells.
+/// Polls a condition until it holds.
 pub fn poll(what: &str, condition: impl Fn() -> bool) {
     let deadline = Instant::now() + DEADLINE;
     while !condition() {
@@ -107,7 +118,20 @@ impl Terminal {
             answers,
             owed: 0,
             searched: 0,
+            emulated: 0,
         }
+    }
+
+    /// Starts the explorer and waits for its first picture.
+    pub fn explorer(
+        arguments: &[&str],
+        environment: &[(&str, &str)],
+        size: (u16, u16),
+    ) -> Terminal {
+        let program = [&[PROGRAM], arguments].concat();
+        let mut terminal = Terminal::start(&program, environment, size, Answers::AtOnce);
+        terminal.wait("the first picture", |terminal| terminal.screen().alternate_screen());
+        terminal
     }
 
     /// Types bytes.
@@ -156,8 +180,8 @@ impl Terminal {
         let time = until.saturating_duration_since(Instant::now());
         match self.output.recv_timeout(time) {
             Ok(bytes) => {
-                self.screen.process(&bytes);
                 self.written.extend(bytes);
+                self.emulate();
                 let new = &self.written[self.searched..];
                 let requests: Vec<usize> = new
                     .windows(REQUEST.len())
@@ -177,6 +201,18 @@ impl Terminal {
             Err(RecvTimeoutError::Timeout) => true,
             Err(RecvTimeoutError::Disconnected) => false,
         }
+    }
+
+    /// Hands what was written to the emulator, whole characters only: where a read ends within one,
+    /// vte 0.15 loses an ASCII character that follows it.
+    fn emulate(&mut self) {
+        let new = &self.written[self.emulated..];
+        let whole = match std::str::from_utf8(new) {
+            Err(error) if error.error_len().is_none() => error.valid_up_to(),
+            _ => new.len(),
+        };
+        self.screen.process(&new[..whole]);
+        self.emulated += whole;
     }
 
     /// Answers all requests for the cursor position.
@@ -253,6 +289,13 @@ impl Terminal {
             assert!(Instant::now() < deadline, "the program does not end\n{}", self.text());
             self.listen(Instant::now() + Duration::from_millis(20));
         }
+    }
+
+    /// Leaves with `q`, and checks what is left behind.
+    pub fn leave(mut self) {
+        self.types("q");
+        assert_eq!(self.end(), 0);
+        self.assert_restored();
     }
 
     /// Fails unless every mode that the program has turned on is off again.

@@ -1,18 +1,15 @@
 //! Machines of which the reference has none: the guide catches what no cycle holds, rest without swings, laws
 //! that end beyond the cycles.
 
+use super::portrait;
 use hopfscope::machine::return_map::MachineReturn;
 use hopfscope::machine::{
-    Body, Flow, MachineBorder, MachineFate, Modal, Model, Portrait, Subject, Unfollowed,
+    Body, Flow, MachineBorder, MachineFate, Modal, Portrait, Subject, Unfollowed,
 };
 use hopfscope::numerics::elementary::exp;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
 use hopfscope::scene::machine::file::parse;
-
-fn portrait(belt: &Belt) -> Portrait {
-    Portrait::new(&Model::new(belt).unwrap()).unwrap()
-}
 
 /// A clutch whose friction feeds a small swing: without friction at rest an unstable cycle borders rest, from
 /// -5.4195 mm to 5.4989 mm.
@@ -56,7 +53,7 @@ fn a_guide_that_holds_one_turning_point_of_a_cycle_leaves_no_cycle() {
             Ok(MachineFate::Cycle(0)),
             "{x} {v}"
         );
-        // Followed one return, the motion just within comes to rest, the one just beyond goes on.
+        // Followed one return, the motion just within comes to rest, the one just beyond continues.
         if v == 0.0 && x > 0.0 {
             let mut flow = Flow::new(&found.model);
             assert!(matches!(flow.returned(x * (1.0 - 1e-9)), Ok(MachineReturn::Rests(_))));

@@ -11,7 +11,7 @@ use hopfscope::machine::branch::branch;
 use hopfscope::machine::motion::MachineOutcome;
 use hopfscope::machine::return_map::MachineReturn;
 use hopfscope::machine::special::MachineSpecialKind;
-use hopfscope::machine::turn::Place;
+use hopfscope::machine::turn::ContactState;
 use hopfscope::machine::varied::Varied;
 use hopfscope::machine::{
     Flow, MachineBorder, MachineFate, MachineMotion, Model, NoModel, Portrait,

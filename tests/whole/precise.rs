@@ -1,7 +1,7 @@
 //! The whole model against an integration in twice the working precision that shares nothing with it: fixed
 //! Taylor steps, and switching lines looked for by a dense scan of every step.
 
-use hopfscope::machine::turn::Place;
+use hopfscope::machine::turn::ContactState;
 use hopfscope::machine::{MachineMotion, Model, Phase};
 use hopfscope::numerics::twofold::Twofold;
 use hopfscope::oscillator::Belt;
@@ -115,12 +115,12 @@ impl Machine {
     }
 
     /// What the mass does at a place, by the forces there.
-    fn place(&self, x: Twofold, on_belt: bool) -> Place {
+    fn place(&self, x: Twofold, on_belt: bool) -> ContactState {
         if !on_belt {
             return if x.value().abs() <= self.guide {
-                Place::Rests
+                ContactState::Rests
             } else {
-                Place::Slips(if x.value() > 0.0 { Phase::Below } else { Phase::Between })
+                ContactState::Slips(if x.value() > 0.0 { Phase::Below } else { Phase::Between })
             };
         }
         let damper = self.speed * (self.damping + self.cubic * self.speed * self.speed);
@@ -128,29 +128,29 @@ impl Machine {
         let held = self.kinetic + self.drop + self.held;
         // A release is exactly at the end of the band.
         if needed >= held - 1e-14 {
-            Place::Slips(Phase::Between)
+            ContactState::Slips(Phase::Between)
         } else if needed < -held {
-            Place::Slips(Phase::Above)
+            ContactState::Slips(Phase::Above)
         } else {
-            Place::Sticks
+            ContactState::Sticks
         }
     }
 
     /// Where and when the phases of a motion begin, until a time.
-    fn legs(&self, x: f64, y: f64, until: f64) -> Vec<(Place, f64, f64)> {
+    fn legs(&self, x: f64, y: f64, until: f64) -> Vec<(ContactState, f64, f64)> {
         let (mut x, mut y, mut t) = (two(x), two(y), ZERO);
         let mut place = match y.value() {
             0.0 => self.place(x, false),
-            y if y < 0.0 => Place::Slips(Phase::Below),
-            y if y < self.speed => Place::Slips(Phase::Between),
-            _ => Place::Slips(Phase::Above),
+            y if y < 0.0 => ContactState::Slips(Phase::Below),
+            y if y < self.speed => ContactState::Slips(Phase::Between),
+            _ => ContactState::Slips(Phase::Above),
         };
         let mut legs = Vec::new();
         while t.value() < until {
             legs.push((place, t.value(), x.value()));
             match place {
-                Place::Rests => break,
-                Place::Sticks => {
+                ContactState::Rests => break,
+                ContactState::Sticks => {
                     let damper =
                         two(self.damping).plus(two(self.cubic * self.speed).times(self.speed));
                     let release = two(self.kinetic + self.drop + self.held)
@@ -158,9 +158,9 @@ impl Machine {
                         .minus(two(self.guide))
                         .minus(self.steady());
                     t = t.plus(release.minus(x).over(two(self.speed)));
-                    (x, y, place) = (release, two(self.speed), Place::Slips(Phase::Between));
+                    (x, y, place) = (release, two(self.speed), ContactState::Slips(Phase::Between));
                 }
-                Place::Slips(phase) => loop {
+                ContactState::Slips(phase) => loop {
                     let (xs, ys) = self.series(phase, x, y);
                     if let Some((time, level)) = self.first_line(phase, &ys) {
                         (x, y, t) = (at(&xs, time), two(level), t.plus(time));
@@ -243,8 +243,8 @@ fn phases_and_their_times_are_those_of_a_dense_scan_in_twice_the_precision() {
                 let errors = ((leg.t - t).abs(), (leg.x - x).abs());
                 assert!(errors.0 < 1e-12 && errors.1 < 1e-12, "{machine:?} at {t}: {errors:?}");
                 compared += 1;
-                sticks += usize::from(place == Place::Sticks);
-                overtakes += usize::from(place == Place::Slips(Phase::Above));
+                sticks += usize::from(place == ContactState::Sticks);
+                overtakes += usize::from(place == ContactState::Slips(Phase::Above));
             }
         }
     }

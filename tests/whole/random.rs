@@ -1,64 +1,49 @@
 //! Random machines: what must hold of every one of them.
 
+use hopfscope::numerics::random::Random;
+
 use super::*;
 
-/// A sequence of numbers in 0 .. 1.
-struct Dice(u64);
-
-impl Dice {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        f64::from(u32::try_from(self.0 >> 32).unwrap()) / f64::from(u32::MAX)
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
-    /// Any machine: every law, feeding and damping, with and without static friction.
-    fn machine(&mut self) -> Belt {
-        let law = match self.0 % 4 {
-            0 => FrictionLaw::Constant { mu: self.between(0.1, 0.6) },
-            1 => FrictionLaw::Polynomial {
-                coefficients: vec![
-                    self.between(0.3, 0.8),
-                    self.between(-0.4, 0.1),
-                    self.between(0.05, 0.4),
-                ],
-            },
-            exponent => FrictionLaw::Stribeck {
-                rest: self.between(0.5, 1.0),
-                kinetic: self.between(0.1, 0.5),
-                velocity: self.between(0.05, 1.0),
-                exponent: if exponent == 2 { 1.0 } else { 2.0 },
-                viscous: 0.0,
-            },
-        };
-        let guide = if self.next() < 0.4 { 0.0 } else { self.between(0.003, 0.2) };
-        let held = law.mu(0.0).unwrap() * self.between(1.0, 1.5);
-        Belt {
-            mass: 1.0,
-            stiffness: 1.0,
-            damping: self.between(-0.2, 0.4),
-            cubic_damping: if self.next() < 0.5 { 0.0 } else { self.between(0.0, 0.2) },
-            normal_force: self.between(0.3, 3.0),
-            friction: guide,
-            belt_speed: self.between(0.1, 2.0),
-            law,
-            static_coefficient: (self.next() < 0.5).then_some(held),
-            static_guide: None,
+/// Any machine: every law, feeding and damping, with and without static friction.
+fn any_machine(chance: &mut Random) -> Belt {
+    let mut between = |low: f64, high: f64| low + (high - low) * chance.even();
+    let kind = between(0.0, 4.0);
+    let law = if kind < 1.0 {
+        FrictionLaw::Constant { mu: between(0.1, 0.6) }
+    } else if kind < 2.0 {
+        let coefficients = vec![between(0.3, 0.8), between(-0.4, 0.1), between(0.05, 0.4)];
+        FrictionLaw::Polynomial { coefficients }
+    } else {
+        FrictionLaw::Stribeck {
+            rest: between(0.5, 1.0),
+            kinetic: between(0.1, 0.5),
+            velocity: between(0.05, 1.0),
+            exponent: if kind < 3.0 { 1.0 } else { 2.0 },
+            viscous: 0.0,
         }
+    };
+    let guide = if between(0.0, 1.0) < 0.4 { 0.0 } else { between(0.003, 0.2) };
+    let held = law.mu(0.0).unwrap() * between(1.0, 1.5);
+    Belt {
+        mass: 1.0,
+        stiffness: 1.0,
+        damping: between(-0.2, 0.4),
+        cubic_damping: if between(0.0, 1.0) < 0.5 { 0.0 } else { between(0.0, 0.2) },
+        normal_force: between(0.3, 3.0),
+        friction: guide,
+        belt_speed: between(0.1, 2.0),
+        law,
+        static_coefficient: (between(0.0, 1.0) < 0.5).then_some(held),
+        static_guide: None,
     }
 }
 
 #[test]
 fn the_return_map_of_any_machine_never_decreases() {
-    let mut dice = Dice(0x9e37_79b9_7f4a_7c15);
+    let mut chance = Random::new(0x9e37_79b9_7f4a_7c15);
     let mut compared = 0;
     for _ in 0..60 {
-        let Ok(model) = Model::new(&dice.machine()) else { continue };
+        let Ok(model) = Model::new(&any_machine(&mut chance)) else { continue };
         let mut flow = Flow::new(&model);
         let mut last = f64::NEG_INFINITY;
         for step in 1..60 {
@@ -77,14 +62,14 @@ fn the_return_map_of_any_machine_never_decreases() {
 
 #[test]
 fn any_start_ends_where_its_motion_goes() {
-    let mut dice = Dice(88_172_645_463_325_252);
+    let mut chance = Random::new(88_172_645_463_325_252);
     let mut followed = 0;
     for _ in 0..40 {
-        let belt = dice.machine();
+        let belt = any_machine(&mut chance);
         let Ok(model) = Model::new(&belt) else { continue };
         let Ok(found) = Portrait::new(&model) else { continue };
         for _ in 0..3 {
-            let (x, v) = (dice.between(-3.0, 3.0), dice.between(-2.0, 2.0));
+            let (x, v) = (6.0 * chance.even() - 3.0, 4.0 * chance.even() - 2.0);
             let Ok(fate) = found.fate(x, v) else { continue };
             let motion = MachineMotion::new(&model, x, v, 400.0);
             assert!(motion.ledger.residual().abs() < 1e-11, "{belt:?}: {:?}", motion.ledger);
@@ -126,7 +111,7 @@ fn no_contact_is_too_shallow_to_be_seen() {
                 let excess = sign * powi(10.0, -power);
                 let left = -(rho + radius * (1.0 + excess));
                 let motion = MachineMotion::new(&model, left, 0.0, 0.9 * PI / model.omega_0);
-                let stuck = motion.legs.iter().any(|leg| leg.place == Place::Sticks);
+                let stuck = motion.legs.iter().any(|leg| leg.place == ContactState::Sticks);
                 assert_eq!(stuck, excess > 0.0, "{guide} {speed} {excess:e}");
             }
         }
@@ -148,10 +133,10 @@ fn no_contact_is_too_shallow_to_be_seen() {
 
 #[test]
 fn what_comes_to_ride_on_the_belt_leaves_it_as_one() {
-    let mut dice = Dice(0x0dd_ba11_5eed_cafe);
+    let mut chance = Random::new(0x0dd_ba11_5eed_cafe);
     let mut merged = 0;
     for _ in 0..40 {
-        let Ok(model) = Model::new(&dice.machine()) else { continue };
+        let Ok(model) = Model::new(&any_machine(&mut chance)) else { continue };
         let mut flow = Flow::new(&model);
         let Ok(Some(marks)) = flow.landmarks() else { continue };
         let (Some(touch), Some(released)) = (marks.grazing.right, marks.released) else { continue };

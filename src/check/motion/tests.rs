@@ -55,8 +55,9 @@ fn a_disc_holds_the_motions_of_all_coefficients() {
     assert!([0.9, 1.1].iter().all(|&a| after.square()[1].contains(velocity(a))));
 }
 
-/// With `v' = B v^2 - 1` the integral of `f' = -2 B v` is `2 ln(cosh t - sqrt(B) v sinh t)` at the time `t/sqrt(B)`, but for
-/// what x moves, a part `1e-18`. Over this step the polynomial alone is off by `4e-15`, four times what it rounds.
+/// With `v' = B v^2 - 1` the integral of `f' = -2 B v` is `2 ln(cosh t - sqrt(B) v sinh t)` at the time
+/// `t/sqrt(B)`, except for what x moves, a relative `1e-18`. Over this step the polynomial alone is off by `4e-15`,
+/// four times what it rounds.
 #[test]
 fn a_step_holds_what_its_polynomial_leaves_out() {
     /// For `t = 0.0245`, `sqrt(B) v = 10`: the double nearest to -0.5613450494823475487, computed with 40 digits.
@@ -97,8 +98,8 @@ fn an_arrival_holds_what_is_left_of_the_way() {
     }
 }
 
-/// Of a linear node all motions from far out follow its slow line, on which `x = -v/lambda`, `lambda^2 - a lambda + 1 = 0`;
-/// for `a = 2` that passes the right end of the piece.
+/// Of a linear node all motions from far out follow its slow line, on which `x = -v/lambda`, `lambda^2 - a
+/// lambda + 1 = 0`; for `a = 2` that passes the right end of the piece.
 #[test]
 fn the_piece_of_a_fence_reaches_to_the_slow_line() {
     let (a, e) = (2.001, 0.3);
@@ -112,7 +113,8 @@ fn the_piece_of_a_fence_reaches_to_the_slow_line() {
     assert!(fence(1.999).is_none());
 }
 
-/// From `v = 0` at `-m` on, `P` is `(v - 1)^2 + m - 1` for `a = 0`, `b = -1`; where it is negative somewhere nothing is claimed.
+/// From `v = 0` at `-m` on, `P` is `(v - 1)^2 + m - 1` for `a = 0`, `b = -1`; where it is negative somewhere
+/// nothing is claimed.
 #[test]
 fn what_never_returns_is_told_from_what_may() {
     for (coefficients, place, never) in [
@@ -136,7 +138,8 @@ fn what_never_returns_is_told_from_what_may() {
     }
 }
 
-/// Next to a node every swing ends beyond the bound of all, however near to the centre it starts; it is none in a spiral.
+/// Next to a node every swing ends beyond the bound of all, however near to the centre it starts; it is none in
+/// a spiral.
 #[test]
 fn swings_from_next_to_a_node_end_beyond_their_bound() {
     for coefficients in [[-2.0, 0.5, 1.0], [-2.2, -0.5, 1.0], [-2.5, 0.0, 3.0]] {

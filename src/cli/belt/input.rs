@@ -18,7 +18,7 @@ pub enum Name {
     Velocity,
 }
 
-/// A number and the values through which it goes.
+/// A number and the values that it takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RangeInUnits {
     /// The number.
@@ -117,7 +117,7 @@ pub fn window(text: &str) -> Result<WindowInUnits, String> {
 
 /// `NAME=FROM:TO:COUNT`.
 pub fn range(text: &str) -> Result<RangeInUnits, String> {
-    /// Most points of a sweep.
+    /// Maximum number of points of a sweep.
     const MOST: usize = 100_000;
     let form = "expected NAME=FROM:TO:COUNT, such as \"v0=0.1 m/s:0.5 m/s:21\"";
     let (name, range) = text.split_once('=').ok_or(form)?;

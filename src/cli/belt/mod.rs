@@ -22,11 +22,13 @@ use crate::machine::branch::{borders, branch, spaced};
 use crate::machine::design::friction_for;
 use crate::machine::guarantee::guaranteed;
 use crate::machine::stepped::{ALLOWED, SteppedMethod};
-use crate::machine::survey::{Course, Trouble, survey};
+use crate::machine::survey::{Course, CubicExpansion, Trouble};
 use crate::machine::{Body, Portrait, Subject, Tolerances};
+use crate::oscillator::Belt;
 use crate::report::belt::branch::{Borders, Branched};
-use crate::report::belt::mode::ModeAnswer;
-use crate::report::belt::{self, BeltAnswer, Designed, Head, RestShare, Sweep, SweepPoint};
+use crate::report::belt::{
+    self, Designed, Head, MachineAnswer, MachineSweep, OnBelt, RestShare, SweepPoint,
+};
 use crate::runtime::bounded;
 use crate::scene::machine::file::parse;
 use crate::scene::machine::library::{TEXTBOOK, find, machines};
@@ -36,45 +38,45 @@ use crate::scene::usual::TOLERANCE;
 use crate::scene::{Machine, ScaledMachine, Scene};
 use crate::study::design::Kick;
 
-/// Says what a mass on a belt does, in physical units
+/// Analyses a mass on a belt in physical units
 #[derive(Debug, Args)]
 #[command(long_about = long_about())]
 pub struct Arguments {
-    /// File of the machine, or the name of one that comes with the program
+    /// Machine file, or the name of a built-in machine
     #[arg(value_name = "FILE", default_value = TEXTBOOK)]
     machine: String,
-    /// Sets a number of the machine or its friction law, such as "v0=0.2 m/s", or with a tolerance "R=1 N +- 0.2 N";
+    /// Sets a quantity of the machine or its friction law, such as "v0=0.2 m/s", or with a tolerance "R=1 N +- 0.2 N";
     /// repeatable; also the start x, v
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     set: Vec<(Name, Toleranced)>,
-    /// Bound on a force that disturbs the mass in any way, such as "0.1 N": also tells what is survived for certain
+    /// Bound on a force that disturbs the mass in any way, such as "0.1 N": also reports the margin that is guaranteed under it
     #[arg(long, value_name = "FORCE", value_parser = disturbance, allow_hyphen_values = true)]
     disturbance: Option<f64>,
     /// Start of the motion, such as "x=1 mm,v=0 m/s"
     #[arg(long, value_name = "x=..,v=..", value_parser = start, allow_hyphen_values = true)]
     start: Option<StartOverride>,
-    /// Window "XMIN:XMAX,VMIN:VMAX": tells the part of it from which the mass comes to rest
+    /// Window "XMIN:XMAX,VMIN:VMAX": reports the share of its starts that come to rest
     #[arg(long, value_name = "WINDOW", value_parser = window, allow_hyphen_values = true)]
     window: Option<WindowInUnits>,
-    /// Counts the window's displacements from the relaxed spring, and not from the steady position
+    /// Measures the window's displacements from the relaxed spring instead of the steady position
     #[arg(long, requires = "window")]
     elongation: bool,
-    /// Varies a number, such as "v0=0.1 m/s:0.5 m/s:21": margins and cycles along its way
+    /// Varies a quantity, such as "v0=0.1 m/s:0.5 m/s:21": margins and cycles at each value
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true)]
     sweep: Option<RangeInUnits>,
-    /// Follows the cycles along a number and locates every change of them: Hopf, fold, grazing, annihilation ..
+    /// Follows the cycles along a quantity and locates every bifurcation: Hopf, fold, grazing, annihilation ..
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
           conflicts_with_all = ["sweep", "design"])]
     branch: Option<RangeInUnits>,
-    /// With --branch: the changes at each value of another number
+    /// With --branch: the bifurcations at each value of a second quantity
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
           requires = "branch")]
     against: Option<RangeInUnits>,
-    /// Asks how much friction R a margin needs: a displacement ("2 mm") or an impulse ("0.1 N s")
+    /// Finds the friction R that a margin needs: a displacement ("2 mm") or an impulse ("0.1 N s")
     #[arg(long, value_name = "MARGIN", value_parser = margin, allow_hyphen_values = true)]
     design: Option<(Kick, f64)>,
-    /// Way of integrating: auto or taylor, by Taylor series; dop853 or dopri5 follow the motion once more, and the
-    /// difference is told
+    /// Integration method: auto or taylor (Taylor series); with dop853 or dopri5 the motion is computed a second
+    /// time and the difference reported
     #[arg(long, value_name = "NAME", value_parser = method)]
     method: Option<Method>,
     /// Size of the last terms of a step, relative to the state, 1e-15 .. 0.01 (default: below rounding)
@@ -90,7 +92,7 @@ fn long_about() -> String {
         .map(|machine| format!("  {:9} {}", machine.name, machine.title))
         .collect();
     format!(
-        "Says what a mass on a belt does, in physical units: its cycles, slipping and sticking, the border of \
+        "Analyses a mass on a belt in physical units: its cycles, slipping and sticking, the border of \
          what comes to rest and the margins up to it, and by how much the cubic expansion of friction is wrong \
          about them.\n\nMachines of the program:\n{}",
         known.join("\n")
@@ -98,19 +100,19 @@ fn long_about() -> String {
 }
 
 /// What a name on the command line stands for.
-enum Named {
+enum MachineOrMode {
     Belt(Machine),
     Mode(Mode),
 }
 
 /// The machine or mode of a file, or the machine of the program.
-fn named(name: &str) -> Result<Named, Failure> {
+fn named(name: &str) -> Result<MachineOrMode, Failure> {
     let path = Path::new(name);
     // Read once: it may be a pipe.
     let text = match bounded::text(path) {
         Ok(text) => text,
         Err(error) => {
-            return find(name).cloned().map(Named::Belt).ok_or_else(|| {
+            return find(name).cloned().map(MachineOrMode::Belt).ok_or_else(|| {
                 let known: Vec<&str> =
                     machines().iter().map(|machine| machine.name.as_str()).collect();
                 Failure::Usage(format!(
@@ -121,48 +123,100 @@ fn named(name: &str) -> Result<Named, Failure> {
         }
     };
     let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-    let told = |error: &dyn std::fmt::Display| Failure::Usage(error.to_string());
+    let refused = |error: &dyn std::fmt::Display| Failure::Usage(error.to_string());
     if is_mode(&text) {
-        return mode::parse(&title, name, &text).map(Named::Mode).map_err(|error| told(&error));
+        return mode::parse(&title, name, &text)
+            .map(MachineOrMode::Mode)
+            .map_err(|error| refused(&error));
     }
     let fetch = |table: &str| {
         let beside = path.with_file_name(table);
         bounded::text(&beside).map_err(|error| format!("{}: {error}", beside.display()))
     };
-    parse(&title, name, &text, fetch).map(Named::Belt).map_err(|error| told(&error))
+    parse(&title, name, &text, fetch).map(MachineOrMode::Belt).map_err(|error| refused(&error))
 }
 
 /// The machine of a file, or of the program, to be looked at.
 pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
-    let told = |error: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {error}"));
+    let refused = |error: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {error}"));
     let machine = match named(name)? {
-        Named::Belt(machine) => machine,
-        Named::Mode(_) => return Err(told(&mode::NO_BELT)),
+        MachineOrMode::Belt(machine) => machine,
+        MachineOrMode::Mode(_) => return Err(refused(&mode::NO_BELT)),
     };
-    let scaled = ScaledMachine::new(machine).map_err(|error| told(&error))?;
+    let scaled = ScaledMachine::new(machine).map_err(|error| refused(&error))?;
     Ok(Arc::new(scaled.scene()))
 }
 
+/// What is asked about, and the motion of it that is followed.
+struct MachineCase {
+    name: String,
+    title: String,
+    subject: Subject,
+    tolerances: Tolerances,
+    /// Displacement (m) and velocity (m/s) at the start.
+    start: (f64, f64),
+    /// How long the motion is followed, in s.
+    until: f64,
+}
+
+impl From<MachineOrMode> for MachineCase {
+    fn from(named: MachineOrMode) -> Self {
+        match named {
+            MachineOrMode::Belt(Machine {
+                name,
+                title,
+                belt,
+                tolerances,
+                displacement,
+                velocity,
+                until,
+                ..
+            }) => {
+                let subject = Body::Belt(Box::new(belt)).into();
+                MachineCase {
+                    name,
+                    title,
+                    subject,
+                    tolerances,
+                    start: (displacement, velocity),
+                    until,
+                }
+            }
+            MachineOrMode::Mode(Mode { name, title, numbers, start, until }) => {
+                let (subject, tolerances) = (Body::Mode(numbers).into(), Tolerances::default());
+                MachineCase { name, title, subject, tolerances, start, until }
+            }
+        }
+    }
+}
+
 impl Arguments {
-    /// The machine with what was set on the command line.
-    fn adjusted(&self, mut machine: Machine) -> Result<Machine, Failure> {
+    /// What is asked about, with what was set on the command line.
+    fn case(&self) -> Result<MachineCase, Failure> {
+        let mut case = MachineCase::from(named(&self.machine)?);
         for &(name, Toleranced { middle, half_width }) in &self.set {
             match name {
                 Name::Number(varied) => {
-                    varied.set(&mut machine.belt, middle.value).map_err(Failure::Usage)?;
-                    machine.tolerances.half_widths.insert(varied.name().to_owned(), half_width);
+                    case.subject.set(varied, middle.value).map_err(Failure::Usage)?;
+                    case.tolerances.half_widths.insert(varied.name().to_owned(), half_width);
                 }
-                Name::Displacement => machine.displacement = middle.value,
-                Name::Velocity => machine.velocity = middle.value,
+                Name::Displacement => case.start.0 = middle.value,
+                Name::Velocity => case.start.1 = middle.value,
             }
         }
-        let told = &mut machine.tolerances.disturbance;
-        *told = self.disturbance.unwrap_or(*told);
-        machine.tolerances.check(&machine.belt).map_err(Failure::Usage)?;
         let StartOverride { x, v } = self.start.unwrap_or_default();
-        machine.displacement = x.unwrap_or(machine.displacement);
-        machine.velocity = v.unwrap_or(machine.velocity);
-        Ok(machine)
+        case.start = (x.unwrap_or(case.start.0), v.unwrap_or(case.start.1));
+        case.tolerances.disturbance = self.disturbance.unwrap_or(case.tolerances.disturbance);
+        let checked = match case.subject.of_belt() {
+            Some(belt) => case.tolerances.check(belt),
+            None if case.tolerances.is_none() => Ok(()),
+            None => {
+                Err("a mode takes no tolerances and no --disturbance: its guaranteed margins are \
+                         not computed"
+                    .to_owned())
+            }
+        };
+        checked.map_err(Failure::Usage).map(|()| case)
     }
 
     /// The method beside Taylor series.
@@ -193,90 +247,46 @@ impl Arguments {
         self.tol.filter(|_| second.is_none())
     }
 
-    /// Computes and prints.
     pub fn run(&self) -> Result<(), Failure> {
         let second = self.second()?;
-        let machine = match named(&self.machine)? {
-            Named::Mode(mode) => return self.of_mode(mode, second),
-            Named::Belt(machine) => self.adjusted(machine)?,
-        };
-        let subject = Subject {
-            tolerance: self.own(second),
-            ..Body::Belt(Box::new(machine.belt.clone())).into()
-        };
+        let mut case = self.case()?;
+        case.subject.tolerance = self.own(second);
+        let head = Head::new(&case.name, &case.title, &case.subject.body);
         if self.branch.is_some() || self.sweep.is_some() {
-            return self.along(&subject, &Head::of_machine(&machine), &machine.tolerances);
+            return self.along(&case.subject, &head, &case.tolerances);
         }
-        let start = (machine.displacement, machine.velocity);
-        let (found, seconds) = timed(self.output.repeat, || {
-            let mut survey =
-                survey(&machine.belt, start, machine.until, subject.tolerance, &Limits::PATIENT)?;
-            if let Some(way) = second {
-                survey.course.follow_by(way, self.dial(), start, machine.until);
-            }
-            let share = self.share(&survey.course.portrait);
-            let Machine { belt, tolerances, .. } = &machine;
-            let asked = !tolerances.is_none();
-            let certain = asked.then(|| guaranteed(belt, tolerances)).transpose()?;
-            Ok((survey, share, self.designed(&subject, tolerances)?, certain))
-        });
-        let (survey, rest_share, design, certain) = found.map_err(troubled)?;
-        let incomplete = survey.course.portrait.incomplete();
-        let answer =
-            BeltAnswer { machine: &machine, survey: &survey, rest_share, design, certain, seconds };
+        let (found, seconds) = timed(self.output.repeat, || self.answer(&case, &head, second));
+        let answer = MachineAnswer { seconds, ..found.map_err(troubled)? };
         self.output.print(&match self.output.format {
             Format::Table => belt::table(&answer),
             Format::Json => belt::json(&answer),
             Format::Csv => belt::csv(&answer),
         })?;
+        let incomplete = answer.course.portrait.incomplete();
         incomplete.map_or(Ok(()), |stop| Err(troubled(stop.into())))
     }
 
-    /// The answer about a vibration mode, which has no belt.
-    fn of_mode(&self, mut mode: Mode, second: Option<SteppedMethod>) -> Result<(), Failure> {
-        if self.disturbance.is_some() {
-            let line = "--disturbance is for belts: guaranteed margins of a mode are not computed";
-            return Err(Failure::Usage(line.to_owned()));
+    /// The answer about one motion and all others, not yet timed.
+    fn answer<'a>(
+        &self,
+        case: &'a MachineCase,
+        head: &'a Head,
+        second: Option<SteppedMethod>,
+    ) -> Result<MachineAnswer<'a>, Trouble> {
+        let MachineCase { subject, tolerances, start, until, .. } = case;
+        let on_belt = |belt: &Belt| {
+            let expansion = CubicExpansion::new(belt, &Limits::PATIENT)?;
+            let certain = (!tolerances.is_none()).then(|| guaranteed(belt, tolerances));
+            Ok::<_, Trouble>(OnBelt { expansion, tolerances, certain: certain.transpose()? })
+        };
+        let on_belt = subject.of_belt().map(on_belt).transpose()?;
+        let mut course = Course::new(&subject.model()?, *start, *until)?;
+        if let Some(way) = second {
+            course.follow_by(way, self.dial(), *start, *until);
         }
-        for &(name, Toleranced { middle, half_width }) in &self.set {
-            match name {
-                Name::Number(_) if half_width > 0.0 => {
-                    let line =
-                        "a mode takes no tolerances: its guaranteed margins are not computed";
-                    return Err(Failure::Usage(line.to_owned()));
-                }
-                Name::Number(varied) => {
-                    varied.set_of_mode(&mut mode.numbers, middle.value).map_err(Failure::Usage)?;
-                }
-                Name::Displacement => mode.start.0 = middle.value,
-                Name::Velocity => mode.start.1 = middle.value,
-            }
-        }
-        let StartOverride { x, v } = self.start.unwrap_or_default();
-        mode.start = (x.unwrap_or(mode.start.0), v.unwrap_or(mode.start.1));
-        let subject =
-            Subject { tolerance: self.own(second), ..Body::Mode(mode.numbers.clone()).into() };
-        let none = Tolerances::default();
-        if self.branch.is_some() || self.sweep.is_some() {
-            return self.along(&subject, &Head::of_mode(&mode), &none);
-        }
-        let (found, seconds) = timed(self.output.repeat, || {
-            let mut course = Course::new(&subject.model()?, mode.start, mode.until)?;
-            if let Some(way) = second {
-                course.follow_by(way, self.dial(), mode.start, mode.until);
-            }
-            Ok((course, self.designed(&subject, &none)?))
-        });
-        let (course, design) = found.map_err(troubled)?;
         let rest_share = self.share(&course.portrait);
-        let incomplete = course.portrait.incomplete();
-        let answer = ModeAnswer { mode: &mode, course: &course, rest_share, design, seconds };
-        self.output.print(&match self.output.format {
-            Format::Table => belt::mode::table(&answer),
-            Format::Json => belt::mode::json(&answer),
-            Format::Csv => belt::mode::csv(&answer),
-        })?;
-        incomplete.map_or(Ok(()), |stop| Err(troubled(stop.into())))
+        let design = self.designed(subject, tolerances)?;
+        Ok(MachineAnswer { head, start: *start, course, rest_share, design, on_belt, seconds: 0.0 })
     }
 
     /// The answer along a number: a branch, or a sweep.
@@ -287,7 +297,7 @@ impl Arguments {
         let Some(range) = self.sweep else { return Ok(()) };
         let (swept, seconds) =
             timed(self.output.repeat, || self.swept(subject, head, known, range));
-        let answer = Sweep { seconds, ..swept? };
+        let answer = MachineSweep { seconds, ..swept? };
         self.output.print(&match self.output.format {
             Format::Table => belt::sweep_table(&answer),
             Format::Json => belt::sweep_json(&answer),
@@ -346,7 +356,7 @@ impl Arguments {
         head: &'a Head,
         known: &Tolerances,
         range: RangeInUnits,
-    ) -> Result<Sweep<'a>, Failure> {
+    ) -> Result<MachineSweep<'a>, Failure> {
         let RangeInUnits { varied, ends, count } = range;
         let point = |index: usize| {
             let value = spaced(ends, index, count);
@@ -364,7 +374,7 @@ impl Arguments {
             Ok(SweepPoint { value, found, rest_share, design })
         };
         let points = (0..count).map(point).collect::<Result<_, Failure>>()?;
-        Ok(Sweep { head, varied, points, seconds: 0.0 })
+        Ok(MachineSweep { head, varied, points, seconds: 0.0 })
     }
 }
 

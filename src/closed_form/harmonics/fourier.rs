@@ -7,6 +7,7 @@
 
 use nalgebra::Complex;
 
+use crate::numerics::count::real;
 use crate::numerics::elementary::{powi, sin_cos};
 
 /// A real trigonometric polynomial.
@@ -28,9 +29,8 @@ pub struct Jet {
 }
 
 /// The number of a harmonic as a factor.
-#[expect(clippy::cast_precision_loss, reason = "numbers of harmonics are small")]
 pub fn factor(k: usize) -> f64 {
-    k as f64
+    real(k)
 }
 
 impl Fourier {

@@ -115,7 +115,7 @@ impl Basis {
 
 /// The residual at one ansatz, taken apart into what the equations and their derivatives need.
 #[derive(Clone, Debug)]
-pub struct Residual {
+pub struct BalanceResidual {
     parameters: Parameters,
     basis: Basis,
     frequency: f64,
@@ -147,14 +147,14 @@ impl ChangeWaves {
     }
 }
 
-impl Residual {
+impl BalanceResidual {
     /// The residual of an ansatz that has room for the harmonics of the basis.
     pub fn new(parameters: &Parameters, basis: Basis, ansatz: &Ansatz) -> Self {
         let p = ansatz.q.derivative();
         let square = p.product(&p, 2 * basis.count);
         let cube = square.product(&p, basis.count);
         let crossing = |change| ChangeWaves::new(change, basis.count);
-        Residual {
+        BalanceResidual {
             parameters: *parameters,
             basis,
             frequency: ansatz.frequency,
@@ -322,7 +322,7 @@ mod tests {
     const GENERAL: Parameters = Parameters { d: -0.3, d2: 0.4, d3: 0.25, r: 0.2 };
 
     fn values(parameters: &Parameters, basis: Basis, ansatz: &Ansatz) -> DVector<f64> {
-        Residual::new(parameters, basis, ansatz).values()
+        BalanceResidual::new(parameters, basis, ansatz).values()
     }
 
     /// The residual of the differential equation at one angle.
@@ -376,7 +376,7 @@ mod tests {
         q.coefficients[3] = Complex::new(0.0, -1.0 / 6.0);
         let parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 1.0 };
         let ansatz = Ansatz { frequency: 1.0, q };
-        let residual = Residual::new(&parameters, Basis { count: 9, odd: false }, &ansatz);
+        let residual = BalanceResidual::new(&parameters, Basis { count: 9, odd: false }, &ansatz);
         assert_eq!(residual.crossings(), 6);
         for k in 0..=9 {
             let expected = match k {
@@ -415,7 +415,7 @@ mod tests {
             if odd {
                 ansatz.q.coefficients.iter_mut().step_by(2).for_each(|c| *c = Complex::default());
             }
-            let jacobian = Residual::new(&parameters, basis, &ansatz).jacobian();
+            let jacobian = BalanceResidual::new(&parameters, basis, &ansatz).jacobian();
             let width = 1e-6;
             for column in 0..basis.unknowns() {
                 let unit = DVector::from_fn(basis.unknowns(), |row, _| f64::from(u8::from(row == column)));

@@ -27,14 +27,14 @@ use nalgebra::Complex;
 use serde::Serialize;
 
 use self::fourier::{Fourier, factor};
-use self::galerkin::{Ansatz, Basis, Residual};
-use self::newton::{Failure, Solution, solve};
+use self::galerkin::{Ansatz, BalanceResidual, Basis};
+use self::newton::{NewtonFailure, Solution, solve};
 use self::sign_changes::sign_changes;
 use super::harmonic::Harmonic;
 use crate::numerics::scaling::{exponent, times_power};
 use crate::oscillator::{Parameters, State};
 
-/// Most harmonics: the linear algebra costs as their cube.
+/// Maximum number of harmonics: the linear algebra costs as their cube.
 pub const MOST: usize = 255;
 
 /// A cycle as N harmonics have it.
@@ -150,8 +150,11 @@ impl<'a> Followed<'a> {
 
     fn cycle(&self, count: usize) -> Result<HarmonicCycle, Lost> {
         if count == 1 {
-            let residual =
-                Residual::new(&self.parameters, Basis::new(&self.parameters, count), &self.first);
+            let residual = BalanceResidual::new(
+                &self.parameters,
+                Basis::new(&self.parameters, count),
+                &self.first,
+            );
             return self.describe(count, &self.first, &residual);
         }
         let mut solution = match self.strengthened(count.min(COARSE)) {
@@ -162,7 +165,7 @@ impl<'a> Followed<'a> {
         while solution.ansatz.q.degree() < count {
             let more = (2 * solution.ansatz.q.degree() + 1).min(count);
             solution = match self.solve(&self.parameters, more, &solution.ansatz) {
-                Err(Failure::Unsettled(_)) => self.strengthened(count)?,
+                Err(NewtonFailure::Unsettled(_)) => self.strengthened(count)?,
                 Err(failure) => return Err(lost(failure, more, 1.0)),
                 Ok(solution) => solution,
             };
@@ -193,7 +196,7 @@ impl<'a> Followed<'a> {
                     before = (was.0 > 0.0).then_some(was);
                     step *= 2.0;
                 }
-                Err(Failure::Unsettled(_)) if step > SMALLEST => step *= 0.5,
+                Err(NewtonFailure::Unsettled(_)) if step > SMALLEST => step *= 0.5,
                 Err(failure) => return Err(lost(failure, count, here.0)),
             }
         }
@@ -212,7 +215,7 @@ impl<'a> Followed<'a> {
         parameters: &Parameters,
         count: usize,
         start: &Ansatz,
-    ) -> Result<Solution, Failure> {
+    ) -> Result<Solution, NewtonFailure> {
         /// Part of the first-order amplitude below which a solution is the steady state.
         const VANISHED: f64 = 1e-6;
         let basis = Basis::new(parameters, count);
@@ -222,7 +225,7 @@ impl<'a> Followed<'a> {
             || amplitude < VANISHED
             || solution.ansatz.frequency <= 0.0
         {
-            return Err(Failure::Unsettled(amplitude));
+            return Err(NewtonFailure::Unsettled(amplitude));
         }
         Ok(solution)
     }
@@ -232,7 +235,7 @@ impl<'a> Followed<'a> {
         &self,
         count: usize,
         ansatz: &Ansatz,
-        residual: &Residual,
+        residual: &BalanceResidual,
     ) -> Result<HarmonicCycle, Lost> {
         let sized = |value| times_power(value, self.unit);
         let frequency = ansatz.frequency;
@@ -262,11 +265,11 @@ impl<'a> Followed<'a> {
     }
 }
 
-fn lost(failure: Failure, harmonics: usize, strength: f64) -> Lost {
+fn lost(failure: NewtonFailure, harmonics: usize, strength: f64) -> Lost {
     match failure {
-        Failure::Interrupted => Lost::Interrupted,
-        Failure::OutOfRange => Lost::OutOfRange,
-        Failure::Unsettled(_) => Lost::Ends { harmonics, strength },
+        NewtonFailure::Interrupted => Lost::Interrupted,
+        NewtonFailure::OutOfRange => Lost::OutOfRange,
+        NewtonFailure::Unsettled(_) => Lost::Ends { harmonics, strength },
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{DVector, Dyn, LU};
 
-use super::galerkin::{Ansatz, Basis, Residual};
+use super::galerkin::{Ansatz, BalanceResidual, Basis};
 use crate::oscillator::Parameters;
 
 /// A solution of the Galerkin equations.
@@ -11,7 +11,7 @@ pub struct Solution {
     /// The unknowns.
     pub ansatz: Ansatz,
     /// What it leaves of the equations.
-    pub residual: Residual,
+    pub residual: BalanceResidual,
     /// Whether the determinant of the Jacobian is positive.
     ///
     /// It vanishes where two solutions meet, and every further harmonic multiplies it by about
@@ -22,7 +22,7 @@ pub struct Solution {
 
 /// Why there is no solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Failure {
+pub enum NewtonFailure {
     /// The computation was told to stop.
     Interrupted,
     /// A number left the range of floating point.
@@ -41,24 +41,24 @@ const SETTLED: f64 = 1e-12;
 /// before each step.
 ///
 /// # Errors
-/// [`Failure`] says why it found no solution.
+/// [`NewtonFailure`] says why it found no solution.
 pub fn solve(
     parameters: &Parameters,
     basis: Basis,
     start: &Ansatz,
     interrupted: &dyn Fn() -> bool,
-) -> Result<Solution, Failure> {
+) -> Result<Solution, NewtonFailure> {
     /// Newton steps before giving up; sharp kinks need 20.
     const ITERATIONS: usize = 60;
-    /// Smallest part of a step that is tried.
+    /// Smallest fraction of a step that is tried.
     const SMALLEST_PART: f64 = 1e-3;
     let mut ansatz = basis.widened(start);
-    let mut residual = Residual::new(parameters, basis, &ansatz);
+    let mut residual = BalanceResidual::new(parameters, basis, &ansatz);
     let mut part: f64 = 1.0;
     let mut change = f64::INFINITY;
     for _ in 0..ITERATIONS {
         if interrupted() {
-            return Err(Failure::Interrupted);
+            return Err(NewtonFailure::Interrupted);
         }
         let jacobian = residual.jacobian().lu();
         let step = newton_step(&jacobian, &residual)?;
@@ -66,7 +66,7 @@ pub fn solve(
         part = (4.0 * part).min(1.0);
         loop {
             let next = basis.moved(&ansatz, &step, part);
-            let next_residual = Residual::new(parameters, basis, &next);
+            let next_residual = BalanceResidual::new(parameters, basis, &next);
             let shorter = newton_step(&jacobian, &next_residual)
                 .is_ok_and(|next_step| next_step.amax() <= (1.0 - 0.25 * part) * step.amax());
             if shorter || change < SETTLED {
@@ -75,7 +75,7 @@ pub fn solve(
             }
             part *= 0.5;
             if part < SMALLEST_PART {
-                return Err(Failure::Unsettled(change));
+                return Err(NewtonFailure::Unsettled(change));
             }
         }
         if change < SETTLED {
@@ -83,17 +83,20 @@ pub fn solve(
             return Ok(Solution { ansatz, residual, unstable });
         }
     }
-    Err(Failure::Unsettled(change))
+    Err(NewtonFailure::Unsettled(change))
 }
 
 /// The change of the unknowns that makes the linearised equations vanish.
-fn newton_step(jacobian: &LU<f64, Dyn, Dyn>, residual: &Residual) -> Result<DVector<f64>, Failure> {
+fn newton_step(
+    jacobian: &LU<f64, Dyn, Dyn>,
+    residual: &BalanceResidual,
+) -> Result<DVector<f64>, NewtonFailure> {
     let values = -residual.values();
     if !values.amax().is_finite() {
-        return Err(Failure::OutOfRange);
+        return Err(NewtonFailure::OutOfRange);
     }
     let step = jacobian.solve(&values).filter(|step| step.iter().all(|change| change.is_finite()));
-    step.ok_or(Failure::Unsettled(f64::INFINITY))
+    step.ok_or(NewtonFailure::Unsettled(f64::INFINITY))
 }
 
 /// Whether the determinant is positive; its size may well overflow.

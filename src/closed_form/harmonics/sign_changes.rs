@@ -8,7 +8,7 @@
 use std::f64::consts::TAU;
 
 use super::fourier::{Fourier, factor};
-use crate::numerics::root::{Bracket, Change, newton};
+use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 
 /// A root at which the function changes its sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +35,7 @@ impl SignChange {
 /// leave the range of floating point, has none. Cost: some evaluations for each harmonic; flat places
 /// cost more, at most a few hundred for each harmonic.
 pub fn sign_changes(function: &Fourier) -> Vec<SignChange> {
-    /// Pieces of the first cut, for each harmonic: so many leave little to be cut again.
+    /// Pieces of the first cut, for each harmonic: this many leave little to be cut again.
     const PIECES: usize = 2;
     let rest = function.bound(ORDER);
     if !(rest.is_normal() && function.mean().is_finite()) {
@@ -120,7 +120,7 @@ impl Search<'_> {
     /// Adds the sign change between two ends of different sign.
     fn polish(&mut self, left: PieceEnd, right: PieceEnd) {
         let bracket = Bracket { low: left.angle, high: right.angle, rising: right.positive };
-        let settled = Change::Relative(f64::EPSILON);
+        let settled = PlaceTolerance::Relative(f64::EPSILON);
         let angle = newton(bracket, bracket.middle(), settled, |angle| {
             let jet = self.function.at(angle);
             (jet.value, jet.slope)

@@ -1,6 +1,6 @@
 //! The small linear algebra of a collocation step: elimination, and polynomials through its stages.
 
-/// Most stages.
+/// Maximum number of stages.
 pub(super) const MOST: usize = 7;
 
 /// The sum of the values of the stages, weighted by a row of the scheme.

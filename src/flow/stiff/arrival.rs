@@ -2,8 +2,8 @@
 
 use super::Stiff;
 use super::algebra::{MOST, interpolated};
-use crate::flow::step::{ErrorScale, Field, Point, Step};
-use crate::numerics::root::{Bracket, Change, bisect, try_newton};
+use crate::flow::step::{ErrorScale, Field, Step, StepPoint};
+use crate::numerics::root::{Bracket, PlaceTolerance, bisect, try_newton};
 
 /// Part of the length of the last step by which it may still change; it settles in about four attempts.
 const SETTLED: f64 = 1e-9;
@@ -19,7 +19,7 @@ impl<F: Field> Stiff<F> {
         let (low, high) = bisect(low, high, 10, |length| at(length) <= 0.0);
         let mut last = (whole, self.end, 0.0);
         let bracket = Bracket::falling(0.0, whole);
-        try_newton(bracket, 0.5 * (low + high), Change::Relative(SETTLED), |length| {
+        try_newton(bracket, 0.5 * (low + high), PlaceTolerance::Relative(SETTLED), |length| {
             let mut guess = [0.0; MOST];
             for (guess, node) in guess.iter_mut().zip(nodes) {
                 *guess = at(node * length);
@@ -34,12 +34,12 @@ impl<F: Field> Stiff<F> {
         (rest.abs() <= SETTLED * length).then(|| {
             // The stages belong to `length`: what is computed from them must not be stretched by `rest`.
             self.keep(length, end);
-            let end = Point { x: end.x + 0.5 * rest * end.v, v: 0.0 };
+            let end = StepPoint { x: end.x + 0.5 * rest * end.v, v: 0.0 };
             Step { duration: length + rest, end, crossed: true }
         })
     }
 
-    /// Whether the place of an arrival is known as a part of itself, not only of the position from which its
+    /// Whether the place of an arrival is known relative to itself, not only of the position from which its
     /// step began: a motion that creeps in from far out may end its swing in one step.
     pub(super) fn is_sharp(&mut self, arrival: &Step) -> bool {
         let scale = self.scale(arrival.duration, arrival.end);

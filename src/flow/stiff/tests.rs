@@ -39,11 +39,11 @@ fn far_out_some_hundred_steps_do_what_an_explicit_method_needs_a_hundred_million
 }
 
 /// With D2 against it a motion creeps along `v^2 = -x/D2` and then stops within a step or two, at
-/// `1/(2 D2)` but for a part D3/D2^2. Its time is that of the series with steps to rounding.
+/// `1/(2 D2)` to within a relative D3/D2^2. Its time is that of the series with steps to rounding.
 #[test]
 fn a_step_that_begins_stiff_and_ends_at_rest_keeps_the_digits_of_its_end() {
     let field = HalfPlane { d: 0.0, d2: 122.0, d3: 0.015 };
-    let start = Point { x: -1.0, v: 0.0 };
+    let start = StepPoint { x: -1.0, v: 0.0 };
     let series = run(&mut Taylor::new(1e-16), &field, start);
     for tolerance in [1e-6, 1e-9, 1e-11, 1e-13] {
         for first in [1e-2, 1.0, 10.0] {
@@ -59,7 +59,7 @@ fn a_step_that_begins_stiff_and_ends_at_rest_keeps_the_digits_of_its_end() {
     }
 }
 
-fn run<S: Stepper>(stepper: &mut S, field: &HalfPlane, start: Point) -> Swing {
+fn run<S: Stepper>(stepper: &mut S, field: &HalfPlane, start: StepPoint) -> Swing {
     swing(
         stepper,
         field,
@@ -99,7 +99,7 @@ fn dense_output_satisfies_the_equation_inside_a_step() {
     let field = HalfPlane { d: 0.3, d2: 0.2, d3: 5.0 };
     let mut stepper = Stiff::new(field, 1e-10);
     stepper.begin(&field);
-    let mut point = Point { x: -1.0, v: 0.2 };
+    let mut point = StepPoint { x: -1.0, v: 0.2 };
     for _ in 0..6 {
         let step = stepper.advance(point, 10.0).unwrap();
         stepper.prepare_dense();
@@ -107,7 +107,7 @@ fn dense_output_satisfies_the_equation_inside_a_step() {
         let (here, h) = (stepper.at(time), 1e-4 * step.duration);
         let (before, after) = (stepper.at(time - h), stepper.at(time + h));
         let slope =
-            Point { x: (after.x - before.x) / (2.0 * h), v: (after.v - before.v) / (2.0 * h) };
+            StepPoint { x: (after.x - before.x) / (2.0 * h), v: (after.v - before.v) / (2.0 * h) };
         assert!((slope.x - here.v).abs() < 1e-6);
         assert!((slope.v - field.acceleration(here.x, here.v)).abs() < 1e-5);
         assert_eq!(stepper.at(step.duration), step.end);

@@ -5,10 +5,11 @@
 //! Computational and Applied Mathematics 111 (1999). The numbers are the collocation conditions solved
 //! with 60 digits.
 
+use crate::numerics::count::real;
 /// A collocation scheme.
 #[derive(Debug)]
 pub struct Collocation {
-    /// Where the stages lie, as parts of the step; the last one at its end.
+    /// Where the stages lie, as fractions of the step; the last one at its end.
     pub nodes: &'static [f64],
     /// Integrals of the Lagrange polynomials from 0 to each node; the last row is the quadrature.
     pub integrals: &'static [&'static [f64]],
@@ -22,15 +23,14 @@ pub struct Collocation {
 }
 
 impl Collocation {
-    /// The error of the solution as a part of that of the embedded one, from the reduction of its order.
+    /// The error of the solution as a fraction of that of the embedded one, from the reduction of its order.
     ///
     /// For `v' = -k (v - t^(S+1)) + (S + 1) t^S`, where the solution of order `2 S - 1` would be exact without
     /// damping (Prothero and Robinson's problem; Hairer and Wanner, section IV.15). With k h damping times
     /// in a step this part grows as `(k h)^(S-1)` towards S. The formula is good to a fifth.
     pub fn reduced_order(&self, damping_times: f64) -> f64 {
         let growth = damping_times / (damping_times + self.stiff);
-        #[expect(clippy::cast_precision_loss, reason = "at most 7")]
-        let stages = self.nodes.len() as f64;
+        let stages = real(self.nodes.len());
         self.nodes[1..].iter().fold(stages, |part, _| part * growth)
     }
 }

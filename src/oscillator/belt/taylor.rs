@@ -15,15 +15,15 @@ pub struct TaylorError {
     pub range: (f64, f64),
     /// Whether that is all that was asked for.
     pub complete: bool,
-    /// The smallest coefficient of friction there; one below 0 is no friction.
+    /// The smallest coefficient of friction there; one below 0 means no friction.
     pub least_mu: f64,
     /// The largest difference, in N.
     pub force: f64,
     /// The velocity of the mass at which it occurs, in m/s.
     pub at: f64,
-    /// The same as a part of the friction of the belt at rest, `F mu(v0)`.
+    /// The same as a fraction of the friction of the belt at rest, `F mu(v0)`.
     pub of_friction: f64,
-    /// The same as a part of the largest change of friction over the range; `None` where it does not
+    /// The same as a fraction of the largest change of friction over the range; `None` where it does not
     /// change.
     pub of_change: Option<f64>,
 }
@@ -53,7 +53,7 @@ impl Belt {
         let difference = |v: f64| {
             let (exact, cubic) = (law(v), mu.cubic(-v));
             let difference = (exact - cubic).abs();
-            // What rounding leaves of a law that is its own cubic is no error of the expansion.
+            // What rounding leaves of a law that is its own cubic is not an error of the expansion.
             if difference <= ROUNDING * (exact.abs() + cubic.abs()) { 0.0 } else { difference }
         };
         let change = |v: f64| (law(v) - mu.value).abs();

@@ -6,7 +6,7 @@ use super::pieces::{curve, picture, points, window, with_unit};
 use crate::fit::Fitted;
 use crate::fit::observation::{D, D3, R};
 use crate::picture::items::{Item, LineStyle, Marks, Picture};
-use crate::picture::role::{Dash, Mark, Role};
+use crate::picture::role::{CycleStyle, Dash, Mark, Role, cycle_style};
 use crate::scene::Point;
 
 pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
@@ -50,10 +50,6 @@ pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
 /// Where the damping is zero there is a cycle: stable where the damping grows through zero.
 fn zero(from: Point, to: Point) -> Marks {
     let x = from.x + from.y / (from.y - to.y) * (to.x - from.x);
-    let (mark, role, name) = if to.y > from.y {
-        (Mark::Stable, Role::Stable, "stable cycle")
-    } else {
-        (Mark::Unstable, Role::Unstable, "unstable cycle")
-    };
+    let CycleStyle { mark, role, name, .. } = cycle_style(to.y > from.y);
     Marks { name: name.into(), brief: name, ..Marks::new(mark, role, vec![Point { x, y: 0.0 }]) }
 }

@@ -7,6 +7,7 @@ use crate::fit::Fitted;
 use crate::fit::curves::memory as memory_of;
 use crate::fit::observation::{D, OFFSET, Q0, R, parameters};
 use crate::flow::Limits;
+use crate::numerics::count::real;
 use crate::oscillator::Parameters;
 use crate::picture::items::{Item, LineStyle, Marks, Picture};
 use crate::picture::role::{Dash, Mark, Role};
@@ -56,8 +57,7 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
 fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
     let memory = memory_of(&fitted.estimate);
     let [periods, _] = *memory.last()?;
-    #[expect(clippy::cast_precision_loss, reason = "a count of samples")]
-    let chance = 2.0 / (fitted.estimate.kept_residuals().count() as f64).sqrt();
+    let chance = 2.0 / (real(fitted.estimate.kept_residuals().count())).sqrt();
     let level = |height: f64| vec![at(0.0, height), at(periods, height)];
     let curves = vec![
         curve("autocorrelation of the residuals", Role::Energy, Dash::Solid, points(&memory)),

@@ -1,6 +1,6 @@
 //! Pieces of the pictures of a fit.
 
-use crate::fit::curves::{Extent, Place};
+use crate::fit::curves::{Extent, PlotPoint};
 use crate::picture::items::{LineStyle, Picture};
 use crate::picture::role::{Dash, Role};
 use crate::scene::{Point, Span, Window};
@@ -12,8 +12,8 @@ pub fn at(x: f64, y: f64) -> Point {
     Point { x, y }
 }
 
-pub fn points(places: &[Place]) -> Vec<Point> {
-    places.iter().map(|&[x, y]| Point { x, y }).collect()
+pub fn points(places: &[PlotPoint]) -> Vec<Point> {
+    places.iter().copied().map(Point::from).collect()
 }
 
 /// What is worth seeing; `None` if it has no extent.

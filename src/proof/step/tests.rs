@@ -106,8 +106,8 @@ fn counted(field: [f64; 3], x: f64, v: f64) -> Vec<(f64, [f64; 7])> {
     (0..ORDER).map(row).collect()
 }
 
-/// The bound is never below the count, and halving any of its numbers brings it below somewhere: for series that motions
-/// have, and for series of which only two terms are not next to nothing.
+/// The bound is never below the count, and halving any of its numbers brings it below somewhere: for series
+/// that motions have, and for series of which only two terms are not next to nothing.
 #[test]
 fn the_bound_of_roundings_is_what_counting_gives() {
     /// Next to nothing, but not so that adding it is exact.
@@ -364,7 +364,8 @@ fn truncation_is_bounded_by_all_terms_that_are_cut_off() {
     }
 }
 
-/// A spiral of which a step cuts off more than it rounds, against its closed form, and its area with a ball around it.
+/// A spiral of which a step cuts off more than it rounds, against its closed form, and its area with a ball
+/// around it.
 #[test]
 fn a_step_holds_what_its_polynomial_leaves_out() {
     let point = Interval::point;
@@ -389,7 +390,8 @@ fn a_step_holds_what_its_polynomial_leaves_out() {
     assert!(off <= end.square_error && off > 0.9 * end.square_error, "{off:e}");
 }
 
-/// `v = t - t^2` is furthest from its chord in the middle of a unit of time, and `v = 1 + t` from its start at the end.
+/// `v = t - t^2` is furthest from its chord in the middle of a unit of time, and `v = 1 + t` from its start at
+/// the end.
 #[test]
 fn velocities_within_a_step_are_held() {
     let bounds = |terms: [f64; 3], v1: f64, off: f64| {
@@ -406,7 +408,8 @@ fn velocities_within_a_step_are_held() {
     assert!(around.contains(2.1) && around.contains(0.9) && around.upper() < 2.1 + 1e-9);
 }
 
-/// Motions with the coefficients at both ends of an interval are held; where `v = 1` they part by `h` times its radius.
+/// Motions with the coefficients at both ends of an interval are held; where `v = 1` they part by `h` times its
+/// radius.
 #[test]
 fn a_step_holds_the_motions_of_all_coefficients() {
     let (h, spread) = (0.01, 0.1);
@@ -418,7 +421,7 @@ fn a_step_holds_the_motions_of_all_coefficients() {
         let mut series = Series::<f64>::EMPTY;
         series.expand(local.middles(), 0.0, 1.0);
         let end = local.carry(Norm::new(0.0), &series, (h, series.at(h)), 0.0).unwrap();
-        // `v' = -c_k v^k` from v = 1, but for x, which adds less than `h^3`.
+        // `v' = -c_k v^k` from v = 1, except for x, which adds less than `h^3`.
         let velocity =
             [exp(-spread * h), 1.0 / (1.0 + spread * h), 1.0 / (1.0 + 2.0 * spread * h).sqrt()];
         let off = 1.0 - velocity[wide];

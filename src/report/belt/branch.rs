@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::document::{Cost, CycleOf, kind};
+use super::document::{CycleNumbers, MachineCost, MachineCycleDocument, kind};
 use super::table::{CYCLE, cells};
 use super::{Head, PLACES};
 use crate::machine::branch::MachineBranch;
@@ -10,7 +10,7 @@ use crate::machine::jumps::{Jump, Landing};
 use crate::machine::special::{MachineSpecial, MachineSpecialKind};
 use crate::machine::varied::Varied;
 use crate::report::csv::Sheet;
-use crate::report::json::text;
+use crate::report::json::{Seconds, text};
 use crate::report::table::Table;
 use crate::words::number::duration;
 use crate::words::quantity::with_unit;
@@ -36,33 +36,35 @@ pub struct Borders<'a> {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct BeltBranchDocument<'a> {
     machine: &'a str,
     model: &'static str,
     quantity: &'static str,
     unit: &'static str,
-    points: Vec<Point>,
+    points: Vec<BranchedPoint>,
     special: &'a [MachineSpecial],
-    cost: Cost,
+    cost: MachineCost,
 }
 
 /// A cycle at a value; a value without cycles has one row that says so.
 #[derive(Serialize)]
-struct Point {
+struct BranchedPoint {
     value: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
     #[serde(flatten)]
-    cycle: Option<CycleOf>,
+    cycle: Option<MachineCycleDocument>,
 }
 
-fn points(branched: &Branched) -> Vec<Point> {
+fn points(branched: &Branched) -> Vec<BranchedPoint> {
     let mut points = Vec::new();
     for point in &branched.branch.points {
-        let row = |reason, cycle| Point { value: point.value, reason, cycle };
+        let row = |reason, cycle| BranchedPoint { value: point.value, reason, cycle };
         match &point.found {
             Ok(found) => {
-                points.extend(found.cycles.iter().map(|it| row(None, Some(CycleOf::new(it)))));
+                points.extend(
+                    found.cycles.iter().map(|it| row(None, Some(MachineCycleDocument::new(it)))),
+                );
             }
             Err(trouble) => points.push(row(Some(trouble.to_string()), None)),
         }
@@ -73,14 +75,17 @@ fn points(branched: &Branched) -> Vec<Point> {
 /// The branch as a document.
 pub fn json(branched: &Branched) -> String {
     let found = branched.branch.points.iter().filter_map(|point| point.found.as_ref().ok());
-    text(&Document {
+    text(&BeltBranchDocument {
         machine: branched.head.name,
         model: "whole",
         quantity: branched.varied.name(),
         unit: branched.varied.unit(),
         points: points(branched),
         special: &branched.branch.special,
-        cost: Cost { steps: found.map(|found| found.steps).sum(), seconds: branched.seconds },
+        cost: MachineCost {
+            steps: found.map(|found| found.steps).sum(),
+            seconds: branched.seconds,
+        },
     })
 }
 
@@ -100,7 +105,7 @@ fn words(kind: MachineSpecialKind) -> &'static str {
 
 /// The stable states that end at a change, while the number grows and while it falls.
 fn jumps(special: &MachineSpecial) -> String {
-    let told = |jump: Option<Jump>, way: &str| {
+    let sentence = |jump: Option<Jump>, way: &str| {
         jump.map_or_else(String::new, |Jump { from, to }| {
             let length = |x| with_unit(x, 5, "m");
             let from =
@@ -114,7 +119,7 @@ fn jumps(special: &MachineSpecial) -> String {
             format!("; {way}, from {from} to {to}")
         })
     };
-    told(special.jumps.up, "growing") + &told(special.jumps.down, "falling")
+    sentence(special.jumps.up, "growing") + &sentence(special.jumps.down, "falling")
 }
 
 /// The branch, to read.
@@ -143,62 +148,41 @@ pub fn table(branched: &Branched) -> String {
         "{}: {}\n{}\n\n{}\n{}\n{}\n",
         head.name,
         head.title,
-        head.but(name),
+        head.numbers_without(name),
         rows.aligned_left(),
         changes.aligned_left(),
         duration(branched.seconds)
     )
 }
 
-/// A cycle at a value, or a change.
+/// A cycle at a value.
 #[derive(Default, Serialize)]
-struct Row {
+struct BeltBranchRow {
     value: f64,
-    what: String,
-    stable: Option<bool>,
-    overtakes: Option<bool>,
-    x_min: Option<f64>,
-    x_max: Option<f64>,
-    v_min: Option<f64>,
-    v_max: Option<f64>,
-    period: Option<f64>,
-    stick_duration: Option<f64>,
-    multiplier: Option<f64>,
+    kind: &'static str,
+    stable: bool,
+    overtakes: bool,
+    #[serde(flatten)]
+    numbers: CycleNumbers,
 }
 
 /// One row for each cycle, then one for each change, in SI units.
 pub fn csv(branched: &Branched) -> String {
-    let mut sheet = Sheet::like(&Row::default(), &[("value", branched.varied.name())]);
+    let called = [("value", branched.varied.name()), ("kind", "what")];
+    let mut sheet = Sheet::like(&BeltBranchRow::default(), &called);
     for point in &branched.branch.points {
         for cycle in point.found.iter().flat_map(|found| &found.cycles) {
-            sheet.row(&Row {
+            sheet.row(&BeltBranchRow {
                 value: point.value,
-                what: kind(cycle).to_owned(),
-                stable: Some(cycle.stable),
-                overtakes: Some(cycle.overtakes),
-                x_min: Some(cycle.x.0),
-                x_max: Some(cycle.x.1),
-                v_min: Some(cycle.v.0),
-                v_max: Some(cycle.v.1),
-                period: Some(cycle.period),
-                stick_duration: Some(cycle.stick_duration),
-                multiplier: Some(cycle.multiplier),
+                kind: kind(cycle),
+                stable: cycle.stable,
+                overtakes: cycle.overtakes,
+                numbers: cycle.into(),
             });
         }
     }
-    for special in &branched.branch.special {
-        let (what, x_max) = (name_of(special.kind), special.x_max);
-        sheet.row(&Row { value: special.value, what, x_max, ..Row::default() });
-    }
+    branched.branch.special.iter().for_each(|special| sheet.row(special));
     sheet.into_text()
-}
-
-/// The name of a kind as in documents.
-fn name_of(kind: MachineSpecialKind) -> String {
-    serde_json::to_value(kind)
-        .ok()
-        .and_then(|value| value.as_str().map(str::to_owned))
-        .unwrap_or_default()
 }
 
 #[derive(Serialize)]
@@ -209,24 +193,20 @@ struct BordersDocument<'a> {
     unit: &'static str,
     against: &'static str,
     against_unit: &'static str,
-    rows: Vec<BorderRow<'a>>,
+    rows: Vec<ChangesDocument<'a>>,
     cost: Seconds,
 }
 
 #[derive(Serialize)]
-struct BorderRow<'a> {
+struct ChangesDocument<'a> {
     value: f64,
     special: &'a [MachineSpecial],
 }
 
-#[derive(Serialize)]
-struct Seconds {
-    seconds: f64,
-}
-
 /// The changes as a document.
 pub fn borders_json(borders: &Borders) -> String {
-    let rows = borders.rows.iter().map(|(value, special)| BorderRow { value: *value, special });
+    let rows =
+        borders.rows.iter().map(|(value, special)| ChangesDocument { value: *value, special });
     text(&BordersDocument {
         machine: borders.head.name,
         model: "whole",
@@ -258,23 +238,23 @@ pub fn borders_table(borders: &Borders) -> String {
 }
 
 /// A change along one number at a value of the other.
-#[derive(Default, Serialize)]
-struct Change {
+#[derive(Serialize)]
+struct BordersRow {
     against: f64,
     value: f64,
-    what: String,
+    kind: MachineSpecialKind,
     x_max: Option<f64>,
 }
 
 /// One row for each change, in SI units.
 pub fn borders_csv(borders: &Borders) -> String {
     let (along, against) = borders.varied;
-    let called = [("against", against.name()), ("value", along.name())];
-    let mut sheet = Sheet::like(&Change::default(), &called);
+    let called = [("against", against.name()), ("value", along.name()), ("kind", "what")];
+    let row = |against, value, kind, x_max| BordersRow { against, value, kind, x_max };
+    let mut sheet = Sheet::like(&row(0.0, 0.0, MachineSpecialKind::Fold, None), &called);
     for (against, special) in &borders.rows {
         for special in special {
-            let (what, x_max) = (name_of(special.kind), special.x_max);
-            sheet.row(&Change { against: *against, value: special.value, what, x_max });
+            sheet.row(&row(*against, special.value, special.kind, special.x_max));
         }
     }
     sheet.into_text()

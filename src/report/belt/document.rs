@@ -1,15 +1,15 @@
-//! A machine's answer as a JSON document; physical quantities are in SI units.
+//! An answer about a machine as a JSON document; physical quantities are in SI units.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
 use super::expansion::Expansion;
-use super::{BeltAnswer, Designed, RestShare, finite, margins};
+use super::{Designed, MachineAnswer, OnBelt, RestShare, finite, margins};
 use crate::machine::guarantee::{GuaranteedKicks, MachineUncertain};
 use crate::machine::motion::{MachineOutcome, MachineState};
-use crate::machine::survey::{Course, Second};
-use crate::machine::turn::Place;
+use crate::machine::survey::{Course, CubicExpansion, Second};
+use crate::machine::turn::ContactState;
 use crate::machine::{MachineCycle, MachineFate, MachineLedger, Portrait};
 use crate::oscillator::belt::{Derivatives, FrictionLaw, QUANTITIES, Units};
 use crate::oscillator::{Belt, Interval, Parameters};
@@ -17,31 +17,55 @@ use crate::report::json::text;
 use crate::study::design::{Kick, Needed};
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct MachineDocument<'a> {
     machine: &'a str,
     model: &'static str,
+    #[serde(flatten)]
+    belt: Option<BeltDocument<'a>>,
+    #[serde(flatten)]
+    whole: PortraitDocument,
+    motion: MachineMotionDocument,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    guaranteed: Option<MachineGuaranteeDocument>,
+    #[serde(skip_serializing_if = "RestShare::is_not_asked")]
+    rest_share: RestShare,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    design: Option<DesignDocument>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    expansion: Option<Expansion<'a>>,
+    cost: MachineCost,
+}
+
+/// The numbers of a belt, and its dimensionless form.
+#[derive(Serialize)]
+struct BeltDocument<'a> {
     quantities: BTreeMap<&'static str, f64>,
     friction: Friction,
     units: &'a Units,
     parameters: &'a Parameters,
     sticking_velocity: Both,
     rest_band: Both,
-    #[serde(flatten)]
-    whole: Whole,
-    motion: MotionOf,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    guaranteed: Option<GuaranteedOf>,
-    #[serde(skip_serializing_if = "RestShare::is_not_asked")]
-    rest_share: RestShare,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    design: Option<DesignOf>,
-    expansion: Expansion<'a>,
-    cost: Cost,
+}
+
+impl<'a> BeltDocument<'a> {
+    fn new(CubicExpansion { belt, reduced, .. }: &'a CubicExpansion) -> Self {
+        let speed = (reduced.sticking_velocity, belt.belt_speed);
+        let held = belt.static_guide.unwrap_or(belt.friction) / belt.stiffness;
+        let both = |(dimensionless, physical)| Both { dimensionless, physical };
+        BeltDocument {
+            quantities: QUANTITIES.iter().map(|row| (row.name, belt.get(row.quantity))).collect(),
+            friction: Friction::new(belt, &reduced.mu),
+            units: &reduced.units,
+            parameters: &reduced.parameters,
+            sticking_velocity: both(speed),
+            rest_band: both((held / reduced.units.displacement, held)),
+        }
+    }
 }
 
 /// The kicks that are survived for certain.
 #[derive(Serialize)]
-struct GuaranteedOf {
+struct MachineGuaranteeDocument {
     /// In m; null where every kick is survived, or nothing is certain.
     displacement: Option<f64>,
     /// In N s.
@@ -54,15 +78,15 @@ struct GuaranteedOf {
     tolerances: BTreeMap<&'static str, Interval>,
 }
 
-impl GuaranteedOf {
-    fn new(answer: &BeltAnswer, certain: &Result<GuaranteedKicks, MachineUncertain>) -> Self {
+impl MachineGuaranteeDocument {
+    fn new(belt: &OnBelt, certain: &Result<GuaranteedKicks, MachineUncertain>) -> Self {
         let kicks = certain.ok();
-        GuaranteedOf {
+        MachineGuaranteeDocument {
             displacement: kicks.and_then(|kicks| finite(kicks.displacement)),
             impulse: kicks.and_then(|kicks| finite(kicks.impulse)),
             reason: certain.err().map(|reason| reason.to_string()),
-            disturbance: answer.machine.tolerances.disturbance,
-            tolerances: answer
+            disturbance: belt.tolerances.disturbance,
+            tolerances: belt
                 .uncertain()
                 .into_iter()
                 .map(|(varied, interval)| (varied.name(), interval))
@@ -113,10 +137,10 @@ impl Friction {
 
 /// What the whole model says about all motions of a machine.
 #[derive(Serialize)]
-pub(super) struct Whole {
-    cycles: Vec<CycleOf>,
+pub(super) struct PortraitDocument {
+    cycles: Vec<MachineCycleDocument>,
     neutral: bool,
-    border: BorderOf,
+    border: MachineBorderDocument,
     margin: Margins,
     /// Beyond which right turning point motions are not known, and why.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -132,10 +156,19 @@ struct Limit {
 }
 
 #[derive(Serialize)]
-pub(super) struct CycleOf {
+pub(super) struct MachineCycleDocument {
     kind: &'static str,
     overtakes: bool,
     stable: bool,
+    #[serde(flatten)]
+    numbers: CycleNumbers,
+    /// Of 0 there is none.
+    log_multiplier: Option<f64>,
+}
+
+/// The numbers of a cycle, in SI units.
+#[derive(Default, Serialize)]
+pub(super) struct CycleNumbers {
     x_min: f64,
     x_max: f64,
     v_min: f64,
@@ -144,12 +177,24 @@ pub(super) struct CycleOf {
     stick_duration: f64,
     /// `None` where it overflows.
     multiplier: Option<f64>,
-    /// Of 0 there is none.
-    log_multiplier: Option<f64>,
+}
+
+impl From<&MachineCycle> for CycleNumbers {
+    fn from(cycle: &MachineCycle) -> Self {
+        CycleNumbers {
+            x_min: cycle.x.0,
+            x_max: cycle.x.1,
+            v_min: cycle.v.0,
+            v_max: cycle.v.1,
+            period: cycle.period,
+            stick_duration: cycle.stick_duration,
+            multiplier: Some(cycle.multiplier).filter(|it| it.is_finite()),
+        }
+    }
 }
 
 #[derive(Serialize)]
-struct BorderOf {
+struct MachineBorderDocument {
     kind: &'static str,
 }
 
@@ -163,14 +208,14 @@ struct Margins {
     velocities: Option<(f64, f64)>,
 }
 
-impl Whole {
+impl PortraitDocument {
     pub(super) fn new(portrait: &Portrait) -> Self {
         let [displacement, impulse] = margins(portrait);
         let margin = portrait.margin;
-        Whole {
-            cycles: portrait.cycles.iter().map(CycleOf::new).collect(),
+        PortraitDocument {
+            cycles: portrait.cycles.iter().map(MachineCycleDocument::new).collect(),
             neutral: portrait.neutral,
-            border: BorderOf { kind: portrait.border.kind() },
+            border: MachineBorderDocument { kind: portrait.border.kind() },
             margin: Margins {
                 displacement,
                 impulse,
@@ -185,19 +230,13 @@ impl Whole {
     }
 }
 
-impl CycleOf {
+impl MachineCycleDocument {
     pub(super) fn new(cycle: &MachineCycle) -> Self {
-        CycleOf {
+        MachineCycleDocument {
             kind: kind(cycle),
             overtakes: cycle.overtakes,
             stable: cycle.stable,
-            x_min: cycle.x.0,
-            x_max: cycle.x.1,
-            v_min: cycle.v.0,
-            v_max: cycle.v.1,
-            period: cycle.period,
-            stick_duration: cycle.stick_duration,
-            multiplier: Some(cycle.multiplier).filter(|it| it.is_finite()),
+            numbers: cycle.into(),
             log_multiplier: Some(cycle.log_multiplier).filter(|it| it.is_finite()),
         }
     }
@@ -209,58 +248,45 @@ pub(super) fn kind(cycle: &MachineCycle) -> &'static str {
 }
 
 #[derive(Serialize)]
-pub(super) struct MotionOf {
-    start: StartOf,
-    outcome: OutcomeOf,
+struct MachineMotionDocument {
+    start: StartDocument,
+    outcome: OutcomeDocument,
     /// How far it was followed, in s.
     until: f64,
     displacement: (f64, f64),
     velocity: (f64, f64),
-    phases: Vec<PhaseOf>,
+    phases: Vec<PhaseDocument>,
     energy: Energy,
-    end: StateOf,
+    end: MachineState,
     #[serde(skip_serializing_if = "Option::is_none")]
-    second: Option<SecondOf>,
-}
-
-#[derive(Serialize)]
-struct StateOf {
-    t: f64,
-    x: f64,
-    v: f64,
-}
-
-impl StateOf {
-    fn new(MachineState { t, x, v }: MachineState) -> Self {
-        StateOf { t, x, v }
-    }
+    second: Option<SecondDocument>,
 }
 
 /// The motion by another method, and by how much its end differs.
 #[derive(Serialize)]
-struct SecondOf {
+struct SecondDocument {
     method: &'static str,
     tolerance: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
-    end: Option<StateOf>,
+    end: Option<MachineState>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    difference: Option<StateOf>,
+    difference: Option<MachineState>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
 }
 
-impl SecondOf {
+impl SecondDocument {
     fn new(Second { way, tolerance, found }: &Second, first: MachineState) -> Self {
         let end = found.map(|found| found.end);
-        let less = |end: MachineState| StateOf {
+        let less = |end: MachineState| MachineState {
             t: end.t - first.t,
             x: end.x - first.x,
             v: end.v - first.v,
         };
-        SecondOf {
+        SecondDocument {
             method: way.name(),
             tolerance: *tolerance,
-            end: end.ok().map(StateOf::new),
+            end: end.ok(),
             difference: end.ok().map(less),
             reason: end.err().map(|stop| stop.to_string()),
         }
@@ -268,13 +294,13 @@ impl SecondOf {
 }
 
 #[derive(Serialize)]
-struct StartOf {
+struct StartDocument {
     x: f64,
     v: f64,
 }
 
 #[derive(Serialize)]
-struct OutcomeOf {
+struct OutcomeDocument {
     kind: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     cycle: Option<usize>,
@@ -286,7 +312,7 @@ struct OutcomeOf {
 }
 
 #[derive(Serialize)]
-struct PhaseOf {
+struct PhaseDocument {
     t: f64,
     x: f64,
     phase: &'static str,
@@ -294,38 +320,33 @@ struct PhaseOf {
 
 #[derive(Serialize)]
 struct Energy {
-    start: f64,
-    end: f64,
-    belt: f64,
-    damper: f64,
-    guide: f64,
+    #[serde(flatten)]
+    works: MachineLedger,
     residual: f64,
 }
 
-impl MotionOf {
-    pub(super) fn new((x, v): (f64, f64), course: &Course) -> Self {
+impl MachineMotionDocument {
+    fn new((x, v): (f64, f64), course: &Course) -> Self {
         let Course { motion, fate, rest, .. } = course;
-        let named = |kind| OutcomeOf { kind, cycle: None, x: None, t: None };
+        let named = |kind| OutcomeDocument { kind, cycle: None, x: None, t: None };
         let outcome = match fate {
-            MachineFate::Rest => OutcomeOf {
+            MachineFate::Rest => OutcomeDocument {
                 x: *rest,
                 t: (motion.outcome == MachineOutcome::Rests).then_some(motion.end.t),
                 ..named("rest")
             },
-            MachineFate::Cycle(index) => OutcomeOf { cycle: Some(*index), ..named("cycle") },
+            MachineFate::Cycle(index) => OutcomeDocument { cycle: Some(*index), ..named("cycle") },
             MachineFate::Neutral => named("neutral"),
             MachineFate::Escaped => named("escaped"),
             MachineFate::Unknown(_) => named("unknown"),
         };
-        let MachineLedger { start, end, belt, damper, guide } = motion.ledger;
-        let residual = motion.ledger.residual();
-        let phase = |place: Place| match place {
-            Place::Sticks => "stick",
-            Place::Rests => "rest",
-            Place::Slips(_) => "slip",
+        let phase = |place: ContactState| match place {
+            ContactState::Sticks => "stick",
+            ContactState::Rests => "rest",
+            ContactState::Slips(_) => "slip",
         };
-        MotionOf {
-            start: StartOf { x, v },
+        MachineMotionDocument {
+            start: StartDocument { x, v },
             outcome,
             until: motion.end.t,
             displacement: motion.x,
@@ -333,17 +354,17 @@ impl MotionOf {
             phases: motion
                 .legs
                 .iter()
-                .map(|leg| PhaseOf { t: leg.t, x: leg.x, phase: phase(leg.place) })
+                .map(|leg| PhaseDocument { t: leg.t, x: leg.x, phase: phase(leg.place) })
                 .collect(),
-            energy: Energy { start, end, belt, damper, guide, residual },
-            end: StateOf::new(motion.end),
-            second: course.second.as_ref().map(|second| SecondOf::new(second, motion.end)),
+            energy: Energy { works: motion.ledger, residual: motion.ledger.residual() },
+            end: motion.end,
+            second: course.second.as_ref().map(|second| SecondDocument::new(second, motion.end)),
         }
     }
 }
 
 #[derive(Serialize)]
-pub(super) struct DesignOf {
+pub(super) struct DesignDocument {
     kick: Kick,
     /// In m, or N s.
     margin: f64,
@@ -354,9 +375,9 @@ pub(super) struct DesignOf {
     message: String,
 }
 
-impl DesignOf {
+impl DesignDocument {
     pub(super) fn new(designed: &Designed) -> Self {
-        DesignOf {
+        DesignDocument {
             kick: designed.kick,
             margin: designed.wanted,
             force: designed.force(),
@@ -368,42 +389,25 @@ impl DesignOf {
 
 /// Steps of the whole model, and the time.
 #[derive(Serialize)]
-pub(super) struct Cost {
+pub(super) struct MachineCost {
     pub steps: u64,
     pub seconds: f64,
 }
 
-/// How far from the steady position the guide holds the mass.
-fn rest_band(belt: &Belt, units: &Units) -> Both {
-    let physical = belt.static_guide.unwrap_or(belt.friction) / belt.stiffness;
-    Both { dimensionless: physical / units.displacement, physical }
-}
-
 /// Everything that is said about a machine, as a document.
-pub fn json(answer: &BeltAnswer) -> String {
-    let survey = answer.survey;
-    let (belt, reduced) = (&survey.belt, &survey.reduced);
-    text(&Document {
-        machine: &answer.machine.name,
+pub fn json(answer: &MachineAnswer) -> String {
+    let MachineAnswer { course, on_belt, .. } = answer;
+    let certain = |belt: &OnBelt| Some(MachineGuaranteeDocument::new(belt, belt.certain.as_ref()?));
+    text(&MachineDocument {
+        machine: answer.head.name,
         model: "whole",
-        quantities: QUANTITIES.iter().map(|row| (row.name, belt.get(row.quantity))).collect(),
-        friction: Friction::new(belt, &reduced.mu),
-        units: &reduced.units,
-        parameters: &reduced.parameters,
-        sticking_velocity: Both {
-            dimensionless: reduced.sticking_velocity,
-            physical: belt.belt_speed,
-        },
-        rest_band: rest_band(belt, &reduced.units),
-        whole: Whole::new(&survey.course.portrait),
-        motion: MotionOf::new(
-            (answer.machine.displacement, answer.machine.velocity),
-            &survey.course,
-        ),
-        guaranteed: answer.certain.as_ref().map(|certain| GuaranteedOf::new(answer, certain)),
+        belt: on_belt.as_ref().map(|belt| BeltDocument::new(&belt.expansion)),
+        whole: PortraitDocument::new(&course.portrait),
+        motion: MachineMotionDocument::new(answer.start, course),
+        guaranteed: on_belt.as_ref().and_then(certain),
         rest_share: answer.rest_share,
-        design: answer.design.as_ref().map(DesignOf::new),
-        expansion: Expansion::new(survey),
-        cost: Cost { steps: survey.course.portrait.steps, seconds: answer.seconds },
+        design: answer.design.as_ref().map(DesignDocument::new),
+        expansion: on_belt.as_ref().map(|belt| Expansion::new(&belt.expansion, &course.portrait)),
+        cost: MachineCost { steps: course.portrait.steps, seconds: answer.seconds },
     })
 }

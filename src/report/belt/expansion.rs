@@ -4,7 +4,8 @@
 use serde::Serialize;
 
 use super::margins;
-use crate::machine::survey::Survey;
+use crate::machine::survey::CubicExpansion;
+use crate::machine::{MachineCycle, Portrait};
 use crate::oscillator::Parameters;
 use crate::oscillator::belt::TaylorError;
 use crate::study::belt::PhysicalMargin;
@@ -16,7 +17,7 @@ pub(super) struct Expansion<'a> {
     parameters: &'a Parameters,
     /// Why it has no answer.
     #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<String>,
+    pub reason: Option<String>,
     pub cycles: Vec<ExpandedCycle<'a>>,
     edge: Option<Edge>,
     pub margin: Option<ExpandedMargin>,
@@ -66,10 +67,9 @@ pub(super) struct MarginError {
 }
 
 impl<'a> Expansion<'a> {
-    pub(super) fn new(survey: &'a Survey) -> Self {
-        let reduced = &survey.reduced;
-        let parameters = &reduced.parameters;
-        let found = match &survey.expansion {
+    pub(super) fn new(expansion: &'a CubicExpansion, portrait: &Portrait) -> Self {
+        let parameters = &expansion.reduced.parameters;
+        let found = match &expansion.cycles {
             Ok(found) => found,
             Err(reason) => {
                 let reason = Some(reason.to_string());
@@ -83,8 +83,8 @@ impl<'a> Expansion<'a> {
             }
         };
         let margin = found.picture.as_ref().map(|picture| {
-            let physical = PhysicalMargin::new(&picture.margin, &reduced.units);
-            let [displacement, impulse] = margins(&survey.course.portrait);
+            let physical = PhysicalMargin::new(&picture.margin, &expansion.reduced.units);
+            let [displacement, impulse] = margins(portrait);
             let excess = |own: Option<f64>, whole: Option<f64>| Some(own? - whole?);
             let error = MarginError {
                 displacement: excess(physical.displacement, displacement),
@@ -92,18 +92,23 @@ impl<'a> Expansion<'a> {
             };
             ExpandedMargin { physical, dimensionless: picture.margin, error }
         });
-        let cycles = found.cycles.iter().map(|cycle| expanded(cycle, survey)).collect();
+        let cycles = found.cycles.iter();
+        let cycles = cycles.map(|cycle| expanded(cycle, expansion, portrait)).collect();
         Expansion { parameters, reason: None, cycles, edge: Some(found.edge), margin }
     }
 }
 
-fn expanded<'a>(cycle: &'a Cycle, survey: &Survey) -> ExpandedCycle<'a> {
-    let units = &survey.reduced.units;
+fn expanded<'a>(
+    cycle: &'a Cycle,
+    CubicExpansion { belt, reduced, .. }: &CubicExpansion,
+    portrait: &Portrait,
+) -> ExpandedCycle<'a> {
+    let units = &reduced.units;
     let (x_min, x_max) = (cycle.q_min * units.displacement, cycle.q_max * units.displacement);
     let (v_min, v_max) = (cycle.v_min * units.velocity, cycle.v_max * units.velocity);
     let period = cycle.period * units.time;
-    let alike = survey.course.portrait.cycles.iter().filter(|whole| whole.stable == cycle.stable);
-    let distance = |whole: &crate::machine::MachineCycle| (whole.x.1 - x_max).abs();
+    let alike = portrait.cycles.iter().filter(|whole| whole.stable == cycle.stable);
+    let distance = |whole: &MachineCycle| (whole.x.1 - x_max).abs();
     let nearest = alike.min_by(|one, other| distance(one).total_cmp(&distance(other)));
     let error = nearest.map(|whole| CycleError {
         x_min: x_min - whole.x.0,
@@ -119,8 +124,8 @@ fn expanded<'a>(cycle: &'a Cycle, survey: &Survey) -> ExpandedCycle<'a> {
         v_min,
         v_max,
         period,
-        reaches_belt: cycle.v_max >= survey.reduced.sticking_velocity,
-        taylor: survey.belt.taylor_error((v_min, v_max)).filter(|error| error.force.is_finite()),
+        reaches_belt: cycle.v_max >= reduced.sticking_velocity,
+        taylor: belt.taylor_error((v_min, v_max)).filter(|error| error.force.is_finite()),
         error,
         dimensionless: cycle,
     }

@@ -1,26 +1,25 @@
-//! What a mass on a belt does, in physical units; beside it the oscillator of the paper.
+//! What a mass on a belt or a vibration mode does, in physical units; beside a belt the oscillator of the paper.
 
 pub mod branch;
 mod document;
 mod expansion;
-pub mod mode;
 mod sweep;
 mod table;
 
 pub use document::json;
-pub use sweep::{Sweep, SweepPoint, csv as sweep_csv, json as sweep_json, table as sweep_table};
+pub use sweep::{
+    MachineSweep, SweepPoint, csv as sweep_csv, json as sweep_json, table as sweep_table,
+};
 pub use table::{csv, table};
 
 use serde::Serialize;
 
 use crate::machine::guarantee::{GuaranteedKicks, MachineUncertain};
-use crate::machine::survey::Survey;
+use crate::machine::survey::{Course, CubicExpansion};
 use crate::machine::varied::Varied;
-use crate::machine::{Modal, Portrait};
+use crate::machine::{Body, Modal, Portrait, Tolerances};
 use crate::oscillator::belt::QUANTITIES;
 use crate::oscillator::{Belt, Interval};
-use crate::scene::Machine;
-use crate::scene::machine::mode::Mode;
 use crate::study::design::{Kick, Needed};
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
@@ -59,8 +58,8 @@ impl RestShare {
         match self {
             RestShare::NotAsked => String::new(),
             RestShare::Unknown => {
-                "of the window, it is not known what comes to rest: from its corners motions lead \
-                                   beyond what is known\n"
+                "of the window, the part that comes to rest is not known: motions from its corners leave what \
+                 is known\n"
                     .to_owned()
             }
             RestShare::Is(share) => {
@@ -70,22 +69,32 @@ impl RestShare {
     }
 }
 
-/// Everything that is said about a machine.
-pub struct BeltAnswer<'a> {
-    pub machine: &'a Machine,
-    pub survey: &'a Survey,
+/// Everything that is said about a mass on a belt or a vibration mode.
+pub struct MachineAnswer<'a> {
+    pub head: &'a Head<'a>,
+    /// Displacement (m) and velocity (m/s) at the start.
+    pub start: (f64, f64),
+    pub course: Course,
     pub rest_share: RestShare,
     /// The friction for a margin, if asked for.
     pub design: Option<Designed>,
-    /// The kicks that are survived for certain, or why none is; `None` if not asked for.
-    pub certain: Option<Result<GuaranteedKicks, MachineUncertain>>,
+    /// What a mode does not have.
+    pub on_belt: Option<OnBelt<'a>>,
     pub seconds: f64,
 }
 
-impl BeltAnswer<'_> {
+/// What is said about a mass on a belt alone.
+pub struct OnBelt<'a> {
+    pub expansion: CubicExpansion,
+    pub tolerances: &'a Tolerances,
+    /// The kicks that are survived for certain, or why none is; `None` if not asked for.
+    pub certain: Option<Result<GuaranteedKicks, MachineUncertain>>,
+}
+
+impl OnBelt<'_> {
     /// The numbers that are not known exactly, each between its ends in SI units.
     fn uncertain(&self) -> Vec<(Varied, Interval)> {
-        self.machine.tolerances.intervals(&self.machine.belt)
+        self.tolerances.intervals(&self.expansion.belt)
     }
 }
 
@@ -119,33 +128,19 @@ pub struct Head<'a> {
 }
 
 impl<'a> Head<'a> {
-    pub fn of_machine(machine: &'a Machine) -> Self {
-        Head { name: &machine.name, title: &machine.title, numbers: numbers(&machine.belt) }
-    }
-
-    /// Of a vibration mode.
-    pub fn of_mode(mode: &'a Mode) -> Self {
-        let Modal { frequency, mass, damping_ratio, friction, static_guide } = &mode.numbers;
-        let force = |value| with_unit(value, 12, "N");
-        let named = [
-            ("frequency", with_unit(*frequency, 12, "1/s")),
-            ("modal_mass", with_unit(*mass, 12, "kg")),
-            ("R", force(*friction)),
-        ];
-        let ratio = |(power, value): (usize, &f64)| {
-            let unit = if power == 0 { String::new() } else { format!(" s^{power}/m^{power}") };
-            (format!("ratio{power}"), format!("{}{unit}", significant(*value, 12)))
+    pub fn new(name: &'a str, title: &'a str, body: &Body) -> Self {
+        let numbers = match body {
+            Body::Belt(belt) => numbers_of_belt(belt),
+            Body::Mode(mode) => numbers_of_mode(mode),
         };
-        let mut numbers: Vec<(String, String)> =
-            named.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
-        numbers.extend(static_guide.map(|value| ("R_static".to_owned(), force(value))));
-        numbers.extend(damping_ratio.iter().enumerate().map(ratio));
-        Head { name: &mode.name, title: &mode.title, numbers }
+        Head { name, title, numbers }
     }
 
-    /// Its numbers in one line, but for one of them.
-    fn but(&self, but: &str) -> String {
-        line(self.numbers.iter().filter(|(name, _)| name != but))
+    /// Its numbers in one line, without one of them.
+    fn numbers_without(&self, omitted: &str) -> String {
+        let shown = self.numbers.iter().filter(|(name, _)| name != omitted);
+        let shown = shown.map(|(name, value)| format!("{name} = {value}"));
+        shown.collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -194,8 +189,7 @@ impl Designed {
     }
 }
 
-/// The numbers of a belt, each with its name.
-fn numbers(belt: &Belt) -> Vec<(String, String)> {
+fn numbers_of_belt(belt: &Belt) -> Vec<(String, String)> {
     let one = QUANTITIES
         .iter()
         .map(|row| (row.name.to_owned(), with_unit(belt.get(row.quantity), 12, row.unit)));
@@ -204,8 +198,18 @@ fn numbers(belt: &Belt) -> Vec<(String, String)> {
     one.chain(mu_s).chain(held).collect()
 }
 
-/// Numbers with their names in one line.
-fn line<'a>(numbers: impl IntoIterator<Item = &'a (String, String)>) -> String {
-    let one = numbers.into_iter().map(|(name, value)| format!("{name} = {value}"));
-    one.collect::<Vec<_>>().join(", ")
+fn numbers_of_mode(mode: &Modal) -> Vec<(String, String)> {
+    let Modal { frequency, mass, damping_ratio, friction, static_guide } = mode;
+    let named = |name: &str, value, unit| (name.to_owned(), with_unit(value, 12, unit));
+    let one = [
+        named("frequency", *frequency, "1/s"),
+        named("modal_mass", *mass, "kg"),
+        named("R", *friction, "N"),
+    ];
+    let held = static_guide.map(|force| named("R_static", force, "N"));
+    let ratio = |(power, value): (usize, &f64)| {
+        let unit = if power == 0 { String::new() } else { format!(" s^{power}/m^{power}") };
+        (format!("ratio{power}"), format!("{}{unit}", significant(*value, 12)))
+    };
+    one.into_iter().chain(held).chain(damping_ratio.iter().enumerate().map(ratio)).collect()
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::document::{Cost, DesignOf, Whole};
+use super::document::{DesignDocument, MachineCost, PortraitDocument};
 use super::{Designed, Head, PLACES, RestShare, margins};
 use crate::machine::varied::Varied;
 use crate::machine::{MachineBorder, Portrait};
@@ -23,7 +23,7 @@ pub struct SweepPoint {
 }
 
 /// A sweep with what is asked about it.
-pub struct Sweep<'a> {
+pub struct MachineSweep<'a> {
     /// What it is about.
     pub head: &'a Head<'a>,
     /// The number that varies.
@@ -33,50 +33,48 @@ pub struct Sweep<'a> {
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct BeltSweepDocument<'a> {
     machine: &'a str,
     model: &'static str,
     quantity: &'static str,
     unit: &'static str,
-    points: Vec<Point<'a>>,
-    cost: Cost,
+    points: Vec<SweptPoint<'a>>,
+    cost: MachineCost,
 }
 
 #[derive(Serialize)]
-struct Point<'a> {
+struct SweptPoint<'a> {
     value: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<&'a String>,
     #[serde(flatten)]
-    whole: Option<Whole>,
+    whole: Option<PortraitDocument>,
     #[serde(skip_serializing_if = "RestShare::is_not_asked")]
     rest_share: RestShare,
     #[serde(skip_serializing_if = "Option::is_none")]
-    design: Option<DesignOf>,
+    design: Option<DesignDocument>,
 }
 
-fn steps(sweep: &Sweep) -> u64 {
+fn steps(sweep: &MachineSweep) -> u64 {
     sweep.points.iter().filter_map(|point| point.found.as_ref().ok()).map(|found| found.steps).sum()
 }
 
 /// The sweep as a document.
-pub fn json(sweep: &Sweep) -> String {
-    let point = |point: &'_ SweepPoint| Point {
+pub fn json(sweep: &MachineSweep) -> String {
+    let points = sweep.points.iter().map(|point| SweptPoint {
         value: point.value,
-        reason: None,
-        whole: point.found.as_ref().ok().map(Whole::new),
+        reason: point.found.as_ref().err(),
+        whole: point.found.as_ref().ok().map(PortraitDocument::new),
         rest_share: point.rest_share,
-        design: point.design.as_ref().map(DesignOf::new),
-    };
-    let points = sweep.points.iter();
-    let points = points.map(|one| Point { reason: one.found.as_ref().err(), ..point(one) });
-    text(&Document {
+        design: point.design.as_ref().map(DesignDocument::new),
+    });
+    text(&BeltSweepDocument {
         machine: sweep.head.name,
         model: "whole",
         quantity: sweep.varied.name(),
         unit: sweep.varied.unit(),
         points: points.collect(),
-        cost: Cost { steps: steps(sweep), seconds: sweep.seconds },
+        cost: MachineCost { steps: steps(sweep), seconds: sweep.seconds },
     })
 }
 
@@ -103,7 +101,7 @@ fn regime(found: &Portrait) -> String {
 }
 
 /// The sweep, to read.
-pub fn table(sweep: &Sweep) -> String {
+pub fn table(sweep: &MachineSweep) -> String {
     let (name, unit) = (sweep.varied.name(), sweep.varied.unit());
     let designs = sweep.points.iter().any(|point| point.design.is_some());
     let mut titles = vec![name, "margin", "impulse", "cycles up to", "on the belt", "regime"];
@@ -148,7 +146,7 @@ pub fn table(sweep: &Sweep) -> String {
         "{}: {}\n{}\n\n{}\n{} steps, {}\n",
         head.name,
         head.title,
-        head.but(name),
+        head.numbers_without(name),
         table.aligned_left(),
         steps(sweep),
         duration(sweep.seconds)
@@ -157,7 +155,7 @@ pub fn table(sweep: &Sweep) -> String {
 
 /// What a machine does at a value.
 #[derive(Default, Serialize)]
-struct Row {
+struct BeltSweepRow {
     value: f64,
     cycles: Option<usize>,
     x_max_inner: Option<f64>,
@@ -173,17 +171,17 @@ struct Row {
 }
 
 /// One row for each point, in SI units.
-pub fn csv(sweep: &Sweep) -> String {
-    let mut sheet = Sheet::like(&Row::default(), &[("value", sweep.varied.name())]);
+pub fn csv(sweep: &MachineSweep) -> String {
+    let mut sheet = Sheet::like(&BeltSweepRow::default(), &[("value", sweep.varied.name())]);
     for point in &sweep.points {
         let value = point.value;
         let Ok(found) = &point.found else {
-            sheet.row(&Row { value, ..Row::default() });
+            sheet.row(&BeltSweepRow { value, ..BeltSweepRow::default() });
             continue;
         };
         let all = &found.cycles;
         let [x_margin, impulse_margin] = margins(found);
-        sheet.row(&Row {
+        sheet.row(&BeltSweepRow {
             value,
             cycles: Some(all.len()),
             x_max_inner: all.first().map(|cycle| cycle.x.1),

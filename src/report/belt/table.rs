@@ -1,20 +1,20 @@
-//! A machine's answer as text to read, and as rows of comma-separated values.
+//! An answer about a machine as text to read, and as rows of comma-separated values.
 
 use serde::Serialize;
 
 use super::document::kind;
 use super::expansion::Expansion;
-use super::{BeltAnswer, PLACES, RestShare, finite, line, margins, numbers};
+use super::{MachineAnswer, OnBelt, PLACES, finite, margins};
 use crate::machine::guarantee::{GuaranteedKicks, MachineUncertain};
 use crate::machine::motion::{MachineOutcome, MachineState};
 use crate::machine::stepped::Stepped;
-use crate::machine::survey::{Course, Second};
+use crate::machine::survey::{Course, CubicExpansion, Second};
 use crate::machine::varied::Varied;
 use crate::machine::{MachineBorder, MachineCycle, MachineFate, Portrait};
 use crate::oscillator::Interval;
 use crate::oscillator::belt::{Derivatives, FrictionLaw};
-use crate::report::csv::Sheet;
-use crate::report::table::Table;
+use crate::report::csv;
+use crate::report::table::{Table, rounded};
 use crate::words::number::{duration, significant};
 use crate::words::quantity::with_unit;
 use crate::words::stability;
@@ -23,20 +23,21 @@ use crate::words::stability;
 const DIGITS: usize = 10;
 
 /// One line of the answer: what, its dimensionless value, its physical value and unit.
-struct Row {
+struct QuantityRow {
     what: &'static str,
     dimensionless: Option<f64>,
     physical: Option<(f64, &'static str)>,
 }
 
-/// The numbers about a machine that stand alone.
-fn rows(answer: &BeltAnswer) -> Vec<Row> {
-    let survey = answer.survey;
-    let (belt, reduced) = (&survey.belt, &survey.reduced);
+/// The numbers about a belt that stand alone.
+fn rows(
+    CubicExpansion { belt, reduced, .. }: &CubicExpansion,
+    portrait: &Portrait,
+) -> Vec<QuantityRow> {
     let (parameters, units) = (&reduced.parameters, &reduced.units);
-    let [displacement, impulse] = margins(&survey.course.portrait);
-    let pure = |what, value| Row { what, dimensionless: Some(value), physical: None };
-    let scaled = |what, value: Option<f64>, scale: f64, unit| Row {
+    let [displacement, impulse] = margins(portrait);
+    let pure = |what, value| QuantityRow { what, dimensionless: Some(value), physical: None };
+    let scaled = |what, value: Option<f64>, scale: f64, unit| QuantityRow {
         what,
         dimensionless: value.map(|value| value / scale),
         physical: value.map(|value| (value, unit)),
@@ -59,35 +60,59 @@ fn rows(answer: &BeltAnswer) -> Vec<Row> {
 }
 
 /// Everything that is said about a machine, to read.
-pub fn table(answer: &BeltAnswer) -> String {
-    let survey = answer.survey;
-    let (belt, reduced) = (&survey.belt, &survey.reduced);
-    let machine = answer.machine;
-    let mut out = format!("{}: {}\n", machine.name, machine.title);
-    out += &format!("{}\n{}\n\n", line(&numbers(belt)), friction(&belt.law, &reduced.mu));
-    let mut numbers = Table::new(&["", "dimensionless", "physical"]);
-    for Row { what, dimensionless, physical } in rows(answer) {
-        let number = |value| significant(value, DIGITS);
-        numbers.row(vec![
-            what.to_owned(),
-            dimensionless.map_or_else(|| "-".to_owned(), number),
-            physical.map_or_else(String::new, |(value, unit)| with_unit(value, PLACES, unit)),
-        ]);
+pub fn table(answer: &MachineAnswer) -> String {
+    let (head, portrait) = (answer.head, &answer.course.portrait);
+    let mut out = format!("{}: {}\n{}\n", head.name, head.title, head.numbers_without(""));
+    out += &answer.on_belt.as_ref().map_or_else(
+        || survived(portrait),
+        |OnBelt { expansion, .. }| {
+            let mu = friction(&expansion.belt.law, &expansion.reduced.mu);
+            format!("{mu}\n\n{}\n", quantities(expansion, portrait))
+        },
+    );
+    out += &format!("{}\n\n", border(portrait));
+    if let Some((belt, certain)) =
+        answer.on_belt.as_ref().and_then(|it| Some((it, it.certain.as_ref()?)))
+    {
+        out += &format!("{}\n", guaranteed(belt, portrait, certain));
     }
-    out += &format!("{numbers}\n{}\n\n", border(&survey.course.portrait));
-    if let Some(certain) = &answer.certain {
-        out += &format!("{}\n", guaranteed(answer, certain));
-    }
-    out += &cycles(&survey.course.portrait.cycles);
-    out += &gaps(&survey.course.portrait);
-    let start = (machine.displacement, machine.velocity);
-    out += &format!("{}\n", fate(start, &survey.course));
+    out += &cycles(&portrait.cycles);
+    out += &gaps(portrait);
+    out += &format!("{}\n", fate(answer.start, &answer.course));
     out += &answer.rest_share.line();
-    out += &format!("{}\n", expansion(answer));
+    if let Some(OnBelt { expansion, .. }) = &answer.on_belt {
+        out += &format!("{}\n", by_expansion(expansion, portrait));
+    }
     if let Some(designed) = &answer.design {
         out += &format!("{}\n", designed.sentence());
     }
-    out + &format!("{} steps, {}\n", survey.course.portrait.steps, duration(answer.seconds))
+    out + &format!("{} steps, {}\n", portrait.steps, duration(answer.seconds))
+}
+
+/// The kicks that are survived, two lines.
+fn survived(portrait: &Portrait) -> String {
+    let [displacement, impulse] = margins(portrait);
+    let all = |value: Option<f64>, unit| {
+        value.map_or_else(|| "every one".to_owned(), |value| with_unit(value, PLACES, unit))
+    };
+    format!(
+        "\nsurvives displacements up to: {}\nsurvives impulses up to: {}\n",
+        all(displacement, "m"),
+        all(impulse, "N s")
+    )
+}
+
+/// The numbers about a belt that stand alone, a row each.
+fn quantities(expansion: &CubicExpansion, portrait: &Portrait) -> Table {
+    let mut table = Table::new(&["", "dimensionless", "physical"]);
+    for QuantityRow { what, dimensionless, physical } in rows(expansion, portrait) {
+        table.row(vec![
+            what.to_owned(),
+            rounded(dimensionless, DIGITS),
+            physical.map_or_else(String::new, |(value, unit)| with_unit(value, PLACES, unit)),
+        ]);
+    }
+    table
 }
 
 /// The friction law at the belt speed.
@@ -112,7 +137,7 @@ fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
 }
 
 /// What borders the basin of rest, in a sentence.
-pub(super) fn border(portrait: &Portrait) -> &'static str {
+fn border(portrait: &Portrait) -> &'static str {
     match portrait.border {
         MachineBorder::None if portrait.margin.is_some() => {
             "every kick within the margin is survived; larger ones are not known"
@@ -133,8 +158,11 @@ pub(super) fn border(portrait: &Portrait) -> &'static str {
 }
 
 /// The nominal margins and those that hold for certain, side by side, and what they allow for.
-fn guaranteed(answer: &BeltAnswer, certain: &Result<GuaranteedKicks, MachineUncertain>) -> String {
-    let tolerances = &answer.machine.tolerances;
+fn guaranteed(
+    belt: &OnBelt,
+    portrait: &Portrait,
+    certain: &Result<GuaranteedKicks, MachineUncertain>,
+) -> String {
     let unit = |varied: Varied, value| with_unit(value, 12, varied.unit());
     let number = |(varied, interval): (Varied, Interval)| {
         format!(
@@ -144,19 +172,18 @@ fn guaranteed(answer: &BeltAnswer, certain: &Result<GuaranteedKicks, MachineUnce
             unit(varied, interval.upper())
         )
     };
-    let disturbance = Some(tolerances.disturbance).filter(|force| *force > 0.0);
+    let disturbance = Some(belt.tolerances.disturbance).filter(|force| *force > 0.0);
     let disturbance = disturbance.map(|force| format!("disturbance {}", with_unit(force, 12, "N")));
-    let known: Vec<String> =
-        answer.uncertain().into_iter().map(number).chain(disturbance).collect();
+    let known: Vec<String> = belt.uncertain().into_iter().map(number).chain(disturbance).collect();
     let both = |displacement: Option<f64>, impulse: Option<f64>| {
-        let told = |value: Option<f64>, unit| {
+        let size = |value: Option<f64>, unit| {
             value.map_or_else(|| "any".to_owned(), |value| with_unit(value, PLACES, unit))
         };
-        format!("displacement {}, impulse {}", told(displacement, "m"), told(impulse, "N s"))
+        format!("displacement {}, impulse {}", size(displacement, "m"), size(impulse, "N s"))
     };
     // What is certain is not rounded up.
     let below = |value: f64| finite(value * (1.0 - 5e-5));
-    let [displacement, impulse] = margins(&answer.survey.course.portrait);
+    let [displacement, impulse] = margins(portrait);
     let certain = match certain {
         Ok(kicks) => both(below(kicks.displacement), below(kicks.impulse)),
         Err(reason) => format!("nothing: {reason}"),
@@ -169,7 +196,7 @@ fn guaranteed(answer: &BeltAnswer, certain: &Result<GuaranteedKicks, MachineUnce
 }
 
 /// What is not known of a machine, a line each.
-pub(super) fn gaps(portrait: &Portrait) -> String {
+fn gaps(portrait: &Portrait) -> String {
     let length = |x| with_unit(x, PLACES, "m");
     let limit = portrait.stop.map(|stop| {
         format!("motions that turn beyond x = {} are not known: {stop}\n", length(portrait.known))
@@ -182,7 +209,7 @@ pub(super) fn gaps(portrait: &Portrait) -> String {
 }
 
 /// The cycles, a row each.
-pub(super) fn cycles(cycles: &[MachineCycle]) -> String {
+fn cycles(cycles: &[MachineCycle]) -> String {
     if cycles.is_empty() {
         return "no cycle\n".to_owned();
     }
@@ -212,7 +239,7 @@ pub(super) fn cells(cycle: &MachineCycle) -> Vec<String> {
 }
 
 /// What becomes of the motion, in a sentence.
-pub(super) fn fate((x, v): (f64, f64), course: &Course) -> String {
+fn fate((x, v): (f64, f64), course: &Course) -> String {
     let length = |x| with_unit(x, PLACES, "m");
     let from = format!("from x = {}, v = {}: ", length(x), with_unit(v, PLACES, "m/s"));
     let end = &course.motion.end;
@@ -253,13 +280,11 @@ fn by(Second { way, tolerance, found }: &Second, course: &Course) -> String {
 }
 
 /// What the cubic expansion says instead, in a sentence.
-fn expansion(answer: &BeltAnswer) -> String {
-    let survey = answer.survey;
-    let found = Expansion::new(survey);
+fn by_expansion(expansion: &CubicExpansion, portrait: &Portrait) -> String {
+    let found = Expansion::new(expansion, portrait);
     let lead = "friction as a cubic (the oscillator of the paper) says: ";
     let Some(margin) = found.margin else {
-        let reason = survey.expansion.as_ref().err().map(ToString::to_string);
-        return format!("{lead}nothing; {}", reason.unwrap_or_default());
+        return format!("{lead}nothing; {}", found.reason.unwrap_or_default());
     };
     let size = match (margin.physical.displacement, margin.error.displacement) {
         (None, _) => "every kick is survived".to_owned(),
@@ -280,50 +305,25 @@ fn expansion(answer: &BeltAnswer) -> String {
 }
 
 /// One row for each number, in SI units.
-pub fn csv(answer: &BeltAnswer) -> String {
-    let mut out = sheet();
-    for Row { what, dimensionless, physical } in rows(answer) {
-        let (value, unit) = physical.map_or((None, ""), |(value, unit)| (Some(value), unit));
-        put(&mut out, what, dimensionless, value, unit);
+pub fn csv(answer: &MachineAnswer) -> String {
+    let portrait = &answer.course.portrait;
+    let mut rows = Vec::new();
+    let mut put = |what: &str, dimensionless, physical, unit| {
+        rows.push(NumberRow { what: what.to_owned(), dimensionless, physical, unit });
+    };
+    if let Some(OnBelt { expansion, certain, .. }) = &answer.on_belt {
+        for QuantityRow { what, dimensionless, physical } in self::rows(expansion, portrait) {
+            let (value, unit) = physical.unzip();
+            put(what, dimensionless, value, unit.unwrap_or_default());
+        }
+        if let Some(certain) = certain {
+            let kicks = certain.ok();
+            let value =
+                |pick: fn(&GuaranteedKicks) -> f64| kicks.as_ref().map(pick).and_then(finite);
+            put("guaranteed: displacement", None, value(|it| it.displacement), "m");
+            put("guaranteed: impulse", None, value(|it| it.impulse), "N s");
+        }
     }
-    if let Some(certain) = &answer.certain {
-        let kicks = certain.ok();
-        let value = |pick: fn(&GuaranteedKicks) -> f64| kicks.as_ref().map(pick).and_then(finite);
-        put(&mut out, "guaranteed: displacement", None, value(|it| it.displacement), "m");
-        put(&mut out, "guaranteed: impulse", None, value(|it| it.impulse), "N s");
-    }
-    csv_rows(&mut out, &answer.survey.course.portrait, answer.rest_share);
-    if let Some(designed) = &answer.design {
-        put(&mut out, "R for the margin", None, designed.force(), "N");
-    }
-    out.into_text()
-}
-
-/// A number in SI units.
-#[derive(Default, Serialize)]
-struct Number<'a> {
-    what: &'a str,
-    dimensionless: Option<f64>,
-    physical: Option<f64>,
-    unit: &'a str,
-}
-
-pub(super) fn sheet() -> Sheet {
-    Sheet::like(&Number::default(), &[])
-}
-
-fn put(
-    sheet: &mut Sheet,
-    what: &str,
-    dimensionless: Option<f64>,
-    physical: Option<f64>,
-    unit: &str,
-) {
-    sheet.row(&Number { what, dimensionless, physical, unit });
-}
-
-/// Adds a row for each number of each cycle, and the share.
-pub(super) fn csv_rows(out: &mut Sheet, portrait: &Portrait, rest_share: RestShare) {
     for (index, cycle) in portrait.cycles.iter().enumerate() {
         let lead = format!("{} {} cycle {index}", stability(cycle.stable), kind(cycle));
         for (name, value, unit) in [
@@ -335,10 +335,23 @@ pub(super) fn csv_rows(out: &mut Sheet, portrait: &Portrait, rest_share: RestSha
             ("stick_duration", cycle.stick_duration, "s"),
             ("multiplier", cycle.multiplier, ""),
         ] {
-            put(out, &format!("{lead}: {name}"), None, Some(value), unit);
+            put(&format!("{lead}: {name}"), None, Some(value), unit);
         }
     }
-    if !rest_share.is_not_asked() {
-        put(out, "rest share of the window", rest_share.known(), None, "");
+    if !answer.rest_share.is_not_asked() {
+        put("rest share of the window", answer.rest_share.known(), None, "");
     }
+    if let Some(designed) = &answer.design {
+        put("R for the margin", None, designed.force(), "N");
+    }
+    csv::sheet(&NumberRow::default(), rows)
+}
+
+/// A number without unit, and in SI units.
+#[derive(Default, Serialize)]
+struct NumberRow {
+    what: String,
+    dimensionless: Option<f64>,
+    physical: Option<f64>,
+    unit: &'static str,
 }

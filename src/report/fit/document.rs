@@ -5,17 +5,19 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::fit::Fitted;
-use crate::fit::margin::Spread;
+use crate::fit::estimate::Rival;
+use crate::fit::margin::{Margins, Spread};
 use crate::fit::names::NAMES;
 use crate::fit::observation::{LAST, Q0, StartKind};
-use crate::fit::physical::{self, kicks, rows};
+use crate::fit::physical::{EstimatedNumber, kicks, rows};
+use crate::fit::residuals::Whiteness;
 use crate::fit::separable::combinations;
 use crate::report::csv;
 use crate::report::json;
 use crate::words::fit::sentences;
 
 #[derive(Serialize)]
-struct Number {
+struct Estimated {
     value: f64,
     standard_error: f64,
     lower: Option<f64>,
@@ -31,80 +33,24 @@ struct Combined {
 }
 
 #[derive(Serialize)]
-struct Valley {
-    half_swings: usize,
-    delta_chi2: f64,
-}
-
-#[derive(Serialize)]
-struct Residuals {
-    correlation: f64,
-    white: bool,
-    systematic: bool,
-}
-
-#[derive(Serialize)]
-struct Quantiles {
-    median: Option<f64>,
-    lower: Option<f64>,
-    upper: Option<f64>,
-    none: f64,
-}
-
-impl Quantiles {
-    fn new(spread: &Spread, scale: f64) -> Self {
-        let scaled = |value: Option<f64>| value.map(|value| value * scale);
-        Quantiles {
-            median: scaled(spread.median),
-            lower: scaled(spread.lower),
-            upper: scaled(spread.upper),
-            none: spread.none,
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct Margin {
-    displacement: Quantiles,
-    impulse: Quantiles,
-    /// Right turning point of the smallest stable cycle.
-    cycle: Quantiles,
-    /// The damping of the fold.
-    fold: Quantiles,
-    extrapolated: bool,
-    draws: usize,
-    /// Draws of equal weight that would tell as much, where they were weighted by their likelihood.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    effective: Option<f64>,
-    failed: usize,
-}
-
-#[derive(Serialize)]
-struct PhysicalNumber {
-    value: f64,
-    standard_error: f64,
-    unit: &'static str,
-}
-
-#[derive(Serialize)]
 struct Physical {
-    numbers: BTreeMap<&'static str, PhysicalNumber>,
-    displacement: Quantiles,
-    impulse: Quantiles,
+    numbers: BTreeMap<&'static str, EstimatedNumber>,
+    displacement: Spread,
+    impulse: Spread,
 }
 
 #[derive(Serialize)]
-struct Cost {
+struct FitCost {
     with_derivatives: u64,
     without: u64,
     seconds: f64,
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct FitDocument<'a> {
     file: &'a str,
     unit: Option<&'a str>,
-    parameters: BTreeMap<&'static str, Number>,
+    parameters: BTreeMap<&'static str, Estimated>,
     held: BTreeMap<&'static str, f64>,
     start: BTreeMap<&'static str, serde_json::Value>,
     correlations: BTreeMap<String, f64>,
@@ -113,23 +59,24 @@ struct Document<'a> {
     half_swings: usize,
     rests: bool,
     separable: Vec<Combined>,
-    valleys: Vec<Valley>,
+    valleys: &'a [Rival],
     outliers: usize,
     saturated: usize,
     excited_again: usize,
     missing: usize,
     repeated: usize,
-    residuals: Residuals,
-    margin: Margin,
+    residuals: &'a Whiteness,
+    margin: &'a Margins,
     #[serde(skip_serializing_if = "Option::is_none")]
     physical: Option<Physical>,
     sentences: Vec<String>,
-    cost: Cost,
+    cost: FitCost,
 }
 
 pub fn json(fitted: &Fitted) -> String {
     let Fitted { record, estimate, margins, .. } = fitted;
-    let parameters = estimate.wanted().map(|row| (row.name, number(fitted, row.place))).collect();
+    let parameters =
+        estimate.wanted().map(|row| (row.name, estimated(fitted, row.place))).collect();
     let held = NAMES
         .iter()
         .filter(|row| !estimate.free[row.place])
@@ -143,13 +90,8 @@ pub fn json(fitted: &Fitted) -> String {
             standard_error: it.standard_error,
         })
         .collect();
-    let valleys = estimate
-        .rivals
-        .iter()
-        .map(|it| Valley { half_swings: it.half_swings, delta_chi2: it.delta_chi2 })
-        .collect();
     let (with_derivatives, without) = fitted.motions();
-    json::text(&Document {
+    json::text(&FitDocument {
         file: &fitted.name,
         unit: record.unit.as_deref(),
         parameters,
@@ -161,37 +103,24 @@ pub fn json(fitted: &Fitted) -> String {
         half_swings: estimate.half_swings,
         rests: estimate.rests,
         separable,
-        valleys,
+        valleys: &estimate.rivals,
         outliers: estimate.outliers(),
         saturated: estimate.saturated,
         excited_again: estimate.after,
         missing: record.missing,
         repeated: record.repeated,
-        residuals: Residuals {
-            correlation: estimate.whiteness.correlation,
-            white: estimate.whiteness.white,
-            systematic: estimate.whiteness.systematic,
-        },
-        margin: Margin {
-            displacement: Quantiles::new(&margins.displacement, 1.0),
-            impulse: Quantiles::new(&margins.impulse, 1.0),
-            cycle: Quantiles::new(&margins.cycle, 1.0),
-            fold: Quantiles::new(&margins.fold, 1.0),
-            extrapolated: margins.extrapolated,
-            draws: margins.draws.len(),
-            effective: margins.effective,
-            failed: margins.failed,
-        },
+        residuals: &estimate.whiteness,
+        margin: margins,
         physical: physical(fitted),
         sentences: sentences(fitted),
-        cost: Cost { with_derivatives, without, seconds: fitted.seconds },
+        cost: FitCost { with_derivatives, without, seconds: fitted.seconds },
     })
 }
 
-fn number(fitted: &Fitted, place: usize) -> Number {
+fn estimated(fitted: &Fitted, place: usize) -> Estimated {
     let estimate = &fitted.estimate;
     let interval = estimate.intervals[place];
-    Number {
+    Estimated {
         value: estimate.p[place],
         standard_error: estimate.covariance.error(place),
         lower: interval.lower,
@@ -228,9 +157,8 @@ fn correlations(fitted: &Fitted) -> BTreeMap<String, f64> {
     let mut all = BTreeMap::new();
     for (index, one) in wanted.iter().enumerate() {
         for other in &wanted[index + 1..] {
-            let both = covariance.error(one.place) * covariance.error(other.place);
             let name = format!("{},{}", one.name, other.name);
-            all.insert(name, covariance.of(one.place, other.place) / both);
+            all.insert(name, covariance.correlation(one.place, other.place));
         }
     }
     all
@@ -238,22 +166,18 @@ fn correlations(fitted: &Fitted) -> BTreeMap<String, f64> {
 
 fn physical(fitted: &Fitted) -> Option<Physical> {
     let (metres, impulse) = kicks(fitted)?;
-    let number = |row: physical::EstimatedNumber| {
-        let physical::EstimatedNumber { name, value, standard_error, unit } = row;
-        (name, PhysicalNumber { value, standard_error, unit })
-    };
     Some(Physical {
-        numbers: rows(fitted).into_iter().map(number).collect(),
-        displacement: Quantiles::new(&fitted.margins.displacement, metres),
-        impulse: Quantiles::new(&fitted.margins.impulse, impulse),
+        numbers: rows(fitted).into_iter().map(|number| (number.name, number)).collect(),
+        displacement: fitted.margins.displacement.scaled(metres),
+        impulse: fitted.margins.impulse.scaled(impulse),
     })
 }
 
 /// One row for each estimated number, then the margins.
 pub fn csv(fitted: &Fitted) -> String {
     let numbers = fitted.estimate.wanted().map(|row| {
-        let Number { value, standard_error, lower, upper, .. } = number(fitted, row.place);
-        Row {
+        let Estimated { value, standard_error, lower, upper, .. } = estimated(fitted, row.place);
+        EstimateRow {
             name: row.name,
             value: Some(value),
             standard_error: Some(standard_error),
@@ -265,19 +189,19 @@ pub fn csv(fitted: &Fitted) -> String {
         ("margin displacement", &fitted.margins.displacement),
         ("margin impulse", &fitted.margins.impulse),
     ];
-    let margins = margins.map(|(name, spread)| Row {
+    let margins = margins.map(|(name, spread)| EstimateRow {
         name,
         value: spread.median,
         standard_error: None,
         lower: spread.lower,
         upper: spread.upper,
     });
-    csv::sheet(&Row::default(), numbers.chain(margins))
+    csv::sheet(&EstimateRow::default(), numbers.chain(margins))
 }
 
 /// An estimated number or a margin.
 #[derive(Default, Serialize)]
-struct Row {
+struct EstimateRow {
     name: &'static str,
     value: Option<f64>,
     standard_error: Option<f64>,

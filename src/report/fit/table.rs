@@ -97,9 +97,7 @@ fn correlations(fitted: &Fitted) -> String {
     for one in &wanted {
         let mut cells = vec![one.name.to_owned()];
         for other in &wanted {
-            let both =
-                estimate.covariance.error(one.place) * estimate.covariance.error(other.place);
-            cells.push(format!("{:.3}", estimate.covariance.of(one.place, other.place) / both));
+            cells.push(format!("{:.3}", estimate.covariance.correlation(one.place, other.place)));
         }
         table.row(cells);
     }

@@ -72,7 +72,8 @@ impl<M: Application, W: Write> Pump<M, W> {
         } else if is_key(&msg, Code::Char(' ')) {
             let wished = playing.pause == Pause::Wished;
             playing.pause = if wished { Pause::Not } else { Pause::Wished };
-            let text = if wished { "" } else { "replay held: space goes on, esc stops, q leaves" };
+            let text =
+                if wished { "" } else { "replay held: space continues, esc stops, q leaves" };
             return self.update(Msg::Told(Notice { error: false, text: text.to_owned() }));
         }
         Ok(None)
@@ -108,7 +109,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         result
     }
 
-    /// Begins to play; something that is played already goes on afterwards.
+    /// Begins to play; something that is played already continues afterwards.
     pub(super) fn begin(&mut self, script: Script, register: bool) -> io::Result<EffectOutcome> {
         let asked = self.application.asked();
         let Some(playing) = &mut self.playing else {

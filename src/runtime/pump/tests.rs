@@ -26,7 +26,7 @@ struct Counter {
 }
 
 impl Counter {
-    /// After so many tellings of the time it stands still.
+    /// The clock stands still after it has been read this many times.
     const MOVES: u32 = 3;
 }
 
@@ -249,7 +249,7 @@ type Tour<'a> = (&'a str, &'a [(&'a str, &'a [&'a str])], u32);
 /// At `done` the tour is over, so that q leaves the program.
 #[rustfmt::skip]
 const TOURS: [Tour; 4] = [
-    // A caption waits for a key that does nothing else: the first q goes on with the tour.
+    // A caption waits for a key that does nothing else: the first q continues with the tour.
     ("<right> <say \"look\"> <right>", &[("look", &["q"]), ("done", &["q"])], 2),
     // Once to the first caption and on to the second, back to the first, on again and to the end.
     ("<right> <say \"one\"> <right> <say \"two\"> <right>", &[

@@ -1,4 +1,4 @@
-//! What is known of a machine: its name, its numbers, and the motion of it that is looked at.
+//! A machine as its file describes it.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use crate::machine::Tolerances;
 use crate::oscillator::Belt;
 use crate::oscillator::belt::{BeltError, Reduced};
 
-/// A machine: a mass on a belt, and the motion of it that is looked at.
+/// A machine: a mass on a belt, and the start of the motion on show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Machine {
     /// The name by which it is opened.

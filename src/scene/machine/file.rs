@@ -1,11 +1,9 @@
 //! Machine files: TOML in, [`Machine`] out, or one line that names what is wrong and where.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::ops::Range;
 
 use serde::Deserialize;
-use serde::de::{Deserializer, Visitor};
 use toml::Spanned;
 
 use super::Machine;
@@ -24,19 +22,22 @@ pub const FARTHEST_START: f64 = 1e6;
 /// Seconds for which a motion may be followed.
 pub const UNTIL_RANGE: (f64, f64) = (0.0, 1e6);
 
-/// Seconds for which a motion is followed where a file says nothing, in periods of the free oscillation.
-const PERIODS: f64 = 20.0;
-
-/// Velocities at which a law is tried: from a creep to a tool's speed, in m/s.
+/// Range of the velocity of Stribeck's characteristic, in m/s.
 const STRIBECK_VELOCITY: (f64, f64) = (1e-12, 1e12);
 
-/// Exponents of Stribeck's characteristic.
+/// Range of its exponent.
 const STRIBECK_EXPONENT: (f64, f64) = (0.1, 10.0);
 
-/// Largest magnitude of a coefficient of friction, and of its coefficients in SI units.
+/// Largest magnitude of a coefficient of friction or damping, and of their coefficients in SI units.
 const LARGEST_COEFFICIENT: f64 = 1e12;
 
-/// Most points of a table: a curve near them is laid in linear time, but pictures and answers take many.
+/// Any coefficient.
+const ANY: (f64, f64) = (-LARGEST_COEFFICIENT, LARGEST_COEFFICIENT);
+
+/// The dimension of what becomes a pure number when multiplied by a velocity.
+const SLOWNESS: Dimension = Dimension::new(0, -1, 1);
+
+/// Maximum number of points of a table.
 const MOST_POINTS: usize = 10_000;
 
 /// The file as it stands on disk.
@@ -70,8 +71,39 @@ struct MachineFile {
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StartTable {
-    pub x: Option<Spanned<Number>>,
-    pub v: Option<Spanned<Number>>,
+    x: Option<Spanned<Number>>,
+    v: Option<Spanned<Number>>,
+}
+
+impl StartTable {
+    /// Displacement and velocity at the start, in SI units.
+    pub fn read(&self) -> Result<(f64, f64), Complaint> {
+        let far = (-FARTHEST_START, FARTHEST_START);
+        let x = number("x", self.x.as_ref(), Dimension::LENGTH, "m", far, 0.0)?;
+        let v = number("v", self.v.as_ref(), Dimension::VELOCITY, "m/s", far, 0.0)?;
+        Ok((x, v))
+    }
+}
+
+/// How long a motion is followed, in s: as the file says, or this many periods of the free oscillation.
+pub(super) fn duration(given: Option<&Spanned<Number>>, period: f64) -> Result<f64, Complaint> {
+    const PERIODS: f64 = 20.0;
+    number("until", given, Dimension::TIME, "s", UNTIL_RANGE, PERIODS * period)
+}
+
+/// The coefficients of a polynomial in the velocity, from the constant one up.
+pub(super) fn polynomial(name: &str, given: &[Spanned<Number>]) -> Result<Vec<f64>, Complaint> {
+    let coefficient = |(power, given): (usize, &Spanned<Number>)| {
+        let power = i8::try_from(power).unwrap_or(i8::MAX);
+        let dimension = Dimension::ONE.times(SLOWNESS, power).unwrap_or(Dimension::ONE);
+        let unit = match power {
+            0 => String::new(),
+            1 => "s/m".to_owned(),
+            _ => format!("s^{power}/m^{power}"),
+        };
+        number(name, Some(given), dimension, &unit, ANY, 0.0)
+    };
+    given.iter().enumerate().map(coefficient).collect()
 }
 
 /// A friction law, one of four, and what static friction adds to it.
@@ -117,38 +149,13 @@ struct Table {
 }
 
 /// A number, or a text of a number with a unit.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged, expecting = "expected a number, or a text such as \"2 kg\"")]
 pub(super) enum Number {
     Plain(f64),
     Text(String),
+    #[serde(skip)]
     Read(Measured),
-}
-
-impl<'de> Deserialize<'de> for Number {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Read;
-        impl Visitor<'_> for Read {
-            type Value = Number;
-
-            fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-                out.write_str("a number, or a text such as \"2 kg\"")
-            }
-
-            fn visit_f64<E>(self, value: f64) -> Result<Number, E> {
-                Ok(Number::Plain(value))
-            }
-
-            #[expect(clippy::cast_precision_loss, reason = "quantities have no 16 digits")]
-            fn visit_i64<E>(self, value: i64) -> Result<Number, E> {
-                Ok(Number::Plain(value as f64))
-            }
-
-            fn visit_str<E>(self, value: &str) -> Result<Number, E> {
-                Ok(Number::Text(value.to_owned()))
-            }
-        }
-        deserializer.deserialize_any(Read)
-    }
 }
 
 impl Number {
@@ -177,7 +184,7 @@ pub fn parse(
         .map_err(|complaint| complaint.in_file(file, text))
 }
 
-/// Takes the tolerances off the numbers of a machine; what is left are the values in the middle.
+/// Splits the tolerances off the numbers of a machine, which keep their middle values.
 fn half_widths(read: &mut MachineFile) -> Result<BTreeMap<String, f64>, Complaint> {
     let MachineFile { m, c, d1, d3, f, r, r_static, v0, friction, .. } = read;
     let Friction { at_rest, constant, polynomial, stribeck, .. } = friction.get_mut();
@@ -242,7 +249,7 @@ fn machine(
     let given = [&read.m, &read.c, &read.d1, &read.d3, &read.f, &read.r, &read.v0];
     for (row, given) in QUANTITIES.iter().zip(given) {
         let value = match (given, row.default) {
-            (Some(given), _) => quantity(row.quantity, given)?,
+            (Some(given), _) => quantity_as(row.name, row.quantity, given)?,
             (None, Some(default)) => default,
             (None, None) => {
                 let message = format!(
@@ -262,11 +269,7 @@ fn machine(
     let disturbance = number("disturbance", disturbance, Dimension::FORCE, "N", force, 0.0)?;
     let tolerances = Tolerances { half_widths, disturbance };
     tolerances.check(&belt).map_err(unfit)?;
-    let start = (-FARTHEST_START, FARTHEST_START);
-    let displacement = number("x", read.start.x.as_ref(), Dimension::LENGTH, "m", start, 0.0)?;
-    let velocity = number("v", read.start.v.as_ref(), Dimension::VELOCITY, "m/s", start, 0.0)?;
-    let periods = PERIODS * std::f64::consts::TAU * reduced.units.time;
-    let until = read.until.as_ref();
+    let (displacement, velocity) = read.start.read()?;
     Ok(Machine {
         name: name.to_owned(),
         title: if read.title.is_empty() { name.to_owned() } else { read.title },
@@ -275,13 +278,8 @@ fn machine(
         tolerances,
         displacement,
         velocity,
-        until: number("until", until, Dimension::TIME, "s", UNTIL_RANGE, periods)?,
+        until: duration(read.until.as_ref(), std::f64::consts::TAU * reduced.units.time)?,
     })
-}
-
-/// A quantity of the table.
-fn quantity(quantity: Quantity, given: &Spanned<Number>) -> Result<f64, Complaint> {
-    quantity_as(quantity.spec().name, quantity, given)
 }
 
 /// A value of the kind of a quantity, under a name of its own.
@@ -337,19 +335,16 @@ fn law(
     whole: &Range<usize>,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<FrictionLaw, Complaint> {
-    match given {
-        Friction { constant: Some(law), polynomial: None, stribeck: None, table: None, .. } => {
+    match (given.constant, given.polynomial, given.stribeck, given.table) {
+        (Some(law), None, None, None) => {
             Ok(FrictionLaw::Constant { mu: coefficient("mu", &law.mu)? })
         }
-        Friction { constant: None, polynomial: Some(law), stribeck: None, table: None, .. } => {
-            polynomial(&law)
+        (None, Some(law), None, None) => {
+            let coefficients = polynomial("coefficients", &law.coefficients)?;
+            Ok(FrictionLaw::Polynomial { coefficients })
         }
-        Friction { constant: None, polynomial: None, stribeck: Some(law), table: None, .. } => {
-            stribeck(&law)
-        }
-        Friction { constant: None, polynomial: None, stribeck: None, table: Some(law), .. } => {
-            spline(law, whole, fetch)
-        }
+        (None, None, Some(law), None) => stribeck(&law),
+        (None, None, None, Some(law)) => spline(law, whole, fetch),
         _ => {
             let message = "friction takes one law: constant, polynomial, stribeck or table";
             Err(Complaint { at: whole.clone(), message: message.to_owned() })
@@ -357,38 +352,19 @@ fn law(
     }
 }
 
-/// Any coefficient of friction.
-const ANY: (f64, f64) = (-LARGEST_COEFFICIENT, LARGEST_COEFFICIENT);
-
 fn coefficient(name: &str, given: &Spanned<Number>) -> Result<f64, Complaint> {
     number(name, Some(given), Dimension::ONE, "", ANY, 0.0)
 }
 
-fn polynomial(law: &Polynomial) -> Result<FrictionLaw, Complaint> {
-    let slowness = Dimension::new(0, -1, 1);
-    let coefficient = |(power, given): (usize, &Spanned<Number>)| {
-        let power = i8::try_from(power).unwrap_or(i8::MAX);
-        let dimension = Dimension::ONE.times(slowness, power).unwrap_or(Dimension::ONE);
-        let unit = match power {
-            0 => String::new(),
-            1 => "s/m".to_owned(),
-            _ => format!("s^{power}/m^{power}"),
-        };
-        number("coefficients", Some(given), dimension, &unit, ANY, 0.0)
-    };
-    let numbers = law.coefficients.iter().enumerate().map(coefficient);
-    Ok(FrictionLaw::Polynomial { coefficients: numbers.collect::<Result<_, _>>()? })
-}
-
 fn stribeck(law: &Stribeck) -> Result<FrictionLaw, Complaint> {
-    let (speed, slowness) = (Dimension::VELOCITY, Dimension::new(0, -1, 1));
+    let speed = Dimension::VELOCITY;
     let (exponent, viscous) = (law.exponent.as_ref(), law.viscous.as_ref());
     Ok(FrictionLaw::Stribeck {
         rest: coefficient("rest", &law.rest)?,
         kinetic: coefficient("kinetic", &law.kinetic)?,
         velocity: number("velocity", Some(&law.velocity), speed, "m/s", STRIBECK_VELOCITY, 1.0)?,
         exponent: number("exponent", exponent, Dimension::ONE, "", STRIBECK_EXPONENT, 1.0)?,
-        viscous: number("viscous", viscous, slowness, "s/m", ANY, 0.0)?,
+        viscous: number("viscous", viscous, SLOWNESS, "s/m", ANY, 0.0)?,
     })
 }
 

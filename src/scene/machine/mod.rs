@@ -1,4 +1,4 @@
-//! Machines: masses on belts in physical units, read from files, to be computed with and looked at.
+//! Machines: masses on belts in physical units, read from files.
 
 pub mod file;
 pub mod library;

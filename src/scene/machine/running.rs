@@ -1,8 +1,8 @@
 //! A machine whose belt runs at some speed: what the numbers of its motion mean there.
 //!
 //! The speed of the belt moves D, D2, D3 and r together, along a path that the friction law lays through
-//! the parameters, and the units of length, velocity and force with them. What one has set up on the
-//! machine, the start in metres and metres per second, stays.
+//! the parameters, and the units of length, velocity and force with them. The start, in metres
+//! and metres per second, stays.
 
 use super::Machine;
 use crate::flow::Problem;
@@ -95,7 +95,7 @@ impl<'a> Running<'a> {
         }
     }
 
-    /// The pull of the belt on the mass at a dimensionless velocity, as a part of that at rest; `None`
+    /// The pull of the belt on the mass at a dimensionless velocity, as a fraction of that at rest; `None`
     /// where the friction law does not reach.
     pub fn pull(&self, v: f64) -> Option<f64> {
         let relative = self.speed - v * self.reduced.units.velocity;

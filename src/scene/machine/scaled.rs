@@ -1,4 +1,4 @@
-//! A machine set up to be looked at: with its dimensionless form.
+//! A machine with its dimensionless form.
 
 use std::collections::BTreeSet;
 

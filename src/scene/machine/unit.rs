@@ -150,18 +150,18 @@ fn number_end(text: &str) -> usize {
 
 /// The value in SI units and the dimension of a unit.
 fn read_unit(text: &str) -> Result<(f64, Dimension), String> {
-    let mut reader = Reader { text, rest: text };
+    let mut reader = UnitReader { text, rest: text };
     let unit = reader.product()?;
     if reader.rest.is_empty() { Ok(unit) } else { Err(reader.wrong()) }
 }
 
 /// What is left of a unit to read.
-struct Reader<'a> {
+struct UnitReader<'a> {
     text: &'a str,
     rest: &'a str,
 }
 
-impl Reader<'_> {
+impl UnitReader<'_> {
     fn wrong(&self) -> String {
         format!(
             "{:?} is not a unit; units are made of g, m, s, N, min, h with prefixes, such as N s/m",
@@ -184,7 +184,7 @@ impl Reader<'_> {
             if self.take('/') {
                 dividing = true;
             } else if !(self.take('*') || self.take('\u{b7}')) && dividing {
-                // What stands after a blank behind a quotient could mean either: it must be said.
+                // A factor after a quotient and a blank could belong to either part.
                 return Err(format!(
                     "{:?} can be read in two ways; write parentheses, such as N/(m s)",
                     self.text

@@ -49,9 +49,9 @@ fn copied(session: &mut Session, words: &[String]) -> Vec<Effect> {
 }
 
 /// A number and what it is called.
-type Named = (String, String);
+type NamedNumber = (String, String);
 
-fn named(name: &str, value: f64) -> Named {
+fn named(name: &str, value: f64) -> NamedNumber {
     (name.to_owned(), shortest(value))
 }
 
@@ -65,7 +65,7 @@ fn measured(value: &Value) -> String {
 }
 
 /// What is looked at: the held point of a branch, the point of a scan, the selected value, the cursor.
-fn point(session: &Session) -> Vec<Named> {
+fn point(session: &Session) -> Vec<NamedNumber> {
     let Some(plot) = session.focused() else {
         let row = session.selected;
         return vec![match row {
@@ -103,7 +103,7 @@ fn point(session: &Session) -> Vec<Named> {
 }
 
 /// What belongs to it: the other numbers of a cycle or of a row of a scan, and the parameters.
-fn belonging(session: &Session) -> Vec<Named> {
+fn belonging(session: &Session) -> Vec<NamedNumber> {
     let mut all = Vec::new();
     if let Some(cycle) = session.held.and_then(|held| held.cycle) {
         all.extend([

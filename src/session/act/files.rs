@@ -7,10 +7,10 @@ use std::sync::Arc;
 use crate::scene::machine::file::parse;
 use crate::scene::machine::mode::{NO_BELT, is_mode};
 use crate::scene::{Recording, ScaledMachine};
-use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::values::letter;
 use crate::session::act::{history, macros, measurement, prompt};
-use crate::session::effect::Effect;
+use crate::session::effect::{Done, Effect};
 use crate::session::message::Purpose;
 use crate::session::replay::script::Script;
 use crate::session::state::overlay::{List, Listed, Overlay};
@@ -19,9 +19,6 @@ use crate::session::{replay, save};
 
 /// The tour that comes with the program.
 const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
-
-/// What a line has done, or why not.
-type Done = Result<Vec<Effect>, String>;
 
 pub(in crate::session) fn write(session: &mut Session, path: &str, replace: bool) -> Done {
     let text = save::text(session)?;
@@ -52,7 +49,7 @@ pub(in crate::session) fn figure(
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     if FIGURES.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
         if let Some(other) = &session.writing {
-            let stops = told(session, "{drop-cursor} stops that");
+            let stops = with_keys(session, "{drop-cursor} stops that");
             return Err(format!("{} is still being written; {stops}", other.display()));
         }
         session.writing = Some(path.clone());
@@ -123,8 +120,8 @@ fn take(
             save::open(session, &text).map_err(of_file)?;
             let others = match session.interrupted.len() {
                 0 => String::new(),
-                1 => told(session, "; {restore} brings the older one"),
-                count => told(session, &format!("; {{restore}} lists {count} others")),
+                1 => with_keys(session, "; {restore} brings the older one"),
+                count => with_keys(session, &format!("; {{restore}} lists {count} others")),
             };
             inform(session, format!("the interrupted session is back{others}"));
             return Ok(vec![Effect::PutAside(path.to_owned())]);

@@ -2,9 +2,9 @@
 
 use crate::scene::Layer;
 use crate::session::act::macros;
-use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::effect::Effect;
-use crate::session::state::overlay::{Caption, Overlay};
+use crate::session::state::overlay::{Overlay, SessionCaption};
 use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::settings::{GLYPHS, THEMES, next_of};
 use crate::study::harmonic_error::ladder;
@@ -29,7 +29,7 @@ pub fn toggle(session: &mut Session, layer: Layer) -> Vec<Effect> {
         }
         _ => format!("{} {state}: {}", spec.name, spec.meaning),
     };
-    let text = told(session, &text);
+    let text = with_keys(session, &text);
     inform(session, text)
 }
 
@@ -54,8 +54,11 @@ pub fn harmonics(session: &mut Session, more: bool) -> Vec<Effect> {
 
 /// Shows what there is to see in the scene and to press, or hides it.
 pub fn explain(session: &mut Session) -> Vec<Effect> {
-    session.caption =
-        if session.caption == Caption::Scene { Caption::Nothing } else { Caption::Scene };
+    session.caption = if session.caption == SessionCaption::Scene {
+        SessionCaption::Nothing
+    } else {
+        SessionCaption::Scene
+    };
     Vec::new()
 }
 

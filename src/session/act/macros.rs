@@ -71,7 +71,7 @@ pub(in crate::session) fn inline(session: &mut Session) {
     }
 }
 
-/// Plays a register so many times.
+/// Plays a register this many times.
 pub(in crate::session) fn play(session: &mut Session, register: char, times: u32) -> Vec<Effect> {
     let Some(steps) = session.macros.registers.get(&register) else {
         return refuse(session, format!("register {register} is empty"));

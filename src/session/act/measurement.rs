@@ -7,7 +7,7 @@ use crate::fit::{Column, Inertia, LENGTHS, LOSSES, LossName, Reading, length_in_
 use crate::oscillator::belt::Dimension;
 use crate::question::Opened;
 use crate::scene::machine::unit::measured;
-use crate::session::effect::Effect;
+use crate::session::effect::{Done, Effect};
 use crate::session::message::Purpose;
 
 /// What may stand behind the name of the file.
@@ -24,7 +24,7 @@ struct Said {
 }
 
 /// Asks for the file that a line names; `FILE mass=2 kg columns=1,3 peaks`.
-pub fn ask(rest: &str) -> Result<Vec<Effect>, String> {
+pub fn ask(rest: &str) -> Done {
     let begins = |word: &str| {
         let name = word.split_once('=').map_or(word, |(name, _)| name);
         let known = WORDS.contains(&name) || named(name).is_some();

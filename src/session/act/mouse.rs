@@ -4,7 +4,7 @@ use crate::session::act::focus::focus_on;
 use crate::session::act::notice::inform;
 use crate::session::act::{lists, plots};
 use crate::session::effect::Effect;
-use crate::session::message::pointer::{Gesture, Place, Pointed};
+use crate::session::message::pointer::{Gesture, Pointed, PointerTarget};
 use crate::session::state::plot::Pane;
 use crate::session::state::session::Session;
 
@@ -33,15 +33,15 @@ pub fn pointed(session: &mut Session, Pointed { gesture, place }: Pointed) -> Ve
         };
     }
     match place {
-        Place::Row(index) => {
+        PointerTarget::Row(index) => {
             if let (Gesture::Click, Some(row)) = (gesture, session.rows().get(index)) {
                 session.selected = *row;
                 session.focus = Pane::Parameters;
             }
             Vec::new()
         }
-        Place::Plot(index, _) if !session.on_show().contains(&index) => Vec::new(),
-        Place::Plot(index, point) => {
+        PointerTarget::Plot(index, _) if !session.on_show().contains(&index) => Vec::new(),
+        PointerTarget::Plot(index, point) => {
             focus_on(session, Pane::Plot(index));
             match gesture {
                 Gesture::Click => plots::point_at(session, point),

@@ -5,7 +5,7 @@ use crate::session::message::Notice;
 use crate::session::message::key::Key;
 use crate::session::state::session::Session;
 
-/// Shows a line that is no complaint. That is all a command did that ends with it: the outer rings have
+/// Shows a line that is not a complaint. That is all a command did that ends with it: the outer rings have
 /// nothing to do.
 pub(in crate::session) fn inform(session: &mut Session, text: impl Into<String>) -> Vec<Effect> {
     session.notice = Some(Notice { error: false, text: text.into() });
@@ -13,7 +13,7 @@ pub(in crate::session) fn inform(session: &mut Session, text: impl Into<String>)
 }
 
 /// A sentence in which `{command}` stands for the key of that command.
-pub(in crate::session) fn told(session: &Session, sentence: &str) -> String {
+pub(in crate::session) fn with_keys(session: &Session, sentence: &str) -> String {
     session.keymap.fill(sentence, Key::said)
 }
 

@@ -5,7 +5,7 @@ use crate::numerics::decimal::shortest;
 use crate::oscillator::State;
 use crate::oscillator::belt::Quantity;
 use crate::scene::{PlotSetup, Point, Span, View, Window};
-use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::parameters::{change, put};
 use crate::session::act::starts::start;
 use crate::session::effect::Effect;
@@ -168,7 +168,7 @@ fn cursor(session: &mut Session) -> Option<Point> {
     let cursor = session.focused().and_then(|plot| plot.cursor);
     if cursor.is_none() {
         let text = "no cursor yet: {cursor-left}, {cursor-up} and so on show it";
-        refuse(session, told(session, text));
+        refuse(session, with_keys(session, text));
     }
     cursor
 }

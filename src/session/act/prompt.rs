@@ -15,13 +15,13 @@ pub fn open(session: &mut Session) -> Vec<Effect> {
     open_with(session, String::new())
 }
 
-/// Opens the line with a text to go on from.
+/// Opens the line with a text to continue from.
 pub fn open_with(session: &mut Session, text: String) -> Vec<Effect> {
     session.overlay = Some(Overlay::Prompt(Prompt::new(text)));
     Vec::new()
 }
 
-/// The typed command, to be run. An empty line is closed; words that are no command are looked for in the
+/// The typed command, to be run. An empty line is closed; words that are not a command are looked for in the
 /// list of everything, which stays open if they are found there.
 pub fn accept(session: &mut Session) -> Option<Chosen> {
     let Some(Overlay::Prompt(prompt)) = &session.overlay else { return None };

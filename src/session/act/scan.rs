@@ -6,10 +6,10 @@ use crate::flow::Problem;
 use crate::numerics::decimal::shortest;
 use crate::scene::View;
 use crate::session::act::focus::focus_on;
-use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::parameters::change;
 use crate::session::act::screen_setup::{add, show};
-use crate::session::effect::Effect;
+use crate::session::effect::{Done, Effect};
 use crate::session::read::scan::scan_of;
 use crate::session::read::scan::typed;
 use crate::session::state::input::Input;
@@ -28,7 +28,7 @@ pub const FILE: &str = "scan.csv";
 /// Rows that the page keys move.
 pub const PAGE: isize = 10;
 
-/// Opens the form: the last one, or one over the parameter at hand.
+/// Opens the form: the last one, or one over the present parameter.
 pub fn open(session: &mut Session) -> Vec<Effect> {
     let form = session.scan_form.clone().unwrap_or_else(|| fresh(session));
     session.overlay = Some(Overlay::Scan(ScanForm { refused: None, ..form }));
@@ -143,14 +143,14 @@ pub fn stop(session: &mut Session) -> Vec<Effect> {
     if scanned.request().is_some() {
         scanned.progress = Progress::Stopped;
         let (rows, points) = (scanned.rows.len(), scanned.scan.points());
-        let text = format!("stopped: {rows} of {points} rows; {{scan-pause}} goes on");
-        let text = told(session, &text);
+        let text = format!("stopped: {rows} of {points} rows; {{scan-pause}} continues");
+        let text = with_keys(session, &text);
         inform(session, text);
     }
     Vec::new()
 }
 
-/// Stops a scan that runs, goes on with one that was stopped.
+/// Stops a scan that runs, continues with one that was stopped.
 pub fn pause(session: &mut Session) -> Vec<Effect> {
     let Some(scanned) = &mut session.scanned else { return none(session) };
     match scanned.progress {
@@ -233,7 +233,7 @@ pub fn save(session: &mut Session, path: PathBuf) -> Vec<Effect> {
 }
 
 /// `NAME=FROM:TO:COUNT .. MEASURE,..`. Fails with one line that says what is wrong and what is allowed.
-pub fn scan(session: &mut Session, rest: &str) -> Result<Vec<Effect>, String> {
+pub fn scan(session: &mut Session, rest: &str) -> Done {
     let (sweeps, measures): (Vec<&str>, Vec<&str>) =
         rest.split_whitespace().partition(|word| word.contains('='));
     let over = sweeps.into_iter().map(str::parse).collect::<Result<Vec<Sweep>, _>>()?;
@@ -243,7 +243,7 @@ pub fn scan(session: &mut Session, rest: &str) -> Result<Vec<Effect>, String> {
 }
 
 /// The file for the rows. Fails with one line, where there is no scan.
-pub fn save_to(session: &mut Session, rest: &str) -> Result<Vec<Effect>, String> {
+pub fn save_to(session: &mut Session, rest: &str) -> Done {
     if session.scanned.is_none() {
         return Err("there is no scan".to_owned());
     }

@@ -5,7 +5,7 @@ use crate::flow::Problem;
 use crate::numerics::decimal::shortest;
 use crate::oscillator::State;
 use crate::scene::Topic;
-use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::notice::{inform, refuse};
 use crate::session::act::parameters::put;
 use crate::session::effect::Effect;
 use crate::session::state::session::Session;
@@ -63,7 +63,7 @@ pub fn drop_others(session: &mut Session) -> Vec<Effect> {
 pub fn beside_edge(session: &mut Session, factor: f64) -> Vec<Effect> {
     match beside(session, factor) {
         Ok(q) => start(session, State { q, v: 0.0 }),
-        Err(why) => return refuse(session, told(session, &why)),
+        Err(why) => return refuse(session, why),
     }
     Vec::new()
 }
@@ -79,11 +79,8 @@ fn edge(found: &Cycles) -> Option<(f64, f64)> {
 }
 
 fn beside(session: &Session, factor: f64) -> Result<f64, String> {
-    if session.is_stale(Topic::Cycles, session.plot) {
-        return Err(match session.failure(Topic::Cycles, session.plot) {
-            Some(why) => format!("the cycles are not known: {why}"),
-            None => "the cycles are not computed: {layers} lists the layers".to_owned(),
-        });
+    if let Some(why) = session.failure(Topic::Cycles, session.plot) {
+        return Err(format!("the cycles are not known: {why}"));
     }
     let edge = session.cycles().and_then(edge);
     let (clearance, side) =

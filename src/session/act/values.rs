@@ -11,7 +11,7 @@ use crate::session::act::notice::inform;
 use crate::session::act::{
     axes as axis, entry, focus, general, history, macros, marks, parameters, screen_setup,
 };
-use crate::session::effect::Effect;
+use crate::session::effect::Done;
 use crate::session::read::completion::{properties, rows};
 use crate::session::state::pending::MOST;
 use crate::session::state::plot::{Framing, Pane};
@@ -19,9 +19,6 @@ use crate::session::state::rows::Row;
 use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::settings::{COLORS, GLYPHS, THEMES, named};
 use crate::study::kicks::RandomKick;
-
-/// What a line has done, or why not.
-type Done = Result<Vec<Effect>, String>;
 
 /// Names in a row, for a line that says what is allowed.
 fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
@@ -71,7 +68,7 @@ pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
 }
 
 pub fn scene(session: &mut Session, name: &str) -> Done {
-    let scene = find(name).map_err(|missing| missing.to_string())?;
+    let scene = find(name)?;
     history::open_scene(session, Arc::clone(&scene));
     Ok(Vec::new())
 }
@@ -118,7 +115,7 @@ pub fn window(session: &mut Session, rest: &str) -> Done {
     let span = |text: &str| {
         let (from, to) = text.split_once(':').ok_or_else(form)?;
         let number = |text: &str| text.trim().parse::<f64>().map_err(|_| form());
-        Span::new(number(from)?, number(to)?).map_err(|refused| refused.to_string())
+        Span::new(number(from)?, number(to)?)
     };
     let window = Window { x: span(x)?, y: span(y)? };
     let index = session.plot;
@@ -250,7 +247,7 @@ pub fn equal(session: &mut Session, state: &str) -> Done {
     Ok(Vec::new())
 }
 
-/// Uses so many colours.
+/// Uses this many colours.
 pub fn color(session: &mut Session, name: &str) -> Done {
     session.look.colors = look(&COLORS, name)?;
     Ok(Vec::new())

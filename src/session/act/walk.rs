@@ -4,7 +4,7 @@ use crate::numerics::decimal::shortest;
 use crate::numerics::elementary::hypot;
 use crate::oscillator::State;
 use crate::scene::{Axes, Layer, Topic};
-use crate::session::act::notice::{inform, refuse, told};
+use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::parameters::change;
 use crate::session::effect::Effect;
 use crate::session::read::walk::Way;
@@ -19,7 +19,7 @@ pub const FAR: isize = 10;
 pub fn take_hold(session: &mut Session) -> Vec<Effect> {
     match first(session) {
         Ok(stop) => session.held = Some(stop),
-        Err(why) => return refuse(session, told(session, why)),
+        Err(why) => return refuse(session, with_keys(session, why)),
     }
     Vec::new()
 }
@@ -58,8 +58,8 @@ fn first(session: &Session) -> Result<BranchStop, &'static str> {
 pub fn go(session: &mut Session, count: isize) -> Vec<Effect> {
     let further = |way: &Way, held: &BranchStop| way.further(held, count);
     if !moved(session, further) {
-        let text = "the branch ends here; {walk-to-next} goes on to the next special point or end";
-        inform(session, told(session, text));
+        let text = "the branch ends here; {walk-to-next} leads to the next special point or end";
+        inform(session, with_keys(session, text));
     }
     Vec::new()
 }

@@ -18,12 +18,12 @@ pub enum Gesture {
 pub struct Pointed {
     /// What the mouse did.
     pub gesture: Gesture,
-    pub place: Place,
+    pub place: PointerTarget,
 }
 
 /// A place on the screen that means something.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
+pub enum PointerTarget {
     /// A row of the parameter pane, counted from 0.
     Row(usize),
     /// A point of a plot, in its world coordinates; the plot by its index among those of the session.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::session::message::key::Key;
 use crate::session::state::command::Command;
 use crate::session::state::context::{Context, chain};
-use crate::session::state::overlay::{Caption, Listed, Overlay};
+use crate::session::state::overlay::{Listed, Overlay, SessionCaption};
 use crate::session::state::pending::Pending;
 use crate::session::state::session::Session;
 
@@ -53,7 +53,7 @@ impl Session {
     /// Whether a key does its own work while the caption of a tour waits: the caption names its command, or
     /// something that such a key has opened takes it.
     pub fn tries(&self, key: Key) -> bool {
-        let Caption::Tour(text, _) = &self.caption else { return false };
+        let SessionCaption::Tour(text, _) = &self.caption else { return false };
         let named = |command: &Command| text.contains(&format!("{{{}}}", command.name));
         self.overlay.is_some()
             || self.pending.is_some()

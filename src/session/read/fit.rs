@@ -3,6 +3,7 @@
 use crate::closed_form::lyapunov;
 use crate::fit::curves::Extent;
 use crate::flow::{Outcome, Trajectory};
+use crate::numerics::count::{real, whole};
 use crate::numerics::elementary::hypot;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{State, Symbol};
@@ -31,7 +32,7 @@ const FASTER: f64 = 1.6;
 /// Velocities at which the rate of the energy is looked at to fit it.
 const RATES: u8 = 64;
 
-/// Room beyond the sticking set, as a part of that.
+/// Room beyond the sticking set, as a fraction of that.
 const MARGIN: f64 = 0.2;
 
 /// How far above all else the velocity of the belt may be and is fitted in, in extents of all else.
@@ -226,8 +227,7 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
 /// All lines of the ledger.
 fn energy_ledger(session: &Session) -> Option<Window> {
     let x = View::EnergyLedger.spec().window.x;
-    #[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
-    let lines = session.ledger().len().max(1) as f64;
+    let lines = real(session.ledger().len().max(1));
     Some(Window { x, y: Span::new(-lines, 0.0).ok()? })
 }
 
@@ -274,12 +274,6 @@ fn regimes(session: &Session, plot: usize) -> Option<Window> {
 }
 
 /// The value that this part of some sorted values does not exceed.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
-    reason = "an index into a few hundred values"
-)]
 fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
-    sorted.get((sorted.len() as f64 * part) as usize).copied()
+    sorted.get(whole(real(sorted.len()) * part)).copied()
 }

@@ -4,6 +4,7 @@
 //! same lines at every size and the cursor points at one of them.
 
 use crate::machine;
+use crate::numerics::count::real;
 use crate::oscillator::{Ledger, Parameters, State};
 use crate::scene::Layer;
 use crate::session::state::session::Session;
@@ -23,17 +24,17 @@ pub enum Owner {
 pub enum LedgerLine {
     /// Whose works the lines below are.
     Title(Owner),
-    /// What a source did, and as a part of the largest work of its owner.
+    /// What a source did, and as a fraction of the largest work of its owner.
     Work {
         source: &'static str,
         /// Energy that it gave; negative where it took.
         work: f64,
-        /// The same as a part of the largest.
+        /// The same as a fraction of the largest.
         part: f64,
         /// What it did until the moment that is played, as the same part; only of the motion.
         so_far: Option<f64>,
     },
-    /// What is missing, as a part of the largest work.
+    /// What is missing, as a fraction of the largest work.
     Residual(f64),
 }
 
@@ -85,8 +86,7 @@ impl Session {
     pub fn start_of_line(&self, height: f64) -> Option<State> {
         let lines = self.ledger();
         let line = lines.iter().enumerate().rev().find(|(index, entry)| {
-            #[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
-            let top = -(*index as f64);
+            let top = -(real(*index));
             matches!(entry, LedgerLine::Title(_)) && height <= top
         });
         match line {

@@ -9,7 +9,7 @@ use crate::flow::{Sample, Trajectory};
 use crate::scene::Topic;
 use crate::session::state::playback::Pace;
 use crate::session::state::session::Session;
-use crate::study::belt::Followed;
+use crate::study::belt::FollowedOnBelt;
 
 impl Session {
     /// Whether time matters to what is on show.
@@ -48,7 +48,7 @@ impl Session {
             return None;
         }
         let sticking = self.running()?.reduced.sticking_velocity;
-        Followed::of(motion, sticking).sticks
+        FollowedOnBelt::of(motion, sticking).sticks
     }
 
     /// Dimensionless time that passes in a second at a pace.

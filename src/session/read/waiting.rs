@@ -8,7 +8,7 @@
 use crate::scene::{Request, Topic, View};
 use crate::session::message::Msg;
 use crate::session::message::key::{Code, Key};
-use crate::session::message::pointer::{Place, Pointed};
+use crate::session::message::pointer::{Pointed, PointerTarget};
 use crate::session::read::fit;
 use crate::session::read::palette::{PaletteRow, elsewhere, place};
 use crate::session::read::wants::COMPARED;
@@ -69,7 +69,7 @@ impl Session {
         match message {
             Msg::Key(key) => self.awaited_by_key(*key),
             Msg::Run(line) => self.awaited_by_line(line),
-            Msg::Pointed(Pointed { place: Place::Plot(index, _), .. }) => {
+            Msg::Pointed(Pointed { place: PointerTarget::Plot(index, _), .. }) => {
                 fit::awaited(self, *index)
             }
             _ => None,
@@ -128,31 +128,33 @@ impl Session {
             Some(Pane::Plot(index)) => index,
             Some(Pane::Parameters) | None => self.plot,
         };
-        let still_asked = |request: &Request| self.still_asked(request);
+        // Whether a layer asks for the answer must not matter: it may have been computed before that was switched off.
         let open = |topic| {
             let mut requests = self.requests(topic, plot).into_iter().map(|(_, request)| request);
-            requests.find(still_asked)
+            requests.find(|request| self.is_open(request))
         };
         let needs = NEEDS.iter().filter(|(_, names)| names.contains(&name));
         needs.into_iter().find_map(|(need, _)| match need {
             Need::Answer(topic) => open(*topic),
-            Need::Present(topic) => self.request(*topic, plot).filter(still_asked),
+            Need::Present(topic) => {
+                self.request(*topic, plot).filter(|request| self.is_open(request))
+            }
             Need::MotionOverTime => {
                 let over_time = self.plots.get(plot)?.view == View::TimeSeries;
                 over_time.then(|| open(Topic::Trajectory)).flatten()
             }
             Need::Window => fit::awaited(self, plot),
-            Need::Comparison => COMPARED.into_iter().find_map(open),
+            // Only what a layer asks is drawn of the point that is left.
+            Need::Comparison => {
+                let asks = self.asks();
+                let asked = |request: &Request| asks.contains(request);
+                COMPARED.into_iter().find_map(|topic| open(topic).filter(asked))
+            }
             Need::Everything => {
                 let mut wants = self.wants().into_iter();
                 wants.find(|request| !request.is_long() && self.is_open(request))
             }
         })
-    }
-
-    /// Whether a question is asked and not answered yet.
-    fn still_asked(&self, request: &Request) -> bool {
-        self.is_open(request) && self.asks().contains(request)
     }
 }
 

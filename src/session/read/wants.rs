@@ -67,7 +67,7 @@ impl Session {
         wanted
     }
 
-    /// The same without drafts.
+    /// The same without drafts. What a press waits for comes first, whether a layer asks it or not.
     pub fn asks(&self) -> Vec<Request> {
         let needed: BTreeSet<(Topic, usize)> = self
             .on_show()
@@ -76,9 +76,9 @@ impl Session {
         let claims = matches!(self.overlay, Some(Overlay::List(Listed::Paper, _)));
         let each = needed.iter().flat_map(|(topic, plot)| self.requests(*topic, *plot));
         let last = self.measures().then(|| self.request(Topic::Reference, self.plot)).flatten();
-        let all = self
-            .refit_request(false)
-            .into_iter()
+        let awaited = self.waiting.iter().map(|waiting| waiting.request.clone());
+        let all = awaited
+            .chain(self.refit_request(false))
             .chain(claims.then_some(Request::Claims(question::claims::Asked)))
             .chain(each.map(|each| each.1));
         let mut asked = Vec::new();
@@ -194,7 +194,7 @@ impl Session {
             }
             Topic::Trade => Request::Trade(question::trade::Asked(motion())),
             Topic::Reference => Request::Reference(question::reference::Asked(motion())),
-            // Of the whole model of a machine nothing is proved, and its basin is no graph to integrate over.
+            // Of the whole model of a machine nothing is proved, and its basin is not a graph to integrate over.
             Topic::Proof | Topic::Kicks if self.draws_whole() => return None,
             Topic::Proof => Request::Proof(question::proof::Asked { parameters }),
             Topic::Zones => self.zones_request(&parameters)?,

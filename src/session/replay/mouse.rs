@@ -2,7 +2,7 @@
 //! same at every size.
 
 use crate::scene::Point;
-use crate::session::message::pointer::{Gesture, Place, Pointed};
+use crate::session::message::pointer::{Gesture, Pointed, PointerTarget};
 use crate::session::replay::script::Instruction;
 
 /// How the instruction is written.
@@ -13,8 +13,10 @@ pub(super) fn text(Pointed { gesture, place }: &Pointed) -> String {
         Gesture::Farther => "farther",
     };
     match place {
-        Place::Row(row) => format!("<{gesture} row {row}>"),
-        Place::Plot(index, Point { x, y }) => format!("<{gesture} {} {x:?} {y:?}>", index + 1),
+        PointerTarget::Row(row) => format!("<{gesture} row {row}>"),
+        PointerTarget::Plot(index, Point { x, y }) => {
+            format!("<{gesture} {} {x:?} {y:?}>", index + 1)
+        }
     }
 }
 
@@ -23,11 +25,11 @@ pub(super) fn read(gesture: Gesture, rest: &str) -> Result<Instruction, String> 
     let words: Vec<&str> = rest.split_whitespace().collect();
     let finite = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());
     let place = match words[..] {
-        ["row", row] => row.parse().ok().map(Place::Row),
+        ["row", row] => row.parse().ok().map(PointerTarget::Row),
         [number, x, y] => {
             let index = number.parse().ok().and_then(|number: usize| number.checked_sub(1));
             let point = finite(x).zip(finite(y)).map(|(x, y)| Point { x, y });
-            index.zip(point).map(|(index, point)| Place::Plot(index, point))
+            index.zip(point).map(|(index, point)| PointerTarget::Plot(index, point))
         }
         _ => None,
     };

@@ -9,7 +9,7 @@ use crate::session::message::key::{Code, Key};
 use crate::session::message::pointer::Gesture;
 use crate::session::replay::script::{Instruction, LONGEST, Located, Script};
 
-/// Text that is no keystroke file.
+/// Text that is not a keystroke file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BadScript {
     /// Line, from 1.
@@ -28,7 +28,7 @@ impl fmt::Display for BadScript {
 
 impl std::error::Error for BadScript {}
 
-/// Most presses of one key in one step.
+/// Maximum number of presses of one key in one step.
 pub(super) const MOST: u32 = 100_000;
 
 /// Largest width and height that a file may ask for.
@@ -41,7 +41,7 @@ pub(super) const ESCAPES: [(char, char); 5] =
 /// How the rest of a directive becomes a step, or why it does not.
 type Reading = fn(&str) -> Result<Instruction, String>;
 
-/// What stands between angle brackets and is no key: its first word, and how the rest is read.
+/// What stands between angle brackets and is not a key: its first word, and how the rest is read.
 const DIRECTIVES: [(&str, Reading); 14] = [
     ("wait", |rest| alone(rest, "wait", Instruction::Wait)),
     ("async", |rest| alone(rest, "async", Instruction::Async)),

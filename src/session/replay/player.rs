@@ -41,7 +41,7 @@ impl std::error::Error for Unmet {}
 
 /// A keystroke file being played.
 ///
-/// The player knows no clock: it goes on when its driver says that the session is idle. Until
+/// The player knows no clock: it continues when its driver says that the session is idle. Until
 /// the file says `<async>` it waits for that before each step, so that each key finds the picture that
 /// its author saw.
 #[derive(Clone, Debug)]

@@ -67,7 +67,7 @@ impl Recorder {
     }
 
     /// Forgets the last presses of keys, pastes and clicks. The size of the screen and the passing of time
-    /// are no press, and stay.
+    /// are not presses, and stay.
     pub fn forget(&mut self, presses: u32) {
         let first = self.before(presses);
         let forgotten: Vec<Instruction> = self.steps.drain(first..).collect();
@@ -206,7 +206,7 @@ mod tests {
         let steps = |recorder: &Recorder| text("", recorder.steps());
         assert_eq!(steps(&recorder), "<right*3> <file \"a.keys\" \"x\"> @ a <resize 80x24>\n");
         recorder.forget(3);
-        assert_eq!(steps(&recorder), "<right*2> <resize 80x24>\n", "what is no press stays");
+        assert_eq!(steps(&recorder), "<right*2> <resize 80x24>\n", "only presses are forgotten");
         recorder.forget(9);
         assert_eq!(steps(&recorder), "<resize 80x24>\n");
     }

@@ -11,7 +11,7 @@ pub const LONGEST: f64 = 3600.0;
 /// One instruction of a keystroke file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Instruction {
-    /// A key, pressed so many times: `x`, `<right>`, `<right*5>`.
+    /// A key, pressed this many times: `x`, `<right>`, `<right*5>`.
     Key { key: Key, count: u32 },
     /// The mouse: `<click 1 0.5 -0.25>` on the first plot, `<click row 2>`; `<nearer ..>` and `<farther ..>` for its wheel.
     Pointed(Pointed),
@@ -105,7 +105,7 @@ pub struct Script {
 }
 
 impl Script {
-    /// A file of these steps, so many times over.
+    /// A file of these steps, repeated this many times.
     pub fn repeated(steps: &[Instruction], times: u32) -> Self {
         let located = |(index, step): (usize, &Instruction)| Located {
             line: 1,

@@ -58,15 +58,15 @@ pub struct SavedSession {
     #[serde(default)]
     pub registers: BTreeMap<char, String>,
     #[serde(default)]
-    pub past: Vec<Change>,
+    pub past: Vec<SavedChange>,
     #[serde(default)]
-    pub future: Vec<Change>,
+    pub future: Vec<SavedChange>,
 }
 
 /// A scene, by its name if it comes with the program, else in full.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged)]
-pub enum Named {
+pub enum SavedScene {
     Library(String),
     Whole(Box<Scene>),
 }
@@ -86,10 +86,10 @@ pub struct Show {
     pub belt: Option<Setting>,
     #[serde(default, skip_serializing_if = "Doubt::is_none")]
     pub doubt: Doubt,
-    pub scene: Named,
+    pub scene: SavedScene,
 }
 
-/// A plot and where one looks in it.
+/// A plot with its window and cursor.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedPlot {
@@ -105,7 +105,7 @@ pub struct SavedPlot {
 /// A change that can be undone or redone: the state on its other side.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Change {
+pub enum SavedChange {
     Motion(Problem),
     MotionOnBelt {
         motion: Problem,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 
-use super::file::{Change, Named, SavedPlot, SavedSession, Show, VERSION};
+use super::file::{SavedChange, SavedPlot, SavedScene, SavedSession, Show, VERSION};
 use crate::flow::Problem;
 use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
 use crate::oscillator::{PARAMETERS, State, Symbol};
@@ -69,7 +69,8 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let register = |(name, keys): (char, String)| Ok((name, steps(name, &keys)?));
     let registers = file.registers.into_iter().map(register);
     let registers = registers.collect::<Result<BTreeMap<_, _>, String>>()?;
-    let changes = |changes: Vec<Change>| changes.into_iter().map(before).collect::<Result<_, _>>();
+    let changes =
+        |changes: Vec<SavedChange>| changes.into_iter().map(before).collect::<Result<_, _>>();
     let history = History::of(changes(file.past)?, changes(file.future)?);
 
     let mut opened = Session::new(scene, session.size);
@@ -130,10 +131,10 @@ fn read(text: &str) -> Result<SavedSession, String> {
     }
 }
 
-fn scene(named: Named) -> Result<Arc<Scene>, String> {
+fn scene(named: SavedScene) -> Result<Arc<Scene>, String> {
     match named {
-        Named::Library(name) => find(&name).map_err(|missing| missing.to_string()),
-        Named::Whole(scene) => {
+        SavedScene::Library(name) => find(&name),
+        SavedScene::Whole(scene) => {
             checked(scene.problem, &[], None)?;
             if scene.plots.is_empty() || scene.plots.len() > MOST_PLOTS {
                 return Err(format!("a scene with {} plots", scene.plots.len()));
@@ -195,21 +196,21 @@ fn steps(name: char, keys: &str) -> Result<Vec<Instruction>, String> {
     Ok(script.steps.into_iter().map(|located| located.step).collect())
 }
 
-fn before(change: Change) -> Result<Before, String> {
+fn before(change: SavedChange) -> Result<Before, String> {
     Ok(match change {
-        Change::Motion(problem) => Before::Setup(Box::new(checked(problem, &[], None)?)),
-        Change::MotionOnBelt { motion, belt } => {
+        SavedChange::Motion(problem) => Before::Setup(Box::new(checked(problem, &[], None)?)),
+        SavedChange::MotionOnBelt { motion, belt } => {
             Before::Setup(Box::new(checked(motion, &[], Some(belt))?))
         }
-        Change::Motions { motion, beside, belt, doubt } => Before::Setup(Box::new(Setup {
+        SavedChange::Motions { motion, beside, belt, doubt } => Before::Setup(Box::new(Setup {
             doubt: doubt.checked()?,
             ..checked(motion, &beside, belt)?
         })),
-        Change::Plots { arrangement, plots } => Before::ScreenSetup(ScreenSetup {
+        SavedChange::Plots { arrangement, plots } => Before::ScreenSetup(ScreenSetup {
             plots: checked_plots(plots, |plot| plot)?,
             arrangement,
         }),
-        Change::Scene { plots, show } => {
+        SavedChange::Scene { plots, show } => {
             let Show { arrangement, layers, steps, motion, beside, belt, doubt, scene } = *show;
             Before::Scene(Box::new(Snapshot {
                 scene: self::scene(scene)?,

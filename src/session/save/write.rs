@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::file::{Change, Named, SavedPlot, SavedSession, Show, VERSION};
+use super::file::{SavedChange, SavedPlot, SavedScene, SavedSession, Show, VERSION};
 use crate::scene::{Scene, find};
 use crate::session::replay;
 use crate::session::state::doubt::Doubt;
@@ -71,10 +71,10 @@ fn of_marks<T>(session: &Session, of: impl Fn(&Setup) -> Option<T>) -> BTreeMap<
     marks.filter_map(|(name, mark)| Some((*name, of(&mark.setup)?))).collect()
 }
 
-fn named(scene: &Arc<Scene>) -> Named {
+fn named(scene: &Arc<Scene>) -> SavedScene {
     match find(&scene.name) {
-        Ok(known) if known == *scene => Named::Library(scene.name.clone()),
-        _ => Named::Whole(Box::new(Scene::clone(scene))),
+        Ok(known) if known == *scene => SavedScene::Library(scene.name.clone()),
+        _ => SavedScene::Whole(Box::new(Scene::clone(scene))),
     }
 }
 
@@ -83,24 +83,26 @@ fn look(plot: &Plot) -> SavedPlot {
     SavedPlot { view, framing, axes, window, cursor, family }
 }
 
-fn change(before: &Before) -> Change {
+fn change(before: &Before) -> SavedChange {
     match before {
         Before::Setup(setup) => {
             let Setup { problem, others, setting, doubt } = &**setup;
             let motion = *problem;
             match (others.all(), setting) {
-                ([], None) if doubt.is_none() => Change::Motion(motion),
-                ([], Some(belt)) if doubt.is_none() => Change::MotionOnBelt { motion, belt: *belt },
+                ([], None) if doubt.is_none() => SavedChange::Motion(motion),
+                ([], Some(belt)) if doubt.is_none() => {
+                    SavedChange::MotionOnBelt { motion, belt: *belt }
+                }
                 (others, belt) => {
                     let (beside, doubt) = (others.to_vec(), *doubt);
-                    Change::Motions { motion, beside, belt: *belt, doubt }
+                    SavedChange::Motions { motion, beside, belt: *belt, doubt }
                 }
             }
         }
         Before::ScreenSetup(ScreenSetup { plots, arrangement }) => {
-            Change::Plots { arrangement: *arrangement, plots: plots.clone() }
+            SavedChange::Plots { arrangement: *arrangement, plots: plots.clone() }
         }
-        Before::Scene(snapshot) => Change::Scene {
+        Before::Scene(snapshot) => SavedChange::Scene {
             plots: snapshot.screen_setup.plots.clone(),
             show: Box::new(Show {
                 arrangement: snapshot.screen_setup.arrangement,

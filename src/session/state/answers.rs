@@ -22,7 +22,7 @@ pub enum Standing<'a> {
     Fresh(&'a Answered),
     /// A rough one is there.
     Draft(&'a Answered),
-    /// That to another question stands in for it.
+    /// The answer to another question is shown in its place.
     Stale(&'a Answered),
     /// There is nothing like it.
     None,
@@ -88,7 +88,7 @@ impl Answers {
         self.held(request).is_none()
     }
 
-    /// Keeps an answer, in place of the one before; one that was interrupted is none.
+    /// Keeps an answer, in place of the one before; an interrupted one does not count.
     pub fn keep(&mut self, answered: Answered) {
         if answered.result != Err(Failure::Reason(Reason::Interrupted)) {
             self.held.retain(|held| held.request != answered.request);

@@ -53,7 +53,7 @@ pub enum Context {
 /// What a context is about; this decides which others hold with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ContextKind {
-    /// A pane that is no plot like the others.
+    /// A pane that is not a plot like the others.
     Pane,
     Plot,
     /// A point of the branch that is held.

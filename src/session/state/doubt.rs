@@ -72,7 +72,7 @@ impl Doubt {
         UNSURE.iter().position(|it| *it == symbol).map_or(0.0, |place| self.half_widths[place])
     }
 
-    /// The same with another half width of a parameter. Fails with one line, where the number is no parameter.
+    /// The same with another half width of a parameter. Fails with one line, where the number is not a parameter.
     pub fn with_half_width(mut self, symbol: Symbol, half: f64) -> Result<Self, String> {
         let place = UNSURE.iter().position(|it| *it == symbol).ok_or_else(|| {
             format!("{symbol} is the start of a motion; only D, D2, D3, r have half widths")

@@ -59,7 +59,7 @@ impl Overlay {
 
 /// What is said in words above the status lines, without taking keys.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Caption {
+pub enum SessionCaption {
     #[default]
     Nothing,
     /// What there is to see in the scene, and what to press.

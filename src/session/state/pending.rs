@@ -5,7 +5,7 @@ pub const MOST: u32 = 9999;
 /// What the next key is waited for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pending {
-    /// More digits, or the key to be pressed so many times. Zero: no digit yet.
+    /// More digits, or the key to be pressed this many times. Zero: no digit yet.
     Count(u32),
     /// The letter of a register or mark.
     Letter { what: Letter, count: u32 },

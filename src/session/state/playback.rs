@@ -17,7 +17,7 @@ pub(in crate::session) const PACES: [Pace; 4] =
 pub struct Playback {
     /// Dimensionless time of the head; `None` before anything was played.
     pub at: Option<f64>,
-    /// Whether it moves by itself.
+    /// Whether the head advances as time passes.
     pub playing: bool,
     pub pace: Pace,
 }

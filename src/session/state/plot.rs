@@ -1,4 +1,4 @@
-//! Plots: the parts of the screen that show a view each, and what one looks at in them.
+//! Plots: the parts of the screen that show a view each, and what part of the view is shown.
 
 use serde::{Deserialize, Serialize};
 
@@ -26,7 +26,7 @@ pub enum Framing {
     User,
 }
 
-/// A plot: what it shows, where one looks, and what one points at.
+/// A plot: what it shows, its window and its cursor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
     pub view: View,

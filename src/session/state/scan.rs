@@ -1,9 +1,10 @@
 //! A scan in the explorer: what was asked for, the rows so far, and the point that is looked at.
 //!
-//! Once started it goes on until it is done or stopped, whatever is on show meanwhile.
+//! Once started it continues until it is done or stopped, whatever is on show meanwhile.
 
 use std::sync::Arc;
 
+use crate::numerics::count::real;
 use crate::numerics::elementary::log10;
 use crate::question;
 use crate::scene::{Point, Request, Span, View, Window};
@@ -13,7 +14,7 @@ use crate::study::scan::{Scan, ScanRow, Spacing, Sweep};
 /// Words of measures, each with the number at which it is plotted.
 pub const WORDS: [&str; 4] = ["captured", "moving", "escaped", "gave-up"];
 
-/// What is said while one goes on.
+/// What is said while one continues.
 pub const SCANNING: &str = "scanning";
 
 /// How a scan goes.
@@ -113,8 +114,7 @@ impl Scanned {
         let along = |sweep: &Sweep, room: f64| {
             let ends = [0, sweep.count - 1].map(|index| Self::coordinate(sweep, index));
             let span = Span::covering(ends);
-            #[expect(clippy::cast_precision_loss, reason = "at most a million")]
-            let wider = 1.0 + room / (sweep.count - 1) as f64;
+            let wider = 1.0 + room / real(sweep.count - 1);
             span.map(|span| span.scaled(span.center(), wider))
         };
         if let [upward, ..] = rest {

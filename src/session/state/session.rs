@@ -20,7 +20,7 @@ use crate::session::state::kept::Kept;
 use crate::session::state::keymap::Keymap;
 use crate::session::state::macros::Macros;
 use crate::session::state::marks::Marks;
-use crate::session::state::overlay::{Caption, Overlay};
+use crate::session::state::overlay::{Overlay, SessionCaption};
 use crate::session::state::pending::Pending;
 use crate::session::state::playback::Playback;
 use crate::session::state::plot::{Pane, Plot};
@@ -132,7 +132,7 @@ pub struct Session {
     /// Points to come back to, and the one that is compared with.
     pub marks: Marks,
     /// What is said in words above the status lines.
-    pub caption: Caption,
+    pub caption: SessionCaption,
     /// The sessions that were interrupted and can be continued, the newest first.
     pub interrupted: Vec<Kept>,
     /// The figure that is being written.
@@ -190,7 +190,7 @@ impl Session {
             waiting: None,
             macros: Macros::default(),
             marks: Marks::default(),
-            caption: Caption::Nothing,
+            caption: SessionCaption::Nothing,
             interrupted: Vec::new(),
             writing: None,
             lines: Vec::new(),

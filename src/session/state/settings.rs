@@ -1,4 +1,4 @@
-//! What the user wishes of the screen, as plain data. The outer rings fit it to the terminal at hand.
+//! What the user wishes of the screen, as plain data. The outer rings fit it to the present terminal.
 
 /// How points are made of characters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

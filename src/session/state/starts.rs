@@ -33,7 +33,7 @@ impl Starts {
         &self.states[..self.count]
     }
 
-    /// Adds a start, or makes it the newest; returns whether the oldest had to give way.
+    /// Adds a start, or makes it the newest; returns whether the oldest was removed.
     pub fn add(&mut self, start: State) -> bool {
         let mut states: Vec<State> =
             self.all().iter().copied().filter(|known| *known != start).collect();

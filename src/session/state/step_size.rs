@@ -36,7 +36,7 @@ const EXPONENTS: std::ops::RangeInclusive<i16> = -290..=290;
 const DIGITS: i32 = 15;
 
 impl StepSize {
-    /// The step size nearest to a positive number, by ratio; 1 for what is no positive number.
+    /// The step size nearest to a positive number, by ratio; 1 for what is not a positive number.
     pub fn near(value: f64) -> Self {
         if !(value > 0.0 && value.is_finite()) {
             return StepSize { mantissa: 1, exponent: 0 };

@@ -86,7 +86,7 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
         |trial: &Trial| matches!(trial.session.standing(Topic::Trajectory, 0), Standing::Draft(_));
     assert!(is_draft(&trial) && trial.session.is_busy());
     assert_eq!(open(&trial), [(Topic::Trajectory, false), (Topic::Cycles, false)]);
-    // A draft is no measure of what the full answer takes.
+    // A draft is not a measure of what the full answer takes.
     let full = trial.session.request(Topic::Trajectory, 0).unwrap();
     update(&mut trial.session, costly(full, 10_000_000));
     trial.settle();

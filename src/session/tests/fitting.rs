@@ -6,7 +6,7 @@ use crate::oscillator::Symbol;
 use crate::scene::{Topic, View};
 use crate::session::{Code, Effect, Key, Msg, Purpose, save, update};
 
-/// A decay with D = 0.02 and r = 0.05 at 10/s, without noise but for rounding to three places.
+/// A decay with D = 0.02 and r = 0.05 at 10/s, without noise except for rounding to three places.
 pub(crate) fn record() -> String {
     let (decay, mut text) = (exp(-std::f64::consts::PI * 0.02 / 0.9998), String::new());
     let (mut from, mut side, mut t) = (3.0_f64, 1.0, 0.0);

@@ -46,7 +46,7 @@ fn keys_are_recorded_and_played_and_played_again() {
         ("u", "D -0.01"),
         ("uu", "D -0.07 | changes 3 3"),
         ("@q", "notice register q is empty"),
-        // What was no letter does nothing else.
+        // What was not a letter does nothing else.
         ("@?", "notice ? is not a letter from a to z | open none"),
     ]);
 }

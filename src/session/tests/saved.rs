@@ -1,4 +1,4 @@
-//! Sessions as files: what is saved comes back, and what is no session is refused in one line.
+//! Sessions as files: what is saved comes back, and what is not a session is refused in one line.
 
 use std::path::PathBuf;
 
@@ -19,7 +19,7 @@ fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
         .iter()
         .map(|plot| (plot.view, plot.axes, plot.window, plot.framing, plot.cursor))
         .collect();
-    // Overlays and the rest on the dial are passing; what they ask for is no part of a session.
+    // Overlays and the rest on the dial are passing; what they ask for is not a part of a session.
     let passing = |request: &Request| matches!(request.topic(), Topic::Claims | Topic::Reference);
     let wants: Vec<Request> =
         session.wants().into_iter().filter(|request| !passing(request)).collect();

@@ -130,7 +130,7 @@ fn escape_stops_a_scan_and_keeps_what_is_done_and_a_key_goes_on() {
     press(&mut session, "<esc>");
     assert_eq!(scanned(&session).progress, Progress::Stopped);
     assert!(session.scan_request().is_none() && !session.is_open(&request));
-    // A piece that was on its way when it was stopped is nobody's.
+    // A piece that arrives after the scan was stopped is discarded.
     piece(&mut session, &request, 4..6);
     assert_eq!(scanned(&session).rows.len(), 4);
     press(&mut session, "P");

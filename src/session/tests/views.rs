@@ -141,7 +141,7 @@ fn the_trade_is_asked_for_the_motion_and_not_for_the_method_that_computes_it() {
     let mut trial = turned_to("trade");
     assert_eq!(trial.session.needs(0).into_iter().collect::<Vec<_>>(), [Topic::Trade]);
     trial.goes(&[
-        // The dial and the method are no inputs; every number of the motion is.
+        // The dial and the method are not inputs; every number of the motion is.
         ("} m {", "asked"),
         ("<S-tab><down*3><right>", "asked Trade"),
         // Enter takes the method and the accuracy of the nearest row.

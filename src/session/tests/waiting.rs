@@ -48,7 +48,7 @@ fn type_ahead(trial: &mut Trial, keys: &str) -> Vec<String> {
 }
 
 /// For each command that needs an answer, keys that ask something new and press it at once.
-const HASTY: [(&str, &str, &str); 26] = [
+const HASTY: [(&str, &str, &str); 27] = [
     ("start-inside", "supercritical", "<right>i"),
     // The first plot is a diagram with variants; the edge is that of the present friction.
     ("start-inside", "fig16a", "<right>i"),
@@ -70,6 +70,8 @@ const HASTY: [(&str, &str, &str); 26] = [
     ("motion-back", "linear", "<f9*9><right><f7>"),
     ("use-method", "plain", ":view<space>trade<enter><left*30><enter>"),
     ("walk", "supercritical", ":set<space>r=0.2<enter>:walk<enter><right*2><enter>"),
+    // The view that asked for the answer has given way to one that does not.
+    ("start-inside", "linear", "<left>;i"),
     // A key of a plot that is not in focus.
     ("walk", "supercritical", "<down*2><right>w<right*2><enter>"),
     ("walk-on", "supercritical", ":walk<enter>:set<space>r=0.2<enter><right>"),

@@ -12,7 +12,7 @@ fn belt() -> Belt {
 }
 
 /// The motion of the oscillator that the machine reduces to, and its velocities up to the belt's, in m/s.
-fn motion(belt: &Belt, start: (f64, f64), until: f64) -> (Trajectory, Followed, Units) {
+fn motion(belt: &Belt, start: (f64, f64), until: f64) -> (Trajectory, FollowedOnBelt, Units) {
     let Reduced { parameters, units, sticking_velocity, .. } = belt.reduce().unwrap();
     let problem = Problem {
         parameters,
@@ -22,7 +22,7 @@ fn motion(belt: &Belt, start: (f64, f64), until: f64) -> (Trajectory, Followed, 
     };
     let detail = Detail { crossings: true, samples_per_step: 8, energy: false };
     let motion = trajectory(&problem, detail, &Limits::PATIENT);
-    let followed = Followed::of(&motion, sticking_velocity);
+    let followed = FollowedOnBelt::of(&motion, sticking_velocity);
     (motion, followed, units)
 }
 

@@ -104,7 +104,7 @@ fn every_band_holds_what_is_computed_there() {
 }
 
 #[test]
-fn what_is_no_plane_is_refused() {
+fn planes_that_are_not_are_refused() {
     for plane in [
         plane(Symbol::D, (-1.0, 0.0), Symbol::D, (0.0, 1.0)),
         plane(Symbol::Q0, (-1.0, 0.0), Symbol::D, (0.0, 1.0)),
@@ -135,7 +135,7 @@ fn between_lines_boundaries_are_followed_as_closely_as_asked() {
     let mut farthest: f64 = 0.0;
     for pair in run.windows(2) {
         let middle = (f64::midpoint(pair[0].0, pair[1].0), f64::midpoint(pair[0].1, pair[1].1));
-        // The distance to the chord, both sides of the chart as long as each other.
+        // The distance to the chord, both sides of the chart being equally long.
         let slope = ((pair[1].0 - pair[0].0) / 0.5) / ((pair[1].1 - pair[0].1) / 1.98);
         let aside = (middle.0 - (kappa / middle.1).sqrt()) / 0.5;
         farthest = farthest.max(aside.abs() / hypot(1.0, slope));

@@ -4,8 +4,9 @@
 use super::line::{Band, ChartLine};
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
+use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, hypot, ln, powi};
-use crate::numerics::root::{Change, illinois};
+use crate::numerics::root::{PlaceTolerance, illinois};
 use crate::oscillator::{Parameters, State, Symbol};
 use crate::study::cycle::cycles;
 use crate::study::escape::{escape_point, escape_product};
@@ -13,7 +14,7 @@ use crate::study::extended::{FoldCycle, FoldGuess, fold_near};
 use crate::study::fold::fold_within;
 use crate::study::regime::Regime;
 
-/// How often the way from one line to the next is halved at most, to come close to a boundary.
+/// Maximum number of halvings between two lines, to come close to a boundary.
 pub(super) const HALVINGS: u32 = 8;
 
 /// Relative error of a boundary that is sought, in units of that of the clearance at a fold.
@@ -22,11 +23,10 @@ const SLACK: f64 = 100.0;
 /// Values of a parameter at which lines are drawn: evenly spaced, and denser towards zero, where a sign
 /// changes; zero itself is replaced by its two sides.
 pub(super) fn values(symbol: Symbol, range: (f64, f64), count: usize) -> Vec<f64> {
-    /// What stands for zero, as a part of the range.
+    /// What stands for zero, as a fraction of the range.
     const SIDE: f64 = 1e-6;
     let span = range.1 - range.0;
-    #[expect(clippy::cast_precision_loss, reason = "a number of lines")]
-    let part = |index: usize, of: usize| index as f64 / of as f64;
+    let part = |index: usize, of: usize| real(index) / real(of);
     let mut values: Vec<f64> =
         (0..=count).map(|index| range.0 + span * part(index, count)).collect();
     if range.0 <= 0.0 && range.1 >= 0.0 {
@@ -351,7 +351,7 @@ fn root(
             return Err(Reason::NoConvergence { sought: "a boundary", change: stride });
         }
     }
-    let [best, other] = illinois([low, high], small, Change::Absolute(small), function)?;
+    let [best, other] = illinois([low, high], small, PlaceTolerance::Absolute(small), function)?;
     if best.1.abs() <= small || (other.0 - best.0).abs() <= small {
         return Ok(best.0);
     }

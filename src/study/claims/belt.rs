@@ -1,6 +1,6 @@
 //! How long the mass stays slower than its belt: the condition under which the equation holds.
 //!
-//! The paper assumes it; nothing in the equation keeps a motion to it. It is put to the test on the belt
+//! The paper assumes it; nothing in the equation keeps a motion to it. It is tested on the belt
 //! that comes with the program: friction that falls exponentially with the relative velocity.
 
 use super::Finding;
@@ -11,7 +11,7 @@ use crate::flow::{Detail, Limits, Problem, Reason};
 use crate::numerics::root::try_bisect;
 use crate::oscillator::belt::{FrictionLaw, Reduced};
 use crate::oscillator::{Belt, State};
-use crate::study::belt::Followed;
+use crate::study::belt::FollowedOnBelt;
 
 /// Speeds of the belt at which a stable cycle exists, in m/s.
 const SPEEDS: [f64; 6] = [0.05, 0.1, 0.2, 0.25, 0.3, 0.33];
@@ -67,7 +67,7 @@ pub fn stays_slower(limits: &Limits) -> Result<Finding, Reason> {
         };
         let detail = Detail { crossings: true, samples_per_step: 8, energy: false };
         let motion = trajectory(&problem, detail, limits);
-        let slower = Followed::of(&motion, sticking_velocity).sticks.is_none();
+        let slower = FollowedOnBelt::of(&motion, sticking_velocity).sticks.is_none();
         cases.push((format!("v0 = {speed} m/s"), below && slower));
     }
     Ok(Finding::always(cases))

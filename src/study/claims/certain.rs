@@ -81,12 +81,12 @@ impl Certainty {
 
 /// A formula that was evaluated in doubles.
 fn with_rounding(formula: f64, error: f64) -> Interval {
-    /// Far more than the rounding of any formula here, as a part of its value.
+    /// Far more than the rounding of any formula here, as a fraction of its value.
     const ROUNDING: f64 = 1e-9;
     Interval::around(formula, ROUNDING * formula.abs() + error)
 }
 
-/// By which part of a number a formula is off, or by how much where one of both is zero.
+/// The relative error of a formula, or its absolute error if one of the two is zero.
 fn miss(formula: Interval, bounds: Interval) -> Interval {
     let difference = formula - bounds;
     let zero = Interval::point(0.0);

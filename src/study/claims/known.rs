@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::numerics::Interval;
 
-/// An approximation that misses by more than this part is none. More would let
+/// An approximation that is off by more than this does not count as one. More would let
 /// a fold that D2 moves by an eighth pass as one that D2 does not move.
 pub(super) const POOR: f64 = 0.1;
 
@@ -72,7 +72,7 @@ impl Known {
         Known::new(value, 0.0)
     }
 
-    /// A number known to a part of itself.
+    /// A number with a relative error.
     pub fn relative(value: f64, part: f64) -> Self {
         Known::new(value, part * value.abs())
     }

@@ -282,7 +282,7 @@ fn on_the_curve(
         let (parameters, swing) = (units_of_friction(d), LinearSwing::new(d));
         let start = at_rest(swing.curve(0.0).q);
         let state = read(state_at(&parameters, start, ANGLE / swing.omega, limits)?);
-        // The start is rounded, and near D = -1 its clearance is a small part of it.
+        // The start is rounded, and near D = -1 its clearance is a small fraction of it.
         let rounded = 4.0 * f64::EPSILON * swing.growth * swing.clearance().max(1.0);
         let state = Known { error: state.error + rounded, ..state };
         Ok(Finding::equal(formula(swing.curve(ANGLE)), state).at(place(&parameters)))

@@ -65,7 +65,7 @@ impl Examined {
     }
 }
 
-/// All claims, section by section, and at last what the paper does not say.
+/// All claims, section by section, then what the paper does not say.
 pub const SECTIONS: [&[Claim]; 8] = [
     model::CLAIMS,
     equilibria::CLAIMS,

@@ -5,7 +5,7 @@ use std::fmt;
 use super::certain::Certainty;
 use super::known::{Known, KnownAnswer, POOR, Sense};
 
-/// Rounding of a formula, as a part of its value.
+/// Rounding of a formula, as a fraction of its value.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The numbers that decide a claim.
@@ -134,7 +134,7 @@ impl Finding {
         Some(self.paper.or(self.corrected)? - self.computed.value)
     }
 
-    /// That difference as a part of the computed number, or as it is where one of the two is zero.
+    /// That difference as a fraction of the computed number, or as it is if one of the two is zero.
     pub fn miss(&self) -> f64 {
         self.difference().map_or(f64::NAN, |difference| self.part(difference))
     }

@@ -6,6 +6,7 @@
 
 use super::{CurvePoint, CycleCurve, Tangent};
 use crate::flow::Reason;
+use crate::numerics::count::real;
 use crate::study::closing::Route;
 
 /// Where a cycle of the curve is to be found.
@@ -28,7 +29,7 @@ impl From<&CurvePoint> for CurvePlace {
 impl CycleCurve<'_> {
     /// `count` places spread evenly over a followed curve, both ends included.
     ///
-    /// Distance is measured in p, u and amplitude together, each in parts of what the curve spans: this
+    /// Distance is measured in p, u and amplitude together, each relative to what the curve spans: this
     /// is how far apart points look on a diagram. Between followed points the curve is interpolated by
     /// polynomials through six of them.
     pub fn spread(
@@ -48,8 +49,7 @@ impl CycleCurve<'_> {
         let mut spread = vec![CurvePlace::from(first)];
         self.slope_in_p = None;
         for index in 1..count.saturating_sub(1) {
-            #[expect(clippy::cast_precision_loss, reason = "counts of points are small")]
-            let s = total * index as f64 / (count - 1) as f64;
+            let s = total * real(index) / real(count - 1);
             let after = arc.partition_point(|&length| length <= s).clamp(1, points.len() - 1);
             let base = after.saturating_sub(window / 2).min(points.len() - window);
             let pair = [&points[after - 1], &points[after]];
@@ -87,8 +87,8 @@ impl CycleCurve<'_> {
     }
 }
 
-/// An interpolated place where the curve is a graph over the parameter: between two points that are no fold's
-/// neighbours, the one cycle at this parameter is what Newton's method finds from there.
+/// An interpolated place where the curve is a graph over the parameter: between two points that are not
+/// a fold's neighbours, the one cycle at this parameter is what Newton's method finds from there.
 fn between_steep([one, other]: [&CurvePoint; 2], (u, p): (f64, f64)) -> Option<CurvePlace> {
     /// Logarithm of a multiplier far enough from that of a fold.
     const STEEP: f64 = 0.3;

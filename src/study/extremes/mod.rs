@@ -12,6 +12,6 @@ pub mod sets;
 pub mod verdict;
 
 pub use lattice::{Case, SpecialStart, cases};
-pub use named::{Named, named};
+pub use named::{NamedExtreme, named};
 pub use sets::{SetVerdict, judge_set, sets};
 pub use verdict::{MethodAnswer, MethodsVerdict, judge};

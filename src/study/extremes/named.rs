@@ -10,7 +10,7 @@ use crate::oscillator::{Parameters, State};
 
 /// One of them by one method.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Named {
+pub struct NamedExtreme {
     pub what: &'static str,
     pub method: Method,
     pub measure: &'static str,
@@ -90,7 +90,7 @@ const BLOW_UPS: [BlowUp; 6] = [
 ];
 
 /// Every named extreme by the methods that serve it.
-pub fn named(limits: &Limits) -> Vec<Named> {
+pub fn named(limits: &Limits) -> Vec<NamedExtreme> {
     let mut all = vec![
         million_swings(Method::Exact, 1e-13, 1e-15, limits),
         million_swings(Method::Taylor, 1e-15, 1e-13, limits),
@@ -104,7 +104,7 @@ pub fn named(limits: &Limits) -> Vec<Named> {
 }
 
 /// A million half swings of the undamped oscillator, and what they did to its energy.
-fn million_swings(method: Method, tolerance: f64, allowed: f64, limits: &Limits) -> Named {
+fn million_swings(method: Method, tolerance: f64, allowed: f64, limits: &Limits) -> NamedExtreme {
     const SWINGS: f64 = 1e6;
     let problem = Problem {
         parameters: Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 },
@@ -122,11 +122,18 @@ fn million_swings(method: Method, tolerance: f64, allowed: f64, limits: &Limits)
         _ => f64::INFINITY,
     };
     let what = "a million half swings at D = r = 0";
-    Named { what, method, measure: "energy gained or lost", measured, allowed, cost: motion.cost }
+    NamedExtreme {
+        what,
+        method,
+        measure: "energy gained or lost",
+        measured,
+        allowed,
+        cost: motion.cost,
+    }
 }
 
 impl BlowUp {
-    fn by(&self, method: Method, limits: &Limits) -> Named {
+    fn by(&self, method: Method, limits: &Limits) -> NamedExtreme {
         let &BlowUp { what, d, d2, d3, start: (q, v), time } = self;
         let problem = Problem {
             parameters: Parameters { d, d2, d3, r: 0.0 },
@@ -140,12 +147,12 @@ impl BlowUp {
             _ => f64::INFINITY,
         };
         let measure = "relative error of its time";
-        Named { what, method, measure, measured, allowed: 1e-8, cost: motion.cost }
+        NamedExtreme { what, method, measure, measured, allowed: 1e-8, cost: motion.cost }
     }
 }
 
 /// The start from which an explicit method needs a hundred million steps.
-fn far_out(method: Method, limits: &Limits) -> Named {
+fn far_out(method: Method, limits: &Limits) -> NamedExtreme {
     let problem = Problem {
         parameters: Parameters { d: -0.1, d2: 0.0, d3: 1.0, r: 0.1 },
         initial: State { q: 1e6, v: 0.0 },
@@ -160,11 +167,11 @@ fn far_out(method: Method, limits: &Limits) -> Named {
         _ => f64::INFINITY,
     };
     let what = "far out at q0 = 1e6, D3 = 1, until it rests";
-    Named { what, method, measure: "steps", measured, allowed: 5_000.0, cost: motion.cost }
+    NamedExtreme { what, method, measure: "steps", measured, allowed: 5_000.0, cost: motion.cost }
 }
 
 /// One motion in units of every power of two from -400 to 400, and its mirror image in each.
-fn scaled_and_mirrored(method: Method, limits: &Limits) -> Named {
+fn scaled_and_mirrored(method: Method, limits: &Limits) -> NamedExtreme {
     let parameters = Parameters { d: -0.1, d2: 0.3, d3: 0.4, r: 0.05 };
     let plain = Problem {
         parameters,
@@ -196,7 +203,7 @@ fn scaled_and_mirrored(method: Method, limits: &Limits) -> Named {
     }
     let what = "scaled by 2^k, k = -400 .. 400, and mirrored";
     let measure = "images that differ in any bit";
-    Named { what, method, measure, measured: different, allowed: 0.0, cost }
+    NamedExtreme { what, method, measure, measured: different, allowed: 0.0, cost }
 }
 
 /// Whether a motion is `sign * 2^k` times another one, to the last bit.

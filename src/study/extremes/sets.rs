@@ -11,7 +11,7 @@ use crate::study::closing::{Equation, Route};
 use crate::study::closings::{STEP, all_closings};
 use crate::study::lift::lifted;
 
-/// Most evaluations of one half map in a search.
+/// Maximum number of evaluations of one half map in a search.
 pub const BUDGET: u64 = 3_000_000;
 
 /// Every how many sets the thin lattice takes one: no factor in common with the number of values of any
@@ -26,7 +26,7 @@ const AGAIN: f64 = 1e-13;
 pub struct LatticeCycle {
     #[serde(flatten)]
     pub cycle: Cycle,
-    /// By what part of the clearance a turn fails to close, followed again by steps of another length, along
+    /// By what fraction of the clearance a turn fails to close, followed again by steps of another length, along
     /// the way in which it contracts.
     pub residual: f64,
 }

@@ -11,13 +11,13 @@ use crate::oscillator::Parameters;
 /// Tolerance of the motions where none is given.
 pub const TOLERANCE: f64 = 1e-10;
 
-/// Tolerance of the motion with which others are compared, as a part of theirs, and at least.
+/// Tolerance of the motion with which others are compared, as a fraction of theirs, and at least.
 const TIGHTER: (f64, f64) = (1e-4, 1e-15);
 
-/// Most evaluations that a motion may take.
+/// Maximum number of evaluations that a motion may take.
 pub const BUDGET: u64 = 40_000;
 
-/// Most evaluations that the reference may take.
+/// Maximum number of evaluations that the reference may take.
 const REFERENCE_BUDGET: u64 = 200_000;
 
 /// The methods that find events and control their error, `auto` first.
@@ -94,7 +94,7 @@ pub fn judge(case: &Case, tolerance: f64, limits: &Limits) -> MethodsVerdict {
     }
 }
 
-/// The same motion with all damping changed by this part of itself.
+/// The same motion with all damping changed by this relative amount.
 fn changed(motion: &Trajectory, part: f64, limits: &Limits) -> Trajectory {
     let Parameters { d, d2, d3, r } = motion.problem.parameters;
     let change = 1.0 + part;
@@ -130,8 +130,8 @@ fn reference(case: &Case, tolerance: f64, limits: &Limits) -> Option<Trajectory>
     tight.find(|motion| !matches!(motion.outcome, Outcome::GaveUp { .. }))
 }
 
-/// Relative distance of two answers: of places as a part of the largest displacement of the last swing, of
-/// times as a part of themselves. Infinite where they contradict each other, `None` where one gave up.
+/// Relative distance of two answers: of places as a fraction of the largest displacement of the last swing, of
+/// times relative to themselves. Infinite where they contradict each other, `None` where one gave up.
 fn distance(one: &Trajectory, other: &Trajectory) -> Option<f64> {
     let relative = |a: f64, b: f64, scale: f64| if a == b { 0.0 } else { (a - b).abs() / scale };
     let last_turn = |motion: &Trajectory| {

@@ -13,7 +13,7 @@ pub struct Conditions {
     pub half_widths: Vec<(Symbol, f64)>,
     /// Bound on the disturbance.
     pub disturbance: f64,
-    /// Kicks of which a part is lost.
+    /// Kicks of which a fraction is lost.
     pub kicks: RandomKick,
 }
 

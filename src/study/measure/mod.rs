@@ -1,7 +1,7 @@
 //! What can be measured at a point of a scan.
 //!
 //! [`MEASURES`] is the one table: what a measure is called, what it means, which columns it fills and
-//! which computations it [`Need`]s. [`ScanPoint`] does each of these at most once for a point, however many
+//! which computations it [`MeasureNeed`]s. [`ScanPoint`] does each of these at most once for a point, however many
 //! measures ask for it.
 
 mod conditions;
@@ -11,4 +11,4 @@ mod table;
 
 pub use conditions::Conditions;
 pub use point::{ScanPoint, measure};
-pub use table::{MEASURES, Measure, MeasureSpec, Need, Value, needs_of};
+pub use table::{MEASURES, Measure, MeasureNeed, MeasureSpec, Value, needs_of};

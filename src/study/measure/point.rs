@@ -2,7 +2,7 @@
 
 use super::conditions::Conditions;
 use super::settling::Settling;
-use super::table::{CYCLES, Measure, Need, Value, needs_of};
+use super::table::{CYCLES, Measure, MeasureNeed, Value, needs_of};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Outcome, Problem, Reason, Trajectory};
 use crate::numerics::Interval;
@@ -37,7 +37,7 @@ pub struct ScanPoint {
     proof: Option<Proof>,
     pub cost: Cost,
     /// What could not be computed, and why.
-    pub failures: Vec<(Need, Reason)>,
+    pub failures: Vec<(MeasureNeed, Reason)>,
     /// Why nothing is guaranteed.
     pub uncertain: Option<Uncertain>,
 }
@@ -69,14 +69,14 @@ pub fn measure(
 impl ScanPoint {
     fn compute(
         &mut self,
-        need: Need,
+        need: MeasureNeed,
         problem: &Problem,
         (conditions, reach): (&Conditions, f64),
         limits: &Limits,
     ) -> Result<(), Reason> {
         let parameters = &problem.parameters;
         match need {
-            Need::Motion => {
+            MeasureNeed::Motion => {
                 let motion = trajectory(problem, Detail::default(), limits);
                 self.cost += motion.cost;
                 let outcome = motion.outcome;
@@ -85,12 +85,12 @@ impl ScanPoint {
                     return Err(reason);
                 }
             }
-            Need::Cycles => {
+            MeasureNeed::Cycles => {
                 let (found, closings) = cycles_and_closings(parameters, limits)?;
                 self.cost += found.cost;
                 (self.cycles, self.closings) = (Some(found), closings);
             }
-            Need::Edge => {
+            MeasureNeed::Edge => {
                 // What is beyond the edge does not matter here.
                 let inner = if let Some(closings) = self.closings.take() {
                     closings.into_iter().next()
@@ -104,31 +104,31 @@ impl ScanPoint {
                 self.cost += basin.cost;
                 self.edge = Some(basin);
             }
-            Need::Fold => {
+            MeasureNeed::Fold => {
                 let (found, cost) = fold(parameters, limits)?;
                 self.cost += cost;
                 self.fold = found;
             }
-            Need::Escape => {
+            MeasureNeed::Escape => {
                 let (found, cost) = escape_point(parameters, limits)?;
                 self.cost += cost;
                 self.escape = found;
             }
-            Need::Guarantee => {
+            MeasureNeed::Guarantee => {
                 let known = conditions.around(parameters);
                 let (found, cost) = guaranteed(&known, conditions.disturbance, limits)?;
                 self.cost += cost;
                 self.guaranteed = Some(found.margin);
                 self.uncertain = found.reason;
             }
-            Need::Settling => {
+            MeasureNeed::Settling => {
                 let (found, cost) = Settling::of(problem, &conditions.window, limits)?;
                 self.cost += cost;
                 self.settling = Some(found);
             }
-            Need::Proof => {
+            MeasureNeed::Proof => {
                 if self.cycles.is_none() {
-                    self.compute(Need::Cycles, problem, (conditions, reach), limits)?;
+                    self.compute(MeasureNeed::Cycles, problem, (conditions, reach), limits)?;
                 }
                 let differ =
                     |_| Reason::NotApplicable { needs: "a search that agrees with its proof" };
@@ -136,8 +136,8 @@ impl ScanPoint {
                 self.proof = found;
             }
             // Without friction there is no set of places to rest.
-            Need::Chain if parameters.r == 0.0 => {}
-            Need::Chain => {
+            MeasureNeed::Chain if parameters.r == 0.0 => {}
+            MeasureNeed::Chain => {
                 let found = repeated(parameters, &conditions.kicks, limits)?;
                 self.cost += found.cost;
                 self.repeated = Some(found);
@@ -265,7 +265,7 @@ mod tests {
             problem(-1.5, 0.0, 0.0, 0.2),
         ] {
             // The chain of kicks follows ten thousands of motions; it has its own tests.
-            let rows = MEASURES.iter().filter(|row| row.needs != Need::Chain);
+            let rows = MEASURES.iter().filter(|row| row.needs != MeasureNeed::Chain);
             let measures: Vec<_> = rows.clone().map(|row| row.measure).collect();
             let (values, point) = measured(&problem, &measures);
             assert_eq!(values.len(), rows.map(|row| row.columns.len()).sum::<usize>());

@@ -46,7 +46,7 @@ impl Settling {
         Some([largest, mean])
     }
 
-    /// The part of the starts that is at rest in the end, and how much that may differ from the part of the
+    /// The fraction of the starts that is at rest in the end, and how much that may differ from the fraction of the
     /// window: half of the cells that have a neighbour of the other kind.
     pub fn rested(&self) -> [f64; 2] {
         let side = usize::from(SIDE);

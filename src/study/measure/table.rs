@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::numerics::count::real;
 use crate::oscillator::Symbol;
 
 /// A property of the oscillator, or of one motion of it, at given parameters.
@@ -17,7 +18,7 @@ pub enum Measure {
     Multipliers,
     /// The kicks that the sticking set survives.
     Margin,
-    /// The part of a window that is captured.
+    /// The fraction of a window that is captured.
     Stability,
     /// The area of the basin.
     Area,
@@ -27,13 +28,13 @@ pub enum Measure {
     Escape,
     /// The kicks that are survived for certain.
     Guaranteed,
-    /// The part of random kicks that is lost.
+    /// The fraction of random kicks that is lost.
     Lost,
     /// How round the basin is.
     Integrity,
     /// How long the starts of a window take to come to rest.
     Settling,
-    /// The part of a window that is at rest in time.
+    /// The fraction of a window that is at rest in time.
     FiniteTime,
     /// How many kicks in a row are survived.
     Repeated,
@@ -43,7 +44,7 @@ pub enum Measure {
 
 /// A computation on which measures rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Need {
+pub enum MeasureNeed {
     /// The motion from (q0, v0).
     Motion,
     /// All limit cycles.
@@ -64,19 +65,19 @@ pub enum Need {
     Proof,
 }
 
-impl Need {
+impl MeasureNeed {
     /// The name in the reason of a row.
     pub fn name(self) -> &'static str {
         match self {
-            Need::Motion => "motion",
-            Need::Cycles => "cycles",
-            Need::Edge => "edge",
-            Need::Fold => "fold",
-            Need::Escape => "escape",
-            Need::Guarantee => "guarantee",
-            Need::Settling => "settling",
-            Need::Chain => "repeated kicks",
-            Need::Proof => "proof",
+            MeasureNeed::Motion => "motion",
+            MeasureNeed::Cycles => "cycles",
+            MeasureNeed::Edge => "edge",
+            MeasureNeed::Fold => "fold",
+            MeasureNeed::Escape => "escape",
+            MeasureNeed::Guarantee => "guarantee",
+            MeasureNeed::Settling => "settling",
+            MeasureNeed::Chain => "repeated kicks",
+            MeasureNeed::Proof => "proof",
         }
     }
 
@@ -85,14 +86,14 @@ impl Need {
         const ALL: [Symbol; 6] =
             [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R, Symbol::Q0, Symbol::V0];
         match self {
-            Need::Motion => &ALL,
-            Need::Cycles
-            | Need::Edge
-            | Need::Guarantee
-            | Need::Settling
-            | Need::Chain
-            | Need::Proof => &ALL[..4],
-            Need::Fold | Need::Escape => &ALL[1..4],
+            MeasureNeed::Motion => &ALL,
+            MeasureNeed::Cycles
+            | MeasureNeed::Edge
+            | MeasureNeed::Guarantee
+            | MeasureNeed::Settling
+            | MeasureNeed::Chain
+            | MeasureNeed::Proof => &ALL[..4],
+            MeasureNeed::Fold | MeasureNeed::Escape => &ALL[1..4],
         }
     }
 }
@@ -109,7 +110,7 @@ pub struct MeasureSpec {
     /// The columns that it fills.
     pub columns: &'static [&'static str],
     /// The computation that it needs.
-    pub needs: Need,
+    pub needs: MeasureNeed,
 }
 
 /// Cycles that have columns of their own; no parameters with more are known, and `cycles` counts all.
@@ -122,14 +123,14 @@ pub const MEASURES: [MeasureSpec; 16] = [
         name: "outcome",
         meaning: "how the motion from (q0, v0) ends, when, after how many half swings",
         columns: &["outcome", "outcome_tau", "half_swings"],
-        needs: Need::Motion,
+        needs: MeasureNeed::Motion,
     },
     MeasureSpec {
         measure: Measure::Rest,
         name: "rest",
         meaning: "where and when the motion from (q0, v0) comes to rest",
         columns: &["rest_q", "rest_tau"],
-        needs: Need::Motion,
+        needs: MeasureNeed::Motion,
     },
     MeasureSpec {
         measure: Measure::Cycles,
@@ -139,7 +140,7 @@ pub const MEASURES: [MeasureSpec; 16] = [
             "cycles", "q_min_1", "q_max_1", "v_min_1", "v_max_1", "q_min_2", "q_max_2", "v_min_2",
             "v_max_2",
         ],
-        needs: Need::Cycles,
+        needs: MeasureNeed::Cycles,
     },
     MeasureSpec {
         measure: Measure::Multipliers,
@@ -153,56 +154,56 @@ pub const MEASURES: [MeasureSpec; 16] = [
             "multiplier_2",
             "log_multiplier_2",
         ],
-        needs: Need::Cycles,
+        needs: MeasureNeed::Cycles,
     },
     MeasureSpec {
         measure: Measure::Margin,
         name: "margin",
         meaning: "smallest displacement at rest, and smallest impulse at q = 0, not captured",
         columns: &["displacement", "impulse"],
-        needs: Need::Edge,
+        needs: MeasureNeed::Edge,
     },
     MeasureSpec {
         measure: Measure::Stability,
         name: "stability",
-        meaning: "basin stability: the part of the window that is captured, and its error",
+        meaning: "basin stability: the fraction of the window that is captured, and its error",
         columns: &["captured_part", "captured_error"],
-        needs: Need::Edge,
+        needs: MeasureNeed::Edge,
     },
     MeasureSpec {
         measure: Measure::Area,
         name: "area",
         meaning: "area of the basin, where it is finite",
         columns: &["area"],
-        needs: Need::Edge,
+        needs: MeasureNeed::Edge,
     },
     MeasureSpec {
         measure: Measure::Fold,
         name: "fold",
         meaning: "the fold D_F (or grazing, below D = -1), above which no cycle is left, and the amplitude there",
         columns: &["D_F", "D_F_q_max"],
-        needs: Need::Fold,
+        needs: MeasureNeed::Fold,
     },
     MeasureSpec {
         measure: Measure::Escape,
         name: "escape",
         meaning: "the escape point D_c, where the cycle goes to infinity",
         columns: &["D_c"],
-        needs: Need::Escape,
+        needs: MeasureNeed::Escape,
     },
     MeasureSpec {
         measure: Measure::Guaranteed,
         name: "guaranteed",
         meaning: "margin that holds for every disturbance and all parameters within their half widths",
         columns: &["guaranteed_displacement", "guaranteed_impulse"],
-        needs: Need::Guarantee,
+        needs: MeasureNeed::Guarantee,
     },
     MeasureSpec {
         measure: Measure::Lost,
         name: "lost",
-        meaning: "the part of random kicks that is not captured, and its error",
+        meaning: "the fraction of random kicks that is not captured, and its error",
         columns: &["lost_part", "lost_error"],
-        needs: Need::Edge,
+        needs: MeasureNeed::Edge,
     },
     MeasureSpec {
         measure: Measure::Integrity,
@@ -210,22 +211,22 @@ pub const MEASURES: [MeasureSpec; 16] = [
         meaning: "radius of the largest circle about the origin within the basin, and the part of the basin \
                   that it fills (integrity factor)",
         columns: &["circle_radius", "integrity"],
-        needs: Need::Edge,
+        needs: MeasureNeed::Edge,
     },
     MeasureSpec {
         measure: Measure::Settling,
         name: "settling",
         meaning: "largest and mean time to rest of 32 x 32 starts of the window, if all are at rest in the end",
         columns: &["settling_max", "settling_mean"],
-        needs: Need::Settling,
+        needs: MeasureNeed::Settling,
     },
     MeasureSpec {
         measure: Measure::FiniteTime,
         name: "finite-time",
-        meaning: "finite-time basin stability: the part of 32 x 32 starts of the window at rest in the end, and \
-                  its error as a part of the window",
+        meaning: "finite-time basin stability: the fraction of 32 x 32 starts of the window at rest in the end, and \
+                  its error as a fraction of the window",
         columns: &["rested_part", "rested_error"],
-        needs: Need::Settling,
+        needs: MeasureNeed::Settling,
     },
     MeasureSpec {
         measure: Measure::Repeated,
@@ -233,14 +234,14 @@ pub const MEASURES: [MeasureSpec; 16] = [
         meaning: "mean number of random kicks, each from where the last one came to rest, until one is lost; the \
                   part that is lost after many; the relative error of both",
         columns: &["kicks_mean", "kicks_lost", "kicks_error"],
-        needs: Need::Chain,
+        needs: MeasureNeed::Chain,
     },
     MeasureSpec {
         measure: Measure::Proved,
         name: "proved",
         meaning: "whether it is proved that there are these cycles and no others, and bounds of their amplitudes",
         columns: &["proved", "q_max_1_lower", "q_max_1_upper", "q_max_2_lower", "q_max_2_upper"],
-        needs: Need::Proof,
+        needs: MeasureNeed::Proof,
     },
 ];
 
@@ -260,7 +261,7 @@ impl Measure {
 }
 
 /// What these measures need computed.
-pub fn needs_of(measures: &[Measure]) -> BTreeSet<Need> {
+pub fn needs_of(measures: &[Measure]) -> BTreeSet<MeasureNeed> {
     measures.iter().map(|measure| measure.spec().needs).collect()
 }
 
@@ -294,8 +295,7 @@ impl Value {
     pub fn number(self) -> Option<f64> {
         match self {
             Value::Number(value) => Some(value),
-            #[expect(clippy::cast_precision_loss, reason = "counts are small")]
-            Value::Count(count) => Some(count as f64),
+            Value::Count(count) => Some(real(count)),
             Value::Nothing | Value::Word(_) => None,
         }
     }

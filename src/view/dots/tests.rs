@@ -4,6 +4,7 @@ use proptest::prelude::*;
 use ratatui::style::Color;
 
 use super::*;
+use crate::numerics::elementary::hypot;
 use crate::session::settings;
 
 const SOLID: Pen = Pen { role: Role::Trajectory, dash: Dash::Solid };
@@ -137,15 +138,24 @@ proptest! {
         start in (-200.0..200.0, -200.0..200.0), end in (-200.0..200.0, -200.0..200.0),
     ) {
         let size = (40.0, 30.0);
-        let on = |(x, y): Point| (0.0..=size.0).contains(&x) && (0.0..=size.1).contains(&y);
+        let on = |(x, y): DotPoint| (0.0..=size.0).contains(&x) && (0.0..=size.1).contains(&y);
         let samples = (0..=1000).map(|index| f64::from(index) / 1000.0)
             .map(|t| (start.0 + (end.0 - start.0) * t, start.1 + (end.1 - start.1) * t));
         let visible = samples.clone().any(|(x, y)| {
             (0.1..39.9).contains(&x) && (0.1..29.9).contains(&y)
         });
+        let distance = |a: DotPoint, b: DotPoint| hypot(a.0 - b.0, a.1 - b.1);
+        let between = |a: DotPoint, point: DotPoint, b: DotPoint| {
+            distance(a, point) + distance(point, b) - distance(a, b) < 1e-3
+        };
         match clip(start, end, size) {
             None => prop_assert!(!visible),
-            Some((from, to, _)) => prop_assert!(on(from) && on(to)),
+            Some((from, to, whole)) => {
+                prop_assert!(on(from) && on(to));
+                prop_assert!(between(start, from, end) && between(start, to, end));
+                prop_assert!(samples.clone().filter(|point| on(*point)).all(|point| between(from, point, to)));
+                prop_assert_eq!(whole, distance(to, end) < 1e-5);
+            }
         }
     }
 }

@@ -76,7 +76,7 @@ pub fn rows(area: Rect) -> u16 {
 }
 
 /// The point of a plot in `area` that a cell stands for, to the digits that cells tell apart; `None`
-/// for the cells outside of its axes. `upward` are the marks of its vertical axis if those are no round
+/// for the cells outside of its axes. `upward` are the marks of its vertical axis if those are not round
 /// numbers.
 pub fn point_at(
     area: Rect,

@@ -1,7 +1,6 @@
 //! A plot: title line, axes with ticks, and a raster that takes points of the world.
 //!
-//! This is the one gate between numbers and cells. World coordinates may be anything, also infinite
-//! or not a number; what cannot be shown is left out.
+//! Only here do numbers become cells. World coordinates may be infinite or NaN; what cannot be shown is left out.
 
 #![expect(
     clippy::cast_possible_truncation,
@@ -40,19 +39,6 @@ pub struct Names<'a> {
     pub marks: Option<Ticks>,
 }
 
-/// The name of a curve.
-#[derive(Clone, Debug)]
-pub struct Name<'a> {
-    pub text: &'a str,
-    /// Points of the curve beside which it may stand, the best first.
-    pub points: Vec<Point>,
-    /// What the curve stands for.
-    pub role: Role,
-    /// Whether it is rather left out than hide anything.
-    pub only_free: bool,
-}
-
-/// A plot being drawn.
 #[derive(Debug)]
 pub struct Canvas<'a> {
     look: &'a Look,
@@ -130,7 +116,7 @@ impl<'a> Canvas<'a> {
         let Rect { x, y, width, height } = self.inner;
         let Some(last) = height.checked_sub(1) else { return };
         let fits = |tick: &&Tick| tick.label.len() < usize::from(width);
-        // Nothing of a text is hidden, and no text goes on in a number.
+        // Nothing of a text is hidden, and no text continues in a number.
         let free = |start: u16, row: u16, label: &str| {
             let end = start + label.len() as u16;
             (start.saturating_sub(1)..=end)
@@ -185,7 +171,6 @@ impl<'a> Canvas<'a> {
         self.curve(points, role, dash);
     }
 
-    /// Draws an upright through the whole window.
     pub fn upright(&mut self, x: f64, role: Role, dash: Dash) {
         let Window { y, .. } = self.window;
         self.curve([y.from(), y.to()].map(|y| Point { x, y }), role, dash);

@@ -2,7 +2,8 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "lengths of short texts count cells")]
 
-use super::{Canvas, Name};
+use super::Canvas;
+use crate::picture::items::Caption;
 use crate::picture::role::Role;
 use crate::scene::Point;
 use crate::view::dots::Covering;
@@ -20,14 +21,14 @@ const NEAR: i32 = 2;
 
 impl Canvas<'_> {
     /// Writes names beside their curves, each where the others are far away.
-    pub fn names(&mut self, names: &[Name]) {
-        let cells = |name: &Name| {
-            let cells = name.points.iter().map(|point| self.cell(*point)).collect::<Vec<_>>();
-            cells.into_iter().flatten().collect::<Vec<_>>()
+    pub fn names(&mut self, names: &[&Caption]) {
+        let cells = |name: &&Caption| {
+            let points = std::iter::once(&name.at).chain(&name.or_at);
+            points.filter_map(|point| self.cell(*point)).collect::<Vec<_>>()
         };
         let all: Vec<_> = names.iter().map(cells).collect();
         for (name, own) in names.iter().zip(&all) {
-            let others = names.iter().zip(&all).filter(|(other, _)| other.text != name.text);
+            let others = names.iter().zip(&all).filter(|(other, _)| other.short != name.short);
             let others: Vec<_> = others.flat_map(|(_, cells)| cells).collect();
             // A column is half as wide as a row is high.
             let distance = |(x, y): &(i32, i32)| {
@@ -49,10 +50,11 @@ impl Canvas<'_> {
                 (&clear, Covering::Curve),
                 (&near, Covering::Curve),
             ];
-            let mut tries = tries.into_iter().take(if name.only_free { 3 } else { 5 });
-            let found = tries.find_map(|(cells, over)| self.free(cells, name.text, over));
+            // What a figure tells in its legend hides no curve.
+            let mut tries = tries.into_iter().take(if name.long.is_empty() { 3 } else { 5 });
+            let found = tries.find_map(|(cells, over)| self.free(cells, &name.short, over));
             if let Some((column, row)) = found {
-                self.letters(column, row, name.text, name.role);
+                self.letters(column, row, &name.short, name.role);
             }
         }
     }
@@ -68,18 +70,12 @@ impl Canvas<'_> {
     /// curves, but no other text and no mark. Where there is not even that, or the point is not in the window, it is left out.
     pub fn caption(&mut self, point: Point, texts: &[&str], role: Role) {
         let cells: Vec<_> = self.cell(point).into_iter().collect();
-        self.place_text(&cells, texts, role);
-    }
-
-    fn place_text(&mut self, cells: &[(i32, i32)], texts: &[&str], role: Role) {
-        let candidates = || {
-            texts
-                .iter()
-                .flat_map(|text| FREE.map(|over| (over, text)))
-                .chain(texts.last().map(|text| (Covering::Curve, text)))
-        };
+        let mut candidates = texts
+            .iter()
+            .flat_map(|text| FREE.map(|over| (over, text)))
+            .chain(texts.last().map(|text| (Covering::Curve, text)));
         let found =
-            candidates().find_map(|(over, text)| Some((self.free(cells, text, over)?, text)));
+            candidates.find_map(|(over, text)| Some((self.free(&cells, text, over)?, text)));
         if let Some(((column, row), text)) = found {
             self.letters(column, row, text, role);
         }
@@ -151,7 +147,6 @@ impl Canvas<'_> {
         }
     }
 
-    /// Draws the cross of the cursor.
     pub fn cross(&mut self, point: Point) {
         let [centre, level, upright] = self.look.symbols().cross;
         let Some((column, row)) = self.dots.cell_at(self.place(point)) else { return };

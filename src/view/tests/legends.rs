@@ -3,6 +3,7 @@
 use super::by_hand::settle;
 use super::pictures::{answered, computed};
 use super::{braille, draw, settled};
+use crate::picture;
 use crate::picture::legend::{LegendEntry, entries};
 use crate::scene::LAYERS;
 use crate::scene::library::library;
@@ -16,8 +17,7 @@ use crate::view::screen::text;
 fn alike(session: &Session) -> Vec<[String; 2]> {
     let look = Look::new(Wishes { colors: Colors::Never, ..braille() });
     let appearance = |entry: &LegendEntry| (entry.sample, look.style(entry.role).add_modifier);
-    let pictures = (0..session.plots.len()).map(|index| crate::picture::of(session, index));
-    let entries = entries(&pictures.collect::<Vec<_>>());
+    let entries = entries(&picture::all(session));
     assert!(entries.len() > 1, "{}", session.scene.name);
     let mut alike = Vec::new();
     for (index, entry) in entries.iter().enumerate() {
@@ -75,8 +75,7 @@ fn a_legend_without_room_says_how_much_it_leaves_out() {
     let mut session = settled("fig04", 80, 24, "");
     session.layers = LAYERS.iter().map(|row| row.layer).collect();
     settle(&mut session);
-    let pictures = (0..session.plots.len()).map(|index| crate::picture::of(&session, index));
-    let entries = entries(&pictures.collect::<Vec<_>>());
+    let entries = entries(&picture::all(&session));
     let screen = text(&draw(&session, braille()));
     let line = screen.lines().find(|line| line.trim_end().ends_with(" more"));
     let line = line.unwrap_or_else(|| panic!("{screen}"));

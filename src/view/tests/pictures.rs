@@ -3,8 +3,10 @@
 use super::by_hand::{press, settle};
 use super::{braille, draw, letters, settled};
 use crate::flow::Limits;
+use crate::numerics::count::real;
 use crate::oscillator::Symbol;
-use crate::picture::items::{Item, LineStyle};
+use crate::picture;
+use crate::picture::items::{Caption, Item, LineStyle};
 use crate::picture::role::{Dash, Mark, Role};
 use crate::question::answer;
 use crate::scene::library::{find, library};
@@ -33,7 +35,7 @@ pub(super) fn answered(session: &mut Session) {
 
 /// The heights of what is called rest at a value of the parameter of a diagram, with its line.
 fn rests(session: &Session, index: usize, at: f64) -> Vec<(LineStyle, f64)> {
-    let picture = crate::picture::of(session, index);
+    let picture = picture::of(session, index);
     let heights = picture.items.iter().filter_map(|item| match item {
         Item::Graph(line, value) if line.name.starts_with("rest") => {
             Some((line.clone(), value(at)?))
@@ -96,10 +98,9 @@ fn rest_is_in_every_bifurcation_diagram() {
 #[test]
 fn an_h_stands_only_where_a_hopf_point_is() {
     let letters_h = |session: &Session| -> Vec<Point> {
-        let pictures = (0..session.plots.len()).map(|index| crate::picture::of(session, index));
-        let captions = pictures.flat_map(|picture| {
+        let captions = picture::all(session).into_iter().flat_map(|picture| {
             let h = |item: &Item| match item {
-                Item::Caption { at, short, .. } if short == "H" => Some(*at),
+                Item::Caption(Caption { at, short, .. }) if short == "H" => Some(*at),
                 _ => None,
             };
             picture.items.iter().filter_map(h).collect::<Vec<_>>()
@@ -193,31 +194,25 @@ fn what_is_drawn_in_red_and_green_is_a_cycle_or_the_edge_of_a_basin() {
         let mut session = settled(&scene.name, 120, 40, "");
         session.layers = crate::scene::LAYERS.iter().map(|row| row.layer).collect();
         settle(&mut session);
-        for index in 0..session.plots.len() {
-            let picture = crate::picture::of(&session, index);
-            for item in &picture.items {
-                let (role, name) = match item {
-                    Item::Curve(line, _)
-                    | Item::Path(line, _)
-                    | Item::Graph(line, _)
-                    | Item::Upright(line, _)
-                    | Item::Bar(line, ..)
-                    | Item::Shade(line, _)
-                    | Item::Beyond(line, _)
-                    | Item::Columns(line, ..)
-                    | Item::Rows(line, ..) => (line.role, line.name.to_string()),
-                    Item::Arrows(role, _) => (*role, "direction of flow".to_owned()),
-                    Item::Marks(marks) => (marks.role, marks.name.to_string()),
-                    Item::Texture(_) | Item::Caption { .. } | Item::Cross(_) => continue,
-                };
-                if matches!(role, Role::Stable | Role::Unstable) {
-                    assert!(
-                        names.iter().any(|known| name.contains(known)),
-                        "{}: {name}",
-                        scene.name
-                    );
-                    looked += 1;
-                }
+        for item in picture::all(&session).iter().flat_map(|picture| &picture.items) {
+            let (role, name) = match item {
+                Item::Curve(line, _)
+                | Item::Path(line, _)
+                | Item::Graph(line, _)
+                | Item::Upright(line, _)
+                | Item::Bar(line, ..)
+                | Item::Shade(line, _)
+                | Item::Beyond(line, _)
+                | Item::Columns(line, ..)
+                | Item::Rows(line, ..) => (line.role, line.name.to_string()),
+                Item::Arrows(role, _) => (*role, "direction of flow".to_owned()),
+                Item::Marks(marks) => (marks.role, marks.name.to_string()),
+                Item::Texture(_) | Item::Caption(_) => continue,
+            };
+            if matches!(role, Role::Stable | Role::Unstable) {
+                let named = names.iter().any(|known| name.contains(known));
+                assert!(named, "{}: {name}", scene.name);
+                looked += 1;
             }
         }
     }
@@ -236,7 +231,7 @@ fn both_sides_of_the_unstable_cycle_stand_in_one_picture() {
             update(&mut session, Msg::answered(request, result, 0.0));
         }
     }
-    let picture = crate::picture::of(&session, 0);
+    let picture = picture::of(&session, 0);
     let mut motions = Vec::new();
     let mut numbers = Vec::new();
     let mut rests = Vec::new();
@@ -245,7 +240,7 @@ fn both_sides_of_the_unstable_cycle_stand_in_one_picture() {
             Item::Curve(line, points) if line.name.starts_with("motion ") => {
                 motions.push((line.name.to_string(), line.role, line.dash, points[0]));
             }
-            Item::Caption { long, at, .. } if long.parse::<usize>().is_ok() => {
+            Item::Caption(Caption { long, at, .. }) if long.parse::<usize>().is_ok() => {
                 numbers.push((long.to_string(), *at));
             }
             Item::Marks(marks) if marks.mark == Mark::Rest => rests.push(marks.role),
@@ -278,8 +273,7 @@ fn the_ledger_has_room_for_the_works_of_each_motion() {
     for key in ["i", "o", "d", "u", "c"] {
         press(&mut session, key);
         lines.push(session.ledger().len());
-        #[expect(clippy::cast_precision_loss, reason = "a few dozen lines")]
-        let count = session.ledger().len() as f64;
+        let count = real(session.ledger().len());
         assert_eq!(session.plots[0].window.y.width(), count, "{key}");
     }
     assert!(lines[0] < lines[1] && lines[1] > lines[2] && lines[2] > lines[4], "{lines:?}");

@@ -1,0 +1,13 @@
+//! Counts as real numbers, and back.
+
+/// A count as a double: exact below `2^53`, which no count here reaches.
+#[expect(clippy::cast_precision_loss, reason = "counts are below 2^53")]
+pub const fn real(count: usize) -> f64 {
+    count as f64
+}
+
+/// The whole part of a number; 0 for what is negative or NaN.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
+pub fn whole(number: f64) -> usize {
+    number as usize
+}
