@@ -104,7 +104,8 @@ impl std::error::Error for Lost {}
 /// The cycle of `count` harmonics (at least 1, at most [`MOST`]) that begins at a first-order answer.
 ///
 /// One harmonic is the first-order answer itself. Guarantee: the Galerkin equations hold to rounding;
-/// how far the cycle is from the true one is another question, which `study::harmonic_error` answers.
+/// how far the cycle is from the true one is another question, which `study::harmonic_error` answers. The
+/// mirrored oscillator has the mirrored cycle, to the last bit.
 ///
 /// # Errors
 /// [`Lost`] says why there is none.
@@ -114,8 +115,15 @@ pub fn harmonic_cycle(
     count: usize,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<HarmonicCycle, Lost> {
-    let branch = Followed::new(parameters, first, interrupted);
-    branch.cycle(count.clamp(1, MOST))
+    // Where N is too small for the cycle, rounding decides between branches: only one of the mirror images is computed.
+    let mirrored = parameters.d2 < 0.0;
+    let (parameters, first) = if mirrored {
+        (parameters.mirrored(), Harmonic { mean: -first.mean, ..*first })
+    } else {
+        (*parameters, *first)
+    };
+    let cycle = Followed::new(&parameters, &first, interrupted).cycle(count.clamp(1, MOST))?;
+    Ok(if mirrored { cycle.mirrored() } else { cycle })
 }
 
 /// The branch of solutions that begins at one first-order answer, in units of a power of two that makes
@@ -297,6 +305,21 @@ impl HarmonicCycle {
     /// Half of what lies between the turning points.
     pub fn amplitude(&self) -> f64 {
         0.5 * (self.q_max - self.q_min)
+    }
+
+    /// The cycle with the opposite displacement, half a turn later, where its phase is again that of the paper.
+    fn mirrored(mut self) -> Self {
+        for even in self.displacement.coefficients.iter_mut().step_by(2) {
+            *even = -*even;
+        }
+        HarmonicCycle {
+            q_min: -self.q_max,
+            q_max: -self.q_min,
+            v_min: -self.v_max,
+            v_max: -self.v_min,
+            mean: -self.mean,
+            ..self
+        }
     }
 
     /// The closed curve in the phase plane, with `points` points evenly spaced in time and the first one
