@@ -1,18 +1,18 @@
-//! Answers as they come back from the worker.
+//! Answers as the worker returns them.
 
 use super::request::{Answer, Request};
 use crate::flow::Reason;
 
-/// An answer with its question and its price, as it comes back from the worker.
+/// An answer with its question and its computing time, as the worker returns it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answered {
     /// The question.
     pub request: Request,
     /// The answer, or why there is none.
     pub result: Result<Answer, Failure>,
-    /// Wall-clock seconds that it took so far.
+    /// Wall-clock seconds taken so far.
     pub seconds: f64,
-    /// Whether this is all; a long question is answered in pieces.
+    /// Whether the answer is final; a long question is answered in pieces.
     pub complete: bool,
 }
 
@@ -21,7 +21,7 @@ pub struct Answered {
 pub enum Failure {
     /// The computation gave up.
     Reason(Reason),
-    /// The computation panicked, with this message; a defect of the program.
+    /// The computation panicked with this message: a defect of the program.
     Panic(String),
 }
 

@@ -1,4 +1,4 @@
-//! The cycles of N harmonics, beside the true ones.
+//! The cycles found by harmonic balance with N harmonics, beside the true ones.
 
 use super::kind::{Question, numbers};
 use super::means::Means;

@@ -10,13 +10,13 @@ use crate::study::branch::{Points, branch};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The parameters; the one that varies is set to 0 so that stepping it changes nothing here.
+    /// The parameters; the one that varies is set to 0, so that stepping it leaves the request unchanged.
     pub parameters: Parameters,
     /// The parameter that varies.
     pub parameter: Symbol,
-    /// From and to.
+    /// Ends of the range of that parameter.
     pub range: (f64, f64),
-    /// Relative error wanted.
+    /// Requested relative error.
     pub tolerance: f64,
 }
 

@@ -9,18 +9,18 @@ use crate::study::capture::bands;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     pub parameters: Parameters,
-    /// Clearance up to which borders are followed.
+    /// Largest clearance to which borders are followed.
     pub reach: f64,
-    /// Bands at most.
+    /// Maximum number of bands.
     pub most: usize,
 }
 
-/// The borders between bands of capture, to be drawn.
+/// The borders between bands of capture, as curves to draw.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Borders {
-    /// In each half plane, innermost first.
+    /// The curves of `v > 0` and then those of `v < 0`, innermost first in each.
     pub curves: Vec<Vec<State>>,
-    /// What they cost.
+    /// Cost of computing them.
     pub cost: Cost,
 }
 

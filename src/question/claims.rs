@@ -1,4 +1,4 @@
-//! The claims of the paper against computation.
+//! The claims of the paper, checked by computation.
 
 use super::kind::Question;
 use super::means::Means;

@@ -1,4 +1,4 @@
-//! All cycles at some parameters, with their curves and the basin's edge.
+//! All cycles at given parameters, with their curves and the edge of the basin.
 
 use super::kind::{Question, numbers};
 use super::means::Means;

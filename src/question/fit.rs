@@ -1,4 +1,4 @@
-//! A recorded motion on show: the record, and what a fit makes of it.
+//! A recorded motion on show: the record and its fit.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -20,17 +20,17 @@ use crate::fit::{
 use crate::flow::{Limits, Problem, Reason};
 use crate::oscillator::{State, Symbol};
 
-/// Draws for the distribution of the margin: fewer than on the command line, to be there soon.
+/// Draws for the distribution of the margin: fewer than on the command line, so that it appears quickly.
 const DRAWN: usize = 100;
 
-/// What was opened.
+/// A record as it was opened, with the choices for its fit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Opened {
     /// The name of the file.
     pub name: String,
-    /// What was read.
+    /// The measurements.
     pub record: Record,
-    /// Mass or stiffness, if it is known; the record names its unit of length then.
+    /// Mass or stiffness, if known; the record then names its unit of length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia: Option<Inertia>,
     /// Whether the rows are successive turning points.
@@ -39,12 +39,12 @@ pub struct Opened {
     /// What is estimated and what is held.
     #[serde(default)]
     pub choice: Choice,
-    /// How residuals count.
+    /// Loss function of the residuals.
     #[serde(default)]
     pub loss: LossName,
 }
 
-/// A record that was opened. Copies share it, and are equal at once.
+/// An opened record. Copies share their data, so that comparing them is immediate.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(from = "Opened", into = "Opened")]
 pub struct Recording(Arc<Opened>);
@@ -91,11 +91,11 @@ impl super::kind::Question for Asked {
 /// A point of the record in the units of the oscillator: time in `1/omega0`, lengths in the record's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
-    /// When, from the release, or from the first sample.
+    /// Time since the release, or since the first sample.
     pub tau: f64,
     /// Displacement from the offset, as measured.
     pub q: f64,
-    /// Velocity over omega0, by the fit.
+    /// Velocity divided by omega0, from the fit.
     pub v: f64,
 }
 
@@ -104,15 +104,16 @@ pub struct Measured {
 pub struct Fitted {
     /// What was estimated, the distribution of the margin, and the curves of the pictures.
     pub fit: fit::Fitted,
-    /// What was measured; lists of peaks have no velocities but zero.
+    /// The measured points; their velocities are zero in a list of peaks.
     pub points: Vec<Measured>,
-    /// By how much chi-squared is larger than without what is held.
+    /// Increase of chi-squared caused by the held numbers.
     pub rise: f64,
-    /// Whether the distribution of the margin is that with what is held.
+    /// Whether the distribution of the margin takes the held numbers into account.
     pub drawn: bool,
 }
 
-/// A fitted record, or why it could not be fitted; the same fit is equal at once.
+/// A fitted record, or why it could not be fitted. Copies of one fit compare equal without looking at their
+/// contents.
 #[derive(Clone, Debug)]
 pub struct Fit(Arc<Result<Fitted, Unfit>>);
 
@@ -129,7 +130,7 @@ impl From<Unfit> for Fit {
 }
 
 impl Fit {
-    /// Fits a record, and tells how many motions it has computed so far. Fails with [`Reason::Interrupted`].
+    /// Fits a record, and reports the number of motions computed so far. Fails with [`Reason::Interrupted`].
     pub fn of(
         recording: &Recording,
         limits: &Limits,
@@ -153,8 +154,8 @@ impl Fit {
         Ok(Fit::with(named, estimate, (margins, true), metric(recording), 0.0))
     }
 
-    /// The same with D, D2, D3 and r held where they have values; unless it is to be `drawn`, too, the distribution of
-    /// the margin stays that without. Fails with [`Reason::Interrupted`].
+    /// The fit with those of D, D2, D3 and r held that have a value. Unless `drawn`, the distribution of the
+    /// margin remains that of this fit. Fails with [`Reason::Interrupted`].
     pub fn held(
         &self,
         values: [Option<f64>; 4],
@@ -196,18 +197,18 @@ impl Fit {
         Fit(Arc::new(Ok(Fitted { fit, points, rise, drawn })))
     }
 
-    /// What was found, or why there is nothing. Fails with the [`Unfit`] of the record.
+    /// The fit. Fails with the [`Unfit`] of the record.
     pub fn found(&self) -> Result<&Fitted, &Unfit> {
         self.0.as_ref().as_ref()
     }
 }
 
-/// Mass or stiffness with the metres in the record's unit of length.
+/// Mass or stiffness, and the record's unit of length in metres.
 fn metric(recording: &Recording) -> Option<(Inertia, f64)> {
     recording.inertia.zip(length_in_metres(recording.record.unit.as_deref()?))
 }
 
-/// The record around the fitted motion.
+/// The measured points, relative to the fitted motion.
 fn points(estimate: &Estimate) -> Vec<Measured> {
     let p = &estimate.p;
     let (t, x) = match &estimate.data {
@@ -224,7 +225,7 @@ fn points(estimate: &Estimate) -> Vec<Measured> {
         linear: false,
         reach: estimate.reach,
     };
-    // By omega0 a displacement changes with its velocity times the time that has passed.
+    // The derivative of a displacement by omega0 is v times the time since the origin.
     let seen = match &estimate.data {
         Data::Samples { .. } => observation.compare(p, true).unwrap_or_default().residuals,
         Data::Peaks { .. } => Vec::new(),
@@ -241,7 +242,7 @@ fn points(estimate: &Estimate) -> Vec<Measured> {
     t.iter().zip(x).enumerate().map(point).collect()
 }
 
-/// The unknown that a parameter of the oscillator is.
+/// Index of a parameter of the oscillator among the unknowns of the fit.
 fn place(symbol: Symbol) -> Option<usize> {
     Some(match symbol {
         Symbol::D => D,
@@ -254,7 +255,7 @@ fn place(symbol: Symbol) -> Option<usize> {
 }
 
 impl Fitted {
-    /// The fitted motion.
+    /// The fitted motion; the method and whatever else the fit does not determine are those of `before`.
     pub fn problem(&self, before: Problem) -> Problem {
         let p = &self.fit.estimate.p;
         let v = if self.fit.estimate.start == StartKind::Moving { p[LAST] } else { 0.0 };
@@ -267,12 +268,12 @@ impl Fitted {
         }
     }
 
-    /// Whether a number is held, by hand or since the record was opened.
+    /// Whether a number is held, by hand or by the choice with which the record was opened.
     pub fn holds(&self, symbol: Symbol) -> bool {
         place(symbol).is_some_and(|place| !self.fit.estimate.free[place])
     }
 
-    /// The unknown that a number is, with its standard error; `None` where it was not estimated.
+    /// Standard error of a number; `None` where it was not estimated.
     pub fn error(&self, symbol: Symbol) -> Option<f64> {
         let place = if symbol == Symbol::V0 && self.fit.estimate.start == StartKind::Moving {
             LAST

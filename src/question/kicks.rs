@@ -15,12 +15,12 @@ pub struct Asked {
     pub kicks: RandomKick,
 }
 
-/// The fraction of the kicks that leads out of the basin of the sticking set.
+/// The fraction of the kicks that lead out of the basin of the sticking set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LostShare {
-    /// The part and its error.
+    /// The fraction and its error.
     pub share: Share,
-    /// What the basin cost.
+    /// Cost of computing the basin.
     pub cost: Cost,
 }
 

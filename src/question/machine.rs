@@ -11,7 +11,7 @@ use crate::oscillator::Belt;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     pub belt: Arc<Belt>,
-    /// Start, end time and tolerance; the parameters are those of the cubic expansion.
+    /// Start, end time and tolerance; its parameters are those of the cubic expansion.
     pub problem: Problem,
 }
 

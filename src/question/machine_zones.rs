@@ -1,4 +1,4 @@
-//! What is safe and what is lost for certain of a machine, by the whole model.
+//! Starts of a machine that are certainly safe or certainly lost, by the whole model.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::oscillator::Belt;
 pub struct Asked {
     /// The machine.
     pub belt: Arc<Belt>,
-    /// Its tolerances, and the disturbance.
+    /// Tolerances of its numbers, and the bound on the disturbance.
     pub tolerances: Tolerances,
 }
 

@@ -1,12 +1,12 @@
-//! What a question is answered with.
+//! The means by which a question is answered.
 
 use crate::flow::{Cost, Limits, Reason};
 use crate::study::scan::{Scan, ScanRow};
 
-/// Rows of a scan that follow each other.
+/// Consecutive rows of a scan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rows {
-    /// Number of the first one's point.
+    /// Index of the first row's point.
     pub first: usize,
     pub rows: Vec<ScanRow>,
 }
@@ -19,14 +19,14 @@ impl Rows {
     }
 }
 
-/// What a question is answered with.
+/// The means by which a question is answered.
 #[derive(Clone, Copy)]
 pub struct Means<'a> {
-    /// How many points curves get.
+    /// Number of points on curves.
     pub fineness: Fineness,
     /// When to stop.
     pub limits: &'a Limits<'a>,
-    /// Computes the rows of a scan from a point on.
+    /// Computes rows of a scan, beginning with the point of this index.
     pub rows: &'a dyn Fn(&Scan, usize) -> Result<Rows, Reason>,
 }
 
@@ -36,14 +36,14 @@ impl std::fmt::Debug for Means<'_> {
     }
 }
 
-/// How many points curves have.
+/// Number of points on each kind of curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fineness {
     /// On each integration step of a trajectory.
     pub(super) samples_per_step: usize,
     /// On each integration step of a cycle or a border.
     pub(super) points_per_step: u16,
-    /// On the curve of a harmonic answer.
+    /// On the curve of a harmonic balance.
     pub(super) harmonic: usize,
     /// On a piece of a branch.
     pub(super) branch: usize,
@@ -54,7 +54,7 @@ pub struct Fineness {
 }
 
 impl Fineness {
-    /// As many as the dots of a terminal can show.
+    /// As many points as the dots of a terminal can show.
     pub const SCREEN: Fineness = Fineness {
         samples_per_step: 16,
         points_per_step: 12,
@@ -64,8 +64,8 @@ impl Fineness {
         chord: f64::INFINITY,
     };
 
-    /// As many as print can show: chords miss their curves by less than a twentieth of a pixel of a
-    /// figure.
+    /// As many points as print can show: chords deviate from their curves by less than a twentieth of a pixel
+    /// of a figure.
     pub const PRINT: Fineness = Fineness {
         samples_per_step: 64,
         points_per_step: 64,
@@ -75,7 +75,7 @@ impl Fineness {
         chord: 1e-4,
     };
 
-    /// More points on each curve, to look at it more closely.
+    /// `times` as many points on each curve, for a closer look.
     pub fn finer(self, times: u16) -> Fineness {
         let several = usize::from(times);
         Fineness {

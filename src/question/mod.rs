@@ -1,16 +1,16 @@
 //! Questions that the screen asks, and their answers.
 //!
-//! Each kind of question has a file: what it asks, how that is answered, by which rougher question first, and
-//! what makes two alike. The table here names them all; [`request`] makes of it what a request, a topic and an
-//! answer are, and is the one place where a question becomes a computation.
+//! Each kind of question has a file with its inputs, its answer, its draft (a rougher question that is answered
+//! first) and its measure of likeness. The table below lists them all; [`request`] derives the types of
+//! requests, topics and answers from it, and is the only place where a question becomes a computation.
 
-/// The table of questions by topic, the most urgent topic first: the file of what is asked, the name of the topic
-/// on the screen, and what the answer cost. Where a machine is asked about by another file, that follows, with what
-/// its answer becomes.
+/// The table of questions by topic, the most urgent topic first: the module of the question, the name of the
+/// topic on the screen, and the cost of an answer. If a machine has a question in a module of its own, that
+/// follows, with the function that wraps its answer.
 macro_rules! questions {
     ($make:ident) => {
         $make! {
-            /// The oscillator that a record is of, and the margin that follows.
+            /// The fit of the oscillator to a record, and the margin that follows.
             Fit(fit) "fit" costs |_| Cost::default();
             /// The same with some numbers held.
             Refit(refit) "refit" costs |_| Cost::default();
@@ -20,31 +20,31 @@ macro_rules! questions {
             /// All cycles, and the border of the basin.
             Cycles(cycles) "cycles" costs |found| found.cost,
                 or Portrait(portrait) answered by Whole::cycles;
-            /// What is safe and what is lost for certain.
+            /// Starts that are certainly safe or certainly lost.
             Zones(zones) "certainty" costs |found| found.cost,
                 or MachineZones(machine_zones) answered by Answer::Zones;
-            /// What fraction of random kicks is lost.
+            /// The fraction of random kicks that is lost.
             Kicks(kicks) "kicks" costs |found| found.cost;
             /// The borders of the bands of capture.
             Capture(capture) "bands" costs |found| found.cost;
             /// The cycles along a parameter.
             Branch(branch) "branch" costs |found| found.cost;
-            /// The cycles of N harmonics.
+            /// The cycles by N harmonics.
             Balance(balance) "harmonics" costs |found| found.cost;
-            /// From turning points to the next ones.
+            /// The return map.
             ReturnMap(return_map) "return map" costs |found| found.cost;
-            /// What becomes of kicks, over two parameters.
+            /// The fate of kicks over two parameters.
             Regimes(regimes) "regimes" costs |found| found.cost;
             /// The cycles of a machine over the speed of its belt.
             Speeds(speeds) "speeds" costs |found| found.cost;
-            /// What accuracy costs.
+            /// Accuracy against cost of every method.
             Trade(trade) "trade" costs |found| found.cost();
-            /// The rows of a scan that are not there yet.
+            /// The rows of a scan that are still missing.
             Scan(scan) "scan" costs |found| found.cost();
             Claims(claims) "paper" costs |_| Cost::default();
-            /// How many cycles there are for certain.
+            /// A proof of the number of cycles.
             Proof(proof) "proof" costs |_| Cost::default();
-            /// What errors are measured against: wanted last of all.
+            /// The reference against which errors are measured; the least urgent.
             Reference(reference) "reference" costs |found|
                 found.as_ref().map_or_else(|_| Cost::default(), |found| found.cost);
         }

@@ -6,14 +6,14 @@ use crate::flow::quality::DRAFT;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Method, Problem, Reason, Trajectory};
 
-/// What is asked: the motion itself.
+/// The question is the motion itself.
 pub use crate::flow::Problem as Asked;
 
 impl Question for Problem {
     type Found = Trajectory;
 
     fn answer(&self, means: &Means) -> Result<Trajectory, Reason> {
-        // Without friction nothing happens at v = 0, so that it is not looked for.
+        // Without friction, nothing happens at v = 0, so crossings are not located.
         let crossings = self.parameters.r > 0.0;
         let samples_per_step = means.fineness.samples_per_step;
         let detail = Detail { crossings, samples_per_step, energy: true };

@@ -15,7 +15,7 @@ pub struct Asked {
     pub belt: Arc<Belt>,
     /// Its cubic expansion.
     pub parameters: Parameters,
-    /// Whether the cycles of the expansion are to be drawn, and not those of the whole model.
+    /// Whether to draw the cycles of the expansion instead of those of the whole model.
     pub cubic: bool,
 }
 

@@ -1,4 +1,4 @@
-//! The proof of how many cycles there are. Nothing waits for it; the screen shows it once it is there.
+//! The proof of the number of cycles. Nothing waits for it; the screen shows it once it is there.
 
 use super::kind::{Question, numbers};
 use super::means::Means;
@@ -22,7 +22,7 @@ impl Question for Asked {
         numbers(&self.parameters, [0.0; 4])
     }
 
-    /// What is proved elsewhere proves nothing here.
+    /// A proof at other parameters proves nothing at these.
     fn compares(&self, _wanted: &Self) -> bool {
         false
     }

@@ -1,18 +1,18 @@
-//! The motion to more digits than any method gives: what its error is measured against.
+//! The motion to more digits than any method yields: the reference against which errors are measured.
 
 use super::kind::{Motion, Question, of_motion};
 use super::means::Means;
 use crate::flow::{Limits, Reason};
 use crate::study::accuracy::Reference;
 
-/// Evaluations that a reference may take in the explorer: beyond, the energy ledger must do.
+/// Maximum number of evaluations for a reference in the explorer; beyond it, the energy ledger must do.
 const REFERENCE: u64 = 4_000_000;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked(pub Motion);
 
 impl Question for Asked {
-    /// Why there is none, where it would take too long.
+    /// The error says why there is no reference, for example because it would take too long.
     type Found = Result<Box<Reference>, Reason>;
 
     fn answer(&self, Means { limits, .. }: &Means) -> Result<Self::Found, Reason> {

@@ -7,11 +7,11 @@ use crate::flow::Reason;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The fit of all numbers.
+    /// The fit with all numbers free.
     pub fit: Fit,
     /// Values at which D, D2, D3 and r are held.
     pub held: [Option<f64>; 4],
-    /// Whether the distribution of the margin is asked for, too: that takes longer than a frame.
+    /// Whether to draw the distribution of the margin as well, which takes longer than a frame.
     pub drawn: bool,
 }
 

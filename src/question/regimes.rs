@@ -1,4 +1,4 @@
-//! What becomes of kicks, over two parameters.
+//! The fate of kicks over two parameters.
 
 use super::kind::{Question, numbers};
 use super::means::Means;
@@ -6,25 +6,25 @@ use crate::flow::Reason;
 use crate::oscillator::Parameters;
 use crate::study::chart::{Chart, Plane, Resolution, chart};
 
-/// Lines of a chart of regimes, evenly spaced; boundaries between them are interpolated.
+/// Evenly spaced lines of a chart of regimes; boundaries are interpolated between them.
 const CHART_LINES: usize = 40;
 
-/// The same in a draft.
+/// Lines of a draft.
 const DRAFT_LINES: usize = 4;
 
 /// Relative error of clearances at the boundaries of a chart.
 const BOUNDARY_TOLERANCE: f64 = 1e-13;
 
-/// The same in a draft.
+/// Relative error of those clearances in a draft.
 const DRAFT_BOUNDARY_TOLERANCE: f64 = 1e-3;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The parameters; the two that vary are set to 0 so that stepping them changes nothing here.
+    /// The parameters; the two that vary are set to 0, so that stepping them leaves the request unchanged.
     pub parameters: Parameters,
-    /// The two that vary, and their ranges.
+    /// The two varied parameters and their ranges.
     pub plane: Plane,
-    /// Whether few lines are enough for now.
+    /// Whether a draft of few lines is enough.
     pub rough: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Requests, topics and answers: what the table of questions makes of each kind.
+//! Requests, topics and answers: types derived from the table of questions.
 
 use serde::{Serialize, Serializer};
 
@@ -9,32 +9,32 @@ use crate::flow::{Cost, Limits, Reason, Trajectory};
 use crate::study::Cycles;
 use crate::study::scan::Scan;
 
-/// Makes the types of the table of questions.
+/// Makes these types from the table of questions.
 macro_rules! types {
     ($(
         $(#[$doc:meta])* $topic:ident($module:ident) $name:literal costs |$found:pat_param| $cost:expr
         $(, or $request:ident($its:ident) answered by $answer:path)?;
     )*) => {
-        /// A question to the worker: exactly the inputs that a layer depends on, so that two equal requests have
-        /// the same answer.
+        /// A question to the worker: exactly the inputs on which a layer depends, so that equal requests have
+        /// equal answers.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Request {
             $($(#[$doc])* $topic(super::$module::Asked),
-            $(/// The same of a machine by the whole model.
+            $(/// The same question about a machine, by the whole model.
             $request(super::$its::Asked),)?)*
         }
 
-        /// What a request asks about.
+        /// The subject of a request.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Topic {
             $($(#[$doc])* $topic,)*
         }
 
-        /// What the worker found.
+        /// The answer of the worker.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Answer {
             $($(#[$doc])* $topic(<super::$module::Asked as Question>::Found),)*
-            /// By the whole model: a motion, or cycles.
+            /// A motion or cycles by the whole model.
             Whole(Box<Whole>),
         }
 
@@ -51,7 +51,7 @@ macro_rules! types {
         }
 
         impl Answer {
-            /// What the computation cost, counted.
+            /// Counted cost of the computation.
             pub fn cost(&self) -> Cost {
                 match self {
                     $(Answer::$topic($found) => $cost,)*
@@ -61,15 +61,15 @@ macro_rules! types {
         }
 
         impl Request {
-            /// What this asks about.
+            /// The subject of this request.
             pub fn topic(&self) -> Topic {
                 match self {
                     $(Request::$topic(_) $(| Request::$request(_))? => Topic::$topic,)*
                 }
             }
 
-            /// The same question, to be answered quickly and roughly first; `None` where it is rough
-            /// already, or where roughness saves nothing.
+            /// A rougher version of this request that is answered quickly and first; `None` where this one is
+            /// rough already, or where roughness saves nothing.
             pub fn draft(&self) -> Option<Request> {
                 match self {
                     $(Request::$topic(asked) => asked.draft().map(Request::$topic),
@@ -106,38 +106,38 @@ macro_rules! types {
 questions!(types);
 
 impl Serialize for Topic {
-    /// Its name.
+    /// Serializes as the name on the screen.
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
         out.serialize_str(self.name())
     }
 }
 
 impl Topic {
-    /// Whether it is asked of each variant that a plot shows.
+    /// Whether it is asked for each variant that a plot shows.
     pub fn is_of_variants(self) -> bool {
         matches!(self, Topic::Trajectory | Topic::Cycles | Topic::Branch)
     }
 }
 
-/// An answer by the whole model, with what the paper's oscillator has no place for.
+/// An answer by the whole model, with what has no counterpart in the paper's oscillator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Whole {
-    /// The motion or the cycles, as views draw them.
+    /// The motion or the cycles in the form that views draw.
     pub drawn: Answer,
-    /// What a motion becomes, and where it rides on the belt.
+    /// Fate of the motion, and where it rides on the belt.
     pub motion: Option<Course>,
-    /// What the cycles are like; `None` where the whole model has no answer and its expansion is drawn.
+    /// Properties of the cycles; `None` where the whole model has no answer and its expansion is drawn.
     pub cycles: Option<Kinds>,
 }
 
 impl Whole {
-    /// The answer to the question for a motion.
+    /// Wraps the answer to a question for a motion.
     fn motion((drawn, course): (Trajectory, Course)) -> Answer {
         let drawn = Answer::Trajectory(drawn);
         Answer::Whole(Box::new(Whole { drawn, motion: Some(course), cycles: None }))
     }
 
-    /// The answer to the question for cycles.
+    /// Wraps the answer to a question for cycles.
     fn cycles((drawn, cycles): (Cycles, Option<Kinds>)) -> Answer {
         let drawn = Answer::Cycles(drawn);
         Answer::Whole(Box::new(Whole { drawn, motion: None, cycles }))
@@ -145,25 +145,25 @@ impl Whole {
 }
 
 impl Request {
-    /// Whether it may take long and must not keep others waiting.
+    /// Whether it may take so long that it must not keep others waiting.
     pub fn is_long(&self) -> bool {
         matches!(self, Request::Scan(_) | Request::Proof(_) | Request::Fit(_))
     }
 
-    /// How alike this is to a question: how many of their numbers are equal. `None` where its answer must
-    /// not stand in for the wanted one, not even until that is there.
+    /// Likeness to the `wanted` request: how many of their numbers are equal. `None` where its answer must not
+    /// stand in for that one, not even until it arrives.
     pub fn likeness(&self, wanted: &Request) -> Option<usize> {
         let pairs = || self.numbers().into_iter().zip(wanted.numbers());
         self.compares(wanted).then(|| pairs().filter(|(mine, wanted)| mine == wanted).count())
     }
 }
 
-/// Answers a request for the screen, on this thread.
+/// Answers a request on this thread, with the fineness of the screen.
 pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
     answer_for(request, Fineness::SCREEN, limits)
 }
 
-/// The same with curves of another fineness.
+/// Answers a request on this thread, with curves of this fineness.
 pub fn answer_for(
     request: &Request,
     fineness: Fineness,

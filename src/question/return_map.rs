@@ -1,4 +1,4 @@
-//! From turning points to the next ones.
+//! The return map.
 
 use super::kind::{Question, numbers};
 use super::means::Means;
@@ -10,7 +10,7 @@ use crate::study::return_map::return_map;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     pub parameters: Parameters,
-    /// Displacements, from and to.
+    /// Smallest and largest displacement.
     pub range: (f64, f64),
 }
 

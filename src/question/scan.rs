@@ -1,4 +1,4 @@
-//! The rows of a scan that are not there yet.
+//! The rows of a scan that are still missing.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::study::scan::Scan;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     pub scan: Arc<Scan>,
-    /// Number of the first point wanted.
+    /// Index of the first point wanted.
     pub from: usize,
 }
 

@@ -18,11 +18,11 @@ use crate::oscillator::belt::Quantity;
 /// The cycles over the speed of the belt, and where they change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Speeds {
-    /// What was found at each speed that has an answer.
+    /// The results at all speeds that have an answer.
     pub points: Vec<SpeedPoint>,
-    /// The changes.
+    /// The speeds at which the cycles change.
     pub special: Vec<MachineSpecial>,
-    /// What the speeds took; the changes between them are not counted.
+    /// Cost of the speeds; locating the changes between them is not counted.
     pub cost: Cost,
 }
 
@@ -31,33 +31,34 @@ pub struct Speeds {
 pub struct SpeedPoint {
     /// Speed of the belt, in m/s.
     pub v0: f64,
-    /// The cycles, by amplitude.
+    /// The cycles, ordered by amplitude.
     pub cycles: Vec<MachineCycle>,
-    /// Largest displacement to the right from which the mass comes to rest, in m, where the motion that
-    /// touches the belt borders it.
+    /// Largest displacement to the right from which the mass comes to rest, in m; `None` unless the motion that
+    /// touches the belt's line is the border of the basin.
     pub touching: Option<f64>,
     /// Whether small motions come to rest.
     pub rests: bool,
 }
 
-/// Steps between the speeds of the belt that are looked at, beside those near changes; and speeds of a draft.
+/// Number of steps between evenly spaced speeds of the belt; further speeds are added near each change.
 const STEPS: u8 = 32;
+/// Number of speeds in a draft.
 const FEW: usize = 7;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// The machine; its own speed is put to 1 so that stepping it changes nothing here.
+    /// The machine; its own belt speed is set to 1, so that stepping it leaves the request unchanged.
     pub belt: Arc<Belt>,
-    /// From and to, in m/s; a speed without an answer is left out.
+    /// Smallest and largest speed, in m/s; a speed without an answer is left out.
     pub range: (f64, f64),
-    /// Whether few speeds are enough for now, and no changes between them.
+    /// Whether a draft of few speeds, without the changes between them, is enough.
     pub rough: bool,
 }
 
 const VARIED: Varied = Varied::Quantity(Quantity::BeltSpeed);
 
 impl Asked {
-    /// What the machine does at the speeds that are looked at, and the changes.
+    /// The machine at all speeds of this question, and the changes between them.
     fn followed(&self, go: &dyn Fn() -> bool) -> Result<MachineBranch, String> {
         let subject = Subject::from(self.belt.as_ref());
         if self.rough {
@@ -77,7 +78,7 @@ impl Asked {
     }
 }
 
-/// Speeds on both sides of a change, where cycles end and turn as steeply as a root.
+/// Speeds on both sides of a change, where cycles end and their curves turn as steeply as a square root.
 fn near(value: f64, step: f64) -> impl Iterator<Item = f64> {
     [0.5, 0.1, 0.02, 1e-4]
         .into_iter()

@@ -1,11 +1,11 @@
-//! What accuracy costs on a motion: every method over its tolerances.
+//! Accuracy against cost on a motion: every method over its tolerances.
 
 use super::kind::{Motion, Question, of_motion};
 use super::means::Means;
 use crate::flow::{Limits, Reason};
 use crate::study::trade::Trade;
 
-/// Evaluations that a row of the trade may take on the screen; the command line waits longer.
+/// Maximum number of evaluations for a row of the trade on the screen; the command line allows more.
 const ROW: u64 = 1_000_000;
 
 #[derive(Clone, Debug, PartialEq)]

@@ -1,5 +1,5 @@
-//! A machine by the whole model as it is drawn: in the units of the paper's oscillator, so that every view
-//! that draws a motion or cycles draws these as well.
+//! A machine by the whole model, drawn in the units of the paper's oscillator, so that every view that draws a
+//! motion or cycles draws these as well.
 
 use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
 use crate::flow::{Cost, Limits, Method, Problem, Reason};
@@ -13,10 +13,10 @@ use crate::oscillator::{Belt, Parameters, State};
 use crate::study::cycle::CycleErrors;
 use crate::study::{Cycle, Cycles, Edge, Margin, cycle};
 
-/// What a motion becomes.
+/// Fate and course of a machine's motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
-    /// What it ends as; a cycle by its place in [`Self::cycles`].
+    /// The fate; a cycle is given by its index in [`Self::cycles`].
     pub fate: MachineFate,
     /// The cycles of the machine, in SI units.
     pub cycles: Vec<crate::machine::MachineCycle>,
@@ -24,33 +24,33 @@ pub struct Course {
     pub border: &'static str,
     /// Whether the border touches the belt's line.
     pub touches: bool,
-    /// From where to where it rides on the belt.
+    /// First and last point of each stretch on which the mass rides on the belt.
     pub rides: Vec<[Sample; 2]>,
-    /// Where its energy comes from and goes, in the units of the paper's oscillator.
+    /// Sources and sinks of its energy, in the units of the paper's oscillator.
     pub ledger: MachineLedger,
 }
 
-/// What cycles are like.
+/// Properties of a machine's cycles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kinds {
     /// The cycles by the whole model, in SI units.
     pub cycles: Vec<crate::machine::MachineCycle>,
-    /// Where the energy of one turn of each comes from and goes, in the units of the paper's oscillator.
+    /// Sources and sinks of the energy over one turn of each cycle, in the units of the paper's oscillator.
     pub works: Vec<MachineLedger>,
     /// Name of the kind of border of the basin.
     pub border: &'static str,
-    /// Whether that touches the belt's line.
+    /// Whether the border touches the belt's line.
     pub touches: bool,
-    /// Kicks that are survived by the whole model and by the cubic expansion, without units; `None` where
-    /// every kick is, or where one of the two has no answer.
+    /// The kicks that are survived by the whole model and by the cubic expansion, without units; `None` where
+    /// every kick is survived, or where the model concerned has no answer.
     pub margins: [Option<Margin>; 2],
-    /// Whether all that slips is periodic.
+    /// Whether all slipping motions are periodic.
     pub neutral: bool,
-    /// Why motions further out are not known.
+    /// Why motions further out are unknown.
     pub stop: Option<Unfollowed>,
 }
 
-/// What 1 stands for, in SI units.
+/// Units of the drawing, in SI units.
 #[derive(Clone, Copy)]
 struct DrawingUnits {
     x: f64,
@@ -95,7 +95,7 @@ fn model(belt: &Belt) -> Result<Model, Reason> {
     })
 }
 
-/// The motion of a machine, with this many places between the ends of each step.
+/// The motion of a machine, with `between` points between the ends of each step.
 pub fn motion(
     belt: &Belt,
     problem: &Problem,
@@ -130,7 +130,7 @@ pub fn motion(
     Ok((trajectory(&drawn, problem, units), course))
 }
 
-/// A motion as it is drawn, by whichever method.
+/// A motion to be drawn, whichever method computed it.
 struct Drawn {
     method: Method,
     legs: Vec<motion::Leg>,
@@ -141,7 +141,7 @@ struct Drawn {
 }
 
 impl Drawn {
-    /// By Taylor series, with this many places between the ends of each step.
+    /// By Taylor series, with `between` points between the ends of each step.
     fn series(found: &MachineMotion, between: u32) -> Self {
         Drawn {
             method: Method::Taylor,
@@ -153,7 +153,7 @@ impl Drawn {
         }
     }
 
-    /// By the steps of another method.
+    /// By another method, at its steps.
     fn stepped(found: Traced, way: SteppedMethod) -> Self {
         let Traced { legs, samples, outcome, evaluations, steps } = found;
         let end =
@@ -198,7 +198,7 @@ fn cost(steps: u64) -> Cost {
     Cost { evaluations: steps * crate::machine::ORDER as u64, steps, rejected: 0 }
 }
 
-/// Where a motion rides on the belt, whose speed is `v0`.
+/// The stretches on which a motion rides on the belt, whose speed is `v0`.
 fn rides(found: &Drawn, v0: f64, units: DrawingUnits) -> Vec<[Sample; 2]> {
     let ends = found.legs.iter().skip(1).map(|leg| (leg.t, leg.x));
     let ends = ends.chain([(found.end.t, found.end.x)]);
@@ -207,8 +207,8 @@ fn rides(found: &Drawn, v0: f64, units: DrawingUnits) -> Vec<[Sample; 2]> {
     legs.map(|(leg, (t, x))| [at(leg.t, leg.x), at(t, x)]).collect()
 }
 
-/// The cycles of a machine with their curves, this many points on each step, and the border of the basin;
-/// `cubic` draws those of the cubic expansion in their place.
+/// The cycles of a machine with their curves, `points` on each step, and the border of the basin; with `cubic`,
+/// those of the cubic expansion instead.
 pub fn portrait(
     belt: &Belt,
     parameters: &Parameters,
@@ -233,19 +233,19 @@ pub fn portrait(
     Ok((drawn, kinds))
 }
 
-/// The ledgers of its cycles.
+/// The energy ledgers of the cycles over one turn, in drawing units.
 fn works(found: &Portrait) -> Vec<MachineLedger> {
     let (mut flow, units) = (Flow::new(&found.model), DrawingUnits::of(&found.model));
     let ledger = |cycle| flow.works_around(cycle).unwrap_or_default();
     found.cycles.iter().map(ledger).map(|one| units.ledger(&one, &found.model)).collect()
 }
 
-/// The portrait of a machine.
+/// The portrait of a machine, or why there is none.
 pub fn found(belt: &Belt) -> Result<Portrait, Reason> {
     model(belt).and_then(|model| Portrait::new(&model).map_err(reason))
 }
 
-/// The kicks that a machine survives; `None` where every one is.
+/// The kicks that a machine survives, without units; `None` where it survives every kick.
 pub fn margin(found: &Portrait) -> Option<Margin> {
     let units = DrawingUnits::of(&found.model);
     found.margin.map(|margin| Margin {
@@ -254,7 +254,7 @@ pub fn margin(found: &Portrait) -> Option<Margin> {
     })
 }
 
-/// Kicks in m and N s, infinite where every one is survived, without units.
+/// Kicks given in m and N s, converted to numbers without units; infinite means that every kick is survived.
 pub fn margin_of(model: &Model, displacement: f64, impulse: f64) -> Margin {
     let units = DrawingUnits::of(model);
     let finite = |value: f64| Some(value).filter(|it| it.is_finite());
@@ -297,7 +297,7 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
     })
 }
 
-/// A closed curve as points.
+/// A closed curve as points, `points` + 1 on each piece that slips.
 pub(super) fn places(curve: &MachineCurve, model: &Model, points: u16) -> Vec<State> {
     let state = |x: f64, y: f64| State { q: x / model.pull, v: y / model.pull };
     let mut found = Vec::new();
@@ -317,7 +317,7 @@ pub(super) fn places(curve: &MachineCurve, model: &Model, points: u16) -> Vec<St
 }
 
 fn scaled(cycle: &crate::machine::MachineCycle, model: &Model, units: DrawingUnits) -> Cycle {
-    /// What all numbers of the reference machines keep, generously.
+    /// A generous bound on the error of all numbers of the reference machines.
     const ERROR: f64 = 1e-12;
     let clearance = (cycle.x.1 - model.guide) / units.x;
     Cycle {

@@ -1,5 +1,5 @@
-//! What is safe and what is lost for certain, whatever the parameters are within their intervals and whatever
-//! a bounded disturbance does: as the phase plane draws it and the pane tells it.
+//! Starts that are certainly safe or certainly lost, for all parameters within their intervals and all bounded
+//! disturbances, as the phase plane draws them and the pane states them.
 
 use super::kind::{Question, numbers};
 use super::means::Means;
@@ -15,7 +15,7 @@ use crate::study::guarantee::{guarantee, uncertain, zones};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
-    /// Where the parameters lie.
+    /// Intervals of the parameters.
     pub known: ParameterBox,
     /// Bound on the disturbance.
     pub disturbance: f64,
@@ -33,26 +33,26 @@ impl Question for Asked {
     }
 }
 
-/// A part of the phase plane around the sticking set.
+/// A region of the phase plane around the sticking set.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Extent {
-    /// None of it.
+    /// The empty region.
     Nothing,
-    /// What a curve does not separate from the origin.
+    /// The points that a curve does not separate from the origin.
     Within(Vec<State>),
     Everything,
 }
 
-/// What is certain.
+/// The zones, and the margins that go with them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Zones {
-    /// Starts that no motion leaves.
+    /// Starts from which every motion stays in this region.
     pub safe: Extent,
-    /// Starts outside of which nothing comes to rest; everything where that is not known.
+    /// Starts outside of this region certainly do not come to rest; everything where no such region is known.
     pub hopeful: Extent,
-    /// The margin without doubt and disturbance.
+    /// The margin at the nominal parameters without disturbance.
     pub nominal: Margin,
-    /// The margin that holds for certain, or why none does.
+    /// The guaranteed margin, or why there is none.
     pub guaranteed: Result<Margin, String>,
     pub cost: Cost,
 }
@@ -65,7 +65,7 @@ fn extent(basin: Option<&Basin>, otherwise: Extent, points: u16) -> Extent {
     }
 }
 
-/// The zones of an oscillator, with this many points on each step of a border. Fails with the [`Reason`] why a border
+/// The zones of an oscillator, with `points` on each step of a border. Fails with the [`Reason`] why a border
 /// could not be computed.
 fn of_oscillator(
     known: &ParameterBox,
