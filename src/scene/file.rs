@@ -1,4 +1,4 @@
-//! Scene files: TOML in, [`Scene`] out, or one line that names what is wrong and where.
+//! Scene files: reads TOML into a [`Scene`], or reports the first mistake and its place in one line.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,10 +19,10 @@ use crate::flow::{Method, Problem};
 use crate::oscillator::belt::Quantity;
 use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
 
-/// End times up to which motions are computed.
+/// Allowed end times of motions.
 pub const UNTIL_RANGE: (f64, f64) = (0.0, 1e9);
 
-/// The file as it stands on disk.
+/// The file as it is written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SceneFile {
@@ -32,7 +32,7 @@ struct SceneFile {
     press: String,
     terms: Option<BTreeSet<Symbol>>,
     machine: Option<Spanned<String>>,
-    /// Speed of the machine's belt in m/s, where it is not its own.
+    /// Speed of the machine's belt in m/s, where it differs from the machine's own.
     belt: Option<Spanned<f64>>,
     #[serde(default)]
     values: BTreeMap<Symbol, Spanned<f64>>,
@@ -51,7 +51,7 @@ struct SceneFile {
     plot: Vec<Spanned<PlotTable>>,
 }
 
-/// A plot: what it shows, over which axes, and which part of that.
+/// A plot: its view, its axes, and the part to show.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PlotTable {
@@ -71,7 +71,7 @@ fn auto() -> Method {
 }
 
 /// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages. Fails with
-/// [`Misread`] with the place and what is allowed there.
+/// [`Misread`], which names the place and what is allowed there.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, Misread> {
     let read: SceneFile = misread::toml(file, text)?;
     scene(name, read).map_err(|complaint| complaint.in_file(file, text))
@@ -118,14 +118,14 @@ fn scene(name: &str, read: SceneFile) -> Result<Scene, Complaint> {
     })
 }
 
-/// A scene that defines its parameters twice or not at all.
+/// The complaint about a scene with both terms and a machine, or with neither.
 fn either(given: &str) -> Complaint {
     let message =
         format!("a scene has {given}; it takes one of them: terms = [..] or machine = \"..\"");
     Complaint { at: 0..0, message }
 }
 
-/// The machine of the program with this name, its belt at a speed.
+/// The built-in machine with this name, with its belt at this speed.
 fn scaled(
     name: &Spanned<String>,
     speed: Option<&Spanned<f64>>,
@@ -146,7 +146,7 @@ fn scaled(
     ScaledMachine::new(machine).map(Box::new).map_err(|error| complain(error.to_string()))
 }
 
-/// The motion of a machine, to the accuracy that the file says.
+/// The motion of a machine, with the accuracy that the file sets.
 fn of_machine(scaled: &ScaledMachine, read: &SceneFile) -> Result<Problem, Complaint> {
     if let Some((symbol, given)) = read.values.iter().next() {
         let message = format!("{symbol} comes from the machine; leave its value out");
@@ -161,7 +161,8 @@ fn of_machine(scaled: &ScaledMachine, read: &SceneFile) -> Result<Problem, Compl
     })
 }
 
-/// A plot of a scene: axes only where there is a choice, a window in both directions or in none.
+/// A plot of a scene. Axes may be given only where the view leaves a choice; a window needs both directions or
+/// neither.
 fn plot_setup(
     read: &Spanned<PlotTable>,
     families: &mut Vec<Vec<Variant>>,
@@ -223,7 +224,7 @@ fn plot_setup(
     Ok(PlotSetup { view: *view, axes, window, family })
 }
 
-/// Values that a plot holds, each within the range of its parameter.
+/// The values that a plot holds, each checked against the range of its parameter.
 fn variant(read: &BTreeMap<Symbol, Spanned<f64>>) -> Result<Variant, Complaint> {
     let checked = |(symbol, value): (&Symbol, &Spanned<f64>)| {
         let refused =
@@ -234,7 +235,7 @@ fn variant(read: &BTreeMap<Symbol, Spanned<f64>>) -> Result<Variant, Complaint> 
     Ok(Variant { held: read.iter().map(checked).collect::<Result<_, _>>()? })
 }
 
-/// The motion of a scene: declared terms have the values of the file or of the table, others are zero.
+/// The motion of a scene: a declared term has its value from the file or its default, all others are zero.
 fn problem(read: &SceneFile, terms: &BTreeSet<Symbol>) -> Result<Problem, Complaint> {
     let mut parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
     let mut initial = State { q: 0.0, v: 0.0 };
@@ -266,7 +267,7 @@ fn problem(read: &SceneFile, terms: &BTreeSet<Symbol>) -> Result<Problem, Compla
     })
 }
 
-/// A number of the file, or its default.
+/// A number from the file, checked against its range, or its default.
 fn within(
     name: &str,
     given: Option<&Spanned<f64>>,

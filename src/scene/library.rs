@@ -1,11 +1,11 @@
-//! The scenes that come with the program, and how to find one by its name.
+//! The built-in scenes, and a search for one by its name.
 
 use std::sync::{Arc, LazyLock};
 
 use super::file::parse;
 use super::scene::Scene;
 
-/// The scene that opens where none is named.
+/// The scene that opens unless another is named.
 pub const PLAIN: &str = "plain";
 
 /// Name and text of a scene file.
@@ -62,7 +62,7 @@ pub enum Group {
 }
 
 impl Group {
-    /// The group of a scene of the program.
+    /// The group of a built-in scene.
     pub fn of(scene: &Scene) -> Self {
         match scene.machine {
             _ if scene.name.starts_with("fig") => Group::Figure,
@@ -81,7 +81,7 @@ impl Group {
     }
 }
 
-/// The scenes that come with the program, in the order in which they are listed.
+/// The built-in scenes, in the order in which they are listed.
 ///
 /// # Panics
 /// Never: a test reads every file.
@@ -96,7 +96,7 @@ pub fn library() -> &'static [Arc<Scene>] {
     &SCENES
 }
 
-/// Every name by which one of them is opened.
+/// All names by which a built-in scene can be opened.
 pub fn names() -> impl Iterator<Item = &'static str> {
     library().iter().flat_map(|scene| scene.names())
 }
@@ -106,10 +106,10 @@ pub fn plain() -> Arc<Scene> {
     Arc::clone(&library()[0])
 }
 
-/// How much two names must have in common to be suggested (0: nothing, 1: equal).
+/// Similarity above which a name is suggested (0: nothing in common, 1: equal).
 const ALIKE: f64 = 0.7;
 
-/// The scene with this name. Fails with one line with the names that look like it.
+/// The scene with this name. Fails with one line that suggests similar names.
 pub fn find(name: &str) -> Result<Arc<Scene>, String> {
     let known = library().iter().find(|scene| scene.names().any(|own| own == name));
     known.cloned().ok_or_else(|| {
@@ -150,7 +150,7 @@ mod tests {
             assert!(scene.press.contains('{'), "{name}: something to press");
             let sentences = whole(&scene.look).matches(". ").count() + 1;
             assert!((1..=5).contains(&sentences), "{name}: {sentences} sentences");
-            // What is on show is spoken of.
+            // The text mentions what each plot shows.
             let spoken: [(View, &[&str]); 7] = [
                 (
                     View::Phase,

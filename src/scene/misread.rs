@@ -1,4 +1,4 @@
-//! What is wrong in a file that people write, and where: one line, `file:line:column: message`.
+//! Mistakes in files that people write: one line, `file:line:column: message`.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use serde::de::DeserializeOwned;
 
-/// What is wrong in a file, and where.
+/// A mistake in a file, and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Misread {
     pub file: String,
@@ -27,8 +27,7 @@ impl fmt::Display for Misread {
 
 impl std::error::Error for Misread {}
 
-/// The same text with its control characters escaped: a message quotes the file, and a terminal must not
-/// interpret that.
+/// The text with its control characters escaped: messages quote files, and a terminal must not interpret them.
 pub fn printable(message: &str) -> Cow<'_, str> {
     if !message.contains(char::is_control) {
         return message.into();
@@ -39,7 +38,7 @@ pub fn printable(message: &str) -> Cow<'_, str> {
     written.collect::<String>().into()
 }
 
-/// A complaint about a part of a text, in bytes.
+/// A complaint about a part of a text, given as a range of bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Complaint {
     pub at: Range<usize>,
@@ -48,7 +47,7 @@ pub struct Complaint {
 }
 
 impl Complaint {
-    /// The complaint with the place at which its part of this text begins.
+    /// The complaint as a [`Misread`] at the line and column where its range begins.
     pub fn in_file(self, file: &str, text: &str) -> Misread {
         let before = text.get(..self.at.start).unwrap_or(text);
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
@@ -61,7 +60,8 @@ impl Complaint {
     }
 }
 
-/// Reads a TOML file. Fails with [`Misread`] with the first mistake, the message of the library as one line.
+/// Reads a TOML file. Fails with the first mistake as a [`Misread`]; the message of the library is joined into
+/// one line.
 pub fn toml<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, Misread> {
     toml::from_str(text).map_err(|error| {
         let lines = error.message().lines().map(str::trim).filter(|line| !line.is_empty());

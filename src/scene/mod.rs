@@ -1,4 +1,4 @@
-//! What is on show: a scene, and the layers it is drawn in with what they ask.
+//! Scenes: what is on show, the layers in which it is drawn, and the questions that these ask.
 
 pub mod file;
 pub mod library;

@@ -1,8 +1,8 @@
-//! What stands on the diagram's axes: a parameter to the right, a property of the cycles upwards.
+//! The axes of a diagram: a parameter to the right, a property of the cycles upwards.
 //!
-//! [`ORDINATES`] is the one table of properties. Each is read out of a computed cycle, so that another
-//! ordinate is another look at the same branch; most can be read out of the first-order harmonic answer
-//! too, and where they cannot its curves are not drawn.
+//! [`ORDINATES`] is the one table of properties. Each property is computed from the same cycles, so that a
+//! change of the ordinate needs no new branch. Most properties also follow from the first-order harmonic
+//! balance; for the others, its curves are not drawn.
 
 use std::f64::consts::{LN_10, TAU};
 
@@ -28,7 +28,7 @@ pub enum Ordinate {
     Multiplier,
 }
 
-/// What lengths on the ordinate of a diagram are measured in.
+/// The unit of lengths on the ordinate of a diagram.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
 )]
@@ -37,8 +37,8 @@ pub enum Unit {
     #[default]
     #[serde(rename = "1")]
     One,
-    /// The friction r, which is half the width of the sticking set: by the scaling symmetry, ratios to it
-    /// depend on r only through `r D2` and `r^2 D3`.
+    /// The friction r, half the width of the sticking set: by the scaling symmetry, lengths divided by r depend
+    /// on r only through `r D2` and `r^2 D3`.
     #[serde(rename = "r")]
     Friction,
 }
@@ -49,18 +49,18 @@ pub struct OrdinateSpec {
     pub ordinate: Ordinate,
     /// Its name in scene files.
     pub name: &'static str,
-    /// Its name at the axis.
+    /// Its label at the axis.
     pub label: &'static str,
-    /// Its name at the axis in units of r; `None` where it is not a length.
+    /// Its label at the axis in units of r; `None` where it is not a length.
     pub ratio: Option<&'static str>,
-    /// What it is, in a few words.
+    /// Explanation in a few words.
     pub meaning: &'static str,
-    /// Reads it out of a cycle.
+    /// Computes it for a cycle.
     pub read: fn(&Cycle) -> f64,
-    /// Reads it out of the first-order harmonic answer `q = A0 + A cos(tau)`, given A0 and A; `None`
-    /// where that answer says nothing about it.
+    /// Computes it for the first-order harmonic answer `q = A0 + A cos(tau)`, from A0 and A; `None` where that
+    /// answer does not determine it.
     pub harmonic: Option<fn(f64, f64) -> f64>,
-    /// Whether a fitted window begins or ends at zero.
+    /// Whether a fitted window has an end at zero.
     pub from_zero: bool,
 }
 
@@ -144,19 +144,19 @@ impl Ordinate {
         &ORDINATES[self as usize]
     }
 
-    /// Reads the property out of a cycle.
+    /// The value of this property for a cycle.
     pub fn of(self, cycle: &Cycle) -> f64 {
         (self.spec().read)(cycle)
     }
 }
 
-/// How high things stand in a diagram.
+/// The measure of heights in a diagram: a property of cycles and its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Height {
     pub ordinate: Ordinate,
-    /// What lengths are measured in.
+    /// Unit of lengths.
     pub unit: Unit,
-    /// The friction r all along the diagram; `None` where that is what the diagram is over.
+    /// The friction r throughout the diagram; `None` where r itself is the abscissa.
     pub friction: Option<f64>,
 }
 
@@ -166,8 +166,8 @@ impl Height {
         self.scaled(value, self.ordinate.of(cycle))
     }
 
-    /// The height of something that has the property of this size; infinite or no number in units of a
-    /// friction that is zero.
+    /// The height that corresponds to this value of the property; infinite or NaN in units of a friction that
+    /// is zero.
     pub fn scaled(&self, value: f64, size: f64) -> f64 {
         if self.is_ratio() { size / self.friction.unwrap_or(value) } else { size }
     }
@@ -178,8 +178,8 @@ impl Height {
     }
 }
 
-/// The parameters that the diagram can be drawn over, each with the values first looked at: what
-/// happens within one of them at frictions and damping of everyday size.
+/// The parameters that a diagram can be drawn over, each with its first range: wide enough for
+/// what happens at friction and damping of everyday size.
 pub const ABSCISSAE: [(Symbol, Span); 4] = [
     (Symbol::D, Span::known(-0.9, 0.1)),
     (Symbol::D2, Span::known(-1.0, 1.0)),
@@ -187,7 +187,7 @@ pub const ABSCISSAE: [(Symbol, Span); 4] = [
     (Symbol::R, Span::known(0.0, 0.5)),
 ];
 
-/// The values of a parameter that are looked at first; of one that no diagram is drawn over, those of D.
+/// The first range of a parameter in a diagram; that of D for a parameter that no diagram is drawn over.
 pub fn usual_values(symbol: Symbol) -> Span {
     ABSCISSAE.iter().find(|(row, _)| *row == symbol).map_or(ABSCISSAE[0].1, |(_, span)| *span)
 }

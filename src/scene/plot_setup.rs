@@ -1,5 +1,4 @@
-//! How a scene sets its plots up: what each shows, over which axes, in which window, and how they share the
-//! screen.
+//! How a scene sets up its plots: their views, axes and windows, and how they share the screen.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,20 +7,20 @@ use super::views::View;
 use super::window::Window;
 use crate::oscillator::Symbol;
 
-/// Plots on a screen at most: more would be too small to read.
+/// Maximum number of plots on a screen: more would be too small to read.
 pub const MOST_PLOTS: usize = 4;
 
-/// What stands on the axes of a view that leaves a choice; a view that leaves none keeps it for others.
+/// The axes of a plot. A view that leaves no choice ignores them and keeps them for other views.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Axes {
     /// The parameter to the right.
     pub abscissa: Symbol,
     /// The property of the cycles upwards.
     pub ordinate: Ordinate,
-    /// What it is measured in, where it is a length.
+    /// The unit of the ordinate, where that is a length.
     #[serde(default)]
     pub unit: Unit,
-    /// The parameter upwards, in a chart of two.
+    /// The parameter upwards, in a chart over two parameters.
     pub against: Symbol,
 }
 
@@ -33,41 +32,41 @@ impl Default for Axes {
 }
 
 impl Axes {
-    /// The name of the ordinate of a diagram.
+    /// The label of the ordinate of a diagram.
     pub fn label(&self) -> &'static str {
         let spec = self.ordinate.spec();
         spec.ratio.filter(|_| self.unit == Unit::Friction).unwrap_or(spec.label)
     }
 
-    /// How high things stand in a diagram whose cycles live at this friction.
+    /// The measure of heights in a diagram whose cycles are computed at this friction.
     pub fn height(&self, friction: f64) -> Height {
         let friction = (self.abscissa != Symbol::R).then_some(friction);
         Height { ordinate: self.ordinate, unit: self.unit, friction }
     }
 }
 
-/// A plot as a scene sets it up: what it shows, over which axes, and which part of that.
+/// A plot as a scene sets it up: its view, its axes, and the part to show.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlotSetup {
     pub view: View,
-    /// Over which axes, where there is a choice.
+    /// The axes, where the view leaves a choice.
     pub axes: Axes,
-    /// Which part of it; `None` for a window fitted to what there is to see.
+    /// The part to show; `None` for a window fitted to the content.
     pub window: Option<Window>,
-    /// Which family of the scene's stands in for the present values, if one does.
+    /// The family of variants, by its index in the scene, that the plot shows in place of the present values.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub family: Option<usize>,
 }
 
 impl From<View> for PlotSetup {
-    /// A view over its usual axes, in a window fitted to it.
+    /// A view with its usual axes, in a fitted window.
     fn from(view: View) -> Self {
         PlotSetup { view, axes: Axes::default(), window: None, family: None }
     }
 }
 
 impl PlotSetup {
-    /// The window with which the plot opens; where none is given, the one from which fitting begins.
+    /// The window with which the plot opens, or from which fitting begins if none is given.
     pub fn opening(&self) -> Window {
         let usual = self.view.spec().window;
         self.window.unwrap_or(match self.view {
@@ -87,14 +86,14 @@ impl PlotSetup {
 )]
 #[serde(rename_all = "kebab-case")]
 pub enum Arrangement {
-    /// As leaves each nearest to a square.
+    /// The arrangement in which the plots are closest to squares.
     #[default]
     Auto,
     Columns,
     Rows,
 }
 
-/// The arrangements with their names, in the order in which the key visits them.
+/// The arrangements and their names, in the order in which the key cycles through them.
 pub const ARRANGEMENTS: [(Arrangement, &str); 3] =
     [(Arrangement::Auto, "auto"), (Arrangement::Columns, "columns"), (Arrangement::Rows, "rows")];
 

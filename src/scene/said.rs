@@ -1,22 +1,22 @@
-//! What a scene says, as far as it holds for what is on show.
+//! Texts of a scene, reduced to the parts that hold for what is on show.
 //!
-//! A text has parts in brackets, `[two grows: The swings grow onto the outer cycle.]`, each of which holds where
-//! all the conditions before its colon do. What stands outside of brackets holds everywhere.
+//! A text has parts in brackets, `[two grows: The swings grow onto the outer cycle.]`. Such a part holds if all
+//! the conditions before its colon hold. Text outside of brackets always holds.
 
-/// What a part of a text may depend on.
+/// A condition of a part of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Condition {
     /// The numbers are those that the scene opens with.
     Here,
-    /// The numbers are those of the machine, at whatever speed of its belt.
+    /// The numbers are those of the machine, at any speed of its belt.
     Path,
-    /// The plots show what they do when the scene opens.
+    /// The plots show what they showed when the scene opened.
     Opened,
     /// There is an unstable cycle.
     Unstable,
     /// There is a stable cycle.
     Stable,
-    /// A motion that just escapes borders the basin.
+    /// A separatrix, a motion that just escapes, borders the basin.
     Separatrix,
     /// Every motion comes to rest.
     Safe,
@@ -28,7 +28,7 @@ pub enum Condition {
     Sticks,
 }
 
-/// Every condition under its name in scene files; `two` is one of both kinds of cycles.
+/// The conditions by their names in scene files; `two` means a cycle of each kind.
 pub const CONDITIONS: [(&str, &[Condition]); 11] = [
     ("here", &[Condition::Here]),
     ("path", &[Condition::Path]),
@@ -43,8 +43,7 @@ pub const CONDITIONS: [(&str, &[Condition]); 11] = [
     ("sticks", &[Condition::Sticks]),
 ];
 
-/// A text without the parts whose conditions do not hold. Brackets that hold no conditions are left as they
-/// are.
+/// A text without the parts whose conditions do not hold. Brackets without conditions are kept as they are.
 pub fn said(text: &str, holds: impl Fn(Condition) -> bool) -> String {
     let mut out = String::new();
     let mut rest = text;
@@ -63,7 +62,7 @@ pub fn said(text: &str, holds: impl Fn(Condition) -> bool) -> String {
             out.push_str(said);
             rest = after;
         } else {
-            // One of the blanks around it is removed too.
+            // Also removes one of the two blanks around the part.
             rest = if out.ends_with(' ') || out.is_empty() { after.trim_start() } else { after };
         }
     }
@@ -72,7 +71,7 @@ pub fn said(text: &str, holds: impl Fn(Condition) -> bool) -> String {
     out
 }
 
-/// The conditions with these names; `None` if one is not known.
+/// The conditions with these names; `None` if a name is unknown.
 fn conditions(names: &str) -> Option<Vec<Condition>> {
     let known = |name: &str| CONDITIONS.iter().find(|row| row.0 == name).map(|row| row.1);
     let found: Option<Vec<_>> = names.split_whitespace().map(known).collect();

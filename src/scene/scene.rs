@@ -1,8 +1,8 @@
-//! A scene: the setup in which one phenomenon is seen.
+//! A scene: the setup that shows one phenomenon.
 //!
-//! A scene declares the terms of the model that it needs. Only those parameters stand in the pane, and
-//! a term that is not declared is zero, so that nothing is evaluated for it. It also sets windows and
-//! layers, and says in a few sentences what to look for.
+//! A scene declares the terms of the model that it needs. The pane lists only those parameters; a term that is
+//! not declared is zero and never evaluated. A scene also sets windows and layers, and says in a few sentences
+//! what to look for.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,13 +17,13 @@ use crate::flow::Problem;
 use crate::oscillator::Symbol;
 use crate::question::Recording;
 
-/// The setup in which one phenomenon is seen.
+/// The setup that shows one phenomenon.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// The name by which it is opened.
     pub name: String,
-    /// The figure of the paper that it shows, by whose name it is opened too.
+    /// The figure of the paper that it shows; the scene can also be opened by this name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub also: Option<String>,
     pub title: String,
@@ -31,23 +31,23 @@ pub struct Scene {
     pub look: String,
     /// What to press to see more.
     pub press: String,
-    /// The parameters that this scene is about, in the order of the table; all others are zero.
+    /// The parameters that the scene uses, in the order of the table; all others are zero.
     pub terms: BTreeSet<Symbol>,
     /// The motion on show: parameters, start, end time, method and tolerance.
     pub problem: Problem,
-    /// Steps of the keys that differ from those of the table.
+    /// Step sizes of the keys that differ from those of the table.
     pub steps: BTreeMap<Symbol, f64>,
     pub layers: BTreeSet<Layer>,
-    /// The plots, one to four, in the order of the focus.
+    /// The plots, one to four, in the order in which they get the focus.
     pub plots: Vec<PlotSetup>,
-    /// What plots show in place of the present values: one picture over another for each variant.
+    /// Families of variants that plots show in place of the present values, each variant drawn over the others.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub families: Vec<Vec<Variant>>,
-    /// How they share the screen.
+    /// How the plots share the screen.
     pub arrangement: Arrangement,
-    /// The machine that the numbers stand for, if they stand for one.
+    /// The machine that the numbers describe, if any.
     pub machine: Option<Box<ScaledMachine>>,
-    /// The record that it is fitted to, if it is one of a measurement.
+    /// The record to which the oscillator is fitted, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<Recording>,
 }
@@ -60,7 +60,7 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// A motion with the values that are held.
+    /// A motion in which these values replace its own.
     pub fn of(&self, mut problem: Problem) -> Problem {
         for (symbol, value) in &self.held {
             symbol.set(&mut problem.parameters, &mut problem.initial, *value);
@@ -70,7 +70,7 @@ impl Variant {
 }
 
 impl Scene {
-    /// Every name by which it is opened.
+    /// All names by which the scene can be opened.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         std::iter::once(self.name.as_str()).chain(self.also.as_deref())
     }
@@ -82,7 +82,7 @@ impl Scene {
 }
 
 impl ScaledMachine {
-    /// A scene of the machine: the mass on its belt beside the phase plane, and the cycles over D below.
+    /// A scene of the machine: the mass on its belt and the phase plane.
     pub fn scene(self) -> Scene {
         let layers = [
             Layer::Whole,
@@ -116,7 +116,8 @@ impl ScaledMachine {
 }
 
 impl Recording {
-    /// A scene of the record: over time and in the phase plane, with the motion that the fit will find.
+    /// A scene of the record: decrements, time series, phase plane and the distribution of the margin, with the
+    /// motion that the fit will find.
     pub fn scene(self) -> Scene {
         let layers = [
             Layer::Damping,

@@ -1,8 +1,7 @@
-//! What a scene has where its file does not say otherwise.
+//! Defaults of a scene, where its file sets nothing else.
 
-/// Relative error of a step of a scene: ten digits, at a few percent of the
-/// cost of drawing them.
+/// Relative error of an integration step: ten digits, at a few percent of the cost of drawing.
 pub const TOLERANCE: f64 = 1e-10;
 
-/// End time of a scene: about ten periods of the undamped oscillator.
+/// End time: about ten periods of the undamped oscillator.
 pub const UNTIL: f64 = 60.0;

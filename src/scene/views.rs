@@ -1,8 +1,9 @@
-//! What a plot of the screen can show: the table of views, and that of the layers that are drawn in them.
+//! The views that a plot can show, and the layers that are drawn in them.
 //!
-//! A screen has one to [`MOST_PLOTS`](super::MOST_PLOTS) plots; each shows a view, and two plots may show the same
-//! one over different axes. Layers belong to a view, not to a plot. [`LAYERS`] says which view shows a layer and
-//! which question must be answered for it: a layer that is off asks nothing, and several may share one answer.
+//! A screen has one to [`MOST_PLOTS`](super::MOST_PLOTS) plots. Each shows a view, and two plots may show the
+//! same view over different axes. Layers belong to a view, not to a plot. [`LAYERS`] says which view shows a
+//! layer and which question must be answered for it. A layer that is off asks nothing, and several layers may
+//! share an answer.
 
 use serde::de::IntoDeserializer;
 use serde::de::value::StrDeserializer;
@@ -11,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::window::{Span, Window};
 use crate::question::Topic;
 
-/// What a plot shows; [`VIEWS`] says what that is.
+/// The content of a plot; [`VIEWS`] describes each view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum View {
@@ -41,11 +42,11 @@ pub struct ViewSpec {
     pub name: &'static str,
     /// Its name on the screen.
     pub title: &'static str,
-    /// A heading for its keys.
+    /// Heading above the keys of this view.
     pub heading: &'static str,
-    /// What is looked at where nothing else is asked for.
+    /// The window where no other is asked for.
     pub window: Window,
-    /// What it shows, in a few words.
+    /// Explanation in a few words.
     pub meaning: &'static str,
 }
 
@@ -62,7 +63,7 @@ const fn span(from: f64, to: f64) -> Span {
     Span::known(from, to)
 }
 
-/// Every view, in the order in which they are listed and the keys visit them.
+/// Every view, in the order in which they are listed and the keys cycle through them.
 #[rustfmt::skip]
 pub const VIEWS: [ViewSpec; 15] = [
     view(View::Phase, ["phase", "phase plane", "Phase plane"], [span(-2.0, 2.0), span(-2.0, 2.0)],
@@ -112,19 +113,19 @@ pub struct LayerSpec {
     pub name: &'static str,
     /// The view that shows it.
     pub view: View,
-    /// What it shows, in a few words.
+    /// Explanation in a few words.
     pub meaning: &'static str,
-    /// The question whose answer it draws; `None` where formulas do.
+    /// The question whose answer it draws; `None` where it needs only formulas.
     pub needs: Option<Topic>,
-    /// Whether it is switched on with its view, where the scene has nothing to say about that.
+    /// Whether it is switched on with its view, unless the scene says otherwise.
     pub usual: bool,
 }
 
 /// Makes [`Layer`] and [`LAYERS`] from one list, in the order in which layers are listed: name, view, question,
-/// whether it is usual, meaning.
+/// whether the layer is usual, meaning.
 macro_rules! layers {
     ($($(#[$attribute:meta])* $layer:ident: $name:literal, $view:ident, $needs:expr, $usual:literal, $meaning:literal;)*) => {
-        /// Something drawn in a view that can be switched on and off; [`LAYERS`] says what that is.
+        /// A part of a view that can be switched on and off; [`LAYERS`] describes each layer.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
         pub enum Layer {
             $($(#[$attribute])* #[serde(rename = $name)] $layer,)*
@@ -199,18 +200,18 @@ impl Layer {
         &LAYERS[self as usize]
     }
 
-    /// The layer with this name, or with one that it once had.
+    /// The layer with this present or former name.
     pub fn named(name: &str) -> Option<Self> {
         let name: StrDeserializer<'_, serde::de::value::Error> = name.into_deserializer();
         Layer::deserialize(name).ok()
     }
 }
 
-/// The letters that move in a list or close it.
+/// Letters that already move in a list or close it.
 const TAKEN: [char; 5] = ['g', 'j', 'k', 'q', 'v'];
 
-/// The layers of a view, each with its letter in the list of layers: the first of its name that no layer
-/// before it has.
+/// The layers of a view, each with its letter in the list of layers: the first letter of its name that is not
+/// taken.
 pub fn letters(view: View) -> impl Iterator<Item = (char, Layer)> {
     let mut taken = TAKEN.to_vec();
     LAYERS.iter().filter(move |row| row.view == view).filter_map(move |row| {

@@ -1,19 +1,19 @@
-//! Windows of world coordinates: finite and never empty, by construction.
+//! Windows of world coordinates, finite and never empty by construction.
 //!
-//! Everything that a plot divides by is the width of a [`Span`], so a span that exists is one that can
-//! be drawn: both ends finite, the right one larger, and wide enough that its ticks differ.
+//! A plot divides only by widths of a [`Span`]. Therefore every span can be drawn: its ends are finite, the
+//! right one is larger, and it is wide enough that its ticks differ.
 
 use serde::{Deserialize, Serialize};
 
 use crate::oscillator::State;
 
-/// Largest magnitude of an end, so that sums and products of a few of them stay finite.
+/// Largest magnitude of an end: sums and products with a few others stay finite.
 const FARTHEST: f64 = 1e300;
 
-/// Smallest width relative to the larger end: some thousand floating-point numbers fit in between.
+/// Smallest width relative to the larger end: some thousand floating-point numbers fit in.
 const NARROWEST: f64 = 1e-12;
 
-/// Smallest width next to zero, above the subnormal numbers.
+/// Smallest width of a span next to zero: well above the subnormal numbers.
 const TINIEST: f64 = 1e-300;
 
 /// An interval of one axis.
@@ -25,8 +25,8 @@ pub struct Span {
 }
 
 impl Span {
-    /// The interval between two numbers. Fails with one line unless both are finite, `from < to`, and far enough
-    /// apart to be told apart.
+    /// The interval between two numbers. Fails with one line unless both are finite, `from < to`, and their
+    /// distance can be resolved.
     pub fn new(from: f64, to: f64) -> Result<Self, String> {
         let largest = from.abs().max(to.abs());
         // Written so that NaN fails.
@@ -40,7 +40,7 @@ impl Span {
         valid.then_some(Span { from, to }).ok_or_else(refused)
     }
 
-    /// The interval between two numbers of a table, of which the compiler sees that they make one.
+    /// The interval between two constants, checked by the compiler.
     ///
     /// # Panics
     /// Unless `from < to`; at compile time, in a constant.
@@ -49,7 +49,7 @@ impl Span {
         Span { from, to }
     }
 
-    /// The smallest span around all finite values, widened where they coincide; `None` without any.
+    /// The smallest span around all finite values, widened if they coincide; `None` without any.
     pub fn covering(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let (from, to) = values
             .into_iter()
@@ -93,17 +93,18 @@ impl Span {
         if value.is_nan() { self.center() } else { value.clamp(self.from, self.to) }
     }
 
-    /// Where a value lies: 0 at the left end, 1 at the right one.
+    /// Position of a value: 0 at the left end, 1 at the right one.
     pub fn fraction(self, value: f64) -> f64 {
         (value - self.from) / self.width()
     }
 
-    /// The value at a fraction of the width: the inverse of [`Span::fraction`].
+    /// The value at this fraction of the width; the inverse of [`Span::fraction`].
     pub fn at(self, fraction: f64) -> f64 {
         self.from + fraction * self.width()
     }
 
-    /// The span `factor` times as wide, with `about` at the same fraction; unchanged at the limits.
+    /// The span `factor` times as wide, with `about` at the same fraction; unchanged if the result would be no
+    /// valid span.
     pub fn scaled(self, about: f64, factor: f64) -> Self {
         let about = self.clamp(about);
         let from = about - (about - self.from) * factor;
@@ -111,13 +112,13 @@ impl Span {
         Span::new(from, to).unwrap_or(self)
     }
 
-    /// The span moved by a fraction of its width; unchanged at the limits.
+    /// The span moved by a fraction of its width; unchanged if the result would be no valid span.
     pub fn shifted(self, fraction: f64) -> Self {
         let by = fraction * self.width();
         Span::new(self.from + by, self.to + by).unwrap_or(self)
     }
 
-    /// The part within `min ..= max`, if that is a span.
+    /// The part within `min ..= max`, if that is a valid span.
     pub fn within(self, min: f64, max: f64) -> Option<Self> {
         Span::new(self.from.max(min), self.to.min(max)).ok()
     }
@@ -137,14 +138,14 @@ impl std::convert::From<Span> for [f64; 2] {
     }
 }
 
-/// A rectangle of a plot's world.
+/// A rectangle in the world coordinates of a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Window {
     pub x: Span,
     pub y: Span,
 }
 
-/// A point of a plot's world.
+/// A point in the world coordinates of a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// Along the horizontal axis.
@@ -154,7 +155,7 @@ pub struct Point {
 }
 
 impl Point {
-    /// A point that interrupts a curve.
+    /// A gap in a curve: both coordinates are NaN.
     pub const NOWHERE: Self = Point { x: f64::NAN, y: f64::NAN };
 }
 
@@ -194,10 +195,11 @@ impl Window {
         Point { x: self.x.clamp(point.x), y: self.y.clamp(point.y) }
     }
 
-    /// The smallest window around this one, with the same middle, in which a circle looks like one in a
-    /// picture that is so wide and high; unchanged at the limits, and where the picture would be lost in it.
+    /// The smallest window around this one, with the same center, in which a circle looks round in a picture of
+    /// this width and height. Unchanged at the limits, and where either side would have to grow more than
+    /// `MOST` times.
     pub fn with_equal_units(self, width: f64, height: f64) -> Self {
-        /// The most that is added, as a factor of the width or the height.
+        /// Largest factor by which the width or the height grows.
         const MOST: f64 = 8.0;
         let factor = (self.x.width() / width) / (self.y.width() / height);
         let about = self.center();
@@ -215,7 +217,7 @@ impl Window {
     }
 }
 
-/// The edge of a rectangle, from its lower left corner counter-clockwise and back to it.
+/// The outline of a rectangle, counter-clockwise from the lower left corner and back to it.
 pub fn rectangle([left, right]: [f64; 2], [low, high]: [f64; 2]) -> [Point; 5] {
     [(left, low), (right, low), (right, high), (left, high), (left, low)].map(Point::from)
 }

@@ -1,4 +1,4 @@
-//! A machine as its file describes it.
+//! The description of a machine, as its file gives it.
 
 use serde::{Deserialize, Serialize};
 

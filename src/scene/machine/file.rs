@@ -1,4 +1,4 @@
-//! Machine files: TOML in, [`Machine`] out, or one line that names what is wrong and where.
+//! Machine files: reads TOML into a [`Machine`], or reports the first mistake and its place in one line.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -16,31 +16,31 @@ use crate::oscillator::Belt;
 use crate::oscillator::belt::{Dimension, FrictionLaw, QUANTITIES, Quantity};
 use crate::scene::misread::{self, Complaint, Misread};
 
-/// Displacement or velocity at which a motion may start, in SI units: up to this in both directions.
+/// Largest displacement or velocity of a start, in SI units, in either direction.
 pub const FARTHEST_START: f64 = 1e6;
 
-/// Seconds for which a motion may be followed.
+/// Allowed durations of a motion, in s.
 pub const UNTIL_RANGE: (f64, f64) = (0.0, 1e6);
 
-/// Range of the velocity of Stribeck's characteristic, in m/s.
+/// Range of the velocity in Stribeck's characteristic, in m/s.
 const STRIBECK_VELOCITY: (f64, f64) = (1e-12, 1e12);
 
-/// Range of its exponent.
+/// Range of the exponent in Stribeck's characteristic.
 const STRIBECK_EXPONENT: (f64, f64) = (0.1, 10.0);
 
-/// Largest magnitude of a coefficient of friction or damping, and of their coefficients in SI units.
+/// Largest magnitude of the coefficients of friction and damping, in SI units.
 const LARGEST_COEFFICIENT: f64 = 1e12;
 
-/// Any coefficient.
+/// Range of a coefficient that is not restricted otherwise.
 const ANY: (f64, f64) = (-LARGEST_COEFFICIENT, LARGEST_COEFFICIENT);
 
-/// The dimension of what becomes a pure number when multiplied by a velocity.
+/// The dimension whose product with a velocity is a pure number.
 const SLOWNESS: Dimension = Dimension::new(0, -1, 1);
 
 /// Maximum number of points of a table.
 const MOST_POINTS: usize = 10_000;
 
-/// The file as it stands on disk.
+/// The file as it is written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MachineFile {
@@ -60,14 +60,14 @@ struct MachineFile {
     r_static: Option<Spanned<Number>>,
     v0: Option<Spanned<Number>>,
     friction: Spanned<Friction>,
-    /// Bound on a force that disturbs the mass.
+    /// Bound on a disturbing force.
     disturbance: Option<Spanned<Number>>,
     #[serde(default)]
     start: StartTable,
     until: Option<Spanned<Number>>,
 }
 
-/// Where the motion starts.
+/// The start of the motion.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StartTable {
@@ -85,13 +85,13 @@ impl StartTable {
     }
 }
 
-/// How long a motion is followed, in s: as the file says, or this many periods of the free oscillation.
+/// Duration of a motion in s: the one from the file, or `PERIODS` periods of the free oscillation.
 pub(super) fn duration(given: Option<&Spanned<Number>>, period: f64) -> Result<f64, Complaint> {
     const PERIODS: f64 = 20.0;
     number("until", given, Dimension::TIME, "s", UNTIL_RANGE, PERIODS * period)
 }
 
-/// The coefficients of a polynomial in the velocity, from the constant one up.
+/// The coefficients of a polynomial in the velocity, the constant one first.
 pub(super) fn polynomial(name: &str, given: &[Spanned<Number>]) -> Result<Vec<f64>, Complaint> {
     let coefficient = |(power, given): (usize, &Spanned<Number>)| {
         let power = i8::try_from(power).unwrap_or(i8::MAX);
@@ -106,7 +106,7 @@ pub(super) fn polynomial(name: &str, given: &[Spanned<Number>]) -> Result<Vec<f6
     given.iter().enumerate().map(coefficient).collect()
 }
 
-/// A friction law, one of four, and what static friction adds to it.
+/// One of four friction laws, and the coefficient of static friction.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Friction {
@@ -148,7 +148,7 @@ struct Table {
     scatter: Option<Spanned<Number>>,
 }
 
-/// A number, or a text of a number with a unit.
+/// A number, or a number with a unit as text.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged, expecting = "expected a number, or a text such as \"2 kg\"")]
 pub(super) enum Number {
@@ -168,8 +168,8 @@ impl Number {
     }
 }
 
-/// Reads a machine; `name` is the name by which it is opened, `file` the one in error messages, and
-/// `fetch` gets the text of a table that the file names, or says why not. Fails with [`Misread`] with the place and
+/// Reads a machine; `name` is the name by which it is opened, `file` the one in error messages. `fetch` returns
+/// the text of a table that the file names, or why it cannot. Fails with [`Misread`], which names the place and
 /// what is allowed there.
 pub fn parse(
     name: &str,
@@ -184,7 +184,8 @@ pub fn parse(
         .map_err(|complaint| complaint.in_file(file, text))
 }
 
-/// Splits the tolerances off the numbers of a machine, which keep their middle values.
+/// Takes the tolerances of a machine's numbers out of the file and leaves the middle values. Half widths are in
+/// SI units.
 fn half_widths(read: &mut MachineFile) -> Result<BTreeMap<String, f64>, Complaint> {
     let MachineFile { m, c, d1, d3, f, r, r_static, v0, friction, .. } = read;
     let Friction { at_rest, constant, polynomial, stribeck, .. } = friction.get_mut();
@@ -282,7 +283,7 @@ fn machine(
     })
 }
 
-/// A value of the kind of a quantity, under a name of its own.
+/// A value of this quantity, under another name.
 pub(super) fn quantity_as(
     name: &str,
     quantity: Quantity,
@@ -295,19 +296,19 @@ pub(super) fn quantity_as(
         .map_err(|message| Complaint { at: given.span(), message: named(name, message) })
 }
 
-/// A measured value as a value of this quantity, within its range. Fails with one line that says what is allowed.
+/// A value of this quantity, checked against its range. Fails with one line that says what is allowed.
 pub fn value_of(quantity: Quantity, read: &Measured) -> Result<f64, String> {
     let row = quantity.spec();
     let value = read.as_a(row.dimension, row.unit)?;
     quantity.check(value).map_err(|outside| outside.to_string())
 }
 
-/// A message that begins with the name of what it is about.
+/// A message that begins with the name of the number concerned.
 fn named(name: &str, message: String) -> String {
     if message.starts_with(&format!("{name} =")) { message } else { format!("{name}: {message}") }
 }
 
-/// A number of a dimension within a range, or its default.
+/// A number of this dimension, checked against its range, or its default.
 pub(super) fn number(
     name: &str,
     given: Option<&Spanned<Number>>,
@@ -398,7 +399,7 @@ fn spline(
     Ok(FrictionLaw::Table(spline))
 }
 
-/// The points that stand in the machine file itself.
+/// The points that are listed in the machine file itself.
 fn listed(points: &Spanned<Vec<(Number, Number)>>) -> Result<Vec<(f64, f64)>, Complaint> {
     let read = |(v, mu): &(Number, Number)| {
         Ok((v.read()?.as_a(Dimension::VELOCITY, "m/s")?, mu.read()?.as_a(Dimension::ONE, "")?))

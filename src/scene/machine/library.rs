@@ -1,11 +1,11 @@
-//! The machines that come with the program.
+//! The built-in machines.
 
 use std::sync::LazyLock;
 
 use super::Machine;
 use super::file::parse;
 
-/// The machine that is taken where none is named.
+/// The machine that is used unless another is named.
 pub const TEXTBOOK: &str = "textbook";
 
 /// Name and text of a machine file.
@@ -25,11 +25,11 @@ const FILES: [(&str, &str); 6] = [
     machine_file!("groan"),
 ];
 
-/// The tables that they name.
+/// The tables that these files refer to.
 const TABLES: [(&str, &str); 1] =
     [("slideway.csv", include_str!("../../../assets/belts/slideway.csv"))];
 
-/// The machines that come with the program, in the order in which they are listed.
+/// The built-in machines, in the order in which they are listed.
 ///
 /// # Panics
 /// Never: a test reads every file.
@@ -49,13 +49,13 @@ pub fn machines() -> &'static [Machine] {
     &MACHINES
 }
 
-/// A table that comes with the program.
+/// A built-in table.
 fn table_named(name: &str) -> Result<String, String> {
     let found = TABLES.iter().find(|(table, _)| *table == name);
     found.map(|(_, text)| (*text).to_owned()).ok_or_else(|| format!("there is no table {name:?}"))
 }
 
-/// The machine of the program with this name.
+/// The built-in machine with this name.
 pub fn find(name: &str) -> Option<&'static Machine> {
     machines().iter().find(|machine| machine.name == name)
 }

@@ -22,7 +22,7 @@ pub struct Mode {
     pub until: f64,
 }
 
-/// The file as it stands on disk.
+/// The file as it is written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ModeFile {
@@ -42,24 +42,24 @@ struct ModeFile {
     until: Option<Spanned<Number>>,
 }
 
-/// Whether a text is that of a mode: no machine has a modal mass.
+/// Whether a text describes a mode: only modes have a modal mass.
 pub fn is_mode(text: &str) -> bool {
     text.lines().any(|line| line.trim_start().starts_with("modal_mass"))
 }
 
-/// Why a mode is not drawn.
+/// Why a mode cannot be drawn.
 pub const NO_BELT: &str =
     "a vibration mode has no belt to be drawn; `hopfscope belt FILE` answers about it";
 
-/// Reads a mode; `name` is the name by which it is opened, `file` the one in error messages. Fails with [`Misread`]
-/// with the place and what is allowed there.
+/// Reads a mode; `name` is the name by which it is opened, `file` the one in error messages. Fails with
+/// [`Misread`], which names the place and what is allowed there.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Mode, Misread> {
     let read: ModeFile = misread::toml(file, text)?;
     mode(name, &read).map_err(|complaint| complaint.in_file(file, text))
 }
 
 fn mode(name: &str, read: &ModeFile) -> Result<Mode, Complaint> {
-    /// Frequencies of a mode, in 1/s.
+    /// Allowed frequencies, in 1/s.
     const FREQUENCIES: (f64, f64) = (1e-9, 1e12);
     let rate = Dimension::new(0, 0, -1);
     let frequency = number("frequency", Some(&read.frequency), rate, "1/s", FREQUENCIES, 1.0)?;

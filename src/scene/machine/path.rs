@@ -1,26 +1,26 @@
-//! The path of a machine through the parameters, while the speed of its belt goes from slow to fast.
+//! The path of a machine through the parameters as the speed of its belt increases.
 //!
-//! Everything here is a formula of the friction law: a path costs some evaluations of it and no motion.
+//! Everything here is a formula of the friction law: a path costs a few hundred evaluations and no motion.
 
 use super::running::Running;
 use crate::numerics::elementary::{exp, ln, log10};
 use crate::oscillator::Parameters;
 
-/// The path covers speeds from this part of the machine's own speed to its reciprocal, as far as the
-/// friction law reaches.
+/// Slowest speed of a path, relative to the machine's own speed; the fastest is its reciprocal. The range of
+/// the friction law may limit both.
 const SLOWEST: f64 = 1.0 / 32.0;
 
-/// Points of a path: on a page some thousand pixels wide its chords are not seen.
+/// Number of chords of a path: enough that they cannot be seen on a page some thousand pixels wide.
 const POINTS: u32 = 600;
 
-/// First digits of speeds that are worth a mark, the roundest first.
+/// First digits of the speeds that get a mark, the roundest first.
 const DIGITS: [&[u32]; 3] = [&[1], &[2, 5], &[3, 4, 7]];
 
 /// A speed of the belt, in m/s, and the parameters there; `None` where the machine has none.
 pub type Station = (f64, Option<Parameters>);
 
 impl Running<'_> {
-    /// Speeds in even ratios from slow to fast, with the parameters of the machine.
+    /// Points of the path at geometrically spaced speeds, from slow to fast.
     pub fn path(&self) -> Vec<Station> {
         let (slow, fast) = self.speeds();
         let ratio = ln(fast / slow);
@@ -29,14 +29,14 @@ impl Running<'_> {
         std::iter::once(slow).chain(inner).chain([fast]).map(|speed| self.station(speed)).collect()
     }
 
-    /// The round speeds of the path, the roundest first.
+    /// Points of the path at round speeds, the roundest first.
     pub fn milestones(&self) -> Vec<Station> {
         let (slow, fast) = self.speeds();
         #[expect(clippy::cast_possible_truncation, reason = "exponents of speeds have two digits")]
         let exponents = log10(slow).floor() as i32..=log10(fast).ceil() as i32;
         let of = |digits: &'static [u32]| {
             let decade = move |exponent: i32| {
-                // As it is typed, to the last bit.
+                // Parsed from decimal, so that it equals the typed number to the last bit.
                 digits.iter().filter_map(move |digit| format!("{digit}e{exponent}").parse().ok())
             };
             exponents.clone().flat_map(decade)
@@ -50,7 +50,7 @@ impl Running<'_> {
     fn speeds(&self) -> (f64, f64) {
         let own = self.machine.belt.belt_speed;
         let (low, high) = self.machine.belt.law.range();
-        // A law that begins at rest has no last speed above it.
+        // Only a table limits the speeds; all other laws hold from 0 to `f64::MAX`.
         ((SLOWEST * own).max(low), (own / SLOWEST).min(high))
     }
 

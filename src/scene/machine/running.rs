@@ -1,8 +1,8 @@
-//! A machine whose belt runs at some speed: what the numbers of its motion mean there.
+//! A machine with its belt at some speed, and what the numbers of a motion mean there.
 //!
-//! The speed of the belt moves D, D2, D3 and r together, along a path that the friction law lays through
-//! the parameters, and the units of length, velocity and force with them. The start, in metres
-//! and metres per second, stays.
+//! The speed of the belt changes D, D2, D3 and r together, along a path through the parameters that the
+//! friction law determines. It also changes the units of length, velocity and force. The start, in metres and
+//! metres per second, stays.
 
 use super::Machine;
 use crate::flow::Problem;
@@ -16,37 +16,37 @@ pub struct Running<'a> {
     pub machine: &'a Machine,
     /// Speed v0 of the belt, in m/s.
     pub speed: f64,
-    /// Its dimensionless form at that speed.
+    /// The dimensionless form of the machine at that speed.
     pub reduced: Reduced,
 }
 
 impl<'a> Running<'a> {
-    /// The machine with its belt at `speed` m/s, whatever speed it has of its own. Fails with one line that says
-    /// what is allowed: the range of speeds, or what the friction law lacks there.
+    /// The machine with its belt at `speed` m/s instead of its own speed. Fails with one line that says what is
+    /// allowed: the range of speeds, or what the friction law lacks there.
     pub fn at(machine: &'a Machine, speed: f64) -> Result<Self, String> {
         let speed = Quantity::BeltSpeed.check(speed).map_err(|refused| refused.to_string())?;
         let reduced = machine.belt.reduce_at(speed).map_err(|refused| refused.to_string())?;
         Ok(Running { machine, speed, reduced })
     }
 
-    /// Whether these parameters are those of the machine at this speed, to the last bit.
+    /// Whether these parameters equal those of the machine at this speed, to the last bit.
     pub fn carries(&self, parameters: &Parameters) -> bool {
         self.reduced.parameters == *parameters
     }
 
-    /// The start of the machine's motion, in the units of this speed.
+    /// The start of the machine's motion, in the units at this speed.
     pub fn start(&self) -> State {
         let units = &self.reduced.units;
         let Machine { displacement, velocity, .. } = self.machine;
         State { q: displacement / units.displacement, v: velocity / units.velocity }
     }
 
-    /// A motion at this speed as one at another: with the parameters of the machine there, and from the
-    /// same place in metres with the same velocity in metres per second.
+    /// Converts a motion at this speed to one at another speed: with the parameters of the machine there, and
+    /// from the same start in metres and metres per second.
     pub fn brought_to(&self, other: &Running, problem: Problem) -> Problem {
         let (own, others) = (self.start(), other.start());
         let (from, to) = (&self.reduced.units, &other.reduced.units);
-        // The machine's own start is known in its units: no rounding adds up from speed to speed.
+        // The machine's own start is not rescaled, so no rounding accumulates from speed to speed.
         let moved = |value: f64, own: f64, others: f64, scale: f64| {
             if value == own { others } else { value * scale }
         };
@@ -58,10 +58,10 @@ impl<'a> Running<'a> {
         Problem { parameters: other.reduced.parameters, initial, ..problem }
     }
 
-    /// What a number of the motion means on the machine, all else as it is: the quantity, its value in SI
-    /// units and the unit. D stands for the damper d1, D3 for d3, r for R.
+    /// The quantity of the machine that a number of the motion determines while all else is fixed: its name,
+    /// its value in SI units, and the unit. D determines the damper d1, D3 determines d3, and r determines R.
     ///
-    /// `None` for D2, which no part of the machine sets by itself.
+    /// `None` for D2, which no single part of the machine determines.
     pub fn meaning(&self, symbol: Symbol, value: f64) -> Option<(&'static str, f64, &'static str)> {
         let Reduced { mu, .. } = &self.reduced;
         let belt = &self.machine.belt;
@@ -81,7 +81,7 @@ impl<'a> Running<'a> {
         })
     }
 
-    /// What 1 of a number of the motion stands for on the machine, in SI units; for D2 the damper per velocity.
+    /// The unit of a number of the motion, in SI units; for D2, that of damping per velocity.
     pub fn scale(&self, symbol: Symbol) -> f64 {
         let units = &self.reduced.units;
         let mass = self.machine.belt.mass;
@@ -95,15 +95,15 @@ impl<'a> Running<'a> {
         }
     }
 
-    /// The pull of the belt on the mass at a dimensionless velocity, as a fraction of that at rest; `None`
-    /// where the friction law does not reach.
+    /// The pull of the belt on the mass at a dimensionless velocity, as a fraction of the pull at rest; `None`
+    /// outside the range of the friction law.
     pub fn pull(&self, v: f64) -> Option<f64> {
         let relative = self.speed - v * self.reduced.units.velocity;
         Some(self.machine.belt.law.mu(relative)? / self.reduced.mu.value)
     }
 }
 
-/// `whole - part`, where both were rounded a few times; zero where no more than that is left.
+/// `whole - part`, or zero where the difference is no more than the rounding errors of both.
 fn rest_of(whole: f64, part: f64) -> f64 {
     const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
     let rest = whole - part;
@@ -174,7 +174,7 @@ mod tests {
             assert_eq!(moved, faster.problem(), "{}", machine.name);
             assert_eq!(running.brought_to(&own.running(), moved), own.problem());
             assert!(running.carries(&moved.parameters));
-            // A start that the user chose keeps its place in metres, up to rounding.
+            // A start chosen by the user keeps its place in metres, up to rounding.
             let initial = State { q: 0.7, v: -0.3 };
             let moved = own.running().brought_to(&running, Problem { initial, ..own.problem() });
             for (symbol, value) in [(Symbol::Q0, 0.7), (Symbol::V0, -0.3)] {

@@ -34,13 +34,13 @@ impl From<ScaledMachine> for Machine {
 }
 
 impl ScaledMachine {
-    /// Reduces a machine. Fails with [`BeltError`] where it has no dimensionless form.
+    /// Computes the dimensionless form of a machine. Fails with [`BeltError`] where there is none.
     pub fn new(machine: Machine) -> Result<Self, BeltError> {
         let reduced = machine.reduce()?;
         Ok(ScaledMachine { machine, reduced })
     }
 
-    /// The motion of the machine.
+    /// The motion of the machine at its own belt speed.
     pub fn problem(&self) -> Problem {
         Problem {
             parameters: self.reduced.parameters,
@@ -51,7 +51,7 @@ impl ScaledMachine {
         }
     }
 
-    /// The terms of the model that it has.
+    /// The terms of the model that the machine needs: D and r always, D2 and D3 where they are not zero.
     pub fn terms(&self) -> BTreeSet<Symbol> {
         let parameters = &self.reduced.parameters;
         let has = |symbol: &Symbol| symbol.get(parameters, &State { q: 0.0, v: 0.0 }) != 0.0;
@@ -59,7 +59,7 @@ impl ScaledMachine {
         [Symbol::D, Symbol::R].into_iter().chain(varied).collect()
     }
 
-    /// The machine at its own speed of the belt.
+    /// The machine with its belt at its own speed.
     pub fn running(&self) -> Running<'_> {
         let ScaledMachine { machine, reduced } = self;
         Running { machine, speed: machine.belt.belt_speed, reduced: *reduced }

@@ -1,4 +1,4 @@
-//! What a machine is set to: the speed of its belt, and the numbers in which it differs from its file.
+//! The setting of a machine: the speed of its belt, and the numbers that differ from its file.
 
 use std::collections::BTreeMap;
 
@@ -7,17 +7,17 @@ use serde::{Deserialize, Serialize};
 use super::Machine;
 use crate::oscillator::belt::{Outside, QUANTITIES, Quantity};
 
-/// The speed of a belt with the other numbers of a machine that were changed, in SI units.
+/// The speed of a belt and the other numbers of a machine that were changed, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "Written")]
 pub struct Setting {
     /// Speed v0 of the belt.
     pub speed: f64,
-    /// The other numbers, in the order of [`QUANTITIES`]; `None` for the one of the file.
+    /// The other numbers, in the order of [`QUANTITIES`]; `None` where the file's value holds.
     others: [Option<f64>; QUANTITIES.len() - 1],
 }
 
-/// A setting as it is saved: a speed alone, or numbers by their names.
+/// A setting as it is saved: a speed alone, or all changed numbers by name.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged)]
 enum Written {
@@ -56,12 +56,12 @@ impl TryFrom<Written> for Setting {
 }
 
 impl Setting {
-    /// The machine of the file with its belt at this speed.
+    /// The setting with this belt speed and all other numbers from the file.
     pub fn of_speed(speed: f64) -> Self {
         Setting { speed, others: [None; QUANTITIES.len() - 1] }
     }
 
-    /// A number, where it is not that of the file.
+    /// A number that is set; `None` where the file's value holds.
     pub fn get(&self, quantity: Quantity) -> Option<f64> {
         match quantity {
             Quantity::BeltSpeed => Some(self.speed),
@@ -69,7 +69,7 @@ impl Setting {
         }
     }
 
-    /// The same with another number.
+    /// This setting with another value of one number.
     pub fn with(mut self, quantity: Quantity, value: f64) -> Self {
         match quantity {
             Quantity::BeltSpeed => self.speed = value,
@@ -78,12 +78,12 @@ impl Setting {
         self
     }
 
-    /// Whether more than the speed may differ from the file.
+    /// Whether numbers other than the speed are set.
     pub fn differs(&self) -> bool {
         self.others.iter().any(Option::is_some)
     }
 
-    /// The same, if all of its numbers are within their ranges. Fails with the first one that is not.
+    /// Checks all numbers against their ranges. Fails with the first one that is outside.
     pub fn checked(self) -> Result<Self, Outside> {
         for row in &QUANTITIES {
             self.get(row.quantity).map_or(Ok(0.0), |value| row.quantity.check(value))?;
@@ -91,7 +91,8 @@ impl Setting {
         Ok(self)
     }
 
-    /// A machine with these numbers. A guide holds at rest at least as much as it brakes.
+    /// A machine with these numbers. The static friction of its guide is raised to the sliding friction where
+    /// it would be less.
     pub fn on(&self, machine: &Machine) -> Machine {
         let mut set = machine.clone();
         for row in &QUANTITIES {

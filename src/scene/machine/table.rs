@@ -1,12 +1,12 @@
-//! Tables of friction, as measurements are written down.
+//! Tables of friction, in the form of measured data.
 
 use super::unit::measured;
 use crate::oscillator::belt::Dimension;
 
-/// Reads a table: a velocity and a coefficient of friction in each line, between them a semicolon or a tab
-/// (then numbers may have a decimal comma) or a comma. `#` begins a comment, and a line of names may come
-/// first. Velocities are in m/s unless they, or the name of their column in brackets (`v [mm/s]`), say
-/// otherwise. Fails with one line that names the file, the line and what is expected there.
+/// Reads a table. Each line has a velocity and a coefficient of friction, separated by a comma, or by a
+/// semicolon or a tab (numbers may then have a decimal comma). `#` begins a comment, and the first line may
+/// hold column names. Velocities are in m/s unless they have a unit themselves, or the name of their column has
+/// one in brackets (`v [mm/s]`). Fails with one line that names the file, the line and what is expected there.
 pub fn table(file: &str, text: &str) -> Result<Vec<(f64, f64)>, String> {
     let mut unit = String::new();
     let mut points = Vec::new();

@@ -1,13 +1,13 @@
 //! Numbers with units, as engineers write them: `2 kg`, `800 N/m`, `15 mm`, `40 N s^3/m^3`.
 //!
 //! A unit is a product and quotient of grams, metres, seconds, newtons, minutes and hours with the usual
-//! prefixes, with `^`, parentheses, and blanks or `*` or `·` for products. `N/m s`, which people read in
-//! two ways, is refused. A number without a unit is in SI units.
+//! prefixes. It may contain `^` and parentheses; a blank, `*` or `·` means a product. `N/m s`, which can be
+//! read in two ways, is refused. A number without a unit is in SI units.
 
 use crate::numerics::elementary::powi;
 use crate::oscillator::belt::Dimension;
 
-/// A number with its dimension, in SI units.
+/// A number and its dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
     /// The number in SI units.
@@ -17,8 +17,8 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// The value as a quantity of this dimension; `unit` is its SI unit, for the message. Fails with one line that
-    /// says which unit is expected.
+    /// The value as a quantity of this dimension; `unit` is its SI unit, for the message. Fails with one line
+    /// that says which unit is expected.
     pub fn as_a(&self, dimension: Dimension, unit: &str) -> Result<f64, String> {
         if self.dimension.is_none_or(|written| written == dimension) {
             Ok(self.value)
@@ -33,7 +33,7 @@ impl Measured {
     }
 }
 
-/// Units without prefixes: name, value in SI units, dimension, and whether prefixes go before it.
+/// Units without prefixes: name, value in SI units, dimension, and whether the unit takes prefixes.
 const UNITS: [(&str, f64, Dimension, bool); 7] = [
     ("g", 1e-3, Dimension::new(1, 0, 0), true),
     ("m", 1.0, Dimension::LENGTH, true),
@@ -44,7 +44,7 @@ const UNITS: [(&str, f64, Dimension, bool); 7] = [
     ("h", 3600.0, Dimension::TIME, false),
 ];
 
-/// Prefixes, written before a unit without a blank.
+/// Prefixes of units.
 const PREFIXES: [(char, f64); 9] = [
     ('G', 1e9),
     ('M', 1e6),
@@ -57,10 +57,10 @@ const PREFIXES: [(char, f64); 9] = [
     ('n', 1e-9),
 ];
 
-/// Largest exponent that is read.
+/// Largest exponent allowed in a unit.
 const LARGEST_POWER: i8 = 9;
 
-/// Reads a number with or without a unit. Fails with one line that says what cannot be read.
+/// Reads a number with or without a unit. Fails with one line that says what could not be read.
 pub fn measured(text: &str) -> Result<Measured, String> {
     let text = text.trim();
     let end = number_end(text);
@@ -75,17 +75,17 @@ pub fn measured(text: &str) -> Result<Measured, String> {
     finite(text, value * factor, Some(dimension))
 }
 
-/// A number with the half width within which it is known, both in SI units.
+/// A number and the half width of its tolerance, both in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Toleranced {
     /// The number in the middle.
     pub middle: Measured,
-    /// Half of what lies between both ends.
+    /// Half the difference between both ends.
     pub half_width: f64,
 }
 
-/// Reads a number with a tolerance: `1 N +- 0.2 N`, `1 N +- 5 %`, `0.8 N .. 1.2 N`, or one that is exact. Fails
-/// with one line that says what cannot be read.
+/// Reads a number that is exact or has a tolerance: `1 N +- 0.2 N`, `1 N +- 5 %`, `0.8 N .. 1.2 N`. Fails with
+/// one line that says what could not be read.
 pub fn toleranced(text: &str) -> Result<Toleranced, String> {
     let two = |one: &str, other: &str| {
         let (one, other) = (measured(one)?, measured(other)?);
@@ -125,7 +125,7 @@ fn finite(text: &str, value: f64, dimension: Option<Dimension>) -> Result<Measur
     }
 }
 
-/// Where the number at the start of a text ends.
+/// Length in bytes of the number at the start of a text.
 fn number_end(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |mut at: usize| {
@@ -155,7 +155,7 @@ fn read_unit(text: &str) -> Result<(f64, Dimension), String> {
     if reader.rest.is_empty() { Ok(unit) } else { Err(reader.wrong()) }
 }
 
-/// What is left of a unit to read.
+/// The unread rest of a unit.
 struct UnitReader<'a> {
     text: &'a str,
     rest: &'a str,
@@ -169,14 +169,14 @@ impl UnitReader<'_> {
         )
     }
 
-    /// Takes a character if it comes next, and the blanks after it.
+    /// Consumes this character and the blanks after it, if it comes next.
     fn take(&mut self, char: char) -> bool {
         let taken = self.rest.strip_prefix(char);
         self.rest = taken.unwrap_or(self.rest).trim_start();
         taken.is_some()
     }
 
-    /// Factors up to the end or a closing parenthesis; a `/` divides by the next factor alone.
+    /// Reads factors up to the end or a closing parenthesis; `/` divides by the next factor only.
     fn product(&mut self) -> Result<(f64, Dimension), String> {
         let mut unit = self.factor()?;
         let mut dividing = false;
@@ -184,7 +184,7 @@ impl UnitReader<'_> {
             if self.take('/') {
                 dividing = true;
             } else if !(self.take('*') || self.take('\u{b7}')) && dividing {
-                // A factor after a quotient and a blank could belong to either part.
+                // A factor after a quotient and a blank could belong to the numerator or to the denominator.
                 return Err(format!(
                     "{:?} can be read in two ways; write parentheses, such as N/(m s)",
                     self.text
@@ -200,7 +200,7 @@ impl UnitReader<'_> {
         Ok(unit)
     }
 
-    /// A name or a parenthesis, with its power.
+    /// Reads a unit name, `1` or a parenthesis, with its power.
     fn factor(&mut self) -> Result<(f64, Dimension), String> {
         let (value, dimension) = if self.take('(') {
             let inner = self.product()?;
@@ -237,7 +237,7 @@ impl UnitReader<'_> {
         Ok(found)
     }
 
-    /// `^3`, `^-1`, `\u{b2}` or `\u{b3}`; 1 where nothing is written.
+    /// Reads `^3`, `^-1`, `\u{b2}` or `\u{b3}`; 1 where no power is written.
     fn power(&mut self) -> Result<i8, String> {
         for (char, power) in [('\u{b2}', 2), ('\u{b3}', 3)] {
             if self.take(char) {

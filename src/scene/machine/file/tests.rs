@@ -25,7 +25,7 @@ fn quantities_are_read_with_their_units_and_have_defaults() {
     assert_eq!((belt.mass, belt.stiffness, belt.normal_force), (0.25, 400.0, 20.0));
     assert_eq!((belt.friction, belt.belt_speed, belt.damping), (0.5, 0.2, 0.0));
     assert_eq!((machine.displacement, machine.velocity), (0.002, -0.01));
-    // omega_0 = 40/s: twenty periods.
+    // omega_0 = 40/s; the default is twenty periods.
     assert!((machine.until - std::f64::consts::PI).abs() < 1e-12);
 }
 
