@@ -1,41 +1,41 @@
 //! What the terminal can do, as far as the environment tells.
 //!
-//! Nothing here reads the environment: [`Environment`] holds the values that matter, so that every
-//! decision is a function of them and has a test.
+//! Nothing here reads the environment: [`Environment`] holds the relevant values, so that every decision is a
+//! function of them and can be tested.
 
 use std::fmt;
 
 use crate::session::settings::{Colors, Glyphs, Theme, Wishes};
 
-/// The environment variables that say something about the terminal; an empty one counts as unset.
+/// The environment variables that describe the terminal; an empty one counts as unset.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Environment {
-    /// Name of the terminal's kind.
+    /// Type of the terminal.
     pub term: Option<String>,
-    /// Set by terminals with colours of eight bits each.
+    /// Set by terminals with 24-bit colours.
     pub colorterm: Option<String>,
     /// Set by users who want no colours.
     pub no_color: Option<String>,
     /// Set inside of tmux.
     pub tmux: Option<String>,
-    /// Locale for everything; beats the two below.
+    /// Locale for all categories; overrides the two below.
     pub lc_all: Option<String>,
-    /// Locale for characters; beats the one below.
+    /// Locale for characters; overrides the one below.
     pub lc_ctype: Option<String>,
-    /// Locale for what nothing else decides.
+    /// Default locale.
     pub lang: Option<String>,
     /// Whether standard input is a terminal.
     pub input_is_terminal: bool,
     /// Whether standard output is a terminal.
     pub output_is_terminal: bool,
-    /// Whether the terminal has said that its background is light.
+    /// Whether the terminal reported a light background; `None` if it reported nothing.
     pub is_light: Option<bool>,
 }
 
 /// Why the explorer cannot run here.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// Standard input or output is not a terminal; which.
+    /// Standard input or output, as named here, is not a terminal.
     NotATerminal(&'static str),
     /// `TERM=dumb`: the cursor cannot be moved.
     Dumb,
@@ -88,7 +88,7 @@ impl Environment {
         }
     }
 
-    /// The user's wishes with every `Auto` decided by the present terminal.
+    /// The user's wishes, with every `Auto` replaced by what suits this terminal.
     pub fn fit(&self, wish: Wishes) -> Wishes {
         let glyphs = match wish.glyphs {
             Glyphs::Auto => self.glyphs(),
@@ -106,18 +106,18 @@ impl Environment {
         Wishes { glyphs, colors, fine, theme, ..wish }
     }
 
-    /// Whether to ask the terminal for the colour of its background: for these wishes it matters, it is not
-    /// known, and the terminal is of a kind that passes over what it does not understand.
+    /// Whether to ask the terminal for the colour of its background: the wishes depend on it, it is unknown,
+    /// and the terminal is of a type that ignores sequences it does not understand.
     pub fn asks_for_background(&self, wish: Wishes) -> bool {
         let passes = self.term.as_deref().is_some_and(|term| term != "linux");
         let coloured = self.fit(wish).colors != Colors::Never;
         wish.theme == Theme::Auto && self.is_light.is_none() && passes && coloured
     }
 
-    /// The glyphs to start with: braille where the locale or tmux says UTF-8, else ASCII.
+    /// The default glyphs: braille where the locale or tmux says UTF-8, else ASCII.
     ///
-    /// tmux counts because it draws UTF-8 itself, whatever locale a login over SSH left behind. The
-    /// Linux console knows UTF-8 but its fonts have no braille.
+    /// tmux counts because it draws UTF-8 itself, whatever locale a login over SSH left behind. The Linux
+    /// console supports UTF-8, but its fonts have no braille: it gets blocks.
     pub fn glyphs(&self) -> Glyphs {
         let locale = [&self.lc_all, &self.lc_ctype, &self.lang].into_iter().flatten().next();
         let unicode = locale.is_some_and(|locale| {
@@ -132,11 +132,11 @@ impl Environment {
         }
     }
 
-    /// The colours to start with: none where the user or the terminal wants none, 16 elsewhere.
+    /// The default colours: none where the user or the terminal wants none, else 16.
     ///
-    /// Sixteen even where the terminal has more, since those follow the user's own palette and cost
-    /// the fewest bytes; `--color 256` and `--color true` ask for more. [`Environment::fine`] is for what
-    /// sixteen cannot show.
+    /// Only sixteen even where the terminal has more, because these follow the user's own palette and cost the
+    /// fewest bytes; `--color 256` and `--color true` ask for more. [`Environment::fine`] is for what sixteen
+    /// colours cannot show.
     pub fn colors(&self) -> Colors {
         let term = self.term.as_deref().unwrap_or_default();
         if self.no_color.is_some() || MONOCHROME.iter().any(|name| term.starts_with(name)) {
@@ -148,7 +148,7 @@ impl Environment {
 }
 
 impl Environment {
-    /// The finest colours that the terminal says it has.
+    /// The finest colours that the terminal claims to have; `Auto` if it claims none beyond sixteen.
     fn fine(&self) -> Colors {
         let term = self.term.as_deref().unwrap_or_default();
         match self.colorterm.as_deref() {
@@ -159,7 +159,7 @@ impl Environment {
     }
 }
 
-/// Beginnings of `TERM` of terminals without colours.
+/// Prefixes of `TERM` for terminals without colours.
 const MONOCHROME: [&str; 4] = ["vt1", "vt2", "vt3", "dumb"];
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
-//! The modes that the explorer turns on in the terminal, turned off again whatever happens.
+//! The terminal modes that the explorer turns on, and that are turned off again in every case.
 //!
-//! One [`Guard`] knows whether the terminal is taken. [`Guard::enter`] turns on the modes of [`MODES`]
-//! in their order, [`Guard::leave`] turns them off in the reverse order, once, from any thread: at the
-//! end of the program, in the panic hook, before the process is stopped, when a signal ends it.
+//! One [`Guard`] knows whether the terminal is taken. [`Guard::enter`] turns on the modes of [`MODES`] in their
+//! order. [`Guard::leave`] turns them off once, in reverse order, from any thread: at the end of the program,
+//! in the panic hook, before the process is stopped, or when a signal ends it.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -18,7 +18,7 @@ use super::painter::{END, PLAIN};
 pub struct ScreenMode {
     pub on: &'static str,
     pub off: &'static str,
-    /// What it does, for the handbook.
+    /// What the mode does, for the handbook.
     pub meaning: &'static str,
 }
 
@@ -37,25 +37,25 @@ pub const MODES: [ScreenMode; 3] = [
     ScreenMode { on: "\x1b[?25l", off: "\x1b[?25h", meaning: "hidden cursor" },
 ];
 
-/// The mode that only some users want: without it, the mouse selects text in the terminal.
+/// The mode that only some users want: while it is off, the mouse selects text in the terminal.
 pub const MOUSE: ScreenMode = ScreenMode {
     on: "\x1b[?1000h\x1b[?1006h",
     off: "\x1b[?1006l\x1b[?1000l",
     meaning: "the mouse: clicks and the wheel are reported, with decimal coordinates",
 };
 
-/// What `enter` writes.
+/// The sequence that `enter` writes.
 fn entering(mouse: bool) -> String {
     MODES.iter().chain(mouse.then_some(&MOUSE)).map(|mode| mode.on).collect()
 }
 
-/// What `leave` writes: the end of a frame that was cut off, plain colours, all modes off.
+/// The sequence that `leave` writes: ends an interrupted frame, resets the colours and turns off all modes.
 fn leaving(mouse: bool) -> String {
     let off = MODES.iter().chain(mouse.then_some(&MOUSE)).rev().map(|mode| mode.off);
     [END, PLAIN].into_iter().chain(off).collect()
 }
 
-/// What is turned on.
+/// Whether the terminal is taken, and whether mouse reports are wanted.
 #[derive(Debug, Default)]
 struct GuardState {
     taken: bool,
@@ -76,13 +76,13 @@ impl Guard {
         Ok(Guard { state: Arc::default(), out: Arc::new(out) })
     }
 
-    /// The terminal to write frames to.
+    /// The terminal, to write frames to.
     pub fn out(&self) -> Arc<File> {
         Arc::clone(&self.out)
     }
 
-    /// Takes the terminal: raw mode, then [`MODES`]. Does nothing if it is taken. Fails if the terminal cannot be
-    /// switched to raw mode or written to; then it is as it was.
+    /// Takes the terminal: raw mode, then [`MODES`]. Does nothing if it is taken already. Fails if the terminal
+    /// cannot be switched to raw mode or written to; the terminal is then as before.
     pub fn enter(&self) -> io::Result<()> {
         let mut state = self.state();
         if state.taken {
@@ -95,7 +95,7 @@ impl Guard {
         written.inspect_err(|_| self.leave())
     }
 
-    /// Turns reports of the mouse on or off; a terminal that is not taken gets them when it is. Fails if the
+    /// Turns mouse reports on or off; if the terminal is not taken, this has effect once it is. Fails if the
     /// terminal cannot be written to.
     pub fn mouse(&self, on: bool) -> io::Result<()> {
         let mut state = self.state();
@@ -110,13 +110,14 @@ impl Guard {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Gives the terminal back. Does nothing if it is not taken; there is nobody to tell an error.
+    /// Gives the terminal back. Does nothing if it is not taken. Errors are ignored, because there is nobody to
+    /// report them to.
     pub fn leave(&self) {
         self.restore(|sequence| drop(self.write(sequence)));
     }
 
-    /// Gives the terminal back without ever waiting for it: a terminal that takes no more output
-    /// keeps its modes, but raw mode ends.
+    /// Gives the terminal back without ever waiting for it: if the terminal accepts no more output, it keeps
+    /// its modes, but raw mode ends.
     pub fn leave_at_once(&self) {
         self.restore(|sequence| {
             let mut ready = [PollFd::new(&*self.out, PollFlags::OUT)];
@@ -141,7 +142,7 @@ impl Guard {
 }
 
 impl Drop for Guard {
-    /// The last clone gives the terminal back; usually that has been done.
+    /// The last clone gives the terminal back, in case nobody has done so.
     fn drop(&mut self) {
         if Arc::strong_count(&self.state) == 1 {
             self.leave();

@@ -1,11 +1,11 @@
-//! The terminal: what it can do, its modes, and the way of a frame to it.
+//! The terminal: its capabilities, its modes, and the path of a frame to it.
 //!
 //! - [`capabilities`]: what the environment says the terminal can show;
-//! - [`guard`]: the modes that the explorer turns on, turned off again whatever happens;
-//! - [`painter`]: changed cells to bytes, each frame one write; with `strokes`, the order and the
-//!   cursor moves that cost least, and [`pen`], the shortest change of colours;
+//! - [`guard`]: the modes that the explorer turns on, and that are turned off again in every case;
+//! - [`painter`]: converts changed cells to bytes, each frame in one write; with `strokes`, the cheapest order
+//!   and cursor moves, and [`pen`], the shortest change of colours;
 //! - [`pacing`]: when the next frame may be sent;
-//! - [`screen`]: painter and pacing in one place, for the loop to draw on.
+//! - [`screen`]: painter and pacing combined, for the loop to draw on.
 
 pub mod capabilities;
 pub mod guard;

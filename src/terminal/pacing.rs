@@ -1,42 +1,42 @@
-//! When the next frame may be sent: not too soon, and not before the terminal has shown the last.
+//! When the next frame may be sent: not too soon, and not before the terminal has shown the last one.
 //!
-//! Over a slow line frames queue in the SSH server and in the network, where no reading of keys helps:
-//! without a limit the picture lags by minutes behind a held-down key. So every frame ends with a
-//! request for a cursor position report. The terminal answers when it has read that far, and until
-//! then no other frame is sent; what happens meanwhile is in the next one, which shows the newest
-//! state only.
+//! Over a slow line, frames queue in the SSH server and in the network, where reading keys promptly does not
+//! help: without a limit, the picture lags minutes behind a held-down key. So every frame ends with a request
+//! for a cursor position report. The terminal answers when it has read that far, and no other frame is sent
+//! until then. Changes in the meantime appear in the next frame, which shows only the newest state.
 //!
-//! A terminal that never answers must not be slower for it. Until the first answer arrives frames are
-//! limited by [`FRAME_TIME`] alone, and after `TRIES` unanswered requests no more are made. A
-//! terminal that has answered and then stays silent (a dropped line) is waited for, but not forever:
-//! [`Pacing::PATIENCE`], or four times the longest wait so far.
+//! A terminal that never answers must not become slower by this. Until the first answer arrives, frames are
+//! limited by [`FRAME_TIME`] alone, and after `TRIES` unanswered requests no more are made. If a terminal has
+//! answered and then falls silent (a dropped line), the next frame waits, but only for [`Pacing::PATIENCE`], or
+//! four times the longest wait so far if that is longer.
 
 use std::time::{Duration, Instant};
 
-/// Minimum time between two frames: 60 a second.
+/// Minimum time between two frames: about 60 a second.
 pub const FRAME_TIME: Duration = Duration::from_millis(16);
 
-/// Requests without an answer after which a terminal counts as silent.
+/// Unanswered requests after which a terminal counts as silent.
 const TRIES: u32 = 16;
 
-/// How a program leaves a terminal that may still owe it an answer: how long it waits at most.
+/// How long the program waits for a pending answer before it leaves the terminal; longer if answers were slow
+/// so far.
 const LAST_WAIT: Duration = Duration::from_millis(300);
 
-/// The state of the line between program and terminal. Time is an argument, never read here.
+/// The state of the line between program and terminal. Time is an argument; no clock is read here.
 #[derive(Clone, Debug, Default)]
 pub struct Pacing {
     /// When the last frame was sent.
     last: Option<Instant>,
-    /// When the request was made that is not answered yet.
+    /// Time of the request that is not answered yet.
     waiting_since: Option<Instant>,
-    /// Longest time that an answer took; `None` before the first answer.
+    /// Longest time until an answer; `None` before the first one.
     slowest: Option<Duration>,
     /// Requests since the last answer.
     unanswered: u32,
 }
 
 impl Pacing {
-    /// Shortest time to wait for a terminal that is known to answer.
+    /// Shortest limit on the wait for a terminal that is known to answer.
     pub const PATIENCE: Duration = Duration::from_secs(1);
 
     /// Whether the next frame should ask for an answer.
@@ -44,7 +44,7 @@ impl Pacing {
         self.unanswered < TRIES
     }
 
-    /// Earliest time for the next frame; it comes forward when the terminal answers.
+    /// Earliest time for the next frame; an answer from the terminal can make it earlier.
     pub fn next(&self, now: Instant) -> Instant {
         let spaced = self.last.map_or(now, |last| last + FRAME_TIME);
         match (self.waiting_since, self.slowest) {
@@ -63,7 +63,7 @@ impl Pacing {
         }
     }
 
-    /// A request was sent on its own, without a frame.
+    /// A request was sent without a frame.
     pub fn asked(&mut self, now: Instant) {
         self.waiting_since = Some(now);
         self.unanswered += 1;
@@ -71,7 +71,7 @@ impl Pacing {
 
     /// The terminal answered: `false` if nothing had been asked.
     ///
-    /// Then what looks like an answer is a key: xterm sends `ESC[1;5R` for Ctrl-F3.
+    /// In that case, the apparent answer is a key: xterm sends `ESC[1;5R` for Ctrl-F3.
     pub fn answered(&mut self, now: Instant) -> bool {
         let Some(since) = self.waiting_since.take() else { return false };
         let took = now.saturating_duration_since(since);
@@ -80,8 +80,8 @@ impl Pacing {
         true
     }
 
-    /// Until when to wait for an answer before the terminal is left, so that it does not turn up as
-    /// garbage on the shell's command line; `None` if none is due.
+    /// Until when to wait for an answer before leaving the terminal, so that the answer does not turn up as
+    /// garbage on the shell's command line; `None` if no answer is due.
     pub fn last_wait(&self) -> Option<Instant> {
         let since = self.waiting_since?;
         match self.slowest {

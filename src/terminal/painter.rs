@@ -1,12 +1,11 @@
-//! Cells to bytes: the backend that draws ratatui's frames with as few bytes as it can.
+//! The ratatui backend, which converts cells to bytes, as few as possible.
 //!
-//! Over SSH bytes are the cost. ratatui hands the changed cells of a frame to [`Painter::draw`]; the
-//! painter turns them into cursor moves, colour changes and text, and sends the frame as one write,
-//! bracketed as a synchronized update, so that no terminal shows half of it. Two things make it
-//! cheaper than crossterm's backend: the first 16 colours are written as `ESC[31m` rather than
-//! `ESC[38;5;1m`, and pen and cursor are remembered from frame to frame, so that a frame in which
-//! nothing changed sends nothing at all. It also never reads `NO_COLOR`: colours are the view's
-//! decision, and a view without them keeps bold and reverse.
+//! Over SSH, bytes are the cost. ratatui hands the changed cells of a frame to [`Painter::draw`]. The painter
+//! converts them to cursor moves, colour changes and text, and sends the frame in one write, bracketed as a
+//! synchronized update so that no terminal shows half of it. Two things make it cheaper than crossterm's
+//! backend. The first 16 colours are written as `ESC[31m` rather than `ESC[38;5;1m`. Pen and cursor are
+//! remembered from frame to frame, so that a frame without changes sends nothing at all. It also never reads
+//! `NO_COLOR`: colours are the view's decision, and a view without colours keeps bold and reverse.
 
 use std::io::{self, Write};
 
@@ -17,24 +16,24 @@ use ratatui::layout::{Position, Size};
 use super::pen::Pen;
 use super::strokes::{self, Cursor, Hand, Shown};
 
-/// Holds back the picture until [`END`]: synchronized update, private mode 2026.
+/// Holds back the picture until [`END`]: a synchronized update, private mode 2026.
 pub const BEGIN: &str = "\x1b[?2026h";
 
 /// Shows what was written since [`BEGIN`].
 pub const END: &str = "\x1b[?2026l";
 
-/// Asks the terminal for a cursor position report, which it sends once it has read all before it.
+/// Asks the terminal for a cursor position report, which it sends once it has read everything before.
 pub const REQUEST: &str = "\x1b[6n";
 
-/// Asks the terminal for the colour of its background, with a report in the same form.
+/// Asks the terminal for its background colour, which it reports in the same form.
 pub const BACKGROUND: &str = "\x1b]11;?\x1b\\";
 
-/// Back to the terminal's own colours and no attributes.
+/// Resets to the terminal's default colours and no attributes.
 pub const PLAIN: &str = "\x1b[m";
 
 const ERASE: &str = "\x1b[2J";
 
-/// Bytes that hold any ordinary frame without growing: a full 200x60 screen has about 40 KB.
+/// Initial capacity for a frame: any ordinary frame fits, since a full 200x60 screen takes about 40 KB.
 const FRAME_CAPACITY: usize = 64 * 1024;
 
 /// A ratatui backend for a terminal that understands ECMA-48.
@@ -77,19 +76,19 @@ impl<W: Write> Painter<W> {
         self.size = size;
     }
 
-    /// The size that the painter was told.
+    /// The size from the last call of `set_size`, or from the start.
     pub fn shown_size(&self) -> Size {
         self.size
     }
 
-    /// Forgets what is known of the terminal: something else has written to it.
+    /// Forgets the state of the terminal, because something else has written to it.
     pub fn forget(&mut self) {
         self.hand = Hand::default();
         self.shown = Shown::default();
         self.cursor_shown = false;
     }
 
-    /// Whether frames ask the terminal to say when it has shown them.
+    /// Sets whether frames ask the terminal to report when it has shown them.
     pub fn ask(&mut self, asking: bool) {
         self.asking = asking;
     }
@@ -102,7 +101,7 @@ impl<W: Write> Painter<W> {
         Ok(())
     }
 
-    /// Where the frame goes; opens the bracket at the first use.
+    /// The buffer of the frame in progress; begins it with [`BEGIN`] if it is empty.
     fn frame(&mut self) -> &mut Vec<u8> {
         if self.frame.is_empty() {
             self.frame.extend_from_slice(BEGIN.as_bytes());
@@ -146,7 +145,7 @@ impl<W: Write> Backend for Painter<W> {
         Ok(())
     }
 
-    /// Never asks: the reply would arrive among the keys (ratatui#2691).
+    /// Never asks the terminal: the reply would arrive among the keys (ratatui#2691).
     fn get_cursor_position(&mut self) -> io::Result<Position> {
         let known = self.hand.cursor.map(|cursor| cursor.at);
         known.ok_or_else(|| io::Error::other("where the cursor is, is not known"))
@@ -171,7 +170,7 @@ impl<W: Write> Backend for Painter<W> {
         Ok(())
     }
 
-    /// Clears everything, whatever the region: the full screen is all that this program uses.
+    /// Clears everything, whatever the region: this program only uses the full screen.
     fn clear_region(&mut self, _: ClearType) -> io::Result<()> {
         self.clear()
     }
@@ -184,7 +183,7 @@ impl<W: Write> Backend for Painter<W> {
         Ok(WindowSize { columns_rows: self.size, pixels: Size::default() })
     }
 
-    /// Sends the frame, if there is one, in one write.
+    /// Sends the frame, if any, in one write.
     fn flush(&mut self) -> io::Result<()> {
         if self.frame.is_empty() {
             return Ok(());
@@ -215,7 +214,7 @@ mod tests {
         Terminal::new(Painter::new(Vec::new(), Size { width, height })).unwrap()
     }
 
-    /// What a frame sent, without its bracket.
+    /// The bytes of a frame without its brackets.
     fn frame(terminal: &mut Terminal<Painter<Vec<u8>>>, line: &Line) -> String {
         terminal.draw(|frame| frame.render_widget(line, frame.area())).unwrap();
         let sent = String::from_utf8(std::mem::take(&mut terminal.backend_mut().out)).unwrap();
@@ -260,7 +259,7 @@ mod tests {
         assert_eq!(frame(&mut terminal, &Line::from("x")), "\x1b[m\x1b[2J\x1b[Hx");
     }
 
-    /// Any style a view could use.
+    /// Any style that a view may use.
     fn style() -> impl Strategy<Value = Style> {
         let colour = prop_oneof![
             Just(Color::Reset),
@@ -270,7 +269,7 @@ mod tests {
             any::<u8>().prop_map(Color::Indexed),
             any::<(u8, u8, u8)>().prop_map(|(r, g, b)| Color::Rgb(r, g, b)),
         ];
-        // The emulator keeps only the last of bold and dim, so no cell here has both.
+        // The emulator keeps only the last of bold and dim, so no cell has both.
         let intensity =
             prop::sample::select(vec![Modifier::empty(), Modifier::BOLD, Modifier::DIM]);
         let others = prop::sample::subsequence(
@@ -296,7 +295,7 @@ mod tests {
         })
     }
 
-    /// The colour that the terminal emulator of these tests says a cell has.
+    /// The colour of a cell as the tests' terminal emulator reports it.
     fn seen(colour: Color) -> vt100::Color {
         let mut parameters = Vec::new();
         push_colour(&mut parameters, colour, 30);
@@ -314,7 +313,7 @@ mod tests {
     }
 
     proptest! {
-        /// Whatever is drawn after whatever, a terminal shows exactly the last picture.
+        /// Whatever sequence of pictures is drawn, the terminal shows exactly the last one.
         #[test]
         fn a_terminal_shows_what_was_drawn(pictures in prop::collection::vec(picture(), 1..5)) {
             let mut terminal = terminal(12, 4);

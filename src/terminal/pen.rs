@@ -1,13 +1,13 @@
-//! The pen: colours and attributes that the terminal draws with, and the shortest way to change them.
+//! The pen: the colours and attributes with which the terminal draws, and the shortest way to change them.
 
 use std::fmt::Write;
 
 use ratatui::buffer::Cell;
 use ratatui::style::{Color, Modifier};
 
-/// Attributes of a cell that the painter draws: which, how to switch it on, and how off.
+/// The attributes of cells that the painter draws, each with the codes that switch it on and off.
 ///
-/// Bold and dim have one code to switch both off; `difference` switches the other on again.
+/// One code switches off both bold and dim; `difference` then switches the other on again.
 const ATTRIBUTES: [(Modifier, u8, u8); 6] = [
     (Modifier::BOLD, 1, 22),
     (Modifier::DIM, 2, 22),
@@ -17,11 +17,11 @@ const ATTRIBUTES: [(Modifier, u8, u8); 6] = [
     (Modifier::CROSSED_OUT, 9, 29),
 ];
 
-/// Attributes that show on a blank cell too.
+/// Attributes that are visible on blank cells too.
 const SEEN_ON_BLANKS: Modifier =
     Modifier::UNDERLINED.union(Modifier::REVERSED).union(Modifier::CROSSED_OUT);
 
-/// What the terminal draws the next character with.
+/// The colours and attributes of the next character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pen {
     /// Colour of the character.
@@ -46,8 +46,8 @@ impl Pen {
         self == other || (self.background == other.background && !seen)
     }
 
-    /// Writes the shortest sequence that takes up this pen instead of another, of which `None` is
-    /// known: by switching what differs, or by starting afresh.
+    /// Writes the shorter of two sequences that change to this pen, from the `present` one if it is known: the
+    /// differences only, or a reset and all of this pen.
     pub fn take_up(self, present: Option<Pen>, out: &mut String) {
         if present == Some(self) {
             return;
@@ -61,14 +61,14 @@ impl Pen {
         out.push_str("\x1b[");
         for (place, parameter) in parameters.iter().enumerate() {
             let separator = if place == 0 { "" } else { ";" };
-            // A string takes any text: this cannot fail.
+            // Writing to a string cannot fail.
             let _ = write!(out, "{separator}{parameter}");
         }
         out.push('m');
     }
 
-    /// Parameters that turn this pen into another: they switch off the attributes that the other lacks
-    /// and switch on those that it adds.
+    /// Parameters that change this pen to another: they switch off the attributes that the other lacks, and
+    /// switch on those that it adds.
     fn difference(self, to: Pen) -> Vec<u16> {
         let mut parameters = Vec::new();
         let mut present = self.attributes;
@@ -129,7 +129,7 @@ pub(super) fn push_colour(parameters: &mut Vec<u16>, colour: Color, base: u16) {
     }
 }
 
-/// Number of characters of a select-graphic-rendition sequence with these parameters.
+/// Length of a select-graphic-rendition sequence with these parameters, without `ESC[`.
 fn length(parameters: &[u16]) -> usize {
     let digits = |number: &u16| if *number < 10 { 1 } else { 2 + usize::from(*number > 99) };
     parameters.iter().map(|number| digits(number) + 1).sum()

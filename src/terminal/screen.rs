@@ -1,4 +1,4 @@
-//! The screen: where the loop draws, one frame at a time, each in one write.
+//! The screen, on which the loop draws frames, each in one write.
 
 use std::io::{self, Write};
 use std::time::Instant;
@@ -9,10 +9,10 @@ use ratatui::{Frame, Terminal};
 use super::pacing::Pacing;
 use super::painter::{BACKGROUND, Painter, REQUEST};
 
-/// Size to draw at where the terminal says that it has none, as some do that nobody looks at.
+/// The size to draw at where the terminal reports none, as some unattended terminals do.
 const UNKNOWN: Size = Size { width: 80, height: 24 };
 
-/// A terminal to draw on: the painter's bytes, and when they may be sent.
+/// A terminal to draw on: the painter writes the bytes, the pacing says when.
 #[derive(Debug)]
 pub struct Screen<W: Write> {
     terminal: Terminal<Painter<W>>,
@@ -25,19 +25,20 @@ pub struct Screen<W: Write> {
 pub struct Traffic {
     /// Frames that changed something.
     pub frames: u64,
-    /// Bytes, frames and other sequences.
+    /// Bytes of frames and other sequences.
     pub bytes: u64,
 }
 
 impl<W: Write> Screen<W> {
-    /// A screen of this size on a terminal that was just taken. Never fails; the signature is ratatui's.
+    /// A screen of this size on a terminal that was just taken. Never fails: ratatui's signature has the
+    /// `Result`.
     pub fn new(out: W, size: Size) -> io::Result<Screen<W>> {
         let terminal = Terminal::new(Painter::new(out, known(size)))?;
         Ok(Screen { terminal, pacing: Pacing::default(), frames: 0 })
     }
 
-    /// Asks the terminal whether it answers, before there is a picture to wait for; and what its background
-    /// is, if that matters. No picture waits for that: the first is there before a slow line has answered.
+    /// Asks the terminal whether it answers, before the first frame, and for its background colour if
+    /// `background`. The first frame does not wait for the answers, which may take long on a slow line.
     pub fn probe(&mut self, now: Instant, background: bool) -> io::Result<()> {
         let question = if background { BACKGROUND } else { "" };
         self.terminal.backend_mut().control(&format!("{question}{REQUEST}"))?;
@@ -50,17 +51,17 @@ impl<W: Write> Screen<W> {
         self.pacing.next(now)
     }
 
-    /// The terminal has shown the last frame; `false` if nothing had been asked of it.
+    /// Notes that the terminal has shown the last frame; `false` if no answer was due.
     pub fn answered(&mut self, now: Instant) -> bool {
         self.pacing.answered(now)
     }
 
-    /// Until when to wait for an answer before the terminal is left.
+    /// Until when to wait for an answer before leaving the terminal.
     pub fn last_wait(&self) -> Option<Instant> {
         self.pacing.last_wait()
     }
 
-    /// Draws a frame; one that looks like the last sends nothing.
+    /// Draws a frame; one that looks like the last one sends nothing.
     pub fn draw(&mut self, now: Instant, picture: impl FnOnce(&mut Frame)) -> io::Result<()> {
         let before = self.traffic().bytes;
         let asks = self.pacing.asks();
@@ -73,23 +74,23 @@ impl<W: Write> Screen<W> {
         Ok(())
     }
 
-    /// The terminal has this size now.
+    /// Sets the size of the terminal.
     pub fn resize(&mut self, size: Size) {
         self.terminal.backend_mut().set_size(known(size));
     }
 
-    /// The size that frames have now, in cells.
+    /// The current size of frames, in cells.
     pub fn size(&self) -> Size {
         self.terminal.backend().shown_size()
     }
 
-    /// Makes the next frame send everything: something else may have written to the terminal.
+    /// Makes the next frame redraw everything, because something else may have written to the terminal.
     pub fn repaint(&mut self, size: Size) -> io::Result<()> {
         let size = known(size);
         let painter = self.terminal.backend_mut();
         painter.set_size(size);
         painter.forget();
-        // Not `Terminal::clear`, which asks where the cursor is and waits for the answer.
+        // Not `Terminal::clear`, which asks for the cursor position and waits for the answer.
         self.terminal.resize(Rect::from((ratatui::layout::Position::ORIGIN, size)))
     }
 
@@ -104,7 +105,7 @@ impl<W: Write> Screen<W> {
     }
 }
 
-/// The size, unless it is empty.
+/// The size, or the default one if it is empty.
 fn known(size: Size) -> Size {
     if size.width == 0 || size.height == 0 { UNKNOWN } else { size }
 }

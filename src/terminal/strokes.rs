@@ -1,9 +1,9 @@
-//! Strokes: the changed cells of a frame in the order and with the cursor moves that cost least.
+//! Strokes: the changed cells of a frame, in the order and with the cursor moves that cost least.
 //!
-//! A stroke is text in one pen on one row. Blanks look alike in most pens, so they join whatever stroke
-//! they touch, and a stroke also redraws a few unchanged cells where that is shorter than a cursor
-//! move. The strokes are then drawn either row by row or pen by pen, whichever takes fewer
-//! bytes: a curve along a row wants the first, a line down the screen the second.
+//! A stroke is text in one pen on one row. Blanks look alike in most pens, so they join any stroke that they
+//! touch, and a stroke also redraws a few unchanged cells where that is shorter than a cursor move. The strokes
+//! are drawn either row by row or pen by pen, whichever takes fewer bytes: a curve along a row favours the
+//! first order, a line down the screen the second.
 
 use std::fmt::Write;
 use std::ops::Range;
@@ -18,16 +18,16 @@ use super::pen::Pen;
 pub struct Cursor {
     /// Column and row, from 0.
     pub at: Position,
-    /// Whether the column can be relied on: some terminals draw some characters wider than others.
+    /// Whether the column is reliable: some terminals draw some characters wider than others do.
     pub certain: bool,
 }
 
-/// What is known of the terminal between two strokes.
+/// The known state of the terminal between two strokes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Hand {
-    /// The pen; `None` if it is not known.
+    /// The pen; `None` if unknown.
     pub pen: Option<Pen>,
-    /// The cursor; `None` if it is not known.
+    /// The cursor; `None` if unknown.
     pub cursor: Option<Cursor>,
 }
 
@@ -36,11 +36,12 @@ pub struct Hand {
 struct Stroke {
     start: Position,
     width: u16,
-    /// `None`: only blanks, which look alike in most pens; then `background` is one that does.
+    /// `None` if the text is only blanks, which look alike in most pens; `background` is then one of these
+    /// pens.
     pen: Option<Pen>,
     background: Pen,
     text: Range<usize>,
-    /// Whether all terminals agree about its width.
+    /// Whether all terminals agree on its width.
     certain: bool,
 }
 
@@ -62,7 +63,7 @@ impl Shown {
         inside.then(|| usize::from(y) * usize::from(self.size.width) + usize::from(x))
     }
 
-    /// The cell at a place, if it is known and one column wide.
+    /// The cell at a position, if it is known and one column wide.
     fn narrow(&self, x: u16, y: u16) -> Option<&Cell> {
         let cell = self.index(x, y).and_then(|index| self.cells.get(index))?;
         (cell.symbol().width() == 1).then_some(cell)
@@ -71,7 +72,7 @@ impl Shown {
     fn set(&mut self, x: u16, y: u16, cell: &Cell) {
         let Some(index) = self.index(x, y) else { return };
         self.cells[index].clone_from(cell);
-        // What a wide character covers is not to be drawn over.
+        // Cells that a wide character covers must not be drawn over.
         let covered = cell.symbol().width().saturating_sub(1);
         for hidden in self.cells.iter_mut().skip(index + 1).take(covered) {
             hidden.set_symbol("");
@@ -86,11 +87,11 @@ struct Sheet {
     text: String,
 }
 
-/// Bytes of the shortest cursor move over a few cells; a stroke may go over cells that cost no more.
+/// Length in bytes of the shortest cursor move to the right; a stroke may redraw cells that cost no more.
 const SHORT_MOVE: usize = 3;
 
 impl Sheet {
-    /// Puts a cell down: at the end of the last stroke if it can be, else as a stroke of its own.
+    /// Adds a cell to the last stroke if possible, else begins a new stroke with it.
     fn put(&mut self, x: u16, y: u16, cell: &Cell, shown: &Shown) {
         if !self.bridge(x, y, cell, shown) {
             let end = self.text.len();
@@ -106,7 +107,8 @@ impl Sheet {
         self.extend(cell);
     }
 
-    /// Leads the last stroke up to a cell, over what stands between; `false` if it cannot be.
+    /// Extends the last stroke up to a cell, over the unchanged cells between; `false` if that is impossible or
+    /// too long.
     fn bridge(&mut self, x: u16, y: u16, cell: &Cell, shown: &Shown) -> bool {
         let Some(last) = self.strokes.last() else { return false };
         let end = last.start.x + last.width;
@@ -167,7 +169,7 @@ impl Sheet {
     }
 }
 
-/// The cells of strokes that are still to be drawn: until then it does not matter what they show.
+/// The cells of strokes that are not drawn yet: their present content does not matter.
 struct Awaited {
     width: usize,
     cells: Vec<bool>,
@@ -193,8 +195,8 @@ impl Awaited {
         self.range(stroke.start, stroke.width).fill(false);
     }
 
-    /// Blanks that lead from the cursor to a place, if they are shorter than a move and will all be drawn
-    /// over.
+    /// Blanks that lead from the cursor to a position, if they are no longer than a cursor move and all of them
+    /// will be drawn over.
     fn blanks(&mut self, cursor: Cursor, target: Position) -> Option<&'static str> {
         const BLANKS: &str = "   ";
         let way = target.x.checked_sub(cursor.at.x)?;
@@ -206,7 +208,7 @@ impl Awaited {
 }
 
 impl Stroke {
-    /// Whether a cell can stand in this stroke.
+    /// Whether the stroke can include a cell.
     fn takes(&self, cell: &Cell) -> bool {
         let pen = Pen::of(cell);
         match self.pen {
@@ -216,7 +218,7 @@ impl Stroke {
         }
     }
 
-    /// Takes over the pen of a cell that is not blank.
+    /// Adopts the pen of a cell, unless that is blank.
     fn adopt(&mut self, cell: &Cell) {
         if cell.symbol() != " " {
             self.pen = Some(Pen::of(cell));
@@ -224,8 +226,8 @@ impl Stroke {
     }
 }
 
-/// The shortest text that draws these cells, given in the order of rows and columns, and where it
-/// leaves pen and cursor.
+/// The shorter of two texts that draw these cells, row by row or pen by pen, and the state in which it leaves
+/// pen and cursor. The cells must be in the order of rows and columns.
 pub fn draw<'a>(
     cells: impl Iterator<Item = (u16, u16, &'a Cell)>,
     shown: &mut Shown,
@@ -245,7 +247,7 @@ pub fn draw<'a>(
     if by_pens.0.len() < by_rows.0.len() { by_pens } else { by_rows }
 }
 
-/// The strokes of the first pen, then those of the second, and so on; blanks where they stand.
+/// The strokes grouped by pen, in the order in which the pens first appear; strokes of blanks form a group too.
 fn pen_by_pen(strokes: &[Stroke]) -> Vec<&Stroke> {
     let mut pens: Vec<Option<Pen>> = Vec::new();
     for stroke in strokes {
@@ -258,7 +260,7 @@ fn pen_by_pen(strokes: &[Stroke]) -> Vec<&Stroke> {
     sorted
 }
 
-/// Writes the shortest cursor move.
+/// Writes the shorter of the absolute and the relative cursor move.
 fn go_to(target: Position, cursor: Option<Cursor>, size: Size, out: &mut String) {
     let Position { x, y } = target;
     let absolute = match (x, y) {
@@ -273,11 +275,11 @@ fn go_to(target: Position, cursor: Option<Cursor>, size: Size, out: &mut String)
     }
 }
 
-/// The shortest move from a known place, if there is one: down by line feeds, left by backspaces or
-/// from the margin, up and right by sequences.
+/// The shortest move from a known position, if there is one: down by line feeds or a sequence, left by
+/// backspaces, a sequence or from the margin, right by a sequence. There is none upwards.
 fn relative_move(target: Position, cursor: Cursor, size: Size) -> Option<String> {
     let Position { x, y } = cursor.at;
-    // At the right margin terminals disagree about where the cursor is.
+    // At the right margin, terminals disagree about the position of the cursor.
     let certain = cursor.certain && x < size.width;
     if target.y < y || !(certain || (target.y == y && target.x >= x) || target.x == 0) {
         return None;
@@ -293,7 +295,7 @@ fn relative_move(target: Position, cursor: Cursor, size: Size) -> Option<String>
     Some(if directly.len() <= from_margin.len() { directly } else { from_margin })
 }
 
-/// So many steps: as single characters if there is one and it is shorter, else as a sequence.
+/// A move by `count` steps: repeated single characters if that is shorter, else a sequence.
 fn steps(count: u16, single: &str, letter: char) -> String {
     let mut sequence = String::new();
     match count {
@@ -317,7 +319,7 @@ mod tests {
 
     const SIZE: Size = Size { width: 40, height: 10 };
 
-    /// A drawing board: what is on the terminal, and what should be.
+    /// A drawing board: the present and the wanted content of the terminal.
     struct Board {
         shown: Shown,
         hand: Hand,
@@ -358,7 +360,7 @@ mod tests {
         board.put(0, 0, "Abcdefghijkl", Color::Reset);
         board.draw();
         board.put(0, 0, "aBcdEfghijkL", Color::Reset);
-        // From behind the A: two that changed with two between, then six that stayed.
+        // After the A: two changed cells with two unchanged ones between, then six unchanged ones.
         assert_eq!(board.draw(), "\x08aBcdE\x1b[6CL");
     }
 
