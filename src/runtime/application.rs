@@ -1,4 +1,4 @@
-//! What the loop and the replay without a terminal run, and how it gets what it asks for.
+//! The interface of what the loop and the replay without a terminal run, and how its effects are carried out.
 
 use std::io;
 use std::path::Path;
@@ -11,71 +11,72 @@ use super::figure_writer::Work;
 use crate::scene::Request;
 use crate::session::{Effect, Key, Msg, PointerTarget};
 
-/// A session and the way it is drawn; tests have simpler ones.
+/// A session and how it is drawn; tests have simpler implementations.
 pub trait Application {
     fn update(&mut self, msg: Msg) -> Vec<Effect>;
 
-    /// The requests to be computed now: wanted, and neither answered nor failed.
+    /// The requests to compute now: those that are wanted and have neither an answer nor a failure.
     fn wants(&self) -> Vec<Request>;
 
-    /// Whether the passing of time changes the state, so that it wants to be told of it.
+    /// Whether the state changes with time, so that it must be told how much time has passed.
     fn is_moving(&self) -> bool {
         false
     }
 
-    /// Whether a press waits for an answer: then everything that the user does has to wait.
+    /// Whether a command waits for an answer: all further input of the user must then wait, too.
     fn is_waiting(&self) -> bool {
         false
     }
 
-    /// Whether a key does its own work while a caption waits to be read, instead of going on.
+    /// Whether a key has its usual effect while a caption is shown, instead of continuing the replay.
     fn tries(&self, _key: Key) -> bool {
         false
     }
 
-    /// How many presses the last command took that asked for something outside.
+    /// Number of key presses of the last command that asked for something outside the session.
     fn asked(&self) -> u32 {
         1
     }
 
-    /// What a cell of a screen of this size stands for, if anything.
+    /// The target at a cell of a screen of this size, if there is one.
     fn place(&self, _size: Size, _column: u16, _row: u16) -> Option<PointerTarget> {
         None
     }
 
-    /// What to keep of it if it is interrupted, as the text of a file; `None`: nothing would be missed.
+    /// The text of a file that preserves its state for the case of an interruption; `None` if nothing would be
+    /// lost.
     fn what_to_keep(&self) -> Option<String> {
         None
     }
 
-    /// Makes a figure of what it shows, or of one plot of it, in the form that the ending of a file asks
-    /// for; the work is done elsewhere. Fails with one line that says why there is none.
+    /// Prepares a figure of what is on show, or of one plot, in the format that the file's extension asks for;
+    /// the returned work makes it. Fails with one line that says why there is none.
     fn figure(&self, _path: &Path, _plot: Option<usize>) -> Result<Work, String> {
         Err("nothing to write".to_owned())
     }
 
-    /// Whether the background of the terminal matters and is not known.
+    /// Whether the background colour of the terminal matters and is unknown.
     fn asks_for_background(&self) -> bool {
         false
     }
 
-    /// The terminal has a light background, or a dark one.
+    /// Sets whether the background of the terminal is light.
     fn background(&mut self, _is_light: bool) {}
 
     fn draw(&self, frame: &mut Frame);
 }
 
-/// What comes of an effect.
+/// The outcome of an effect.
 #[derive(Debug)]
 pub enum EffectOutcome {
     Done,
-    /// The application is to be told something, which may have effects of its own.
+    /// The application must be told something, which may have further effects.
     Told(Msg),
     /// The loop ends, or pauses.
     Stop(LoopEnd),
 }
 
-/// What runs an application: it carries out what the application asks for.
+/// Runs an application and carries out its effects.
 pub trait Host {
     type Application: Application;
 
@@ -83,7 +84,7 @@ pub trait Host {
 
     fn carry_out(&mut self, effect: Effect) -> io::Result<EffectOutcome>;
 
-    /// Gives the application a message, and what comes of its effects in their order.
+    /// Gives the application a message and carries out the resulting effects in their order.
     fn give(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
         for effect in self.application().update(msg) {
             let stop = match self.carry_out(effect)? {

@@ -1,4 +1,4 @@
-//! Files that are read up to a length: a device or a pipe could be endless.
+//! Files that are read up to a maximum length, because a device or a pipe could be endless.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -7,7 +7,7 @@ use std::path::Path;
 /// Longest file that is read, in bytes.
 const LONGEST: u64 = 64 << 20;
 
-/// What a file holds. Fails where the file cannot be read, or is too long.
+/// The content of a file. Fails if the file cannot be read or is too long.
 pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     let mut held = Vec::new();
     File::open(path)?.take(LONGEST + 1).read_to_end(&mut held)?;
@@ -18,7 +18,7 @@ pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     Ok(held)
 }
 
-/// What a file says. Fails as [`bytes`]; also where the file is not UTF-8.
+/// The content of a file as text. Fails like [`bytes`], and if the file is not UTF-8.
 pub fn text(path: &Path) -> io::Result<String> {
     String::from_utf8(bytes(path)?).map_err(|_| {
         let line = "not a text: it holds bytes that are not UTF-8";

@@ -1,4 +1,4 @@
-//! What the session asks of the file system and the clipboard.
+//! Effects on the file system and the clipboard.
 
 use std::path::{Path, PathBuf};
 
@@ -9,10 +9,10 @@ use super::bounded;
 use crate::fit::record::decoded;
 use crate::session::Notice;
 
-/// Where copies go, since no terminal says whether it took one.
+/// The destination of copies besides the clipboard: terminals do not report whether they accept a copy.
 #[derive(Clone, Debug, Default)]
 pub struct Files {
-    /// The file that holds the last copy; `None`: none is kept.
+    /// The file with the last copy; `None` if copies are not saved.
     pub copies: Option<PathBuf>,
 }
 
@@ -20,14 +20,14 @@ impl Files {
     /// The sequence that puts a text on the terminal's clipboard: OSC 52.
     pub fn clipboard(text: &str) -> String {
         let mut sequence = String::new();
-        // A string takes any text: this cannot fail.
+        // Writing to a string cannot fail.
         let _ = CopyToClipboard::to_clipboard_from(text).write_ansi(&mut sequence);
         sequence
     }
 
-    /// Keeps a copy, and says what became of it.
+    /// Saves a copy, and reports the result.
     pub fn copy(&self, text: &str) -> Notice {
-        /// Longest text that is told as a whole.
+        /// Length in characters up to which the notice quotes the text.
         const SHORT: usize = 60;
         let told = if text.chars().count() <= SHORT && !text.contains('\n') { text } else { "" };
         let sent = format!("{told} sent to the terminal's clipboard").trim_start().to_owned();
@@ -40,7 +40,7 @@ impl Files {
         }
     }
 
-    /// Whether a file may be written. Fails with one line: it is there already, and not to be replaced.
+    /// Whether a file may be written. Fails with one line if it exists and is not to be replaced.
     pub fn admit(path: &Path, replace: bool) -> Result<(), String> {
         let path = at_home(path);
         if replace || !path.exists() {
@@ -50,8 +50,8 @@ impl Files {
         Err(format!("{name} is there already; ! behind the command replaces it"))
     }
 
-    /// Writes a file, and says how that ended. Whatever happens, the file is there as a whole or as it
-    /// was; one that is there already is replaced only on demand.
+    /// Writes a file, and reports the result. In any case, the file is complete or unchanged; an existing file
+    /// is replaced only on demand.
     pub fn write(path: &Path, content: impl AsRef<[u8]>, replace: bool) -> Notice {
         if let Err(text) = Files::admit(path, replace) {
             return Notice { error: true, text };
@@ -64,18 +64,18 @@ impl Files {
         }
     }
 
-    /// The text of a file, or one line that says why there is none. Fails with one line with the name of the file.
+    /// The text of a file. Fails with one line that names the file and says why there is no text.
     pub fn read(path: &Path) -> Result<String, String> {
         let path = at_home(path);
         let told = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
-        // A pipe into which nobody writes would hold up the loop.
+        // A pipe without a writer would block the loop.
         if !std::fs::metadata(&path).map_err(|why| told(&why))?.is_file() {
             return Err(told(&"not a file"));
         }
         bounded::bytes(&path).map(|bytes| decoded(&bytes)).map_err(|why| told(&why))
     }
 
-    /// Puts a kept session aside: it is not offered again, but not lost before the next one is.
+    /// Puts a kept session aside: it is not offered again, but remains until the next one is put aside.
     pub fn put_aside(path: &Path) {
         drop(std::fs::rename(path, path.with_file_name("last.toml")));
     }
@@ -89,7 +89,7 @@ pub(super) fn at_home(path: &Path) -> PathBuf {
     }
 }
 
-/// Writes a file beside its place and moves it there.
+/// Writes a temporary file in the same folder, then renames it.
 fn write_whole(path: &Path, content: &[u8]) -> std::io::Result<()> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let name = path.file_name().ok_or(std::io::ErrorKind::InvalidFilename)?;

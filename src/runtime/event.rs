@@ -1,21 +1,21 @@
-//! What can happen to the running program, and what of it stops the loop.
+//! Events of the running program, and those that stop the loop.
 
 use crate::session::{Gesture, Msg};
 
-/// Something that the loop must react to.
+/// An event to which the loop must react.
 #[derive(Clone, Debug)]
 pub enum Event {
     /// Something for the session.
     Session(Msg),
-    /// The mouse did something in a cell of the screen, counted from 0.
+    /// The mouse did something in a cell of the screen; column and row count from 0.
     Mouse { gesture: Gesture, column: u16, row: u16 },
     /// A cursor position report: the terminal has shown everything sent before the request.
     Shown,
-    /// The terminal says whether its background is light.
+    /// The terminal reported whether its background is light.
     Background { is_light: bool },
     /// The terminal's size may have changed.
     Resized,
-    /// The process is asked to stop until it is told to continue.
+    /// The process is asked to stop until it is continued.
     Suspend,
     /// The process continues after having been stopped.
     Continued,
@@ -25,7 +25,7 @@ pub enum Event {
     Closed,
 }
 
-/// Why the loop stopped.
+/// Why the loop ended or paused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LoopEnd {
     /// The user has left.

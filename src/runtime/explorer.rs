@@ -26,18 +26,18 @@ use crate::study::scan::Scan;
 use crate::terminal::Environment;
 use crate::view::{self, Look};
 
-/// A session and how it looks here.
+/// A session and its appearance in the present terminal.
 #[derive(Clone, Debug)]
 pub struct Explorer {
     session: Session,
     environment: Environment,
-    /// The user's wishes that `look` was made from.
+    /// The user's wishes from which `look` was made.
     wishes: settings::Wishes,
     look: Look,
 }
 
 impl Explorer {
-    /// A session that looks as the environment allows.
+    /// A session that looks as good as the environment allows.
     pub fn new(session: Session, environment: Environment) -> Explorer {
         let wishes = session.look;
         let look = Look::new(environment.fit(wishes));
@@ -120,7 +120,7 @@ impl Application for Explorer {
     }
 }
 
-/// Answers a request: a scan on all cores, everything else here.
+/// Answers a request: a scan on all cores, everything else on this thread.
 pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Answer, Reason> {
     let rows = |scan: &Scan, from| scanning::answer(scan, from, limits, tell);
     if let Request::Fit(asked) = request {
@@ -129,7 +129,7 @@ pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Answer,
     question::answer_by(request, &Means { fineness: Fineness::SCREEN, limits, rows: &rows })
 }
 
-/// Fits a record, and tells now and then how far that is.
+/// Fits a record, and reports its progress from time to time.
 fn fitted(recording: &Recording, limits: &Limits, tell: &Tell) -> Result<Fit, Reason> {
     const EVERY: Duration = Duration::from_millis(200);
     let told = Cell::new(Instant::now());
@@ -141,10 +141,10 @@ fn fitted(recording: &Recording, limits: &Limits, tell: &Tell) -> Result<Fit, Re
     })
 }
 
-/// Runs a session in the terminal, until the user leaves or a signal ends the program.
+/// Runs a session in the terminal, until the user quits or a signal ends the program.
 ///
-/// Ask [`Environment::admit`] first: it says in one line why there is no terminal to run in. Fails if the terminal
-/// cannot be used, or goes away while it is written to.
+/// Call [`Environment::admit`] first: it says in one line why there is no usable terminal. Fails if the
+/// terminal cannot be used, or goes away while it is written to.
 pub fn explore(
     session: Session,
     environment: Environment,
@@ -153,8 +153,9 @@ pub fn explore(
     launch(Explorer::new(session, environment), answer, options)
 }
 
-/// Plays a keystroke file on a session without a terminal. [`headless::play`] says what comes back;
-/// [`crate::view::screen::text`] turns its pictures into text. Fails if the system gives no thread for the worker.
+/// Plays a keystroke file on a session without a terminal. See [`headless::play`] for the result;
+/// [`crate::view::screen::text`] converts its pictures to text. Fails if the system provides no thread for the
+/// worker.
 pub fn replay(
     session: Session,
     environment: Environment,

@@ -1,5 +1,5 @@
-//! Computes and writes one figure at a time, on a thread of its own, so that a heavy one does
-//! not keep the keys waiting.
+//! Computes and writes one figure at a time on a separate thread, so that an expensive one does not delay the
+//! keys.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
@@ -15,11 +15,11 @@ use crate::session::{Msg, Notice};
 /// Makes the content of a file, or says in one line why it cannot.
 pub type Work = Box<dyn FnOnce(&Limits) -> Result<Vec<u8>, String> + Send>;
 
-/// What is called when a file is written, or is not.
+/// Called when a file was written or could not be.
 pub type Report = Arc<dyn Fn(Msg) + Send + Sync>;
 
-/// The handle; dropping it stops what is being written and waits for its end, so that no file is left
-/// half done.
+/// The handle of the thread. Dropping it stops the figure in progress and waits for the thread to end, so that
+/// no file is left incomplete.
 pub struct FigureWriter {
     report: Report,
     notes: Notes,
@@ -41,13 +41,13 @@ impl std::fmt::Debug for FigureWriter {
 }
 
 impl FigureWriter {
-    /// A writer with nothing to do.
+    /// A writer without work.
     pub fn new(report: Report, notes: Notes) -> FigureWriter {
         FigureWriter { report, notes, task: None }
     }
 
-    /// Begins to write a file; [`Msg::Written`] says how that ends. Fails with one line: another file is being
-    /// written, or the system gives no thread.
+    /// Begins to write a file; [`Msg::Written`] reports the result. Fails with one line if another file is
+    /// being written, or the system provides no thread.
     pub fn begin(&mut self, path: PathBuf, replace: bool, work: Work) -> Result<(), String> {
         if self.is_writing() {
             return Err(format!("{} not written: another file still is", path.display()));
@@ -82,7 +82,7 @@ impl FigureWriter {
         Ok(())
     }
 
-    /// Stops what is being written, if anything; [`Msg::Written`] follows.
+    /// Stops the figure in progress, if any; [`Msg::Written`] follows.
     pub fn stop(&self) {
         if let Some(task) = &self.task {
             task.stop.store(true, Ordering::Relaxed);
@@ -99,7 +99,7 @@ impl Drop for FigureWriter {
     fn drop(&mut self) {
         self.stop();
         if let Some(task) = self.task.take() {
-            // It has reported whatever there was to report.
+            // The thread has already reported its result.
             drop(task.thread.join());
         }
     }

@@ -1,7 +1,7 @@
-//! A keystroke file played without a terminal: the same application, the same worker, no screen.
+//! Plays a keystroke file without a terminal: the same application and the same workers, but no screen.
 //!
-//! Nothing here waits for time to pass. While something is wanted the worker's next message is waited
-//! for; when nothing is wanted the next step of the file is taken.
+//! Nothing here waits for time to pass. While something is wanted, the next step waits for the workers' next
+//! message; otherwise the next step of the file is taken.
 
 use std::io;
 
@@ -22,24 +22,24 @@ use crate::session::replay::{Action, Player, Script, Unmet};
 use crate::session::{Effect, Msg, Notice};
 use crate::view;
 
-/// What a keystroke file showed.
+/// The result of a keystroke file.
 #[derive(Clone, Debug)]
 pub struct Played<M> {
     /// The application at the end.
     pub application: M,
     /// The last picture; [`crate::view::screen::text`] has its characters.
     pub screen: Buffer,
-    /// The pictures that the file names, in its order.
+    /// The pictures that the file asks for by name, in its order.
     pub kept: Vec<(String, Buffer)>,
-    /// The first expectation that was not met; the file was not played further.
+    /// The first expectation that was not met; playing ended there.
     pub unmet: Option<Unmet>,
 }
 
-/// Plays a file in an application at this size, until its end, the first expectation that is not met, or
-/// until the application wants to quit.
+/// Plays a file on an application at this size, until the file ends, an expectation is not met, or the
+/// application quits.
 ///
-/// Effects on the world outside are not carried out: a replay writes no files and copies nothing. Files
-/// that the session asks for are read. Fails if the system gives no thread for the worker.
+/// Effects outside the program are not carried out: a replay writes no files and copies nothing. It does read
+/// the files that the session asks for. Fails if the system provides no thread for the worker.
 pub fn play<M: Application>(
     application: M,
     answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
@@ -72,7 +72,7 @@ pub fn play<M: Application>(
         match next {
             Ok(Action::Give(msg)) => given = Some(msg),
             Ok(Action::Keep(name)) => kept.push((name, picture::of(application, size))),
-            // The workers live as long as their handle does, so there is a message.
+            // The workers live as long as their handle, so a message arrives.
             Ok(Action::Wait) => given = messages.recv().ok(),
             Ok(Action::Done) => break None,
             Err(unmet) => break Some(unmet),
@@ -82,7 +82,7 @@ pub fn play<M: Application>(
     Ok(Played { application: replay.application, screen, kept, unmet })
 }
 
-/// An application and the file that is played on it.
+/// An application and the player of the file.
 struct Replay<M> {
     application: M,
     player: Player,
@@ -98,7 +98,7 @@ impl<M: Application> Host for Replay<M> {
     fn carry_out(&mut self, effect: Effect) -> io::Result<EffectOutcome> {
         Ok(match effect {
             Effect::Quit => EffectOutcome::Stop(LoopEnd::Quit),
-            // What it reads, a session depends on.
+            // A session depends on the files that it reads.
             Effect::Read { path, purpose } => {
                 let embedded = self.player.file(&path).map(|text| Ok(text.to_owned()));
                 let result = embedded.unwrap_or_else(|| Files::read(&path));

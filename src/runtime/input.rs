@@ -1,9 +1,9 @@
-//! The keyboard: bytes from the terminal to events.
+//! The keyboard: converts bytes from the terminal to events.
 //!
-//! A thread of its own blocks in `read` and sends what it understands. It reads the terminal itself and
-//! hands the bytes to termina's parser, because crossterm's reader keeps cursor position reports to
-//! itself, leaves what lies beyond 1,024 bytes unread until the next key (crossterm#1057), and spins
-//! when the terminal hangs up (crossterm#793).
+//! A separate thread blocks in `read` and sends the events that it recognizes. It reads the terminal itself and
+//! hands the bytes to termina's parser, because crossterm's reader keeps cursor position reports to itself,
+//! leaves everything beyond 1,024 bytes unread until the next key (crossterm#1057), and spins when the terminal
+//! hangs up (crossterm#793).
 
 use std::io;
 use std::os::fd::AsFd;
@@ -24,18 +24,18 @@ use termina::style::RgbColor;
 use super::event::Event;
 use crate::session::{Code, Gesture, Key, Msg};
 
-/// How long an escape byte at the end of what was read may wait for the rest of its sequence: over a
-/// slow line `ESC` and `[A` can arrive apart (crossterm#993). After that it was the key.
+/// How long a final escape byte may wait for the rest of its sequence: over a slow line, `ESC` and `[A` can
+/// arrive separately (crossterm#993). After that, it was the escape key.
 const ESCAPE_TIME: Duration = Duration::from_millis(50);
 
-/// What Ctrl-C sends, read alone as a hand types it.
+/// The byte that Ctrl-C sends; a person's key press arrives in a read of its own.
 const INTERRUPT: &[u8] = b"\x03";
 
-/// Bytes read at once.
+/// Bytes per read.
 const BUFFER: usize = 4096;
 
-/// Starts the thread that reads the terminal at standard input until it is gone. Fails if the system gives no
-/// thread.
+/// Starts the thread that reads the terminal at standard input until it is gone. Fails if the system provides
+/// no thread.
 pub fn start(events: Sender<Event>) -> io::Result<()> {
     thread::Builder::new().name("input".to_owned()).spawn(move || {
         let last = LastWord(events);
@@ -44,8 +44,8 @@ pub fn start(events: Sender<Event>) -> io::Result<()> {
     Ok(())
 }
 
-/// Says that there will be no more input, however its reader ends: a program that cannot be quit by a
-/// key must not continue.
+/// Reports the end of input, however the reading thread ends: a program that cannot be quit by a key must not
+/// continue.
 struct LastWord(Sender<Event>);
 
 impl Drop for LastWord {
@@ -54,7 +54,7 @@ impl Drop for LastWord {
     }
 }
 
-/// Reads until the end of input.
+/// Reads until the input ends.
 fn read(terminal: &impl AsFd, mut send: impl FnMut(Event)) {
     let mut parser = Parser::default();
     let mut buffer = [0; BUFFER];
@@ -63,7 +63,7 @@ fn read(terminal: &impl AsFd, mut send: impl FnMut(Event)) {
         let bytes = match rustix::io::read(terminal, &mut buffer) {
             Ok(0) => return,
             Ok(count) => &buffer[..count],
-            // Someone else made the terminal non-blocking.
+            // Another process made the terminal non-blocking.
             Err(Errno::AGAIN) if more(terminal, None) => continue,
             Err(Errno::INTR) => continue,
             Err(_) => return,
@@ -71,7 +71,7 @@ fn read(terminal: &impl AsFd, mut send: impl FnMut(Event)) {
         let parsed = understood(&mut parser, bytes, escape, &mut send);
         escape = false;
         if bytes == INTERRUPT && !parsed {
-            // The parser waits for the end of a sequence that was broken off: no key would ever end it.
+            // The parser is waiting for the end of an interrupted sequence, which no key would complete.
             parser = Parser::default();
             parser.parse(bytes, true);
             drain(&mut parser, &mut send);
@@ -86,11 +86,11 @@ fn read(terminal: &impl AsFd, mut send: impl FnMut(Event)) {
     }
 }
 
-/// Parses bytes and sends what has been understood; returns whether that was anything. `escape` says that an
-/// escape byte waits for the rest of its sequence.
+/// Parses bytes and sends the recognized events; returns whether there were any. `escape` says that an escape
+/// byte waits for the rest of its sequence.
 ///
-/// What follows an escape byte is not a second one: the first was the key, and the second begins a sequence, as where
-/// the terminal reports its cursor while the key is pressed. The parser would take both for one key, and the
+/// If another escape byte follows, the first one was the key and the second one begins a sequence, for example
+/// a cursor report that arrives while the key is pressed. The parser would take both for one key, and the
 /// report for text.
 fn understood(
     parser: &mut Parser,
@@ -122,7 +122,7 @@ fn more(terminal: &impl AsFd, time: Option<Duration>) -> bool {
     poll(&mut waiting, time.as_ref()).is_ok_and(|ready| ready > 0)
 }
 
-/// Sends what has been understood; returns whether that was anything.
+/// Sends the recognized events; returns whether there were any.
 fn drain(parser: &mut Parser, send: &mut impl FnMut(Event)) -> bool {
     let mut any = false;
     while let Some(parsed) = parser.pop() {
@@ -134,7 +134,7 @@ fn drain(parser: &mut Parser, send: &mut impl FnMut(Event)) -> bool {
     any
 }
 
-/// What a parsed sequence means here; releases of keys, and all that was not asked for, mean nothing.
+/// The event for a parsed sequence; none for releases of keys and for anything that was not asked for.
 fn event(parsed: termina::Event) -> Option<Event> {
     match parsed {
         termina::Event::Key(pressed) => key(pressed).map(|key| Event::Session(Msg::Key(key))),
@@ -207,7 +207,7 @@ mod tests {
 
     use super::*;
 
-    /// A terminal that the tests type into, and what arrives.
+    /// A terminal into which the tests type, and the events that arrive.
     struct Keyboard {
         terminal: UnixStream,
         events: Receiver<Event>,
@@ -232,7 +232,7 @@ mod tests {
             name(&self.events.recv().unwrap())
         }
 
-        /// All that was typed, heard after hanging up.
+        /// All events, received after the terminal hung up.
         fn all(self) -> Vec<String> {
             drop(self.terminal);
             self.events.iter().map(|event| name(&event)).collect()
@@ -260,7 +260,7 @@ mod tests {
         for bytes in broken {
             let mut keyboard = keyboard();
             keyboard.types(bytes);
-            // A hand is slower than the reader.
+            // A person types more slowly than the reader reads.
             thread::sleep(2 * ESCAPE_TIME);
             keyboard.types(INTERRUPT);
             let second = Duration::from_secs(1);
@@ -387,7 +387,7 @@ mod tests {
     }
 
     proptest! {
-        /// Whatever arrives, in whatever pieces: no panic, and the end is noticed.
+        /// Any bytes in any pieces: no panic, and the end of input is noticed.
         #[test]
         fn any_bytes_are_survived(pieces in prop::collection::vec(
             prop_oneof![

@@ -1,9 +1,9 @@
-//! Rows that are known before their turn: a file beside that of a scan, `rows.csv.ahead` beside `rows.csv`.
+//! Rows that are computed before their turn: a file beside that of a scan, `rows.csv.ahead` beside `rows.csv`.
 //!
-//! Rows stand in the file of a scan in their order, and a slow one holds up those behind it. What is known of
-//! these is noted here at once, so that a process that is killed loses only what it was computing. The first
-//! line names the columns; each other one is the number of a point, a tab, and its row. A journal of anything
-//! else is not a loss and is ignored: all in it can be computed again.
+//! The file of a scan holds its rows in their order, so a slow row holds up those behind it. Rows that are
+//! ready early are noted here at once, so that a killed process loses only the rows that it was computing. The
+//! first line names the columns; each further line has the number of a point, a tab, and its row. A journal
+//! that holds anything else is ignored. Nothing is lost by that, because all rows can be computed again.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -16,30 +16,30 @@ use super::lines::{FileLine, Lines};
 use crate::report::scan::RowForm;
 use crate::study::scan::Scan;
 
-/// What the name of a file of rows is followed by.
+/// Appended to the name of the file of rows.
 const ENDING: &str = ".ahead";
 
-/// Bytes after which rows that have had their turn are removed.
+/// Size in bytes above which a journal is removed once all of its rows have had their turn.
 const MOST: u64 = 1 << 20;
 
 /// The journal of a scan.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
-    /// None until there is something to note.
+    /// `None` until there is a row to note.
     file: Option<File>,
     bytes: u64,
 }
 
 impl Journal {
-    /// The journal beside this file, empty; what an earlier scan has left is removed.
+    /// The empty journal beside this file; one that an earlier scan left is removed.
     pub fn new(path: &Path) -> Self {
         let journal = Journal { path: beside(path), file: None, bytes: 0 };
         journal.remove();
         journal
     }
 
-    /// The journal beside this file, and the rows of these points that it has.
+    /// The journal beside this file, and those of its rows that belong to these points.
     pub fn resume(
         path: &Path,
         scan: &Scan,
@@ -55,7 +55,7 @@ impl Journal {
         (Journal { path: beside(path), file: Some(file), bytes }, found)
     }
 
-    /// Notes a row. Fails if it cannot be written.
+    /// Adds a row. Fails if it cannot be written.
     pub fn note(
         &mut self,
         scan: &Scan,
@@ -77,7 +77,7 @@ impl Journal {
         file.write_all(line.as_bytes())
     }
 
-    /// All that was noted has had its turn.
+    /// Notes that all rows of the journal have had their turn.
     pub fn is_served(&mut self) {
         if self.bytes > MOST {
             self.end();
@@ -92,7 +92,7 @@ impl Journal {
     }
 
     fn remove(&self) {
-        // One that stays is a nuisance, no error: its rows are known not to be needed.
+        // A journal that cannot be removed is a nuisance but no error: its rows are known to be unnecessary.
         drop(fs::remove_file(&self.path));
     }
 }
@@ -104,7 +104,7 @@ fn beside(path: &Path) -> PathBuf {
     name.into()
 }
 
-/// The rows of these points that a journal has, and its bytes without a last line that has no end.
+/// The rows of these points in a journal, and its length in bytes without an incomplete last line.
 fn rows(
     file: &File,
     scan: &Scan,
@@ -124,7 +124,7 @@ fn rows(
     (found, lines.bytes())
 }
 
-/// The first line: the columns, in any form.
+/// The first line: the form, and the columns as comma-separated values.
 fn heading(scan: &Scan, form: RowForm) -> String {
     format!("{form:?},{}", RowForm::Csv.heading(scan))
 }

@@ -1,5 +1,5 @@
-//! From an application to a running program: takes the terminal, starts the threads, runs the loop, and
-//! gives the terminal back.
+//! From an application to a running program: takes the terminal, starts the threads, runs the loop, and gives
+//! the terminal back.
 
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -25,36 +25,35 @@ use crate::session::Notice;
 use crate::session::replay::{Recorder, Script};
 use crate::terminal::{Guard, Screen};
 
-/// The signal that a process gets when its terminal goes away.
+/// The signal that a process receives when its terminal goes away.
 const HANG_UP: i32 = signal_hook::consts::SIGHUP;
 
-/// What the explorer does besides exploring.
+/// What the explorer is to do besides exploring.
 #[derive(Debug, Default)]
 pub struct Options {
     /// Keys to play at the start.
     pub replay: Option<Script>,
-    /// How the session was started, in words, for a file of what the user does.
+    /// How the session was started, in words, for the heading of a recording.
     pub started: String,
-    /// What that stands for in such a file, with what is played at the start as its last step.
+    /// The steps that stand for this start in a recording; the script in `replay` is the last of them.
     pub recorder: Recorder,
-    /// The file that is kept of what the user does.
+    /// The file to which the user's actions are recorded.
     pub record: Option<RecordingFile>,
-    /// Where to keep a session that is interrupted.
+    /// File for a session that is interrupted.
     pub keep: Option<PathBuf>,
-    /// Where to keep a session that is left.
+    /// File for a session that the user quits.
     pub last: Option<PathBuf>,
     /// Whether the terminal reports the mouse at the start.
     pub mouse: bool,
-    /// Where copies go, besides the clipboard.
+    /// Destination of copies besides the clipboard.
     pub files: Files,
 }
 
-/// Runs an application in the terminal at standard input and output; see
-/// [`crate::terminal::Environment::admit`] for whether there is one. Gives the exit code: 0 when the user
-/// left, 128 + n after signal n.
+/// Runs an application in the terminal at standard input and output; [`crate::terminal::Environment::admit`]
+/// says whether there is one. Returns the exit code: 0 if the user quit, 128 + n after signal n.
 ///
-/// Call it from the thread that may take the terminal down with its panics; others may not. Fails if the terminal
-/// cannot be used, or goes away while it is written to.
+/// A panic of the calling thread gives the terminal back and ends the program; panics of other threads do not.
+/// Fails if the terminal cannot be used, or goes away while it is written to.
 pub fn launch(
     application: impl Application,
     answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
@@ -74,14 +73,14 @@ pub fn launch(
         .playing(options.replay)
         .started(options.started, options.recorder, options.record);
     pump.repaint()?;
-    // A panic has been reported by now, and the terminal given back; it ends the program all the same.
+    // A panic has already been reported and the terminal given back; the panic still ends the program.
     let conducted = catch_unwind(AssertUnwindSafe(|| conduct(&mut pump, &guard)));
     pump.close_record();
     let left = matches!(conducted, Ok(Ok(LoopEnd::Quit)));
     let place = if left { &options.last } else { &options.keep };
     let kept = keep(&pump, place.as_deref());
     let ended = match conducted.unwrap_or_else(|panic| resume_unwind(panic)) {
-        // A terminal that is gone refuses what is written to it, before its signal arrives.
+        // If the terminal is gone, writing to it fails before the signal arrives.
         Err(error) if error.raw_os_error() == Some(Errno::IO.raw_os_error()) => Ok(LoopEnd::Closed),
         ended => ended,
     };
@@ -93,7 +92,7 @@ pub fn launch(
         eprintln!("hopfscope: the session is not kept: {why}");
     }
     let code = match ended? {
-        // A thread that listens has panicked; without it there was nothing to continue for.
+        // A listening thread has panicked; without it, there is no point in continuing.
         LoopEnd::Closed if let Some(note) = notes.take() => return Err(io::Error::other(note)),
         LoopEnd::Ended { signal } => exit_code(signal).into(),
         LoopEnd::Closed => exit_code(HANG_UP).into(),
@@ -102,13 +101,13 @@ pub fn launch(
     Ok(code)
 }
 
-/// Keeps what would be missed of a session that was interrupted or left. Fails with one line that says why it is
-/// lost.
+/// Saves the session that was interrupted or left, if anything would be lost. Fails with one line that says why
+/// it could not be saved.
 fn keep<M: Application, W: io::Write>(
     pump: &Pump<M, W>,
     path: Option<&Path>,
 ) -> Result<(), String> {
-    // After a panic the state may be one that was never meant to be.
+    // After a panic, the state may be inconsistent.
     let text = catch_unwind(AssertUnwindSafe(|| pump.running().what_to_keep())).ok().flatten();
     let Some(text) = text else { return Ok(()) };
     let path = path.ok_or("there is no folder for it; XDG_STATE_HOME names one")?;
@@ -116,12 +115,12 @@ fn keep<M: Application, W: io::Write>(
     if written.error { Err(written.text) } else { Ok(()) }
 }
 
-/// Runs the loop through all stops and continuations to its end.
+/// Runs the loop through all pauses until it ends.
 fn conduct<M: Application>(
     pump: &mut Pump<M, std::sync::Arc<std::fs::File>>,
     guard: &Guard,
 ) -> io::Result<LoopEnd> {
-    // A stop from here is followed by a message that the process continues, which then says nothing new.
+    // A stop from here is followed by an event that the process continues, which needs no further reaction.
     let mut expected = false;
     loop {
         match pump.run()? {
@@ -156,7 +155,7 @@ fn conduct<M: Application>(
     }
 }
 
-/// The size of the terminal at standard output; nothing if it does not say.
+/// The size of the terminal at standard output; zero if it reports none.
 fn terminal_size() -> Size {
     rustix::termios::tcgetwinsize(rustix::stdio::stdout())
         .map_or(Size::default(), |size| Size { width: size.ws_col, height: size.ws_row })

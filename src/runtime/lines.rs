@@ -1,16 +1,16 @@
-//! The lines of a file of rows, one at a time, and why a file is refused.
+//! The lines of a file of rows, read one at a time, and why such a file is refused.
 
 use std::fmt;
 use std::io::{self, BufRead, BufReader, Read};
 
-/// Why a file cannot take rows.
+/// Why a file cannot take the rows of a scan.
 #[derive(Debug)]
 pub enum LineRefusal {
     /// It cannot be opened, read or written.
     Io(io::Error),
     /// Another process writes to it.
     Busy,
-    /// It holds something else.
+    /// It holds something other than rows of this scan.
     Foreign {
         /// The line, from 1.
         line: usize,
@@ -40,18 +40,18 @@ impl fmt::Display for LineRefusal {
     }
 }
 
-/// The lines of a file, counted.
+/// The lines of a file, with their numbers.
 pub(super) struct Lines<R> {
     reader: BufReader<R>,
-    /// The line read last, from 1.
+    /// Number of the line read last, from 1.
     number: usize,
-    /// Bytes up to the end of the last whole line.
+    /// Length in bytes up to the end of the last whole line.
     bytes: u64,
 }
 
 pub(super) enum FileLine {
     Whole(Vec<u8>),
-    /// Without: the last one, perhaps empty.
+    /// A line without its end: the last one, perhaps empty, or one that was cut.
     Cut(Vec<u8>),
 }
 
@@ -60,12 +60,12 @@ impl<R: Read> Lines<R> {
         Lines { reader: BufReader::new(file), number: 0, bytes: 0 }
     }
 
-    /// The number of the line read last, from 1.
+    /// Number of the line read last, from 1.
     pub(super) fn number(&self) -> usize {
         self.number
     }
 
-    /// Reads this heading, if it is not empty; false where the file ends within it.
+    /// Reads this heading, unless it is empty; `false` if the file ends within it.
     pub(super) fn heading(&mut self, heading: &str) -> Result<bool, LineRefusal> {
         if heading.is_empty() {
             return Ok(true);
@@ -77,7 +77,7 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    /// The next line; a line longer than `most` is cut there.
+    /// The next line; a line longer than `most` bytes is cut there.
     pub(super) fn next(&mut self, most: usize) -> io::Result<FileLine> {
         let mut line = Vec::new();
         let most = u64::try_from(most).unwrap_or(u64::MAX);
@@ -91,7 +91,7 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    /// Bytes up to the end of the last whole line.
+    /// Length in bytes up to the end of the last whole line.
     pub(super) fn bytes(&self) -> u64 {
         self.bytes
     }

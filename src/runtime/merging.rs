@@ -1,8 +1,8 @@
-//! Puts the parts of a scan together, row by row.
+//! Merges the parts of a scan, row by row.
 //!
-//! Parts are read side by side in the order of their points, so that only one row of each part that is being
-//! read is held. Every row is recognized by its beginning, which names all that it depends on: no row is
-//! trusted because of where it stands.
+//! Parts are read side by side in the order of their points, so that only one row per open part is held. Every
+//! row is recognized by its beginning, which names everything that it depends on: the position of a row proves
+//! nothing.
 
 use std::fmt;
 use std::fs::File;
@@ -21,14 +21,14 @@ use crate::study::scan::Scan;
 pub struct Part {
     pub path: PathBuf,
     pub points: Range<usize>,
-    /// Whether a line of names comes before its rows.
+    /// Whether its rows are preceded by a line of column names.
     pub headed: bool,
 }
 
-/// Why parts cannot be put together.
+/// Why parts cannot be merged.
 #[derive(Debug)]
 pub enum Conflict {
-    /// A part cannot be read, or holds something else.
+    /// A part cannot be read, or holds something other than rows of this scan.
     Part(PathBuf, LineRefusal),
     /// Two parts hold the same row.
     Twice {
@@ -36,7 +36,7 @@ pub enum Conflict {
         row: usize,
         paths: [PathBuf; 2],
     },
-    /// The whole cannot be written.
+    /// The merged file cannot be written.
     Output(io::Error),
 }
 
@@ -52,8 +52,8 @@ impl fmt::Display for Conflict {
     }
 }
 
-/// Hands the lines of the whole to `write`, in their order, and returns the points that no part holds; what was
-/// written is the whole where none is missing.
+/// Passes the lines of the merged file to `write` in their order, and returns the points that no part holds;
+/// the file is complete if none is missing.
 ///
 /// With `recheck`, the first and the last row of each part are computed again within these limits and compared.
 pub fn merge(
@@ -102,24 +102,24 @@ pub fn merge(
     Ok(missing)
 }
 
-/// What is put together, and whether rows are computed again.
+/// The scan that is merged, and whether rows are computed again.
 struct MergeTask<'a> {
     scan: &'a Scan,
     form: RowForm,
     recheck: Option<&'a Limits<'a>>,
 }
 
-/// A part that is being read, with a row of it that has not been written yet.
+/// An open part, with its next row that is not written yet.
 struct Reader<'a> {
     part: &'a Part,
     lines: Lines<File>,
-    /// The point of the row.
+    /// The point of this row.
     index: usize,
     line: Vec<u8>,
 }
 
 impl<'a> Reader<'a> {
-    /// A part at its first row; nothing if it has none.
+    /// Opens a part at its first row; `None` if it has none.
     fn open(task: &MergeTask, part: &'a Part) -> Result<Option<Self>, LineRefusal> {
         let mut lines = Lines::new(File::open(&part.path)?);
         if part.headed && !lines.heading(&task.form.heading(task.scan))? {
@@ -133,7 +133,7 @@ impl<'a> Reader<'a> {
         Ok(any.then_some(reader))
     }
 
-    /// Goes to the next row; false if there is none.
+    /// Reads the next row; `false` if there is none.
     fn advance(&mut self, task: &MergeTask) -> Result<bool, LineRefusal> {
         let number = self.lines.number();
         let more = self.read(task, self.index + 1)?;
@@ -143,7 +143,7 @@ impl<'a> Reader<'a> {
         Ok(more)
     }
 
-    /// Reads a row of point number `from` or a later one of this part; a line without an end does not count.
+    /// Reads a row of the point `from` or a later one of this part; an incomplete line does not count.
     fn read(&mut self, task: &MergeTask, from: usize) -> Result<bool, LineRefusal> {
         let FileLine::Whole(line) = self.lines.next(usize::MAX)? else { return Ok(false) };
         let is_of =

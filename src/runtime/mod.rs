@@ -1,9 +1,9 @@
-//! What runs: the loop, the worker, and the threads that listen to keyboard and signals.
+//! The running program: the loop, the workers, and the threads that listen to keyboard and signals.
 //!
-//! Everything that happens arrives as an [`Event`] in one channel. Three threads send into it, each
-//! blocked in one place while nothing happens: [`input`] reads the terminal, [`signals`] waits for
-//! signals, [`worker`] computes. The [`pump`] takes events out, hands them to the session, asks the
-//! worker what the session then wants, and draws.
+//! Everything that happens arrives as an [`Event`] in one channel. Several threads send into it, each blocked
+//! in one place while nothing happens: [`input`] reads the terminal, [`signals`] waits for signals, and two
+//! threads of [`worker`] compute; a figure is written on a further one. The [`pump`] takes events out, hands
+//! them to the session, passes the session's requests to the workers, and draws.
 
 pub mod application;
 pub mod bounded;

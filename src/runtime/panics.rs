@@ -1,4 +1,4 @@
-//! Panics: the interface's end the program, a worker's do not.
+//! Panics: one of the interface ends the program, one of a worker does not.
 
 use std::any::Any;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -6,7 +6,7 @@ use std::thread::ThreadId;
 
 use crate::terminal::Guard;
 
-/// What the panic hook knows and the code that catches the panic does not: where it happened.
+/// Messages and places of panics, noted by the hook: the code that catches a panic does not know the place.
 #[derive(Clone, Debug, Default)]
 pub struct Notes(Arc<Mutex<Option<String>>>);
 
@@ -15,16 +15,17 @@ impl Notes {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(note);
     }
 
-    /// The note of the last panic, once.
+    /// Takes the note of the last panic.
     pub fn take(&self) -> Option<String> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 }
 
-/// Makes a panic of the thread `interface` give the terminal back before it is reported as usual.
+/// Installs a hook by which a panic of the thread `interface` gives the terminal back before it is reported as
+/// usual.
 ///
-/// A panic in any other thread is not reported and leaves the terminal alone, since the interface
-/// continues and shows it; the notes tell what to show.
+/// A panic in any other thread is not reported and leaves the terminal alone, because the interface continues
+/// and shows it; the returned notes contain what to show.
 pub fn install(guard: Guard, interface: ThreadId) -> Notes {
     let notes = Notes::default();
     let kept = notes.clone();
@@ -41,7 +42,7 @@ pub fn install(guard: Guard, interface: ThreadId) -> Notes {
     notes
 }
 
-/// What a panic said.
+/// The message of a panic.
 pub fn message(payload: &(dyn Any + Send)) -> String {
     let text = payload.downcast_ref::<&str>().copied();
     let owned = || payload.downcast_ref::<String>().map(String::as_str);

@@ -1,4 +1,4 @@
-//! What an application would show, without a terminal.
+//! The picture of an application, without a terminal.
 
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;

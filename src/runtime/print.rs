@@ -1,4 +1,4 @@
-//! Sessions computed for print: with as many points on their curves as paper can show.
+//! Sessions computed for print, with as many points on their curves as paper can show.
 
 use crate::figure::{FAINT, Figure};
 use crate::flow::{Limits, Reason};
@@ -6,7 +6,8 @@ use crate::question::{Fineness, answer_for};
 use crate::scene::{Request, Topic};
 use crate::session::{Msg, Session, update};
 
-/// Computes everything on show as finely as print needs. Fails with what was asked that has no answer, and why.
+/// Computes everything on show as finely as print needs. Fails with the request that has no answer, and the
+/// reason.
 pub fn complete(
     session: &mut Session,
     fineness: Fineness,
@@ -20,27 +21,27 @@ pub fn complete(
     }
 }
 
-/// Evaluations that a question may take in the explorer: a second or two.
+/// Maximum number of evaluations for a question in the explorer: a second or two.
 pub const MOST: u64 = 40_000_000;
 
-/// Computes what is on show in the explorer once more, for print. What would keep the user waiting stays
-/// as it is on the screen.
+/// Computes what is on show in the explorer once more, for print. Anything that would keep the user waiting
+/// stays as it is on the screen.
 pub fn refine(session: &mut Session, limits: &Limits) {
     let limits = Limits { evaluations: limits.evaluations.min(MOST), ..*limits };
     for request in session.wants().into_iter().filter(|request| is_drawn(request.topic())) {
-        // Without a finer answer there is that of the screen.
+        // Without a finer answer, that of the screen remains.
         let _ = ask(session, request, Fineness::PRINT, &limits);
     }
 }
 
-/// What these plots show as a figure whose chords miss their curves by nothing that is seen, however
-/// closely one looks: where they would, curves are computed with more points.
+/// A figure of these plots whose chords deviate from their curves by less than can be seen at any
+/// magnification: where they deviate more, curves are computed with more points.
 pub fn figure(session: &mut Session, plots: &[usize], limits: &Limits) -> Figure {
-    /// More points than usual at most: enough to look a thousand times more closely.
+    /// Maximum factor on the number of points: enough for a magnification of a thousand.
     const MOST: f64 = 48.0;
-    /// The estimate of a chord's error is one.
+    /// Safety factor, because the error of a chord is only estimated.
     const MARGIN: f64 = 1.2;
-    /// How many times that is tried.
+    /// Maximum number of refinements.
     const ROUNDS: usize = 3;
     let mut figure = Figure::of(session, plots.iter().copied());
     let mut times = vec![1; plots.len()];
@@ -51,7 +52,7 @@ pub fn figure(session: &mut Session, plots: &[usize], limits: &Limits) -> Figure
             if missed <= FAINT / MARGIN {
                 continue;
             }
-            // The error of a chord is that of the square of its length.
+            // The error of a chord is proportional to the square of its length.
             let wanted = (f64::from(*times) * (MARGIN * MARGIN * missed / FAINT).sqrt()).ceil();
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to 48")]
             let wanted = wanted.min(MOST) as u16;
@@ -72,7 +73,7 @@ pub fn figure(session: &mut Session, plots: &[usize], limits: &Limits) -> Figure
     figure.thinned(times.into_iter().max().map_or(1, usize::from))
 }
 
-/// Whether an answer has curves.
+/// Whether answers on this topic have curves.
 fn is_drawn(topic: Topic) -> bool {
     use Topic::{Claims, Fit, Proof, Reference, Scan, Trade};
     !matches!(topic, Scan | Trade | Reference | Claims | Fit | Proof)

@@ -1,6 +1,6 @@
-//! The file beside a file of rows that says where they come from: `rows.csv.provenance` beside `rows.csv`.
+//! The file that tells where rows come from: `rows.csv.provenance` beside `rows.csv`.
 //!
-//! The rows themselves stay as programs expect them, a line of names and nothing before it.
+//! The file of rows itself stays as other programs expect it, with nothing before the line of column names.
 
 use std::ffi::OsString;
 use std::fs;
@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 
 use crate::words::provenance::Provenance;
 
-/// What the name of a file of rows is followed by.
+/// Appended to the name of the file of rows.
 const ENDING: &str = ".provenance";
 
-/// What this process was started as.
+/// The provenance of rows that this process writes.
 pub fn of_process() -> Provenance {
     Provenance::of(&arguments())
 }
@@ -28,7 +28,7 @@ pub fn beside(path: &Path) -> PathBuf {
     name.into()
 }
 
-/// Writes it, unless the rows go to a device or a pipe. Fails if it cannot be written.
+/// Writes the provenance of a file, unless it is a device or a pipe. Fails if it cannot be written.
 pub fn write(path: &Path, provenance: &Provenance) -> io::Result<()> {
     if !fs::metadata(path)?.is_file() {
         return Ok(());
@@ -36,13 +36,12 @@ pub fn write(path: &Path, provenance: &Provenance) -> io::Result<()> {
     fs::write(beside(path), serde_json::to_string_pretty(provenance)? + "\n")
 }
 
-/// Reads it. Fails if it is not there, cannot be read, or says something else.
+/// Reads the provenance of a file. Fails if there is none, or it cannot be read or understood.
 pub fn read(path: &Path) -> io::Result<Provenance> {
     Ok(serde_json::from_slice(&fs::read(beside(path))?)?)
 }
 
-/// The files in a folder that have such a file beside them, in the order of their names. Fails if the folder cannot
-/// be read.
+/// The files in a folder that have a file of provenance, sorted by name. Fails if the folder cannot be read.
 pub fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder)? {

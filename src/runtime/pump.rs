@@ -1,10 +1,10 @@
-//! The loop: takes what happened, changes the session, asks the worker, draws.
+//! The loop: takes events, changes the session, asks the workers, draws.
 //!
-//! The loop waits in one place, the channel, and without a deadline when there is nothing to draw: an
-//! idle explorer uses no processor time and writes no byte. When something happened it first takes
-//! everything there is out of the channel and draws once after that, so that 500 keys at once cost one
-//! frame. A frame waits until the last one is old enough and shown (see [`crate::terminal::pacing`]),
-//! and a moment for the worker, whose answer often comes within it: one frame instead of two.
+//! The loop waits in one place, the channel, and has no deadline when there is nothing to draw: an idle
+//! explorer uses no processor time and writes no byte. After an event, it first takes all further events out of
+//! the channel and then draws once, so that 500 keys at once cost one frame. A frame waits until the last one
+//! is old enough and shown (see [`crate::terminal::pacing`]), and a moment for the worker, whose answer often
+//! arrives within that time: one frame instead of two.
 
 use std::collections::VecDeque;
 use std::io::{self, Write};
@@ -32,7 +32,7 @@ mod playing;
 
 use play::Playing;
 
-/// How long a frame waits for the worker before it shows what is there, marked as old.
+/// How long a frame waits for the worker before it shows the old answers, marked as old.
 const ANSWER_TIME: Duration = Duration::from_millis(8);
 
 #[derive(Debug)]
@@ -41,21 +41,21 @@ pub struct Pump<M, W: Write> {
     screen: Screen<W>,
     workers: Workers,
     events: Receiver<Event>,
-    /// What arrived while something else was waited for.
+    /// Events that arrived while something else was awaited.
     missed: VecDeque<Event>,
     files: Files,
-    /// Since when the state differs from the screen.
+    /// Time since which the state differs from the screen.
     changed: Option<Instant>,
-    /// When the session was last told how much time has passed, while something in it moves.
+    /// Time at which the session was last told how much time has passed, while something in it moves.
     beat: Option<Instant>,
-    /// No frames are drawn while the terminal is not ours.
+    /// No frames are drawn while the terminal is given back.
     held: bool,
     playing: Option<Playing>,
-    /// What the user did that comes after something else.
+    /// Input of the user that must wait until a replay or a command is over.
     held_back: VecDeque<Event>,
-    /// A figure is being written.
+    /// Whether a figure is being written.
     writing: bool,
-    /// What the user did, how the session was started, and the file that is kept of it.
+    /// The user's actions so far, how the session was started, and the file to which the actions are recorded.
     recorder: Recorder,
     started: String,
     record: Option<RecordingFile>,
@@ -63,7 +63,7 @@ pub struct Pump<M, W: Write> {
 }
 
 impl<M: Application, W: Write> Pump<M, W> {
-    /// A loop whose screen has everything to draw.
+    /// A loop that has drawn nothing yet.
     pub fn new(
         application: M,
         screen: Screen<W>,
@@ -92,14 +92,14 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
     }
 
-    /// Plays a keystroke file: each key when the answer to the last one is on the screen.
+    /// Plays a keystroke file: each key is given once the answers to the last one are on the screen.
     pub fn playing(mut self, script: Option<Script>) -> Self {
         self.playing = script.map(|script| Playing::new(script, false, 0));
         self
     }
 
-    /// Says how the session was started, and begins the recording of what is done with what that stands
-    /// for; what is played at the start is its last step.
+    /// Sets how the session was started. The recording begins with the steps that stand for this start; the
+    /// script that is played at the start is the last of them.
     pub fn started(
         mut self,
         started: String,
@@ -113,12 +113,12 @@ impl<M: Application, W: Write> Pump<M, W> {
         self
     }
 
-    /// What runs in the loop.
+    /// The application that runs in the loop.
     pub fn running(&self) -> &M {
         &self.application
     }
 
-    /// Runs until something happens that concerns the whole process.
+    /// Runs until an event that concerns the whole process.
     pub fn run(&mut self) -> io::Result<LoopEnd> {
         loop {
             if let Some(stop) = self.play()? {
@@ -150,23 +150,23 @@ impl<M: Application, W: Write> Pump<M, W> {
         match event {
             Ok(event) => Ok(Some(event)),
             Err(RecvTimeoutError::Timeout) => self.draw().map(|()| None),
-            // All threads are gone; the one that reads the keys says so before.
+            // All threads are gone; the one that reads the keys reports that before.
             Err(RecvTimeoutError::Disconnected) => Ok(Some(Event::Closed)),
         }
     }
 
-    /// Tells the session something.
+    /// Shows a notice in the session.
     pub fn tell(&mut self, notice: Notice) -> io::Result<()> {
         self.update(Msg::Told(notice)).map(drop)
     }
 
-    /// The terminal is not ours until [`Pump::repaint`].
+    /// Stops drawing until [`Pump::repaint`], because the terminal is given back.
     pub fn hold(&mut self) {
         self.held = true;
         self.beat = None;
     }
 
-    /// The terminal is ours again, in an unknown state.
+    /// Draws again, on a terminal in an unknown state.
     pub fn repaint(&mut self) -> io::Result<()> {
         self.held = false;
         let size = (self.terminal_size)();
@@ -176,7 +176,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         Ok(())
     }
 
-    /// Waits for an answer that the terminal owes, so that it does not arrive after the program.
+    /// Waits for an answer that the terminal owes, so that it does not arrive after the program has ended.
     pub fn await_terminal(&mut self) {
         while let Some(until) = self.screen.last_wait() {
             match self.events.recv_deadline(until) {
@@ -227,12 +227,12 @@ impl<M: Application, W: Write> Pump<M, W> {
         let Size { width, height } = self.screen.size();
         let msg = Msg::Resize { width, height };
         self.recorder.note(&msg);
-        // A size asks for nothing.
+        // A resize has no effects.
         drop(self.application.update(msg));
         self.changed.get_or_insert_with(Instant::now);
     }
 
-    /// Changes the session and does what it asks for.
+    /// Changes the session and carries out the resulting effects.
     fn update(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
         self.changed.get_or_insert_with(Instant::now);
         self.give(msg)
@@ -243,7 +243,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         Ok(self.files.copy(text))
     }
 
-    /// Begins to write a figure; what follows when it cannot.
+    /// Begins to write a figure; if that fails, the outcome tells the session why.
     fn write_figure(&mut self, path: PathBuf, plot: Option<usize>, replace: bool) -> EffectOutcome {
         let begun = Files::admit(&path, replace)
             .and_then(|()| self.application.figure(&path, plot))
@@ -255,7 +255,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
     }
 
-    /// Writes what was recorded to a file, without the presses that asked for that.
+    /// Writes the recording to a file, without the key presses that asked for this.
     fn write_record(&self, path: &Path, forget: u32, replace: bool) -> Notice {
         if let Err(text) = RecordingFile::admit(path, replace, "! behind the command replaces it") {
             return Notice { error: true, text };
@@ -265,13 +265,13 @@ impl<M: Application, W: Write> Pump<M, W> {
         Files::write(path, recorder.text(&self.started), true)
     }
 
-    /// When to draw; `None` if the screen shows everything and nothing moves.
+    /// When to draw; `None` if the screen is up to date and nothing moves.
     fn due(&self) -> Option<Instant> {
         if self.held {
             return None;
         }
         let Some(changed) = self.changed else {
-            // What moves does so as often as frames may be sent, and over a slow line no oftener.
+            // Motion is drawn as often as frames may be sent, which over a slow line is less often.
             let beat = self.beat.filter(|_| self.application.is_moving())?;
             return Some((beat + FRAME_TIME).max(self.screen.next(beat)));
         };
@@ -283,14 +283,14 @@ impl<M: Application, W: Write> Pump<M, W> {
         Some(answer.max(self.screen.next(changed)))
     }
 
-    /// Tells the session how much time has passed since it was told last, while something in it moves.
+    /// Tells the session how much time has passed since it was last told, while something in it moves.
     fn pass_time(&mut self) {
         let now = Instant::now();
         let last = self.beat.replace(now);
         if let Some(last) = last.filter(|_| self.application.is_moving()) {
             let msg = Msg::Elapsed { seconds: (now - last).as_secs_f64().min(LONGEST) };
             self.note(&msg);
-            // The passing of time asks for nothing outside.
+            // The passing of time has no effects.
             drop(self.application.update(msg));
         }
         self.beat = self.beat.filter(|_| self.application.is_moving());
@@ -348,7 +348,7 @@ impl<M: Application, W: Write> Host for Pump<M, W> {
     }
 }
 
-/// Whether a message comes from the user's hands.
+/// Whether a message is input of the user.
 fn is_users(msg: &Msg) -> bool {
     matches!(msg, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_))
 }

@@ -1,10 +1,10 @@
-//! What there is to do for a worker, and in which order.
+//! The work of a worker, and its order.
 //!
-//! The most urgent request comes first. One that takes long must not hold up the others, though, and how
-//! long it takes is not known beforehand. So each request has turns: when its turn is over and others wait
-//! that have had no more turns, it is put aside, and starts over when they have had theirs. Each turn is
-//! four times as long as the last one, so that at most a third of the work is done in vain. What merely
-//! refines a draft begins with a later turn, because there is a picture already.
+//! The most urgent request comes first. It must not hold up the others if it takes long, though, and how long
+//! it takes is not known beforehand. So each request has turns: when its turn is over and others wait that have
+//! had no more turns, it is put aside, and starts over when they have had theirs. Each turn is four times as
+//! long as the last one, so that at most a third of the work is wasted. A request that merely refines a draft
+//! begins with a later turn, because there is a picture already.
 
 use std::time::Duration;
 
@@ -13,21 +13,21 @@ use crate::scene::Request;
 /// The first turn: half a frame.
 pub const TURN: Duration = Duration::from_millis(8);
 
-/// How many times longer the next turn is.
+/// Ratio of the lengths of successive turns.
 const LONGER: u32 = 4;
 
-/// The turn with which a request begins whose draft is wanted too.
+/// The turn with which a request begins if its draft is wanted too.
 const REFINEMENT: u32 = 2;
 
 #[derive(Debug, Default)]
 pub struct Queue {
-    /// What is wanted, the most urgent first; the request in progress is among it.
+    /// The wanted requests, the most urgent first, including the one in progress.
     wanted: Vec<Wanted>,
     /// The request in progress, unless it is no longer wanted.
     running: Option<Request>,
-    /// Requests whose answers have been reported and not been taken yet.
+    /// Requests whose answers were reported but have not arrived at the session yet.
     reported: Vec<Request>,
-    /// Whether the thread works on something, wanted or not.
+    /// Whether the thread is computing an answer, wanted or not.
     busy: bool,
     closed: bool,
 }
@@ -40,7 +40,7 @@ struct Wanted {
 }
 
 impl Queue {
-    /// Replaces what is wanted; `true` if the request in progress is not among it.
+    /// Replaces the wanted requests; `true` if the request in progress is no longer among them.
     pub fn want(&mut self, wanted: Vec<Request>) -> bool {
         let before = std::mem::take(&mut self.wanted);
         let turns = |request: &Request| {
@@ -63,8 +63,8 @@ impl Queue {
         self.wanted.iter().filter(|wanted| self.running.as_ref() != Some(&wanted.request))
     }
 
-    /// Takes the next request into work: of those with the fewest turns the most urgent. With it comes how
-    /// long its turn is, in units of the first one.
+    /// Starts the next request: the most urgent of those with the fewest turns. Also returns the length of its
+    /// turn, in units of the first one.
     pub fn begin(&mut self) -> Option<(Request, u32)> {
         let next = self.waiting().min_by_key(|wanted| wanted.turns)?;
         let (request, turns) = (next.request.clone(), next.turns);
@@ -79,7 +79,7 @@ impl Queue {
         running.is_some_and(|running| self.waiting().any(|other| other.turns <= running.turns))
     }
 
-    /// Ends the turn of the request in progress, which is not done.
+    /// Ends the turn of the request in progress, which remains unanswered.
     pub fn put_aside(&mut self) {
         self.busy = false;
         let running = self.running.take();
@@ -89,7 +89,7 @@ impl Queue {
         }
     }
 
-    /// Ends the work; the request, if its answer is still wanted and so to be reported.
+    /// Ends the request in progress; returns it if its answer is still wanted and must be reported.
     pub fn finish(&mut self) -> Option<Request> {
         self.busy = false;
         let request = self.running.take()?;
@@ -103,21 +103,21 @@ impl Queue {
         self.running.is_some()
     }
 
-    /// Forgets that the answer to a request has been reported.
+    /// Notes that the reported answer to a request has arrived.
     pub fn taken(&mut self, request: &Request) {
         if let Some(index) = self.reported.iter().position(|reported| reported == request) {
             self.reported.remove(index);
         }
     }
 
-    /// Nothing is to be done any more.
+    /// Drops all work and accepts no more.
     pub fn close(&mut self) {
         self.closed = true;
         self.running = None;
         self.wanted.clear();
     }
 
-    /// Whether nothing is to be done any more.
+    /// Whether the queue was closed.
     pub fn is_closed(&self) -> bool {
         self.closed
     }
@@ -153,7 +153,7 @@ mod tests {
             assert_eq!(queue.begin(), Some((other.clone(), 1)));
             assert_eq!(queue.finish().as_ref(), Some(other));
             queue.taken(other);
-            // What is wanted still has had its turns.
+            // A request that is still wanted keeps its count of turns.
             assert!(!queue.want(vec![slow.clone(), last.clone()]));
             if other == &last {
                 queue.want(vec![slow.clone()]);
@@ -161,7 +161,7 @@ mod tests {
         }
         assert_eq!(queue.begin(), Some((slow.clone(), 4)));
         assert!(!queue.is_contested(), "alone it may take as long as it likes");
-        // A new key asks something new, which has had no turn yet.
+        // A new key asks a new question, which has had no turn yet.
         queue.want(vec![slow, cycles(4.0)]);
         assert!(queue.is_contested());
     }

@@ -1,4 +1,4 @@
-//! A recording that is written as it grows, so that whatever ends the program leaves it behind.
+//! A recording that is written as it grows, so that it survives whatever ends the program.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read};
@@ -13,15 +13,15 @@ use crate::session::replay::{HEADER, Recorder, comment, heading, lines};
 pub struct RecordingFile {
     path: PathBuf,
     file: File,
-    /// Where each line of steps begins: the place of its first step, and its byte.
+    /// For each line of steps, the index of its first step and its offset in bytes.
     lines: Vec<(usize, u64)>,
-    /// Bytes of the comments at the beginning.
+    /// Length in bytes of the comments at the beginning.
     heading: u64,
 }
 
 impl RecordingFile {
-    /// Begins the file with what is known already; see [`RecordingFile::admit`]. Fails with one line: the file
-    /// may not be replaced, or cannot be written.
+    /// Begins the file with what is recorded already; see [`RecordingFile::admit`]. Fails with one line if the
+    /// file may not be replaced or cannot be written.
     pub fn begin(
         path: &Path,
         replace: bool,
@@ -40,8 +40,8 @@ impl RecordingFile {
         Ok(record)
     }
 
-    /// Whether a recording may be written to a file: where there is none, or one that is empty or a
-    /// recording itself. Fails with one line, with `how` to replace the file all the same.
+    /// Whether a recording may be written to a file: it does not exist, is empty, or is a recording itself.
+    /// Fails with one line; `how` tells how to replace the file all the same.
     pub fn admit(path: &Path, replace: bool, how: &str) -> Result<(), String> {
         let path = at_home(path);
         let name = path.display();
@@ -54,7 +54,7 @@ impl RecordingFile {
         }
         let mut head = String::new();
         let begin = File::open(&path).map_err(|why| format!("{name}: {why}"))?;
-        // What is not text is not a recording.
+        // A file that is not text is not a recording.
         let read = begin.take(HEADER.len() as u64).read_to_string(&mut head);
         if read.is_ok() && head == HEADER {
             return Ok(());
@@ -62,13 +62,13 @@ impl RecordingFile {
         Err(format!("{name} is there already and is not a recording; {how}"))
     }
 
-    /// Writes what has changed since the last time. Fails with one line: the file cannot be written.
+    /// Writes the changes since the last call. Fails with one line if the file cannot be written.
     pub fn keep(&mut self, recorder: &mut Recorder) -> Result<(), String> {
         let (unchanged, count) = (recorder.unchanged(), recorder.steps().len());
         if unchanged == count && !self.lines.is_empty() {
             return Ok(());
         }
-        // The line in which the first change lies, and all behind it, are written again.
+        // The line with the first change and all lines after it are written again.
         let whole = self.lines.partition_point(|(first, _)| *first < unchanged);
         let (first, mut at) = match whole.checked_sub(1) {
             Some(last) => self.lines[last],

@@ -1,9 +1,10 @@
-//! The file of a scan: it grows by one line a row, and can be resumed however it ended.
+//! The file of a scan: it grows by one line per row, and can be resumed however it ended.
 //!
-//! Each line is handed to the system in one piece as soon as it is known, to the file or, before its turn, to the
-//! [`Journal`], so that a process that is killed loses what it was computing and at most leaves a line without its
-//! end. [`ScanFile::resume`] trusts nothing: it compares the heading and the beginning of every line with what this
-//! scan would write, computes the first and the last row again, and cuts a line that has no end.
+//! Each line is handed to the system in one piece as soon as it is ready: to the file or, before its turn, to
+//! the [`Journal`]. So a killed process loses only the rows that it was computing, and at most leaves an
+//! incomplete line. [`ScanFile::resume`] trusts nothing: it compares the heading and the beginning of every
+//! line with what this scan would write, computes the first and the last row again, and cuts an incomplete
+//! line.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{File, OpenOptions, TryLockError};
@@ -20,21 +21,21 @@ use crate::report::scan::RowForm;
 use crate::session::Notice;
 use crate::study::scan::{Scan, ScanRow};
 
-/// A file that takes rows.
+/// A file to which rows are added.
 #[derive(Debug)]
 pub struct ScanFile {
     file: File,
     form: RowForm,
     journal: Journal,
-    /// Rows that the journal of an earlier process has, and whose turn has not come.
+    /// Rows from the journal of an earlier process whose turn has not come.
     ahead: BTreeMap<usize, String>,
-    /// Rows that this process has noted in the journal, and whose turn has not come.
+    /// Rows that this process has added to the journal and whose turn has not come.
     noted: BTreeSet<usize>,
     points: Range<usize>,
 }
 
 impl ScanFile {
-    /// An empty file with nothing but the heading, if it is to have one.
+    /// An empty file, with the heading if there is to be one.
     pub fn create(
         path: &Path,
         scan: &Scan,
@@ -57,8 +58,8 @@ impl ScanFile {
         Ok(this)
     }
 
-    /// The file with the rows of these points that it holds already, and how many those are; a new file
-    /// if there is none. Fails with the [`LineRefusal`]; then the file is as it was.
+    /// The file with those rows of these points that it already holds, and their number; a new file if there is
+    /// none. Fails with the [`LineRefusal`]; the file is then unchanged.
     pub fn resume(
         path: &Path,
         scan: &Scan,
@@ -83,23 +84,23 @@ impl ScanFile {
         Ok((this, rows + done))
     }
 
-    /// Whether an earlier process has computed this row, whose turn has not come.
+    /// Whether an earlier process has computed this row and its turn has not come.
     pub fn has(&self, index: usize) -> bool {
         self.ahead.contains_key(&index)
     }
 
-    /// How many those are.
+    /// Number of rows for which [`ScanFile::has`] is true.
     pub fn ahead(&self) -> usize {
         self.ahead.len()
     }
 
-    /// Keeps a row whose turn has not come. Fails if the journal cannot be written.
+    /// Saves a row before its turn. Fails if the journal cannot be written.
     pub fn keep(&mut self, scan: &Scan, index: usize, row: &ScanRow) -> io::Result<()> {
         self.noted.insert(index);
         self.journal.note(scan, self.form, (index, &self.form.line(scan, index, row)))
     }
 
-    /// Adds the next row that an earlier process has not computed, and those after it that one has. Fails if the
+    /// Adds the next row that no earlier process has computed, and the rows after it that one has. Fails if the
     /// file cannot be written.
     pub fn add(&mut self, scan: &Scan, index: usize, row: &ScanRow) -> io::Result<()> {
         self.file.write_all(self.form.line(scan, index, row).as_bytes())?;
@@ -108,8 +109,8 @@ impl ScanFile {
         self.catch_up().map(drop)
     }
 
-    /// Adds rows that the journal had, as far as their turn has come, and says how many; removes the journal where it
-    /// is of no further use.
+    /// Adds rows from the journal whose turn has come, and returns their number; removes the journal if it is
+    /// of no further use.
     fn catch_up(&mut self) -> io::Result<usize> {
         let mut count = 0;
         while let Some(row) = self.ahead.remove(&self.points.start) {
@@ -131,7 +132,7 @@ impl ScanFile {
     }
 }
 
-/// What of the file belongs to this scan; nothing where not even the heading is whole.
+/// The part of the file that belongs to this scan; `None` if not even the heading is complete.
 fn kept(
     (file, form): (&mut File, RowForm),
     scan: &Scan,
@@ -179,7 +180,8 @@ fn kept(
     Ok(Some(kept))
 }
 
-/// Computes the row that stands in line `number` again: the same program on the same scan writes the same line.
+/// Computes the row in line `number` again and compares it: the same program writes the same line for the same
+/// scan.
 pub(super) fn compare(
     scan: &Scan,
     form: RowForm,
@@ -195,20 +197,20 @@ pub(super) fn compare(
     }
 }
 
-/// Opens a file for one scan at a time, without changing what is in it.
+/// Opens a file for one scan at a time, without changing its content.
 fn opened(path: &Path) -> Result<File, LineRefusal> {
     let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(LineRefusal::Busy),
-        // Where files cannot be locked, it is up to the user that no other process writes.
+        // Where files cannot be locked, the user must make sure that no other process writes.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
     }
 }
 
-/// Writes rows that are known to a file, in the form that its name ends with, and says how that ended.
+/// Writes known rows to a file, in the form given by its extension, and reports the result.
 ///
-/// A file that holds the beginning of the same scan is gone on with, one of anything else left alone. A new one is
-/// there as a whole or not at all.
+/// If the file holds the beginning of the same scan, it is continued; a file with any other content is left
+/// alone. A new file is complete or not there at all.
 pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Notice {
     let form = RowForm::of_file(path);
     let is_new = !path.exists();
@@ -237,7 +239,7 @@ pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Notice {
     }
 }
 
-/// How much of a file is good.
+/// The valid beginning of a file.
 #[derive(Clone, Copy, Debug)]
 struct KeptRows {
     rows: usize,

@@ -1,4 +1,4 @@
-//! A scan on all cores: rows are computed side by side and come out in order.
+//! A scan on all cores: rows are computed in parallel and delivered in order.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -18,15 +18,15 @@ use crate::question::Rows;
 use crate::scene::Answer;
 use crate::study::scan::{Scan, ScanRow};
 
-/// Rows that each thread may be ahead of the first one that is not done yet: enough that one slow row
-/// does not hold the others up, few enough that they are held in memory.
+/// Rows that each thread may be ahead of the first unfinished one: enough that one slow row does not hold up
+/// the others, few enough to be held in memory.
 const AHEAD: usize = 32;
 
-/// What a scan may use of the machine.
+/// The processor resources that a scan may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Processors {
     pub jobs: usize,
-    /// Whether others, such as the keys of the explorer, go first.
+    /// Whether other threads, such as those that react to keys, have priority.
     pub polite: bool,
 }
 
@@ -36,14 +36,14 @@ impl Processors {
     }
 }
 
-/// Who takes the rows of a scan.
+/// The receiver of the rows of a scan.
 pub trait Taker {
-    /// Whether this row is known already: then it is neither computed nor taken.
+    /// Whether this row is known already: it is then neither computed nor delivered.
     fn has(&self, _index: usize) -> bool {
         false
     }
 
-    /// A row that is known before its turn; it comes again when that is there.
+    /// Receives a row before its turn; it is delivered again at its turn.
     fn keep(&mut self, _index: usize, _row: &ScanRow) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
@@ -57,10 +57,11 @@ impl<F: FnMut(usize, ScanRow) -> ControlFlow<()>> Taker for F {
     }
 }
 
-/// Computes the rows of these points and hands each to `taker`, in their order, as soon as it and all
-/// before it are known; until the taker breaks off or `interrupted` says so.
+/// Computes the rows of these points and delivers each to `taker` in their order, as soon as it and all rows
+/// before it are known, until the taker breaks off or `interrupted` returns true.
 ///
-/// A row whose computation panics has the panic for its reason. Fails if the system gives no threads.
+/// If the computation of a row panics, the row states the panic as its reason. Fails if the system provides no
+/// threads.
 pub fn rows(
     scan: &Scan,
     points: Range<usize>,
@@ -128,10 +129,10 @@ pub fn rows(
     Ok(())
 }
 
-/// Answers a request for the rows from point number `from` on: pieces as they come, the rest at the end. Fails with
-/// [`Reason::Interrupted`]; what was told before stays true.
+/// Answers a request for the rows from the point `from` on: in pieces as they are ready, the rest at the end.
+/// Fails with [`Reason::Interrupted`]; the pieces told before remain valid.
 pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<Rows, Reason> {
-    /// How long rows are gathered before they are shown: some frames.
+    /// Interval at which gathered rows are told: some frames.
     const EVERY: Duration = Duration::from_millis(60);
     let mut piece = Rows { first: from, rows: Vec::new() };
     let mut told: Option<Instant> = None;
@@ -149,7 +150,7 @@ pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<
     if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(piece) }
 }
 
-/// A row, or nothing if the scan is over.
+/// A row; `None` if the scan is over.
 fn computed(scan: &Scan, index: usize, limits: &Limits) -> Option<ScanRow> {
     if (limits.interrupted)() {
         return None;
@@ -160,12 +161,12 @@ fn computed(scan: &Scan, index: usize, limits: &Limits) -> Option<ScanRow> {
     }
 }
 
-/// Lets other threads go first, where the system knows threads of lower priority.
+/// Lowers the priority of this thread if `polite`, where the system supports that.
 fn step_back(polite: bool) {
-    /// How many steps of niceness, of 19.
+    /// Increase of niceness; the maximum is 19.
     const STEPS: i32 = 10;
     if polite {
-        // Without it the rows are the same, but other programs are slowed down more.
+        // If that fails, the rows are the same, but other programs are slowed down more.
         let _ = rustix::process::nice(STEPS);
     }
 }

@@ -1,8 +1,8 @@
-//! Signals, turned into events by a thread that waits for them.
+//! Signals, converted to events by a thread that waits for them.
 //!
-//! A signal that ends the program lets the loop restore the terminal and leave with exit code 128 + n.
-//! A second one, or a loop that does not react because the terminal takes no output, ends the program
-//! from here.
+//! After a signal that ends the program, the loop restores the terminal and leaves with exit code 128 + n. If a
+//! second one arrives, or the loop does not react because the terminal accepts no output, this module ends the
+//! program.
 
 use std::io;
 use std::thread;
@@ -17,13 +17,13 @@ use signal_hook::low_level::emulate_default_handler;
 use super::event::Event;
 use crate::terminal::Guard;
 
-/// How long the loop may take to end after the first signal that asks for it.
+/// How long the loop may take to end after the first such signal.
 const GRACE: Duration = Duration::from_secs(2);
 
 /// Signals that end the program.
 const ENDING: [i32; 4] = [SIGTERM, SIGHUP, SIGINT, SIGQUIT];
 
-/// Starts the thread that waits for signals. Fails if the system gives no thread, or refuses a handler.
+/// Starts the thread that waits for signals. Fails if the system provides no thread, or refuses a handler.
 pub fn start(events: Sender<Event>, guard: Guard) -> io::Result<()> {
     let mut signals = Signals::new(ENDING.into_iter().chain([SIGTSTP, SIGCONT, SIGWINCH]))?;
     thread::Builder::new().name("signals".to_owned()).spawn(move || {
@@ -46,7 +46,7 @@ pub fn start(events: Sender<Event>, guard: Guard) -> io::Result<()> {
     Ok(())
 }
 
-/// Ends the program without waiting for anything, the terminal included.
+/// Ends the program without waiting for anything, not even the terminal.
 fn end_at_once(guard: &Guard, signal: i32) -> ! {
     guard.leave_at_once();
     std::process::exit(exit_code(signal).into());
@@ -59,21 +59,21 @@ fn end_after(time: Duration, guard: Guard, signal: i32) {
     });
 }
 
-/// The exit code of a program that a signal has ended.
+/// The exit code of a program that was ended by a signal.
 pub fn exit_code(signal: i32) -> u8 {
     u8::try_from(128 + signal).unwrap_or(u8::MAX)
 }
 
-/// Whether someone can make the process go on after it was stopped: a shell with job control.
+/// Whether a shell with job control can continue the process after a stop.
 ///
-/// There is none above the leader of a session, as in `ssh -t host hopfscope`: stopped, it would hang
+/// Nobody can continue the leader of a session, as in `ssh -t host hopfscope`: after a stop, it would hang
 /// forever.
 pub fn can_be_continued() -> bool {
     getsid(None).is_ok_and(|session| session != getpgrp())
 }
 
-/// Asks all processes of the job to stop, as the terminal does for Ctrl-Z; one of them may be a
-/// wrapper for which the shell waits. This process gets [`Event::Suspend`]. Fails if the system refuses.
+/// Asks all processes of the job to stop, as the terminal does for Ctrl-Z: one of them may be a wrapper for
+/// which the shell waits. This process gets [`Event::Suspend`]. Fails if the system refuses.
 pub fn suspend_job() -> io::Result<()> {
     Ok(kill_current_process_group(Signal::TSTP)?)
 }

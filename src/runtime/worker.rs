@@ -1,12 +1,12 @@
-//! The worker: one thread that answers the requests wanted now, and drops those wanted no longer.
+//! The worker: one thread that answers the requests wanted now, and drops those that are no longer wanted.
 //!
-//! [`Worker::submit`] replaces the set of wanted requests. The running job continues if it is among them;
-//! else one atomic counter moves on, the job sees that at its next step, and what it found is thrown
-//! away. A long job tells what it has so far: each piece is reported at once, with `complete: false`, and
-//! the request is answered only when its last piece is there. A job whose turn is over while others wait is
-//! put aside and starts over after them (module `queue`). An answer that is on its way is not computed
-//! again: the worker remembers what it has reported until [`Worker::taken`] says that the session knows. A
-//! request that panics becomes a [`Failure::Panic`]; the thread lives on.
+//! [`Worker::submit`] replaces the set of wanted requests. The job in progress continues if its request is
+//! still among them; otherwise an atomic counter is incremented, the job notices that at its next step, and its
+//! result is discarded. A long job reports its results in pieces: each is reported at once, with `complete:
+//! false`, and only the last one completes the answer. A job whose turn is over while others wait is put aside
+//! and starts over after them (module `queue`). An answer on its way is not computed again: the worker
+//! remembers what it has reported until [`Worker::taken`] says that the session has it. A request that panics
+//! becomes a [`Failure::Panic`]; the thread survives.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -21,10 +21,10 @@ use crate::question::Failure;
 use crate::scene::{Answer, Answered, Request};
 use crate::session::Msg;
 
-/// What a job calls with what it has so far; its answer is the last piece.
+/// Called by a job with its results so far; its return value is the last piece.
 pub type Tell<'a> = dyn Fn(Answer) + 'a;
 
-/// The handle of the worker thread; dropping it ends the thread at the job's next step.
+/// The handle of the worker thread; dropping it ends the thread at the next step of its job.
 #[derive(Debug)]
 pub struct Worker {
     shared: Arc<Shared>,
@@ -34,9 +34,9 @@ pub struct Worker {
 struct Shared {
     queue: Mutex<Queue>,
     changed: Condvar,
-    /// Moves on when the running job is to stop.
+    /// Incremented when the job in progress must stop.
     generation: AtomicU64,
-    /// Whether others wait whose turn it is when that of the running job is over.
+    /// Whether others wait that have had no more turns than the job in progress.
     contested: AtomicBool,
 }
 
@@ -44,7 +44,7 @@ struct Shared {
 struct Job {
     request: Request,
     generation: u64,
-    /// When its turn is over.
+    /// The end of its turn.
     until: Instant,
 }
 
@@ -72,8 +72,8 @@ impl Shared {
 }
 
 impl Worker {
-    /// Starts the thread. `answer` computes; `report` gets a message for every answer that is still
-    /// wanted, and [`Msg::Idle`] when there is nothing left to do. Fails if the system gives no thread.
+    /// Starts the thread. `answer` computes; `report` gets a message for every answer that is still wanted, and
+    /// [`Msg::Idle`] when there is nothing left to do. Fails if the system provides no thread.
     pub fn start(
         answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + 'static,
         notes: Notes,
@@ -82,7 +82,7 @@ impl Worker {
         Worker::start_with(queue::TURN, answer, notes, report)
     }
 
-    /// The same with another length of the first turn of a request.
+    /// Starts the thread with another length of a request's first turn.
     fn start_with(
         turn: Duration,
         answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + 'static,
@@ -136,7 +136,7 @@ impl Worker {
         Ok(Worker { shared })
     }
 
-    /// Says which requests are wanted now and not answered yet, the most urgent first.
+    /// Sets the requests that are wanted now and not answered yet, the most urgent first.
     pub fn submit(&self, wanted: Vec<Request>) {
         let mut queue = self.shared.queue();
         if queue.want(wanted) {
@@ -147,8 +147,8 @@ impl Worker {
         self.shared.changed.notify_one();
     }
 
-    /// Says that the answer to a request has arrived where it was wanted. From now on to want it is to
-    /// want it computed again.
+    /// Notes that the answer to a request has arrived at the session. If the request is wanted after that, it
+    /// is computed again.
     pub fn taken(&self, request: &Request) {
         self.shared.queue().taken(request);
     }
@@ -177,7 +177,7 @@ mod tests {
     use crate::question;
     use crate::study::{Cycles, Edge};
 
-    /// A request told apart from others by its number.
+    /// A request that can be told apart from others by its number.
     fn request(number: f64) -> Request {
         let parameters = Parameters { d: number, d2: 0.0, d3: 0.0, r: 0.1 };
         Request::Cycles(question::cycles::Asked { parameters })
@@ -201,7 +201,7 @@ mod tests {
         })
     }
 
-    /// What a job is told to do.
+    /// An instruction to a job.
     #[derive(Debug)]
     enum JobStep {
         /// To report a piece.
@@ -210,7 +210,7 @@ mod tests {
         Finish,
     }
 
-    /// A worker whose jobs tell that they have started, and end when they are told to or superseded.
+    /// A worker whose jobs report their start, and end when they are told to or superseded.
     struct Bench {
         worker: Worker,
         started: Receiver<f64>,
@@ -218,7 +218,7 @@ mod tests {
         messages: Receiver<Msg>,
     }
 
-    /// One whose requests are never put aside.
+    /// A worker whose requests are never put aside.
     fn bench() -> Bench {
         bench_with(Duration::from_secs(1_000_000))
     }
@@ -246,7 +246,7 @@ mod tests {
     }
 
     impl Bench {
-        /// The next answer: its number, and whether there is one.
+        /// The next answer: its number, and whether it failed.
         fn answered(&self) -> (f64, Result<(), Failure>) {
             match self.messages.recv().unwrap() {
                 Msg::Answered(answered) => (number(&answered.request), answered.result.map(drop)),
@@ -254,7 +254,7 @@ mod tests {
             }
         }
 
-        /// The worker says that it is idle, and has said nothing else.
+        /// Expects the worker to report that it is idle, and nothing else.
         fn idle(&self) {
             assert!(matches!(self.messages.recv().unwrap(), Msg::Idle));
             assert!(self.worker.is_idle());
@@ -274,7 +274,7 @@ mod tests {
         bench.idle();
     }
 
-    /// By order of events: with turns of no length, whatever has had fewer turns goes first.
+    /// By the order of events: with turns of zero length, the request with the fewest turns goes first.
     #[test]
     fn a_request_that_takes_long_does_not_hold_up_the_others() {
         let bench = bench_with(Duration::ZERO);
@@ -323,7 +323,8 @@ mod tests {
         bench.worker.submit(vec![request(1.0)]);
         assert_eq!(bench.started.recv(), Ok(1.0));
         bench.finish.send(JobStep::Finish).unwrap();
-        // The first run may have ended before the second was submitted; then it said so.
+        // The first run may have ended before the second request was submitted; the worker was then idle in
+        // between.
         let answered = bench.messages.iter().find(|message| !matches!(message, Msg::Idle));
         assert!(matches!(answered, Some(Msg::Answered(answered)) if answered.result.is_ok()));
         bench.idle();
@@ -336,12 +337,12 @@ mod tests {
         bench.finish.send(JobStep::Finish).unwrap();
         assert_eq!(bench.answered(), (1.0, Ok(())));
         bench.idle();
-        // Not taken yet: a session that wants something else beside it still wants it.
+        // Not taken yet: a session that wants something else as well still wants this.
         bench.worker.submit(vec![request(1.0), request(2.0)]);
         bench.finish.send(JobStep::Finish).unwrap();
         assert_eq!(bench.answered(), (2.0, Ok(())));
         bench.idle();
-        // Taken and wanted nevertheless, as after a failure that is tried again.
+        // Taken and wanted again, as when a failed request is retried.
         bench.worker.taken(&request(1.0));
         bench.worker.submit(vec![request(1.0), request(2.0)]);
         bench.finish.send(JobStep::Finish).unwrap();
@@ -359,7 +360,7 @@ mod tests {
             let Msg::Answered(piece) = bench.messages.recv().unwrap() else { panic!("no piece") };
             assert!(!piece.complete && piece.result.is_ok());
             assert!(!bench.worker.is_idle());
-            // Still wanted, and not begun again.
+            // Still wanted, and not started again.
             bench.worker.submit(vec![request(1.0)]);
         }
         bench.finish.send(JobStep::Finish).unwrap();
@@ -377,7 +378,7 @@ mod tests {
         let job = move |request: &Request, _: &Limits, tell: &Tell| {
             start.send(number(request)).unwrap();
             gone.recv().unwrap();
-            // It has not noticed yet that it is no longer wanted.
+            // The job has not noticed yet that it is no longer wanted.
             tell(nothing(request));
             Ok(nothing(request))
         };

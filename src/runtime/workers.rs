@@ -1,7 +1,7 @@
 //! Two workers and a writer of figures: one worker for what the next picture needs, one for what takes long.
 //!
-//! A scan of minutes must not stand between a key and its picture. So long requests have a worker of
-//! their own, which continues while the other one answers.
+//! A scan of minutes must not come between a key and its picture. So long requests have a separate worker,
+//! which continues while the other one answers.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
 use crate::session::Msg;
 
-/// Both workers, used as one, and what writes figures.
+/// Both workers, used as one, and the writer of figures.
 #[derive(Debug)]
 pub struct Workers {
     quick: Worker,
@@ -23,8 +23,8 @@ pub struct Workers {
 }
 
 impl Workers {
-    /// Starts them; see [`Worker::start`]. Each says [`Msg::Idle`] for itself; ask [`Workers::is_idle`]. Fails if
-    /// the system gives no threads.
+    /// Starts the workers; see [`Worker::start`]. Each reports [`Msg::Idle`] separately; [`Workers::is_idle`]
+    /// says whether both are idle. Fails if the system provides no threads.
     pub fn start(
         answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
         notes: Notes,
@@ -44,7 +44,7 @@ impl Workers {
         })
     }
 
-    /// Says which requests are wanted now and not answered yet, the most urgent first.
+    /// Sets the requests that are wanted now and not answered yet, the most urgent first.
     pub fn ask(&mut self, wanted: Vec<Request>) {
         if wanted == self.asked {
             return;
@@ -55,12 +55,13 @@ impl Workers {
         self.long.submit(long);
     }
 
-    /// What was asked last and has not been answered.
+    /// The requests asked last that are not answered yet.
     pub fn asked(&self) -> &[Request] {
         &self.asked
     }
 
-    /// Takes note of a message that arrived where it was wanted: what it answers is no longer asked.
+    /// Notes a message that has arrived at the session: the request that it answers completely is no longer
+    /// asked.
     pub fn arrived(&mut self, msg: &Msg) {
         if let Msg::Answered(answered) = msg
             && answered.complete
@@ -72,12 +73,12 @@ impl Workers {
         }
     }
 
-    /// Begins to write a figure; see [`FigureWriter::begin`]. Fails with one line that says why not.
+    /// Begins to write a figure; see [`FigureWriter::begin`]. Fails with one line that says why it cannot.
     pub fn write(&mut self, path: PathBuf, replace: bool, work: Work) -> Result<(), String> {
         self.figures.begin(path, replace, work)
     }
 
-    /// Stops what is being written.
+    /// Stops the figure in progress.
     pub fn stop_writing(&self) {
         self.figures.stop();
     }

@@ -106,7 +106,7 @@ pub fn plain() -> Arc<Scene> {
     Arc::clone(&library()[0])
 }
 
-/// Similarity above which a name is suggested (0: nothing in common, 1: equal).
+/// Smallest similarity of a suggested name (0: nothing in common, 1: equal).
 const ALIKE: f64 = 0.7;
 
 /// The scene with this name. Fails with one line that suggests similar names.

@@ -1,34 +1,34 @@
-//! What the loop holds of a file or register while it plays it.
+//! The state of the loop while it plays a file or a register.
 
 use crate::session::replay::{Player, Recorder, Script};
 
-/// Why a play stands still.
+/// Why a replay is paused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Pause {
     Not,
     /// A caption waits to be read.
     Caption,
-    /// The user wishes it.
+    /// The user asked for it.
     Wished,
 }
 
-/// A file or register that is played.
+/// A file or register that is being played.
 #[derive(Debug)]
 pub(super) struct Playing {
     pub(super) player: Player,
-    /// What is played, to start over.
+    /// The whole script, to start over.
     script: Script,
-    /// Captions that are passed by, on the way to the one that is wanted.
+    /// Number of captions to skip on the way to the wanted one.
     pub(super) passed: usize,
-    /// Whether keys have done their own work since the caption that waits.
+    /// Whether keys had their usual effect since the present caption was shown.
     pub(super) tried: bool,
-    /// A register: what the user does comes after it.
+    /// Whether it is a register: input of the user then waits until it is over.
     pub(super) register: bool,
-    /// Presses that asked for it, the last ones recorded.
+    /// Number of key presses that asked for it, the last ones recorded.
     pub(super) asked: u32,
-    /// What it has given to the session.
+    /// The steps that it has given to the session so far.
     pub(super) given: Recorder,
-    /// Whether time has passed for the session besides what it says itself.
+    /// Whether anything besides its own steps was given to the session, such as the passing of time.
     pub(super) timed: bool,
     pub(super) pause: Pause,
 }
@@ -48,14 +48,15 @@ impl Playing {
         }
     }
 
-    /// Goes back to the caption before this one: all is played again up to there.
+    /// Goes back to the previous caption: plays everything again up to there.
     pub(super) fn go_back(&mut self) {
         if let Some(passed) = self.player.said().checked_sub(2) {
             self.play_again(passed);
         }
     }
 
-    /// Goes on to the next caption, from what the file made of the session: what was tried out is past.
+    /// Continues to the next caption. If the user has tried keys, plays everything again up to here to undo
+    /// them.
     pub(super) fn go_on(&mut self) {
         if self.tried {
             self.play_again(self.player.said());

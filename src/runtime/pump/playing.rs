@@ -1,7 +1,8 @@
-//! Files and registers played in the loop, what the user's keys do meanwhile, and what is recorded of it.
+//! Files and registers played in the loop, the effect of the user's keys meanwhile, and what is recorded.
 //!
-//! A recording keeps what asked for a play, since that plays again; only where the play was not the whole
-//! one, or time passed in it, the keys that it gave take the place of what asked for it.
+//! A recording keeps the command that asked for a replay, because it plays the same again. Only if the replay
+//! ended early, or something besides its steps was given to the session, the recording has the given steps
+//! instead of the command.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -14,10 +15,10 @@ use crate::session::replay::{Action, Script};
 use crate::session::{Code, Key, Msg, Notice};
 use crate::view;
 
-/// Keys that go back to the caption before: also those of a presenter's remote control.
+/// Keys that go back to the previous caption, including those of a presenter's remote control.
 const BACK: [Code; 3] = [Code::Backspace, Code::Left, Code::PageUp];
 
-/// Leaves whatever is open, and whatever keys the user has chosen.
+/// Whether a message is Ctrl-C, which leaves whatever is open, whichever keys the user has chosen.
 fn leaves(msg: &Msg) -> bool {
     matches!(msg, Msg::Key(Key { code: Code::Char('c'), control: true, .. }))
 }
@@ -27,7 +28,7 @@ fn is_key(msg: &Msg, code: Code) -> bool {
 }
 
 impl<M: Application, W: Write> Pump<M, W> {
-    /// Something that the user did: given to the session; while something is played, to that.
+    /// Handles input of the user: gives it to the session or, while something is played, to the replay.
     pub(super) fn users(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
         let Some(playing) = &mut self.playing else {
             if self.application.is_waiting() {
@@ -35,7 +36,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                     self.held_back.push_back(Event::Session(msg));
                     return Ok(None);
                 }
-                // What waits has not happened, and now it will not.
+                // The waiting command has not been carried out, and never will be.
                 self.recorder.forget(1);
                 self.held_back.clear();
                 if forgets(&msg) {
@@ -79,7 +80,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         Ok(None)
     }
 
-    /// Notes what happened besides what the user did.
+    /// Records a message that is not input of the user.
     pub(super) fn note(&mut self, msg: &Msg) {
         match &mut self.playing {
             Some(playing) => {
@@ -90,13 +91,14 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
     }
 
-    /// The text of a file: as what is played has it, else as it is; a recording embeds it.
+    /// The text of a file, from the replay if that embeds it, else from disk; the recording embeds it.
     pub(super) fn read(&mut self, path: &Path) -> Result<String, String> {
         let embedded = self.playing.as_ref().and_then(|playing| playing.player.file(path));
         let result = embedded.map_or_else(|| Files::read(path), |text| Ok(text.to_owned()));
         if let Ok(text) = &result {
             let (recorder, asked) = match &mut self.playing {
-                // What is not played to its end asks for its files by itself.
+                // If the replay is not played to its end, the recording has its steps, which ask for the file
+                // themselves.
                 Some(playing) => {
                     let asked = self.application.asked();
                     playing.given.embed(&path.display().to_string(), text, asked);
@@ -109,7 +111,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         result
     }
 
-    /// Begins to play; something that is played already continues afterwards.
+    /// Begins a replay; one that is already being played continues afterwards.
     pub(super) fn begin(&mut self, script: Script, register: bool) -> io::Result<EffectOutcome> {
         let asked = self.application.asked();
         let Some(playing) = &mut self.playing else {
@@ -124,9 +126,9 @@ impl<M: Application, W: Write> Pump<M, W> {
         Ok(stop.map_or(EffectOutcome::Done, EffectOutcome::Stop))
     }
 
-    /// The next step of a replay, if the screen shows all that happened before it.
+    /// Takes the next step of a replay, if the screen shows everything before it.
     ///
-    /// A replay inside the explorer has the size of the terminal and keeps no pictures.
+    /// Inside the explorer, a replay has the size of the terminal and keeps no pictures.
     pub(super) fn play(&mut self) -> io::Result<Option<LoopEnd>> {
         if self.changed.is_some()
             || !self.events.is_empty()
@@ -152,7 +154,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                     playing.given.note(&msg);
                     let stop = self.update(msg)?;
                     if stop == Some(LoopEnd::Quit) {
-                        // What asked for this leaves again.
+                        // The command that asked for this replay also quits when it is played again.
                         self.settle(true);
                     }
                     Ok(stop)
@@ -163,14 +165,14 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
     }
 
-    /// Ends a replay; `whole` if it was played to its end.
+    /// Ends a replay; `whole` says that it was played to its end.
     fn played(&mut self, error: bool, text: String, whole: bool) -> io::Result<Option<LoopEnd>> {
         self.settle(whole);
         self.update(Msg::Say(String::new(), None))?;
         self.update(Msg::Told(Notice { error, text }))
     }
 
-    /// What the user did meanwhile happens before everything else, once it can.
+    /// Puts held-back input before all other events, once nothing makes it wait.
     pub(super) fn release(&mut self) {
         if self.playing.is_some() || self.application.is_waiting() {
             return;
@@ -180,7 +182,8 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
     }
 
-    /// What was played is over: the recording has what asked for it, or what it gave.
+    /// Ends a replay in the recording: keeps the command that asked for it, or replaces that by the given
+    /// steps.
     fn settle(&mut self, whole: bool) {
         let Some(playing) = self.playing.take() else { return };
         if !whole || playing.timed {
@@ -189,7 +192,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
     }
 
-    /// Writes what was recorded since the last time, if a file is kept of it.
+    /// Writes what was recorded since the last call, if there is a file for it.
     pub(super) fn keep_record(&mut self) -> io::Result<()> {
         let kept = self.record.as_mut().map_or(Ok(()), |record| record.keep(&mut self.recorder));
         if let Err(text) = kept {
@@ -199,13 +202,13 @@ impl<M: Application, W: Write> Pump<M, W> {
         Ok(())
     }
 
-    /// The program ends: what was recorded is complete.
+    /// Completes the recording when the program ends.
     pub fn close_record(&mut self) {
         self.settle(false);
         if self.application.is_waiting() {
             self.recorder.forget(1);
         }
-        // Whatever the user has to be told about it comes too late.
+        // It is too late to tell the user about an error.
         drop(self.record.as_mut().map(|record| record.keep(&mut self.recorder)));
     }
 }

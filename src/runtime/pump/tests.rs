@@ -11,22 +11,22 @@ use crate::runtime::worker::Tell;
 use crate::session::{Code, Key, replay};
 use crate::terminal::pacing::{FRAME_TIME, Pacing};
 
-/// An application that counts right-arrows, shows the last notice, moves for a while after `p`, and leaves at
-/// `q`.
+/// An application that counts right-arrow keys, shows the last notice, moves for a while after `p`, and quits
+/// at `q`.
 #[derive(Debug, Default)]
 struct Counter {
     count: u32,
     notice: String,
-    /// What it asks for at the next enter.
+    /// The effect of the next enter key.
     asks: Option<Effect>,
     moving: bool,
     elapsed: u32,
-    /// A figure is made when something comes through here.
+    /// A figure is finished when something arrives here.
     gate: Option<Receiver<()>>,
 }
 
 impl Counter {
-    /// The clock stands still after it has been read this many times.
+    /// Number of times that time passes until motion stops.
     const MOVES: u32 = 3;
 }
 
@@ -75,7 +75,7 @@ impl Application for Counter {
     }
 }
 
-/// A terminal that tells what is written to it.
+/// A terminal that reports what is written to it.
 struct Wire(Sender<String>);
 
 impl Write for Wire {
@@ -172,7 +172,7 @@ fn the_next_frame_waits_until_the_terminal_has_shown_the_last() {
     assert!(pump.due().unwrap() <= shown + FRAME_TIME);
 }
 
-/// Plays a file and gives back what is on the screen when it is through.
+/// Plays a file and returns what is on the screen at its end.
 fn play(file: &str) -> String {
     let Bench { pump, events, written } = bench();
     let mut pump = pump.playing(Some(replay::parse(file).unwrap()));
@@ -191,7 +191,7 @@ fn a_replay_types_its_keys_and_says_how_it_ended() {
     assert!(stopped.starts_with("1 replay stopped: line 1, column 9"), "{stopped}");
 }
 
-/// By order of events: two keys are answered on the screen before the figure is made.
+/// By the order of events: two keys are answered on the screen before the figure is finished.
 #[test]
 fn keys_are_answered_while_a_figure_is_written() {
     let folder = tempfile::tempdir().unwrap();
@@ -220,7 +220,7 @@ fn a_figure_that_may_not_be_written_is_not_begun() {
     let path = folder.path().join("a.svg");
     std::fs::write(&path, "mine").unwrap();
     let Bench { mut pump, .. } = bench();
-    // A gate that stays closed: what began would never end.
+    // The gate stays closed: unless it is stopped, the figure is never finished.
     let (_open, gate) = unbounded();
     let asks = Effect::Figure { path: path.clone(), plot: None, replace: false };
     (pump.application.asks, pump.application.gate) = (Some(asks), Some(gate));
@@ -243,19 +243,20 @@ fn what_concerns_the_process_stops_the_loop() {
     }
 }
 
-/// A tour, what is pressed at each text that is seen, and how often it steps by then.
+/// A tour, the keys pressed at each text that appears, and the number of steps at the end.
 type Tour<'a> = (&'a str, &'a [(&'a str, &'a [&'a str])], u32);
 
-/// At `done` the tour is over, so that q leaves the program.
+/// At `done`, the tour is over, so q quits the program.
 #[rustfmt::skip]
 const TOURS: [Tour; 4] = [
-    // A caption waits for a key that does nothing else: the first q continues with the tour.
+    // A caption waits for a key without another effect: the first q continues the tour.
     ("<right> <say \"look\"> <right>", &[("look", &["q"]), ("done", &["q"])], 2),
-    // Once to the first caption and on to the second, back to the first, on again and to the end.
+    // On to the second caption, back to the first one, on again and to the end.
     ("<right> <say \"one\"> <right> <say \"two\"> <right>", &[
         ("one", &["<space>"]), ("two", &["<backspace>"]), ("one", &["<space>"]), ("two", &["<space>"]), ("done", &["q"]),
     ], 2 + 3),
-    // A key that a caption lets do its work does it, twice here, and the whole file is played as if it had not.
+    // A key that has its usual effect at a caption is tried twice here; then the whole file is played as if it
+    // had not been.
     ("<right> <say \"try\"> <right> <say \"second\">", &[
         ("try", &["<right>", "<right>", "n"]), ("second", &["n"]), ("done", &["q"]),
     ], 1 + 2 + 2),
@@ -294,7 +295,7 @@ fn what_was_pressed_is_written_without_what_asks_for_it() {
     assert!(written.ends_with("\n# hopfscope basin\n<right*2>\n"), "{written}");
 }
 
-/// What is recorded, without the comments.
+/// The recorded steps, without the comments.
 fn recorded(pump: &Pump<Counter, Wire>) -> String {
     replay::text("", pump.recorder.steps())
 }
