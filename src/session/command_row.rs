@@ -1,4 +1,4 @@
-//! A row of the table of commands: a command, and how it is run.
+//! A row of the table of commands: a command and how it is run.
 
 use crate::scene::Layer;
 use crate::session::effect::Effect;
@@ -7,7 +7,7 @@ use crate::session::state::command::{Chosen, Command};
 use crate::session::state::context::Context;
 use crate::session::state::session::Session;
 
-/// Does what the command says; the key is the one that was pressed for it.
+/// The function of a command; its key is the one that was pressed.
 pub(super) type Act = fn(&mut Session, Key) -> Vec<Effect>;
 
 /// How a command is run.
@@ -17,7 +17,7 @@ pub(super) enum CommandAction {
     Act(Act),
     /// It switches a layer.
     Toggle(Layer),
-    /// It chooses another one to be run.
+    /// It chooses another command to run.
     Choose(fn(&mut Session) -> Option<Chosen>),
 }
 
@@ -38,7 +38,7 @@ pub(super) const fn row(
     CommandRow { command: Command { name, keys, hint, doc }, run: CommandAction::Act(act) }
 }
 
-/// A row of the table, of a command that chooses another one.
+/// A row of the table for a command that chooses another one.
 pub(super) const fn chooses(
     name: &'static str,
     keys: &'static [(Context, &'static [&'static str])],

@@ -1,4 +1,4 @@
-//! The commands: one table that feeds the keys, the help, the footer and what a key does.
+//! The commands: one table that feeds the keys, the help and the footer, and decides what a key does.
 //!
 //! A new command is one row here and one small function in `session::act`.
 
@@ -29,13 +29,13 @@ use crate::session::state::session::{Session, Size};
 /// Characters with which a number can begin.
 const NUMERIC: &[&str] = &["0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "-", "."];
 
-/// Letters of layers: all that do not move in a list or close it.
+/// Letters available for layers: all that do not move in a list or close it.
 const LETTERS: &[&str] = &[
     "a", "b", "c", "d", "e", "f", "h", "i", "l", "m", "n", "o", "p", "r", "s", "t", "u", "w", "x",
     "y", "z",
 ];
 
-/// Digits with which a count can begin where no number is typed.
+/// Digits with which a count can begin, where no number is typed.
 const DIGITS: &[&str] = &["1", "2", "3", "4", "5", "6", "7", "8", "9"];
 
 /// Digits with which a count continues.
@@ -400,12 +400,12 @@ const COMMANDS: &[CommandRow] = &[
         "Redraw the whole screen", |_, _| vec![Effect::Repaint]),
 ];
 
-/// A command for each layer. They have no keys but those that the user's settings give them; that of the
-/// whole model has one, because it changes what all views draw.
+/// A command for each layer. Only that of the whole model has a default key, because it changes what all views
+/// draw; the others get keys from the user's settings.
 fn toggles() -> &'static [CommandRow] {
     static TOGGLES: LazyLock<Vec<CommandRow>> = LazyLock::new(|| {
         let row = |spec: &LayerSpec| {
-            // The names live as long as the program, as those of the other commands do.
+            // The names must live as long as the program, like those of the other commands.
             let name = Box::leak(format!("toggle-{}", spec.name).into_boxed_str());
             let doc = Box::leak(format!("Show or hide {}", spec.meaning).into_boxed_str());
             let keys: &[(Context, &[&str])] = if spec.layer == Layer::Whole {

@@ -1,4 +1,4 @@
-//! The settings file: how the screen looks, and which keys mean what.
+//! The settings file: the appearance of the screen, and the keys of commands.
 //!
 //! Keys are given by context and command, and replace the default keys of that command there:
 //!
@@ -22,29 +22,29 @@ use crate::session::state::context::{Context, contexts};
 use crate::session::state::keymap::Keymap;
 use crate::session::state::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, named};
 
-/// What a settings file says; what it does not say is left to the defaults.
+/// The content of a settings file; whatever is missing keeps its default.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Config {
-    /// The scene to open where none is named.
+    /// The scene to open unless another is named.
     pub scene: Option<String>,
-    /// How points are made of characters.
+    /// The characters that form the dots of plots.
     pub glyphs: Option<Glyphs>,
-    /// How many colours to use.
+    /// Colour depth.
     pub colors: Option<Colors>,
     pub theme: Option<Theme>,
     /// Whether the terminal reports the mouse.
     pub mouse: bool,
-    /// Which key means what.
+    /// The keys of all commands.
     pub keymap: Keymap,
 }
 
-/// A command's keys as a file gives them.
+/// A command's keys as given in a file.
 type Given<'a> = (Context, &'static Command, &'a Spanned<Vec<Spanned<String>>>);
 
-/// The keys of commands, by their names.
+/// The keys of commands, by command name.
 type Keys = BTreeMap<Spanned<String>, Spanned<Vec<Spanned<String>>>>;
 
-/// The file as it stands on disk.
+/// The file as it is written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SettingsFile {
@@ -58,11 +58,11 @@ struct SettingsFile {
     keys: BTreeMap<Spanned<String>, Keys>,
 }
 
-/// Commands that must have a key: without them there is no way out.
+/// Commands that must have a key, because there is no other way out.
 const INDISPENSABLE: [&str; 2] = ["quit", "back"];
 
-/// Reads a settings file; `file` is its name in error messages. Fails with [`Misread`] with the place of the first
-/// mistake and what is allowed there.
+/// Reads a settings file; `file` is its name in error messages. Fails with [`Misread`], which names the place
+/// of the first mistake and what is allowed there.
 pub fn parse(file: &str, text: &str) -> Result<Config, Misread> {
     let read: SettingsFile = misread::toml(file, text)?;
     config(&read).map_err(|complaint| complaint.in_file(file, text))
@@ -83,7 +83,7 @@ fn config(read: &SettingsFile) -> Result<Config, Complaint> {
     })
 }
 
-/// The value with this name in a table of settings.
+/// The value with this name in a table of allowed values.
 fn one_of<T: Copy>(
     given: Option<&Spanned<String>>,
     table: &[(T, &'static str)],
@@ -96,7 +96,7 @@ fn one_of<T: Copy>(
     given.map(find).transpose()
 }
 
-/// A complaint about a name, with the nearest of those that there are.
+/// A complaint about an unknown name, with the most similar known one.
 fn unknown<'a>(
     given: &Spanned<String>,
     what: &str,
@@ -108,8 +108,8 @@ fn unknown<'a>(
     Complaint { at: given.span(), message: format!("no {what} {:?}{nearest}", given.get_ref()) }
 }
 
-/// The default keys with those of the file. All replaced keys are taken away before new ones are
-/// given, so that two commands can swap theirs.
+/// The default keys, changed as the file says. All replaced keys are removed before new ones are added, so that
+/// two commands can swap theirs.
 fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
     let mut keymap = Keymap::default();
     let mut given: Vec<Given> = Vec::new();
@@ -154,8 +154,8 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
     Ok(keymap)
 }
 
-/// Whether a command has by default the same keys on a walk as everywhere, and the file says nothing else:
-/// then its keys of everywhere hold there too.
+/// Whether a command's keys for `everywhere` also hold on a walk: by default, both are the same, and the file
+/// gives no keys for the walk.
 fn follows(read: &BTreeMap<Spanned<String>, Keys>, command: &Command) -> bool {
     let own = |at: Context| command.keys.iter().find(|(context, _)| *context == at);
     let alike = match (own(Context::Everywhere), own(Context::Walk)) {
@@ -197,7 +197,7 @@ mod tests {
         assert_eq!(meaning(&config, Context::Parameters, "<A-l>"), Some("step-up"));
         assert_eq!(meaning(&config, Context::Parameters, "<right>"), None);
         assert_eq!(meaning(&config, Context::Parameters, "h"), None);
-        // In the plots nothing was said about it.
+        // The file does not change its keys in plots.
         assert_eq!(meaning(&config, Context::Plots, "<gt>"), Some("step-up"));
     }
 

@@ -1,8 +1,8 @@
-//! The command line: everything that has a name, typed after a colon.
+//! The command line: everything that can be run by name, typed after a colon.
 //!
-//! The one table of the commands that take words; it feeds the line itself, its completion, the palette and
-//! the help. Every command of a key can be typed by its name too. A line is run as a whole or not at all,
-//! and a line that is refused says what is allowed.
+//! The one table of the commands that take words. It feeds the line itself, its completion, the palette and the
+//! help. Every command of a key can also be typed by its name. A line is run completely or not at all, and a
+//! refused line says what is allowed.
 
 use crate::session::act::{files, measurement, scan, values};
 use crate::session::effect::Done;
@@ -10,10 +10,10 @@ use crate::session::message::Purpose;
 use crate::session::state::command::{LineCommand, Words};
 use crate::session::state::session::Session;
 
-/// What a line does to a session, given the words behind its name; or one line that says why not.
+/// Runs a line on a session, given the words after its name; fails with one line that says why it cannot.
 pub(super) type RunLine = fn(&mut Session, &str) -> Done;
 
-/// A command that takes words, and what it does.
+/// A command that takes words, and its function.
 #[derive(Debug)]
 struct LineRow {
     line: LineCommand,
@@ -113,7 +113,7 @@ pub fn lines() -> impl Iterator<Item = &'static LineCommand> {
     LINES.iter().map(|row| &row.line)
 }
 
-/// What the command that takes words with this name does.
+/// The function of the command with this name, if it is one that takes words.
 pub(super) fn run(name: &str) -> Option<RunLine> {
     LINES.iter().find(|row| row.line.name == name).map(|row| row.run)
 }

@@ -1,14 +1,14 @@
-//! The session: a pure machine of state, commands and keys.
+//! The session: a pure state machine of state, commands and keys.
 //!
 //! It stands on floors, and each file uses only files further down:
 //!
 //! - [`message`] is what can happen to a session, [`replay`] the same as text;
 //! - [`state`] is plain data, with [`state::session::Session`] on top;
-//! - [`read`] answers questions about it, and changes nothing;
-//! - [`act`] changes it, one family of commands a file;
-//! - [`save`] and [`opening`] turn a session into text and back;
-//! - `commands` and `lines` are the tables of everything that has a name, with the functions that do it,
-//!   and [`config`] is what a settings file makes of the keys;
+//! - [`read`] answers questions about the state and changes nothing;
+//! - [`act`] changes the state, one family of commands per file;
+//! - [`save`] and [`opening`] convert a session to text and back;
+//! - `commands` and `lines` are the tables of everything that can be run by name, with the functions that do
+//!   it, and [`config`] applies a settings file to the keys;
 //! - `update` takes a message in.
 
 pub(crate) mod act;

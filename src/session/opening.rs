@@ -1,7 +1,7 @@
-//! What a session starts with, as steps of a keystroke file that lead to the same from anywhere.
+//! The start of a session as steps of a keystroke file, which lead to the same state from anywhere.
 //!
-//! A scene of the program with other numbers is told in lines that one could type. Anything else, such as a
-//! machine or a saved session, is told as a saved session, which the file carries with it.
+//! A built-in scene with other numbers is described by lines that could be typed. Anything else, such as a
+//! machine or a saved session, is described by a saved session embedded in the file.
 
 use crate::flow::method::Dial;
 use crate::flow::{METHODS, Problem};
@@ -13,11 +13,11 @@ use crate::session::save;
 use crate::session::state::session::Session;
 use crate::session::state::settings::{COLORS, GLYPHS, THEMES, Wishes};
 
-/// The name under which a file carries a session.
+/// The name under which a file embeds a session.
 const CARRIED: &str = "start.toml";
 
-/// The steps that lead to a session in which nothing is open. Fails with one line, if the session cannot be saved;
-/// none is known for which that is so.
+/// The steps that lead to this session, which must have nothing open. Fails with one line if the session cannot
+/// be saved; no such session is known.
 pub fn opening(session: &Session) -> Result<Vec<Instruction>, String> {
     let mut steps: Vec<Instruction> = looks(session.look);
     let text = save::text(session)?;
@@ -29,13 +29,13 @@ pub fn opening(session: &Session) -> Result<Vec<Instruction>, String> {
     } else {
         steps.push(Instruction::File { name: CARRIED.to_owned(), text });
         steps.push(Instruction::Run(format!("open {CARRIED}")));
-        // What a scene opens with, it opens with; what was done before can be undone as before.
+        // The scene opens with these numbers, so they are no change; an earlier change can still be undone.
         steps.extend(is_new.then(|| Instruction::Start(Vec::new())));
     }
     Ok(steps)
 }
 
-/// What the user wishes of the screen, where it is not the usual.
+/// The steps that set the user's wishes for the screen, where they differ from the defaults.
 fn looks(look: Wishes) -> Vec<Instruction> {
     fn line<T: Copy + PartialEq + Default>(
         name: &str,
@@ -59,8 +59,8 @@ fn looks(look: Wishes) -> Vec<Instruction> {
     lines.into_iter().flatten().collect()
 }
 
-/// The lines that open a scene of the program with other numbers, and the parameters that belong to it
-/// besides its own; `None` where it is another scene.
+/// The lines that open a built-in scene with other numbers, and the parameters that were added to its terms;
+/// `None` for any other scene.
 fn scene(scene: &Scene) -> Option<(Vec<Instruction>, Vec<Symbol>)> {
     let known = find(&scene.name).ok()?;
     let mut with_numbers = Scene::clone(&known);
@@ -76,8 +76,8 @@ fn scene(scene: &Scene) -> Option<(Vec<Instruction>, Vec<Symbol>)> {
     Some((lines.collect(), names))
 }
 
-/// What must be set to come from one motion to another. What is behind the dial of a method is set while
-/// that method is taken.
+/// The assignments that lead from one motion to another. The step or the width of a method is set while such a
+/// method is selected.
 fn numbers(from: &Problem, to: &Problem) -> Vec<String> {
     let value =
         |symbol: Symbol, problem: &Problem| symbol.get(&problem.parameters, &problem.initial);

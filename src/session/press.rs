@@ -1,4 +1,4 @@
-//! What a key press does: it completes what is pending, runs a command, or types a character.
+//! The effect of a key press: it completes what is pending, runs a command, or types a character.
 
 use crate::scene::misread::printable;
 use crate::session::act::focus::focus_on;
@@ -18,10 +18,10 @@ use crate::session::state::overlay::{Overlay, Prompt};
 use crate::session::state::pending::{Letter, Pending};
 use crate::session::state::session::{Price, Session};
 
-/// The key that commands run from a line are told: the one that ran it.
+/// The key that is passed to commands that are run from a line.
 pub(super) const ENTER: Key = Key::plain(Code::Enter);
 
-/// Takes a key in.
+/// Handles a key press.
 pub(super) fn press(session: &mut Session, key: Key) -> Vec<Effect> {
     session.notice = None;
     session.measuring = false;
@@ -32,7 +32,7 @@ pub(super) fn press(session: &mut Session, key: Key) -> Vec<Effect> {
     }
 }
 
-/// Does what a key means now.
+/// Does what the key means in the present contexts.
 fn act(session: &mut Session, key: Key) -> Vec<Effect> {
     let contexts = session.contexts();
     if let Some(command) = session.keymap.command(contexts, key) {
@@ -50,7 +50,7 @@ fn act(session: &mut Session, key: Key) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Presses the key for which something was pending.
+/// Handles the key that completes a count or a letter.
 fn resolve(session: &mut Session, pending: Pending, key: Key) -> Vec<Effect> {
     let context = match pending {
         Pending::Count(_) => Context::Count,
@@ -66,8 +66,8 @@ fn resolve(session: &mut Session, pending: Pending, key: Key) -> Vec<Effect> {
     }
 }
 
-/// Presses a key many times, as one change: until something refuses, opens, or asks for a letter, which
-/// then gets the count.
+/// Presses a key `count` times as one change. Stops early if a press is refused, opens something, quits, or
+/// asks for a letter, which then gets the count.
 fn repeat(session: &mut Session, key: Key, count: u32) -> Vec<Effect> {
     let depth = session.history.depth().0;
     let overlay = session.overlay.clone();
@@ -95,7 +95,8 @@ fn repeat(session: &mut Session, key: Key, count: u32) -> Vec<Effect> {
     effects
 }
 
-/// Does what a letter was asked for. The key that asks stands for the last register or point.
+/// Uses a letter for its purpose. The key that asked for the letter, pressed again, means the last register or
+/// point.
 fn letter(session: &mut Session, what: Letter, count: u32, key: Key) -> Vec<Effect> {
     let asks =
         |name| session.keymap.command(session.contexts(), key).is_some_and(|c| c.name == name);
@@ -115,7 +116,7 @@ fn letter(session: &mut Session, what: Letter, count: u32, key: Key) -> Vec<Effe
     }
 }
 
-/// Runs a command where it belongs: here, or in the pane that has it, which gets the focus.
+/// Runs a command here or in the pane where it applies, which then gets the focus.
 fn run_where_it_belongs(session: &mut Session, command: &Command, key: Key) -> Vec<Effect> {
     match place(session, command) {
         Ok(Some(pane)) => focus_on(session, pane),
@@ -127,7 +128,7 @@ fn run_where_it_belongs(session: &mut Session, command: &Command, key: Key) -> V
     run(session, command, key)
 }
 
-/// Why a command cannot be run: what it needs, and how to get it.
+/// Why a command cannot be run: what it needs, and how to get there.
 fn missing(session: &Session, place: Context) -> String {
     match place.view() {
         Some(view) => {
@@ -144,7 +145,7 @@ fn missing(session: &Session, place: Context) -> String {
     }
 }
 
-/// Runs a command, and what it chooses.
+/// Runs a command, or the command that it chooses.
 fn run(session: &mut Session, command: &Command, key: Key) -> Vec<Effect> {
     match commands::run(command.name) {
         Some(CommandAction::Act(act)) => act(session, key),
@@ -158,7 +159,7 @@ fn run(session: &mut Session, command: &Command, key: Key) -> Vec<Effect> {
     }
 }
 
-/// Runs the text of the command line, which stays open with the reason if that is refused.
+/// Runs the text of the command line; if it is refused, the line stays open with the reason.
 fn run_typed(session: &mut Session, text: &str) -> Vec<Effect> {
     let open = session.overlay.take();
     run_line(session, text).unwrap_or_else(|why| {
@@ -169,8 +170,8 @@ fn run_typed(session: &mut Session, text: &str) -> Vec<Effect> {
     })
 }
 
-/// Runs a line; nothing is open any more. Fails with one line that says what is wrong and what is allowed; the
-/// session is as it was.
+/// Runs a line while nothing is open. Fails with one line that says what is wrong and what is allowed; the
+/// session is then unchanged.
 pub fn run_line(session: &mut Session, text: &str) -> Done {
     let (name, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
     let (name, rest) = (full_name(name), rest.trim());
@@ -198,9 +199,9 @@ pub(super) fn run_untyped(session: &mut Session, text: &str) -> Vec<Effect> {
     run_line(session, text).unwrap_or_else(|why| refuse(session, why))
 }
 
-/// The name that looks most like this one.
+/// The name most similar to this one.
 fn nearest<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    /// How much two names must have in common (0: nothing, 1: equal).
+    /// Smallest similarity of a suggested name (0: nothing in common, 1: equal).
     const ALIKE: f64 = 0.7;
     let rated = names.map(|name| (strsim::jaro(wanted, name), name));
     let best = rated.max_by(|a, b| a.0.total_cmp(&b.0))?;

@@ -1,8 +1,8 @@
-//! What happens to a session: [`update`] takes a message in and says what the outer rings must do.
+//! The transition of a session: [`update`] takes a message in and returns the effects for the outer rings.
 //!
-//! Nothing here reads a clock or touches a file, so that a session is determined by its messages and
-//! every defect can be told as a keystroke file. The files beside this one hold what commands do, one
-//! concern each.
+//! Nothing here reads a clock or touches a file, so a session is determined by its messages, and every defect
+//! can be reproduced by a keystroke file. The modules beside this one do what commands ask for, one concern
+//! each.
 
 use crate::flow::Reason;
 use crate::question::Failure;
@@ -21,10 +21,10 @@ use crate::session::state::rows::Row;
 use crate::session::state::session::{Price, Session, Size};
 use crate::session::state::waiting::Waiting;
 
-/// Takes a message in; a press that needs an answer which is being computed waits for it.
+/// Takes a message in; a press that needs an answer that is still being computed waits for it.
 pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
     if matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_) | Msg::Run(_)) {
-        // Nobody gives another press as long as one waits, but to forget that.
+        // While a press waits, the only press that arrives here is one that cancels it.
         if session.waiting.take().is_some() && waiting::forgets(&message) {
             inform(session, "no longer waited for");
             macros::end(session);
@@ -43,11 +43,12 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
     effects
 }
 
-/// Rounds of questions after which a session is taken to ask forever: windows are fitted after the first, and a press
-/// may wait for the answers about several motions one after the other.
+/// Maximum rounds of questions, in case a session never stops asking: windows are fitted after the first round,
+/// and a press may wait for the answers about several motions in turn.
 const ROUNDS: usize = 12;
 
-/// Answers what a session asks until it asks nothing more; what `answer` gives no message for stays open.
+/// Answers the questions of a session until there are none left; questions for which `answer` returns no
+/// message stay open.
 pub fn settle(session: &mut Session, mut answer: impl FnMut(&Session, &Request) -> Option<Msg>) {
     for _ in 0..ROUNDS {
         let mut open = session.wants();
@@ -60,7 +61,7 @@ pub fn settle(session: &mut Session, mut answer: impl FnMut(&Session, &Request) 
     }
 }
 
-/// Takes a message in that waits for nothing.
+/// Takes a message in that does not have to wait.
 fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
     macros::note(session, &message);
     let effects = match message {
@@ -89,7 +90,7 @@ fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
             Vec::new()
         }
         Msg::Say(caption, place) => {
-            // Without words: what was played is over.
+            // An empty caption says that a replay is over.
             if caption.is_empty() {
                 macros::end(session);
             }
@@ -125,7 +126,7 @@ fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
     effects
 }
 
-/// Pasted text goes into the open line; a number into a new one; keystrokes are offered for replay.
+/// Pasted text goes into the open line, a number into a new line; keystrokes are offered as a replay.
 fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
     session.notice = None;
     if session.contexts()[0].takes_text() {
@@ -138,7 +139,7 @@ fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
         session.overlay = Some(Overlay::Entry(entry));
         return Vec::new();
     }
-    // Words without any key by its name are rather pasted by mistake.
+    // Text that names no key in angle brackets was probably pasted by mistake.
     if !text.contains('<') && !text.trim_start().starts_with('#') {
         return refuse(
             session,
@@ -155,7 +156,7 @@ fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
     }
 }
 
-/// Takes an answer of the worker; says what went wrong, if the question is still asked.
+/// Takes an answer of the worker; reports a failure if the question is still asked.
 fn take(session: &mut Session, answered: Answered) {
     let name = answered.request.topic().name();
     let failure = answered.result.as_ref().err().cloned();
@@ -168,7 +169,7 @@ fn take(session: &mut Session, answered: Answered) {
     }
 }
 
-/// Keeps the selection on a row that stands in the pane.
+/// Keeps the selection on a row that the pane shows.
 fn keep_selection(session: &mut Session) {
     let rows = session.rows();
     if !rows.contains(&session.selected) {
@@ -177,7 +178,7 @@ fn keep_selection(session: &mut Session) {
     }
 }
 
-/// Takes a press that waits no longer, because its answer is there or will not be.
+/// Releases the press that waits, if its answer is there or will not come.
 fn released(session: &mut Session) -> Option<Msg> {
     let message = session.waiting.as_ref()?.step.message()?;
     let request = session.awaited(&message);

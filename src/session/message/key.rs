@@ -1,15 +1,15 @@
-//! Keys, and the notation in which keystroke files, the key table and the help write them.
+//! Keys, and their notation in keystroke files, in the key table and in the help.
 //!
-//! A character stands for itself; the others are named in angle brackets with optional modifiers:
-//! `a`, `Z`, `?`, `<space>`, `<lt>`, `<hash>`, `<C-r>`, `<S-tab>`, `<A-left>`, `<f1>`, `<pgup>`,
-//! `<esc>`. What is printed can be read back, whatever the key.
+//! A character stands for itself. Other keys are named in angle brackets, with optional modifiers: `a`, `Z`,
+//! `?`, `<space>`, `<lt>`, `<hash>`, `<C-r>`, `<S-tab>`, `<A-left>`, `<f1>`, `<pgup>`, `<esc>`. Every printed
+//! key can be read back.
 
 use std::fmt;
 use std::str::FromStr;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Code {
-    /// A printable character, as typed (shift is already in it).
+    /// A printable character, as typed (shift already applied).
     Char(char),
     /// Function key 1 to 12.
     F(u8),
@@ -30,7 +30,7 @@ pub enum Code {
     PageDown,
 }
 
-/// A key with its modifiers. Shift is only recorded for keys that are not characters.
+/// A key with its modifiers. Shift is recorded only for keys that are not characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Key {
     pub code: Code,
@@ -40,7 +40,7 @@ pub struct Key {
     pub shift: bool,
 }
 
-/// Keys with a name, and the other names under which they are read.
+/// Keys with a name, and alternative names that are also read.
 const NAMES: [(Code, &str, &[&str]); 15] = [
     (Code::Left, "left", &[]),
     (Code::Right, "right", &[]),
@@ -59,18 +59,18 @@ const NAMES: [(Code, &str, &[&str]); 15] = [
     (Code::Char(' '), "space", &[]),
 ];
 
-/// Characters that have a meaning of their own in keystroke files, and their names there.
+/// Characters with a special meaning in keystroke files, and their names there.
 const SPECIAL: [(char, &str); 3] = [('<', "lt"), ('>', "gt"), ('#', "hash")];
 
-/// Function keys have numbers from 1 to this.
+/// Number of the last function key; the first one is 1.
 const LAST_F: u8 = 12;
 
-/// Text that names no key.
+/// A text that names no key.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NoKey {
     /// The text, without its angle brackets.
     pub text: String,
-    /// The name that looks most like it.
+    /// The most similar name of a key.
     pub nearest: Option<&'static str>,
 }
 
@@ -92,7 +92,7 @@ impl Key {
         Key { code, control: false, alt: false, shift: false }
     }
 
-    /// A key as terminals mean it: shift is part of a character, and Control ignores its case.
+    /// A key as terminals report it: shift is part of a character, and Control ignores the character's case.
     pub fn new(code: Code, control: bool, alt: bool, shift: bool) -> Self {
         match code {
             Code::Char(char) => {
@@ -110,7 +110,7 @@ impl Key {
         }
     }
 
-    /// The key as the screen names it: a character by itself, any other by its name, as keyboards print it.
+    /// The key as the screen names it: a character as it is, any other key by the name on keyboards.
     pub fn said(self) -> String {
         if let Some(typed) = self.typed().filter(|typed| *typed != ' ') {
             return typed.to_string();
@@ -123,7 +123,7 @@ impl Key {
         }
     }
 
-    /// Reads what stands between angle brackets. Fails with [`NoKey`] with the nearest name.
+    /// Reads the text between angle brackets. Fails with [`NoKey`], which has the most similar name.
     pub fn named(text: &str) -> Result<Self, NoKey> {
         let (mut control, mut alt, mut shift) = (false, false, false);
         let mut rest = text;
@@ -163,13 +163,13 @@ fn function_key(name: &str) -> Option<Code> {
     (1..=LAST_F).contains(&number).then_some(Code::F(number))
 }
 
-/// `u+1b`: any character by its number.
+/// Any character by its code point, as in `u+1b`.
 fn code_point(name: &str) -> Option<Code> {
     let number = u32::from_str_radix(name.strip_prefix("u+")?, 16).ok()?;
     char::from_u32(number).map(Code::Char)
 }
 
-/// How much a name must look like a key's to be suggested.
+/// Smallest similarity of a suggested name.
 const ALIKE: f64 = 0.7;
 
 fn nearest(name: &str) -> Option<&'static str> {
@@ -196,7 +196,7 @@ impl fmt::Display for Code {
                 }
                 None => write!(out, "{char}"),
             },
-            _ => Ok(()), // Every other key stands in NAMES.
+            _ => Ok(()), // Every other key is in `NAMES`.
         }
     }
 }

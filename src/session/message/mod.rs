@@ -1,4 +1,4 @@
-//! What goes into the machine, and what it asks of the outer rings.
+//! The messages that a session takes in.
 
 pub mod key;
 pub mod pointer;
@@ -11,66 +11,66 @@ use crate::scene::{Answer, Answered, Request};
 use crate::session::message::key::Key;
 use crate::session::message::pointer::Pointed;
 
-/// Everything that can happen to a session.
+/// A message: anything that can happen to a session.
 #[derive(Clone, Debug)]
 pub enum Msg {
     /// A key was pressed.
     Key(Key),
-    /// Text was pasted, all at once.
+    /// Text was pasted in one piece.
     Paste(String),
     /// The mouse did something.
     Pointed(Pointed),
-    /// The screen has this size now, in cells.
+    /// The new size of the screen, in cells.
     Resize { width: u16, height: u16 },
     /// The worker answered a request, or failed to.
     Answered(Box<Answered>),
     /// The worker has nothing left to do (sent after the last answer).
     Idle,
-    /// A line of the command line, without the line: `<run "set D=-0.3">` in a keystroke file.
+    /// A line of the command line, run without opening it: `<run "set D=-0.3">` in a keystroke file.
     Run(String),
-    /// What stands here is what the session starts with; these parameters belong to its scene.
+    /// The present state is the start of the session; these parameters belong to its scene.
     Start(Vec<Symbol>),
-    /// A caption of a tour, to be shown until the next one; empty: none. With it which it is of how many,
-    /// where that is known.
+    /// A caption of a tour, shown until the next one; an empty one ends that. If known, the number of the
+    /// caption and the number of all captions.
     Say(String, Option<(usize, usize)>),
-    /// A file that was asked for, or why it cannot be read.
+    /// A requested file, or why it cannot be read.
     Read {
         path: PathBuf,
         purpose: Purpose,
-        /// Its text, or one line.
+        /// Its text, or one line that says why there is none.
         result: Result<String, String>,
     },
-    /// So much time has passed since the last such message, or since the motion is played.
+    /// Time that has passed since the last such message, or since the motion began to play.
     Elapsed { seconds: f64 },
-    /// The figure that was being written is, or is not.
+    /// The outcome of writing a figure.
     Written(Notice),
-    /// The outer rings tell how an effect ended, such as a file written or not, or a replay.
+    /// The outcome of another effect, such as writing a file or playing a replay.
     Told(Notice),
 }
 
 impl Msg {
-    /// The whole answer to a request, or why there is none, and the seconds that it took.
+    /// The complete answer to a request, or why there is none, and the seconds that it took.
     pub fn answered(request: Request, result: Result<Answer, Failure>, seconds: f64) -> Self {
         Msg::Answered(Box::new(Answered { request, result, seconds, complete: true }))
     }
 }
 
-/// What a file is read for.
+/// The purpose of reading a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// To go on with the session that it holds.
+    /// To continue the session that it holds.
     Open,
-    /// The same, with one that was kept when it was interrupted.
+    /// To continue a session that was kept when it was interrupted.
     Restore,
-    /// To press its keys.
+    /// To play its keys.
     Play,
-    /// To have its keys in a register.
+    /// To put its keys into a register.
     Register(char),
-    /// To be fitted, as a record of a motion, with what else was said about it.
+    /// To fit the record of a motion that it holds; the text has further options.
     Fit(String),
-    /// To be looked at, as a machine.
+    /// To open the machine that it describes.
     Machine,
-    /// The table of friction that a machine names.
+    /// To read the table of friction that a machine refers to.
     Table {
         /// The file of the machine.
         path: PathBuf,
@@ -81,7 +81,7 @@ pub enum Purpose {
 /// A line for the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
-    /// Whether something was refused or failed.
+    /// Whether it reports a refusal or a failure.
     pub error: bool,
     pub text: String,
 }

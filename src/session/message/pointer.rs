@@ -1,19 +1,19 @@
-//! The mouse on something that is on show.
+//! The mouse and its targets.
 
 use crate::scene::Point;
 
 /// What the mouse did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gesture {
-    /// Its left button went down.
+    /// The left button was pressed.
     Click,
-    /// Its wheel turned away from the user.
+    /// The wheel turned away from the user.
     Nearer,
-    /// Its wheel turned towards the user.
+    /// The wheel turned towards the user.
     Farther,
 }
 
-/// The mouse on something that is on show; which cell of the screen that is, the outer rings know.
+/// The mouse on a target; the outer rings determine it from the cell of the screen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pointed {
     /// What the mouse did.
@@ -21,7 +21,7 @@ pub struct Pointed {
     pub place: PointerTarget,
 }
 
-/// A place on the screen that means something.
+/// A part of the screen that reacts to the mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PointerTarget {
     /// A row of the parameter pane, counted from 0.

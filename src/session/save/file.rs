@@ -1,4 +1,4 @@
-//! A session as it stands on disk.
+//! The file of a saved session.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,10 +12,10 @@ use crate::session::state::plot::Framing;
 use crate::session::state::rows::Steps;
 use crate::study::kicks::RandomKick;
 
-/// The format that this program writes; it reads this one and all before.
+/// The format that this program writes; it reads this and all earlier formats.
 pub const VERSION: u32 = 1;
 
-/// A session as it stands on disk.
+/// The file of a saved session.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedSession {
@@ -31,22 +31,22 @@ pub struct SavedSession {
     pub harmonics: usize,
     #[serde(default)]
     pub kicks: RandomKick,
-    /// Lines typed on the command line, the newest last.
+    /// Lines typed on the command line, the most recent last.
     pub lines: Vec<String>,
     pub present: Show,
     pub plots: Vec<SavedPlot>,
     #[serde(default)]
     pub marks: BTreeMap<char, Problem>,
-    /// What the machine is set to at marks.
+    /// The settings of the machine at marks.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub belts: BTreeMap<char, Setting>,
-    /// Where the motions start beside those of marks.
+    /// The starts of the other motions at marks.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub beside: BTreeMap<char, Vec<State>>,
     /// What is not known exactly at marks.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub doubts: BTreeMap<char, Doubt>,
-    /// The point left last for a mark.
+    /// The motion of the point that was left last.
     pub left: Option<Problem>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_beside: Vec<State>,
@@ -54,7 +54,7 @@ pub struct SavedSession {
     pub left_belt: Option<Setting>,
     #[serde(default, skip_serializing_if = "Doubt::is_none")]
     pub left_doubt: Doubt,
-    /// Recorded keys, as keystroke files.
+    /// Recorded keys, in the notation of keystroke files.
     #[serde(default)]
     pub registers: BTreeMap<char, String>,
     #[serde(default)]
@@ -63,7 +63,7 @@ pub struct SavedSession {
     pub future: Vec<SavedChange>,
 }
 
-/// A scene, by its name if it comes with the program, else in full.
+/// A scene, by its name if it is built in, otherwise in full.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum SavedScene {
@@ -71,7 +71,7 @@ pub enum SavedScene {
     Whole(Box<Scene>),
 }
 
-/// What a scene sets, as it is or was.
+/// Everything that a scene determines, at present or before a change.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Show {
@@ -79,7 +79,7 @@ pub struct Show {
     pub layers: BTreeSet<Layer>,
     pub steps: Steps,
     pub motion: Problem,
-    /// Where the motions beside it start.
+    /// Starts of the other motions.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub beside: Vec<State>,
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -1,9 +1,9 @@
-//! Saved sessions: everything that a session is, as a TOML file, and back.
+//! Saved sessions: the complete state of a session as a TOML file.
 //!
-//! What is saved is what the user made: scene, motion, steps, plots, layers, marks, registers, typed lines
-//! and the history. Answers are not: they follow from the rest. How the screen looks belongs to the
-//! terminal, and which key means what to the settings. A field of `Session` that should survive the
-//! program has its place here.
+//! What the user made is saved: scene, motion, steps, plots, layers, marks, registers, typed lines and the
+//! history. Answers are not saved, because they follow from the rest. The appearance of the screen belongs to
+//! the terminal, and the keys to the settings file. A field of `Session` that must survive the program has its
+//! place here.
 
 mod file;
 mod read;

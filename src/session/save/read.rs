@@ -1,4 +1,4 @@
-//! A file into a session.
+//! Reads a session from its file.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -24,8 +24,8 @@ use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::{MOST_MOTIONS, Starts};
 
-/// Makes a session what a file says. Look, keys and size stay, and so do answers, as far as they fit. Fails with
-/// one line that says what is wrong; the session is as it was.
+/// Changes a session to that of a file. Appearance, keys and size stay, and so do answers that fit. Fails with
+/// one line that says what is wrong; the session is then unchanged.
 pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let file = read(text)?;
     let scene = scene(file.present.scene)?;
@@ -94,8 +94,8 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// What is in a saved session, in a line: its scene, what was changed, and how often. Fails with one line that says
-/// what is wrong.
+/// A summary of a saved session in one line: its scene, what was changed, and how often. Fails with one line
+/// that says what is wrong.
 pub fn summary(text: &str) -> Result<String, String> {
     let file = read(text)?;
     let scene = scene(file.present.scene)?;
@@ -114,7 +114,7 @@ pub fn summary(text: &str) -> Result<String, String> {
     Ok(format!("{}{with} ({changes}{marks})", scene.name))
 }
 
-/// The file, if it is one of a format that is known.
+/// Parses the file, if its format is known.
 fn read(text: &str) -> Result<SavedSession, String> {
     #[derive(Deserialize)]
     struct Head {
@@ -144,7 +144,7 @@ fn scene(named: SavedScene) -> Result<Arc<Scene>, String> {
     }
 }
 
-/// A motion, and a setting of a machine, whose numbers are all within their ranges.
+/// The setup of a motion and a machine, if all numbers are within their ranges.
 fn checked(problem: Problem, beside: &[State], setting: Option<Setting>) -> Result<Setup, String> {
     for row in &PARAMETERS {
         let value = row.symbol.get(&problem.parameters, &problem.initial);
@@ -173,7 +173,7 @@ fn checked(problem: Problem, beside: &[State], setting: Option<Setting>) -> Resu
     Ok(Setup { problem, others, setting, doubt: Doubt::default() })
 }
 
-/// As many plots as a screen can have.
+/// Converts plots, if their number is allowed on a screen.
 fn checked_plots<T, U>(plots: Vec<T>, make: impl Fn(T) -> U) -> Result<Vec<U>, String> {
     match plots.len() {
         1..=MOST_PLOTS => Ok(plots.into_iter().map(make).collect()),

@@ -1,4 +1,4 @@
-//! A session into its file.
+//! Writes a session to its file.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,8 +13,7 @@ use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
 
-/// The session as the text of a file. Fails with one line, if the text cannot be made; no session is known for
-/// which that is so.
+/// The session as the text of a file. Fails with one line if the text cannot be made; no such session is known.
 pub fn text(session: &Session) -> Result<String, String> {
     let (past, future) = session.history.parts();
     let left = session.marks.left.as_ref().map(|mark| &mark.setup);
@@ -65,7 +64,7 @@ pub fn text(session: &Session) -> Result<String, String> {
     Ok(format!("# A session of hopfscope; `hopfscope --open FILE` resumes it.\n{body}"))
 }
 
-/// What is so of the marks, as far as it is.
+/// A value for each mark that has one.
 fn of_marks<T>(session: &Session, of: impl Fn(&Setup) -> Option<T>) -> BTreeMap<char, T> {
     let marks = session.marks.places.iter();
     marks.filter_map(|(name, mark)| Some((*name, of(&mark.setup)?))).collect()
@@ -119,7 +118,7 @@ fn change(before: &Before) -> SavedChange {
 }
 
 impl Session {
-    /// Whether the user did something that would be missed: a change, a mark, a register.
+    /// Whether the user made something whose loss would matter: a change, a mark, a register.
     pub fn is_worth_keeping(&self) -> bool {
         let (past, future) = self.history.depth();
         past + future > 0

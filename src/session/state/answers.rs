@@ -1,8 +1,7 @@
-//! Answers, kept by their questions.
+//! Answers, stored by their questions.
 //!
-//! Whatever was answered is found again by asking the same, whichever plot, variant or mark asks. Until an
-//! answer is there another one stands in: that to the draft of the question, else that to the question
-//! most alike.
+//! The same question always finds its answer, whichever plot, variant or mark asks. Until there is one, another
+//! answer stands in: that to the draft of the question, otherwise that to the most similar question.
 
 use std::sync::Arc;
 
@@ -10,26 +9,27 @@ use crate::flow::Reason;
 use crate::question::Failure;
 use crate::scene::{Answer, Answered, Request};
 
-/// Integration steps whose points are kept beyond what is asked: some ten megabytes.
+/// Limit on the integration steps in answers to questions that are no longer asked: some ten megabytes of
+/// points.
 const MOST_STEPS: u64 = 20_000;
 
-/// Answers that are kept beyond what is asked.
+/// Maximum number of answers to questions that are no longer asked.
 const MOST: usize = 64;
 
-/// How far the answer to a question is.
+/// The state of the answer to a question.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Standing<'a> {
     Fresh(&'a Answered),
-    /// A rough one is there.
+    /// Only the answer to the draft is there.
     Draft(&'a Answered),
     /// The answer to another question is shown in its place.
     Stale(&'a Answered),
-    /// There is nothing like it.
+    /// No answer can stand in.
     None,
 }
 
 impl<'a> Standing<'a> {
-    /// What there is, with its question.
+    /// The answer that is there, with its question.
     pub fn answered(self) -> Option<&'a Answered> {
         match self {
             Standing::Fresh(found) | Standing::Draft(found) | Standing::Stale(found) => Some(found),
@@ -37,7 +37,7 @@ impl<'a> Standing<'a> {
         }
     }
 
-    /// What there is, as views draw it.
+    /// The answer that is there, in the form that views draw.
     pub fn answer(self) -> Option<&'a Answer> {
         let found = self.answered()?.result.as_ref().ok()?;
         Some(if let Answer::Whole(whole) = found { &whole.drawn } else { found })
@@ -48,17 +48,17 @@ impl<'a> Standing<'a> {
     }
 }
 
-/// The answers that are kept, and the reasons why there is none.
+/// The stored answers and failures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answers {
-    /// The one used last at the end.
+    /// Sorted by last use, the most recent last.
     held: Vec<Arc<Answered>>,
-    /// What is asked at present, and what its drafts ask.
+    /// The present questions and their drafts.
     asked: Vec<Request>,
 }
 
 impl Answers {
-    /// How far the answer to a question is.
+    /// The state of the answer to a question.
     pub fn standing(&self, request: &Request) -> Standing<'_> {
         if let Some(found) = self.good(request) {
             return Standing::Fresh(found);
@@ -66,12 +66,13 @@ impl Answers {
         if let Some(draft) = request.draft().and_then(|draft| self.good(&draft)) {
             return Standing::Draft(draft);
         }
-        // What is asked for its own sake stands in for nothing else.
+        // The answer to another present question does not stand in.
         let others = |held: &&Arc<Answered>| !self.asked.contains(&held.request);
         self.nearest(request, others).map_or(Standing::None, Standing::Stale)
     }
 
-    /// Evaluations that the answer to a question took, or that to the one most like it; drafts aside.
+    /// Evaluations that the answer to this question took, or that to the most similar one that has a draft; 0
+    /// if there is none.
     pub fn cost(&self, request: &Request) -> u64 {
         let found = self.nearest(request, |held| held.request.draft().is_some());
         let cost = found.and_then(|found| found.result.as_ref().ok()).map(Answer::cost);
@@ -83,12 +84,12 @@ impl Answers {
         self.held(request)?.result.as_ref().err()
     }
 
-    /// Whether a question has neither an answer nor a reason for having none.
+    /// Whether a question has neither an answer nor a failure.
     pub fn is_open(&self, request: &Request) -> bool {
         self.held(request).is_none()
     }
 
-    /// Keeps an answer, in place of the one before; an interrupted one does not count.
+    /// Stores an answer in place of the previous one; an interrupted one is ignored.
     pub fn keep(&mut self, answered: Answered) {
         if answered.result != Err(Failure::Reason(Reason::Interrupted)) {
             self.held.retain(|held| held.request != answered.request);
@@ -96,7 +97,7 @@ impl Answers {
         }
     }
 
-    /// Notes what is asked at present. Its answers are kept, and of the others those used last.
+    /// Sets the present questions. Their answers are kept, and the most recently used of the others.
     pub fn ask(&mut self, asked: Vec<Request>) {
         let drafts: Vec<Request> = asked.iter().filter_map(Request::draft).collect();
         self.asked = drafts.into_iter().chain(asked).collect();
@@ -113,19 +114,19 @@ impl Answers {
         self.held = kept.into_iter().chain(used).collect();
     }
 
-    /// Forgets what is not asked at present.
+    /// Forgets all answers to questions that are not asked at present.
     pub fn forget_others(&mut self) {
         self.held.retain(|held| self.asked.contains(&held.request));
     }
 
-    /// Forgets that questions have no answer; returns whether there were any.
+    /// Forgets all failures; returns whether there were any.
     pub fn forget_failures(&mut self) -> bool {
         let before = self.held.len();
         self.held.retain(|held| held.result.is_ok());
         self.held.len() < before
     }
 
-    /// Every answer, to be changed.
+    /// All answers, for tests that change them.
     #[cfg(test)]
     pub fn each(&mut self) -> impl Iterator<Item = &mut Answered> {
         self.held.iter_mut().map(Arc::make_mut)
@@ -139,7 +140,7 @@ impl Answers {
         self.held(request).filter(|held| held.result.is_ok())
     }
 
-    /// The good answer to the question most like this one; of several the one used last.
+    /// The good answer to the most similar question; of several, the one used last.
     fn nearest(
         &self,
         request: &Request,

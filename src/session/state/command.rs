@@ -1,7 +1,6 @@
-//! What has a name and can be run: commands of keys, and commands that take words.
+//! Everything that can be run by name: commands of keys, and commands that take words.
 //!
-//! Here stands what is said about them; what they do stands in the tables of `session::commands` and
-//! `session::lines`.
+//! This file describes them; their functions are in the tables of `session::commands` and `session::lines`.
 
 use crate::session::state::context::Context;
 
@@ -10,12 +9,12 @@ use crate::session::state::context::Context;
 pub struct Command {
     /// Its name, for settings and the palette.
     pub name: &'static str,
-    /// Where it applies, and its default keys there, the first one shown in the footer.
+    /// The contexts where it applies, with its default keys there; the first one is shown in the footer.
     pub keys: &'static [(Context, &'static [&'static str])],
-    /// A word for the footer; empty where the footer has more important things to say. Commands with
-    /// the same word share it.
+    /// A word for the footer; empty if the footer has no room for it. Commands with the same word share one
+    /// entry.
     pub hint: &'static str,
-    /// What it does, in one line for the help.
+    /// Explanation in one line, for the help.
     pub doc: &'static str,
 }
 
@@ -25,9 +24,9 @@ impl PartialEq for Command {
     }
 }
 
-/// Other names of commands, and what those are called here: short ones that other programs have, and former ones.
+/// Other names of commands and the names that they stand for: short ones from other programs, and former ones.
 ///
-/// Leaving keeps the session, so that `wq` has nothing else to write.
+/// Quitting keeps the session, so `wq` has nothing else to write.
 const OTHER_NAMES: [(&str, &str); 9] = [
     ("q", "quit"),
     ("q!", "quit"),
@@ -40,7 +39,7 @@ const OTHER_NAMES: [(&str, &str); 9] = [
     ("toggle-harmonic-border", "toggle-harmonic-fold"),
 ];
 
-/// The name of the command that a word stands for: itself, unless it is another one.
+/// The name of the command that a word stands for; the word itself unless it is an alternative name.
 pub fn full_name(word: &str) -> &str {
     OTHER_NAMES.iter().find(|(other, _)| *other == word).map_or(word, |(_, name)| name)
 }
@@ -49,11 +48,11 @@ pub fn full_name(word: &str) -> &str {
 #[derive(Clone, Copy, Debug)]
 pub struct LineCommand {
     pub name: &'static str,
-    /// What follows the name, for the help.
+    /// Syntax of the words after the name, for the help.
     pub arguments: &'static str,
-    /// What it does, in one line for the help.
+    /// Explanation in one line, for the help.
     pub doc: &'static str,
-    /// What its words can be, to complete them.
+    /// The kind of its words, for completion.
     pub words: Words,
 }
 
@@ -63,16 +62,16 @@ impl PartialEq for LineCommand {
     }
 }
 
-/// What the words of a command can be.
+/// Kinds of words that a command takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Words {
-    /// Nothing that is known here, such as a number or the name of a file.
+    /// Words that cannot be completed, such as a number or the name of a file.
     Unknown,
-    /// Names of values with `=` and a value.
+    /// Names of values, each with `=` and a value.
     Assignments,
     Methods,
     Scenes,
-    /// A machine of the program.
+    /// A built-in machine.
     Machines,
     Views,
     /// A layer, then on or off.
@@ -94,7 +93,7 @@ pub enum Words {
     Colors,
 }
 
-/// What a command chooses to be run in its place.
+/// The result of a command that chooses another one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Chosen {
     /// A command of the palette.

@@ -1,10 +1,10 @@
-//! Where keys have their meaning. Several contexts hold at once: a plot, the phase plane, everywhere.
+//! The contexts in which keys have their meanings. Several hold at once: a plot, the phase plane, everywhere.
 
 use std::sync::LazyLock;
 
 use crate::scene::{VIEWS, View};
 
-/// Where a key has its meaning.
+/// A context in which a key can have a meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Context {
     /// The focus is on the parameter pane.
@@ -33,7 +33,7 @@ pub enum Context {
     Palette,
     /// A count is being typed before a key.
     Count,
-    /// The letter of a register or mark is waited for.
+    /// The next key is the letter of a register or mark.
     Letter,
     /// Some list is open.
     Lists,
@@ -50,25 +50,25 @@ pub enum Context {
     Always,
 }
 
-/// What a context is about; this decides which others hold with it.
+/// The kind of a context, which decides on the others that hold with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ContextKind {
-    /// A pane that is not a plot like the others.
+    /// A pane that is not an ordinary plot.
     Pane,
     Plot,
-    /// A point of the branch that is held.
+    /// A point of the branch is held.
     Held,
     List,
     /// A line in which characters are typed.
     Text,
-    /// A question that one key answers.
+    /// A question that is answered by one key.
     Question,
     Shared,
     /// Holds with every list.
     SharedByLists,
 }
 
-/// What there is to know of a context.
+/// The description of a context.
 #[derive(Clone, Copy, Debug)]
 pub struct ContextSpec {
     pub context: Context,
@@ -88,7 +88,7 @@ const fn row(
     ContextSpec { context, name, title, kind }
 }
 
-/// The contexts besides those of the views.
+/// All contexts other than those of the views.
 #[rustfmt::skip]
 const OTHERS: [ContextSpec; 20] = [
     row(Context::Parameters, "parameters", "Parameters", ContextKind::Pane),
@@ -113,7 +113,7 @@ const OTHERS: [ContextSpec; 20] = [
     row(Context::Always, "always", "At any time", ContextKind::Shared),
 ];
 
-/// Every context, those of the views after the first.
+/// All contexts; those of the views come after the first one.
 pub fn contexts() -> impl Iterator<Item = ContextSpec> {
     let views = VIEWS.iter().map(|row| Context::View(row.view).spec());
     OTHERS[..1].iter().copied().chain(views).chain(OTHERS[1..].iter().copied())
@@ -139,12 +139,12 @@ impl Context {
         self.spec().title
     }
 
-    /// Whether characters without a command are typed into a line.
+    /// Whether characters that are no commands are typed into a line.
     pub fn takes_text(self) -> bool {
         self.spec().kind == ContextKind::Text
     }
 
-    /// Whether this holds only while something is open or waited for.
+    /// Whether this context holds only while something is open or awaited.
     pub fn is_overlay(self) -> bool {
         matches!(
             self.spec().kind,
@@ -155,13 +155,13 @@ impl Context {
         )
     }
 
-    /// The view that must have the focus for this to hold, if it is about one.
+    /// The view that must have the focus for this context to hold; `None` if it depends on no view.
     pub fn view(self) -> Option<View> {
         if let Context::View(view) = self { Some(view) } else { None }
     }
 }
 
-/// Every set of contexts that can hold together, the most specific first.
+/// All sets of contexts that hold together, each with the most specific context first.
 pub fn chains() -> &'static [Vec<Context>] {
     static CHAINS: LazyLock<Vec<Vec<Context>>> = LazyLock::new(|| {
         let others: fn(ContextKind) -> Option<&'static [Context]> = |kind| match kind {
@@ -179,7 +179,7 @@ pub fn chains() -> &'static [Vec<Context>] {
     &CHAINS
 }
 
-/// The contexts that hold together with this one, which is the most specific.
+/// The contexts that hold together with this one, which is the most specific of them.
 pub fn chain(first: Context) -> &'static [Context] {
     let chains = chains();
     chains.iter().find(|chain| chain[0] == first).unwrap_or(&chains[0])

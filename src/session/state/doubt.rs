@@ -1,4 +1,4 @@
-//! How exactly the parameters are known, which of a fit's are held, and what disturbs the motion.
+//! The uncertainty of the parameters, the parameters held in a fit, and the disturbance.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,7 +7,7 @@ use crate::oscillator::belt::Quantity;
 use crate::oscillator::{Belt, Interval, ParameterBox, Parameters, Symbol};
 use crate::scene::Running;
 
-/// By how much the parameters may differ from their values, and the bound on a force that varies in any way.
+/// The largest deviations of the parameters from their values, and the bound on a force that varies in any way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Doubt {
@@ -15,7 +15,7 @@ pub struct Doubt {
     pub half_widths: [f64; 4],
     /// Bound w on the disturbance, in the unit of r.
     pub disturbance: f64,
-    /// Which of D, D2, D3, r, q0 and v0 a fit leaves as they are set by hand.
+    /// Which of D, D2, D3, r, q0 and v0 are held at their values in a fit.
     #[serde(default)]
     pub held: [bool; 6],
 }
@@ -23,25 +23,25 @@ pub struct Doubt {
 /// The parameters that may have a half width.
 const UNSURE: [Symbol; 4] = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R];
 
-/// The numbers of a machine that such a parameter stands for.
+/// The parameters that correspond to one number of a machine each.
 const ON_A_MACHINE: [(Symbol, Quantity); 3] = [
     (Symbol::D, Quantity::Damping),
     (Symbol::D3, Quantity::CubicDamping),
     (Symbol::R, Quantity::Friction),
 ];
 
-/// The parameter that stands for a number of a machine, if one does.
+/// The parameter that corresponds to a number of a machine, if one does.
 pub fn symbol_of(quantity: Quantity) -> Option<Symbol> {
     ON_A_MACHINE.iter().find(|row| row.1 == quantity).map(|row| row.0)
 }
 
 impl Doubt {
-    /// Whether there is nothing to say.
+    /// Whether nothing is uncertain, disturbed or held.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Whether everything is known exactly and nothing disturbs.
+    /// Whether everything is known exactly and there is no disturbance.
     pub fn is_certain(&self) -> bool {
         self.disturbance == 0.0 && self.half_widths == [0.0; 4]
     }
@@ -56,7 +56,7 @@ impl Doubt {
         self.held.contains(&true)
     }
 
-    /// The same, if no number of it is negative. Fails with one line that names the number.
+    /// Checks that no number is negative or infinite. Fails with one line that names the number.
     pub fn checked(self) -> Result<Self, String> {
         let mut all = self.half_widths.into_iter().chain([self.disturbance]);
         match all.find(|it| !(it.is_finite() && *it >= 0.0)) {
@@ -67,12 +67,13 @@ impl Doubt {
         }
     }
 
-    /// The half width of a number; 0 for those that have none.
+    /// The half width of a number; 0 for a number that has none.
     pub fn half_width(&self, symbol: Symbol) -> f64 {
         UNSURE.iter().position(|it| *it == symbol).map_or(0.0, |place| self.half_widths[place])
     }
 
-    /// The same with another half width of a parameter. Fails with one line, where the number is not a parameter.
+    /// This doubt with another half width of a parameter. Fails with one line if `symbol` is the start of a
+    /// motion.
     pub fn with_half_width(mut self, symbol: Symbol, half: f64) -> Result<Self, String> {
         let place = UNSURE.iter().position(|it| *it == symbol).ok_or_else(|| {
             format!("{symbol} is the start of a motion; only D, D2, D3, r have half widths")
@@ -81,7 +82,7 @@ impl Doubt {
         Ok(self)
     }
 
-    /// Where the parameters lie, as far as their ranges reach.
+    /// The intervals of the parameters, limited to their ranges.
     pub fn known(&self, parameters: &Parameters) -> ParameterBox {
         let mut known = ParameterBox::from(parameters);
         for symbol in UNSURE {
@@ -96,7 +97,7 @@ impl Doubt {
         known
     }
 
-    /// What a machine's file says, in the units of its oscillator.
+    /// The tolerances from a machine's file, in the units of its oscillator.
     pub fn of_machine(running: &Running) -> Self {
         let Tolerances { half_widths, disturbance } = &running.machine.tolerances;
         let mut doubt = Doubt::default();
@@ -108,8 +109,8 @@ impl Doubt {
         Doubt { disturbance: disturbance / running.reduced.units.force, ..doubt }
     }
 
-    /// The same as tolerances of the machine on show; those of its other numbers are the file's. Fails with one
-    /// line, where a number of no part of the machine has a half width.
+    /// The tolerances of the machine on show that correspond to this; those of its other numbers are from its
+    /// file. Fails with one line if D2, which no single part of the machine determines, has a half width.
     pub fn on_machine(&self, running: &Running, belt: &Belt) -> Result<Tolerances, String> {
         if self.half_width(Symbol::D2) > 0.0 {
             return Err("no part of the machine sets D2 alone: it has no half width".to_owned());
@@ -118,14 +119,14 @@ impl Doubt {
         for (symbol, quantity) in ON_A_MACHINE {
             let value = belt.get(quantity);
             let half = self.half_width(symbol) * running.scale(symbol);
-            // Friction and dampers are not negative, whatever is known of them.
+            // Friction and dampers are never negative, so a half width is limited.
             let half = half.min((value - quantity.spec().min).abs());
             half_widths.insert(quantity.spec().name.to_owned(), half);
         }
         Ok(Tolerances { half_widths, disturbance: self.disturbance * running.reduced.units.force })
     }
 
-    /// The same on the machine at another speed of its belt, where units are others.
+    /// Converts this to the units of the machine at another speed of its belt.
     pub fn brought_to(self, from: &Running, to: &Running) -> Self {
         if self == Self::of_machine(from) {
             return Self::of_machine(to);

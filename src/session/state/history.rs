@@ -1,5 +1,4 @@
-//! Undo and redo of every change of a parameter, and of opening or resetting a scene, and
-//! of what the plots show.
+//! Undo and redo of all changes of parameters and plots, and of opening or resetting a scene.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -8,22 +7,22 @@ use crate::scene::{Arrangement, Layer, PlotSetup, Scene};
 use crate::session::state::rows::Steps;
 use crate::session::state::setup::Setup;
 
-/// The state before a change, as far as the change reached.
+/// The state before a change, limited to what the change affects.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Before {
-    /// A number was changed. Undoing it leaves zoom and layers alone.
+    /// A number was changed. Undoing that leaves zoom and layers alone.
     Setup(Box<Setup>),
-    /// A plot was added, removed or moved, or shows another view.
+    /// A plot was added, removed or moved, or its view was changed.
     ScreenSetup(ScreenSetup),
-    /// A scene was opened or reset, and everything that a scene sets with it.
+    /// A scene was opened or reset, which sets everything that a scene determines.
     Scene(Box<Snapshot>),
 }
 
-/// Everything that a scene sets.
+/// Everything that a scene determines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
     pub scene: Arc<Scene>,
-    /// The motion, and the speed of its belt.
+    /// The motion and the speed of its belt.
     pub setup: Setup,
     pub steps: Steps,
     pub layers: BTreeSet<Layer>,
@@ -31,7 +30,7 @@ pub struct Snapshot {
     pub screen_setup: ScreenSetup,
 }
 
-/// What is on show, and how it shares the screen.
+/// The plots, and how they share the screen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScreenSetup {
     pub plots: Vec<PlotSetup>,
@@ -47,7 +46,7 @@ pub struct History {
 }
 
 impl History {
-    /// Forgets which windows were fitted when they were left: one that was not is fitted when it comes back.
+    /// Forgets which windows were fitted in stored states: one that was not is fitted when it comes back.
     #[cfg(test)]
     pub fn forget_windows(&mut self) {
         for before in self.past.iter_mut().chain(&mut self.future) {
@@ -60,20 +59,20 @@ impl History {
         }
     }
 
-    /// Notes the state before a change. What had been undone can no longer be redone.
+    /// Records the state before a change. Changes that were undone can no longer be redone.
     pub fn record(&mut self, before: Before) {
         self.past.push(before);
         self.future.clear();
     }
 
-    /// Makes one change of those since the past was so deep, if all of them are of a kind.
+    /// Merges the changes recorded since the past had this depth into one, if all of them are of one kind.
     pub fn merge(&mut self, depth: usize, is_of_kind: impl Fn(&Before) -> bool) {
         if self.past.get(depth..).is_some_and(|since| since.iter().all(is_of_kind)) {
             self.past.truncate(depth + 1);
         }
     }
 
-    /// Makes one change of all those since the past was so deep, before which things stood like this.
+    /// Merges all changes recorded since the past had this depth into one; `before` is the state before them.
     pub fn merge_all(&mut self, depth: usize, before: Box<Snapshot>) {
         self.merge(depth, |before| matches!(before, Before::Setup(_)));
         if self.past.len() > depth + 1 {
@@ -82,31 +81,31 @@ impl History {
         }
     }
 
-    /// The state before the last change. `present` tells the present state to the same extent, for redo.
+    /// The state before the last change. For redo, `present` returns the present state to the same extent.
     pub fn undo(&mut self, present: impl FnOnce(&Before) -> Before) -> Option<Before> {
         let before = self.past.pop()?;
         self.future.push(present(&before));
         Some(before)
     }
 
-    /// The state that was last undone. `present` tells the present state to the same extent, for undo.
+    /// The state that was undone last. For undo, `present` returns the present state to the same extent.
     pub fn redo(&mut self, present: impl FnOnce(&Before) -> Before) -> Option<Before> {
         let after = self.future.pop()?;
         self.past.push(present(&after));
         Some(after)
     }
 
-    /// A past and a future, the newest change last in each.
+    /// A history from its past and its future, the most recent change last in each.
     pub fn of(past: Vec<Before>, future: Vec<Before>) -> Self {
         History { past, future }
     }
 
-    /// The past and the future, the newest change last in each.
+    /// The past and the future, the most recent change last in each.
     pub fn parts(&self) -> (&[Before], &[Before]) {
         (&self.past, &self.future)
     }
 
-    /// How many changes can be undone, and how many redone.
+    /// Number of changes that can be undone, and that can be redone.
     pub fn depth(&self) -> (usize, usize) {
         (self.past.len(), self.future.len())
     }

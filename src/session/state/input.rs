@@ -1,4 +1,4 @@
-//! A line of text being typed: characters and a caret. What the text is for, its owner knows.
+//! A line of text being typed: its characters and a caret. The owner decides what the text is for.
 
 /// A line of text being typed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -8,23 +8,23 @@ pub struct Input {
 }
 
 impl Input {
-    /// A line with this text, the caret behind it.
+    /// A line with this text and the caret at its end.
     pub fn new(text: impl Into<String>) -> Self {
         let text = text.into();
         Input { caret: text.chars().count(), text }
     }
 
-    /// What is typed so far.
+    /// The text typed so far.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// Byte at which a character begins.
+    /// Byte offset of a character.
     fn byte(&self, index: usize) -> usize {
         self.text.char_indices().nth(index).map_or(self.text.len(), |(byte, _)| byte)
     }
 
-    /// The text to the left of the caret, and that to the right of it.
+    /// The text before the caret and the text after it.
     pub fn halves(&self) -> (&str, &str) {
         self.text.split_at(self.byte(self.caret))
     }
@@ -66,7 +66,7 @@ impl Input {
         *self = Input::default();
     }
 
-    /// Moves the caret, as far as there is text.
+    /// Moves the caret by `by` characters, within the text.
     pub fn move_caret(&mut self, by: isize) {
         let last = self.text.chars().count();
         self.caret = self.caret.saturating_add_signed(by).min(last);

@@ -8,6 +8,6 @@ pub struct Kept {
     pub path: PathBuf,
     /// How long ago it ended, in words.
     pub when: String,
-    /// What is in it, in a line.
+    /// A summary of the session in one line.
     pub what: String,
 }

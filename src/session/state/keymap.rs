@@ -1,7 +1,7 @@
-//! Which key means which command, and where.
+//! The bindings of keys to commands, by context.
 //!
-//! A [`Keymap`] is built from the default keys of all commands. Several contexts hold at once (a plot,
-//! the phase plane, everywhere); no key may have two meanings in contexts that can hold together.
+//! A [`Keymap`] is built from the default keys of all commands. Several contexts hold at once (a plot, the
+//! phase plane, everywhere); no key may have two meanings in contexts that can hold together.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,15 +9,15 @@ use crate::session::message::key::Key;
 use crate::session::state::command::{Command, LineCommand};
 use crate::session::state::context::{Context, chains};
 
-/// What a key means.
+/// The command of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Binding {
     command: &'static Command,
-    /// Where the key stands among those of the command.
+    /// Position of the key among those of the command.
     rank: usize,
 }
 
-/// Everything that can be run by its name, and which key means which command in each context.
+/// Everything that can be run by name, and the command of each key in each context.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Keymap {
     commands: Vec<&'static Command>,
@@ -25,12 +25,12 @@ pub struct Keymap {
     bindings: BTreeMap<(Context, Key), Binding>,
 }
 
-/// Why keys cannot be given to a command.
+/// Why a key cannot be bound to a command.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unbindable {
-    /// A key would mean two things where contexts hold together.
+    /// The key would have two meanings in contexts that hold together.
     Clash { key: Key, command: &'static str, context: Context },
-    /// A key that types a character cannot be a command where text is typed.
+    /// A key that types a character cannot be bound where text is typed.
     Types(Key),
 }
 
@@ -52,7 +52,8 @@ impl std::fmt::Display for Unbindable {
 }
 
 impl Keymap {
-    /// Commands with their default keys, and those that take words, each in the order of the help.
+    /// A keymap of commands with their default keys, and of commands that take words, each in the order of the
+    /// help.
     pub fn new(
         commands: impl Iterator<Item = &'static Command>,
         lines: impl Iterator<Item = &'static LineCommand>,
@@ -69,12 +70,12 @@ impl Keymap {
         Keymap { commands, lines: lines.collect(), bindings }
     }
 
-    /// Every command, in the order in which the help lists them.
+    /// All commands, in the order in which the help lists them.
     pub fn commands(&self) -> impl Iterator<Item = &'static Command> {
         self.commands.iter().copied()
     }
 
-    /// Every command that takes words, in the order in which the help lists them.
+    /// All commands that take words, in the order in which the help lists them.
     pub fn lines(&self) -> impl Iterator<Item = &'static LineCommand> {
         self.lines.iter().copied()
     }
@@ -88,13 +89,13 @@ impl Keymap {
         self.lines().find(|line| line.name == name)
     }
 
-    /// Takes all keys from a command in a context.
+    /// Removes all keys of a command in a context.
     pub fn unbind(&mut self, context: Context, command: &Command) {
         self.bindings.retain(|(at, _), bound| *at != context || bound.command != command);
     }
 
-    /// Gives a key to a command in a context. Fails with [`Unbindable`] if the key means something else where this
-    /// context holds, or types a character there.
+    /// Binds a key to a command in a context. Fails with [`Unbindable`] if the key means something else where
+    /// this context holds, or types a character there.
     pub fn bind(
         &mut self,
         context: Context,
@@ -116,13 +117,13 @@ impl Keymap {
         Ok(())
     }
 
-    /// What a key means in contexts that hold together.
+    /// The command of a key in contexts that hold together.
     pub fn command(&self, contexts: &[Context], key: Key) -> Option<&'static Command> {
         let mut bound = contexts.iter().filter_map(|context| self.bindings.get(&(*context, key)));
         bound.next().map(|bound| bound.command)
     }
 
-    /// The keys of a command in a context, in the order in which they were given to it.
+    /// The keys of a command in a context, in the order in which they were bound.
     pub fn keys_in(&self, context: Context, command: &Command) -> impl Iterator<Item = Key> {
         let bound = self.bindings.iter();
         let of_it = bound.filter(|((at, _), bound)| *at == context && bound.command == command);
@@ -132,13 +133,13 @@ impl Keymap {
         keys.into_iter().map(|(_, key)| key)
     }
 
-    /// The first key of the command with this name, for sentences that say what to press.
+    /// The first key of the command with this name, for texts that say what to press.
     pub fn key_of(&self, name: &str) -> Option<Key> {
         let (_, keys) = self.places(self.named(name)?).into_iter().next()?;
         keys.first().copied()
     }
 
-    /// A sentence in which `{command}` stands for the first key of that command, as `write` names it.
+    /// A sentence in which each `{command}` is replaced by the first key of that command, as `write` names it.
     pub fn fill(&self, sentence: &str, write: impl Fn(Key) -> String) -> String {
         let mut filled = String::new();
         let mut rest = sentence;
@@ -148,7 +149,7 @@ impl Keymap {
             filled += before;
             match self.key_of(name) {
                 Some(key) => filled += &write(key),
-                // A command without a key is in the palette under its name.
+                // A command without a key is found in the palette by its name.
                 None => filled += name,
             }
             rest = after;

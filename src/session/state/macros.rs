@@ -8,26 +8,26 @@ use crate::session::state::history::Snapshot;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Macros {
-    /// What was recorded, by letter.
+    /// The recorded steps, by letter.
     pub registers: BTreeMap<char, Vec<Instruction>>,
-    /// What is being recorded, and where to.
+    /// The register that is being recorded, and its steps so far.
     pub recording: Option<(char, Recorder)>,
     /// The register played last.
     pub last: Option<char>,
     /// The register that is being played.
     pub played: Option<Played>,
-    /// Presses since nothing was open and nothing waited for: what asks for a command and is not it.
+    /// Number of presses since nothing was open and nothing pending: they lead up to a command.
     pub chord: u32,
-    /// Presses of the last such chord that is complete.
+    /// Number of presses of the last such sequence that is complete.
     pub asked: u32,
 }
 
-/// A register that is being played: all its changes become one.
+/// A register that is being played; all its changes are merged into one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Played {
-    /// Presses that are left of it.
+    /// Number of steps that are still to be played.
     pub left: u64,
-    /// How deep the past was before it.
+    /// Depth of the past when it began.
     pub depth: usize,
     pub before: Box<Snapshot>,
 }

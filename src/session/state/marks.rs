@@ -1,4 +1,4 @@
-//! Marks: points of the parameters to come back to, and the one that is compared with.
+//! Marks: points of the parameters to come back to, and the point for comparison.
 
 use std::collections::BTreeMap;
 
@@ -8,16 +8,16 @@ use crate::session::state::setup::Setup;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marks {
     pub places: BTreeMap<char, Bookmark>,
-    /// The point left last: what is compared with.
+    /// The point that was left last, for comparison.
     pub left: Option<Bookmark>,
 }
 
-/// A point of the parameters, and what is drawn of it beside another.
+/// A point of the parameters, and what is drawn of it beside the present one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bookmark {
-    /// The motion, and the speed of its belt.
+    /// The motion and the speed of its belt.
     pub setup: Setup,
-    /// The questions for its motion and its cycles, once the point was on show.
+    /// The questions for its motion and its cycles; empty until the point was on show.
     pub asked: Vec<Request>,
 }
 

@@ -1,22 +1,22 @@
-//! What lies over the panes and gets the keys while it is there.
+//! Overlays: what covers the panes and gets the keys while it is open.
 
 use crate::session::replay::script::Script;
 use crate::session::state::input::Input;
 use crate::session::state::rows::Row;
 use crate::session::state::scan_form::ScanForm;
 
-/// Something over the panes.
+/// An overlay over the panes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Overlay {
-    /// A list, to be scrolled and searched.
+    /// A list that can be scrolled and searched.
     List(Listed, List),
-    /// A line in which a value is typed.
+    /// A line for typing a value.
     Entry(Entry),
-    /// The line in which commands are typed by name.
+    /// The line for typing commands by name.
     Prompt(Prompt),
-    /// The form in which a scan is typed.
+    /// The form for typing a scan.
     Scan(ScanForm),
-    /// A pasted keystroke file, waiting for a yes.
+    /// A pasted keystroke file, waiting for confirmation.
     Offer(Script),
 }
 
@@ -24,15 +24,15 @@ pub enum Overlay {
 pub enum Listed {
     /// The scenes, to pick one.
     Scenes,
-    /// The layers, to switch them on and off.
+    /// The layers, to switch on and off.
     Layers,
-    /// The views, to pick what a plot shows.
+    /// The views, to pick one for a plot.
     Views,
     /// The claims of the paper.
     Paper,
-    /// Everything that has a name: commands, scenes, views, layers, claims.
+    /// Everything that can be picked by name: commands, scenes, views, layers, claims.
     Palette,
-    /// What the picture costs, question by question.
+    /// The cost of the picture, question by question.
     Cost,
     /// The sessions that were interrupted, to continue one.
     Interrupted,
@@ -43,12 +43,12 @@ impl Overlay {
         if let Overlay::List(_, list) = self { Some(list) } else { None }
     }
 
-    /// The list, to be changed.
+    /// The list, if it is one.
     pub fn list_mut(&mut self) -> Option<&mut List> {
         if let Overlay::List(_, list) = self { Some(list) } else { None }
     }
 
-    /// Whether this is another kind of overlay than `other`, whatever stands in both.
+    /// Whether this is another kind of overlay than `other`, whatever both contain.
     pub fn differs(&self, other: &Self) -> bool {
         match (self, other) {
             (Overlay::List(one, _), Overlay::List(other, _)) => one != other,
@@ -57,25 +57,25 @@ impl Overlay {
     }
 }
 
-/// What is said in words above the status lines, without taking keys.
+/// The caption above the status lines; it takes no keys.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SessionCaption {
     #[default]
     Nothing,
-    /// What there is to see in the scene, and what to press.
+    /// What the scene shows, and what to press.
     Scene,
-    /// A caption of a tour, and which it is of how many.
+    /// A caption of a tour; if known, its number and the number of all captions.
     Tour(String, Option<(usize, usize)>),
 }
 
 /// A list with a selected row and a search.
 ///
-/// The view scrolls so that the selected row is seen; the session need not know the height.
+/// The view scrolls to the selected row, so the session need not know the height of the list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct List {
     /// Index of the selected row among those that match.
     pub selected: usize,
-    /// What the rows must contain, in any case of letters.
+    /// Words that the rows must contain, ignoring case.
     pub search: String,
     /// Whether typed characters go to the search.
     pub searching: bool,
@@ -84,42 +84,42 @@ pub struct List {
 /// A value being typed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// The row whose value it becomes.
+    /// The row whose value is typed.
     pub row: Row,
-    /// What is typed so far.
+    /// The text typed so far.
     pub input: Input,
-    /// Why the text was refused, until it changes.
+    /// Why the text was refused, until it is changed.
     pub refused: Option<String>,
 }
 
-/// A command being typed, by its name.
+/// A command being typed by name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Prompt {
-    /// What is typed so far.
+    /// The text typed so far.
     pub input: Input,
-    /// Why the text was refused, until it changes.
+    /// Why the text was refused, until it is changed.
     pub refused: Option<String>,
-    /// What the last word can become, once that was asked for.
+    /// Candidates for the last word, once completion was asked for.
     pub completion: Option<Completion>,
-    /// How many lines back in the history the text stands; 0 for a new one.
+    /// How many lines back in the history the shown line is; 0 for the new line.
     pub back: usize,
-    /// The new line, while an old one stands in its place.
+    /// The new line, while an old one is shown.
     pub draft: String,
 }
 
-/// What a word of a line can become.
+/// Candidates for a word of a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {
     /// The text before the word.
     pub stem: String,
-    /// The words, never none.
+    /// The candidates, at least one.
     pub words: Vec<String>,
-    /// The one that stands in the line.
+    /// Index of the candidate that the line shows.
     pub at: usize,
 }
 
 impl List {
-    /// Whether a row with these texts, in which all searched words stand, is among those searched for.
+    /// Whether a row with these texts contains all searched words.
     pub fn matches(&self, words: &[impl AsRef<str>]) -> bool {
         let words: Vec<String> = words.iter().map(|word| word.as_ref().to_lowercase()).collect();
         let found = |wanted: &str| words.iter().any(|word| word.contains(wanted));
@@ -128,14 +128,14 @@ impl List {
 }
 
 impl Entry {
-    /// A line with this text, the caret behind it.
+    /// A line with this text and the caret at its end.
     pub fn new(row: Row, text: impl Into<String>) -> Self {
         Entry { row, input: Input::new(text), refused: None }
     }
 }
 
 impl Prompt {
-    /// A line with this text, the caret behind it.
+    /// A line with this text and the caret at its end.
     pub fn new(text: impl Into<String>) -> Self {
         Prompt { input: Input::new(text), ..Prompt::default() }
     }

@@ -1,17 +1,17 @@
-//! What the next key completes: a count before a key, or the letter of a register or a mark.
+//! Input that the next key completes: a count before a key, or the letter of a register or a mark.
 
 pub const MOST: u32 = 9999;
 
-/// What the next key is waited for.
+/// Input that the next key completes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pending {
-    /// More digits, or the key to be pressed this many times. Zero: no digit yet.
+    /// The next key is another digit, or the key to press this many times. Zero means no digit yet.
     Count(u32),
     /// The letter of a register or mark.
     Letter { what: Letter, count: u32 },
 }
 
-/// What a letter is asked for.
+/// The purpose of a letter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Letter {
     /// The register in which to record.
@@ -25,7 +25,7 @@ pub enum Letter {
 }
 
 impl Letter {
-    /// What is asked, for the footer.
+    /// The question for the footer.
     pub fn question(self) -> &'static str {
         match self {
             Letter::Record => "record into which register? a to z",

@@ -1,21 +1,21 @@
-//! How the motion is played: where its head is, and how fast it moves.
+//! Playback of the motion: the position of its head, and its pace.
 
-/// How fast the motion is played.
+/// The pace at which the motion is played.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
-    /// So many seconds for a period of the free oscillation.
+    /// Seconds per period of the free oscillation.
     Period(f64),
-    /// As fast as the machine itself; only a scene of one has that.
+    /// The real pace of the machine; only a scene of a machine has it.
     Real,
 }
 
-/// The paces besides that of a machine itself.
+/// All paces other than that of a machine.
 pub(in crate::session) const PACES: [Pace; 4] =
     [Pace::Period(8.0), Pace::Period(4.0), Pace::Period(2.0), Pace::Period(1.0)];
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Playback {
-    /// Dimensionless time of the head; `None` before anything was played.
+    /// Dimensionless time of the head; `None` before the first playback.
     pub at: Option<f64>,
     /// Whether the head advances as time passes.
     pub playing: bool,

@@ -1,4 +1,4 @@
-//! Plots: the parts of the screen that show a view each, and what part of the view is shown.
+//! Plots: parts of the screen that show a window of a view each.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,30 +13,30 @@ pub enum Pane {
     Plot(usize),
 }
 
-/// Who chose a plot's window.
+/// How a plot's window was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Framing {
     Scene,
-    /// It was fitted to what is on show.
+    /// Fitted to what is on show.
     Fitted,
-    /// It will be fitted as soon as what is on show is computed.
+    /// To be fitted as soon as what is on show is computed.
     Fitting,
-    /// The user, by zooming and panning.
+    /// By the user, by zooming and panning.
     User,
 }
 
-/// A plot: what it shows, its window and its cursor.
+/// A plot: its view, its window and its cursor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
     pub view: View,
-    /// Over which axes, where the view leaves a choice.
+    /// Its axes, where the view leaves a choice.
     pub axes: Axes,
-    /// Which family of the scene's stands in for the present values, if one does.
+    /// The family of variants, by its index in the scene, that the plot shows in place of the present values.
     pub family: Option<usize>,
-    /// What part of the world is on show.
+    /// The part of the world on show.
     pub window: Window,
-    /// Who chose the window.
+    /// How the window was chosen.
     pub framing: Framing,
     /// The cursor, in world coordinates.
     pub cursor: Option<Point>,
@@ -55,7 +55,7 @@ impl Plot {
         }
     }
 
-    /// Waits to be fitted, from this window.
+    /// Marks the plot as to be fitted, beginning from this window.
     pub fn fit_from(&mut self, window: Window) {
         (self.window, self.framing, self.cursor) = (window, Framing::Fitting, None);
     }

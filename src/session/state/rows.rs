@@ -11,20 +11,20 @@ use crate::session::state::step_size::StepSize;
 /// A row of the parameter pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Row {
-    /// A number of a machine, in SI units, which moves D, D2, D3 and r together.
+    /// A number of a machine, in SI units, which changes D, D2, D3 and r together.
     Quantity(Quantity),
     /// One of the six numbers that define a motion.
     Parameter(Symbol),
-    /// Bound w on a force that varies in any way.
+    /// Bound w on the disturbance, a force that varies in any way.
     Disturbance,
     /// Time at which the motion stops.
     Until,
     Method,
-    /// What sets the accuracy of the method: relative error of a step, its length, or a width.
+    /// The number that sets the accuracy of the method: relative error of a step, step length, or width.
     Tolerance,
 }
 
-/// Every row, in the order in which they stand.
+/// All rows, from top to bottom.
 pub const ROWS: [Row; 17] = [
     Row::BELT,
     Row::Quantity(Quantity::NormalForce),
@@ -46,10 +46,10 @@ pub const ROWS: [Row; 17] = [
 ];
 
 impl Row {
-    /// The row that is selected at first.
+    /// The row that is selected initially.
     pub const FIRST: Self = Row::Parameter(Symbol::D);
 
-    /// The speed of the belt. The name of its quantity, v0, is that of a velocity of the motion here.
+    /// The speed of the belt. The name of its quantity, v0, already names the initial velocity of the motion.
     pub const BELT: Self = Row::Quantity(Quantity::BeltSpeed);
 
     /// The name on the screen.
@@ -65,7 +65,7 @@ impl Row {
         }
     }
 
-    /// The name on the screen where a motion is computed by a method of its own dial.
+    /// The name on the screen; that of the tolerance depends on the method.
     pub fn name_in(self, problem: &Problem) -> &'static str {
         match self {
             Row::Tolerance => problem.method.spec().dial.name(),
@@ -92,7 +92,7 @@ pub struct Steps {
     pub disturbance: StepSize,
 }
 
-/// Part of the speed of a belt by which it is stepped at first.
+/// First step of the speed of a belt, as a fraction of that speed.
 const BELT_STEP: f64 = 1.0 / 30.0;
 
 fn usual_belt_step() -> StepSize {
@@ -103,8 +103,8 @@ fn usual_machine_steps() -> [StepSize; QUANTITIES.len() - 1] {
     [StepSize::near(1.0); QUANTITIES.len() - 1]
 }
 
-/// Part of a number of a machine by which it is stepped at first; of a damper or a friction that it does not have,
-/// part of what 1 of D, D3 or r stands for.
+/// First step of a number of a machine, as a fraction of that number; for a damper or a friction that is zero,
+/// as a fraction of the unit of D, D3 or r.
 const MACHINE_STEP: f64 = 0.05;
 
 fn machine_steps(scaled: &ScaledMachine) -> [StepSize; QUANTITIES.len() - 1] {
@@ -133,12 +133,13 @@ fn usual_disturbance_step() -> StepSize {
 const UNTIL_STEP: f64 = 10.0;
 
 impl Steps {
-    /// The step of a row; `None` where a step is not a number (method) or a factor of ten (tolerance).
+    /// The step of a row; `None` for the method, which is no number, and for the tolerance, whose step is a
+    /// factor of ten.
     pub fn of(&self, row: Row) -> Option<StepSize> {
         { *self }.of_mut(row).copied()
     }
 
-    /// The step of a row, to be changed.
+    /// The step of a row, mutable.
     pub fn of_mut(&mut self, row: Row) -> Option<&mut StepSize> {
         match row {
             Row::BELT => Some(&mut self.belt),
@@ -167,7 +168,7 @@ impl Steps {
     }
 }
 
-/// A tenth of the friction, as the steps go.
+/// First step of the disturbance: a tenth of the friction, rounded to a step size.
 fn step_of_disturbance(scene: &Scene) -> StepSize {
     let r = scene.problem.parameters.r;
     if r > 0.0 { StepSize::near(0.1 * r) } else { usual_disturbance_step() }

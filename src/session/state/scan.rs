@@ -1,6 +1,6 @@
-//! A scan in the explorer: what was asked for, the rows so far, and the point that is looked at.
+//! A scan in the explorer: its definition, the rows so far, and the selected point.
 //!
-//! Once started it continues until it is done or stopped, whatever is on show meanwhile.
+//! Once started, it continues until it is done or stopped, whatever else is shown.
 
 use std::sync::Arc;
 
@@ -11,18 +11,18 @@ use crate::scene::{Point, Request, Span, View, Window};
 use crate::study::measure::Value;
 use crate::study::scan::{Scan, ScanRow, Spacing, Sweep};
 
-/// Words of measures, each with the number at which it is plotted.
+/// The words that a measure can have as its value; they are plotted at their indices.
 pub const WORDS: [&str; 4] = ["captured", "moving", "escaped", "gave-up"];
 
-/// What is said while one continues.
+/// Said on the screen while a scan is running.
 pub const SCANNING: &str = "scanning";
 
-/// How a scan goes.
+/// Progress of a scan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Progress {
-    /// Rows are being computed, from this one on.
+    /// Rows are being computed.
     Running {
-        /// The first row of this run.
+        /// First row of this run.
         from: usize,
     },
     Stopped,
@@ -30,25 +30,25 @@ pub enum Progress {
     Done,
 }
 
-/// A scan and what it has found.
+/// A scan and its results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scanned {
     pub scan: Arc<Scan>,
-    /// The rows so far, in order from the first point on.
+    /// The rows so far, in order, beginning with the first point.
     pub rows: Vec<ScanRow>,
     pub progress: Progress,
-    /// Seconds that this run has taken.
+    /// Duration of this run so far, in s.
     pub seconds: f64,
     /// The measured column that is plotted.
     pub column: usize,
-    /// Whether the rows are listed instead.
+    /// Whether the rows are listed instead of plotted.
     pub table: bool,
-    /// The point that is looked at.
+    /// The selected point.
     pub at: usize,
 }
 
 impl Scanned {
-    /// A scan that begins.
+    /// A scan that is beginning.
     pub fn begun(scan: Scan) -> Self {
         Scanned {
             scan: Arc::new(scan),
@@ -61,7 +61,7 @@ impl Scanned {
         }
     }
 
-    /// What it asks for, while it runs.
+    /// Its request while it is running.
     pub fn request(&self) -> Option<Request> {
         match self.progress {
             Progress::Running { from } => {
@@ -71,7 +71,7 @@ impl Scanned {
         }
     }
 
-    /// Whether its points make a plane.
+    /// Whether it has two sweeps, so that its points form a grid.
     pub fn is_grid(&self) -> bool {
         self.scan.over().len() > 1
     }
@@ -95,7 +95,7 @@ impl Scanned {
         })
     }
 
-    /// Where a value of a sweep stands on its axis, which is logarithmic where the sweep is.
+    /// Coordinate of a value of a sweep on its axis, which is logarithmic if the sweep is.
     pub fn coordinate(sweep: &Sweep, index: usize) -> f64 {
         let value = sweep.value(index);
         match sweep.spacing {
@@ -104,10 +104,9 @@ impl Scanned {
         }
     }
 
-    /// The part of the world in which all points of a line stand, or all of a grid with half a step
-    /// around them.
+    /// The window that shows all points of a line, or all of a grid with a margin of half a step.
     pub fn window(&self) -> Window {
-        /// Room above and below a curve, as a factor of its height.
+        /// Factor on the height of a curve, for a margin above and below.
         const ROOM: f64 = 1.1;
         let usual = View::Scan.spec().window;
         let [across, rest @ ..] = self.scan.over() else { return usual };
@@ -126,7 +125,7 @@ impl Scanned {
         along(across, 0.0).map_or(usual, |x| Window { x, y })
     }
 
-    /// Where a point stands in the plot; its height only where that is known.
+    /// The position of a point in the plot; `None` where the height of its curve is not known.
     pub fn place(&self, index: usize) -> Option<Point> {
         let over = self.scan.over();
         let place = self.scan.place(index);
@@ -137,7 +136,7 @@ impl Scanned {
     }
 }
 
-/// A cell as a number, a word by its place among [`WORDS`].
+/// The value of a cell as a number; a word becomes its index in [`WORDS`].
 fn number(row: &ScanRow, column: usize) -> Option<f64> {
     match *row.values.get(column)? {
         Value::Word(word) => {

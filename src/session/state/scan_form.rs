@@ -1,4 +1,4 @@
-//! The form in which a scan is typed.
+//! The form for typing a scan.
 
 use crate::oscillator::{PARAMETERS, Symbol};
 use crate::session::state::input::Input;
@@ -20,7 +20,7 @@ pub struct FieldSpec {
     pub field: FormField,
     /// Its name on the screen.
     pub name: &'static str,
-    /// What may be typed.
+    /// Explanation of what may be typed.
     pub help: &'static str,
 }
 
@@ -35,7 +35,7 @@ const TO: FieldSpec = FieldSpec { field: FormField::To, name: "to", help: "last 
 const COUNT: FieldSpec =
     FieldSpec { field: FormField::Count, name: "count", help: "how many values" };
 
-/// Every field of the form, in the order in which they stand.
+/// All fields of the form, in their order on the screen.
 pub const FIELDS: [FieldSpec; 9] = [
     FieldSpec { field: FormField::Parameter, name: "over", help: "D, D2, D3, r, q0 or v0" },
     FROM,
@@ -56,22 +56,22 @@ pub const FIELDS: [FieldSpec; 9] = [
     },
 ];
 
-/// A scan being typed.
+/// The form of a scan being typed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScanForm {
-    /// What is typed, one line for each of [`FIELDS`].
+    /// The typed texts, one for each of [`FIELDS`].
     pub inputs: [Input; 9],
-    /// The field that is typed in.
+    /// Index of the field with the caret.
     pub at: usize,
-    /// Why it was refused, until it changes.
+    /// Why the form was refused, until it is changed.
     pub refused: Option<String>,
 }
 
 impl ScanForm {
-    /// The field of the second parameter.
+    /// Index of the field for the second parameter.
     pub const SECOND: usize = 4;
 
-    /// The form as it opens the first time: over a parameter and its values.
+    /// The form as it opens the first time: for a sweep of this parameter over this range.
     pub fn new(symbol: Symbol, (from, to): (f64, f64)) -> Self {
         let text = |value: f64| format!("{value:?}");
         let name = symbol.spec().name.to_owned();
@@ -85,12 +85,12 @@ impl ScanForm {
         }
     }
 
-    /// The line that is typed in.
+    /// The line of the field with the caret.
     pub fn input_mut(&mut self) -> &mut Input {
         &mut self.inputs[self.at]
     }
 
-    /// What a field offers to choose from.
+    /// The values that a field offers for selection.
     pub fn choices(at: usize) -> Vec<&'static str> {
         match FIELDS[at].field {
             FormField::Parameter => {

@@ -1,7 +1,7 @@
-//! The whole state of a session in one struct.
+//! The whole state of a session, in one struct.
 //!
-//! Nothing here computes a motion or draws one. [`Session::wants`] says, as a pure function of the
-//! state, which questions must be answered for what is on show; the outer rings ask them (see
+//! Nothing here computes or draws a motion. [`Session::wants`] returns, as a pure function of the state, the
+//! questions whose answers are needed for what is on show; the outer rings ask them (see
 //! `session::read::wants`).
 
 use std::collections::BTreeSet;
@@ -34,33 +34,33 @@ use crate::session::state::stop::BranchStop;
 use crate::session::state::waiting::Waiting;
 use crate::study::kicks::RandomKick;
 
-/// Harmonics at most: more cost more than the picture shows.
+/// Maximum number of harmonics: more would cost more than the picture can show.
 pub const MOST_HARMONICS: usize = 63;
 
-/// Harmonics at first: what more than the paper's one buys can be seen.
+/// Initial number of harmonics: enough to show the gain over the paper's single one.
 const HARMONICS: usize = 3;
 
-/// One recomputation that a key press caused.
+/// A recomputation caused by a key press.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recomputed {
     pub topic: Topic,
-    /// What it cost, counted.
+    /// Counted cost.
     pub cost: Cost,
-    /// What it cost in wall-clock seconds.
+    /// Cost in wall-clock seconds.
     pub seconds: f64,
 }
 
-/// What the last key press cost: the recomputations that it caused and nothing else.
+/// The cost of the last key press: only the recomputations that it caused.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Price {
     /// The key; `None` for the computations of the first picture.
     pub key: Option<Key>,
-    /// What was recomputed, in the order of the answers.
+    /// The recomputations, in the order of their answers.
     pub recomputed: Vec<Recomputed>,
 }
 
 impl Price {
-    /// Evaluations of the field in all.
+    /// Total number of evaluations of the field.
     pub fn evaluations(&self) -> u64 {
         self.recomputed.iter().map(|part| part.cost.evaluations).sum()
     }
@@ -77,7 +77,7 @@ pub struct Size {
     pub height: u16,
 }
 
-/// Everything that a session is.
+/// The complete state of a session.
 #[expect(
     clippy::struct_excessive_bools,
     reason = "what is on or off has nothing to do with each other"
@@ -88,40 +88,40 @@ pub struct Session {
     pub scene: Arc<Scene>,
     /// The present motion: parameters, start, end time, method and tolerance.
     pub problem: Problem,
-    /// Where the motions start that are shown beside it.
+    /// Starts of the other motions on show.
     pub others: Starts,
-    /// What the machine is set to; `None` where the scene is of none.
+    /// The setting of the machine; `None` if the scene has no machine.
     pub setting: Option<Setting>,
-    /// The machine with these numbers, where more than the speed of its belt may differ from its file.
+    /// The machine with these numbers, if numbers other than the speed of its belt may differ from its file.
     pub rebuilt: Option<Arc<Machine>>,
-    /// Half widths of the parameters, and the disturbance.
+    /// Half widths of the parameters, held numbers, and the disturbance.
     pub doubt: Doubt,
     /// Step sizes of the parameter pane.
     pub steps: Steps,
     /// The selected row of the parameter pane, always one of [`Session::rows`].
     pub selected: Row,
-    /// Whether parameters stand in the pane that the scene does not declare.
+    /// Whether the pane also shows parameters that the scene does not declare.
     pub unfolded: bool,
-    /// The pane that gets the keys.
+    /// The pane that has the focus.
     pub focus: Pane,
-    /// The plots, one to four, in the order of the focus.
+    /// The plots, one to four, in the order in which they get the focus.
     pub plots: Vec<Plot>,
-    /// The plot that had the focus last; the one on show when [`Session::enlarged`].
+    /// Index of the plot that had the focus last; the only one on show if [`Session::enlarged`].
     pub plot: usize,
-    /// Whether that plot takes the place of all.
+    /// Whether that plot takes the space of all.
     pub enlarged: bool,
     /// How the plots share the screen.
     pub arrangement: Arrangement,
-    /// The motion in time.
+    /// Playback of the motion.
     pub playback: Playback,
-    /// The point of the branch in focus that is held, while the user walks along it.
+    /// The point of the branch in focus at which a walk is held.
     pub held: Option<BranchStop>,
-    /// Number N of harmonics of the layer `balance`.
+    /// Number N of harmonics in the layer `balance`.
     pub harmonics: usize,
-    /// Random kicks of the layer `kicks`.
+    /// Random kicks in the layer `kicks`.
     pub kicks: RandomKick,
     pub layers: BTreeSet<Layer>,
-    /// What lies over the panes and gets the keys.
+    /// The overlay, which gets the keys.
     pub overlay: Option<Overlay>,
     pub history: History,
     /// A count or a letter that the next key completes.
@@ -129,41 +129,41 @@ pub struct Session {
     /// A press that waits for an answer.
     pub waiting: Option<Waiting>,
     pub macros: Macros,
-    /// Points to come back to, and the one that is compared with.
+    /// Points to come back to, and the point for comparison.
     pub marks: Marks,
-    /// What is said in words above the status lines.
+    /// The caption above the status lines.
     pub caption: SessionCaption,
-    /// The sessions that were interrupted and can be continued, the newest first.
+    /// Interrupted sessions that can be continued, the most recent first.
     pub interrupted: Vec<Kept>,
-    /// The figure that is being written.
+    /// The file of the figure in progress.
     pub writing: Option<PathBuf>,
-    /// The lines typed on the command line, the newest last.
+    /// Lines typed on the command line, the most recent last.
     pub lines: Vec<String>,
     pub answers: Answers,
-    /// The scan, once there is one.
+    /// The last scan, if any.
     pub scanned: Option<Scanned>,
-    /// The form as it was when the last scan was started.
+    /// The form with which the last scan was started.
     pub scan_form: Option<ScanForm>,
-    /// Motions that a fit has computed so far.
+    /// Number of motions that a fit has computed so far.
     pub fitting: u64,
-    /// What the last key press cost.
+    /// Cost of the last key press.
     pub price: Price,
-    /// Whether the last key turned the dial or changed the method: then the error is measured.
+    /// Whether the last key changed the accuracy or the method; the error is then measured.
     pub measuring: bool,
-    /// A line for the user.
+    /// The notice to the user.
     pub notice: Option<Notice>,
-    /// Which key means which command.
+    /// The bindings of keys to commands.
     pub keymap: Arc<Keymap>,
-    /// What the user wishes of the screen.
+    /// The user's wishes for the screen.
     pub look: Wishes,
     /// The size of the screen.
     pub size: Size,
-    /// Whether the user has left.
+    /// Whether the user has quit.
     pub quit: bool,
 }
 
 impl Session {
-    /// A session that has just opened a scene, with these keys.
+    /// A session that has just opened a scene, with this keymap.
     pub fn opened(scene: Arc<Scene>, size: Size, keymap: Arc<Keymap>) -> Self {
         Session {
             problem: scene.problem,
@@ -214,7 +214,8 @@ impl Session {
         symbol.get(&self.problem.parameters, &self.problem.initial)
     }
 
-    /// The rows of the parameter pane: what the scene declares, what is not zero, all when unfolded.
+    /// The rows of the parameter pane: those that the scene declares and those that are not zero; all rows if
+    /// unfolded.
     pub fn rows(&self) -> Vec<Row> {
         let stands = |row: &Row| match *row {
             Row::Quantity(quantity) => {

@@ -1,40 +1,40 @@
-//! What the user wishes of the screen, as plain data. The outer rings fit it to the present terminal.
+//! The user's wishes for the screen, as plain data. The outer rings adapt them to the present terminal.
 
-/// How points are made of characters.
+/// The characters that form the dots of plots.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Glyphs {
-    /// What the terminal and its locale can show.
+    /// The best that the terminal and its locale can show.
     #[default]
     Auto,
-    /// Two by four dots a cell.
+    /// Two by four dots per cell.
     Braille,
-    /// Two by four blocks a cell.
+    /// Two by four blocks per cell.
     Octant,
-    /// Two by two blocks a cell.
+    /// Two by two blocks per cell.
     Block,
     Ascii,
 }
 
-/// How many colours to use.
+/// Colour depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Colors {
-    /// What the terminal says it has; none if `NO_COLOR` is set.
+    /// What the terminal says it has; no colours if `NO_COLOR` is set.
     #[default]
     Auto,
-    /// None: markers, dashes, bold and reverse tell things apart.
+    /// No colours: markers, dashes, bold and reverse distinguish things.
     Never,
     /// The sixteen colours of the terminal's own palette.
     Sixteen,
     /// The 256 indexed colours.
     Indexed,
-    /// Red, green and blue of eight bits each.
+    /// Red, green and blue with eight bits each.
     True,
 }
 
 /// A set of colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Theme {
-    /// What suits the background of the terminal.
+    /// The set that suits the background of the terminal.
     #[default]
     Auto,
     Dark,
@@ -44,7 +44,7 @@ pub enum Theme {
     Mono,
 }
 
-/// The glyph modes, in the order in which the key visits them.
+/// The glyph modes, in the order in which the key cycles through them.
 pub const GLYPHS: [(Glyphs, &str); 5] = [
     (Glyphs::Auto, "auto"),
     (Glyphs::Braille, "braille"),
@@ -53,7 +53,7 @@ pub const GLYPHS: [(Glyphs, &str); 5] = [
     (Glyphs::Ascii, "ascii"),
 ];
 
-/// The colour depths, with the names of the command line.
+/// The colour depths, with their names on the command line.
 pub const COLORS: [(Colors, &str); 5] = [
     (Colors::Auto, "auto"),
     (Colors::Never, "never"),
@@ -62,8 +62,8 @@ pub const COLORS: [(Colors, &str); 5] = [
     (Colors::True, "true"),
 ];
 
-/// The themes, in the order in which the key visits them: most backgrounds are dark, so that the first step
-/// from `auto` changes what is seen.
+/// The themes, in the order in which the key cycles through them. Most backgrounds are dark, so `light` comes
+/// after `auto`: the first step is then visible.
 pub const THEMES: [(Theme, &str); 5] = [
     (Theme::Auto, "auto"),
     (Theme::Light, "light"),
@@ -72,25 +72,25 @@ pub const THEMES: [(Theme, &str); 5] = [
     (Theme::Mono, "mono"),
 ];
 
-/// Everything about the looks that the user can choose.
+/// Everything about the appearance that the user can choose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wishes {
-    /// How points are made of characters.
+    /// The characters that form the dots of plots.
     pub glyphs: Glyphs,
-    /// How many colours to use.
+    /// Colour depth.
     pub colors: Colors,
-    /// How many the terminal has, for what sixteen cannot show; `Auto` where that is not known.
+    /// Colour depth of the terminal, for what sixteen colours cannot show; `Auto` if unknown.
     pub fine: Colors,
     pub theme: Theme,
-    /// Whether the terminal reports the mouse; without, it selects text.
+    /// Whether the terminal reports the mouse; otherwise the mouse selects text.
     pub mouse: bool,
-    /// Whether phase planes fill their place, a unit across not as long as a unit up.
+    /// Whether phase planes fill the space of their plot, so that the units of both axes differ in length.
     pub stretched: bool,
-    /// Whether axes of machines are without units.
+    /// Whether axes of machines have no units.
     pub dimensionless: bool,
 }
 
-/// The value and name that follow `current` in a table such as [`GLYPHS`], around the end.
+/// The value and name that follow `current` in a table such as [`GLYPHS`]; the first ones after the last.
 pub fn next_of<T: Copy + PartialEq>(table: &[(T, &'static str)], current: T) -> (T, &'static str) {
     let index = table.iter().position(|(value, _)| *value == current).unwrap_or(0);
     table[(index + 1) % table.len()]

@@ -1,25 +1,26 @@
-//! The motions on show, the numbers of the machine and what is not known exactly, which change together.
+//! The motions on show, the numbers of the machine and what is not known exactly: they change together.
 
 use crate::flow::Problem;
 use crate::scene::{ScaledMachine, Scene, Setting};
 use crate::session::state::doubt::Doubt;
 use crate::session::state::starts::Starts;
 
-/// What a change changes: the motions, the machine that their units are those of, and what is not known exactly.
+/// Everything that a change of a number can affect: the motions, the machine that determines their units, and
+/// what is not known exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setup {
     /// The present motion: parameters, start, end time, method and tolerance.
     pub problem: Problem,
-    /// Where the motions beside it start.
+    /// Starts of the other motions.
     pub others: Starts,
-    /// What the machine is set to; `None` where the scene is of none.
+    /// The setting of the machine; `None` if the scene has no machine.
     pub setting: Option<Setting>,
-    /// Half widths of the parameters, and the disturbance.
+    /// Half widths of the parameters, held numbers, and the disturbance.
     pub doubt: Doubt,
 }
 
 impl Setup {
-    /// What a scene opens with.
+    /// The setup with which a scene opens.
     pub fn of_scene(scene: &Scene) -> Self {
         let scaled = scene.machine.as_deref();
         let setting = |scaled: &ScaledMachine| Setting::of_speed(scaled.machine.belt.belt_speed);
@@ -28,7 +29,7 @@ impl Setup {
         Setup { setting: scaled.map(setting), doubt, ..Setup::alone(scene.problem) }
     }
 
-    /// One motion of no machine, known exactly.
+    /// A single motion without a machine, known exactly.
     pub fn alone(problem: Problem) -> Self {
         Setup { problem, others: Starts::default(), setting: None, doubt: Doubt::default() }
     }

@@ -1,13 +1,13 @@
-//! Where motions start that are shown beside the present one.
+//! Starts of the motions that are shown beside the present one.
 
 use crate::oscillator::State;
 
-/// Motions that are shown at once, the present one among them.
+/// Maximum number of motions on show, including the present one.
 pub const MOST_MOTIONS: usize = 8;
 
 const REST: State = State { q: 0.0, v: 0.0 };
 
-/// Starts, the oldest first; as many as there is room for beside the present motion.
+/// Starts, the oldest first; at most one fewer than motions can be shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Starts {
     states: [State; MOST_MOTIONS - 1],
@@ -21,19 +21,19 @@ impl Default for Starts {
 }
 
 impl Starts {
-    /// These starts; `None` where there are too many.
+    /// These starts; `None` if there are too many.
     pub fn of(states: &[State]) -> Option<Self> {
         let mut starts = Starts::default();
         starts.states.get_mut(..states.len())?.copy_from_slice(states);
         Some(Starts { count: states.len(), ..starts })
     }
 
-    /// All of them, the oldest first.
+    /// All starts, the oldest first.
     pub fn all(&self) -> &[State] {
         &self.states[..self.count]
     }
 
-    /// Adds a start, or makes it the newest; returns whether the oldest was removed.
+    /// Adds a start as the newest one, or makes it the newest; returns whether the oldest was removed.
     pub fn add(&mut self, start: State) -> bool {
         let mut states: Vec<State> =
             self.all().iter().copied().filter(|known| *known != start).collect();
@@ -49,7 +49,7 @@ impl Starts {
         Starts::of(&states).unwrap_or(*self)
     }
 
-    /// Every start changed alike.
+    /// Applies `change` to every start.
     pub fn map(mut self, change: impl Fn(State) -> State) -> Self {
         self.states[..self.count].iter_mut().for_each(|state| *state = change(*state));
         self

@@ -1,7 +1,7 @@
-//! Step sizes 1, 2, 5 times a power of ten, and sums that stay decimal.
+//! Step sizes 1, 2 and 5 times a power of ten, and sums that stay decimal.
 //!
-//! A step of 0.01 from -0.1 should give -0.09, not -0.09000000000000001: sums are rounded to the
-//! digits that both terms can have.
+//! A step of 0.01 from -0.1 should give -0.09, not -0.09000000000000001: sums are rounded to the digits that
+//! both terms can have.
 
 use std::cmp::Ordering;
 
@@ -29,14 +29,14 @@ impl From<StepSize> for f64 {
     }
 }
 
-/// Exponents of the smallest and the largest step: well inside the range of floating point.
+/// Exponents of the smallest and the largest step: well within the range of floating-point numbers.
 const EXPONENTS: std::ops::RangeInclusive<i16> = -290..=290;
 
-/// Significant digits that a double always keeps.
+/// Significant decimal digits that a double always preserves.
 const DIGITS: i32 = 15;
 
 impl StepSize {
-    /// The step size nearest to a positive number, by ratio; 1 for what is not a positive number.
+    /// The step size nearest to a positive number, by ratio; 1 for anything else.
     pub fn near(value: f64) -> Self {
         if !(value > 0.0 && value.is_finite()) {
             return StepSize { mantissa: 1, exponent: 0 };
@@ -54,7 +54,7 @@ impl StepSize {
         decimal(&format!("{}e{}", self.mantissa, self.exponent))
     }
 
-    /// The next larger one, or the same at the end of the range.
+    /// The next larger step size, or this one at the end of the range.
     pub fn larger(self) -> Self {
         match self.mantissa {
             1 => StepSize { mantissa: 2, ..self },
@@ -64,7 +64,7 @@ impl StepSize {
         }
     }
 
-    /// The next smaller one, or the same at the end of the range.
+    /// The next smaller step size, or this one at the end of the range.
     pub fn smaller(self) -> Self {
         match self.mantissa {
             5 => StepSize { mantissa: 2, ..self },
@@ -79,8 +79,8 @@ impl StepSize {
         decimal_sum(value, f64::from(count) * self.value())
     }
 
-    /// The multiple of the step next to `value`, `count` multiples on; from between two multiples the
-    /// first step goes to the neighbour.
+    /// The multiple of the step that is `count` multiples from `value`. If `value` lies between two multiples,
+    /// the first step leads to the next multiple in that direction.
     pub fn multiple_from(self, value: f64, count: i32) -> f64 {
         let steps = value / self.value();
         // A value within rounding of a multiple counts as that multiple.
@@ -101,12 +101,12 @@ fn decade(value: f64) -> i16 {
     log10(value).floor() as i16
 }
 
-/// Reads digits that this module has written itself.
+/// Parses digits that this module has written itself.
 fn decimal(text: &str) -> f64 {
     text.parse().unwrap_or(0.0)
 }
 
-/// The sum of two decimal numbers, rounded to the decimals that the larger can carry; never `-0.0`.
+/// The sum of two decimal numbers, rounded to the decimals that the larger one can have; never `-0.0`.
 pub fn decimal_sum(value: f64, by: f64) -> f64 {
     let largest = value.abs().max(by.abs());
     let sum = value + by;

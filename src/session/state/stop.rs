@@ -5,13 +5,13 @@ use crate::study::{BranchPoint, Cycle, Special, SpecialKind};
 /// A point of a branch where a walk can stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BranchStop {
-    /// Whose branch it is, of several that a diagram shows.
+    /// Index of the variant whose branch this is, if a diagram shows several.
     pub variant: usize,
     /// Value of the branch's parameter.
     pub value: f64,
-    /// The cycle there; `None` where it has gone to infinity.
+    /// The cycle there; `None` where its amplitude is infinite.
     pub cycle: Option<Cycle>,
-    /// What is special about the point, if anything is.
+    /// The kind of special point, if it is one.
     pub special: Option<SpecialKind>,
 }
 

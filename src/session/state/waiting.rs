@@ -3,10 +3,10 @@
 use crate::scene::Request;
 use crate::session::replay::script::Instruction;
 
-/// A press that waits, and for which answer.
+/// A press that waits, and the request whose answer it needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waiting {
     pub step: Instruction,
-    /// The question that must be answered first.
+    /// The request that must be answered first.
     pub request: Request,
 }
