@@ -1,4 +1,4 @@
-//! What happens when an answer arrives.
+//! Taking answers in.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::session::state::session::{Recomputed, Session};
 use crate::words::fit::sentences;
 
 impl Session {
-    /// Takes an answer in; returns whether it is the answer to a question that is asked now.
+    /// Takes an answer in; returns whether its question is asked at present.
     pub(in crate::session) fn take(&mut self, answered: Answered) -> bool {
         let topic = answered.request.topic();
         if topic == Topic::Scan {
@@ -25,7 +25,7 @@ impl Session {
         let asked = self.asks().contains(&answered.request);
         if let Ok(answer) = &answered.result {
             let (cost, seconds) = (answer.cost(), answered.seconds);
-            // No key has waited for a proof.
+            // No key waits for a proof.
             if topic != Topic::Proof {
                 self.price.recomputed.push(Recomputed { topic, cost, seconds });
             }
@@ -45,7 +45,7 @@ impl Session {
         asked
     }
 
-    /// Shows the motion that fits a record, and opens with it from now on; or says why there is none.
+    /// Shows the fitted motion and makes it the opening state of the scene, or says why there is none.
     fn show_fit(&mut self, fit: &Fit) {
         let found = match fit.found() {
             Ok(found) => found,
@@ -56,7 +56,7 @@ impl Session {
             PARAMETERS.iter().filter_map(|row| Some((row.symbol, found.error(row.symbol)?)));
         let said = sentences(&found.fit);
         let scene = Arc::make_mut(&mut self.scene);
-        // A step of one standard error is the least that says anything.
+        // A step below one standard error would mean nothing.
         scene.steps.extend(errors.filter(|(_, error)| *error > 0.0));
         scene.look = format!("{}. {}", said.join("; "), scene.look);
         if self.problem.until == scene.problem.until {
@@ -87,7 +87,7 @@ impl Session {
                 scanned.rows.extend_from_slice(rows);
             }
             Ok(_) => return false,
-            // What was stopped has been marked so before.
+            // A scan that was stopped has been marked already.
             Err(Failure::Reason(Reason::Interrupted)) => return true,
             Err(_) => scanned.progress = Progress::Stopped,
         }
@@ -104,7 +104,7 @@ impl Session {
     }
 }
 
-/// Brings the numbers that nobody holds to what the fit makes of those that are held.
+/// Sets the numbers that are not held to their values in the fit.
 pub(in crate::session) fn follow_fit(session: &mut Session) {
     if session.scene.recording.is_none() {
         return;
@@ -132,7 +132,7 @@ pub(in crate::session) fn resolve(session: &mut Session) {
         let of_scene = session.plot_of_scene(index, view);
         let plot = &mut session.plots[index];
         plot.window = window.unwrap_or(plot.window);
-        // Where the scene leaves the window to the answers, fitting is what the scene wants.
+        // If the scene leaves the window open, a fitted window is the scene's.
         let scenes = of_scene.is_some_and(|of| of.window.is_none() && of.axes == plot.axes);
         plot.framing = if scenes { Framing::Scene } else { Framing::Fitted };
     }

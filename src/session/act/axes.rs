@@ -1,4 +1,4 @@
-//! Commands that change what stands on the diagram's axes.
+//! Commands that change the axes of diagrams and charts.
 
 use crate::scene::ordinate::usual_values;
 use crate::scene::{ABSCISSAE, Axes, ORDINATES, PlotSetup, Span, Unit, View, Window};
@@ -7,10 +7,10 @@ use crate::session::effect::Effect;
 use crate::session::state::plot::Plot;
 use crate::session::state::session::Session;
 
-/// Room beside the present value where it lies outside of the values first looked at, as a factor.
+/// Factor for room beside the present value if it lies outside of the first range.
 const ROOM: f64 = 1.25;
 
-/// Draws the diagram in focus over the next parameter, around its end; the branch is another one.
+/// Draws the diagram in focus over the next parameter, cycling; this needs another branch.
 pub fn next_abscissa(session: &mut Session) -> Vec<Effect> {
     let Some(plot) = session.focused() else { return Vec::new() };
     let axes = plot.axes;
@@ -20,7 +20,7 @@ pub fn next_abscissa(session: &mut Session) -> Vec<Effect> {
     inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning))
 }
 
-/// Draws the chart in focus over the next parameter to the right or upwards, never one over the other's.
+/// Draws the chart in focus over the next parameter to the right or upwards; both axes always differ.
 pub fn next_of_chart(session: &mut Session, upwards: bool) -> Vec<Effect> {
     let Some(plot) = session.focused_mut() else { return Vec::new() };
     let Axes { abscissa, against, .. } = plot.axes;
@@ -30,7 +30,8 @@ pub fn next_of_chart(session: &mut Session, upwards: bool) -> Vec<Effect> {
     let Some(symbol) = later.into_iter().find(|symbol| *symbol != other) else { return Vec::new() };
     let axis = if upwards { &mut plot.axes.against } else { &mut plot.axes.abscissa };
     *axis = symbol;
-    // The chart of these parameters belongs to no scene: its window is the usual one, the present point in it.
+    // No scene sets a window for these axes: starts from the usual one, which is then fitted to include the
+    // present point.
     plot.fit_from(
         PlotSetup { view: plot.view, axes: plot.axes, window: None, family: plot.family }.opening(),
     );
@@ -54,7 +55,7 @@ pub fn set(session: &mut Session, axes: Axes) {
     reframe(session, axes, x);
 }
 
-/// Shows the next property of the cycles, around its end; the branch is the same.
+/// Shows the next property of the cycles, cycling; the branch stays.
 pub fn next_ordinate(session: &mut Session) -> Vec<Effect> {
     let Some(plot) = session.focused() else { return Vec::new() };
     let row = &ORDINATES[(plot.axes.ordinate as usize + 1) % ORDINATES.len()];
@@ -63,7 +64,7 @@ pub fn next_ordinate(session: &mut Session) -> Vec<Effect> {
     inform(session, format!("{}: {}", axes.label(), row.meaning))
 }
 
-/// Measures lengths of the cycles in units of r, or as the equation does; the branch is the same.
+/// Switches lengths of the cycles between units of r and those of the equation; the branch stays.
 pub fn next_unit(session: &mut Session) -> Vec<Effect> {
     let Some(plot) = session.focused() else { return Vec::new() };
     let (spec, unit) = (plot.axes.ordinate.spec(), plot.axes.unit);
@@ -77,12 +78,12 @@ pub fn next_unit(session: &mut Session) -> Vec<Effect> {
     inform(session, format!("{}: {}{units}", axes.label(), spec.meaning))
 }
 
-/// The diagram that the scene has in the place of the one in focus.
+/// The scene's setup for the diagram in focus.
 fn of_scene(session: &Session) -> Option<PlotSetup> {
     session.plot_of_scene(session.plot, View::Diagram)
 }
 
-/// The scene's window where the axes are the scene's, else one fitted to the branch.
+/// Applies the scene's window if the axes are the scene's, otherwise fits the window to the branch.
 fn reframe(session: &mut Session, axes: Axes, x: Span) {
     let of_scene = of_scene(session).filter(|plot_setup| plot_setup.axes == axes);
     let Some(plot) = session.focused_mut() else { return };

@@ -1,4 +1,5 @@
-//! Copies: a number or a point, with what belongs to it, and the pane in focus as a command line for the shell.
+//! Copies: a number or a point, alone or with everything that belongs to it, and the pane in focus as a shell
+//! command.
 
 use crate::flow::Problem;
 use crate::flow::method::Dial;
@@ -13,22 +14,22 @@ use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
 use crate::study::measure::Value;
 
-/// Points of a copied branch: as many as a wide plot has columns.
+/// Number of points of a copied branch: as many as a wide plot has columns.
 const BRANCH_POINTS: usize = 200;
 
-/// Copies the command line that gives the numbers of the pane in focus.
+/// Copies the shell command that prints the numbers of the pane in focus.
 pub fn command(session: &mut Session) -> Vec<Effect> {
     vec![Effect::Copy(command_line(session))]
 }
 
-/// Copies the number or the point that is looked at.
+/// Copies the number or the point under consideration.
 pub fn number(session: &mut Session) -> Vec<Effect> {
     let looked_at = point(session);
     let words: Vec<String> = looked_at.into_iter().map(|(_, value)| value).collect();
     copied(session, &words)
 }
 
-/// Copies what is looked at with all that belongs to it, as a line of `set` would have it.
+/// Copies the number or the point with everything that belongs to it, in the syntax of `set`.
 pub fn row(session: &mut Session) -> Vec<Effect> {
     let mut named = point(session);
     if !named.is_empty() {
@@ -48,7 +49,7 @@ fn copied(session: &mut Session, words: &[String]) -> Vec<Effect> {
     vec![Effect::Copy(words.join(" "))]
 }
 
-/// A number and what it is called.
+/// A number, with its name.
 type NamedNumber = (String, String);
 
 fn named(name: &str, value: f64) -> NamedNumber {
@@ -64,7 +65,8 @@ fn measured(value: &Value) -> String {
     }
 }
 
-/// What is looked at: the held point of a branch, the point of a scan, the selected value, the cursor.
+/// The number or the point under consideration: the selected value, the held point of a branch, the point of a
+/// scan, or the cursor.
 fn point(session: &Session) -> Vec<NamedNumber> {
     let Some(plot) = session.focused() else {
         let row = session.selected;
@@ -102,7 +104,7 @@ fn point(session: &Session) -> Vec<NamedNumber> {
     vec![named(x, at.x), named(y, at.y)]
 }
 
-/// What belongs to it: the other numbers of a cycle or of a row of a scan, and the parameters.
+/// The numbers that belong to it: the others of a cycle or of a row of a scan, and the parameters.
 fn belonging(session: &Session) -> Vec<NamedNumber> {
     let mut all = Vec::new();
     if let Some(cycle) = session.held.and_then(|held| held.cycle) {
@@ -127,8 +129,8 @@ fn belonging(session: &Session) -> Vec<NamedNumber> {
     all
 }
 
-/// The command line that gives the numbers of the pane in focus. It writes out every number, so that
-/// it means the same whatever scenes there are.
+/// The shell command that prints the numbers of the pane in focus. It gives every number explicitly, so that
+/// its meaning does not depend on any scene.
 pub fn command_line(session: &Session) -> String {
     let Problem { until, method, tolerance, step, epsilon, .. } = session.problem;
     let diagram = session.focused().filter(|plot| plot.view == View::Diagram);

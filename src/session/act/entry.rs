@@ -1,4 +1,4 @@
-//! Typing a value: the line opens, takes characters, and is accepted or refused.
+//! Typing a value: the line opens, takes characters, and its text is accepted or refused.
 
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::numerics::decimal::shortest;
@@ -39,7 +39,7 @@ pub fn begin(session: &mut Session, key: Key) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Takes the typed value, or says in the line why not.
+/// Accepts the typed value, or says in the line why it is refused.
 pub fn accept(session: &mut Session) -> Vec<Effect> {
     let Some(Overlay::Entry(entry)) = &session.overlay else { return Vec::new() };
     match read(session, &session.setup(), entry.row, entry.input.text()) {
@@ -56,7 +56,7 @@ pub fn accept(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// What stands there with the typed value in a row, or one line that says what is allowed.
+/// The setup with the typed value in a row. Fails with one line that says what is allowed.
 pub(in crate::session) fn read(
     session: &Session,
     setup: &Setup,
@@ -76,8 +76,8 @@ pub(in crate::session) fn read(
     Ok(Setup { problem, ..*setup })
 }
 
-/// What stands there with the typed number of the machine, which may have a tolerance where a parameter stands for
-/// it; without one it is known exactly.
+/// The setup with the typed number of the machine. It may have a tolerance if a parameter corresponds to it;
+/// without one, it is known exactly.
 fn built(
     session: &Session,
     setup: &Setup,
@@ -93,7 +93,7 @@ fn built(
     Ok(Setup { doubt, ..built })
 }
 
-/// What stands there with the typed bound on the disturbance: in the unit of r, or with a unit of force.
+/// The setup with the typed bound on the disturbance, in the unit of r or with a unit of force.
 fn disturbed(session: &Session, setup: &Setup, text: &str) -> Result<Setup, String> {
     let refused = || format!("{text:?} is not a disturbance; w takes 0 or more");
     let read = measured(&plain_minus(text)).map_err(|_| refused())?;
@@ -106,8 +106,8 @@ fn disturbed(session: &Session, setup: &Setup, text: &str) -> Result<Setup, Stri
     Ok(Setup { doubt: Doubt { disturbance: disturbance + 0.0, ..setup.doubt }, ..*setup })
 }
 
-/// What stands there with the typed value of a parameter, which may have a half width; without one it is
-/// known exactly.
+/// The setup with the typed value of a parameter, which may have a half width; without one, it is known
+/// exactly.
 fn within(setup: &Setup, symbol: Symbol, text: &str) -> Result<Setup, String> {
     let row = Row::Parameter(symbol);
     let typed = plain_minus(text).replace('\u{b1}', "+-");
@@ -119,7 +119,7 @@ fn within(setup: &Setup, symbol: Symbol, text: &str) -> Result<Setup, String> {
     let known: Interval = typed.parse()?;
     let mut within = ParameterBox::from(&setup.problem.parameters);
     within.set(symbol, known)?;
-    // The numbers that were typed, and not those rounded outwards that enclose them.
+    // The typed numbers themselves, not the outward-rounded ends that enclose them.
     let (value, half) = match typed.split_once("+-") {
         Some((value, half)) => (number_in(value)?, number_in(half)?),
         None => (known.middle(), 0.5 * known.upper() - 0.5 * known.lower()),
@@ -132,7 +132,7 @@ fn number_in(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| format!("{text:?} is not a number"))
 }
 
-/// Documents print the minus sign as a character of its own.
+/// Replaces the typographic minus sign, which documents use.
 fn plain_minus(text: &str) -> String {
     text.trim().replace('\u{2212}', "-")
 }
@@ -163,6 +163,6 @@ fn read_number(problem: Problem, row: Row, text: &str) -> Result<Problem, String
     if !(min..=max).contains(&value) {
         return Err(format!("{name} = {text} is out of range; {takes}"));
     }
-    // The sum turns -0.0 into 0.0.
+    // Adding 0.0 turns -0.0 into 0.0.
     Ok(with_number(problem, row, value + 0.0))
 }

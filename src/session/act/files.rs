@@ -1,5 +1,5 @@
-//! Files: sessions saved and opened, keys recorded and played. The outer rings touch the disk; what is
-//! written is made here, and what was read is understood here.
+//! Files: saving and opening sessions, recording and playing keys. The outer rings access the disk; this module
+//! makes the content that is written and interprets the content that was read.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use crate::session::state::overlay::{List, Listed, Overlay};
 use crate::session::state::session::Session;
 use crate::session::{replay, save};
 
-/// The tour that comes with the program.
+/// The built-in tour.
 const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
 
 pub(in crate::session) fn write(session: &mut Session, path: &str, replace: bool) -> Done {
@@ -25,7 +25,7 @@ pub(in crate::session) fn write(session: &mut Session, path: &str, replace: bool
     Ok(vec![Effect::Write { path: PathBuf::from(path), text, replace }])
 }
 
-/// Writes what was pressed since the start, without what asks for that.
+/// Writes the recording since the start, without the presses that asked for that.
 pub(in crate::session) fn record(session: &mut Session, path: &str, replace: bool) -> Vec<Effect> {
     let forget = session.macros.chord;
     vec![Effect::Record { path: PathBuf::from(path), forget, replace }]
@@ -35,10 +35,10 @@ pub(in crate::session) fn ask(path: &str, purpose: Purpose) -> Vec<Effect> {
     vec![Effect::Read { path: PathBuf::from(path), purpose }]
 }
 
-/// Endings of the files of figures.
+/// File extensions of figures.
 const FIGURES: [&str; 4] = ["svg", "png", "csv", "json"];
 
-/// Writes what one plot shows, or all of them.
+/// Writes a figure of one plot, or of all.
 pub(in crate::session) fn figure(
     session: &mut Session,
     path: &str,
@@ -60,7 +60,7 @@ pub(in crate::session) fn figure(
     }
 }
 
-/// Offers to write the plot in use: the line is there, with a name for the file, to be changed or taken.
+/// Offers to write the plot in use: opens the line with a command and a file name, to be edited or accepted.
 pub fn offer_figure(session: &mut Session) -> Vec<Effect> {
     let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
     let scene: String = session.scene.name.chars().map(plain).collect();
@@ -89,7 +89,7 @@ pub(in crate::session) fn read_macro(_: &mut Session, rest: &str) -> Done {
     Ok(ask(path, Purpose::Register(name)))
 }
 
-/// Takes a file in, or says what is wrong with it; then everything is as it was.
+/// Takes a file in, or says what is wrong with it and changes nothing.
 pub(in crate::session) fn read(
     session: &mut Session,
     path: &Path,
@@ -131,7 +131,7 @@ fn take(
             history::open_scene(session, Arc::new(Recording::from(opened).scene()));
         }
         Purpose::Machine => return open_machine(session, path, text, None),
-        // Taken above, with a table that cannot be read too.
+        // Handled above, because the table may be unreadable.
         Purpose::Table { .. } => {}
         Purpose::Play => {
             let script = script()?;
@@ -147,7 +147,7 @@ fn take(
     Ok(Vec::new())
 }
 
-/// Opens the machine of a file; the table of friction that the file names is asked for first.
+/// Opens the machine of a file; asks for the table of friction first if the file names one.
 fn open_machine(
     session: &mut Session,
     path: &Path,
@@ -176,7 +176,7 @@ fn open_machine(
     Ok(Vec::new())
 }
 
-/// Continues the session that was interrupted, or lists several.
+/// Continues the interrupted session, or lists the sessions if there are several.
 pub fn restore(session: &mut Session) -> Vec<Effect> {
     match session.interrupted.len() {
         0 => return none_interrupted(session),
@@ -186,7 +186,7 @@ pub fn restore(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Continues the selected one of the interrupted sessions.
+/// Continues the selected interrupted session.
 pub(in crate::session) fn restore_selected(session: &mut Session) -> Vec<Effect> {
     selected(session).map_or_else(Vec::new, |number| restore_number(session, number))
 }
@@ -197,13 +197,13 @@ fn restore_number(session: &mut Session, number: usize) -> Vec<Effect> {
     vec![Effect::Read { path, purpose: Purpose::Restore }]
 }
 
-/// The place of the selected one among all interrupted sessions.
+/// Index of the selected session among all interrupted ones.
 fn selected(session: &Session) -> Option<usize> {
     let Some(Overlay::List(Listed::Interrupted, list)) = &session.overlay else { return None };
     session.interrupted_rows(list).get(list.selected).map(|(number, _)| *number)
 }
 
-/// Stops offering the selected one of the interrupted sessions.
+/// Stops offering the selected interrupted session.
 pub fn forget_selected(session: &mut Session) -> Vec<Effect> {
     let Some(number) = selected(session) else { return Vec::new() };
     if session.interrupted.len() == 1 {
@@ -226,7 +226,7 @@ pub fn forget(session: &mut Session) -> Vec<Effect> {
         1 => inform(session, "the interrupted session is not offered again"),
         count => inform(session, format!("{count} interrupted sessions are not offered again")),
     };
-    // The newest is put aside last, and so stays the last one.
+    // The most recent one is put aside last, so that it remains.
     all.into_iter().rev().map(|kept| Effect::PutAside(kept.path)).collect()
 }
 
@@ -234,7 +234,7 @@ fn none_interrupted(session: &mut Session) -> Vec<Effect> {
     refuse(session, "no session was interrupted")
 }
 
-/// The tour that comes with the program, as a keystroke file. Fails with one line; a test plays the tour.
+/// The built-in tour as a keystroke file. Fails with one line; a test plays the tour.
 pub fn tour_script() -> Result<Script, String> {
     replay::parse(TOUR).map_err(|error| format!("the tour: {error}"))
 }

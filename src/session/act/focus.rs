@@ -1,4 +1,4 @@
-//! Which pane gets the keys.
+//! Commands that move the focus between panes.
 
 use crate::session::effect::Effect;
 use crate::session::state::plot::Pane;
@@ -6,7 +6,7 @@ use crate::session::state::session::Session;
 
 /// Gives the focus to another pane.
 pub fn focus(session: &mut Session, by: isize) -> Vec<Effect> {
-    // An enlarged plot gives its place to the next one.
+    // If a plot is enlarged, the next plot takes its space.
     let panes = session.plots.len() + 1;
     let at = match session.focus {
         Pane::Parameters => 0,
@@ -24,7 +24,7 @@ pub(in crate::session) fn focus_on(session: &mut Session, pane: Pane) {
     }
 }
 
-/// Gives one plot the place of all, or shares it again.
+/// Gives one plot the space of all, or lets all share it again.
 pub fn enlarge(session: &mut Session) -> Vec<Effect> {
     session.enlarged = !session.enlarged;
     Vec::new()

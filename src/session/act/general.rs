@@ -1,4 +1,4 @@
-//! Commands that belong to no pane: focus, layers, undo, looks, leaving.
+//! Commands that belong to no pane: layers, harmonics, the scene's caption, appearance, retry, quitting.
 
 use crate::scene::Layer;
 use crate::session::act::macros;
@@ -33,7 +33,7 @@ pub fn toggle(session: &mut Session, layer: Layer) -> Vec<Effect> {
     inform(session, text)
 }
 
-/// Takes the next number of harmonics of a ladder, and shows their cycles.
+/// Shows the cycles with the next number of harmonics on a ladder of numbers.
 pub fn harmonics(session: &mut Session, more: bool) -> Vec<Effect> {
     let ladder = ladder(MOST_HARMONICS);
     let now = session.harmonics;
@@ -52,7 +52,7 @@ pub fn harmonics(session: &mut Session, more: bool) -> Vec<Effect> {
     }
 }
 
-/// Shows what there is to see in the scene and to press, or hides it.
+/// Shows or hides the caption of the scene: what there is to see, and what to press.
 pub fn explain(session: &mut Session) -> Vec<Effect> {
     session.caption = if session.caption == SessionCaption::Scene {
         SessionCaption::Nothing
@@ -62,7 +62,7 @@ pub fn explain(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Draws with other characters.
+/// Draws with the next set of characters.
 pub fn glyphs(session: &mut Session) -> Vec<Effect> {
     let (glyphs, name) = next_of(&GLYPHS, session.look.glyphs);
     session.look.glyphs = glyphs;
@@ -76,7 +76,7 @@ pub fn theme(session: &mut Session) -> Vec<Effect> {
     inform(session, format!("theme: {name}"))
 }
 
-/// Draws phase planes with equal units, or over all of their place.
+/// Switches phase planes between equal units and filling their whole space.
 pub fn equal(session: &mut Session) -> Vec<Effect> {
     session.look.stretched = !session.look.stretched;
     let text = if session.look.stretched {
@@ -87,7 +87,7 @@ pub fn equal(session: &mut Session) -> Vec<Effect> {
     inform(session, text)
 }
 
-/// Shows axes of machines in their units, or without units.
+/// Shows axes of machines with or without units.
 pub fn units(session: &mut Session) -> Vec<Effect> {
     session.look.dimensionless = !session.look.dimensionless;
     let text = if session.look.dimensionless {
@@ -98,13 +98,13 @@ pub fn units(session: &mut Session) -> Vec<Effect> {
     inform(session, text)
 }
 
-/// Closes what is open.
+/// Closes the overlay.
 pub fn back(session: &mut Session) -> Vec<Effect> {
     session.overlay = None;
     Vec::new()
 }
 
-/// Asks again what has no answer.
+/// Asks questions that have no answer again.
 pub fn retry(session: &mut Session) -> Vec<Effect> {
     if !session.answers.forget_failures() {
         inform(session, "nothing has failed");
@@ -112,7 +112,7 @@ pub fn retry(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Agrees to press the pasted keys.
+/// Plays the pasted keys after confirmation.
 pub fn accept_offer(session: &mut Session) -> Vec<Effect> {
     match session.overlay.take() {
         Some(Overlay::Offer(script)) => {

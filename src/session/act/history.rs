@@ -1,4 +1,4 @@
-//! Undo and redo, and opening a scene, which can be undone as well.
+//! Undo and redo, and opening scenes, which can be undone, too.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ pub fn undo(session: &mut Session) -> Vec<Effect> {
     bring_back(session, found, "undo")
 }
 
-/// Stops fitting the record on show: what was there before comes back.
+/// Stops fitting the record on show: restores the state before.
 pub fn stop_fitting(session: &mut Session) -> Vec<Effect> {
     let recording = session.scene.recording.clone();
     while session.scene.recording == recording && session.history.depth().0 > 0 {
@@ -40,7 +40,7 @@ pub fn stop_fitting(session: &mut Session) -> Vec<Effect> {
     inform(session, "the fit was stopped")
 }
 
-/// Redoes what was undone last.
+/// Redoes the change that was undone last.
 pub fn redo(session: &mut Session) -> Vec<Effect> {
     let mut history = std::mem::take(&mut session.history);
     let found = history.redo(|after| present(session, after));
@@ -48,7 +48,7 @@ pub fn redo(session: &mut Session) -> Vec<Effect> {
     bring_back(session, found, "redo")
 }
 
-/// The present state, as far as `other` reaches.
+/// The present state, to the extent of `other`.
 fn present(session: &Session, other: &Before) -> Before {
     match other {
         Before::Setup(_) => Before::Setup(Box::new(session.setup())),
@@ -57,7 +57,7 @@ fn present(session: &Session, other: &Before) -> Before {
     }
 }
 
-/// Everything that a scene sets, as it is now.
+/// Everything that a scene determines, as it is now.
 pub(in crate::session) fn snapshot(session: &Session) -> Snapshot {
     Snapshot {
         scene: Arc::clone(&session.scene),
@@ -68,7 +68,7 @@ pub(in crate::session) fn snapshot(session: &Session) -> Snapshot {
     }
 }
 
-/// Everything that a scene sets, as it opens.
+/// Everything that a scene determines, as it opens.
 fn opening(scene: Arc<Scene>) -> Snapshot {
     Snapshot {
         setup: Setup::of_scene(&scene),
@@ -120,12 +120,12 @@ pub(in crate::session) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
     restore(session, opened);
     session.unfolded = false;
     session.selected = Row::FIRST;
-    // Where the sentences of a scene begin.
+    // The descriptions of scenes begin there.
     session.focus = Pane::Parameters;
 }
 
-/// Makes what stands here the beginning of a session: its scene opens like this, with these parameters
-/// among its own, and nothing was done before.
+/// Makes the present state the start of a session: its scene opens like this, with these parameters added to
+/// its own, and the history is empty.
 pub(in crate::session) fn begin(session: &mut Session, names: Vec<Symbol>) {
     let mut scene = Arc::clone(&session.scene);
     let opens = Arc::make_mut(&mut scene);
@@ -139,7 +139,7 @@ pub(in crate::session) fn begin(session: &mut Session, names: Vec<Symbol>) {
     };
 }
 
-/// Brings the scene back as it was opened.
+/// Restores the scene as it opens.
 pub fn reset_scene(session: &mut Session) -> Vec<Effect> {
     let scene = Arc::clone(&session.scene);
     inform(session, format!("scene {} as it was opened", scene.name));

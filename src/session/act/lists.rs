@@ -1,4 +1,4 @@
-//! Lists over the panes: help, scenes, layers, views; moving, searching, choosing.
+//! Lists over the panes: moving, searching, and choosing rows.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::session::state::overlay::{List, Listed, Overlay};
 use crate::session::state::session::Session;
 use crate::study::claims::Claim;
 
-/// Rows that the page keys move.
+/// Number of rows that the page keys move by.
 pub const PAGE: isize = 10;
 
 /// Opens the scene picker, with the present scene selected.
@@ -31,7 +31,7 @@ pub fn open_layers(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Switches the layer of the plot in use that has this letter.
+/// Switches the layer with this letter in the view of the plot in use.
 pub fn toggle_letter(session: &mut Session, key: Key) -> Vec<Effect> {
     let view = session.view_in_use();
     let Some((_, layer)) = letters(view).find(|(letter, _)| key.typed() == Some(*letter)) else {
@@ -49,20 +49,20 @@ pub fn toggle_letter(session: &mut Session, key: Key) -> Vec<Effect> {
     toggle(session, layer)
 }
 
-/// Opens the picker of views, with the present one of the plot in use selected.
+/// Opens the picker of views, with the view of the plot in use selected.
 pub fn open_views(session: &mut Session) -> Vec<Effect> {
     let selected = session.plots[session.plot].view as usize;
     session.overlay = Some(Overlay::List(Listed::Views, List { selected, ..List::default() }));
     Vec::new()
 }
 
-/// Opens the list of what the picture costs.
+/// Opens the list of the picture's costs.
 pub fn open_cost(session: &mut Session) -> Vec<Effect> {
     session.overlay = Some(Overlay::List(Listed::Cost, List::default()));
     Vec::new()
 }
 
-/// Opens the page of the paper: its claims, which are examined when this is first asked for.
+/// Opens the page of the paper with its claims, which are examined when this is first asked for.
 pub fn open_paper(session: &mut Session) -> Vec<Effect> {
     session.overlay = Some(Overlay::List(Listed::Paper, List::default()));
     Vec::new()
@@ -82,7 +82,7 @@ pub fn show_claim(session: &mut Session, claim: &Claim) {
     }
 }
 
-/// Moves the selection of the open list, as far as there are rows.
+/// Moves the selection of the open list, within its rows.
 pub fn move_by(session: &mut Session, by: isize) -> Vec<Effect> {
     let last = session.list_length().saturating_sub(1);
     if let Some(list) = session.list_mut() {
@@ -91,7 +91,7 @@ pub fn move_by(session: &mut Session, by: isize) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Lets typed characters go to the search.
+/// Directs typed characters to the search.
 pub fn search(session: &mut Session) -> Vec<Effect> {
     if let Some(list) = session.list_mut() {
         list.searching = true;
@@ -99,7 +99,7 @@ pub fn search(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Ends the search and keeps the rows found; what is to be picked is picked at once.
+/// Ends the search and keeps the rows found; in a picker, picks the selected one at once.
 pub fn search_done(session: &mut Session) -> Vec<Effect> {
     if let Some(list) = session.list_mut() {
         list.searching = false;

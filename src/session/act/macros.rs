@@ -1,7 +1,7 @@
-//! Macros: keys recorded into registers and played again.
+//! Macros: keys that are recorded into registers and played again.
 //!
-//! A macro is a short keystroke file. What is played while another one is recorded is recorded in its
-//! place, so that a recorded macro plays by itself and never plays another.
+//! A macro is a short keystroke file. When keys are played during a recording, the recording has these keys and
+//! not the command that played them, so that a recorded macro is self-contained and never plays another.
 
 use crate::session::act::history::snapshot;
 use crate::session::act::notice::{inform, refuse};
@@ -13,10 +13,10 @@ use crate::session::state::macros::Played;
 use crate::session::state::pending::{Letter, Pending};
 use crate::session::state::session::Session;
 
-/// Steps that a macro presses at most, counts included.
+/// Maximum number of keys that a macro presses, repetitions included.
 const MOST: u64 = 100_000;
 
-/// Notes what the user does.
+/// Counts and records a message if it is input of the user.
 pub(in crate::session) fn note(session: &mut Session, message: &Msg) {
     let macros = &mut session.macros;
     if matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_) | Msg::Run(_)) {
@@ -30,7 +30,7 @@ pub(in crate::session) fn note(session: &mut Session, message: &Msg) {
     }
 }
 
-/// Begins a new chord where nothing is open and nothing waited for.
+/// Begins a new chord if nothing is open and nothing pending.
 pub(in crate::session) fn rest(session: &mut Session) {
     if session.macros.played.as_ref().is_some_and(|played| played.left == 0) {
         end(session);
@@ -41,7 +41,7 @@ pub(in crate::session) fn rest(session: &mut Session) {
     }
 }
 
-/// Asks where to record; ends what is being recorded.
+/// Asks for a register to record into, or ends the present recording.
 pub fn record_or_end(session: &mut Session) -> Vec<Effect> {
     match session.macros.recording.take() {
         None => session.pending = Some(Pending::Letter { what: Letter::Record, count: 1 }),
@@ -63,7 +63,7 @@ pub(in crate::session) fn record(session: &mut Session, register: char) -> Vec<E
     inform(session, format!("recording into register {register}"))
 }
 
-/// Forgets what asks for keys to be played, so that these are recorded in its place.
+/// Removes the command that plays keys from the recording, so that these keys are recorded instead.
 pub(in crate::session) fn inline(session: &mut Session) {
     let chord = session.macros.chord;
     if let Some((_, recorder)) = &mut session.macros.recording {
@@ -85,7 +85,7 @@ pub(in crate::session) fn play(session: &mut Session, register: char, times: u32
     session.macros.last = Some(register);
     let left = script.presses();
     if let Some(played) = &mut session.macros.played {
-        // A register of a file can play another one.
+        // A register from a file can play another one.
         played.left += left;
     } else {
         let (depth, before) = (session.history.depth().0, Box::new(snapshot(session)));
@@ -94,14 +94,14 @@ pub(in crate::session) fn play(session: &mut Session, register: char, times: u32
     vec![Effect::PlayRegister(script)]
 }
 
-/// What a register has changed becomes one change: it is played to its end, or was stopped.
+/// Merges all changes made by a register into one, when it has been played to its end or was stopped.
 pub(in crate::session) fn end(session: &mut Session) {
     if let Some(Played { depth, before, .. }) = session.macros.played.take() {
         session.history.merge_all(depth, before);
     }
 }
 
-/// Plays the register played or recorded last.
+/// Plays the register that was played or recorded last.
 pub(in crate::session) fn play_again(session: &mut Session, times: u32) -> Vec<Effect> {
     if let Some(register) = session.macros.last {
         return play(session, register, times);

@@ -1,7 +1,7 @@
-//! Marks: points of the parameters to come back to, and the one that is compared with.
+//! Marks: points of the parameters to come back to, and the point for comparison.
 //!
-//! Coming back nothing is computed twice: answers are kept by their questions. The point that was left is
-//! drawn dim behind the other one.
+//! Coming back recomputes nothing, because answers are stored by their questions. The point that was left is
+//! drawn dimmed behind the other one.
 
 use crate::scene::Layer;
 use crate::session::act::notice::{inform, refuse};
@@ -35,7 +35,7 @@ pub(in crate::session) fn go_back(session: &mut Session) -> Vec<Effect> {
     }
 }
 
-/// Goes to a point, as a change that can be undone, and keeps what is known about the one that is left.
+/// Goes to a point, as a change that can be undone, and keeps the point that is left for comparison.
 fn go(session: &mut Session, mark: &Bookmark) -> Vec<Effect> {
     let here = present(session);
     if mark.setup == here.setup {

@@ -1,4 +1,4 @@
-//! Opening a recorded motion: the file, and what the file does not say.
+//! Opening a recorded motion: its file, and details that the file does not contain.
 
 use std::path::{Path, PathBuf};
 
@@ -10,10 +10,10 @@ use crate::scene::machine::unit::measured;
 use crate::session::effect::{Done, Effect};
 use crate::session::message::Purpose;
 
-/// What may stand behind the name of the file.
+/// Words that may follow the name of the file.
 const WORDS: [&str; 7] = ["mass", "stiffness", "unit", "columns", "peaks", "loss", "free"];
 
-/// What the file does not say.
+/// Details that the file does not contain.
 #[derive(Debug, Default)]
 struct Said {
     inertia: Option<Inertia>,
@@ -23,7 +23,7 @@ struct Said {
     loss: LossName,
 }
 
-/// Asks for the file that a line names; `FILE mass=2 kg columns=1,3 peaks`.
+/// Asks for the file that a line names: `FILE mass=2 kg columns=1,3 peaks`.
 pub fn ask(rest: &str) -> Done {
     let begins = |word: &str| {
         let name = word.split_once('=').map_or(word, |(name, _)| name);
@@ -85,7 +85,7 @@ fn positive(text: &str, (kg, m, s): (i8, i8, i8), unit: &str) -> Result<f64, Str
     if value > 0.0 { Ok(value) } else { Err(format!("{text:?} is not positive")) }
 }
 
-/// Times and displacements, by number from 1 or by name.
+/// The columns of times and displacements, by number from 1 or by name.
 fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
     let (time, displacement) =
         text.split_once(',').ok_or_else(|| format!("{text:?} is not columns=1,3"))?;
@@ -97,7 +97,7 @@ fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
     Ok((column(time)?, column(displacement)?))
 }
 
-/// Reads the record. Fails with one line: what is wrong, where, and what is allowed.
+/// Reads the record. Fails with one line that says what is wrong, where, and what is allowed.
 pub(in crate::session) fn opened(path: &Path, words: &str, text: &str) -> Result<Opened, String> {
     let Said { inertia, unit, reading, choice, loss } = said(words)?;
     let mut record = parse(text.as_bytes(), &reading).map_err(|error| error.to_string())?;

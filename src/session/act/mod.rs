@@ -1,4 +1,4 @@
-//! What commands do to a session: one family of commands a file.
+//! The effects of commands on a session, one family of commands per file.
 
 pub mod answers;
 pub mod axes;

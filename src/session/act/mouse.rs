@@ -1,4 +1,4 @@
-//! The mouse, for those who want it: a click starts a motion or sets a cursor, the wheel zooms.
+//! The mouse, for those who want it: a click starts a motion or moves a cursor, and the wheel zooms.
 
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::inform;
@@ -8,7 +8,7 @@ use crate::session::message::pointer::{Gesture, Pointed, PointerTarget};
 use crate::session::state::plot::Pane;
 use crate::session::state::session::Session;
 
-/// Rows that a notch of the wheel moves a list.
+/// Number of rows by which a notch of the wheel moves a list.
 const NOTCH: isize = 3;
 
 /// Turns the mouse on or off.
@@ -23,7 +23,7 @@ pub fn toggle(session: &mut Session) -> Vec<Effect> {
     vec![Effect::Mouse(session.look.mouse)]
 }
 
-/// Does what the mouse did. Over an overlay, the wheel moves its list and a click means nothing.
+/// Handles an action of the mouse. Over an overlay, the wheel moves its list and clicks are ignored.
 pub fn pointed(session: &mut Session, Pointed { gesture, place }: Pointed) -> Vec<Effect> {
     if session.overlay.is_some() {
         return match gesture {

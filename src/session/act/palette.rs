@@ -1,4 +1,4 @@
-//! The palette: everything that has a name, run where it belongs.
+//! The palette: everything that has a name, run where it applies.
 
 use crate::session::act::{lists, prompt};
 use crate::session::effect::Effect;
@@ -7,15 +7,15 @@ use crate::session::state::command::Chosen;
 use crate::session::state::overlay::{List, Listed, Overlay};
 use crate::session::state::session::Session;
 
-/// Opens the palette, to be searched at once or to be read.
+/// Opens the palette, with the search active if `searching`.
 pub fn open(session: &mut Session, searching: bool) -> Vec<Effect> {
     let list = List { searching, ..List::default() };
     session.overlay = Some(Overlay::List(Listed::Palette, list));
     Vec::new()
 }
 
-/// The selected row, to be run; a command that takes words gets a line to type them. The list of costs,
-/// which has nothing to be run, closes.
+/// The selected row, to be run. A command that takes words opens the line for typing them. The list of costs,
+/// in which nothing can be run, closes.
 pub fn choose(session: &mut Session) -> Option<Chosen> {
     let Some(Overlay::List(Listed::Palette, list)) = &session.overlay else {
         session.overlay = None;

@@ -19,14 +19,13 @@ use crate::session::state::rows::{Row, Steps};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
 
-/// Makes another motion the one on show, as one change that can be undone; the belt keeps its speed.
-/// Returns whether it differs.
+/// Changes the motion on show, as one change that can be undone; the belt keeps its speed. Returns whether
+/// anything differs.
 pub(in crate::session) fn change(session: &mut Session, problem: Problem) -> bool {
     put(session, &Setup { problem, ..session.setup() })
 }
 
-/// Makes another motion, with a speed of the belt, the one on show, as one change that can be undone.
-/// Returns whether it differs.
+/// Changes the setup, as one change that can be undone. Returns whether anything differs.
 pub(in crate::session) fn put(session: &mut Session, setup: &Setup) -> bool {
     let before = session.setup();
     let setup = holding(session, &before, *setup);
@@ -42,9 +41,9 @@ pub(in crate::session) fn put(session: &mut Session, setup: &Setup) -> bool {
     differs
 }
 
-/// What a change by hand holds: of a fitted record the numbers that it moves, while the fit follows with all others.
+/// Marks as held the numbers of a fitted record that a change by hand has moved; the fit of all others follows.
 fn holding(session: &Session, before: &Setup, mut setup: Setup) -> Setup {
-    // A mark says itself what is held.
+    // A mark determines what is held.
     if session.scene.recording.is_some() && setup.doubt.held == before.doubt.held {
         for row in &PARAMETERS {
             let value = |problem: &Problem| row.symbol.get(&problem.parameters, &problem.initial);
@@ -56,7 +55,7 @@ fn holding(session: &Session, before: &Setup, mut setup: Setup) -> Setup {
     setup
 }
 
-/// Moves the selection among the rows that stand in the pane.
+/// Moves the selection among the rows that the pane shows.
 pub fn select(session: &mut Session, by: isize) -> Vec<Effect> {
     let rows = session.rows();
     let at = rows.iter().position(|row| *row == session.selected).unwrap_or(0);
@@ -91,8 +90,9 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Steps a number of the machine; from off the belt, back onto it. What is out of its range is refused: an end of
-/// the range of speeds, far below any belt, would be no place to stop at.
+/// Steps a number of the machine; if the parameters are off the belt, this leads back onto it. A value out of
+/// range is refused and not clamped: the end of the range of speeds, far below that of any belt, would be no
+/// useful place to stop.
 fn step_machine(session: &mut Session, quantity: Quantity, count: i32) -> Vec<Effect> {
     let Some(size) = session.steps.of(Row::Quantity(quantity)) else { return Vec::new() };
     let value = size.from(session.quantity(quantity), count);
@@ -106,7 +106,7 @@ fn step_machine(session: &mut Session, quantity: Quantity, count: i32) -> Vec<Ef
     }
 }
 
-/// Steps the bound on the disturbance, which is not negative.
+/// Steps the bound on the disturbance, which stays at least 0.
 fn step_disturbance(session: &mut Session, count: i32) -> Vec<Effect> {
     let present = session.setup();
     let stepped = session.steps.disturbance.from(present.doubt.disturbance, count).max(0.0);
@@ -132,7 +132,7 @@ pub fn half_width(session: &mut Session, count: i32) -> Vec<Effect> {
     }
 }
 
-/// Makes the step of the selected row larger or smaller.
+/// Makes the step size of the selected row larger or smaller.
 pub fn step_size(session: &mut Session, larger: bool) -> Vec<Effect> {
     let Some(size) = session.steps.of_mut(session.selected) else {
         return refuse(session, format!("{} has no step size", session.selected.name()));
@@ -141,7 +141,7 @@ pub fn step_size(session: &mut Session, larger: bool) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Gives the selected row the scene's value and step size.
+/// Resets the selected row to the scene's value and step size.
 pub fn reset_row(session: &mut Session) -> Vec<Effect> {
     let row = session.selected;
     let (scene, present) = (session.scene.problem, session.setup());
@@ -191,7 +191,7 @@ pub fn unfold(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Turns the dial to the next of its stops: draft, normal, fine, reference.
+/// Changes the accuracy to its next stop: draft, normal, fine, reference.
 pub fn dial(session: &mut Session, finer: bool) -> Vec<Effect> {
     session.measuring = true;
     match session.problem.next_quality(finer) {
@@ -210,12 +210,12 @@ fn end_of_dial(finer: bool) -> &'static str {
     if finer { last.name } else { first.name }
 }
 
-/// Multiplies the number behind the dial by a power of ten.
+/// Multiplies the number that sets the accuracy by a power of ten.
 fn turn(session: &mut Session, decades: i32) -> Vec<Effect> {
     let dial = session.problem.method.spec().dial;
     let (min, max) = dial.range();
     let exponent = log10(session.problem.setting()).round() + f64::from(decades);
-    // A power of ten to the last bit, which powi does not promise.
+    // Parsed, because the power of ten must be exact to the last bit, which powi does not guarantee.
     let setting = format!("1e{exponent}").parse().unwrap_or(max).clamp(min, max);
     let turned = session.problem.with_setting(setting);
     if !change(session, turned) {
@@ -224,9 +224,9 @@ fn turn(session: &mut Session, decades: i32) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Takes the next method of the list, around its end.
+/// Selects the next method of the list, cycling.
 pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
-    // Where there is no closed form its method could only give up.
+    // Without a closed form, that method could only give up.
     let nonlinear = session.problem.parameters.d2 != 0.0 || session.problem.parameters.d3 != 0.0;
     let whole = session.draws_whole();
     let usable = METHODS.iter().filter(|row| {
@@ -246,7 +246,7 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
 }
 
 impl Session {
-    /// Makes this what is on show, with a setting of the machine if and only if there is one.
+    /// Makes this setup the present one. There is a setting of the machine if and only if there is a machine.
     pub(in crate::session) fn set_setup(&mut self, setup: &Setup) {
         let Setup { problem, others, setting, doubt } = *setup;
         self.doubt = doubt;
@@ -261,7 +261,7 @@ impl Session {
         self.setting = setting.filter(can_run).or(present).or(own);
         let rebuilt = scaled.zip(self.setting).filter(|(_, setting)| setting.differs());
         self.rebuilt = rebuilt.map(|(scaled, setting)| Arc::new(setting.on(&scaled.machine)));
-        // The ledger has lines for each motion.
+        // The energy ledger has lines for each motion.
         if self.others.all().len() != others.all().len() {
             let ledgers =
                 |plot: &&mut Plot| plot.view == View::EnergyLedger && plot.framing != Framing::User;

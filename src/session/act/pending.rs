@@ -1,4 +1,4 @@
-//! Keys that wait for the next one: a count before a key, and the letter of a register or a mark.
+//! Keys that need another key: a count before a key, and the letter of a register or a mark.
 
 use crate::session::effect::Effect;
 use crate::session::message::key::Key;
@@ -6,7 +6,7 @@ use crate::session::state::pending::MOST;
 use crate::session::state::pending::{Letter, Pending};
 use crate::session::state::session::Session;
 
-/// Waits for more of a count; the digit is that of the key.
+/// Adds the digit of this key to a count, and waits for more.
 pub fn count(session: &mut Session, key: Key) -> Vec<Effect> {
     let before = match session.pending {
         Some(Pending::Count(before)) => before,

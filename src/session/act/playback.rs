@@ -1,4 +1,4 @@
-//! Commands that play the motion in time.
+//! Commands for playback of the motion.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use crate::session::state::playback::PACES;
 use crate::session::state::playback::Pace;
 use crate::session::state::session::Session;
 
-/// Plays the motion, or holds it; at its end, from the start again.
+/// Plays or pauses the motion; at its end, starts again.
 pub fn play(session: &mut Session) -> Vec<Effect> {
     let shown = session.shows(Layer::Trajectory) || session.shows(Layer::Mass);
     let given_up = session.failure(Topic::Trajectory, session.plot).is_some();
@@ -29,7 +29,7 @@ pub fn play(session: &mut Session) -> Vec<Effect> {
     inform(session, text)
 }
 
-/// Moves the head a little on, or back.
+/// Moves the head forward or back by some steps.
 pub fn step(session: &mut Session, steps: f64) -> Vec<Effect> {
     if session.trajectory().is_some() {
         session.step_head(steps);
@@ -39,24 +39,24 @@ pub fn step(session: &mut Session, steps: f64) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Plays faster or slower.
+/// Selects the next pace.
 pub fn pace(session: &mut Session) -> Vec<Effect> {
     session.next_pace();
     inform(session, format!("pace: {}", session.pace()))
 }
 
-/// Parts of a period by which a key steps.
+/// Number of steps of a key per period.
 const STEPS: f64 = 40.0;
 
 impl Session {
-    /// Time has passed: the head moves on, and stands still at the end.
+    /// Advances the head with time; it stops at the end.
     pub(in crate::session) fn elapse(&mut self, seconds: f64) {
         if self.playback.playing && seconds > 0.0 {
             self.advance(seconds * self.rate(self.playback.pace));
         }
     }
 
-    /// Moves the head by a dimensionless time, up to the ends of the motion.
+    /// Moves the head by a dimensionless time, within the motion.
     pub(in crate::session) fn advance(&mut self, by: f64) {
         let end = self.last_moment();
         let at = (self.playback.at.unwrap_or(0.0) + by).clamp(0.0, end.max(0.0));
@@ -66,13 +66,14 @@ impl Session {
         }
     }
 
-    /// Moves the head by a part of a period.
+    /// Moves the head by `steps` steps and stops playback.
     pub(in crate::session) fn step_head(&mut self, steps: f64) {
         self.playback.playing = false;
         self.advance(steps * TAU / STEPS);
     }
 
-    /// The next faster pace, after the fastest the slowest; only a machine has its own.
+    /// Selects the next faster pace, and the slowest after the fastest. The real pace exists only for a
+    /// machine.
     pub(in crate::session) fn next_pace(&mut self) {
         let real = self.scene.machine.is_some().then_some(Pace::Real);
         let mut paces: Vec<Pace> = PACES.into_iter().chain(real).collect();

@@ -1,4 +1,4 @@
-//! Commands of the plots: cursor, zoom, pan, and taking the point under the cursor.
+//! Commands of the plots: cursor, zoom, pan, and using the point under the cursor.
 
 use crate::flow::Problem;
 use crate::numerics::decimal::shortest;
@@ -13,21 +13,21 @@ use crate::session::state::plot::{Framing, Pane, Plot};
 use crate::session::state::session::Session;
 use crate::session::state::step_size::StepSize;
 
-/// Steps of the cursor that a far move takes.
+/// Number of cursor steps in a far move.
 pub const FAR: i32 = 8;
 
-/// Steps of the cursor across a window, about the columns of a plot at 80 columns.
+/// Number of cursor steps across a window, about the columns of a plot at 80 columns.
 ///
-/// A part of the window and not of the screen, so that a keystroke file does the same on every screen.
+/// Relative to the window and not to the screen, so that a keystroke file has the same effect on every screen.
 const STEPS_ACROSS: f64 = 64.0;
 
-/// How much a zoom makes of the width.
+/// Factor by which a zoom changes the width.
 const ZOOM: f64 = 1.5;
 
-/// How much of the width a pan moves.
+/// Fraction of the width by which a pan moves.
 const PAN: f64 = 0.125;
 
-/// Where the cursor of a plot appears: on the start of the motion, or on the present value.
+/// The position where the cursor of a plot first appears: the start of the motion, or the present value.
 fn cursor_origin(session: &Session, plot: &Plot) -> Point {
     let window = plot.window;
     window.clamp(match plot.view {
@@ -60,10 +60,10 @@ pub fn move_cursor(session: &mut Session, right: i32, up: i32) -> Vec<Effect> {
     Vec::new()
 }
 
-/// A coordinate some steps on, on round numbers, not beyond the window.
+/// A coordinate moved by some steps to a round number, within the window.
 fn moved(span: Span, value: f64, count: i32) -> f64 {
     let step = StepSize::near(span.width() / STEPS_ACROSS);
-    // The present start or value need not lie on a round number: then it is met again by a zero move.
+    // The present start or value may not be round: a move by zero keeps it.
     if count == 0 {
         return value;
     }
@@ -71,21 +71,21 @@ fn moved(span: Span, value: f64, count: i32) -> f64 {
     if span.contains(goal) {
         return goal;
     }
-    // The last round number inside lies one step before the first one outside.
+    // The last round number inside is one step before the first one outside.
     let edge = if count > 0 { span.to() } else { span.from() };
     let inside = step.multiple_from(step.multiple_from(edge, count.signum()), -count.signum());
     if span.contains(inside) { inside } else { value }
 }
 
-/// Does what a click on a point of the plot in focus means: a motion starts there in the phase plane,
-/// the cursor goes there elsewhere.
+/// Handles a click on a point of the plot in focus: in the phase plane it starts a motion there, elsewhere it
+/// moves the cursor there.
 pub fn point_at(session: &mut Session, point: Point) -> Vec<Effect> {
     let Some(plot) = session.focused_mut() else { return Vec::new() };
     plot.cursor = Some(point);
     if plot.view == View::Phase { start_here(session) } else { Vec::new() }
 }
 
-/// Drops the cursor of the plot in focus.
+/// Removes the cursor of the plot in focus.
 pub fn drop_cursor(session: &mut Session) -> Vec<Effect> {
     if session.writing.is_some() {
         return vec![Effect::StopWriting];
@@ -102,12 +102,12 @@ pub fn drop_cursor(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Zooms the plot in focus about its cursor, or about its middle.
+/// Zooms the plot in focus about its cursor, or about its center.
 pub fn zoom(session: &mut Session, closer: bool) -> Vec<Effect> {
     zoom_about(session, |plot| plot.cursor.unwrap_or(plot.window.center()), closer)
 }
 
-/// Zooms the plot in focus about a point of it.
+/// Zooms the plot in focus about a point.
 pub fn zoom_about(
     session: &mut Session,
     about: impl FnOnce(&Plot) -> Point,
@@ -128,7 +128,7 @@ pub fn pan(session: &mut Session, right: i32, up: i32) -> Vec<Effect> {
     })
 }
 
-/// Gives the plot in focus a window of the user's.
+/// Gives the plot in focus a window chosen by the user.
 fn frame(session: &mut Session, window: impl FnOnce(&Plot) -> Window) -> Vec<Effect> {
     let framed = session.focused_mut().map(|plot| {
         let (before, after) = (plot.window, window(plot));
@@ -141,7 +141,7 @@ fn frame(session: &mut Session, window: impl FnOnce(&Plot) -> Window) -> Vec<Eff
     Vec::new()
 }
 
-/// Fits the window of the plot in focus, as soon as what it shows is computed.
+/// Fits the window of the plot in focus as soon as its content is computed.
 pub fn fit(session: &mut Session) -> Vec<Effect> {
     if let Some(plot) = session.focused_mut() {
         plot.framing = Framing::Fitting;
@@ -149,7 +149,7 @@ pub fn fit(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Gives the plot in focus the scene's window and axes.
+/// Resets the plot in focus to the scene's window and axes.
 pub fn home(session: &mut Session) -> Vec<Effect> {
     let index = session.plot;
     let Some(plot) = session.focused() else { return Vec::new() };
@@ -163,7 +163,7 @@ pub fn home(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// The cursor of the plot in focus; without one, a line that says how to get it.
+/// The cursor of the plot in focus; without one, shows a notice on how to get it.
 fn cursor(session: &mut Session) -> Option<Point> {
     let cursor = session.focused().and_then(|plot| plot.cursor);
     if cursor.is_none() {
@@ -173,7 +173,7 @@ fn cursor(session: &mut Session) -> Option<Point> {
     cursor
 }
 
-/// Takes the method and the accuracy of the row that the cursor is nearest to.
+/// Selects the method and the accuracy of the row nearest to the cursor.
 pub fn use_method(session: &mut Session) -> Vec<Effect> {
     let Pane::Plot(index) = session.focus else { return Vec::new() };
     if cursor(session).is_none() {
@@ -188,7 +188,7 @@ pub fn use_method(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Gives the belt the speed under the cursor.
+/// Sets the belt to the speed under the cursor.
 pub fn take_speed(session: &mut Session) -> Vec<Effect> {
     let Some(Point { x, .. }) = cursor(session) else { return Vec::new() };
     match session.with_quantity(&session.setup(), Quantity::BeltSpeed, x) {
@@ -200,8 +200,8 @@ pub fn take_speed(session: &mut Session) -> Vec<Effect> {
     }
 }
 
-/// Starts a motion where the cursor is, in the phase plane beside those that are there: at its state, at the state
-/// that the motion has at its time, at rest at its displacement, or on its cycle.
+/// Starts a motion at the cursor, in the phase plane beside the present ones: at the state under the cursor, at
+/// the state of the motion at that time, at rest at that displacement, or on that cycle.
 pub fn start_here(session: &mut Session) -> Vec<Effect> {
     let Some(Point { x, y }) = cursor(session) else { return Vec::new() };
     let initial = match session.focused().map(|plot| plot.view) {
@@ -215,7 +215,8 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
     let Some(initial @ State { q, v }) = initial else {
         return refuse(session, "there is no motion to be taken here");
     };
-    // The phase plane shows motions beside each other; from another view this may be out of sight.
+    // The phase plane shows motions beside each other; from another view, the other motions may be out of
+    // sight.
     if session.focused().is_some_and(|plot| plot.view == View::Phase) {
         start(session, initial);
     } else if change(session, Problem { initial, ..session.problem }) {
@@ -224,7 +225,7 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Gives the parameter of a diagram, or both of a chart, the values under its cursor.
+/// Sets the parameter of a diagram, or both of a chart, to the values under the cursor.
 pub fn jump_here(session: &mut Session) -> Vec<Effect> {
     let Some(cursor) = cursor(session) else { return Vec::new() };
     let Some((view, axes)) = session.focused().map(|plot| (plot.view, plot.axes)) else {

@@ -1,4 +1,4 @@
-//! The command line: it opens, completes, remembers, and runs what is typed.
+//! The command line: opening, completing, remembering and running.
 
 use crate::session::effect::Effect;
 use crate::session::read::completion::completion;
@@ -7,7 +7,7 @@ use crate::session::state::input::Input;
 use crate::session::state::overlay::{Completion, List, Listed, Overlay, Prompt};
 use crate::session::state::session::Session;
 
-/// Lines that are remembered at most.
+/// Maximum number of remembered lines.
 const REMEMBERED: usize = 200;
 
 /// Opens an empty line.
@@ -15,14 +15,14 @@ pub fn open(session: &mut Session) -> Vec<Effect> {
     open_with(session, String::new())
 }
 
-/// Opens the line with a text to continue from.
+/// Opens the line with an initial text.
 pub fn open_with(session: &mut Session, text: String) -> Vec<Effect> {
     session.overlay = Some(Overlay::Prompt(Prompt::new(text)));
     Vec::new()
 }
 
-/// The typed command, to be run. An empty line is closed; words that are not a command are looked for in the
-/// list of everything, which stays open if they are found there.
+/// The typed command, to be run. An empty line closes. A line that begins with no command is searched for in
+/// the palette, which stays open if something is found.
 pub fn accept(session: &mut Session) -> Option<Chosen> {
     let Some(Overlay::Prompt(prompt)) = &session.overlay else { return None };
     let text = prompt.input.text().trim().to_owned();
@@ -38,7 +38,8 @@ pub fn accept(session: &mut Session) -> Option<Chosen> {
     Some(Chosen::Line(text))
 }
 
-/// The list of everything, searched for words that begin with no command; `None` if nothing is found.
+/// The palette with a search for a line that begins with no command; `None` if the line begins with a command
+/// or nothing is found.
 fn search(session: &Session, text: &str) -> Option<List> {
     let name = full_name(text.split_whitespace().next()?);
     if session.keymap.named(name).is_some() || session.keymap.line(name).is_some() {
@@ -48,7 +49,7 @@ fn search(session: &Session, text: &str) -> Option<List> {
     (!session.palette_rows(&list).is_empty()).then_some(list)
 }
 
-/// Keeps a line, as the newest one and only once.
+/// Remembers a line as the newest one, and only once.
 fn remember(session: &mut Session, text: &str) {
     session.lines.retain(|line| line != text);
     session.lines.push(text.to_owned());
@@ -56,7 +57,7 @@ fn remember(session: &mut Session, text: &str) {
     session.lines.drain(..surplus);
 }
 
-/// Gets an older line, or a newer one; the newest is the one that was being typed.
+/// Shows an older or a newer line; the newest is the one that was being typed.
 pub fn recall(session: &mut Session, by: isize) -> Vec<Effect> {
     let lines = session.lines.clone();
     let Some(Overlay::Prompt(prompt)) = &mut session.overlay else { return Vec::new() };
@@ -76,7 +77,7 @@ pub fn recall(session: &mut Session, by: isize) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Completes the word before the caret; again, its next possibility.
+/// Completes the word before the caret; pressed again, shows the next candidate.
 pub fn complete(session: &mut Session, by: isize) -> Vec<Effect> {
     let Some(Overlay::Prompt(prompt)) = &session.overlay else { return Vec::new() };
     let found = match &prompt.completion {
@@ -94,7 +95,7 @@ pub fn complete(session: &mut Session, by: isize) -> Vec<Effect> {
     let after = prompt.input.halves().1.to_owned();
     let Completion { stem, words, at } = &completion;
     let mut text = format!("{stem}{}", words[*at]);
-    // A word that is complete is done with, unless something is to follow it at once.
+    // A blank follows the only candidate, unless something must follow it directly.
     let only = words.len() == 1;
     if only && !text.ends_with('=') && !after.starts_with(' ') {
         text.push(' ');

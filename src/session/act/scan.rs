@@ -1,4 +1,4 @@
-//! Scans: the form, starting and stopping, moving over the points, and what to do with one of them.
+//! Scans: the form, starting and stopping, moving over the points, and using one of them.
 
 use std::path::PathBuf;
 
@@ -22,20 +22,20 @@ use crate::session::state::session::Session;
 use crate::study::scan::Scan;
 use crate::study::scan::Sweep;
 
-/// Where a key saves the rows; the command line knows other names.
+/// The file in which a key saves the rows; the command line takes any name.
 pub const FILE: &str = "scan.csv";
 
-/// Rows that the page keys move.
+/// Number of rows that the page keys move by.
 pub const PAGE: isize = 10;
 
-/// Opens the form: the last one, or one over the present parameter.
+/// Opens the form as it was last filled in, or a new one.
 pub fn open(session: &mut Session) -> Vec<Effect> {
     let form = session.scan_form.clone().unwrap_or_else(|| fresh(session));
     session.overlay = Some(Overlay::Scan(ScanForm { refused: None, ..form }));
     Vec::new()
 }
 
-/// A form over the parameter of a diagram on show, else over the selected one about its value.
+/// A new form, over the parameter of a diagram on show, otherwise over the selected parameter around its value.
 fn fresh(session: &Session) -> ScanForm {
     let diagrams = session.plots.iter().filter(|plot| plot.view == View::Diagram);
     if let Some(diagram) = diagrams.into_iter().next() {
@@ -60,7 +60,7 @@ fn form(session: &mut Session) -> Option<&mut ScanForm> {
     }
 }
 
-/// Goes to another field, around the ends.
+/// Goes to another field, cycling.
 pub fn go_to_field(session: &mut Session, by: isize) -> Vec<Effect> {
     if let Some(form) = form(session) {
         let count = form.inputs.len();
@@ -69,11 +69,11 @@ pub fn go_to_field(session: &mut Session, by: isize) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Takes the next choice of a field that has some; moves the caret of any other.
+/// Selects the next choice of a field that has choices; otherwise moves the caret.
 pub fn sideways(session: &mut Session, by: isize) -> Vec<Effect> {
     let Some(form) = form(session) else { return Vec::new() };
     let mut choices = ScanForm::choices(form.at);
-    // Over one parameter there is one scan.
+    // Both sweeps need different parameters.
     let other =
         form.inputs[if form.at == 0 { ScanForm::SECOND } else { 0 }].text().trim().to_owned();
     choices.retain(|choice| choice.is_empty() || *choice != other);
@@ -91,7 +91,7 @@ pub fn sideways(session: &mut Session, by: isize) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Starts the scan that is typed, or says in the form why not.
+/// Starts the scan described by the form, or says in the form why it cannot.
 pub fn accept(session: &mut Session) -> Vec<Effect> {
     let Some(Overlay::Scan(filled)) = session.overlay.clone() else { return Vec::new() };
     match typed(&filled, session) {
@@ -109,7 +109,7 @@ pub fn accept(session: &mut Session) -> Vec<Effect> {
     }
 }
 
-/// Starts a scan, and shows it: where one is on show already, else in the plot in use.
+/// Starts a scan and shows it in a plot that already shows scans, otherwise beside the phase plane.
 pub fn start(session: &mut Session, scan: Scan) -> Vec<Effect> {
     session.scanned = Some(Scanned::begun(scan));
     let mut shown = session.on_show().filter(|index| session.plots[*index].view == View::Scan);
@@ -121,7 +121,7 @@ pub fn start(session: &mut Session, scan: Scan) -> Vec<Effect> {
     inform(session, SCANNING)
 }
 
-/// Shows the scan beside the phase plane into which its points are taken: in the plot in use, in another one,
+/// Shows the scan beside the phase plane to which its points are applied: in the plot in use, in another one,
 /// or in a new one.
 fn beside(session: &mut Session) {
     let is_plane = |session: &Session, index: usize| session.plots[index].view == View::Phase;
@@ -137,7 +137,7 @@ fn beside(session: &mut Session) {
     show(session, View::Scan);
 }
 
-/// Stops the scan, and keeps what is done.
+/// Stops the scan, and keeps the rows so far.
 pub fn stop(session: &mut Session) -> Vec<Effect> {
     let Some(scanned) = &mut session.scanned else { return Vec::new() };
     if scanned.request().is_some() {
@@ -150,7 +150,7 @@ pub fn stop(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Stops a scan that runs, continues with one that was stopped.
+/// Stops a running scan, or continues a stopped one.
 pub fn pause(session: &mut Session) -> Vec<Effect> {
     let Some(scanned) = &mut session.scanned else { return none(session) };
     match scanned.progress {
@@ -176,7 +176,7 @@ pub fn next_column(session: &mut Session, by: isize) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Lists the rows, or plots them.
+/// Switches between the table of the rows and their plot.
 pub fn table(session: &mut Session) -> Vec<Effect> {
     let Some(scanned) = &mut session.scanned else { return none(session) };
     scanned.table = !scanned.table;
@@ -191,8 +191,8 @@ fn refit(session: &mut Session) {
     }
 }
 
-/// Moves over the points, computed or not: `right` along the axis to the right, `up` along the other one of a
-/// grid. In a table and along a line both move along the rows.
+/// Moves over the points, computed or not: `right` along the axis to the right, `up` along the other axis of a
+/// grid. In a table and along a line, both move along the rows.
 pub fn go(session: &mut Session, right: isize, up: isize) -> Vec<Effect> {
     let Some(scanned) = &mut session.scanned else { return none(session) };
     let last = scanned.scan.points().saturating_sub(1);
@@ -210,7 +210,7 @@ pub fn go(session: &mut Session, right: isize, up: isize) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Gives the motion on show the parameters of the point that is looked at.
+/// Sets the motion on show to the parameters of the selected point.
 pub fn take(session: &mut Session) -> Vec<Effect> {
     let Some(scanned) = &session.scanned else { return none(session) };
     let Problem { parameters, initial, .. } = scanned.scan.problem(scanned.at);
@@ -232,7 +232,8 @@ pub fn save(session: &mut Session, path: PathBuf) -> Vec<Effect> {
     vec![Effect::SaveScan { path, scan, rows }]
 }
 
-/// `NAME=FROM:TO:COUNT .. MEASURE,..`. Fails with one line that says what is wrong and what is allowed.
+/// Starts the scan `NAME=FROM:TO:COUNT .. MEASURE,..`. Fails with one line that says what is wrong and what is
+/// allowed.
 pub fn scan(session: &mut Session, rest: &str) -> Done {
     let (sweeps, measures): (Vec<&str>, Vec<&str>) =
         rest.split_whitespace().partition(|word| word.contains('='));
@@ -242,7 +243,7 @@ pub fn scan(session: &mut Session, rest: &str) -> Done {
     Ok(start(session, scan))
 }
 
-/// The file for the rows. Fails with one line, where there is no scan.
+/// Writes the rows to the named file. Fails with one line if there is no scan.
 pub fn save_to(session: &mut Session, rest: &str) -> Done {
     if session.scanned.is_none() {
         return Err("there is no scan".to_owned());

@@ -1,5 +1,5 @@
-//! Commands that change what is on show: which view a plot shows, how many plots there are, and how
-//! they share the screen. Each is a change that can be undone.
+//! Commands that change what is on show: the view of a plot, the number of plots, and how they share the
+//! screen. Each change can be undone.
 
 use crate::scene::{ARRANGEMENTS, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
 use crate::session::act::focus::focus_on;
@@ -9,7 +9,7 @@ use crate::session::state::history::{Before, ScreenSetup};
 use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::session::Session;
 
-/// Puts plots on show; those that stay what they are keep their answers.
+/// Replaces the plots and their arrangement.
 pub(in crate::session) fn set_up(session: &mut Session, screen_setup: &ScreenSetup) {
     session.arrangement = screen_setup.arrangement;
     session.plots.truncate(screen_setup.plots.len());
@@ -27,15 +27,15 @@ pub(in crate::session) fn set_up(session: &mut Session, screen_setup: &ScreenSet
     session.held = None;
 }
 
-/// Notes what is on show before it is changed.
+/// Records the present plots before a change.
 fn record(session: &mut Session) {
     let before = Before::ScreenSetup(session.screen_setup());
     session.history.record(before);
     session.held = None;
 }
 
-/// What a plot shows of a view when it is turned to it: what the scene has of that and no other plot
-/// shows; else the same as another plot, for another look at it; else all there is.
+/// The setup of a plot that changes to a view: the scene's setup if no other plot shows the same axes,
+/// otherwise that of another plot with this view, otherwise the usual axes in a fitted window.
 fn plot_setup(session: &Session, plot: usize, view: View) -> PlotSetup {
     let others: Vec<PlotSetup> = (0..session.plots.len())
         .filter(|other| *other != plot && session.plots[*other].view == view)
@@ -50,7 +50,7 @@ fn plot_setup(session: &Session, plot: usize, view: View) -> PlotSetup {
     of_scene.find(|plot_setup| absent(plot_setup)).or(others.first()).copied().unwrap_or(all)
 }
 
-/// Switches the usual layers of a view on where none of its layers is.
+/// Switches on the usual layers of a view if all its layers are off.
 fn switch_on(session: &mut Session, view: View) {
     let of_view = || LAYERS.iter().filter(|row| row.view == view);
     if of_view().all(|row| !session.layers.contains(&row.layer)) {
@@ -59,7 +59,7 @@ fn switch_on(session: &mut Session, view: View) {
     }
 }
 
-/// Lets the plot in use show a view.
+/// Changes the view of the plot in use.
 pub fn show(session: &mut Session, view: View) -> Vec<Effect> {
     let index = session.plot;
     if session.plots[index].view != view {
@@ -73,14 +73,14 @@ pub fn show(session: &mut Session, view: View) -> Vec<Effect> {
     inform(session, format!("{}: {}", spec.title, spec.meaning))
 }
 
-/// Lets the plot in use show the next view of the list, around its end.
+/// Changes the plot in use to the next view of the list, cycling.
 pub fn next_view(session: &mut Session, by: isize) -> Vec<Effect> {
     let at = session.plots[session.plot].view as usize;
     let next = at.checked_add_signed(by).unwrap_or(VIEWS.len() - 1) % VIEWS.len();
     show(session, VIEWS[next].view)
 }
 
-/// Adds a plot beside the one in use: the first view that is not on show, else another of the same.
+/// Adds a plot beside the one in use: with the first view that is not on show, otherwise with the same view.
 pub fn add(session: &mut Session) -> Vec<Effect> {
     if session.plots.len() >= MOST_PLOTS {
         return refuse(session, format!("there are {MOST_PLOTS} plots already; no more fit"));
@@ -117,7 +117,7 @@ pub fn remove(session: &mut Session) -> Vec<Effect> {
     inform(session, format!("{} removed", removed.view.spec().title))
 }
 
-/// Gives the plot in use the place of the next one, and that its.
+/// Swaps the plot in use with the next one.
 pub fn move_on(session: &mut Session) -> Vec<Effect> {
     if session.plots.len() < 2 {
         return refuse(session, "there is only one plot");
@@ -129,7 +129,7 @@ pub fn move_on(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Lets the plots share the screen in the next way.
+/// Selects the next arrangement of the plots.
 pub fn arrange(session: &mut Session) -> Vec<Effect> {
     record(session);
     let (arrangement, name) = crate::session::settings::next_of(&ARRANGEMENTS, session.arrangement);

@@ -1,5 +1,4 @@
-//! Motions are started beside each other, such as one on either side of the edge of the basin, and taken
-//! away.
+//! Starting motions beside each other, such as one on each side of the border of the basin, and removing them.
 
 use crate::flow::Problem;
 use crate::numerics::decimal::shortest;
@@ -14,14 +13,14 @@ use crate::session::state::starts::{MOST_MOTIONS, Starts};
 use crate::session::state::step_size::decimal_sum;
 use crate::study::{Cycles, Edge};
 
-/// Clearance from the sticking set, in that of the edge: near enough to stay close for a while, far
-/// enough to be seen apart.
+/// Clearance of a start relative to that of the border: near enough to stay close for a while, far enough to be
+/// distinguished.
 pub const INSIDE: f64 = 0.95;
 
-/// As [`INSIDE`], on the other side.
+/// Like [`INSIDE`], on the other side.
 pub const OUTSIDE: f64 = 1.05;
 
-/// Starts a motion beside those that are there; of too many the oldest gives way.
+/// Starts a motion beside the present ones; if there are too many, the oldest is removed.
 pub(in crate::session) fn start(session: &mut Session, initial: State) {
     let before = session.problem.initial;
     if initial == before {
@@ -36,7 +35,7 @@ pub(in crate::session) fn start(session: &mut Session, initial: State) {
     put(session, &Setup { problem, others, ..session.setup() });
 }
 
-/// Takes the newest motion away; the one before is then the present one.
+/// Removes the newest motion; the previous one becomes the present one.
 pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
     let Some(initial) = session.others.all().last().copied() else {
         return refuse(session, "only one motion is on show; it stays");
@@ -50,7 +49,7 @@ pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
     inform(session, format!("{count} {motions} on show; {place}"))
 }
 
-/// Takes all motions away but the newest.
+/// Removes all motions but the newest.
 pub fn drop_others(session: &mut Session) -> Vec<Effect> {
     if !put(session, &Setup { others: Starts::default(), ..session.setup() }) {
         refuse(session, "only one motion is on show; it stays");
@@ -58,8 +57,8 @@ pub fn drop_others(session: &mut Session) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Starts a motion at rest beside the turning point of the edge: the smallest unstable cycle's on the
-/// right, or the separatrix's.
+/// Starts a motion at rest beside a turning point of the border: the right one of the smallest unstable cycle,
+/// or that of the separatrix.
 pub fn beside_edge(session: &mut Session, factor: f64) -> Vec<Effect> {
     match beside(session, factor) {
         Ok(q) => start(session, State { q, v: 0.0 }),
@@ -68,12 +67,13 @@ pub fn beside_edge(session: &mut Session, factor: f64) -> Vec<Effect> {
     Vec::new()
 }
 
-/// The clearance of the edge from the sticking set, and the side (1 or -1) on which it turns.
+/// The clearance of the border from the sticking set, and the side (1 or -1) of its turning point.
 fn edge(found: &Cycles) -> Option<(f64, f64)> {
     if found.edge != Edge::Separatrix {
         return found.cycles.iter().find(|cycle| !cycle.stable).map(|cycle| (cycle.clearance, 1.0));
     }
-    // Escape is to the side where D2 feeds the motion: to the left, from the right, for D2 > 0.
+    // Motions escape to the side where D2 feeds them: for D2 > 0 to the left, from a turning point on the
+    // right.
     let displacement = found.picture.as_ref()?.margin.displacement?;
     Some(((displacement - found.parameters.r).max(0.0), 1.0_f64.copysign(found.parameters.d2)))
 }
@@ -88,10 +88,10 @@ fn beside(session: &Session, factor: f64) -> Result<f64, String> {
     let r = session.problem.parameters.r;
     let outside = factor > 1.0;
     let keeps_side = |q: &f64| if outside { q - r > clearance } else { q - r < clearance };
-    // Three digits are enough and good to read, unless the edge is very close to the sticking set.
+    // Three digits are enough and easy to read, unless the border is very close to the sticking set.
     let short = format!("{:.2e}", factor * clearance).parse().unwrap_or(clearance);
     let candidates = [decimal_sum(r, short), r + factor * clearance];
-    // An edge can pass closer to r than floating point resolves: then only rest is inside of it.
+    // A border can pass closer to r than floating-point numbers resolve: only rest is then inside of it.
     let last = if outside { (r + clearance).next_up() } else { r };
     Ok(side * candidates.into_iter().find(keeps_side).unwrap_or(last))
 }

@@ -1,11 +1,11 @@
-//! Typing into the line that is open, whichever it is: a value, a command, a search.
+//! Typing into the open line, whether it is for a value, a command or a search.
 
 use crate::session::effect::Effect;
 use crate::session::state::input::Input;
 use crate::session::state::overlay::Overlay;
 use crate::session::state::session::Session;
 
-/// Does something to the open line. What was said about its old text no longer holds.
+/// Applies an edit to the open line, and drops what was said about its old text.
 pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) -> Vec<Effect> {
     match &mut session.overlay {
         Some(Overlay::Entry(entry)) => {
@@ -25,7 +25,7 @@ pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) -> Vec<Effect> 
     Vec::new()
 }
 
-/// Types into the line that is open, if one is; characters that cannot be shown are dropped.
+/// Types a text into the open line, if there is one; control characters are dropped.
 pub fn insert(session: &mut Session, text: &str) {
     let mut visible = text.chars().filter(|char| !char.is_control());
     if let Some(list) = session.overlay.as_mut().and_then(Overlay::list_mut) {

@@ -1,4 +1,4 @@
-//! Lines that give values: parameters, scene, views, layers, looks; and what completes them.
+//! Lines that set values: parameters, scenes, views, layers, marks, registers and appearance.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::settings::{COLORS, GLYPHS, THEMES, named};
 use crate::study::kicks::RandomKick;
 
-/// Names in a row, for a line that says what is allowed.
+/// A list of names, for a line that says what is allowed.
 fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     names.into_iter().collect::<Vec<_>>().join(", ")
 }
@@ -28,19 +28,18 @@ fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 /// The row of the parameter pane with this name.
 fn row_named(session: &Session, name: &str) -> Result<Row, String> {
     let all = || listed(rows(session).map(Row::name));
-    // The command that sets it alone is called so.
+    // The command that sets only this row has that name.
     let name = if name == "tol" { Row::Tolerance.name() } else { name };
     let found = rows(session).find(|row| row.name() == name);
     found.ok_or_else(|| format!("no value {name:?}; there are {}", all()))
 }
 
-/// Whether a unit may stand behind the value of this name.
+/// Whether the value of this name may have a unit.
 fn takes_unit(session: &Session, name: &str) -> bool {
     row_named(session, name).is_ok_and(|row| matches!(row, Row::Quantity(_) | Row::Disturbance))
 }
 
-/// `NAME=VALUE ..`, as one change. What stands behind a blank without a name is the unit of the value
-/// before it.
+/// Runs `NAME=VALUE ..` as one change. A word without `=` is the unit of the value before it.
 pub fn set(session: &mut Session, rest: &str) -> Done {
     let mut given: Vec<(&str, String)> = Vec::new();
     for word in rest.split_whitespace() {
@@ -73,7 +72,7 @@ pub fn scene(session: &mut Session, name: &str) -> Done {
     Ok(Vec::new())
 }
 
-/// Opens a machine of the program.
+/// Opens a built-in machine.
 pub fn belt(session: &mut Session, name: &str) -> Done {
     let names = || listed(machines().iter().map(|machine| machine.name.as_str()));
     let machine = machines().iter().find(|machine| machine.name == name);
@@ -92,7 +91,7 @@ pub fn view(session: &mut Session, name: &str) -> Done {
     Ok(screen_setup::show(session, row.view))
 }
 
-/// Switches a layer on, off, or to what it is not.
+/// Switches a layer on or off, or toggles it.
 pub fn layer(session: &mut Session, rest: &str) -> Done {
     let (name, state) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
     let layer = Layer::named(name).ok_or_else(|| {
@@ -108,7 +107,7 @@ pub fn layer(session: &mut Session, rest: &str) -> Done {
     Ok(if wanted == is_on { Vec::new() } else { general::toggle(session, layer) })
 }
 
-/// Shows a part of the world in the plot in use.
+/// Sets the window of the plot in use.
 pub fn window(session: &mut Session, rest: &str) -> Done {
     let form = || format!("{rest:?} is not X0:X1,Y0:Y1, such as -2:2,-1:1");
     let (x, y) = rest.split_once(',').ok_or_else(form)?;
@@ -124,7 +123,7 @@ pub fn window(session: &mut Session, rest: &str) -> Done {
     Ok(Vec::new())
 }
 
-/// Gives the diagram in use its axes: a parameter, and perhaps a property of the cycles.
+/// Sets the axes of the diagram in use: a parameter, and optionally a property of the cycles.
 pub fn axes(session: &mut Session, rest: &str) -> Done {
     let (over, property) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
     let allowed = || ABSCISSAE.iter().map(|(symbol, _)| symbol.spec().name);
@@ -143,7 +142,7 @@ pub fn axes(session: &mut Session, rest: &str) -> Done {
     Ok(Vec::new())
 }
 
-/// The property with this name, and what it is measured in.
+/// The property with this name, and its unit.
 fn property_named(name: &str) -> Result<(Ordinate, Unit), String> {
     let (base, unit) =
         name.strip_suffix("/r").map_or((name, Unit::One), |base| (base, Unit::Friction));
@@ -155,13 +154,13 @@ fn property_named(name: &str) -> Result<(Ordinate, Unit), String> {
     })
 }
 
-/// The plot in use if it is a diagram, else the first one on show.
+/// The plot in use if it is a diagram, otherwise the first diagram on show.
 fn diagram(session: &Session) -> Option<usize> {
     let is_one = |index: &usize| session.plots[*index].view == View::Diagram;
     Some(session.plot).filter(is_one).or_else(|| session.on_show().find(is_one))
 }
 
-/// Shows the cycles of N harmonics.
+/// Shows the cycles by N harmonics.
 pub fn harmonics(session: &mut Session, rest: &str) -> Done {
     let most = MOST_HARMONICS;
     let count = rest.parse().ok().filter(|count| (1..=most).contains(count));
@@ -202,7 +201,7 @@ pub fn go_to(session: &mut Session, rest: &str) -> Done {
     Ok(marks::go_to(session, letter(rest)?))
 }
 
-/// Plays a register, perhaps many times.
+/// Plays a register, optionally several times.
 pub fn play(session: &mut Session, rest: &str) -> Done {
     let (name, times) = rest.split_once(char::is_whitespace).unwrap_or((rest, "1"));
     let most = MOST;
@@ -221,13 +220,13 @@ pub fn theme(session: &mut Session, name: &str) -> Done {
     Ok(Vec::new())
 }
 
-/// Draws with a set of characters.
+/// Selects a set of characters.
 pub fn glyphs(session: &mut Session, name: &str) -> Done {
     session.look.glyphs = look(&GLYPHS, name)?;
     Ok(Vec::new())
 }
 
-/// Shows axes of machines in their units, or not.
+/// Shows axes of machines with or without units.
 pub fn units(session: &mut Session, state: &str) -> Done {
     session.look.dimensionless = match state {
         "on" => false,
@@ -237,7 +236,7 @@ pub fn units(session: &mut Session, state: &str) -> Done {
     Ok(Vec::new())
 }
 
-/// Draws phase planes with equal units, or not.
+/// Switches equal units of phase planes on or off.
 pub fn equal(session: &mut Session, state: &str) -> Done {
     session.look.stretched = match state {
         "on" => false,
@@ -247,7 +246,7 @@ pub fn equal(session: &mut Session, state: &str) -> Done {
     Ok(Vec::new())
 }
 
-/// Uses this many colours.
+/// Selects a colour depth.
 pub fn color(session: &mut Session, name: &str) -> Done {
     session.look.colors = look(&COLORS, name)?;
     Ok(Vec::new())

@@ -1,4 +1,4 @@
-//! Walking along the branch: a point is held, moved along, and taken into the phase plane.
+//! Walking along the branch: a point is held, moved, and used as the start of the motion.
 
 use crate::numerics::decimal::shortest;
 use crate::numerics::elementary::hypot;
@@ -12,10 +12,10 @@ use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::session::Session;
 use crate::session::state::stop::BranchStop;
 
-/// Points that a far move takes.
+/// Number of points in a far move.
 pub const FAR: isize = 10;
 
-/// Takes hold of the branch: at the cursor of the diagram if there is one, else at the present value.
+/// Begins a walk on the branch: at the cursor of the diagram if there is one, otherwise at the present value.
 pub fn take_hold(session: &mut Session) -> Vec<Effect> {
     match first(session) {
         Ok(stop) => session.held = Some(stop),
@@ -43,7 +43,7 @@ fn first(session: &Session) -> Result<BranchStop, &'static str> {
             hypot(across, window.y.fraction(height) - window.y.fraction(cursor.y))
         })
     } else {
-        // The branch of the present motion, where the plot shows that too.
+        // The branch of the present motion, if the plot shows that, too.
         let shown = session.shown(index);
         let present = shown.iter().position(|shown| shown.problem == session.problem);
         let own = branches.into_iter().filter(|(variant, _)| Some(*variant) == present);
@@ -54,7 +54,7 @@ fn first(session: &Session) -> Result<BranchStop, &'static str> {
     found.ok_or("there is no cycle in this diagram to take hold of")
 }
 
-/// Goes `count` points along the piece of the branch that is held.
+/// Moves `count` points along the held piece of the branch.
 pub fn go(session: &mut Session, count: isize) -> Vec<Effect> {
     let further = |way: &Way, held: &BranchStop| way.further(held, count);
     if !moved(session, further) {
@@ -64,13 +64,13 @@ pub fn go(session: &mut Session, count: isize) -> Vec<Effect> {
     Vec::new()
 }
 
-/// Goes to the next special point or end of a piece.
+/// Moves to the next special point or end of a piece.
 pub fn go_to_landmark(session: &mut Session, onward: bool) -> Vec<Effect> {
     moved(session, |way, held| way.landmark(held, onward));
     Vec::new()
 }
 
-/// Holds another point; returns whether it is another.
+/// Holds another point; returns whether it differs.
 fn moved(session: &mut Session, choose: impl Fn(&Way, &BranchStop) -> Option<BranchStop>) -> bool {
     let Some(held) = session.held else { return false };
     let found = choose(&Way::along(&session.branches(session.plot)), &held).unwrap_or(held);
@@ -78,8 +78,8 @@ fn moved(session: &mut Session, choose: impl Fn(&Way, &BranchStop) -> Option<Bra
     found != held
 }
 
-/// Gives the parameter the value of the point, and starts the motion on its cycle, as one change. On the
-/// branch of a variant the values that it holds come along.
+/// Sets the parameter to the value at the held point and starts the motion on its cycle, as one change. On the
+/// branch of a variant, this also sets the values that the variant holds.
 pub fn take(session: &mut Session) -> Vec<Effect> {
     let Some(held) = session.held else { return Vec::new() };
     let abscissa = session.plots[session.plot].axes.abscissa;
@@ -92,7 +92,7 @@ pub fn take(session: &mut Session) -> Vec<Effect> {
     let Some(variant) = shown.get(held.variant) else { return Vec::new() };
     let mut problem = variant.problem;
     abscissa.set(&mut problem.parameters, &mut problem.initial, value);
-    // Where the cycle has gone to infinity there is no start on it: the old one stays.
+    // A cycle at infinity has no start on it: the present start stays.
     if let Some(cycle) = held.cycle {
         problem.initial = State { q: cycle.q_max, v: 0.0 };
     }
@@ -103,14 +103,13 @@ pub fn take(session: &mut Session) -> Vec<Effect> {
     inform(session, format!("{} = {}{also}{label}{start}", spec.name, shortest(value)))
 }
 
-/// Lets go of the branch.
+/// Ends the walk.
 pub fn let_go(session: &mut Session) -> Vec<Effect> {
     session.held = None;
     Vec::new()
 }
 
-/// Keeps hold of a point of the branch on show when that is computed again, and of none when there is no
-/// branch any more.
+/// Keeps the held point when the branch is computed again, and ends the walk when there is no branch any more.
 pub(in crate::session) fn keep_hold(session: &mut Session) {
     let Some(held) = session.held else { return };
     let index = session.plot;

@@ -1,7 +1,8 @@
-//! The belt of the machine on show: its speed, and whether the numbers on show are those of the machine.
+//! The machine on show: the speed of its belt, its other numbers, and whether the parameters on show are its
+//! own.
 //!
-//! A speed of the belt stands for all of D, D2, D3 and r. To change one of these by hand leaves the
-//! belt: the numbers are then those of no belt speed, until the speed is given again.
+//! A speed of the belt determines all of D, D2, D3 and r. Changing one of these by hand leaves the belt: the
+//! parameters then belong to no belt speed until a speed is set again.
 
 use crate::flow::Problem;
 use crate::oscillator::belt::Quantity;
@@ -14,13 +15,13 @@ use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
 
 impl Session {
-    /// The motion on show and the speed of the belt.
+    /// The present setup: the motions on show, the setting of the machine, and what is not known exactly.
     pub fn setup(&self) -> Setup {
         let Session { problem, others, setting, doubt, .. } = *self;
         Setup { problem, others, setting, doubt }
     }
 
-    /// The machine of the scene as it is set, at the present speed of its belt.
+    /// The machine of the scene with its present setting.
     pub fn running(&self) -> Option<Running<'_>> {
         let scaled = self.scene.machine.as_ref()?;
         let machine = self.rebuilt.as_deref().unwrap_or(&scaled.machine);
@@ -28,13 +29,14 @@ impl Session {
         Some(present.unwrap_or_else(|| scaled.running()))
     }
 
-    /// Whether the numbers on show are those of the machine at the speed of its belt; `None` without one.
+    /// Whether the parameters on show are those of the machine at the speed of its belt; `None` without a
+    /// machine.
     pub fn is_on_the_belt(&self) -> Option<bool> {
         Some(self.running()?.carries(&self.problem.parameters))
     }
 
-    /// The machine on show, where the whole model can answer for it: D, D3 and r changed by hand stand for
-    /// the dampers and the guide, D2 for nothing.
+    /// The machine on show, if the whole model can answer for it: D, D3 and r that were changed by hand
+    /// correspond to the dampers and the guide, but D2 corresponds to no part.
     pub fn machine(&self) -> Option<Belt> {
         let running = self.running()?;
         let mut belt = Belt { belt_speed: running.speed, ..running.machine.belt.clone() };
@@ -60,17 +62,18 @@ impl Session {
         Some(belt)
     }
 
-    /// Whether the whole model is drawn: the scene is of a machine for which it can answer, and it is wished.
+    /// Whether the whole model is drawn: the layer is on, and the model can answer for the machine of the
+    /// scene.
     pub fn draws_whole(&self) -> bool {
         self.layers.contains(&Layer::Whole) && self.machine().is_some()
     }
 
-    /// What the whole model says about the motion on show; `None` while it is not drawn or not known.
+    /// The whole model's answer about the motion on show; `None` while it is not drawn or not known.
     pub fn course(&self) -> Option<&Course> {
         self.whole(Topic::Trajectory)?.motion.as_ref()
     }
 
-    /// What the whole model says about the cycles; `None` while it is not known.
+    /// The whole model's answer about the cycles; `None` while it is not known.
     pub fn kinds(&self) -> Option<&Kinds> {
         self.whole(Topic::Cycles)?.cycles.as_ref()
     }
@@ -81,13 +84,13 @@ impl Session {
         Some(whole)
     }
 
-    /// Reads numbers out of some parameters.
+    /// A function that reads these parameters.
     fn of_parameters(parameters: &Parameters) -> impl Fn(Symbol) -> f64 {
         let parameters = *parameters;
         move |symbol| symbol.get(&parameters, &State { q: 0.0, v: 0.0 })
     }
 
-    /// A number of the machine as it is set, in SI units; 0 where there is none.
+    /// A number of the machine with its present setting, in SI units; 0 without a machine.
     pub fn quantity(&self, quantity: Quantity) -> f64 {
         self.running().map_or(0.0, |running| match quantity {
             Quantity::BeltSpeed => running.speed,
@@ -95,8 +98,8 @@ impl Session {
         })
     }
 
-    /// What is not known exactly, with a tolerance of a number of the machine, in SI units. Fails with one line,
-    /// where no parameter stands for that number.
+    /// The uncertainty of `setup` with another tolerance of a number of the machine, in SI units. Fails with
+    /// one line if no parameter corresponds to that number.
     pub(in crate::session) fn with_tolerance(
         &self,
         setup: &Setup,
@@ -114,7 +117,8 @@ impl Session {
         setup.doubt.with_half_width(symbol, half_width / running.scale(symbol))
     }
 
-    /// What 1 of r and w stands for, in newtons. Fails with one line, where the scene has no machine.
+    /// The unit of r and w, in newtons. Fails with one line if there is no machine and no record with a known
+    /// mass.
     pub(in crate::session) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
         let fitted = self.fitted().and_then(|fitted| fitted.fit.units());
         if let Some(units) = fitted {
@@ -127,7 +131,7 @@ impl Session {
         Ok(Running::at(&machine, machine.belt.belt_speed)?.reduced.units.force)
     }
 
-    /// The machine of the scene as it is set.
+    /// The machine of the scene with the setting of `setup`. Fails with one line if the scene has no machine.
     fn set_machine(&self, setup: &Setup) -> Result<Machine, String> {
         let scaled = self.scene.machine.as_ref().ok_or("the scene has no machine")?;
         Ok(setup
@@ -135,8 +139,8 @@ impl Session {
             .map_or_else(|| scaled.machine.clone(), |setting| setting.on(&scaled.machine)))
     }
 
-    /// A motion of the machine with another number: from the same place in metres, with the same doubt in newtons.
-    /// Fails with one line, where there is no machine, or none with that number.
+    /// The setup of the machine with another value of one number: from the same start in metres, with the same
+    /// disturbance in newtons. Fails with one line if there is no machine, or none with that number.
     pub(in crate::session) fn with_quantity(
         &self,
         setup: &Setup,

@@ -1,5 +1,4 @@
-//! What is asked and known about certainty: whatever the parameters are within their half widths, and whatever
-//! a bounded disturbance does.
+//! Questions about certainty: for all parameters within their half widths, and all bounded disturbances.
 
 use std::sync::Arc;
 
@@ -9,15 +8,15 @@ use crate::scene::{Layer, Request, View};
 use crate::session::state::session::Session;
 
 impl Session {
-    /// Whether margins that hold for certain are told in a plot: something is in doubt, or a layer asks.
+    /// Whether a plot states guaranteed margins: something is uncertain, or a layer asks for them.
     pub fn tells_certain(&self, plot: usize) -> bool {
         let layers = [Layer::Safe, Layer::Lost].iter().any(|it| self.layers.contains(it));
         let phase = self.plots.get(plot).is_some_and(|plot| plot.view == View::Phase);
         phase && (layers || !self.doubt.is_certain())
     }
 
-    /// What is safe for certain at these parameters; of a machine by the model that is drawn. `None` where no
-    /// part of the machine has what is in doubt.
+    /// The question for the starts that are certainly safe or lost at these parameters, by the model that is
+    /// drawn. `None` if something uncertain corresponds to no part of the machine.
     pub(in crate::session) fn zones_request(&self, parameters: &Parameters) -> Option<Request> {
         let running = self.running().filter(|_| self.draws_whole());
         Some(match running.zip(self.machine()) {

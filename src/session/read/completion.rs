@@ -1,4 +1,4 @@
-//! What a word of a line can become.
+//! Completion of the words of a line.
 
 use crate::flow::METHODS;
 use crate::numerics::decimal::shortest;
@@ -15,7 +15,7 @@ use crate::session::state::session::Session;
 use crate::session::state::settings::{COLORS, GLYPHS, THEMES};
 use crate::study::measure::MEASURES;
 
-/// What the last of these words can become; all words behind the name are given.
+/// Candidates for the last of these words, which are all words after the name of the command.
 fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
     let first = given.len() < 2;
     let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
@@ -41,19 +41,19 @@ fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
     }
 }
 
-/// The rows that a line can give a value: none of a machine where there is none.
+/// The rows to which a line can assign a value; without a machine, none of a machine.
 pub fn rows(session: &Session) -> impl Iterator<Item = Row> + use<> {
     let belt = session.running().is_some();
     ROWS.into_iter().filter(move |row| belt || !matches!(row, Row::Quantity(_)))
 }
 
-/// The names of the properties, and of those that are lengths also in units of r.
+/// The names of the properties; those that are lengths also in units of r.
 pub fn properties() -> impl Iterator<Item = String> {
     let ratio = |row: &OrdinateSpec| row.ratio.map(|_| format!("{}/r", row.name));
     ORDINATES.iter().flat_map(move |row| std::iter::once(row.name.to_owned()).chain(ratio(row)))
 }
 
-/// The names of values with their `=`; behind that, the present value.
+/// Candidates for an assignment: names with `=`, or after a name its present value.
 fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
     let word = words.last().copied().unwrap_or_default();
     match word.split_once('=') {
@@ -67,7 +67,7 @@ fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
     }
 }
 
-/// A value as one would type it.
+/// The value of a row in a form that can be typed.
 fn typed(session: &Session, row: Row) -> String {
     match row {
         Row::Method => session.problem.method.to_string(),
@@ -81,14 +81,14 @@ fn methods() -> Vec<String> {
     METHODS.iter().map(|row| row.name.to_owned()).collect()
 }
 
-/// The present window of the plot in use.
+/// The present window of the plot in use, in a form that can be typed.
 fn windows(session: &Session) -> Vec<String> {
     let Window { x, y } = session.plots[session.plot].window;
     let [x0, x1, y0, y1] = [x.from(), x.to(), y.from(), y.to()].map(shortest);
     vec![format!("{x0}:{x1},{y0}:{y1}")]
 }
 
-/// Parameters with their `=`; behind one of them also measures.
+/// Parameters with `=`, and once one of them is given, also measures.
 fn scan(words: &[&str]) -> Vec<String> {
     let sweeps = PARAMETERS.iter().map(|row| format!("{}=", row.name));
     let moved = words.iter().any(|word| word.contains('='));
@@ -96,7 +96,7 @@ fn scan(words: &[&str]) -> Vec<String> {
     sweeps.chain(measures).collect()
 }
 
-/// Every name that a line can begin with, in the order of the tables.
+/// Every name with which a line can begin, in the order of the tables.
 pub fn names(keymap: &Keymap) -> impl Iterator<Item = &'static str> {
     let typed = |command: &&Command| command.keys.iter().any(|(context, _)| !context.is_overlay());
     let commands = keymap.commands().filter(typed).map(|command| command.name);
@@ -104,7 +104,7 @@ pub fn names(keymap: &Keymap) -> impl Iterator<Item = &'static str> {
     keymap.lines().map(|line| line.name).chain(commands)
 }
 
-/// What the last word of a text can become.
+/// The candidates for the last word of a text; `None` if there are none.
 pub fn completion(session: &Session, text: &str) -> Option<Completion> {
     let start = text.trim_end_matches(|char: char| !char.is_whitespace()).len();
     let (stem, word) = text.split_at(start);
@@ -120,7 +120,7 @@ pub fn completion(session: &Session, text: &str) -> Option<Completion> {
     (!words.is_empty()).then(|| Completion { stem: stem.to_owned(), words, at: 0 })
 }
 
-/// What is known about the line being typed: the command that it begins with.
+/// The syntax and the explanation of the command with which a line begins.
 pub fn described(keymap: &Keymap, text: &str) -> Option<(&'static str, &'static str)> {
     let name = text.split_whitespace().next()?;
     let of_line = keymap.line(name).map(|line| (line.arguments, line.doc));

@@ -1,4 +1,4 @@
-//! Which contexts hold now, and which keys matter in them.
+//! The contexts that hold at present, and the keys that matter in them.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,8 @@ use crate::session::state::pending::Pending;
 use crate::session::state::session::Session;
 
 impl Session {
-    /// The contexts that hold now, the most specific first: one of [`chains`](crate::session::state::context::chains).
+    /// The contexts that hold at present, the most specific first: one of
+    /// [`chains`](crate::session::state::context::chains).
     pub fn contexts(&self) -> &'static [Context] {
         match self.pending {
             Some(Pending::Count(_)) => chain(Context::Count),
@@ -19,7 +20,7 @@ impl Session {
         }
     }
 
-    /// The same when nothing is pending.
+    /// The contexts that hold when nothing is pending.
     pub(in crate::session) fn contexts_at_rest(&self) -> &'static [Context] {
         let first = match &self.overlay {
             None => return self.contexts_below(),
@@ -50,8 +51,8 @@ impl Session {
         })
     }
 
-    /// Whether a key does its own work while the caption of a tour waits: the caption names its command, or
-    /// something that such a key has opened takes it.
+    /// Whether a key has its usual effect while the caption of a tour is shown: the caption names its command,
+    /// or an overlay that such a key has opened takes it.
     pub fn tries(&self, key: Key) -> bool {
         let SessionCaption::Tour(text, _) = &self.caption else { return false };
         let named = |command: &Command| text.contains(&format!("{{{}}}", command.name));
@@ -60,20 +61,20 @@ impl Session {
             || self.keymap.command(self.contexts(), key).is_some_and(named)
     }
 
-    /// Whether a key means something now, or is typed.
+    /// Whether a key runs a command or is typed in the present contexts.
     pub(in crate::session) fn means(&self, key: Key) -> bool {
         let contexts = self.contexts();
         self.keymap.command(contexts, key).is_some() || contexts[0].takes_text()
     }
 
-    /// The keys that matter now, with a word each: for the footer.
+    /// The keys that matter at present, with a word for each, for the footer.
     pub fn hints(&self) -> Vec<Hint> {
         let mut hints: Vec<Hint> = Vec::new();
         let mut shown = BTreeSet::new();
         for context in self.contexts() {
             for command in self.keymap.commands().filter(|command| !command.hint.is_empty()) {
                 let Some(key) = self.keymap.keys_in(*context, command).next() else { continue };
-                // A scan that is done cannot be held.
+                // A finished scan cannot be paused.
                 let over = command.name == "scan-pause" && self.scan_request().is_none();
                 if over || !shown.insert(command.name) {
                     continue;
@@ -88,10 +89,10 @@ impl Session {
     }
 }
 
-/// What to press for what, in the footer.
+/// An entry of the footer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hint {
-    /// The keys, one for each command that the word stands for.
+    /// The keys of the commands that share the word.
     pub keys: Vec<Key>,
     pub text: &'static str,
 }

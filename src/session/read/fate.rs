@@ -1,8 +1,8 @@
-//! What becomes of a motion in the end, and why: from the cycles, which divide its turning points.
+//! The fate of a motion and its reason, from the cycles that divide its turning points.
 //!
-//! A motion turns again and again on the line `v = 0`, and its turning points on one side move one way, from
-//! unstable cycles to stable ones. So the first of them decides: on which side of which cycle it lies. The
-//! end time bounds what is followed, not what is known.
+//! A motion turns repeatedly on the line `v = 0`, and its turning points on one side move in one direction,
+//! from unstable cycles towards stable ones. So the first of them decides, by its position relative to the
+//! cycles. The end time limits how far a motion is followed, but not what is known of it.
 
 use crate::flow::{Outcome, Sample, Trajectory};
 use crate::machine;
@@ -14,58 +14,58 @@ use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
 use crate::study::{Cycle, Cycles, Edge};
 
-/// What becomes of a motion.
+/// The fate of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
     /// It comes to rest.
     Rests,
-    /// It tends to a stable cycle with this right turning point, from inside or from outside.
+    /// It tends to a stable cycle, from inside or from outside.
     Onto {
-        /// The right turning point of the cycle.
+        /// The right turning point of the cycle; by the whole model, the largest displacement of the motion.
         q_max: f64,
-        /// Whether it grows on its way.
+        /// Whether it grows on the way.
         grows: bool,
     },
     /// It grows without bound.
     Grows,
-    /// It decays towards the equilibrium that is left without friction.
+    /// It decays towards the only equilibrium, without friction.
     Decays,
-    /// It starts on an unstable cycle, up to this relative distance: rounding decides.
+    /// It starts on an unstable cycle within this relative distance: rounding decides.
     OnTheEdge {
-        /// The distance of its clearance from that of the cycle, relative to it.
+        /// The difference of its clearance from that of the cycle, relative to the latter.
         distance: f64,
     },
 }
 
-/// On which side of what borders the basin a motion starts.
+/// The position of the start relative to the border of the basin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SideOfBorder {
     /// Inside of the unstable cycle.
     InsideCycle,
     OutsideCycle,
-    /// On the side of the separatrix that is captured.
+    /// On the captured side of the separatrix.
     InsideSeparatrix,
     OutsideSeparatrix,
-    /// Nothing borders the basin.
+    /// The basin has no border.
     Anywhere,
 }
 
-/// The verdict about a motion.
+/// The fate of a motion, and where it starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionVerdict {
-    /// What becomes of it.
+    /// Its fate.
     pub end: End,
     pub place: SideOfBorder,
 }
 
-/// Relative distance from a cycle below which rounding decides, of a start that turns there, and of a
-/// computed turning point, which has the error of its way.
+/// Relative distance from a cycle below which rounding decides: of a start at a turning point, and of a
+/// computed turning point, which carries the error of the motion up to there.
 const NEAR: [f64; 2] = [1e-12, 1e-8];
 
-/// Clearance in units of r above which a difference of two displacements resolves it.
+/// Clearance in units of r above which it is resolved by the difference of two displacements.
 const RESOLVED: f64 = 1e-6;
 
-/// What becomes of a motion among these cycles; `None` where that is not known.
+/// The verdict on a motion among these cycles; `None` if it is unknown.
 pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
     match found.edge {
         _ if !found.cycles.is_empty() && found.edge != Edge::Separatrix => among(found, motion),
@@ -73,7 +73,7 @@ pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
             Some(MotionVerdict { end: End::Rests, place: SideOfBorder::Anywhere })
         }
         Edge::Separatrix => beside_separatrix(found, motion),
-        // Without friction, D2 and a cycle: damping decides.
+        // Without friction, D2 and cycles, damping decides.
         _ => {
             let decays = found.parameters.d > 0.0 && found.parameters.d3 >= 0.0;
             let alone = found.parameters.d2 == 0.0 && decays;
@@ -82,7 +82,7 @@ pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
     }
 }
 
-/// The verdict without friction and nonlinear damping, where the sign of D decides and no cycle is asked for.
+/// The verdict without friction and nonlinear damping, where the sign of D decides and no cycles are needed.
 fn linear(motion: &Trajectory) -> Option<MotionVerdict> {
     let (Parameters { d, d2, d3, r }, start) = (motion.problem.parameters, motion.problem.initial);
     let moves = start.q != 0.0 || start.v != 0.0;
@@ -91,8 +91,8 @@ fn linear(motion: &Trajectory) -> Option<MotionVerdict> {
     alone.then_some(MotionVerdict { end, place: SideOfBorder::Anywhere })
 }
 
-/// The first turning point of a motion, and whether it is where the motion starts. Where turning points
-/// were not looked for there is the start alone.
+/// The first turning point of a motion, and whether it is the start. Where turning points were not located,
+/// only the start can be one.
 fn turning(motion: &Trajectory, r: f64) -> Option<(f64, bool)> {
     let start = motion.samples.first()?;
     if start.v == 0.0 && start.q.abs() > r {
@@ -101,7 +101,7 @@ fn turning(motion: &Trajectory, r: f64) -> Option<(f64, bool)> {
     motion.crossings.first().map(|crossing| (crossing.q, false))
 }
 
-/// The verdict where there are cycles, each inside the next.
+/// The verdict if there are cycles, each inside the next.
 fn among(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
     let r = found.parameters.r;
     let unstable = found.cycles.iter().any(|cycle| !cycle.stable);
@@ -110,7 +110,7 @@ fn among(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
     let Some((q, exact)) = turning(motion, r) else {
         return matches!(motion.outcome, Outcome::Captured { .. }).then_some(rests);
     };
-    // In the frame of the side on which it turns; D2 alone tells the sides apart.
+    // In the frame of the side on which the motion turns; only D2 makes the sides different.
     let mirrored = q < 0.0 && found.parameters.d2 != 0.0;
     let clearance = |cycle: &Cycle| if mirrored { -cycle.q_min - r } else { cycle.clearance };
     if mirrored && found.cycles.iter().any(|cycle| clearance(cycle) <= RESOLVED * r) {
@@ -144,8 +144,8 @@ fn among(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
     })
 }
 
-/// The verdict where a motion that just escapes borders the basin: a start at rest within the margin is
-/// captured, and so is a turning point; of others their outcome tells.
+/// The verdict if a separatrix borders the basin: a motion that turns within the margin is captured; otherwise,
+/// its outcome tells.
 fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
     let margin = found.picture.as_ref()?.margin.displacement;
     let within = |q: f64| margin.is_some_and(|margin| q.abs() < margin);
@@ -162,7 +162,7 @@ fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdic
     }
 }
 
-/// The verdict of the whole model.
+/// The verdict by the whole model.
 fn of_course(course: &Course, motion: &Trajectory) -> Option<MotionVerdict> {
     let end = match course.fate {
         machine::MachineFate::Rest => End::Rests,
@@ -187,16 +187,16 @@ fn of_course(course: &Course, motion: &Trajectory) -> Option<MotionVerdict> {
 }
 
 impl Session {
-    /// What a text of the scene says about what is on show.
+    /// The parts of a text of the scene that hold for what is on show.
     pub fn said(&self, text: &str) -> String {
         said::said(text, |condition| self.holds(condition))
     }
 
-    /// Whether something is so, of the answers that are on show.
+    /// Whether a condition holds, by the answers on show.
     fn holds(&self, condition: Condition) -> bool {
         let whole = self.kinds().filter(|_| self.draws_whole());
         let cycles = |stable: bool| match whole {
-            // Of unstable ones, that which borders what comes to rest.
+            // Only the unstable cycle that borders the basin counts.
             Some(kinds) if !stable => kinds.border == "cycle",
             Some(kinds) => kinds.cycles.iter().any(|cycle| cycle.stable),
             None => {
@@ -230,8 +230,8 @@ impl Session {
         }
     }
 
-    /// What becomes of the motion that was computed last; `None` as long as its cycles are not known, and
-    /// of methods that miss the turning points.
+    /// The verdict on the motion that was computed last; `None` until its cycles are known, and for methods
+    /// that miss the turning points.
     pub fn fate(&self) -> Option<MotionVerdict> {
         let motion = self.trajectory()?;
         if let Some(course) = self.course() {
@@ -244,7 +244,7 @@ impl Session {
             Some(found) => fate(found, motion),
             None => linear(motion).filter(|_| known),
         };
-        // A coarse step can end on the other side.
+        // A coarse step can end on the wrong side.
         end.filter(|fate| match motion.outcome {
             Outcome::Captured { .. } => matches!(fate.end, End::Rests | End::OnTheEdge { .. }),
             Outcome::Escaped { .. } => matches!(fate.end, End::Grows | End::OnTheEdge { .. }),
@@ -270,7 +270,7 @@ mod tests {
         trajectory(&problem, detail, &Limits::PATIENT)
     }
 
-    /// Parameters with each kind of edge and of cycles.
+    /// Parameters for each kind of edge and of cycles.
     const SETS: [[f64; 4]; 8] = [
         [-0.3, 0.0, 0.5, 0.1],
         [-0.1, 0.0, 0.5, 0.1],

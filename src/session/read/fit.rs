@@ -14,35 +14,35 @@ use crate::session::state::scan::Scanned;
 use crate::session::state::session::Session;
 use crate::study::trade::Tried;
 
-/// Room around what is fitted, as a factor of its width.
+/// Width of a fitted window, relative to its content.
 const ROOM: f64 = 1.1;
 
-/// How far a motion that escapes is followed, in extents of all else.
+/// How far an escaping motion is followed, relative to the extent of everything else.
 const ESCAPE: f64 = 2.0;
 
-/// How much of the time axis a motion at rest takes, as a factor of the time until then.
+/// Length of the time axis for a motion that comes to rest, relative to the time of rest.
 const REST: f64 = 1.2;
 
-/// How far beyond the largest cycle a return map goes.
+/// End of a return map, relative to the largest cycle.
 const FARTHER: f64 = 1.25;
 
-/// How far beyond the Lyapunov circle the rate of the energy is looked at.
+/// Largest velocity in the plot of the rate of the energy, relative to the Lyapunov circle.
 const FASTER: f64 = 1.6;
 
-/// Velocities at which the rate of the energy is looked at to fit it.
+/// Number of velocities at which the rate of the energy is computed to fit its window.
 const RATES: u8 = 64;
 
-/// Room beyond the sticking set, as a fraction of that.
+/// Margin outside of the sticking set, as a fraction of its half width.
 const MARGIN: f64 = 0.2;
 
-/// How far above all else the velocity of the belt may be and is fitted in, in extents of all else.
+/// Largest velocity of the belt that is included in a window, relative to the extent of everything else.
 const BELT: f64 = 2.0;
 
-/// The part of a branch that must fit, from above and from below: where it goes to infinity, its end
-/// need not.
+/// Fraction of the points of a branch that must fit, from above and from below: the end of a branch that goes
+/// to infinity need not.
 const QUANTILE: f64 = 0.9;
 
-/// The window that shows all that a plot has to show; `None` where there is nothing yet.
+/// The window that shows the whole content of a plot; `None` if there is none yet.
 pub(in crate::session) fn fitted(session: &Session, index: usize) -> Option<Window> {
     match session.plots[index].view {
         View::Phase => phase(session, index),
@@ -75,24 +75,24 @@ fn extent([left, right, low, high]: Extent) -> Option<Window> {
     Some(Window { x: Span::new(left, right).ok()?, y: Span::new(low, high).ok()? })
 }
 
-/// Whether something that a plot shows is still to be computed.
+/// Whether something that a plot shows has yet to be computed.
 pub(in crate::session) fn is_pending(session: &Session, plot: usize) -> bool {
     first_open(session, plot).is_some()
 }
 
-/// The first question of a plot that is still to be answered.
+/// The first unanswered question of a plot.
 fn first_open(session: &Session, plot: usize) -> Option<Request> {
     session.asked_by(plot).into_iter().find(|request| session.is_open(request))
 }
 
-/// The question whose answer the window of a plot on show waits for, if it is being fitted.
+/// The question whose answer the window of a plot waits for, if the plot is on show and is being fitted.
 pub(in crate::session) fn awaited(session: &Session, plot: usize) -> Option<Request> {
     let fitting = session.plots.get(plot).is_some_and(|plot| plot.framing == Framing::Fitting);
     let on_show = session.on_show().contains(&plot);
     first_open(session, plot).filter(|_| fitting && on_show)
 }
 
-/// The speeds on show, and as far as cycles go there.
+/// The window of the speeds: the same speeds, and all cycles at these.
 fn speeds(session: &Session, plot: usize) -> Option<Window> {
     let x = session.plots[plot].window.x;
     let points = session.speeds(plot)?.points.iter().filter(|point| x.contains(point.v0));
@@ -101,7 +101,7 @@ fn speeds(session: &Session, plot: usize) -> Option<Window> {
     Some(Window { x, y: y.scaled(0.0, ROOM) })
 }
 
-/// Every row of the trade.
+/// All rows of the trade.
 fn trade(session: &Session) -> Option<Window> {
     let places: Vec<_> = session.trade()?.rows.iter().filter_map(Tried::place).collect();
     let x = Span::covering(places.iter().map(|place| place.0))?;
@@ -109,7 +109,7 @@ fn trade(session: &Session) -> Option<Window> {
     Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })
 }
 
-/// Around the motions, the cycles and the sticking sets.
+/// The motions, the cycles and the sticking sets.
 fn phase(session: &Session, plot: usize) -> Option<Window> {
     let start = session.problem.initial;
     let mut points = Vec::new();
@@ -150,7 +150,7 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
         }
     }
     let x = Span::covering(points.iter().map(|point| point.x))?;
-    // A motion at rest has no extent in v: then the plane is as high as it is wide.
+    // A motion at rest has no extent in v: the window is then as high as it is wide.
     let y = Span::covering(points.iter().map(|point| point.y))?;
     let y = if y.contains(0.0) && points.iter().all(|point| point.y == 0.0) {
         Span::new(-0.5 * x.width(), 0.5 * x.width()).ok()?
@@ -160,7 +160,7 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
     Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })
 }
 
-/// As far as the mass moves.
+/// The positions of the mass.
 fn belt(session: &Session) -> Option<Window> {
     let samples = session.trajectory()?.samples.iter();
     let last = session.last_moment();
@@ -169,7 +169,7 @@ fn belt(session: &Session) -> Option<Window> {
     Some(Window { x: x.scaled(x.center(), 1.5 * ROOM), y: View::Belt.spec().window.y })
 }
 
-/// The same values of the parameter, and the heights that its branch has there.
+/// The same values of the parameter, and the heights of the branch there.
 fn diagram(session: &Session, plot: usize) -> Option<Window> {
     let x = session.plots[plot].window.x;
     let (found, ordinate) = (session.branches(plot), session.plots[plot].axes.ordinate);
@@ -188,12 +188,12 @@ fn diagram(session: &Session, plot: usize) -> Option<Window> {
     let ends = [1.0 - QUANTILE, QUANTILE].map(|part| quantile(&heights, part));
     let fitting = special.into_iter().chain(zero).chain(ends.into_iter().flatten());
     let span = Span::covering(fitting)?;
-    // A window that begins or ends at zero has room on the other side only.
+    // A window with an end at zero gets room only at the other end.
     let about = if span.contains(0.0) && zero.is_some() { 0.0 } else { span.center() };
     Some(Window { x, y: span.scaled(about, ROOM) })
 }
 
-/// The time until the motion ends or comes to rest, and the values that the layers have in it.
+/// The time until the motion ends or comes to rest, and the values of the layers until then.
 fn time_series(session: &Session, plot: usize) -> Option<Window> {
     session.trajectory()?;
     let r = session.problem.parameters.r;
@@ -207,7 +207,7 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     }
     let motions = session.motions();
     if motions.iter().any(|(_, motion)| matches!(motion.outcome, Outcome::Escaped { .. })) {
-        // Where the values diverge, their beginning is looked at.
+        // Where values diverge, only their beginning is shown.
         let extent = ESCAPE * hypot(session.problem.initial.q, session.problem.initial.v).max(r);
         values.retain(|value| value.abs() <= extent);
     }
@@ -224,25 +224,25 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     Some(Window { x: Span::new(0.0, end).ok()?, y: y.scaled(y.center(), ROOM) })
 }
 
-/// All lines of the ledger.
+/// All lines of the energy ledger.
 fn energy_ledger(session: &Session) -> Option<Window> {
     let x = View::EnergyLedger.spec().window.x;
     let lines = real(session.ledger().len().max(1));
     Some(Window { x, y: Span::new(-lines, 0.0).ok()? })
 }
 
-/// Turning points on the right: those of the cycles, else those of the motion.
+/// Turning points on the right: those of the cycles, otherwise those of the motion.
 fn return_map(session: &Session) -> Option<Window> {
     let r = session.problem.parameters.r;
     let cycles = session.cycles().into_iter().flat_map(|found| &found.cycles);
     let largest = cycles.map(|cycle| cycle.q_max).fold(session.problem.initial.q.abs(), f64::max);
-    // A map without a cycle: some half swings of friction alone.
+    // A map without a cycle shows some half swings that friction alone damps.
     let far = if largest > r { largest } else { 10.0 * r };
     let span = Span::new(-(1.0 + MARGIN) * r, FARTHER * far).ok()?;
     Some(Window { x: span, y: span })
 }
 
-/// Velocities around the Lyapunov circle and the start, and how the energy changes there.
+/// Velocities around the Lyapunov circle and the start, and the rate of the energy there.
 fn energy_rate(session: &Session) -> Option<Window> {
     let parameters = session.problem.parameters;
     let radius = lyapunov::radius(&parameters).unwrap_or(0.0);
@@ -255,7 +255,7 @@ fn energy_rate(session: &Session) -> Option<Window> {
     Some(Window { x, y: y.scaled(y.center(), ROOM) })
 }
 
-/// The circle and both eigenvalues.
+/// The unit circle and both eigenvalues.
 fn eigenvalues(session: &Session) -> Option<Window> {
     let usual = View::Eigenvalues.spec().window;
     let d = session.problem.parameters.d.abs();
@@ -263,7 +263,7 @@ fn eigenvalues(session: &Session) -> Option<Window> {
     Some(Window { x: Span::new(-far, far).ok()?, ..usual })
 }
 
-/// The values of both parameters first looked at, and the present one.
+/// The first ranges of both parameters, and the present point.
 fn regimes(session: &Session, plot: usize) -> Option<Window> {
     let Axes { abscissa, against, .. } = session.plots[plot].axes;
     let around = |symbol: Symbol| {
@@ -273,7 +273,7 @@ fn regimes(session: &Session, plot: usize) -> Option<Window> {
     Some(Window { x: around(abscissa)?, y: around(against)? })
 }
 
-/// The value that this part of some sorted values does not exceed.
+/// The value that this fraction of the sorted values does not exceed.
 fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
     sorted.get(whole(real(sorted.len()) * part)).copied()
 }

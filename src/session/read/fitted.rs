@@ -1,4 +1,4 @@
-//! What is known of the record on show: the fit of all numbers, or that of the others when some are held by hand.
+//! The fit of the record on show: of all numbers, or of the others while some are held by hand.
 
 use crate::oscillator::Symbol;
 use crate::oscillator::belt::Units;
@@ -9,9 +9,9 @@ use crate::session::state::answers::Standing;
 use crate::session::state::session::Session;
 
 impl Session {
-    /// The fit of the record on show with what is held; until that is there, the one that comes closest to it.
+    /// The fit of the record on show with the held numbers; until it is there, the most similar one.
     pub fn fitted(&self) -> Option<&Fitted> {
-        // With the distribution of its margin once that is there.
+        // With the distribution of the margin once that is there.
         let drawn = self.refit_request(true).map(|request| self.answers.standing(&request));
         let held = drawn
             .filter(|standing| standing.is_fresh())
@@ -23,7 +23,7 @@ impl Session {
         held.or_else(|| self.fit_of_all()?.found().ok())
     }
 
-    /// The same only if it is what is asked for at present.
+    /// The fit only if it is up to date with the held numbers.
     pub(in crate::session) fn followed(&self) -> Option<&Fitted> {
         let pending =
             self.refit_request(false).is_some_and(|it| !self.answers.standing(&it).is_fresh());
@@ -39,7 +39,8 @@ impl Session {
         }
     }
 
-    /// The question for the fit with what is held, if so with the distribution of its margin; `None` where nothing is.
+    /// The question for the fit with the held numbers, if `drawn` with the distribution of the margin; `None`
+    /// if nothing is held.
     pub(in crate::session) fn refit_request(&self, drawn: bool) -> Option<Request> {
         let held = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R]
             .map(|symbol| self.doubt.holds(symbol).then(|| self.value(symbol)));
@@ -53,7 +54,7 @@ impl Session {
         request.is_some_and(|request| self.is_open(&request))
     }
 
-    /// What 1 stands for on the machine or in the record on show.
+    /// The units of the machine or of the record on show.
     pub fn units(&self) -> Option<Units> {
         match self.running() {
             Some(running) => Some(running.reduced.units),

@@ -1,4 +1,4 @@
-//! The last answer about each topic, by the name of what it holds.
+//! The last answer on each topic, named after its content.
 
 use crate::flow::Trajectory;
 use crate::question::Borders;
@@ -17,7 +17,7 @@ macro_rules! last_answers {
     ) => {
         impl Session {
             $(
-                /// The last answer about this for the plot in use, stale or not.
+                /// The last answer on this topic for the plot in use, stale or not.
                 pub fn $name(&self) -> Option<&$found> {
                     let Answer::$topic(found) = self.answer(Topic::$topic, self.plot)? else {
                         return None;
@@ -26,7 +26,7 @@ macro_rules! last_answers {
                 }
             )*
             $(
-                /// The last answer about this for a plot, stale or not.
+                /// The last answer on this topic for a plot, stale or not.
                 pub fn $of_any(&self, plot: usize) -> Option<&$of_it> {
                     let Answer::$its_topic(found) = self.answer(Topic::$its_topic, plot)? else {
                         return None;

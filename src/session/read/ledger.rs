@@ -1,7 +1,7 @@
-//! The energy ledger as lines: for each cycle and for the motion, what every source did.
+//! The energy ledger as lines: the work of every source, for each cycle and for the motions.
 //!
-//! Line `i` stands between the heights `-i` and `-i - 1` of the view's world, so that the view draws the
-//! same lines at every size and the cursor points at one of them.
+//! Line `i` lies between the heights `-i` and `-i - 1` of the view's world, so that the view draws the same
+//! lines at every size and the cursor points at one of them.
 
 use crate::machine;
 use crate::numerics::count::real;
@@ -11,35 +11,35 @@ use crate::session::state::session::Session;
 use crate::study::Cycle;
 use crate::study::works::works_until;
 
-/// Whose energy it is.
+/// The owner of a part of the ledger.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Owner {
     /// One turn of a cycle.
     Cycle(Cycle),
-    /// A motion on show from its start to its end, by its place among these and its number.
+    /// A motion on show from its start to its end, by its index among these and its number.
     Motion(usize, Option<usize>),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LedgerLine {
-    /// Whose works the lines below are.
+    /// The owner of the works in the lines below.
     Title(Owner),
-    /// What a source did, and as a fraction of the largest work of its owner.
+    /// The work of a source.
     Work {
         source: &'static str,
-        /// Energy that it gave; negative where it took.
+        /// Energy that the source supplied; negative if it took energy.
         work: f64,
-        /// The same as a fraction of the largest.
+        /// The work as a fraction of the largest work of its owner.
         part: f64,
-        /// What it did until the moment that is played, as the same part; only of the motion.
+        /// The work until the moment of playback, as the same fraction; only for the motion.
         so_far: Option<f64>,
     },
-    /// What is missing, as a fraction of the largest work.
+    /// The energy that the works do not account for, as a fraction of the largest work.
     Residual(f64),
 }
 
 impl Session {
-    /// The lines of the energy ledger, of the layers that are on.
+    /// The lines of the energy ledger, for the layers that are on.
     pub fn ledger(&self) -> Vec<LedgerLine> {
         let mut lines = Vec::new();
         if self.draws_whole() {
@@ -66,7 +66,7 @@ impl Session {
         lines
     }
 
-    /// The same by the whole model of a machine.
+    /// The lines of a machine by the whole model.
     fn ledger_of_machine(&self, lines: &mut Vec<LedgerLine>) {
         if self.layers.contains(&Layer::CycleWorks)
             && let (Some(found), Some(kinds)) = (self.cycles(), self.kinds())
@@ -82,7 +82,7 @@ impl Session {
         }
     }
 
-    /// The state that a line of the ledger leads to: a start on its cycle, or the start of the motion.
+    /// The start that a line of the ledger leads to: on its cycle, or that of its motion.
     pub fn start_of_line(&self, height: f64) -> Option<State> {
         let lines = self.ledger();
         let line = lines.iter().enumerate().rev().find(|(index, entry)| {
@@ -115,11 +115,11 @@ fn add_works(lines: &mut Vec<LedgerLine>, owner: Owner, ledger: &machine::Machin
     lines.push(LedgerLine::Residual(part(end - start - (belt - damper - guide))));
 }
 
-/// What works on a motion: its name, how strong it is, and what it did.
+/// A source of energy: its name, its strength, and how to read its work.
 type EnergySource = (&'static str, f64, fn(&Ledger) -> f64);
 
-/// Adds the lines of one owner, with those until the present moment; a term that the model does not have
-/// gets none.
+/// Adds the lines of one owner, with the works until the present moment if `until` is given; terms that the
+/// model does not have get no line.
 fn add(
     lines: &mut Vec<LedgerLine>,
     owner: Owner,

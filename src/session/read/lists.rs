@@ -11,7 +11,7 @@ use crate::session::state::session::Session;
 use crate::study::claims::{Claim, Examined, Verdict, claims};
 
 impl List {
-    /// How far down a row stands that is called so and means this: what is searched for first.
+    /// The rank of a row with these names and this meaning: the best matches for the search come first.
     fn rank(&self, names: &[impl AsRef<str>], meaning: &str) -> usize {
         let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
         if self.search.is_empty() { 0 } else { search::rank(&self.search, &names, meaning) }
@@ -30,7 +30,7 @@ impl Session {
         rows
     }
 
-    /// The layers that the layer list shows: those of the plot in use first.
+    /// The layers that the list of layers shows, those of the plot in use first.
     pub fn layer_rows(&self, list: &List) -> Vec<&'static LayerSpec> {
         let found = LAYERS.iter().filter(|row| list.matches(&[row.name, row.meaning]));
         let mut rows: Vec<_> = found.collect();
@@ -40,7 +40,7 @@ impl Session {
         rows
     }
 
-    /// What the plot in use shows.
+    /// The view of the plot in use.
     pub fn view_in_use(&self) -> View {
         self.plots[self.plot].view
     }
@@ -53,7 +53,7 @@ impl Session {
         rows
     }
 
-    /// The claims that the page of the paper lists, each with what became of it, if that is known.
+    /// The claims that the page of the paper lists, each with the result of its examination, if known.
     pub fn claim_rows(&self, list: &List) -> Vec<(&'static Claim, Option<&Examined>)> {
         let examined = self.examined();
         let rows = claims().enumerate().map(|(index, claim)| (claim, examined.get(index)));
@@ -64,13 +64,13 @@ impl Session {
         rows.filter(matches).collect()
     }
 
-    /// The interrupted sessions that their list shows, each with its place among all.
+    /// The interrupted sessions that their list shows, each with its index among all.
     pub fn interrupted_rows(&self, list: &List) -> Vec<(usize, &Kept)> {
         let all = self.interrupted.iter().enumerate();
         all.filter(|(_, kept)| list.matches(&[&kept.when, &kept.what])).collect()
     }
 
-    /// How many rows the open list has.
+    /// Number of rows of the open list.
     pub(in crate::session) fn list_length(&self) -> usize {
         match &self.overlay {
             Some(Overlay::List(Listed::Scenes, list)) => self.scene_rows(list).len(),

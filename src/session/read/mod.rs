@@ -1,4 +1,4 @@
-//! Questions about a session, each a pure function of its state.
+//! Questions about a session, each answered by a pure function of its state.
 
 pub mod belt;
 pub(in crate::session) mod certain;

@@ -1,4 +1,4 @@
-//! The motion on show, read at a time.
+//! The motion on show at a given time.
 
 use crate::flow::{Method, Outcome, Problem, Sample, Trajectory};
 use crate::numerics::elementary::tanh;
@@ -6,7 +6,8 @@ use crate::oscillator::{Parameters, State};
 use crate::session::state::session::Session;
 
 impl Session {
-    /// The computed state of the motion nearest to a time; at rest the place of rest.
+    /// The computed state of the motion that is nearest to a time; after it has come to rest, the place of
+    /// rest.
     pub fn state_at(&self, tau: f64) -> Option<State> {
         let found = self.trajectory()?;
         if let Outcome::Captured { tau: rest, q } = found.outcome
@@ -24,10 +25,10 @@ impl Session {
     }
 }
 
-/// The turning points of a motion, in the order of time: the start if it is one, every arrival at
-/// `v = 0`, the place of rest last.
+/// The turning points of a motion in the order of time: the start if it is one, every arrival at `v = 0`, and
+/// finally the place of rest.
 ///
-/// Without friction the arrivals are not looked for, and are read off the points of the motion.
+/// Without friction, arrivals are not located, and the turning points are interpolated between samples.
 pub fn turning_points(motion: &Trajectory) -> Vec<f64> {
     let start = motion.problem.initial;
     let mut points: Vec<f64> = (start.v == 0.0).then_some(start.q).into_iter().collect();
@@ -39,7 +40,7 @@ pub fn turning_points(motion: &Trajectory) -> Vec<f64> {
     points
 }
 
-/// Where the velocity changes its sign between two points of a motion, taken to be linear between them.
+/// The displacement where the velocity changes its sign between two samples, by linear interpolation.
 fn between(pair: &[Sample]) -> Option<f64> {
     let [one, other] = pair else { return None };
     let turns = (one.v > 0.0 && other.v <= 0.0) || (one.v < 0.0 && other.v >= 0.0);
@@ -47,8 +48,8 @@ fn between(pair: &[Sample]) -> Option<f64> {
     turns.then_some(one.q + 0.5 * one.v * time)
 }
 
-/// The force of dry friction along a motion as a polyline of (time, force), up to `end` if the motion is
-/// at rest: `-r sign(v)` while it moves, and what the spring asks for at rest. It lies in `[-r, r]`.
+/// The force of dry friction along a motion as a polyline of (time, force), up to `end` if the motion comes to
+/// rest: `-r sign(v)` while it moves, and the force that balances the spring at rest. It lies in `[-r, r]`.
 pub fn friction_force(motion: &Trajectory, end: f64) -> Vec<(f64, f64)> {
     let Problem { parameters: Parameters { r, .. }, epsilon, .. } = motion.problem;
     let mut force = Vec::new();
@@ -58,7 +59,7 @@ pub fn friction_force(motion: &Trajectory, end: f64) -> Vec<(f64, f64)> {
             force.push((to.tau, -r * tanh(to.v / epsilon)));
             continue;
         }
-        // Each half swing begins and ends on v = 0, so the sign is that of the points between.
+        // Each half swing begins and ends on v = 0, so the sign comes from the samples between.
         let sum = from.v + to.v;
         let value = if sum == 0.0 { 0.0 } else { -r * sum.signum() };
         match force.last_mut() {
@@ -98,14 +99,14 @@ mod tests {
         }
         let found = motion(BRAKED, START, Method::Taylor);
         let force = friction_force(&found, 30.0);
-        // To the left first: friction pulls to the right with all it has.
+        // The mass first moves to the left: friction pulls fully to the right.
         assert_eq!(force[0], (0.0, BRAKED.r));
         let jumps = force.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| pair[0].0);
         let turns = found.crossings.iter().map(|crossing| crossing.tau);
         assert_eq!(jumps.clone().count(), found.crossings.len());
-        // The time of a point is that of its step, and rounds once more.
+        // The time of a sample is computed from that of its step, with one more rounding.
         assert!(jumps.zip(turns).all(|(jump, turn)| (jump / turn - 1.0).abs() <= f64::EPSILON));
-        // At rest it is what the spring asks for.
+        // At rest, friction balances the spring.
         let Outcome::Captured { q, .. } = found.outcome else { panic!("it comes to rest") };
         assert_eq!(force.last(), Some(&(30.0, q)));
     }
@@ -123,7 +124,7 @@ mod tests {
 
     #[test]
     fn without_friction_turning_points_are_read_off_the_curve() {
-        // Undamped, every turning point is as far out as the first.
+        // Undamped, every turning point is as far out as the first one.
         let centre = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
         let found = motion(centre, START, Method::Taylor);
         let points = turning_points(&found);

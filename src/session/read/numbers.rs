@@ -16,7 +16,7 @@ pub(in crate::session) fn range(problem: &Problem, row: Row) -> (f64, f64) {
     }
 }
 
-/// The value of a row that is a number; 0 for one of a machine that is not set.
+/// The value of a row that is a number; 0 for a number of the machine that is not set.
 pub(in crate::session) fn number(setup: &Setup, row: Row) -> f64 {
     let Setup { problem, setting, doubt, .. } = setup;
     match row {
@@ -28,7 +28,7 @@ pub(in crate::session) fn number(setup: &Setup, row: Row) -> f64 {
     }
 }
 
-/// The same motion with another value of a row that is a number of the motion.
+/// The motion with another value of a row that is a number of the motion.
 pub(in crate::session) fn with_number(mut problem: Problem, row: Row, value: f64) -> Problem {
     match row {
         Row::Parameter(symbol) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
@@ -39,7 +39,7 @@ pub(in crate::session) fn with_number(mut problem: Problem, row: Row, value: f64
     problem
 }
 
-/// The value of a row that is a number of the oscillator, with its half width, as it can be typed.
+/// The value of a row that is a number of the oscillator, with its half width, in a form that can be typed.
 pub(in crate::session) fn typed(setup: &Setup, row: Row) -> String {
     let value = shortest(number(setup, row));
     match row {
@@ -50,7 +50,7 @@ pub(in crate::session) fn typed(setup: &Setup, row: Row) -> String {
     }
 }
 
-/// What is different in `new`, as `name = value`; of a machine with another number that alone, because the
+/// The differences of `new` from `old`, as `name = value`. If a number of the machine differs, only that: the
 /// parameters follow from it.
 pub(in crate::session) fn difference(old: &Setup, new: &Setup) -> String {
     let value = |setup: &Setup, row: Row| match row {

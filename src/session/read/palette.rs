@@ -1,4 +1,4 @@
-//! The palette: one list of everything that has a name, and where a command can be run.
+//! The palette, a list of everything that has a name, and where commands can be run.
 
 use std::sync::Arc;
 
@@ -16,19 +16,19 @@ use crate::study::claims::{Claim, claims};
 
 #[derive(Clone, Copy, Debug)]
 pub enum PaletteRow {
-    /// A command of the keys.
+    /// A command of a key.
     Command(&'static Command),
     /// A command that takes words.
     Line(&'static LineCommand),
-    /// A scene, to be opened.
+    /// A scene, to open.
     Scene(&'static Arc<Scene>),
-    /// A view, to be shown in the plot in use.
+    /// A view, to show in the plot in use.
     View(&'static ViewSpec),
-    /// A layer, to be switched.
+    /// A layer, to switch.
     Layer(&'static LayerSpec),
-    /// A machine of the program, to be opened.
+    /// A built-in machine, to open.
     Machine(&'static Machine),
-    /// A claim of the paper, to be shown by its scene.
+    /// A claim of the paper, to show in its scene.
     Claim(&'static Claim),
 }
 
@@ -45,7 +45,7 @@ impl PaletteRow {
         }
     }
 
-    /// What it does or shows, in one line.
+    /// Explanation in one line.
     pub fn meaning(self) -> &'static str {
         match self {
             PaletteRow::Command(command) => command.doc,
@@ -58,7 +58,7 @@ impl PaletteRow {
         }
     }
 
-    /// All that it is called.
+    /// All of its names.
     fn names(self) -> Vec<&'static str> {
         let own = match self {
             PaletteRow::View(view) => view.title,
@@ -75,8 +75,8 @@ impl PaletteRow {
 }
 
 impl Session {
-    /// Every row that has all the words searched for; without a search, what belongs to the pane in focus
-    /// comes first, and what works only inside a list or a line, or with a digit, is left out.
+    /// All rows that contain all searched words. Without a search, the commands of the pane in focus come
+    /// first. Commands that work only inside a list or a line, or with a digit, are left out.
     pub fn palette_rows(&self, list: &List) -> Vec<PaletteRow> {
         let outside = |command: &&Command| home(command).is_some() && !takes_digit(command);
         let commands = self.keymap.commands().filter(outside).map(PaletteRow::Command);
@@ -112,7 +112,7 @@ impl Session {
         }
     }
 
-    /// How far a row is from the pane in focus.
+    /// The distance of a row's context from the pane in focus.
     fn distance(&self, row: PaletteRow) -> usize {
         let PaletteRow::Command(command) = row else { return usize::MAX };
         let Some(place) = self.place_of(command) else { return usize::MAX };
@@ -121,14 +121,14 @@ impl Session {
         near.unwrap_or_else(|| self.contexts_below().len() + far())
     }
 
-    /// Where a command is run: in the pane in focus if it has keys there.
+    /// The context in which a command is run: that of the pane in focus if it has keys there.
     pub fn place_of(&self, command: &Command) -> Option<Context> {
         let mut here = self.contexts_below().iter();
         let has_keys = |context: &&Context| command.keys.iter().any(|(at, _)| at == *context);
         here.find(has_keys).copied().or(home(command))
     }
 
-    /// The words by which a row is found: its names, what it does, its keys.
+    /// The words by which a row is found: its names, its explanation and its keys.
     fn words(&self, row: PaletteRow) -> Vec<String> {
         let texts = row.names().into_iter().chain([row.meaning()]).map(str::to_owned);
         texts.chain(self.keys(row)).collect()
@@ -142,19 +142,20 @@ impl Session {
     }
 }
 
-/// Whether a command is nothing without the digit that runs it.
+/// Whether a command depends on the digit that runs it.
 fn takes_digit(command: &Command) -> bool {
     command.keys.iter().any(|(_, keys)| keys.contains(&"1"))
 }
 
-/// The first context outside of lists and lines in which a command has keys of its own: the commands that
-/// switch layers have none.
+/// The first context outside of lists and lines in which a command has default keys; commands that switch
+/// layers have none.
 fn home(command: &Command) -> Option<Context> {
     let outside = |(context, keys): &&(Context, &[&str])| !context.is_overlay() && !keys.is_empty();
     command.keys.iter().find(outside).map(|(context, _)| *context)
 }
 
-/// The pane in which a command belongs, where that is not the one in focus; or what is not here.
+/// The pane in which a command applies, if that is not the one in focus. Fails with the context that is
+/// missing.
 pub(in crate::session) fn place(
     session: &Session,
     command: &Command,
@@ -171,8 +172,8 @@ pub(in crate::session) fn place(
     }
 }
 
-/// The command that a key has in a plot that is on show but not in focus; else one of a view that no plot
-/// shows. What is open keeps its keys.
+/// The command of a key in a plot that is on show but not in focus, otherwise that in a view that no plot
+/// shows; `None` if something is open, which keeps its keys.
 pub(in crate::session) fn elsewhere(session: &Session, key: Key) -> Option<&'static Command> {
     if session.overlay.is_some() {
         return None;
@@ -198,7 +199,7 @@ fn pane(session: &Session, context: Context) -> Option<Pane> {
     }
 }
 
-/// Whether a context needs something that is not there: an open line or list, a held branch, a view.
+/// Whether a context needs something that is missing: an open line or list, a held branch, or a view.
 fn lacks(session: &Session, context: Context) -> bool {
     context.is_overlay()
         || context == Context::Walk

@@ -1,7 +1,7 @@
-//! The motion in time: a head that moves along it while it is played.
+//! Playback of the motion: a head moves along it.
 //!
-//! Nothing here reads a clock. The outer rings tell how much time has passed (`super::Msg::Elapsed`)
-//! while [`Session::is_playing`], and a keystroke file does the same with `<elapse SECONDS>`.
+//! Nothing here reads a clock. The outer rings report how much time has passed (`super::Msg::Elapsed`) while
+//! [`Session::is_playing`], and a keystroke file does the same with `<elapse SECONDS>`.
 
 use std::f64::consts::TAU;
 
@@ -12,37 +12,37 @@ use crate::session::state::session::Session;
 use crate::study::belt::FollowedOnBelt;
 
 impl Session {
-    /// Whether time matters to what is on show.
+    /// Whether the motion is being played.
     pub fn is_playing(&self) -> bool {
         self.playback.playing
     }
 
-    /// Whether time passes for what is on show. It stands still while the motion is computed again, so that
-    /// the head is where it is however long that takes.
+    /// Whether playback advances with time. It pauses while the motion is recomputed, so that the position of
+    /// the head does not depend on how long that takes.
     pub fn is_moving(&self) -> bool {
         let asked = self.request(Topic::Trajectory, self.plot);
         self.is_playing() && asked.is_none_or(|request| !self.is_open(&request))
     }
 
-    /// Where the head is on the motion; `None` before anything was played.
+    /// The state of the motion at the head; `None` before the first playback.
     pub fn head(&self) -> Option<Sample> {
         let at = self.playback.at?;
         self.trajectory()?.at(at.min(self.last_moment()))
     }
 
-    /// Where the motion ends: at its outcome, or where the mass would overtake its belt.
+    /// The end of playback: the end of the motion, or where the mass would overtake its belt.
     pub fn last_moment(&self) -> f64 {
         let contact = self.contact().map(|(tau, _)| tau);
         contact.or_else(|| self.trajectory().map(Trajectory::end)).unwrap_or(0.0)
     }
 
-    /// Time and displacement where the motion reaches the speed of its belt; `None` where it does not, or
-    /// there is none.
+    /// Time and displacement where the motion reaches the speed of the belt; `None` if it does not, or there is
+    /// no belt.
     pub fn contact(&self) -> Option<(f64, f64)> {
         self.contact_of(self.trajectory()?)
     }
 
-    /// The same of any motion on show.
+    /// The same for any motion on show.
     pub fn contact_of(&self, motion: &Trajectory) -> Option<(f64, f64)> {
         if self.course().is_some() {
             return None;
@@ -51,7 +51,7 @@ impl Session {
         FollowedOnBelt::of(motion, sticking).sticks
     }
 
-    /// Dimensionless time that passes in a second at a pace.
+    /// Dimensionless time per second at a pace.
     pub fn rate(&self, pace: Pace) -> f64 {
         match (pace, self.running()) {
             (Pace::Period(seconds), _) => TAU / seconds,

@@ -1,4 +1,4 @@
-//! What the plots show, and which of them are on show.
+//! The content of the plots, and which of them are on show.
 
 use crate::scene::{Layer, PlotSetup, View};
 use crate::session::state::history::ScreenSetup;
@@ -6,7 +6,7 @@ use crate::session::state::plot::{Framing, Pane, Plot};
 use crate::session::state::session::Session;
 
 impl Session {
-    /// Whether a plot shows a circle as a circle.
+    /// Whether a plot draws circles round.
     pub fn has_equal_units(&self, plot: usize) -> bool {
         self.plots[plot].view == View::Phase && !self.look.stretched
     }
@@ -16,7 +16,7 @@ impl Session {
         if self.enlarged { self.plot..self.plot + 1 } else { 0..self.plots.len() }
     }
 
-    /// The panes on show, in the order in which the focus visits them.
+    /// The panes on show, in the order in which they get the focus.
     pub fn panes(&self) -> Vec<Pane> {
         std::iter::once(Pane::Parameters).chain(self.on_show().map(Pane::Plot)).collect()
     }
@@ -28,7 +28,7 @@ impl Session {
         }
     }
 
-    /// The plot in focus, to be changed.
+    /// The plot in focus, mutable.
     pub fn focused_mut(&mut self) -> Option<&mut Plot> {
         match self.focus {
             Pane::Parameters => None,
@@ -47,7 +47,8 @@ impl Session {
         self.layers.contains(&layer) && self.plots.get(plot).is_some_and(|plot| plot.view == view)
     }
 
-    /// Why a layer that is on shows nothing, where that lies in the axes of every diagram on show.
+    /// Why a layer that is on draws nothing, if the reason lies in the axes of every diagram on show or in a
+    /// missing mark.
     pub fn not_drawn(&self, layer: Layer) -> Option<&'static str> {
         if layer == Layer::Ghost {
             return self.marks.left.is_none().then_some("not drawn: no mark has been visited yet");
@@ -66,15 +67,15 @@ impl Session {
             .then_some("not drawn: the harmonic answer has no multiplier")
     }
 
-    /// What the scene shows in a plot: what it has at that place, else what it shows of that view
-    /// anywhere.
+    /// The scene's setup of a plot with this view: the one at the same place, otherwise the first one with that
+    /// view.
     pub fn plot_of_scene(&self, plot: usize, view: View) -> Option<PlotSetup> {
         let plots = &self.scene.plots;
         let here = plots.get(plot).filter(|plot_setup| plot_setup.view == view);
         here.or(plots.iter().find(|plot_setup| plot_setup.view == view)).copied()
     }
 
-    /// What a plot shows, so that it can be set up again.
+    /// The present setup of a plot.
     pub fn plot_setup(&self, index: usize) -> Option<PlotSetup> {
         let plot = self.plots.get(index)?;
         let of_scene = self.plot_of_scene(index, plot.view);
@@ -86,7 +87,7 @@ impl Session {
         Some(PlotSetup { view: plot.view, axes: plot.axes, window, family: plot.family })
     }
 
-    /// What is on show now.
+    /// The present setup of all plots.
     pub(in crate::session) fn screen_setup(&self) -> ScreenSetup {
         let plot_setups = (0..self.plots.len()).filter_map(|index| self.plot_setup(index));
         ScreenSetup { plots: plot_setups.collect(), arrangement: self.arrangement }

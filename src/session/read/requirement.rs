@@ -1,4 +1,4 @@
-//! What a scene requires: which questions its layers ask, and which of them a step of a number asks again.
+//! The costs of a scene: the questions that its layers ask, and which of them must be asked again after a step.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::session::state::overlay::List;
 use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
 
-/// One question of what is on show, and the layers for which it is asked.
+/// A question and the layers for which it is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requirement {
     pub request: Request,
@@ -19,11 +19,11 @@ pub struct Requirement {
 /// A row of the list of costs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CostRow {
-    /// A question of what is on show.
+    /// A question that is asked at present.
     Asked(Requirement),
-    /// Layers that formulas draw.
+    /// Layers that are drawn by formulas.
     Formulas(Vec<Layer>),
-    /// A step of this row: what the questions are about that it leaves as they are, and asks again.
+    /// A step of this row: the topics of the questions that stay the same, and of those that are asked again.
     Step(Row, Vec<Topic>, Vec<Topic>),
 }
 
@@ -45,7 +45,7 @@ impl Session {
         rows.filter(|row| list.matches(&[name(row)])).collect()
     }
 
-    /// What is asked for what is on show, each question once, with the layers that need it.
+    /// The questions for what is on show, each once, with the layers that need it.
     pub fn requirements(&self) -> Vec<Requirement> {
         let mut found: Vec<Requirement> = Vec::new();
         for plot in self.on_show() {
@@ -66,18 +66,17 @@ impl Session {
         found
     }
 
-    /// The layers on show that need no answer: formulas draw them.
+    /// The layers on show that are drawn by formulas and need no answer.
     pub fn drawn_by_formulas(&self) -> Vec<Layer> {
         let shown = self.layers.iter().filter(|layer| self.shows(**layer));
         shown.filter(|layer| layer.spec().needs.is_none()).copied().collect()
     }
 
-    /// The present questions that a step of this row would leave as they are, and those that it would
-    /// ask again.
+    /// The questions after a step of this row: first those that are asked at present, too, then the new ones.
     pub fn after_a_step(&self, row: Row) -> (Vec<Request>, Vec<Request>) {
         let mut stepped = self.clone();
         stepped.selected = row;
-        // At the end of a range the step goes the other way.
+        // At the end of a range, steps in the other direction.
         for count in [1, -1] {
             if stepped.setup() == self.setup() {
                 parameters::step(&mut stepped, count);
@@ -93,7 +92,7 @@ impl Session {
     }
 }
 
-/// What questions are about, as text; how many, where there are several about one.
+/// The names of topics, with a count for those that occur several times.
 pub fn named(topics: &[Topic]) -> String {
     let mut counted: BTreeMap<Topic, usize> = BTreeMap::new();
     for topic in topics {

@@ -1,4 +1,4 @@
-//! The scan that a form or a line describes, and what a running one asks.
+//! The scan that a form or a line describes, and the request of a running one.
 
 use crate::scene::{Request, Span, View};
 use crate::session::state::plot::Pane;
@@ -8,7 +8,8 @@ use crate::study::basin;
 use crate::study::measure::Measure;
 use crate::study::scan::{Scan, Sweep};
 
-/// The scan that is typed, of the motion on show. Fails with one line that says what is wrong and what is allowed.
+/// The scan of the motion on show that the form describes. Fails with one line that says what is wrong and what
+/// is allowed.
 pub fn typed(form: &ScanForm, session: &Session) -> Result<Scan, String> {
     let texts = form.inputs.each_ref().map(|input| input.text().trim().replace('\u{2212}', "-"));
     let [name, from, to, count, second, from2, to2, count2, measures] = &texts;
@@ -27,8 +28,8 @@ pub fn typed(form: &ScanForm, session: &Session) -> Result<Scan, String> {
     scan_of(session, over, measures)
 }
 
-/// A scan of the motion on show; the window of `stability` is that of a phase plane on show. Fails with one line
-/// that says what is wrong and what is allowed.
+/// A scan of the motion on show; the window for `stability` is that of a phase plane on show. Fails with one
+/// line that says what is wrong and what is allowed.
 pub fn scan_of(session: &Session, over: Vec<Sweep>, measures: &str) -> Result<Scan, String> {
     let measures = measures.split(',').map(|name| Measure::named(name.trim()));
     let measures = measures.collect::<Result<Vec<_>, _>>()?;
@@ -40,12 +41,12 @@ pub fn scan_of(session: &Session, over: Vec<Sweep>, measures: &str) -> Result<Sc
 }
 
 impl Session {
-    /// What the scan asks for, while it runs.
+    /// The request of the scan while it is running.
     pub fn scan_request(&self) -> Option<Request> {
         self.scanned.as_ref()?.request()
     }
 
-    /// Whether the keys go to a scan.
+    /// Whether a plot with a scan has the focus.
     pub fn focuses_scan(&self) -> bool {
         match self.focus {
             Pane::Parameters => false,

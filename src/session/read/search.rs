@@ -1,6 +1,6 @@
-//! Which row of a list is meant by the words searched for: other words for the same, and the order of what is found.
+//! The search in lists: synonyms, and the order of the rows found.
 
-/// Other words for what has a name, by that name: a command, a line, a scene, a view or a layer.
+/// Synonyms for names of commands, lines, scenes, views and layers.
 pub(in crate::session) const ALIASES: &[(&str, &[&str])] = &[
     ("walk-to-next", &["fold", "special point", "limit point", "jump"]),
     ("walk", &["continuation", "follow"]),
@@ -63,14 +63,14 @@ pub(in crate::session) const ALIASES: &[(&str, &[&str])] = &[
     ("groan", &["brake", "squeal", "chatter"]),
 ];
 
-/// The other words for what has this name.
+/// The synonyms for this name.
 pub(in crate::session) fn aliases(name: &str) -> &'static [&'static str] {
     ALIASES.iter().find(|(known, _)| *known == name).map_or(&[], |(_, words)| words)
 }
 
-/// How far down a row stands among what is found, given what it is called and what it means: first those that are
-/// called what is searched for, then those with words that begin so, names before meanings. Where nothing
-/// is searched for, all stand where they did.
+/// The rank of a row in a search, by its names and its meaning; 0 is best. Rows whose name is the searched text
+/// come first, then those with words that begin with it, names before meanings. Without a search, all rows have
+/// the same rank.
 pub(in crate::session) fn rank(search: &str, names: &[&str], meaning: &str) -> usize {
     let search = Plain::new(search);
     let names: Vec<Plain> = names.iter().map(|name| Plain::new(name)).collect();
@@ -87,7 +87,7 @@ pub(in crate::session) fn rank(search: &str, names: &[&str], meaning: &str) -> u
     ranks.iter().position(|holds| *holds).unwrap_or(ranks.len())
 }
 
-/// A text in small letters, each word of letters and digits after a blank.
+/// A text in lower case, with a blank before each word of letters and digits.
 struct Plain(String);
 
 impl Plain {
@@ -97,7 +97,7 @@ impl Plain {
         Plain(words.flat_map(|word| [" ".to_owned(), word.to_lowercase()]).collect())
     }
 
-    /// Without the blanks: `fig 16` is `fig16`.
+    /// The text without blanks: `fig 16` becomes `fig16`.
     fn joined(&self) -> String {
         self.0.replace(' ', "")
     }

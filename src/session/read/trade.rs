@@ -1,4 +1,4 @@
-//! The view of what accuracy costs: the row that the cursor is nearest to, and taking its method.
+//! The view of accuracy against cost: the row nearest to the cursor.
 
 use crate::numerics::elementary::hypot;
 use crate::scene::{Point, View, Window};
@@ -6,7 +6,7 @@ use crate::session::state::session::Session;
 use crate::study::trade::Tried;
 
 impl Session {
-    /// The row that is nearest to the cursor of a plot, as the eye sees it.
+    /// The row that is nearest to the cursor of a plot on the screen.
     pub fn row_under_cursor(&self, plot: usize) -> Option<&Tried> {
         let plot = self.plots.get(plot).filter(|plot| plot.view == View::Trade)?;
         let Point { x, y } = plot.cursor?;

@@ -1,6 +1,6 @@
-//! Plots that show several variants of the present problem, one picture over another.
+//! Plots that show several variants of the present problem, drawn over each other.
 //!
-//! A variant holds some values, the others follow the keys.
+//! A variant holds some values; the others follow the keys.
 
 use std::collections::BTreeMap;
 
@@ -12,24 +12,24 @@ use crate::session::state::answers::Standing;
 use crate::session::state::session::Session;
 use crate::study::Branch;
 
-/// A motion that a plot shows, and what tells it from the others there.
+/// A motion that a plot shows, and what distinguishes it from the others there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shown {
-    /// The values that are held; empty where the plot shows the present motion alone.
+    /// The held values that distinguish it; empty if the plot shows only the present motion.
     pub label: String,
     pub problem: Problem,
-    /// Whether nothing is held: it is the present motion.
+    /// Whether nothing is held, so that it is the present motion.
     pub present: bool,
 }
 
 impl Session {
-    /// The variants that a plot shows in place of the present problem.
+    /// The variants that a plot shows in place of the present problem, if any.
     pub fn variants(&self, plot: usize) -> Option<&[Variant]> {
         let family = self.plots.get(plot)?.family?;
         self.scene.families.get(family).map(Vec::as_slice)
     }
 
-    /// What a plot shows: the present problem, or its variants.
+    /// The problems that a plot shows: the present one, or its variants.
     pub fn shown(&self, plot: usize) -> Vec<Shown> {
         let present = || vec![Shown { label: String::new(), problem: self.problem, present: true }];
         let variant = |(variant, label): (&Variant, String)| Shown {
@@ -43,15 +43,16 @@ impl Session {
         self.variants(plot).map_or_else(present, labelled)
     }
 
-    /// The parameters that all variants of a plot hold alike, as text: what can be said of it once.
+    /// The parameters that all variants of a plot hold at the same values, as text that needs to be given only
+    /// once.
     pub fn held_alike(&self, plot: usize) -> String {
         let Some(all) = self.variants(plot) else { return String::new() };
         let held = all.iter().take(1).flat_map(|variant| &variant.held);
         text(held.filter(|(symbol, value)| is_parameter(**symbol) && alike(all, **symbol, **value)))
     }
 
-    /// The answers about this topic for what a plot shows, stale or not; each with its place among that, and
-    /// the values that are held.
+    /// The answers on this topic for the problems that a plot shows, stale or not, each with its index among
+    /// these and its held values.
     pub fn found(&self, topic: Topic, plot: usize) -> Vec<(usize, String, &Answer)> {
         let starts = topic == Topic::Trajectory;
         let labels = self.variants(plot).map(|all| labels(all, &self.problem, starts));
@@ -60,7 +61,7 @@ impl Session {
         found.map(|(index, answer)| (index, label(index).unwrap_or_default(), answer)).collect()
     }
 
-    /// The same without the values.
+    /// The answers without the held values.
     fn answers_for_each(
         &self,
         topic: Topic,
@@ -71,8 +72,8 @@ impl Session {
             .filter_map(|(index, request)| Some((index, self.answers.standing(&request).answer()?)))
     }
 
-    /// The last branches computed over the parameter of a diagram, stale or not; each with its place
-    /// among what the plot shows.
+    /// The branches computed last over the parameter of a diagram, stale or not, each with its index among the
+    /// problems that the plot shows.
     pub fn branches(&self, plot: usize) -> Vec<(usize, &Branch)> {
         let over = self.plots.get(plot).map(|plot| plot.axes.abscissa);
         self.answers_for_each(Topic::Branch, plot)
@@ -83,8 +84,8 @@ impl Session {
             .collect()
     }
 
-    /// How high the cycles of a variant stand in a diagram, at the friction of the branch on show, stale or
-    /// not.
+    /// The measure of heights for the cycles of a variant in a diagram, at the friction of the branch on show,
+    /// stale or not.
     pub fn height(&self, plot: usize, variant: usize) -> Height {
         let asked = self.requests(Topic::Branch, plot).into_iter();
         let asked = asked.into_iter().find(|(index, _)| *index == variant);
@@ -98,8 +99,8 @@ impl Session {
     }
 }
 
-/// What tells each of some variants from the others: the parameters that they do not hold alike, and
-/// where motions are meant, from where they start. One that holds nothing has the present values.
+/// Labels that distinguish variants: the parameters that they do not all hold at the same values and, if
+/// `starts`, also the starts of the motions. A variant that holds nothing has the present values.
 fn labels(all: &[Variant], present: &Problem, starts: bool) -> Vec<String> {
     let tells =
         |symbol: Symbol, value: f64| (starts || is_parameter(symbol)) && !alike(all, symbol, value);
@@ -113,7 +114,7 @@ fn labels(all: &[Variant], present: &Problem, starts: bool) -> Vec<String> {
     all.iter().map(label).collect()
 }
 
-/// Whether all of some variants hold this value.
+/// Whether all of these variants hold this value.
 fn alike(all: &[Variant], symbol: Symbol, value: f64) -> bool {
     all.iter().all(|variant| variant.held.get(&symbol) == Some(&value))
 }

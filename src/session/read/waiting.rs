@@ -1,9 +1,9 @@
-//! Commands that need an answer which is still being computed: they wait for it.
+//! Commands that must wait for an answer that is still being computed.
 //!
-//! A press that waits has not been taken in: nothing of it has happened, and nothing else does until it
-//! can, so that the same keys lead to the same end however fast they are typed. The caller that gives messages to
-//! a session holds back what the user does meanwhile ([`Session::is_waiting`]). Where the computation gives
-//! up, the command is run all the same and says so.
+//! A press that waits has not been taken in: it has no effect yet, and nor has anything after it. So the same
+//! keys lead to the same result, however fast they are typed. Whoever gives messages to a session holds back
+//! further input meanwhile ([`Session::is_waiting`]). If the computation gives up, the command is run all the
+//! same and reports that.
 
 use crate::scene::{Request, Topic, View};
 use crate::session::message::Msg;
@@ -19,24 +19,24 @@ use crate::session::state::pending::{Letter, Pending};
 use crate::session::state::plot::Pane;
 use crate::session::state::session::Session;
 
-/// What a command needs.
+/// The need of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
-    /// The answer of a kind for the plot in which it runs, with its variants.
+    /// The answers on a topic for the plot in which the command runs, with its variants.
     Answer(Topic),
-    /// The answer of a kind at the present numbers, whatever the plot varies.
+    /// The answer on a topic at the present numbers, whichever variants the plot shows.
     Present(Topic),
-    /// The motion, where it runs in a plot over time.
+    /// The motion, if the command runs in a plot over time.
     MotionOverTime,
-    /// The window of the plot in which it runs, where that is being fitted.
+    /// The window of the plot in which the command runs, if that is being fitted.
     Window,
-    /// What is kept of the point that is left, to be compared with.
+    /// The answers at the present point that are to be drawn for comparison once it is left.
     Comparison,
-    /// To know what has failed.
+    /// The answers to all questions: only then is it known what has failed.
     Everything,
 }
 
-/// The commands that need something; all others mean the same at any time.
+/// The commands that need something; all others have the same effect at any time.
 #[rustfmt::skip]
 pub const NEEDS: [(Need, &[&str]); 9] = [
     (Need::Present(Topic::Cycles), &["start-inside", "start-outside"]),
@@ -59,12 +59,12 @@ pub const NEEDS: [(Need, &[&str]); 9] = [
 ];
 
 impl Session {
-    /// Whether a press waits for an answer: then what the user does has to wait as well.
+    /// Whether a press waits for an answer; further input of the user must then wait, too.
     pub fn is_waiting(&self) -> bool {
         self.waiting.is_some()
     }
 
-    /// The question that must be answered before this can be taken in.
+    /// The question that must be answered before this message can be taken in.
     pub(in crate::session) fn awaited(&self, message: &Msg) -> Option<Request> {
         match message {
             Msg::Key(key) => self.awaited_by_key(*key),
@@ -117,7 +117,7 @@ impl Session {
         }
     }
 
-    /// What a command needs that is run by its name, in the pane where it belongs.
+    /// The question that must be answered before a command that is run by name, in the pane where it applies.
     fn awaited_by_command(&self, command: &Command) -> Option<Request> {
         let pane = place(self, command).ok()?.unwrap_or(self.focus);
         self.awaited_by(command.name, Some(pane))
@@ -128,7 +128,8 @@ impl Session {
             Some(Pane::Plot(index)) => index,
             Some(Pane::Parameters) | None => self.plot,
         };
-        // Whether a layer asks for the answer must not matter: it may have been computed before that was switched off.
+        // It must not matter whether a layer asks: the answer may have been computed before the layer was
+        // switched off.
         let open = |topic| {
             let mut requests = self.requests(topic, plot).into_iter().map(|(_, request)| request);
             requests.find(|request| self.is_open(request))
@@ -144,7 +145,7 @@ impl Session {
                 over_time.then(|| open(Topic::Trajectory)).flatten()
             }
             Need::Window => fit::awaited(self, plot),
-            // Only what a layer asks is drawn of the point that is left.
+            // Of the point that is left, only answers that layers ask for are drawn.
             Need::Comparison => {
                 let asks = self.asks();
                 let asked = |request: &Request| asks.contains(request);
@@ -158,7 +159,7 @@ impl Session {
     }
 }
 
-/// Whether a key forgets the press that waits.
+/// Whether a message cancels the press that waits.
 pub fn forgets(message: &Msg) -> bool {
     matches!(message, Msg::Key(key) if *key == Key::plain(Code::Esc))
 }

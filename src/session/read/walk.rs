@@ -1,26 +1,26 @@
-//! Computed branches as a way to walk: their points and special points in the order along the curves.
+//! Computed branches as a path to walk along: their points and special points, in order along the curves.
 //!
-//! Everything here is a function of the branches, of which a diagram with variants has several. What is held is the
-//! point itself and not its place in the list, so that it stays the same point when the branch is computed again.
+//! Everything here is a function of the branches; a diagram with variants has several. A walk holds the point
+//! itself and not its index, so that it stays at the same point when the branch is computed again.
 
 use crate::numerics::elementary::{hypot, ln};
 use crate::session::state::stop::BranchStop;
 use crate::study::{Branch, SpecialKind};
 
-/// The connected pieces of branches, each as the stops along it.
+/// The connected pieces of branches, each a list of stops.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Way {
     pieces: Vec<Vec<BranchStop>>,
-    /// Width of all values, to measure distances by.
+    /// Width of the range of all values, the unit of distances.
     extent: f64,
 }
 
-/// Where a stop stands: piece, and place in it.
+/// The position of a stop: index of its piece, and its index in the piece.
 type Position = (usize, usize);
 
 impl Way {
-    /// The way along branches, each that of a variant; right is onward, from the end with the smaller
-    /// value.
+    /// The way along branches, each of a variant. Walking onward leads from the end with the smaller value to
+    /// the other end.
     pub fn along(branches: &[(usize, &Branch)]) -> Self {
         let all = || branches.iter().flat_map(|(_, branch)| &branch.pieces).flatten();
         let values = || all().map(|point| point.value);
@@ -43,7 +43,7 @@ impl Way {
         way
     }
 
-    /// Puts a special point where the detour over it is shortest.
+    /// Inserts a special point where the detour over it is shortest.
     fn insert(&mut self, special: BranchStop) {
         let mut best: Option<(f64, Position)> = None;
         let numbered = self.pieces.iter().enumerate();
@@ -73,8 +73,9 @@ impl Way {
         }
     }
 
-    /// How far apart two points are: in parts of all values, and in the logarithm of the size. A cycle
-    /// at infinity is as far as its value is. From one branch to another no way leads.
+    /// The distance of two points: by their values in units of the whole range, and by the logarithm of their
+    /// sizes. For a cycle at infinity only the value counts. Points of different branches are infinitely far
+    /// apart.
     fn apart(&self, one: &BranchStop, other: &BranchStop) -> f64 {
         if one.variant != other.variant {
             return f64::INFINITY;
@@ -88,7 +89,7 @@ impl Way {
         }
     }
 
-    /// Every stop with its place.
+    /// All stops with their positions.
     fn stops(&self) -> impl Iterator<Item = (Position, &BranchStop)> {
         let numbered = |(index, piece): (usize, &'_ Vec<BranchStop>)| {
             (0..piece.len()).map(move |place| (index, place)).collect::<Vec<_>>()
@@ -103,8 +104,8 @@ impl Way {
         rated.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, stop)| stop)
     }
 
-    /// Where a walk begins at a value of the parameter: beside it on the innermost cycle there, which
-    /// borders the basin; else on the nearest value.
+    /// The start of a walk at a value of the parameter: the stop beside it on the innermost cycle there, which
+    /// borders the basin; if there is no cycle, the stop with the nearest value.
     pub fn start(&self, value: f64) -> Option<BranchStop> {
         let distance = |stop: &BranchStop| (stop.value - value).abs();
         let beside = self.pieces.iter().flat_map(|piece| piece.windows(2)).filter_map(|pair| {
@@ -117,7 +118,7 @@ impl Way {
         innermost.or_else(|| self.nearest(distance))
     }
 
-    /// The same stop on this way, or the one next to it.
+    /// The same stop on this way, or the nearest one.
     pub fn again(&self, held: &BranchStop) -> Option<BranchStop> {
         self.place(held).map(|(piece, place)| self.pieces[piece][place])
     }
@@ -129,14 +130,14 @@ impl Way {
             .or_else(|| rated().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, place)| place))
     }
 
-    /// The stop `count` stops further on the same piece, or its end.
+    /// The stop `count` stops further along the same piece, or the end of the piece.
     pub fn further(&self, held: &BranchStop, count: isize) -> Option<BranchStop> {
         let (piece, place) = self.place(held)?;
         let stops = &self.pieces[piece];
         Some(stops[place.saturating_add_signed(count).min(stops.len() - 1)])
     }
 
-    /// The next special point or end of a piece, on to other pieces and around the last one.
+    /// The next special point or end of a piece; continues on other pieces, and around after the last one.
     pub fn landmark(&self, held: &BranchStop, onward: bool) -> Option<BranchStop> {
         let here = self.place(held)?;
         let marked = |(piece, place): Position, stop: &BranchStop| {
@@ -156,8 +157,8 @@ impl Way {
     }
 }
 
-/// Whether a special point can lie between two stops, of which one is missing at the end of a piece: a
-/// fold where stability changes, a crossing between the signs, and ends at ends.
+/// Whether a special point can lie between two stops, one of which is missing at the end of a piece: a fold
+/// where stability changes, a crossing between values of different signs, and an end at an end.
 fn admits(kind: Option<SpecialKind>, around: (Option<&BranchStop>, Option<&BranchStop>)) -> bool {
     let stable = |stop: &BranchStop| stop.cycle.is_some_and(|cycle| cycle.stable);
     match (kind, around) {
@@ -185,7 +186,7 @@ mod tests {
         Way::along(&[(0, &found)])
     }
 
-    /// Walks over all landmarks, from the first stop of the first piece back to it.
+    /// The landmarks from the first stop of the first piece until it is reached again.
     fn landmarks(way: &Way) -> Vec<BranchStop> {
         let first = way.pieces[0][0];
         let mut found = vec![first];
@@ -244,7 +245,7 @@ mod tests {
         let way = over(&FOLDED, Symbol::D, (-0.9, 0.1));
         let start = way.start(-0.4).unwrap();
         assert!(!start.cycle.unwrap().stable && (start.value + 0.4).abs() < 0.05);
-        // Beyond the fold there is no cycle: the nearest value is the fold's.
+        // Beyond the fold there is no cycle: the nearest value is that of the fold.
         assert_eq!(way.start(0.0).unwrap().special, Some(SpecialKind::Fold));
     }
 

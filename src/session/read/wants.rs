@@ -1,8 +1,8 @@
-//! What a session asks, and what it has been answered.
+//! The questions of a session, and the state of their answers.
 //!
-//! A plot shows a list of problems, mostly the present one alone. What its layers need of each is a
-//! question of its own, and a pure function of the state. Answers are kept by their questions
-//! ([`crate::session::state::answers`]): equal questions are one, whoever asks them.
+//! A plot shows a list of problems, usually only the present one. Each layer asks a separate question about
+//! each problem, which is a pure function of the state. Answers are stored by their questions
+//! ([`crate::session::state::answers`]): equal questions are one question, whoever asks.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -24,34 +24,32 @@ use crate::study::accuracy::{Deviation, NoComparison, Reference};
 use crate::study::chart::{Chart, Plane};
 use crate::study::claims::Examined;
 
-/// Evaluations beyond which the answers about a topic may take longer than a quarter of a frame: the next
-/// questions about it are answered by drafts first.
+/// Number of evaluations above which answers on a topic may take longer than a quarter of a frame: further
+/// questions on it are first answered by drafts.
 const LONG: u64 = 100_000;
 
-/// What is drawn of the point left for a mark.
+/// The topics that are drawn of the point that was left for a mark.
 pub(in crate::session) const COMPARED: [Topic; 2] = [Topic::Trajectory, Topic::Cycles];
 
-/// Bands of capture that are drawn at most: more would fill the plane.
+/// Maximum number of bands of capture that are drawn: more would fill the plane.
 const MOST_BANDS: usize = 24;
 
 /// Why a motion has no measured error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unmeasured {
-    /// The motion that it is measured against takes too long.
+    /// Its reference takes too long.
     TighterGaveUp,
     /// The motion itself was not computed to its end.
     GaveUp,
-    /// One of the two escapes, and the other does not.
+    /// Only one of the motion and its reference escapes.
     OtherFate,
 }
 
 impl Session {
-    /// The questions that what is on show needs answered, the most urgent first; nothing for a layer
-    /// that is off, nothing twice.
+    /// The questions for what is on show, the most urgent first; none for a layer that is off, and none twice.
     ///
-    /// Questions that took long last time are preceded by their drafts until these are answered: the
-    /// picture follows the keys first and refines then. What the error of the motion is measured against
-    /// comes last of all.
+    /// Questions that took long last time are preceded by their drafts until these are answered: the picture
+    /// follows the keys first and is refined then. The reference for the error of the motion comes last.
     pub fn wants(&self) -> Vec<Request> {
         let asked = self.asks();
         let cost = |topic: Topic| -> u64 {
@@ -67,7 +65,8 @@ impl Session {
         wanted
     }
 
-    /// The same without drafts. What a press waits for comes first, whether a layer asks it or not.
+    /// The questions without drafts. The one that a press waits for comes first, whether a layer asks it or
+    /// not.
     pub fn asks(&self) -> Vec<Request> {
         let needed: BTreeSet<(Topic, usize)> = self
             .on_show()
@@ -100,13 +99,13 @@ impl Session {
         needed.flat_map(|topic| self.requests(topic, plot)).map(|(_, request)| request).collect()
     }
 
-    /// The questions whose answers are drawn of the point left for a mark.
+    /// The questions whose answers are drawn for the point that was left.
     pub(in crate::session) fn compared(&self) -> impl Iterator<Item = &Request> {
         let left = self.marks.left.iter().filter(|_| self.shows(Layer::Ghost));
         left.flat_map(|left| &left.asked)
     }
 
-    /// What is known of the point left for a mark.
+    /// The answers for the point that was left.
     pub fn answers_left(&self) -> impl Iterator<Item = &Answer> {
         self.compared().filter_map(|request| match self.answers.standing(request) {
             Standing::Fresh(found) => found.result.as_ref().ok(),
@@ -114,8 +113,8 @@ impl Session {
         })
     }
 
-    /// Whether the error of the motion on show is to be measured: while the user rests on the dial or the
-    /// method, or has just turned them.
+    /// Whether to measure the error of the motion on show: the row of the accuracy or of the method is
+    /// selected, or the last key changed one of them.
     pub fn measures(&self) -> bool {
         let rests = self.focus == Pane::Parameters
             && self.overlay.is_none()
@@ -123,14 +122,14 @@ impl Session {
         (rests || self.measuring) && self.shows(Layer::Trajectory) && !self.draws_whole()
     }
 
-    /// What the layers of a plot draw answers about.
+    /// The topics whose answers the layers of a plot draw.
     pub fn needs(&self, plot: usize) -> BTreeSet<Topic> {
         let shown = |layer: &&Layer| self.shows_in(**layer, plot);
         let needed = self.layers.iter().filter(shown).filter_map(|layer| layer.spec().needs);
         needed.chain(self.tells_certain(plot).then_some(Topic::Zones)).collect()
     }
 
-    /// The question about this topic for each problem that a plot shows, with its place among these.
+    /// The questions on this topic for each problem that a plot shows, with its index among these.
     pub fn requests(&self, topic: Topic, plot: usize) -> Vec<(usize, Request)> {
         let problems = match self.variants(plot).filter(|_| topic.is_of_variants()) {
             Some(variants) => variants.iter().map(|variant| variant.of(self.problem)).collect(),
@@ -142,16 +141,16 @@ impl Session {
         each.filter_map(|(index, request)| Some((index, request?))).collect()
     }
 
-    /// The question about this topic for the present problem, with exactly the inputs that its answer
-    /// depends on. The plot matters where it does to the answer.
+    /// The question on this topic for the present problem, with exactly the inputs on which its answer depends.
+    /// The plot is one of them if the answer depends on its window or axes.
     ///
-    /// `None` where there is nothing to ask: no bands without friction, no branch where the window of the
-    /// diagram lies outside the range of its parameter, nothing that only another view asks.
+    /// `None` if there is nothing to ask: no bands without friction, no branch if the window of the diagram
+    /// lies outside the range of its parameter, and nothing that only another view asks.
     pub fn request(&self, topic: Topic, plot: usize) -> Option<Request> {
         self.request_for(topic, plot, self.problem)
     }
 
-    /// The same for another motion than the present one.
+    /// The question for another motion than the present one.
     pub(in crate::session) fn request_for(
         &self,
         topic: Topic,
@@ -178,7 +177,7 @@ impl Session {
             },
             Topic::Scan => return self.scan_request(),
             Topic::Cycles => match self.machine() {
-                // The error of the expansion is told beside it.
+                // The error of the expansion is stated beside it.
                 Some(belt) => {
                     let cubic = !self.draws_whole();
                     Request::Portrait(question::portrait::Asked {
@@ -194,7 +193,8 @@ impl Session {
             }
             Topic::Trade => Request::Trade(question::trade::Asked(motion())),
             Topic::Reference => Request::Reference(question::reference::Asked(motion())),
-            // Of the whole model of a machine nothing is proved, and its basin is not a graph to integrate over.
+            // The whole model of a machine has no proof, and its basin is no graph over which kicks could be
+            // integrated.
             Topic::Proof | Topic::Kicks if self.draws_whole() => return None,
             Topic::Proof => Request::Proof(question::proof::Asked { parameters }),
             Topic::Zones => self.zones_request(&parameters)?,
@@ -232,7 +232,7 @@ impl Session {
                 })
             }
             Topic::ReturnMap => {
-                // As long as the window is not known there is nothing to ask.
+                // Until the window is known, there is nothing to ask.
                 let plot = own(View::ReturnMap)?;
                 let range = (plot.framing != Framing::Fitting).then_some(plot.window.x)?;
                 Request::ReturnMap(question::return_map::Asked {
@@ -264,34 +264,34 @@ impl Session {
         Some(Request::Regimes(question::regimes::Asked { parameters: others, plane, rough: false }))
     }
 
-    /// How far the answer about this topic is for the present problem, as a plot asks it.
+    /// The state of the answer on this topic for the present problem, as a plot asks it.
     pub fn standing(&self, topic: Topic, plot: usize) -> Standing<'_> {
         let request = self.request(topic, plot);
         request.map_or(Standing::None, |request| self.answers.standing(&request))
     }
 
-    /// The answer about this topic for the present problem, as a plot asks it; stale or not.
+    /// The answer on this topic for the present problem, as a plot asks it, stale or not.
     pub fn answer(&self, topic: Topic, plot: usize) -> Option<&Answer> {
         self.standing(topic, plot).answer()
     }
 
-    /// Whether the answer about this topic is missing for the present problem.
+    /// Whether the answer on this topic is missing for the present problem.
     pub fn is_stale(&self, topic: Topic, plot: usize) -> bool {
         !self.standing(topic, plot).is_fresh()
     }
 
-    /// Whether the answer about this topic is there for every problem that a plot shows.
+    /// Whether there are answers on this topic for all problems that a plot shows.
     pub fn is_fresh(&self, topic: Topic, plot: usize) -> bool {
         let mut asked = self.requests(topic, plot).into_iter();
         asked.all(|(_, request)| self.answers.standing(&request).is_fresh())
     }
 
-    /// Whether there is a draft of the answer to this to show meanwhile.
+    /// Whether the answer to the draft of this question is there to be shown meanwhile.
     pub fn is_refinement(&self, request: &Request) -> bool {
         matches!(self.answers.standing(request), Standing::Draft(_))
     }
 
-    /// Whether a question has neither an answer nor a reason for having none.
+    /// Whether a question has neither an answer nor a failure.
     pub fn is_open(&self, request: &Request) -> bool {
         if request.topic() == Topic::Scan {
             return self.scan_request().as_ref() == Some(request);
@@ -299,29 +299,29 @@ impl Session {
         self.answers.is_open(request)
     }
 
-    /// Whether something on show is still to be computed.
+    /// Whether something on show has yet to be computed.
     pub fn is_busy(&self) -> bool {
         self.wants().iter().any(|request| self.is_open(request))
     }
 
-    /// Why there is no answer about this topic for the present problem.
+    /// Why there is no answer on this topic for the present problem.
     pub fn failure(&self, topic: Topic, plot: usize) -> Option<&Failure> {
         self.answers.failure(&self.request(topic, plot)?)
     }
 
-    /// The error of the motion on show, and what it was measured against, where both are known.
+    /// The error of the motion on show, and its reference.
     ///
-    /// `None` until both are computed, and where there is no error: [`Session::unmeasured`] says why.
+    /// `None` until both are computed, and if there is no error: [`Session::unmeasured`] then says why.
     pub fn measured(&self) -> Option<(Deviation, &Reference)> {
         self.comparison()?.ok()
     }
 
-    /// Why the motion on show has no measured error; `None` as long as it may have one.
+    /// Why the motion on show has no measured error; `None` while it may still get one.
     pub fn unmeasured(&self) -> Option<Unmeasured> {
         self.comparison()?.err()
     }
 
-    /// The motion on show against its reference; `None` until both are computed.
+    /// The comparison of the motion on show with its reference; `None` until both are computed.
     fn comparison(&self) -> Option<Result<(Deviation, &Reference), Unmeasured>> {
         let stale = |topic| self.is_stale(topic, self.plot);
         if !self.measures() || stale(Topic::Reference) {
@@ -339,13 +339,13 @@ impl Session {
         })
     }
 
-    /// What is proved about the cycles at the present parameters; `None` until it is.
+    /// The proof about the cycles at the present parameters; `None` until it is there.
     pub fn proof(&self) -> Option<&Proof> {
         let Answer::Proof(found) = self.answer(Topic::Proof, self.plot)? else { return None };
         Some(found).filter(|_| !self.is_stale(Topic::Proof, self.plot))
     }
 
-    /// The claims of the paper, examined; none until they are.
+    /// The examined claims of the paper; empty until they are there.
     pub fn examined(&self) -> &[Examined] {
         match self.answer(Topic::Claims, self.plot) {
             Some(Answer::Claims(examined)) => examined,
@@ -353,7 +353,7 @@ impl Session {
         }
     }
 
-    /// The last chart computed over the two parameters of a plot, stale or not.
+    /// The chart computed last over the two parameters of a plot, stale or not.
     pub fn chart(&self, plot: usize) -> Option<&Chart> {
         let Axes { abscissa, against, .. } = self.plots.get(plot)?.axes;
         let Answer::Regimes(found) = self.answer(Topic::Regimes, plot)? else { return None };
@@ -361,8 +361,8 @@ impl Session {
     }
 }
 
-/// How far out bands of capture can be seen, rounded up to a power of two: small changes of the window
-/// ask nothing new.
+/// The distance up to which bands of capture are visible, rounded up to a power of two, so that small changes
+/// of the window ask no new question.
 fn reach(Window { x, y }: Window) -> f64 {
     let farthest = |span: Span| span.from().abs().max(span.to().abs());
     exp2(log2(hypot(farthest(x), farthest(y))).ceil())

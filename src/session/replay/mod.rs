@@ -1,8 +1,8 @@
 //! Keystroke files: a session as text that people can read, write and play.
 //!
-//! `parse` reads a whole file before anything runs. A `Player` says what to do next, whether the
-//! keys go to a session without a terminal or into the running explorer. A [`Recorder`] writes the
-//! file of a live session. The notation of keys is that of [`super::message::key`].
+//! `parse` reads a whole file before anything runs. A `Player` decides on the next action, whether the keys go
+//! to a session without a terminal or into the running explorer. A [`Recorder`] writes the file of a live
+//! session. The notation of keys is that of [`super::message::key`].
 
 mod mouse;
 pub mod parse;

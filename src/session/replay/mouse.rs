@@ -1,11 +1,11 @@
-//! The mouse in keystroke files: where it was on the plots, not on the screen, so that a file does the
-//! same at every size.
+//! The mouse in keystroke files: positions refer to the plots, not to the screen, so that a file has the same
+//! effect at every size.
 
 use crate::scene::Point;
 use crate::session::message::pointer::{Gesture, Pointed, PointerTarget};
 use crate::session::replay::script::Instruction;
 
-/// How the instruction is written.
+/// The instruction as it is written in a file.
 pub(super) fn text(Pointed { gesture, place }: &Pointed) -> String {
     let gesture = match gesture {
         Gesture::Click => "click",
@@ -20,7 +20,7 @@ pub(super) fn text(Pointed { gesture, place }: &Pointed) -> String {
     }
 }
 
-/// Reads what follows the gesture.
+/// Reads the text after the gesture.
 pub(super) fn read(gesture: Gesture, rest: &str) -> Result<Instruction, String> {
     let words: Vec<&str> = rest.split_whitespace().collect();
     let finite = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());

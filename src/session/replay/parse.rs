@@ -9,7 +9,7 @@ use crate::session::message::key::{Code, Key};
 use crate::session::message::pointer::Gesture;
 use crate::session::replay::script::{Instruction, LONGEST, Located, Script};
 
-/// Text that is not a keystroke file.
+/// Why a text is not a keystroke file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BadScript {
     /// Line, from 1.
@@ -34,14 +34,14 @@ pub(super) const MOST: u32 = 100_000;
 /// Largest width and height that a file may ask for.
 const LARGEST: u16 = 1000;
 
-/// Characters that are written with a backslash in quoted text, and the letter behind it.
+/// Characters that are escaped by a backslash in quoted text, and the letters after it.
 pub(super) const ESCAPES: [(char, char); 5] =
     [('"', '"'), ('\\', '\\'), ('\n', 'n'), ('\r', 'r'), ('\t', 't')];
 
-/// How the rest of a directive becomes a step, or why it does not.
+/// Reads the rest of a directive as a step, or says why it cannot.
 type Reading = fn(&str) -> Result<Instruction, String>;
 
-/// What stands between angle brackets and is not a key: its first word, and how the rest is read.
+/// Directives in angle brackets, as opposed to keys: the first word, and how the rest is read.
 const DIRECTIVES: [(&str, Reading); 14] = [
     ("wait", |rest| alone(rest, "wait", Instruction::Wait)),
     ("async", |rest| alone(rest, "async", Instruction::Async)),
@@ -59,7 +59,7 @@ const DIRECTIVES: [(&str, Reading); 14] = [
     ("farther", |rest| mouse::read(Gesture::Farther, rest)),
 ];
 
-/// Reads a whole keystroke file. Fails with [`BadScript`] with the place of the first mistake.
+/// Reads a whole keystroke file. Fails with [`BadScript`], which has the place of the first mistake.
 pub fn parse(text: &str) -> Result<Script, BadScript> {
     let mut steps = Vec::new();
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
@@ -84,14 +84,14 @@ pub fn parse(text: &str) -> Result<Script, BadScript> {
     Ok(Script { steps })
 }
 
-/// Bytes up to and including the `>` that ends a name; those in quotes do not.
+/// Length in bytes up to and including the `>` that ends a name; a `>` in quotes does not count.
 fn length_of_name(text: &str) -> usize {
     let (mut in_quotes, mut escaped) = (false, false);
     for (at, char) in text.char_indices().skip(1) {
         match char {
             _ if escaped => escaped = false,
             '\\' if in_quotes => escaped = true,
-            // A quote opens text only behind the word that takes one; `<">` is a key.
+            // A quote begins a text only after the word that takes one; `<">` is a key.
             '"' if in_quotes || text[..at].ends_with(' ') => in_quotes = !in_quotes,
             '>' if !in_quotes => return at + 1,
             _ => {}
@@ -115,7 +115,7 @@ fn step(token: &str) -> Result<Instruction, String> {
     }
 }
 
-/// Seconds that pass, up to an hour.
+/// Seconds that pass: at most an hour.
 fn elapse(text: &str) -> Result<Instruction, String> {
     let seconds = text.parse().ok().filter(|seconds| (0.0..=LONGEST).contains(seconds));
     seconds
@@ -123,7 +123,7 @@ fn elapse(text: &str) -> Result<Instruction, String> {
         .ok_or_else(|| format!("elapse takes seconds, 0 .. {LONGEST}, such as <elapse 0.25>"))
 }
 
-/// A key, perhaps with a count: `right`, `right*5`, `*`, `**5`.
+/// A key with an optional count: `right`, `right*5`, `*`, `**5`.
 fn keys(name: &str) -> Result<Instruction, String> {
     let counted = name.rsplit_once('*').filter(|(key, count)| {
         !key.is_empty() && !count.is_empty() && count.bytes().all(|byte| byte.is_ascii_digit())
@@ -141,7 +141,7 @@ fn keys(name: &str) -> Result<Instruction, String> {
     }
 }
 
-/// A suggestion, where a misspelt directive is more likely than a misspelt key.
+/// A suggestion if a misspelt directive is more likely than a misspelt key.
 fn nearest_directive(name: &str) -> Option<String> {
     let word = name.split(' ').next().unwrap_or(name);
     let (likeness, directive) = DIRECTIVES
@@ -187,7 +187,7 @@ fn start(rest: &str) -> Result<Instruction, String> {
     rest.split_whitespace().map(symbol).collect::<Result<_, _>>().map(Instruction::Start)
 }
 
-/// A name and a text, each in quotes.
+/// A name and a text, both in quotes.
 fn file(rest: &str) -> Result<Instruction, String> {
     let refused = || "<file> needs a name and a text, as in <file \"a.toml\" \"..\">".to_owned();
     let (name, rest) = leading(rest, "file").map_err(|_| refused())?;
@@ -199,7 +199,7 @@ fn file(rest: &str) -> Result<Instruction, String> {
     }
 }
 
-/// Text in quotes that is not empty, and nothing else.
+/// A text in quotes that is not empty, with nothing after it.
 fn text(rest: &str, word: &str) -> Result<String, String> {
     match leading(rest, word)? {
         (text, "") if !text.is_empty() => Ok(text),
@@ -211,7 +211,7 @@ fn wants_text(word: &str) -> String {
     format!("<{word}> needs text in quotes, as in <{word} \"captured\">")
 }
 
-/// The text in quotes at the beginning, with the escapes of [`ESCAPES`], and what follows it.
+/// The text in quotes at the beginning, with the escapes of [`ESCAPES`] resolved, and the rest.
 fn leading<'a>(rest: &'a str, word: &str) -> Result<(String, &'a str), String> {
     let refused = || wants_text(word);
     let mut chars = rest.strip_prefix('"').ok_or_else(refused)?.chars();

@@ -1,4 +1,4 @@
-//! Playing a keystroke file: what to do next.
+//! Playing a keystroke file, action by action.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::fmt;
@@ -7,15 +7,15 @@ use std::path::{Path, PathBuf};
 use crate::session::message::Msg;
 use crate::session::replay::script::{Instruction, Located, Script};
 
-/// What to do next.
+/// The next action.
 #[derive(Clone, Debug)]
 pub enum Action {
     Give(Msg),
-    /// Keep the screen under this name.
+    /// Keep a picture of the screen under this name.
     Keep(String),
     /// Ask again when the session is idle.
     Wait,
-    /// The file is at its end and the session idle.
+    /// The file has ended and the session is idle.
     Done,
 }
 
@@ -26,7 +26,7 @@ pub struct Unmet {
     pub line: usize,
     /// Column, from 1.
     pub column: usize,
-    /// The text that no row of the screen shows.
+    /// The expected text, which no row of the screen contains.
     pub text: String,
 }
 
@@ -41,26 +41,25 @@ impl std::error::Error for Unmet {}
 
 /// A keystroke file being played.
 ///
-/// The player knows no clock: it continues when its driver says that the session is idle. Until
-/// the file says `<async>` it waits for that before each step, so that each key finds the picture that
-/// its author saw.
+/// The player has no clock: it continues when its driver reports that the session is idle. Until the file says
+/// `<async>`, it waits for that before each step, so that each key finds the picture that its author saw.
 #[derive(Clone, Debug)]
 pub struct Player {
-    /// What is left, each with how many files deep it stands.
+    /// The remaining steps, each with the nesting depth of its file.
     steps: VecDeque<(Located, u32)>,
-    /// How deep the last step stood.
+    /// Nesting depth of the last step.
     depth: u32,
     asynchronous: bool,
-    /// The texts that the file has for those who read files while it is played.
+    /// The files that the script embeds, by name.
     files: BTreeMap<PathBuf, String>,
-    /// How many captions have been said, and how many there are.
+    /// Number of captions shown so far, and number of all captions.
     captions: (usize, usize),
 }
 
-/// Files played by files by files: more are one that plays itself.
+/// Maximum nesting depth of files: beyond it, a file is assumed to play itself.
 const DEEPEST: u32 = 1000;
 
-/// How many captions a file has.
+/// Number of captions in a file.
 fn captions(script: &Script) -> usize {
     script.steps.iter().filter(|located| matches!(located.step, Instruction::Say(_))).count()
 }
@@ -73,8 +72,8 @@ impl Player {
         Player { steps, depth: 0, asynchronous: false, files: BTreeMap::new(), captions }
     }
 
-    /// Plays another file first, and then what is left of this one. One that plays itself without end is
-    /// left out in the end; returns whether this one was played.
+    /// Inserts another file before the rest of this one. Refuses one that is nested too deeply, because it
+    /// plays itself without end; returns whether the file is played.
     pub fn interject(&mut self, script: Script) -> bool {
         let depth = self.depth + 1;
         if depth > DEEPEST {
@@ -87,19 +86,19 @@ impl Player {
         true
     }
 
-    /// How many captions have been said.
+    /// Number of captions shown so far.
     pub fn said(&self) -> usize {
         self.captions.0
     }
 
-    /// The text that was played for a file, if there was one.
+    /// The embedded text of a file, if there is one.
     pub fn file(&self, path: &Path) -> Option<&str> {
         self.files.get(path).map(String::as_str)
     }
 
-    /// What to do next, given whether the session is idle and, if asked, what the screen shows: its
-    /// rows, separated by newlines. Fails with [`Unmet`] if the screen does not show what it should. The player
-    /// then stands behind that step.
+    /// The next action, given whether the session is idle. `screen` is called only if needed; it returns the
+    /// rows of the screen, separated by newlines. Fails with [`Unmet`] if the screen does not show an expected
+    /// text; the player is then after that step.
     pub fn next(&mut self, idle: bool, screen: impl Fn() -> String) -> Result<Action, Unmet> {
         loop {
             let Some((Located { line, column, step }, depth)) = self.steps.front().cloned() else {
@@ -130,7 +129,7 @@ impl Player {
         }
     }
 
-    /// Goes behind the first step, or behind one press of it.
+    /// Moves past the first step, or past one press of it.
     fn advance(&mut self) {
         if let Some((Located { step: Instruction::Key { count, .. }, .. }, _)) =
             self.steps.front_mut()
@@ -148,7 +147,8 @@ mod tests {
     use super::*;
     use crate::session::replay::parse;
 
-    /// What the player does in turn, on a screen that shows `screen`; idle as often as it waits.
+    /// The actions of the player, on a screen that shows `screen`; the session is idle whenever the player
+    /// waits.
     fn play(text: &str, screen: &str) -> Vec<String> {
         let mut player = Player::new(parse(text).unwrap());
         let (mut acts, mut idle) = (Vec::new(), true);

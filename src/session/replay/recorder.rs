@@ -1,4 +1,4 @@
-//! Writing a keystroke file from what happens in a live session.
+//! Records a live session as a keystroke file.
 
 use crate::session::message::Msg;
 use crate::session::replay::script::{Instruction, LONGEST};
@@ -6,14 +6,14 @@ use crate::session::replay::script::{Instruction, LONGEST};
 /// Longest line of a recorded file, in characters, unless one step is longer.
 const LINE: usize = 72;
 
-/// How the first line of a recording begins, by which it is known as one.
+/// The beginning of the first line of a recording, by which it is recognized.
 pub const HEADER: &str = "# A recording of hopfscope";
 
-/// What a user did, as a keystroke file.
+/// The actions of a user, as steps of a keystroke file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recorder {
     steps: Vec<Instruction>,
-    /// Steps at the beginning that have not changed since this was last asked.
+    /// Number of initial steps that have not changed since this was last asked for.
     unchanged: usize,
 }
 
@@ -23,15 +23,15 @@ impl Recorder {
         Recorder { steps, unchanged: 0 }
     }
 
-    /// Notes a message, if it stands for something in a keystroke file; the answers of the worker come by
-    /// themselves.
+    /// Records a message that has an equivalent in a keystroke file. Other messages, such as answers of the
+    /// worker, result from these.
     pub fn note(&mut self, message: &Msg) {
         if let Some(step) = Instruction::of(message) {
             self.add(step);
         }
     }
 
-    /// Adds a step, as one with the last where the two can be.
+    /// Adds a step, merged with the last one if possible.
     pub fn add(&mut self, step: Instruction) {
         self.touch(self.steps.len().saturating_sub(1));
         match (self.steps.last_mut(), step) {
@@ -57,7 +57,7 @@ impl Recorder {
         &self.steps
     }
 
-    /// Steps at the beginning that have not changed since this was called last.
+    /// Number of initial steps that have not changed since the last call of this function.
     pub fn unchanged(&mut self) -> usize {
         std::mem::replace(&mut self.unchanged, self.steps.len())
     }
@@ -66,8 +66,8 @@ impl Recorder {
         self.unchanged = self.unchanged.min(step);
     }
 
-    /// Forgets the last presses of keys, pastes and clicks. The size of the screen and the passing of time
-    /// are not presses, and stay.
+    /// Removes the last presses of keys, pastes and clicks. Resizes and the passing of time are not presses,
+    /// and stay.
     pub fn forget(&mut self, presses: u32) {
         let first = self.before(presses);
         let forgotten: Vec<Instruction> = self.steps.drain(first..).collect();
@@ -77,7 +77,7 @@ impl Recorder {
         forgotten.into_iter().filter(nobodys).for_each(|step| self.add(step));
     }
 
-    /// Puts the text of a file that is asked for by the last presses before these, unless it is known.
+    /// Embeds the text of a file before the last presses, which ask for it, unless it is embedded already.
     pub fn embed(&mut self, name: &str, text: &str, presses: u32) {
         let known = self.steps.iter().rev().find_map(|step| match step {
             Instruction::File { name: other, text } if other == name => Some(text),
@@ -90,7 +90,7 @@ impl Recorder {
         }
     }
 
-    /// The place before the last presses.
+    /// Index of the step at which the last presses begin.
     fn before(&mut self, mut presses: u32) -> usize {
         let mut at = self.steps.len();
         while presses > 0 && at > 0 {
@@ -112,19 +112,19 @@ impl Recorder {
         at
     }
 
-    /// The file so far, below comments that say what it is and how the session was started.
+    /// The file so far, below comments that describe it and how the session was started.
     pub fn text(&self, started: &str) -> String {
         text(&heading(started), &self.steps)
     }
 }
 
-/// The comments at the beginning of a recording, without their marks.
+/// The comments at the beginning of a recording, without the comment characters.
 pub fn heading(started: &str) -> String {
     let header = HEADER.trim_start_matches("# ");
     format!("{header}; `hopfscope replay FILE` plays it.\n{started}")
 }
 
-/// A keystroke file of these steps, below a comment.
+/// The text of a keystroke file of these steps, below a comment.
 pub fn text(comment: &str, steps: &[Instruction]) -> String {
     let lines = lines(steps).into_iter().map(|(_, line)| line);
     std::iter::once(self::comment(comment)).chain(lines).collect()
@@ -134,7 +134,7 @@ pub fn comment(lines: &str) -> String {
     lines.lines().flat_map(|line| ["# ", line, "\n"]).collect()
 }
 
-/// The lines of a keystroke file, each with the place of its first step and its end.
+/// The lines of a keystroke file with their line ends, each with the index of its first step.
 pub fn lines(steps: &[Instruction]) -> Vec<(usize, String)> {
     let mut lines: Vec<(usize, String)> = Vec::new();
     let mut length = 0;
@@ -163,7 +163,7 @@ mod tests {
     use super::*;
     use crate::session::replay::{Action, Player, parse};
 
-    /// What a script gives to a session that is always idle.
+    /// The messages that a script gives to a session that is always idle.
     fn played(text: &str) -> Vec<String> {
         let mut player = Player::new(parse(text).unwrap());
         let mut given = Vec::new();

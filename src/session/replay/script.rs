@@ -1,11 +1,11 @@
-//! Keystroke files as data: steps, and what each gives to a session.
+//! Keystroke files as data: their steps, and the messages that these give to a session.
 
 use crate::oscillator::Symbol;
 use crate::session::message::Msg;
 use crate::session::message::key::Key;
 use crate::session::message::pointer::Pointed;
 
-/// Seconds that may pass at once.
+/// Longest time in a single step, in s.
 pub const LONGEST: f64 = 3600.0;
 
 /// One instruction of a keystroke file.
@@ -17,36 +17,36 @@ pub enum Instruction {
     Pointed(Pointed),
     /// Text pasted at once: `<paste "text">`.
     Paste(String),
-    /// So many seconds pass: `<elapse 0.25>`.
+    /// Time passes, in seconds: `<elapse 0.25>`.
     Elapse(f64),
-    /// Go on when no computation is pending: `<wait>`.
+    /// Wait until no computation is pending: `<wait>`.
     Wait,
     /// From here on, do not wait after each key: `<async>`.
     Async,
-    /// Give the screen this size: `<resize 80x24>`.
+    /// Set the size of the screen: `<resize 80x24>`.
     Resize { width: u16, height: u16 },
     /// The screen must show this text on one of its rows: `<expect "text">`.
     Expect(String),
-    /// Run a line of the command line, whatever the keys are: `<run "set D=-0.3">`.
+    /// Run a line of the command line, independently of key bindings: `<run "set D=-0.3">`.
     Run(String),
     /// Show a caption and, in the explorer, wait for a key: `<say "text">`.
     Say(String),
-    /// Keep the screen under this name: `<screen name>`.
+    /// Keep a picture of the screen under this name: `<screen name>`.
     Screen(String),
-    /// The session starts with what stands here: nothing was done before. `<start>`, or `<start D3 r>` with
-    /// the parameters that belong to its scene besides those that the scene names itself.
+    /// Make the present state the start of the session, with an empty history: `<start>`, or `<start D3 r>`
+    /// with the parameters that are added to those of its scene.
     Start(Vec<Symbol>),
-    /// A command that reads the file of this name while this is played finds this text: `<file "a.toml" "text">`.
+    /// Embed a file: a command that reads a file of this name during the replay gets this text. `<file "a.toml"
+    /// "text">`.
     File {
-        /// The name by which it is asked for.
+        /// The name by which the file is asked for.
         name: String,
         text: String,
     },
 }
 
 impl Instruction {
-    /// What a message stands for in a keystroke file; `None` where it comes by itself from something else
-    /// that does.
+    /// The step that gives this message; `None` for a message that results from other steps.
     pub fn of(message: &Msg) -> Option<Self> {
         Some(match message {
             Msg::Key(key) => Instruction::Key { key: *key, count: 1 },
@@ -67,7 +67,7 @@ impl Instruction {
         })
     }
 
-    /// What a step gives to a session; of a key, one press.
+    /// The message that a step gives to a session; for a key, that of one press.
     pub fn message(&self) -> Option<Msg> {
         Some(match self {
             Instruction::Key { key, .. } => Msg::Key(*key),
@@ -89,7 +89,7 @@ impl Instruction {
     }
 }
 
-/// A step and where it stands, counted from 1.
+/// A step and its place in the file, counted from 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Located {
     pub line: usize,
@@ -97,7 +97,7 @@ pub struct Located {
     pub step: Instruction,
 }
 
-/// A keystroke file, read.
+/// A parsed keystroke file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Script {
     /// Its steps, in order.
@@ -105,7 +105,7 @@ pub struct Script {
 }
 
 impl Script {
-    /// A file of these steps, repeated this many times.
+    /// A file of these steps, repeated `times` times.
     pub fn repeated(steps: &[Instruction], times: u32) -> Self {
         let located = |(index, step): (usize, &Instruction)| Located {
             line: 1,
@@ -116,7 +116,7 @@ impl Script {
         Script { steps: (0..times).flat_map(|_| once.iter().cloned()).collect() }
     }
 
-    /// How many messages of a user it gives to a session.
+    /// Number of messages that count as input of the user.
     pub fn presses(&self) -> u64 {
         let presses = |located: &Located| match located.step {
             Instruction::Key { count, .. } => u64::from(count),
@@ -126,7 +126,7 @@ impl Script {
         self.steps.iter().map(presses).sum()
     }
 
-    /// How many keys it presses.
+    /// Number of key presses.
     pub fn keys(&self) -> u64 {
         let presses = |located: &Located| match located.step {
             Instruction::Key { count, .. } => u64::from(count),

@@ -1,4 +1,4 @@
-//! Steps as text; the parser reads it back.
+//! Writes steps as text that the parser can read back.
 
 use super::mouse;
 use super::parse::ESCAPES;
@@ -35,7 +35,7 @@ impl std::fmt::Display for Instruction {
     }
 }
 
-/// Text in quotes on one line; the parser knows the same escapes and no others.
+/// Text in quotes on one line, with exactly the escapes that the parser knows.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for char in text.chars() {

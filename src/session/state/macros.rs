@@ -25,7 +25,7 @@ pub struct Macros {
 /// A register that is being played; all its changes are merged into one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Played {
-    /// Number of steps that are still to be played.
+    /// Number of presses that are still to come.
     pub left: u64,
     /// Depth of the past when it began.
     pub depth: usize,
