@@ -60,7 +60,7 @@ fn every_ordinate_is_fitted_to_the_cycles_that_are_there() {
 #[test]
 fn home_brings_the_axes_of_the_scene_back() {
     let mut trial = Trial::alone("supercritical");
-    // Known still.
+    // The answer is still known.
     trial.goes(&[("<tab><tab>Y X", ""), ("<home>", "asked | abscissa D | ordinate q_max")]);
     assert_eq!(trial.session.plots[1].window, trial.session.scene.plots[1].opening());
 }
@@ -83,7 +83,7 @@ fn ratios_to_r_are_another_look_at_the_same_branch() {
         ("N", "notice A_q/r: right turning point of the cycles, in units of r"),
     ]);
     let plot = trial.session.plot;
-    // Over r each point has its own.
+    // Over r, each point has its own friction.
     for (keys, own) in [("", false), ("X X X", true)] {
         trial.press(keys);
         let point = trial.branch(plot).pieces[0][1];

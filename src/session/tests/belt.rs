@@ -1,4 +1,4 @@
-//! The speed of the belt as a number among the others: it moves D, D2, D3 and r along the machine's path.
+//! The speed of the belt as one of the numbers: it moves D, D2, D3 and r along the machine's path.
 
 use super::Trial;
 use super::facts::refuses;
@@ -7,14 +7,14 @@ use crate::oscillator::belt::{Quantity, Reduced};
 use crate::scene::{Layer, ScaledMachine};
 use crate::session::{Effect, Msg, Purpose, Row, save};
 
-/// The textbook machine at a speed of its belt, reduced without the session.
+/// The textbook machine at a speed of its belt, reduced without a session.
 fn at(speed: f64) -> Reduced {
     let mut machine = crate::scene::machine::library::find("textbook").unwrap().clone();
     machine.belt.belt_speed = speed;
     machine.reduce().unwrap()
 }
 
-/// The session shows the machine at this speed, all of it.
+/// Checks that the session shows the machine at this speed, with all its numbers.
 fn runs_at(trial: &Trial, speed: f64) {
     let session = &trial.session;
     assert_eq!(session.setting.map(|it| it.speed), Some(speed));
@@ -65,10 +65,10 @@ fn a_number_changed_by_hand_leaves_the_belt_and_a_step_of_the_belt_comes_back() 
     runs_at(&trial, 0.31);
     trial.press("u");
     assert_eq!(trial.session.is_on_the_belt(), Some(false));
-    // To come back to the same speed is a change too.
+    // Coming back to the same speed is a change, too.
     trial.press(":set<space>belt=0.3<enter>");
     runs_at(&trial, 0.3);
-    // The start and the end time are not of the belt.
+    // The start and the end time do not depend on the belt.
     trial.press(":set<space>q0=0.5<space>until=9<enter>");
     assert_eq!(trial.session.is_on_the_belt(), Some(true));
 }
@@ -107,7 +107,7 @@ fn speeds_that_are_none_are_refused_in_one_line() {
     }
     refuses("plain", &[(": set belt=0.3", "set: no value \"belt\"; there are D, D2")]);
     assert!(!Trial::open("plain").session.rows().contains(&Row::BELT));
-    // Steps down end above zero, with the reason.
+    // Steps down stop above zero, with the reason.
     let mut trial = Trial::open("fig01");
     trial.goes(&[("<up> *40<left>", "notice v0 = 0 m/s is outside its range..")]);
     runs_at(&trial, 0.01);
@@ -127,7 +127,7 @@ fn marks_scenes_and_saved_sessions_know_the_speed() {
     runs_at(&trial, 0.32);
     trial.press("''");
     runs_at(&trial, 0.35);
-    // A scene without a machine has no belt, and coming back there is one again.
+    // A scene without a machine has no belt; back in one with a machine there is a belt again.
     trial.press(":scene<space>plain<enter>");
     assert_eq!((trial.session.setting, trial.session.running()), (None, None));
     trial.press("'a");
@@ -135,7 +135,7 @@ fn marks_scenes_and_saved_sessions_know_the_speed() {
     assert_eq!(trial.session.problem.parameters, at(0.32).parameters);
     trial.press("u u");
     runs_at(&trial, 0.35);
-    // Sessions saved before there was such a number show the machine at its own speed.
+    // Sessions saved before this number existed show the machine at its own speed.
     let older = text.replacen("belt = 0.35\n", "", 1);
     save::open(&mut other, &older).unwrap();
     assert_eq!(other.setting.map(|it| it.speed), Some(0.3));
@@ -144,7 +144,7 @@ fn marks_scenes_and_saved_sessions_know_the_speed() {
         let why = save::open(&mut other, &broken).unwrap_err();
         assert!(why.contains("is outside its range") && !why.contains('\n'), "{why}");
     }
-    // What was on show is still there.
+    // The refused files changed nothing.
     trial.give(Msg::Idle);
     runs_at(&trial, 0.35);
     assert_eq!(
@@ -161,7 +161,7 @@ fn the_path_over_the_speed_asks_nothing() {
     assert_eq!(trial.session.wants(), with);
     assert_eq!(trial.press("<tab> <run \"layer belt-path\">"), [], "its name shows it again");
     assert!(trial.session.layers.contains(&Layer::BeltPath));
-    // A chart of the same machine over other parameters has it too, and one of no machine says why not.
+    // A chart of the same machine over other parameters has the path, too; one without a machine says why not.
     assert_eq!(trial.session.not_drawn(Layer::BeltPath), None);
     let plain = Trial::open("regimes").session;
     assert!(plain.not_drawn(Layer::BeltPath).is_some_and(|why| why.contains("no machine")));
@@ -191,7 +191,7 @@ fn a_machine_opens_from_its_file_and_the_table_beside_it() {
     };
     read(&mut trial, "a/clutch.toml", Ok(text("clutch.toml")));
     assert_eq!(trial.session.running().unwrap().machine.name, "clutch");
-    // The table is asked for, beside the file.
+    // The table beside the file is asked for.
     for (table, opens) in
         [(Err("no such file".to_owned()), false), (Ok(text("slideway.csv")), true)]
     {
@@ -203,7 +203,7 @@ fn a_machine_opens_from_its_file_and_the_table_beside_it() {
         assert_eq!(name == "slideway", opens, "{name}");
         assert_eq!(trial.notice().starts_with("a/slideway.toml:"), !opens, "{}", trial.notice());
     }
-    // What is wrong stands in one line, and everything stays.
+    // The mistake is described in one line, and nothing changes.
     for (text, words) in [
         (Err("b.toml: no such file".to_owned()), "b.toml: no such file"),
         (Ok("m = 1".to_owned()), "b.toml:1:1: missing field `friction`"),
@@ -233,13 +233,13 @@ fn numbers_of_a_machine_are_typed_with_units_stepped_undone_and_saved() {
     let x = session.problem.initial.q * expected.units.displacement;
     assert!((x / 1e-3 - 1.0).abs() < 1e-15, "the start is 1 mm, whatever the unit of length");
     assert!(session.rows().contains(&Row::Quantity(Quantity::Mass)));
-    // A saved session is the same, and undoes the same.
+    // A saved session has the same state and the same history.
     let text = save::text(session).unwrap();
     let mut other = Trial::open("plain").session;
     save::open(&mut other, &text).unwrap();
     assert_eq!(other.setup(), session.setup());
     assert_eq!(other.machine(), session.machine());
-    // A step of the row, and back.
+    // A step of the row, and undo.
     trial.session.selected = Row::Quantity(Quantity::Friction);
     trial.press("<right>");
     assert!(trial.session.machine().unwrap().friction > 2.0);

@@ -1,7 +1,7 @@
 //! Which answers depend on which numbers, by the formulas, and what each key recomputes, in every scene.
 //!
-//! The table below is written from the mathematics: a motion needs everything, a cycle needs the equation
-//! and no start, a branch over D needs no D. What a key asks in every scene must be exactly that.
+//! The table below follows from the mathematics: a motion depends on everything, a cycle on the equation but
+//! not on the start, a branch over D not on D. In every scene, a key must ask exactly what the table says.
 
 use std::collections::BTreeSet;
 
@@ -13,8 +13,9 @@ use crate::session::ROWS;
 use crate::session::act::parameters;
 use crate::session::{Row, Session};
 
-/// Whether an answer of this kind changes with a number, whatever a plot looks at. The columns are the
-/// four parameters of the equation, the disturbance, the two of the start, the end time, the method, and its accuracy.
+/// Whether an answer on this topic changes with a number, regardless of the plots. The columns are the four
+/// parameters of the equation, the disturbance, the two numbers of the start, the end time, the method, and its
+/// accuracy.
 const DEPENDS: [(Topic, &str); 12] = [
     //                   equation w start until method accuracy
     (Topic::Trajectory, "  xxxx  .     xx    x     x       x"),
@@ -35,7 +36,7 @@ fn depends(topic: Topic, row: Row) -> bool {
     let (_, letters) = DEPENDS.iter().find(|(of, _)| *of == topic).unwrap();
     let mut letters = letters.chars().filter(|letter| *letter != ' ');
     if matches!(row, Row::Quantity(_)) {
-        // It moves the equation, and the start with the unit of length.
+        // A number of the machine changes the equation and, with the unit of length, the start.
         return letters.take(7).any(|letter| letter == 'x');
     }
     // The rows are D, D2, D3, r, w, q0, v0, until, method, tolerance.
@@ -44,7 +45,7 @@ fn depends(topic: Topic, row: Row) -> bool {
     letters.nth(column).unwrap() == 'x'
 }
 
-/// Whether a plot looks along this number, or holds it for all of its variants: then it does not matter.
+/// Whether a number is an input of this topic's questions in a plot: one that the plot itself varies is not.
 fn is_free(session: &Session, topic: Topic, plot: usize, row: Row) -> bool {
     let Row::Parameter(symbol) = row else { return row != Row::BELT || topic != Topic::Speeds };
     let Axes { abscissa, against, .. } = session.plots[plot].axes;
@@ -56,7 +57,7 @@ fn is_free(session: &Session, topic: Topic, plot: usize, row: Row) -> bool {
     !along
 }
 
-/// Whether the problem in this place among those of a plot holds a number.
+/// Whether the problem with this index in a plot holds a number.
 fn is_held(session: &Session, plot: usize, index: usize, row: Row) -> bool {
     let Row::Parameter(symbol) = row else { return false };
     let variant = session.variants(plot).and_then(|variants| variants.get(index));
@@ -86,25 +87,27 @@ fn in_every_scene_a_key_recomputes_exactly_what_depends_on_it() {
     for scene in library() {
         let mut trial = Trial::open(&scene.name);
         trial.session.unfolded = true;
-        // Which parameters a number of the machine moves beside the speed depends on the number.
+        // Of the numbers of the machine, only the speed of the belt is kept: the others differ in the
+        // parameters they move.
         let fixed = |row: &Row| !matches!(row, Row::Quantity(it) if *it != Quantity::BeltSpeed);
         for row in trial.session.rows().into_iter().filter(fixed) {
             let mut stepped =
                 Trial { session: trial.session.clone(), asked: Vec::new(), effects: Vec::new() };
             stepped.session.selected = row;
-            // At the end of a range the step goes the other way.
+            // At the end of a range, steps in the other direction.
             for count in [1, -1] {
                 if stepped.session.setup() == trial.session.setup() {
                     parameters::step(&mut stepped.session, count);
                 }
             }
-            // With constant friction the speed of the belt moves no number of the expansion.
+            // With constant friction, the speed of the belt changes no parameter of the expansion, but it
+            // changes the setup.
             assert!(stepped.session.setup() != trial.session.setup(), "{} {row:?}", scene.name);
-            // What an error is measured against is asked while the user rests on the dial.
+            // The reference is asked only while the row of the accuracy is selected.
             stepped.session.selected = Row::Until;
             stepped.session.measuring = false;
             stepped.settle();
-            // A proof is asked with the cycles, by what shows them.
+            // The proof is asked together with the cycles.
             stepped.asked.retain(|request| request.topic() != Topic::Proof);
             let expected = expected(&stepped.session, row);
             let missing = expected.iter().any(|request| !stepped.asked.contains(request));
@@ -114,7 +117,7 @@ fn in_every_scene_a_key_recomputes_exactly_what_depends_on_it() {
             several |= expected.len() > 1 && expected.len() < stepped.session.asks().len();
         }
     }
-    // Nothing above is vacuous.
+    // None of these checks is vacuous.
     for topic in [Topic::Trajectory, Topic::Cycles, Topic::Branch, Topic::ReturnMap, Topic::Regimes]
     {
         assert!(seen.contains(&topic), "{topic:?}");
@@ -127,7 +130,7 @@ fn in_every_scene_a_key_recomputes_exactly_what_depends_on_it() {
     );
 }
 
-/// Counted: a plot of variants asks one question for each, and only for those that depend on the number.
+/// Counted: a plot of variants asks one question for each variant that depends on the number.
 #[test]
 fn a_step_asks_again_only_the_variants_that_depend_on_it() {
     use Topic::{Branch, Cycles, Trajectory};

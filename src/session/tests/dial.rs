@@ -1,4 +1,4 @@
-//! The dial: its stops, what is computed roughly first, and when an error is measured.
+//! The dial for the accuracy: its stops, what is computed roughly first, and when an error is measured.
 
 use super::{COST, Trial, answered, by_hand};
 use crate::flow::{Limits, Method, Reason};
@@ -17,9 +17,9 @@ fn the_dial_goes_through_its_stops_and_ends() {
         ("}", "dial 1e-13 fine | notice fine: tolerance 1e-13; thirteen digits"),
         ("} }", "dial 1e-15 reference | notice the dial ends at reference"),
         ("{ { {", "dial 0.0001 draft"),
-        // Each turn is undone.
+        // Each change is undone separately.
         ("u u", "dial 1e-13 fine"),
-        // From a typed number to the stops beside it; a stop can be typed by its name.
+        // From a typed number to the neighbouring stop; a stop can also be typed by its name.
         ("<down*7>3e-7<enter>", "dial 3e-7 -"),
         ("{", "dial 0.0001 draft"),
         ("<enter><C-u>fine<enter>", "dial 1e-13 fine"),
@@ -29,7 +29,7 @@ fn the_dial_goes_through_its_stops_and_ends() {
 #[test]
 fn the_dial_is_the_same_whatever_its_number_is_called() {
     Trial::alone("supercritical").goes(&[
-        // A step as fine as the tolerance was.
+        // A step that is as fine as the tolerance was.
         ("} <down*6><enter><C-u>rk4<enter>", "dial 0.001 fine"),
         ("{", "tolerance 1e-10 | notice normal: step 0.01; ten digits, at a few percent of the .."),
         ("<down>0.05<enter>", "dial 0.05 - | tolerance 1e-10"),
@@ -37,7 +37,7 @@ fn the_dial_is_the_same_whatever_its_number_is_called() {
     ]);
 }
 
-/// The answer to a question as if it had cost this much.
+/// The answer to a question, with this many evaluations as its cost.
 fn costly(request: Request, evaluations: u64) -> Msg {
     let mut found = by_hand(&request);
     match &mut found {
@@ -48,11 +48,11 @@ fn costly(request: Request, evaluations: u64) -> Msg {
     Msg::answered(request, Ok(found), 0.001)
 }
 
-/// The kinds wanted and open, those of drafts marked.
+/// The topics of open requests; `true` marks drafts.
 fn open(trial: &Trial) -> Vec<(Topic, bool)> {
     let session = &trial.session;
     let wanted = session.wants().into_iter().filter(|request| session.is_open(request));
-    // Nobody waits for a proof.
+    // Nothing waits for a proof.
     wanted
         .filter(|request| request.topic() != Topic::Proof)
         .map(|request| {
@@ -72,7 +72,7 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
     update(&mut trial.session, costly(request, 10_000_000));
     trial.settle();
 
-    // The next step of a key: the draft, then what it is a draft of.
+    // The next step of a key asks for the draft first, then for the full answer.
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     assert_eq!(
         open(&trial),
@@ -86,7 +86,7 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
         |trial: &Trial| matches!(trial.session.standing(Topic::Trajectory, 0), Standing::Draft(_));
     assert!(is_draft(&trial) && trial.session.is_busy());
     assert_eq!(open(&trial), [(Topic::Trajectory, false), (Topic::Cycles, false)]);
-    // A draft is not a measure of what the full answer takes.
+    // The cost of a draft says nothing about that of the full answer.
     let full = trial.session.request(Topic::Trajectory, 0).unwrap();
     update(&mut trial.session, costly(full, 10_000_000));
     trial.settle();
@@ -94,7 +94,7 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
     let topics: Vec<Topic> = trial.session.price.recomputed.iter().map(|part| part.topic).collect();
     assert_eq!(topics, [Topic::Trajectory, Topic::Trajectory, Topic::Cycles]);
 
-    // The latest wins: a draft that comes late does not replace a newer one.
+    // The latest wins: a late draft does not replace a newer one.
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     let superseded = trial.session.wants()[0].clone();
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
@@ -105,14 +105,14 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
     update(&mut trial.session, costly(superseded, 1));
     assert_eq!(held, trial.session.trajectory().cloned());
 
-    // At draft quality there is nothing to refine.
+    // At draft quality, there is nothing to refine.
     trial.press("{ {");
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     assert_eq!(open(&trial), [(Topic::Trajectory, false), (Topic::Cycles, false)]);
 }
 
-/// Four diagrams over the same range, each of its own variants: none takes the draft of another for its
-/// own, and all come to rest.
+/// Four diagrams over the same range, each with its own variants: none uses the draft of another, and all get
+/// their full answers.
 #[test]
 fn plots_with_like_questions_keep_their_drafts_apart() {
     let mut session = Trial::open("fig17").session;
@@ -160,13 +160,13 @@ fn an_error_is_measured_only_while_the_user_rests_on_the_dial() {
         0
     );
     assert!(!trial.session.measures());
-    // The last thing to be computed, once.
+    // The reference is computed last, and only once.
     assert_eq!(trial.press("}"), [Topic::Trajectory, Topic::Branch, Topic::Reference]);
     assert_eq!(TOPICS.last(), Some(&Topic::Reference));
-    // What it is measured against does not depend on the dial, nor on the method.
+    // The reference does not depend on the accuracy or the method.
     assert_eq!(trial.press("} {"), [Topic::Trajectory, Topic::Branch], "the way back is known");
     assert_eq!(trial.press("m"), [Topic::Trajectory]);
-    // Another key, and the motion is measured no more; selecting the row, and it is again.
+    // After another key, the error is no longer measured; selecting the row measures it again.
     trial.press("g");
     assert!(!trial.session.measures());
     assert_eq!(trial.press("<down*7>"), [], "known still");
@@ -193,7 +193,7 @@ fn the_measured_error_is_that_of_the_motion_on_show() {
     assert!(trial.session.price.evaluations() > COST);
 }
 
-/// A reference that escapes, next to a motion that does not: there is no distance, and that is said.
+/// If only the reference escapes, there is no distance, and the reason is given.
 #[test]
 fn why_there_is_no_measured_error_is_known() {
     let mut trial = Trial::open("capture");
@@ -219,7 +219,7 @@ fn why_there_is_no_measured_error_is_known() {
     }
 }
 
-/// Each number of the motion and each kind of question: which questions contain it.
+/// For each number of the motion, the topics whose questions contain it.
 #[test]
 fn a_step_of_each_number_asks_exactly_these_questions_anew() {
     use Symbol::{D, D2, D3, Q0, R, V0};
@@ -255,8 +255,8 @@ fn a_step_of_each_number_asks_exactly_these_questions_anew() {
     }
 }
 
-/// Evaluations are counted: nothing is looked for at `v = 0` without friction, nothing is integrated
-/// where the closed form serves, nothing is computed for what is hidden.
+/// Counted in evaluations: without friction, nothing is located at `v = 0`; where there is a closed form,
+/// nothing is integrated; for hidden layers, nothing is computed.
 #[test]
 fn what_a_scene_does_not_need_costs_nothing() {
     let cost = |keys: &str, scene: &str| {

@@ -1,4 +1,4 @@
-//! Half widths of the parameters and the disturbance: typed, stepped, undone, saved, asked for.
+//! Half widths of the parameters and the disturbance: typed, stepped, undone, saved, and asked for.
 
 use super::Trial;
 use super::facts::refuses;
@@ -29,7 +29,7 @@ fn a_half_width_is_typed_stepped_undone_and_saved() {
     assert_eq!(trial.session.doubt, Doubt::default());
     trial.press("U");
     assert_eq!(trial.session.doubt, doubt);
-    // Keys: the selected row by a step, and back to what the scene says.
+    // Keys change the half width of the selected row, and reset it to the scene's.
     trial.session.selected = Row::Parameter(Symbol::R);
     trial.press(">");
     assert_eq!(trial.session.doubt.half_width(Symbol::R), 0.02);
@@ -61,7 +61,7 @@ fn an_interval_is_taken_by_its_middle_and_a_bare_value_is_exact() {
     );
 }
 
-/// Against reference numbers for D = -0.3, D2 = 0.2, D3 = 0.5, r = 0.1.
+/// Compared with reference numbers for D = -0.3, D2 = 0.2, D3 = 0.5, r = 0.1.
 #[test]
 fn what_is_certain_is_asked_with_the_box_and_answers_the_reference() {
     let mut trial = Trial::open("plain");

@@ -1,4 +1,4 @@
-//! Drafts: what the first picture after a key takes, counted, and how near it comes to the last one.
+//! Drafts: the counted cost of the first picture after a key, and how close it is to the final one.
 
 use std::sync::Arc;
 
@@ -15,10 +15,10 @@ use crate::study::Branch;
 
 const SIZE: Size = Size { width: 120, height: 40 };
 
-/// Evaluations that take half of a frame of 16 ms at most: one takes 20 to 30 ns.
+/// Evaluations in at most half a frame of 16 ms: one takes 20 to 30 ns.
 const HALF_FRAME: u64 = 200_000;
 
-/// Answers a question; what it took.
+/// Answers a question; returns the number of evaluations.
 fn give(session: &mut Session, request: Request) -> u64 {
     let found = answer(&request, &Limits::PATIENT);
     let evaluations = found.as_ref().map_or(0, |found| found.cost().evaluations);
@@ -31,15 +31,15 @@ fn open(session: &Session) -> Vec<Request> {
     session.wants().into_iter().filter(|request| session.is_open(request)).collect()
 }
 
-/// Counted for every scene and every number of its pane both ways, the dial included: what is computed
-/// until each layer on show has a present answer, draft or not.
+/// Counted for every scene and every number of its pane in both directions, including the accuracy: the cost
+/// until each layer on show has an answer for the present numbers, draft or not.
 #[test]
 fn at_draft_quality_every_key_takes_half_a_frame_at_most() {
     let (mut costliest, mut missed) = ((0, String::new()), Vec::new());
     for scene in library() {
         let mut session = Session::new(Arc::clone(scene), SIZE);
         session.problem = session.problem.at(&DRAFT);
-        // Windows are fitted after the first answers; the second key knows what the first one took.
+        // Windows are fitted after the first answers; the second key knows the cost of the first.
         for _ in 0..3 {
             for request in open(&session) {
                 give(&mut session, request);
@@ -73,8 +73,8 @@ fn at_draft_quality_every_key_takes_half_a_frame_at_most() {
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
-/// Cycles, bands of capture, harmonics and return maps are asked without drafts, because their answers
-/// are cheap: counted on every scene after a step of each of its numbers, shown there or not.
+/// Cycles, bands of capture, harmonics and return maps are asked without drafts, because their answers are
+/// cheap: counted for every scene after a step of each of its numbers, shown there or not.
 #[test]
 fn what_has_no_draft_needs_none() {
     const UNDRAFTED: [Topic; 4] = [Topic::Cycles, Topic::Capture, Topic::Balance, Topic::ReturnMap];
@@ -114,8 +114,8 @@ const UGLY: [&[(Symbol, f64)]; 11] = [
     &[(Symbol::D, 0.5), (Symbol::D2, 2.0), (Symbol::D3, -1e-3)],
 ];
 
-/// Counted for every scene: no first answer takes more than a few frames, wherever the numbers are. Those
-/// that take more than one do not hold up the others: the worker puts them aside.
+/// Counted for every scene: no first answer takes more than a few frames, whatever the numbers. Answers that
+/// take more than one frame do not hold up the others, because the worker puts them aside.
 #[test]
 fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
     let kinds = || TOPICS.iter().copied().filter(|topic| *topic < Topic::Trade);
@@ -147,8 +147,8 @@ fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
     assert!(costliest.0 < 8 * HALF_FRAME, "{costliest:?}");
 }
 
-/// The branch that a request asks for, with the parameter in units of its range and displacements in
-/// units of the largest.
+/// The branch that a request asks for, with the parameter in units of its range and displacements in units of
+/// the largest.
 fn diagram(request: &Request, extent: Option<f64>) -> (Vec<Vec<(f64, f64)>>, f64) {
     let Request::Branch(question::branch::Asked { range, .. }) = request else {
         panic!("{request:?}")
@@ -173,8 +173,8 @@ fn distance((x, y): (f64, f64), from: (f64, f64), to: (f64, f64)) -> f64 {
     hypot(x - from.0 - part * dx, y - from.1 - part * dy)
 }
 
-/// A branch at draft quality has the points that its continuation needed, not more: the curve through
-/// them is where the full one is, to a dot of a large plot.
+/// A branch at draft quality has only the points that its continuation needed, but the curve through them
+/// agrees with the full one to a dot of a large plot.
 #[test]
 fn a_drafted_branch_is_the_branch_to_the_eye() {
     /// Half a row of an 80x24 screen.

@@ -1,4 +1,4 @@
-//! A session told in facts, so that a test is a table of (keys, what is so then).
+//! Facts about a session, so that a test is a table of keys and facts.
 
 use super::Trial;
 use crate::oscillator::PARAMETERS;
@@ -7,10 +7,10 @@ use crate::session::replay::text;
 use crate::session::{Overlay, Pane, Session};
 
 impl Trial {
-    /// Presses the keys of each row; then its facts hold, which stand apart by ` | `: a name of [`fact`] and
-    /// what it says, where `..` stands for anything before or behind. `+basin` and `-basin` are layers on
-    /// and off, `asked` is what the keys of the row made necessary. Keys that begin with `: ` are a line,
-    /// which is pasted into the command line and entered.
+    /// For each row, presses its keys and checks its facts, which are separated by ` | `. A fact is a name
+    /// known to [`fact`] and its value, in which `..` stands for any text before or after. `+basin` and
+    /// `-basin` say that a layer is on or off; `asked` lists the topics computed because of the keys. Keys that
+    /// begin with `: ` are a line, which is pasted into the command line and entered.
     pub fn goes(&mut self, rows: &[(&str, &str)]) -> &mut Self {
         for (keys, facts) in rows {
             let line = keys.strip_prefix(": ").map(|line| format!(":<paste {line:?}><enter>"));
@@ -28,8 +28,8 @@ impl Trial {
     }
 }
 
-/// Opens a scene for each row and presses its keys: the line stays open with what is wrong, in one line, and
-/// nothing has changed; the complaint goes when the text changes.
+/// For each row, opens the scene and presses the keys: the line stays open with one line that says what is
+/// wrong, and nothing changes; the complaint goes away when the text is changed.
 pub fn refuses(scene: &str, rows: &[(&str, &str)]) {
     for (keys, said) in rows {
         let mut trial = Trial::open(scene);
@@ -41,7 +41,7 @@ pub fn refuses(scene: &str, rows: &[(&str, &str)]) {
     }
 }
 
-/// Whether a text is the one expected, in which `..` at either end stands for anything.
+/// Whether a text matches the expected one, in which `..` at either end stands for any text.
 fn fits(found: &str, expected: &str) -> bool {
     match (expected.strip_prefix(".."), expected.strip_suffix("..")) {
         (None, None) => found == expected,
@@ -55,7 +55,7 @@ fn joined<T: std::fmt::Debug>(them: impl Iterator<Item = T>, between: &str) -> S
     them.map(|it| format!("{it:?}")).collect::<Vec<_>>().join(between)
 }
 
-/// A fact of a session by its name, in words.
+/// The value of a fact about a session, by its name.
 fn fact(session: &Session, name: &str) -> String {
     if let Some(row) = PARAMETERS.iter().find(|row| row.name == name) {
         return session.value(row.symbol).to_string();
@@ -97,7 +97,7 @@ fn fact(session: &Session, name: &str) -> String {
     }
 }
 
-/// A fact of what is open over the plots.
+/// A fact about the overlay.
 fn overlay(session: &Session, name: &str) -> Option<String> {
     let overlay = session.overlay.as_ref();
     let (open, typed, refused) = match overlay {
@@ -119,7 +119,7 @@ fn overlay(session: &Session, name: &str) -> Option<String> {
     })
 }
 
-/// A fact of the plots, or of the one in focus.
+/// A fact about the plots, or about the one in focus.
 fn plot(session: &Session, name: &str) -> Option<String> {
     let focused = || session.focused().expect("a plot in focus");
     let axes = || focused().axes;

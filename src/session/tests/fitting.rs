@@ -6,7 +6,7 @@ use crate::oscillator::Symbol;
 use crate::scene::{Topic, View};
 use crate::session::{Code, Effect, Key, Msg, Purpose, save, update};
 
-/// A decay with D = 0.02 and r = 0.05 at 10/s, without noise except for rounding to three places.
+/// A decay with D = 0.02 and r = 0.05 at 10/s, without noise except for rounding to three decimals.
 pub(crate) fn record() -> String {
     let (decay, mut text) = (exp(-std::f64::consts::PI * 0.02 / 0.9998), String::new());
     let (mut from, mut side, mut t) = (3.0_f64, 1.0, 0.0);
@@ -48,7 +48,7 @@ fn a_record_opens_with_its_pictures_and_a_number_stepped_is_held_while_the_other
     );
     let best = trial.session.problem;
     assert!((best.parameters.d - 0.02).abs() < 1e-3 && (best.parameters.r - 0.05).abs() < 1e-2);
-    // c = m omega0^2 = 200 N/m, so that 1 mm stands for 0.2 N.
+    // c = m omega0^2 = 200 N/m, so 1 mm corresponds to 0.2 N.
     let force = trial.session.units().unwrap().force;
     assert!((force - 0.2).abs() < 1e-3, "{force}");
 
@@ -58,7 +58,7 @@ fn a_record_opens_with_its_pictures_and_a_number_stepped_is_held_while_the_other
     assert!(trial.session.doubt.holds(Symbol::R) && held.r == 0.06);
     let margin = crate::picture::of(&trial.session, 3).title;
     assert_eq!(margin, "distribution of the margin");
-    // Once its draws are there the distribution is that with r held: less friction, smaller margins.
+    // Once its draws are there, the distribution is that with r held: more friction, less damping.
     let told = trial.session.fitted().unwrap();
     assert!(told.drawn && told.fit.margins.draws.iter().all(|draw| draw.r == 0.06));
     assert!(held.d < best.parameters.d, "more friction leaves less damping: {held:?}");
@@ -79,7 +79,7 @@ fn what_is_free_held_and_how_residuals_count_may_stand_behind_the_file() {
     assert_eq!(trial.session.problem.parameters.r, 0.05);
     let recording = trial.session.scene.recording.clone().unwrap();
     assert_eq!(recording.loss, crate::fit::LossName::Cauchy);
-    // A saved session asks the same again.
+    // A reopened session asks the same again.
     let mut other = Trial::open("plain");
     save::open(&mut other.session, &save::text(&trial.session).unwrap()).unwrap();
     assert_eq!(other.session.scene.recording, Some(recording));

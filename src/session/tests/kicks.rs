@@ -8,7 +8,7 @@ use crate::scene::{Layer, Topic};
 use crate::session::{Msg, save};
 use crate::study::repeated::repeated;
 
-/// What the plots are called.
+/// The titles of the plots.
 fn titles(trial: &Trial) -> Vec<String> {
     let plots = 0..trial.session.plots.len();
     plots.map(|index| picture::of(&trial.session, index).title.into_owned()).collect()

@@ -1,4 +1,4 @@
-//! Keys as a language: counts, macros, marks.
+//! Combinations of keys: counts, macros, marks.
 
 use super::Trial;
 use crate::scene::Answer;
@@ -46,7 +46,7 @@ fn keys_are_recorded_and_played_and_played_again() {
         ("u", "D -0.01"),
         ("uu", "D -0.07 | changes 3 3"),
         ("@q", "notice register q is empty"),
-        // What was not a letter does nothing else.
+        // A key that is not a letter has no other effect.
         ("@?", "notice ? is not a letter from a to z | open none"),
     ]);
 }
@@ -55,7 +55,7 @@ fn keys_are_recorded_and_played_and_played_again() {
 fn what_is_played_while_recording_is_recorded_in_its_place() {
     Trial::open("plain").goes(&[
         ("&a <right> & &b *2@a <left> &", "registers a <right>; b <right*2> <left>"),
-        // However recording is ended, what ends it is not recorded.
+        // However the recording is ended, the keys that end it are not recorded.
         ("&c <right> :record-macro<enter>", "registers ..; c <right>"),
         ("&d <right> <space>record-macro<enter>", "registers ..; d <right>"),
     ]);
@@ -95,7 +95,7 @@ fn between_two_marks_nothing_is_computed_twice_and_the_other_one_is_a_ghost() {
         ("''", "asked | D -0.1"),
         ("''", "asked"),
         ("'b", "asked | D -0.05 | ghost -0.1 | notice here already"),
-        // A jump is a change like another.
+        // A jump is a change like any other.
         ("u", "D -0.1"),
     ]);
 }

@@ -1,5 +1,5 @@
-//! What keys do to a session: (state, keys, state), the keys read by the product's own parser and the
-//! questions answered by hand.
+//! The effect of keys on a session: the keys are read by the program's own parser, and the questions are
+//! answered with made-up answers.
 
 mod axes;
 mod belt;
@@ -54,13 +54,13 @@ use crate::study::{
 /// A session whose questions are answered as soon as they are asked.
 struct Trial {
     session: Session,
-    /// What was asked since the last keys.
+    /// The questions since the last keys.
     asked: Vec<Request>,
-    /// What the outer rings were told to do.
+    /// The effects so far.
     effects: Vec<Effect>,
 }
 
-/// Evaluations that each answer by hand claims to have cost.
+/// Number of evaluations that each made-up answer claims.
 const COST: u64 = 100;
 
 impl Trial {
@@ -69,7 +69,7 @@ impl Trial {
         Trial::of(find(scene).unwrap())
     }
 
-    /// The same of a scene whose plots show the present values alone.
+    /// Opens a scene without its variants, so that its plots show only the present values.
     fn alone(scene: &str) -> Self {
         let mut scene = find(scene).unwrap();
         let alone = Arc::make_mut(&mut scene);
@@ -85,14 +85,15 @@ impl Trial {
         trial
     }
 
-    /// Gives a message and answers what it makes the session ask.
+    /// Gives a message and answers the resulting questions.
     fn give(&mut self, message: Msg) {
         let effects = update(&mut self.session, message);
         self.effects.extend(effects);
         self.settle();
     }
 
-    /// Presses keys; returns what had to be computed for them. Proofs follow the cycles, and nobody waits for them.
+    /// Presses keys; returns the topics that had to be computed. Proofs are left out: they follow the cycles,
+    /// and nothing waits for them.
     fn press(&mut self, keys: &str) -> Vec<Topic> {
         self.asked.clear();
         let mut player = Player::new(parse(keys).unwrap_or_else(|error| panic!("{keys}: {error}")));
@@ -109,8 +110,8 @@ impl Trial {
         self.asked.iter().map(Request::topic).filter(|topic| *topic != Topic::Proof).collect()
     }
 
-    /// Reads the files that were asked for since the effect of this number, as a file that is played has
-    /// them.
+    /// Reads the files that were asked for since the effect with this index, from the texts embedded in the
+    /// played file.
     fn reads(&mut self, since: usize, player: Option<&Player>) {
         let effects = self.effects.split_off(since);
         self.effects.extend(effects.iter().cloned());
@@ -132,7 +133,7 @@ impl Trial {
         assert!(!self.session.is_busy(), "answers make the session ask again and again");
     }
 
-    /// What is asked and not answered.
+    /// The questions that are asked and not answered.
     fn open_questions(&self) -> Vec<Request> {
         let mut open: Vec<Request> = self.session.wants();
         open.retain(|request| self.session.is_open(request));
@@ -144,7 +145,7 @@ impl Trial {
         self.session.branches(plot)[0].1
     }
 
-    /// Why what is typed was not taken.
+    /// Why the typed text was refused.
     fn refused(&self) -> String {
         let refused = match &self.session.overlay {
             Some(Overlay::Entry(entry)) => &entry.refused,
@@ -155,7 +156,7 @@ impl Trial {
         refused.clone().unwrap_or_default()
     }
 
-    /// The line for the user.
+    /// The notice to the user.
     fn notice(&self) -> &str {
         self.session.notice.as_ref().map_or("", |notice| &notice.text)
     }
@@ -181,7 +182,7 @@ fn cycle(stable: bool, r: f64) -> Cycle {
     }
 }
 
-/// Two methods, the second better and dearer.
+/// Two methods, the second more accurate and more expensive.
 fn trade(cost: Cost) -> Trade {
     let problem = Problem::default();
     let row = |method, tolerance, evaluations, error| Tried {
@@ -206,7 +207,7 @@ fn trade(cost: Cost) -> Trade {
     Trade { problem, reference, rows }
 }
 
-/// Certainty by hand: a margin, and half of it for certain.
+/// Made-up zones: a nominal margin, and half of it as the guaranteed one.
 fn zones() -> Zones {
     let margin = |part: f64| Margin { displacement: Some(part), impulse: Some(part) };
     Zones {
@@ -218,13 +219,13 @@ fn zones() -> Zones {
     }
 }
 
-/// A request with its answer by hand.
+/// A request with its made-up answer.
 fn answered(request: Request) -> Msg {
     let result = Ok(by_hand(&request));
     Msg::answered(request, result, 0.001)
 }
 
-/// An answer by hand: a motion that stays where it starts, two cycles, one fold.
+/// A made-up answer: a motion that stays at its start, two cycles, and one fold.
 pub fn by_hand(request: &Request) -> Answer {
     let cost = Cost { evaluations: COST, steps: 1, rejected: 0 };
     match request {
@@ -261,7 +262,7 @@ pub fn by_hand(request: &Request) -> Answer {
             })
         }
         Request::Trade(_) => Answer::Trade(Box::new(trade(cost))),
-        // Nothing is known better than by hand.
+        // There is no reference for made-up answers.
         Request::Reference(_) => Answer::Reference(Err(Reason::OutOfRange)),
         Request::Zones(_) | Request::MachineZones(_) => Answer::Zones(zones()),
         Request::Kicks(_) => {

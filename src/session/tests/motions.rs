@@ -1,10 +1,10 @@
-//! Several motions: started beside each other, taken away, undone, saved.
+//! Several motions: started beside each other, removed, undone, saved.
 
 use super::Trial;
 use crate::oscillator::State;
 use crate::session::save;
 
-/// In the scene the motion starts at 0.3; by hand the unstable cycle turns at 1.1.
+/// In the scene, the motion starts at 0.3; in the made-up answer, the unstable cycle turns at 1.1.
 #[test]
 fn motions_are_started_beside_each_other_and_taken_away() {
     for (keys, expected) in [
@@ -23,7 +23,7 @@ fn motions_are_started_beside_each_other_and_taken_away() {
         ("i o u u U U", "0.3 1.05 1.15"),
         ("i o R", "0.3"),
         ("i o R u", "0.3 1.05 1.15"),
-        // The numbers are those of the newest, and the others stay.
+        // Typed numbers change the newest motion; the others stay.
         ("i o <down*3>2<enter>", "0.3 1.05 2.0"),
         ("\"a i o \"b 'a", "0.3"),
         ("\"a i o \"b 'a 'b", "0.3 1.05 1.15"),
@@ -54,11 +54,11 @@ fn enter_in_the_phase_plane_adds_a_motion_and_of_too_many_the_oldest_gives_way()
 #[test]
 fn each_motion_is_a_question_of_its_own() {
     Trial::open("supercritical").goes(&[
-        // The other one is known.
+        // The answer for the other motion is known.
         ("i", "asked Trajectory"),
         ("o", "asked Trajectory"),
         ("<right>", "asked Trajectory Trajectory Trajectory Cycles"),
-        // A step of q0 is one of the newest.
+        // A step of q0 moves only the newest start.
         ("<down*3><right>", "asked Trajectory"),
         ("d", "asked | starts 0.3 1.05"),
     ]);

@@ -14,7 +14,7 @@ fn every_command_is_reached_from_the_palette_without_a_key_of_its_own() {
     for command in commands() {
         let inside = command.keys.iter().all(|(context, _)| context.is_overlay());
         let name = command.name.strip_prefix("toggle-").unwrap_or(command.name);
-        // A digit cannot be typed from a list.
+        // A digit cannot be typed in a list.
         let typed = command.keys.iter().any(|(_, keys)| keys.contains(&"1"));
         assert!(inside || listed.contains(&name) != typed, "{name}");
     }
@@ -34,7 +34,7 @@ fn the_palette_runs_a_command_in_the_pane_that_it_belongs_to() {
         ),
         ("<space>no<space>such<space>thing<enter>", "open Palette"),
         ("<esc>", "open none"),
-        // What takes words gets a line.
+        // A command that takes words opens the line.
         ("<space>open<space>a<space>sc<enter>supercritical<enter>", "scene supercritical"),
     ]);
 }
@@ -148,7 +148,7 @@ fn old_lines_come_back_and_the_new_one_is_not_lost() {
         ("<up*5>", "typed toggle-field"),
         ("<down*5>", "typed un"),
         ("<up><enter>", "open none"),
-        // An empty line does nothing.
+        // An empty line has no effect.
         (":<enter>:<space><enter>", "D -0.2 | open none"),
     ]);
     assert_eq!(trial.session.lines, ["toggle-field", "set D=-0.2"]);
@@ -165,7 +165,7 @@ fn the_palette_finds_what_has_all_the_words() {
     assert!(names.contains(&"goto") && !names.contains(&"set-mark"), "{names:?}");
 }
 
-/// What the palette finds for some words.
+/// The headings and names that the palette finds for some words.
 fn found(words: &str) -> Vec<(&'static str, &'static str)> {
     let trial = Trial::open("plain");
     let list = crate::session::List { search: words.to_owned(), ..Default::default() };
@@ -173,7 +173,7 @@ fn found(words: &str) -> Vec<(&'static str, &'static str)> {
     rows.iter().map(|row| (trial.session.heading(*row), row.name())).collect()
 }
 
-/// What a person types, and the row that is meant.
+/// Words that a person may type, and the row that is meant.
 #[rustfmt::skip]
 const MEANT: [(&str, &str); 60] = [
     ("fold", "walk-to-next"), ("export", "save-figure"), ("stable", "cycles"), ("animate", "play-motion"),

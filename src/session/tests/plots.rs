@@ -1,4 +1,4 @@
-//! Cursor, zoom, pan, fit; starts beside the cycle.
+//! Cursor, zoom, pan and fit; starts beside the cycle.
 
 use super::Trial;
 use crate::oscillator::State;
@@ -9,7 +9,7 @@ use crate::study::{BasinPicture, Cycles, Edge, Margin};
 #[test]
 fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
     Trial::open("plain").goes(&[
-        // A 64th of the width 4 is near 0.05.
+        // A 64th of the width 4 is close to 0.05.
         ("<tab><right>", "cursor 1.05 0"),
         ("k k h <C-left>", "cursor 0.6 0.1"),
         ("<enter>", "q0 0.6 | v0 0.1"),
@@ -73,7 +73,7 @@ fn fit_shows_all_that_is_computed() {
     trial.press("<tab>0");
     let window = trial.session.plots[0].window;
     assert_eq!(trial.session.plots[0].framing, Framing::Fitted);
-    // The stable cycle by hand reaches r + 3 in every direction.
+    // In the made-up answer, the stable cycle reaches r + 3 in every direction.
     assert!(window.contains(Point { x: 3.1, y: -3.1 }) && window.x.to() < 3.5);
     trial.press("<tab>0");
     assert_eq!(trial.session.plots[1].framing, Framing::Fitted);
@@ -86,7 +86,7 @@ fn fit_shows_every_variant_and_not_the_motion_that_none_of_them_is() {
     for (scene, index) in [("fig15", 1), ("fig13", 2), ("fig05", 1), ("fig16", 1), ("fig17", 3)] {
         let mut trial = Trial::open(scene);
         let variants = trial.session.variants(index).expect("variants").len();
-        // A start far away that the variants do not hold, where they hold one, is not on show.
+        // A far start is not on show where the variants hold another one.
         let held = trial.session.shown(index).iter().all(|shown| shown.problem.initial.q != 1.2);
         trial.press(&format!("{} 0", "<tab>".repeat(index + 1)));
         assert_eq!(trial.session.plots[index].framing, Framing::Fitted, "{scene}");
@@ -134,7 +134,7 @@ fn fit_waits_for_what_is_being_computed() {
 
 #[test]
 fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
-    // By hand the unstable cycle has clearance 1.
+    // In the made-up answer, the unstable cycle has clearance 1.
     Trial::open("supercritical").goes(&[
         ("<tab><up><enter> i", "r 0.1 | q0 1.05 | v0 0"),
         ("o", "q0 1.15 | v0 0"),
@@ -143,7 +143,7 @@ fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
     ]);
 }
 
-/// The cycles that were answered.
+/// The answered cycles.
 fn cycles(trial: &mut Trial) -> &mut Cycles {
     let mut cycles = trial.session.answers.each().filter_map(|held| match &mut held.result {
         Ok(Answer::Cycles(found)) => Some(found),
@@ -170,7 +170,7 @@ fn a_separatrix_has_two_sides_too() {
             area: None,
             lyapunov_share: None,
         });
-        // r is 0.1: the clearance is 1.
+        // r is 0.1, and the clearance is 1.
         trial.press("i");
         assert_eq!(trial.session.problem.initial, State { q: sign * 1.05, v: 0.0 });
         trial.press("o");
@@ -188,7 +188,7 @@ fn a_cycle_close_to_the_sticking_set_still_has_two_sides() {
         let inside = trial.session.problem.initial.q;
         trial.press("o");
         let outside = trial.session.problem.initial.q;
-        // r is 1 here, and differences next to it are exact.
+        // r is 1 here, and differences close to it are exact.
         assert!((0.0..clearance).contains(&(inside - 1.0)), "{inside:?} inside of {clearance:e}");
         assert!(outside - 1.0 > clearance, "{outside:?} outside of {clearance:e}");
     }

@@ -1,4 +1,4 @@
-//! Recordings: they play what was recorded, from the same beginning to the same end.
+//! Recordings: they replay what was recorded, from the same start to the same end.
 
 use std::sync::Arc;
 
@@ -17,14 +17,14 @@ use crate::session::settings::{COLORS, GLYPHS, THEMES, Wishes};
 use crate::session::state::answers::Answers;
 use crate::session::{Effect, Msg, Notice, Session, Size, save};
 
-/// A session as options of the command line start it, and the recording of it.
+/// A session as options of the command line start it, with its recording.
 fn started(scene: Arc<Scene>, look: Wishes) -> (Trial, Recorder) {
     let mut session = Session::new(scene, Size { width: 80, height: 24 });
     session.look = look;
     recording(session)
 }
 
-/// A session that begins, and the recording of it.
+/// A session that begins, with its recording.
 fn recording(session: Session) -> (Trial, Recorder) {
     let recorder = Recorder::new(opening(&session).unwrap());
     let mut trial = Trial { session, asked: Vec::new(), effects: Vec::new() };
@@ -32,7 +32,7 @@ fn recording(session: Session) -> (Trial, Recorder) {
     (trial, recorder)
 }
 
-/// What a recording leads to, from whatever was there before.
+/// The session that a recording leads to, whatever the state before.
 fn replayed(text: &str, before: &str) -> Trial {
     let mut trial = Trial::open(before);
     trial.press("<right> \"a <right> W");
@@ -40,7 +40,7 @@ fn replayed(text: &str, before: &str) -> Trial {
     trial
 }
 
-/// A session without what it cost, and what is compared with answers that nobody asks for any more.
+/// A session without its cost, and without answers that are no longer asked for.
 fn alike(session: &Session) -> Session {
     let mut session = session.clone();
     session.price = crate::session::Price::default();
@@ -63,14 +63,14 @@ pub(super) fn assert_alike(one: &Session, other: &Session, text: &str) {
     }
 }
 
-/// A scene with numbers of the command line.
+/// A scene with numbers from the command line.
 fn with_numbers(scene: &Arc<Scene>, change: impl FnOnce(&mut Scene)) -> Arc<Scene> {
     let mut scene = Arc::clone(scene);
     change(Arc::make_mut(&mut scene));
     scene
 }
 
-/// Numbers as `--set` gives them.
+/// Sets a number like `--set`.
 fn set(scene: &mut Scene, symbol: Symbol, value: f64) {
     let Problem { parameters, initial, .. } = &mut scene.problem;
     symbol.set(parameters, initial, value);
@@ -162,7 +162,7 @@ proptest! {
             dimensionless: mouse,
         };
         let (mut live, mut recorder) = started(scene, look);
-        // The tour expects what a screen shows.
+        // The tour is left out, because it expects texts on the screen.
         for key in keys.into_iter().filter(|key| key.to_string() != "<f6>") {
             let message = Msg::Key(key);
             recorder.note(&message);

@@ -1,4 +1,4 @@
-//! A key recomputes what depends on it and nothing else.
+//! A key recomputes only what depends on it.
 
 use super::{COST, Trial, answered};
 use crate::flow::Reason;
@@ -59,7 +59,7 @@ fn a_hidden_layer_asks_nothing() {
     trial.goes(&[
         ("<run \"layer trajectory\">", "-trajectory"),
         ("<right>", "asked Cycles"),
-        // Cycles and basin share an answer: it is needed as long as one of them is on.
+        // Cycles and basin share an answer, which is needed as long as one of them is on.
         ("<run \"layer cycles\">", "-cycles"),
         ("<right>", "asked Cycles"),
         ("<run \"layer basin\">", "-basin"),
@@ -86,7 +86,7 @@ fn what_was_answered_or_is_replaced_by_another_plot_is_not_asked() {
     Trial::alone("supercritical").goes(&[
         ("<tab> z <S-tab>", ""),
         ("<down><right>", "asked Trajectory Cycles"),
-        // The diagram comes to the front, up to date.
+        // The diagram becomes visible, up to date.
         ("<tab><tab>", "asked Branch"),
     ]);
 }
@@ -101,7 +101,7 @@ fn terms_that_a_scene_does_not_declare_are_zero_until_the_user_unfolds_them() {
     trial.goes(&[
         ("", "rows D r q0 v0 until method tolerance"),
         ("x", "rows D D2 D3 r w q0 v0 until method tolerance"),
-        // A term in effect is not hidden.
+        // A term that is not zero is not hidden.
         ("<down*2><right>x", "rows D D3 r q0 v0 until method tolerance"),
         ("<left>", "rows D r q0 v0 until method tolerance | selected r"),
     ]);
@@ -154,7 +154,7 @@ fn a_late_answer_never_replaces_the_one_that_is_asked_for() {
     let held = trial.session.trajectory().cloned();
     update(&mut trial.session, answered(superseded.clone()));
     assert_eq!(trial.session.trajectory().cloned(), held);
-    // While something else is still being computed, it is the newest there is.
+    // While something else is still being computed, this is the newest answer.
     update(&mut trial.session, Msg::Key("<left>".parse().unwrap()));
     update(&mut trial.session, answered(superseded.clone()));
     let Request::Trajectory(problem) = superseded else { panic!("a trajectory was asked for") };

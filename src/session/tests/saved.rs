@@ -1,4 +1,4 @@
-//! Sessions as files: what is saved comes back, and what is not a session is refused in one line.
+//! Sessions as files: a saved session comes back, and anything else is refused in one line.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use crate::flow::Problem;
 use crate::scene::{Request, Topic, library};
 use crate::session::{Effect, Kept, Msg, Notice, Purpose, Session, save, update};
 
-/// Everything of a session that a file holds.
+/// Everything of a session that its file holds.
 fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
     let marks: Vec<(char, Problem)> =
         session.marks.places.iter().map(|(name, mark)| (*name, mark.setup.problem)).collect();
@@ -19,7 +19,7 @@ fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
         .iter()
         .map(|plot| (plot.view, plot.axes, plot.window, plot.framing, plot.cursor))
         .collect();
-    // Overlays and the rest on the dial are passing; what they ask for is not a part of a session.
+    // Questions for an overlay or for the measured error are transient and not part of a session.
     let passing = |request: &Request| matches!(request.topic(), Topic::Claims | Topic::Reference);
     let wants: Vec<Request> =
         session.wants().into_iter().filter(|request| !passing(request)).collect();
@@ -32,7 +32,7 @@ fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
     )
 }
 
-/// What comes back of a session that is saved.
+/// A session after it was saved and opened again.
 fn reopened(session: &Session) -> Session {
     let text = save::text(session).unwrap();
     let mut other = Trial::open("plain").session;
@@ -40,7 +40,7 @@ fn reopened(session: &Session) -> Session {
     other
 }
 
-/// A session in which everything is different from the beginning.
+/// A session in which everything differs from the start.
 fn used() -> Trial {
     let mut trial = Trial::open("linear");
     trial.press(
@@ -88,7 +88,7 @@ fn lines_write_open_and_play_files_without_touching_any() {
     assert!(matches!(other.effects.last(), Some(Effect::Write { replace: true, .. })));
     other.press(":figure<space>a.SVG<enter>");
     assert!(matches!(other.effects.last(), Some(Effect::Figure { replace: false, .. })));
-    // While it is written there is no other; what stops a scan stops it too.
+    // Only one figure is written at a time; the key that stops a scan also stops a figure.
     other.press(":figure<space>b.svg<enter>");
     assert!(matches!(other.effects.last(), Some(Effect::Figure { replace: false, .. })));
     other.press("<esc> <esc>");

@@ -1,4 +1,4 @@
-//! Scans: the form, rows in pieces, stopping and going on, walking over points.
+//! Scans: the form, rows in pieces, stopping and continuing, moving over points.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use crate::session::{Effect, Msg, Pane, Scanned, Session, update};
 use crate::study::measure::Value;
 use crate::study::scan::{Scan, ScanRow};
 
-/// Rows by hand: the number of the point in each column.
+/// Made-up rows: the index of the point in each column.
 pub fn rows(scan: &Scan, points: Range<usize>) -> Vec<ScanRow> {
     let row = |index: usize| ScanRow {
         values: vec![Value::Count(index); scan.measured().len()],
@@ -27,7 +27,7 @@ fn scanned(session: &Session) -> &Scanned {
     session.scanned.as_ref().expect("a scan")
 }
 
-/// Gives some rows to the session as the worker does.
+/// Gives rows to the session as the worker does.
 fn piece(session: &mut Session, request: &Request, points: Range<usize>) {
     let Request::Scan(question::scan::Asked { scan, .. }) = request else { panic!("{request:?}") };
     let complete = points.end == scan.points();
@@ -37,7 +37,7 @@ fn piece(session: &mut Session, request: &Request, points: Range<usize>) {
     update(session, Msg::Answered(Box::new(answered)));
 }
 
-/// Types a text into the field that is open, in place of what stands there.
+/// Replaces the text of the open field.
 fn field(trial: &mut Trial, text: &str) {
     trial.press("<C-u>");
     for char in text.chars() {
@@ -45,7 +45,7 @@ fn field(trial: &mut Trial, text: &str) {
     }
 }
 
-/// A session that scans D over 6 values, with no row yet.
+/// A session that scans D over 6 values, without any row yet.
 fn begun() -> (Session, Request) {
     let mut session = Trial::open("plain").session;
     crate::session::run_line(&mut session, "scan D=-0.6:-0.1:6 margin").unwrap();
@@ -62,7 +62,7 @@ fn the_form_starts_a_scan_with_keys_alone_and_shows_it() {
         trial.press("<tab>");
         field(&mut trial, text);
     }
-    // The second parameter is chosen with the arrows.
+    // The second parameter is selected with the arrows.
     trial.press("<down> <right*2>");
     for text in ["0.1", "0.3", "2"] {
         trial.press("<down>");
@@ -173,7 +173,7 @@ fn points_are_walked_over_as_they_stand_and_enter_takes_one_into_the_phase_plane
         ("<left*9>", "scanned 2"),
         ("<end>", "scanned 17"),
         ("<home>", "scanned 2"),
-        // In the table the arrows go from row to row.
+        // In the table, the arrows move from row to row.
         ("t <down*2>", "scanned 4"),
         ("<up> <pgdn>", "scanned 13"),
         ("<end>", "scanned 17"),

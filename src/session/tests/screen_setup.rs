@@ -1,11 +1,11 @@
-//! One to four plots, each with a view of its own, and what they ask together.
+//! One to four plots, each with its own view, and what they ask together.
 
 use super::Trial;
 use crate::oscillator::Symbol;
 use crate::scene::{Arrangement, Axes, Ordinate, Topic, View};
 use crate::session::{Framing, Pane};
 
-/// The views on show, a letter each, in capitals in focus.
+/// The views on show by their first letters, with a capital for the one in focus.
 fn views(trial: &Trial) -> String {
     let letter = |(index, view): (usize, View)| {
         let letter = view.spec().name.chars().next().unwrap_or(' ');
@@ -49,15 +49,15 @@ fn there_are_one_to_four_plots() {
 #[test]
 fn equal_questions_of_two_plots_are_one() {
     let mut trial = Trial::alone("supercritical");
-    // Another diagram like the first: its branch is known.
+    // A second diagram with the same axes: its branch is known.
     trial.press("<tab>");
     assert_eq!(trial.press("; , ;"), []);
     let [first, second] = &trial.session.plots[..] else { panic!("two plots") };
     assert_eq!((first.view, first.axes), (second.view, second.axes));
-    // A step of D3 computes both branches again: by one computation.
+    // A step of D3 recomputes both branches in one computation.
     assert_eq!(trial.press("<S-tab><down><right>"), [Topic::Branch]);
     assert!((0..2).all(|plot| trial.session.is_fresh(Topic::Branch, plot)));
-    // Another ordinate is another look at the same cycles.
+    // Another ordinate needs no other branch.
     assert_eq!(trial.press("<tab>Y Y Y Y Y"), []);
     assert_eq!(trial.session.plots[0].axes.ordinate, Ordinate::Period);
     assert_eq!(trial.press("<S-tab><left>"), [], "the way back is known");
@@ -71,7 +71,7 @@ fn two_diagrams_over_different_axes_stand_side_by_side() {
         assert_eq!(trial.session.plots[plot].axes.abscissa, over);
         assert_eq!(trial.branch(plot).parameter, over);
     }
-    // D lies on the axis of one and goes into the branch of the other.
+    // D is the abscissa of one diagram and an input of the other's branch.
     trial.goes(&[("<S-tab><right>", "asked Branch"), ("<down><right>", "asked Branch Branch")]);
 }
 

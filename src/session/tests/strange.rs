@@ -8,7 +8,7 @@ use crate::scene::{Request, library};
 use crate::session::commands;
 use crate::session::{Effect, Key, Msg, Plot, Session, update};
 
-/// Keys that mean something somewhere, and some that are only typed.
+/// Keys that have a meaning in some context, and some that are only typed.
 pub(super) fn any_key() -> impl Strategy<Value = Key> {
     let bound: Vec<Key> = commands()
         .flat_map(|command| command.keys.iter().flat_map(|(_, keys)| keys.iter()))
@@ -21,7 +21,7 @@ pub(super) fn any_key() -> impl Strategy<Value = Key> {
     prop_oneof![4 => prop::sample::select(bound), 1 => typed]
 }
 
-/// What must hold whatever was pressed.
+/// Checks what must hold after any keys.
 pub(super) fn check(session: &Session) {
     assert!(session.rows().contains(&session.selected));
     assert!(session.panes().contains(&session.focus));

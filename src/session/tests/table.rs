@@ -61,7 +61,7 @@ fn every_layer_has_a_command() {
 
 #[test]
 fn an_arrow_key_that_arrives_in_pieces_destroys_nothing() {
-    // Over a slow line <up> can come as <esc>, [, A; application mode sends O in place of [.
+    // Over a slow line, <up> can arrive as <esc>, [, A; application mode sends O instead of [.
     for (context, key, name) in bindings() {
         let piece = key.typed().is_some_and(|char| "OABCD".contains(char));
         assert!(!piece, "{name} is bound to {key} in {context:?}");
@@ -80,7 +80,7 @@ fn an_arrow_key_that_arrives_in_pieces_destroys_nothing() {
     }
 }
 
-/// Commands with one meaning in different panes: directions, and what is drawn along an axis.
+/// Commands with the same meaning in different panes: directions, and what is drawn along an axis.
 const ALIKE: [&[&str]; 9] = [
     &["step-down", "walk-back", "scan-back", "cursor-left"],
     &["step-up", "walk-on", "scan-on", "cursor-right"],

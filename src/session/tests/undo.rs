@@ -3,7 +3,7 @@
 use super::Trial;
 use crate::scene::{Request, Topic};
 
-/// What is asked for the picture; what its error is measured against belongs to the dial.
+/// The questions for the picture; the reference belongs to the dial.
 fn asked(trial: &Trial) -> Vec<Request> {
     let mut wanted = trial.session.wants();
     wanted.retain(|request| request.topic() != Topic::Reference);
@@ -51,7 +51,7 @@ fn a_change_after_an_undo_ends_the_future_and_a_repeated_reset_is_one_change() {
     trial.goes(&[("<right*3>", "changes 3 0"), ("r r r", "changes 4 0")]);
     assert_eq!(trial.session.problem, trial.session.scene.problem);
     trial.goes(&[
-        // Nothing was left to reset; a reset of the scene brings layers back.
+        // The second reset has no effect; resetting the scene restores layers.
         ("R R", "changes 4 0"),
         ("<run \"layer basin\"> R R u", "-basin"),
     ]);

@@ -1,4 +1,4 @@
-//! What each view asks, and what can be taken from it into the phase plane.
+//! The questions of each view, and what can be taken from it into the phase plane.
 
 use super::Trial;
 use crate::oscillator::{State, Symbol};
@@ -6,7 +6,7 @@ use crate::scene::{LAYERS, Request, Topic, VIEWS, View};
 use crate::session::{Context, Pane};
 use crate::study::claims::claims;
 
-/// A scene with one plot, turned to a view.
+/// A scene with a single plot, which shows a view.
 fn turned_to(view: &str) -> Trial {
     let mut trial = Trial::alone("supercritical");
     trial.press(&format!("<tab>Q :view<space>{view}<enter>"));
@@ -27,7 +27,7 @@ fn a_view_asks_what_its_layers_need_and_a_step_asks_that_again() {
     ] {
         let mut trial = turned_to(view);
         let mut wanted: Vec<Topic> = trial.session.wants().iter().map(Request::topic).collect();
-        // Where cycles are shown their proof is asked, last.
+        // Where cycles are shown, their proof is asked last.
         assert!(!needs.contains(&Topic::Cycles) || wanted.pop() == Some(Topic::Proof), "{view}");
         assert_eq!(wanted, needs, "{view}");
         assert_eq!(trial.press("<S-tab><down*3><right>"), on_q0, "q0 in {view}");
@@ -47,10 +47,10 @@ fn the_parameters_of_a_chart_move_its_point_and_nothing_else() {
     ]);
     assert_eq!(trial.session.plots[0].axes.against, Symbol::R);
     trial.goes(&[
-        // r stands upwards already.
+        // r is already the upward axis.
         ("X", "asked Regimes | abscissa D2"),
         ("<run \"layer regimes\"><run \"layer borders\">", "asked"),
-        // A chart that is not shown is not computed.
+        // A hidden chart is not computed.
         ("L", "asked"),
     ]);
 }
@@ -71,14 +71,14 @@ fn enter_on_a_chart_takes_both_parameters_as_one_change() {
 #[test]
 fn views_of_the_same_answers_cost_nothing() {
     Trial::alone("supercritical").goes(&[
-        // The cycles have their works.
+        // The cycles come with their works.
         ("<tab>V/energy<enter>", "asked"),
         ("V/time<enter>", "asked"),
         ("v f n e p t <esc>", "asked"),
-        // Once, when its window is known.
+        // Asked once, when the window is known.
         ("V/return<enter>", "asked ReturnMap"),
         ("<run \"layer map\">", "asked"),
-        // A map that is not shown is not computed.
+        // A hidden map is not computed.
         ("L", "asked"),
         ("<run \"layer map\">", "asked ReturnMap"),
     ]);
@@ -86,7 +86,7 @@ fn views_of_the_same_answers_cost_nothing() {
 
 #[test]
 fn every_view_has_its_keys_and_can_be_looked_around_in() {
-    // In a scan one walks over its points instead.
+    // In the view of a scan, arrows move over its points instead.
     for row in VIEWS.iter().filter(|row| row.view != View::Scan) {
         let mut trial = turned_to(row.name);
         assert_eq!(trial.session.focus, Pane::Plot(0));
@@ -110,7 +110,7 @@ fn enter_takes_the_point_under_the_cursor_into_the_phase_plane() {
         trial.session.problem.initial
     };
     let opened = Trial::alone("supercritical").session.problem.initial;
-    // By hand the motion stays where it starts, and the unstable cycle turns at r + 1 = 1.1.
+    // In the made-up answers, the motion stays at its start, and the unstable cycle turns at r + 1 = 1.1.
     assert_eq!(initial("time-series", "<right*5><enter>"), opened);
     assert_eq!(initial("energy-ledger", "<down><enter>"), State { q: 1.1, v: 0.0 });
     assert_eq!(initial("return-map", "<right*4><enter>").v, 0.0);
@@ -119,7 +119,7 @@ fn enter_takes_the_point_under_the_cursor_into_the_phase_plane() {
 
 #[test]
 fn a_view_that_the_scene_does_not_know_opens_with_its_usual_layers() {
-    // A scan is asked for by its form, not by layers; a view whose layers formulas draw asks nothing.
+    // A scan is asked for by its form, not by layers; a view whose layers are drawn by formulas asks nothing.
     for row in VIEWS.iter().filter(|row| row.view != View::Scan) {
         let trial = turned_to(row.name);
         let shown = trial.session.layers.iter().any(|layer| trial.session.shows_in(*layer, 0));
@@ -128,7 +128,7 @@ fn a_view_that_the_scene_does_not_know_opens_with_its_usual_layers() {
         let asks = usual.any(|layer| layer.needs.is_some());
         assert_eq!(!trial.session.needs(0).is_empty(), asks, "{}", row.name);
     }
-    // What is on stays as it is.
+    // Layers that are on stay as they are.
     let mut trial = turned_to("time-series");
     trial.press("<run \"layer position\"><run \"layer events\">");
     let layers = trial.session.layers.clone();
@@ -141,10 +141,10 @@ fn the_trade_is_asked_for_the_motion_and_not_for_the_method_that_computes_it() {
     let mut trial = turned_to("trade");
     assert_eq!(trial.session.needs(0).into_iter().collect::<Vec<_>>(), [Topic::Trade]);
     trial.goes(&[
-        // The dial and the method are not inputs; every number of the motion is.
+        // The present accuracy and method are no inputs; every number of the motion is one.
         ("} m {", "asked"),
         ("<S-tab><down*3><right>", "asked Trade"),
-        // Enter takes the method and the accuracy of the nearest row.
+        // Enter selects the method and the accuracy of the nearest row.
         ("<tab><enter>", "notice no cursor yet: left, up and so on show it"),
         ("<right*200> <down*200> <enter>", "method dop853 | tolerance 1e-12"),
         ("<left*200> <up*200> <enter>", "method taylor | tolerance 0.0001"),
@@ -157,7 +157,7 @@ fn the_claims_of_the_paper_are_examined_once_when_they_are_first_looked_at() {
     let scene = format!("open none | scene {}", claim.scene.unwrap());
     Trial::open("plain").goes(&[
         ("<A-p>", "asked Claims"),
-        // They do not change, and hidden they cost nothing.
+        // The claims do not change, and cost nothing while hidden.
         ("<esc><f10>", "asked"),
         ("/(33)<enter><enter>", &scene),
         ("<right>", "asked"),

@@ -1,4 +1,4 @@
-//! Fast and slow typing: what needs an answer waits for it, so that the same keys lead to the same end.
+//! Fast and slow typing: commands that need an answer wait for it, so that the same keys lead to the same end.
 
 use proptest::prelude::*;
 
@@ -12,7 +12,7 @@ use crate::session::read::waiting::NEEDS;
 use crate::session::replay::{Action, Player, parse};
 use crate::session::{Effect, Msg, update};
 
-/// Gives a message while nothing is answered but what it waits for; returns whether it waits.
+/// Gives a message and answers only what it waits for; returns whether it waits.
 fn hurry(trial: &mut Trial, message: Msg) -> bool {
     let effects = update(&mut trial.session, message);
     trial.effects.extend(effects);
@@ -29,7 +29,7 @@ fn hurry(trial: &mut Trial, message: Msg) -> bool {
     waits
 }
 
-/// Presses keys as fast as they come; returns which of them waited.
+/// Presses keys without answering in between; returns those that waited.
 fn type_ahead(trial: &mut Trial, keys: &str) -> Vec<String> {
     let mut player = Player::new(parse(keys).unwrap());
     let mut waited = Vec::new();
@@ -47,10 +47,10 @@ fn type_ahead(trial: &mut Trial, keys: &str) -> Vec<String> {
     waited
 }
 
-/// For each command that needs an answer, keys that ask something new and press it at once.
+/// For each command that needs an answer, keys that ask something new and run the command at once.
 const HASTY: [(&str, &str, &str); 27] = [
     ("start-inside", "supercritical", "<right>i"),
-    // The first plot is a diagram with variants; the edge is that of the present friction.
+    // The first plot is a diagram with variants; the border is that of the present friction.
     ("start-inside", "fig16a", "<right>i"),
     ("start-outside", "supercritical", "<right>o"),
     ("start-outside", "supercritical", "<right>:start-outside<enter>"),
@@ -70,7 +70,7 @@ const HASTY: [(&str, &str, &str); 27] = [
     ("motion-back", "linear", "<f9*9><right><f7>"),
     ("use-method", "plain", ":view<space>trade<enter><left*30><enter>"),
     ("walk", "supercritical", ":set<space>r=0.2<enter>:walk<enter><right*2><enter>"),
-    // The view that asked for the answer has given way to one that does not.
+    // The view that asked for the answer was replaced by one that does not.
     ("start-inside", "linear", "<left>;i"),
     // A key of a plot that is not in focus.
     ("walk", "supercritical", "<down*2><right>w<right*2><enter>"),
@@ -150,7 +150,8 @@ proptest! {
         let scene = &library()[scene].name;
         let [mut slow, mut fast] = [(); 2].map(|()| Trial::open(scene));
         let mut pressed = String::new();
-        // The tour expects what a screen shows; the form of a scan offers the windows as they are by then.
+        // Left out: the tour expects texts on the screen, and the form of a scan offers the windows as they are
+        // at that moment.
         let left_out = |key: &str| ["<f6>", "%"].contains(&key);
         for (key, answers) in keys {
             let key = key.to_string();
@@ -159,7 +160,7 @@ proptest! {
             }
             slow.press(&key);
             type_ahead(&mut fast, &key);
-            // Some of what is asked is answered before the next key.
+            // Some questions are answered before the next key.
             for request in fast.open_questions().into_iter().take(answers) {
                 let answer = answered(request);
                 update(&mut fast.session, answer);

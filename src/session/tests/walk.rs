@@ -1,4 +1,4 @@
-//! Walking along the branch, which by hand is: unstable at 1.1, a fold at 1.5, stable at 3.1.
+//! Walking along the made-up branch: unstable at 1.1, a fold at 1.5, stable at 3.1.
 
 use super::Trial;
 use crate::oscillator::State;
@@ -22,7 +22,7 @@ fn the_arrows_walk_along_the_branch_tab_jumps_and_esc_lets_go() {
         ("<home>", "held 1.1"),
         ("<S-right>", "held 3.1"),
         ("<right>", "notice the branch ends here.."),
-        // Special points and ends, and around.
+        // Special points and ends, cycling.
         ("<home><tab>", "special Fold"),
         ("<tab>", "held 3.1"),
         ("<tab>", "held 1.1"),
@@ -62,7 +62,7 @@ fn there_must_be_a_branch_to_hold() {
     assert_eq!(trial.session.held, None);
     trial.press("<run \"layer branch\"> w<home>");
     assert!(trial.session.held.is_some());
-    // Zooming computes the branch again; the hold stays on it.
+    // Zooming recomputes the branch; the walk stays at a point of it.
     trial.press("+");
     let held = held(&trial);
     assert!(trial.branch(1).pieces.iter().flatten().any(|point| BranchStop::on(0, point) == held));
@@ -70,7 +70,7 @@ fn there_must_be_a_branch_to_hold() {
 
 #[test]
 fn of_variants_the_present_one_is_walked_first_and_each_brings_its_values() {
-    // Three frictions, of which the first is the present one.
+    // Three frictions; the first is the present one.
     let mut trial = Trial::open("fig16b");
     trial.press("<tab>w");
     assert_eq!(held(&trial).variant, 0);
@@ -94,6 +94,6 @@ fn of_variants_the_present_one_is_walked_first_and_each_brings_its_values() {
 #[test]
 fn another_scene_takes_the_hold_away() {
     let mut trial = Trial::alone("supercritical");
-    // Undo opens the scene before.
+    // Undo opens the previous scene.
     trial.goes(&[("s/basin<enter> <tab><tab>w<home>", "held 2"), ("u", "held none")]);
 }
