@@ -41,6 +41,7 @@ macro_rules! questions {
             Trade(trade) "trade" costs |found| found.cost();
             /// The rows of a scan that are still missing.
             Scan(scan) "scan" costs |found| found.cost();
+            /// The claims of the paper, checked by computation.
             Claims(claims) "paper" costs |_| Cost::default();
             /// A proof of the number of cycles.
             Proof(proof) "proof" costs |_| Cost::default();

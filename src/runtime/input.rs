@@ -28,7 +28,7 @@ use crate::session::{Code, Gesture, Key, Msg};
 /// arrive separately (crossterm#993). After that, it was the escape key.
 const ESCAPE_TIME: Duration = Duration::from_millis(50);
 
-/// The byte that Ctrl-C sends; a person's key press arrives in a read of its own.
+/// The byte that Ctrl-C sends; typed by a person, it arrives in a separate read.
 const INTERRUPT: &[u8] = b"\x03";
 
 /// Bytes per read.

@@ -39,7 +39,7 @@ fn at_draft_quality_every_key_takes_half_a_frame_at_most() {
     for scene in library() {
         let mut session = Session::new(Arc::clone(scene), SIZE);
         session.problem = session.problem.at(&DRAFT);
-        // Windows are fitted after the first answers; the second key knows the cost of the first.
+        // Windows are fitted after the first answers; from the second key on, the cost of the first is known.
         for _ in 0..3 {
             for request in open(&session) {
                 give(&mut session, request);
