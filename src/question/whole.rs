@@ -20,6 +20,8 @@ pub struct Course {
     pub fate: MachineFate,
     /// The cycles of the machine, in SI units.
     pub cycles: Vec<crate::machine::MachineCycle>,
+    /// Unit of displacement of the drawing, in m.
+    pub unit: f64,
     /// Name of the kind of border of the basin.
     pub border: &'static str,
     /// Whether the border touches the belt's line.
@@ -122,6 +124,7 @@ pub fn motion(
     let course = Course {
         fate,
         cycles: portrait.cycles.clone(),
+        unit: units.x,
         border: portrait.border.kind(),
         touches: portrait.border.touches(),
         rides: rides(&drawn, model.speed * model.omega_0, units),

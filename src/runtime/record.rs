@@ -29,6 +29,7 @@ impl RecordingFile {
         recorder: &mut Recorder,
     ) -> Result<RecordingFile, String> {
         RecordingFile::admit(path, replace, "--force replaces it")?;
+        let path = &at_home(path);
         let told = |why: io::Error| format!("{}: {why}", path.display());
         let open = OpenOptions::new().create(true).truncate(true).write(true).open(path);
         let file = open.map_err(told)?;

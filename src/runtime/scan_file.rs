@@ -12,6 +12,7 @@ use std::io::{self, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::Path;
 
+use super::effects::at_home;
 use super::journal::Journal;
 pub use super::lines::LineRefusal;
 use super::lines::{FileLine, Lines};
@@ -212,6 +213,7 @@ fn opened(path: &Path) -> Result<File, LineRefusal> {
 /// If the file holds the beginning of the same scan, it is continued; a file with any other content is left
 /// alone. A new file is complete or not there at all.
 pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Notice {
+    let path = &at_home(path);
     let form = RowForm::of_file(path);
     let is_new = !path.exists();
     let points = 0..scan.points();

@@ -21,7 +21,7 @@ pub enum End {
     Rests,
     /// It tends to a stable cycle, from inside or from outside.
     Onto {
-        /// The right turning point of the cycle; by the whole model, the largest displacement of the motion.
+        /// The right turning point of the cycle.
         q_max: f64,
         /// Whether it grows on the way.
         grows: bool,
@@ -170,10 +170,8 @@ fn of_course(course: &Course, motion: &Trajectory) -> Option<MotionVerdict> {
             let cycle = course.cycles.get(index)?;
             let size = |sample: &Sample| hypot(sample.q, sample.v);
             let (first, last) = (motion.samples.first()?, motion.samples.last()?);
-            // In the units of the motion, like its samples.
-            let largest = motion.samples.iter().map(|sample| sample.q).fold(0.0, f64::max);
             let grows = cycle.stable && size(first) <= size(last);
-            End::Onto { q_max: largest, grows }
+            End::Onto { q_max: cycle.x.1 / course.unit, grows }
         }
         machine::MachineFate::Escaped => End::Grows,
         machine::MachineFate::Neutral | machine::MachineFate::Unknown(_) => return None,
