@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::rc::Rc;
 
 use hopfscope::flow::Limits;
-use hopfscope::question::{Failure, answer};
+use hopfscope::question::{NoAnswer, answer};
 use hopfscope::scene::Scene;
 use hopfscope::scene::library::library;
 use hopfscope::session::settings::{self, Colors, Glyphs};
@@ -56,7 +56,7 @@ impl Explorer {
     /// Answers everything, draws, and says how many bytes that took.
     fn draw(&mut self) -> usize {
         settle(&mut self.session, |_, request| {
-            let result = answer(request, &Limits::default()).map_err(Failure::Reason);
+            let result = answer(request, &Limits::default()).map_err(NoAnswer::Reason);
             Some(Msg::answered(request.clone(), result, 0.000_25))
         });
         update(&mut self.session, Msg::Idle);

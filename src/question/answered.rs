@@ -9,7 +9,7 @@ pub struct Answered {
     /// The question.
     pub request: Request,
     /// The answer, or why there is none.
-    pub result: Result<Answer, Failure>,
+    pub result: Result<Answer, NoAnswer>,
     /// Wall-clock seconds taken so far.
     pub seconds: f64,
     /// Whether the answer is final; a long question is answered in pieces.
@@ -18,18 +18,18 @@ pub struct Answered {
 
 /// Why a request has no answer.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Failure {
+pub enum NoAnswer {
     /// The computation gave up.
     Reason(Reason),
     /// The computation panicked with this message: a defect of the program.
     Panic(String),
 }
 
-impl std::fmt::Display for Failure {
+impl std::fmt::Display for NoAnswer {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Failure::Reason(reason) => write!(out, "{reason}"),
-            Failure::Panic(message) => write!(out, "internal error: {message}"),
+            NoAnswer::Reason(reason) => write!(out, "{reason}"),
+            NoAnswer::Panic(message) => write!(out, "internal error: {message}"),
         }
     }
 }

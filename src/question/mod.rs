@@ -78,7 +78,7 @@ pub mod trade;
 pub mod whole;
 pub mod zones;
 
-pub use answered::{Answered, Failure};
+pub use answered::{Answered, NoAnswer};
 pub use capture::Borders;
 pub use fit::{Fit, Fitted, Opened, Recording};
 pub use kind::Motion;

@@ -6,7 +6,7 @@
 //! false`, and only the last one completes the answer. A job whose turn is over while others wait is put aside
 //! and starts over after them (module `queue`). An answer on its way is not computed again: the worker
 //! remembers what it has reported until [`Worker::taken`] says that the session has it. A request that panics
-//! becomes a [`Failure::Panic`]; the thread survives.
+//! becomes a [`NoAnswer::Panic`]; the thread survives.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use super::panics::{self, Notes};
 use super::queue::{self, Queue};
 use crate::flow::{Limits, Reason};
-use crate::question::Failure;
+use crate::question::NoAnswer;
 use crate::scene::{Answer, Answered, Request};
 use crate::session::Msg;
 
@@ -114,15 +114,15 @@ impl Worker {
                 };
                 let computed = catch_unwind(AssertUnwindSafe(|| answer(&request, &limits, &tell)));
                 let result = match computed {
-                    Ok(result) => result.map_err(Failure::Reason),
+                    Ok(result) => result.map_err(NoAnswer::Reason),
                     Err(panic) => {
                         let told = notes.take();
-                        Err(Failure::Panic(told.unwrap_or_else(|| panics::message(&*panic))))
+                        Err(NoAnswer::Panic(told.unwrap_or_else(|| panics::message(&*panic))))
                     }
                 };
                 let seconds = started.elapsed().as_secs_f64();
                 let mut queue = theirs.queue();
-                let panicked = matches!(result, Err(Failure::Panic(_)));
+                let panicked = matches!(result, Err(NoAnswer::Panic(_)));
                 if aside.into_inner() && !panicked {
                     queue.put_aside();
                 } else if let Some(request) = queue.finish() {
@@ -247,7 +247,7 @@ mod tests {
 
     impl Bench {
         /// The next answer: its number, and whether it failed.
-        fn answered(&self) -> (f64, Result<(), Failure>) {
+        fn answered(&self) -> (f64, Result<(), NoAnswer>) {
             match self.messages.recv().unwrap() {
                 Msg::Answered(answered) => (number(&answered.request), answered.result.map(drop)),
                 other => panic!("{other:?}"),
@@ -405,7 +405,7 @@ mod tests {
     fn a_panic_becomes_a_failure_and_the_worker_goes_on() {
         let bench = bench();
         bench.worker.submit(vec![request(-1.0), request(1.0)]);
-        let panic = Failure::Panic("a negative number".to_owned());
+        let panic = NoAnswer::Panic("a negative number".to_owned());
         assert_eq!(bench.answered(), (-1.0, Err(panic)));
         bench.finish.send(JobStep::Finish).unwrap();
         assert_eq!(bench.answered(), (1.0, Ok(())));

@@ -4,6 +4,7 @@ use std::sync::{Arc, LazyLock};
 
 use super::file::parse;
 use super::scene::Scene;
+use crate::words::similar::similar;
 
 /// The scene that opens unless another is named.
 pub const PLAIN: &str = "plain";
@@ -106,20 +107,11 @@ pub fn plain() -> Arc<Scene> {
     Arc::clone(&library()[0])
 }
 
-/// Smallest similarity of a suggested name (0: nothing in common, 1: equal).
-const ALIKE: f64 = 0.7;
-
 /// The scene with this name. Fails with one line that suggests similar names.
 pub fn find(name: &str) -> Result<Arc<Scene>, String> {
     let known = library().iter().find(|scene| scene.names().any(|own| own == name));
     known.cloned().ok_or_else(|| {
-        let wanted = name.to_lowercase();
-        let mut rated: Vec<_> = names()
-            .map(|name| (strsim::jaro(&wanted, name), name))
-            .filter(|(likeness, _)| *likeness >= ALIKE)
-            .collect();
-        rated.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let nearest: Vec<&str> = rated.into_iter().take(3).map(|(_, name)| name).collect();
+        let nearest = similar(name, names());
         if nearest.is_empty() {
             let all = names().collect::<Vec<_>>().join(", ");
             return format!("no scene {name:?}; there are {all}");

@@ -21,6 +21,7 @@ use crate::session::state::command::{Command, full_name};
 use crate::session::state::context::{Context, contexts};
 use crate::session::state::keymap::Keymap;
 use crate::session::state::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, named};
+use crate::words::similar::most_similar;
 
 /// The content of a settings file; whatever is missing keeps its default.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -102,8 +103,7 @@ fn unknown<'a>(
     what: &str,
     names: impl Iterator<Item = &'a str>,
 ) -> Complaint {
-    let likeness = |name: &&str| strsim::jaro(given.get_ref(), name);
-    let nearest = names.max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    let nearest = most_similar(given.get_ref(), names);
     let nearest = nearest.map_or(String::new(), |name| format!("; did you mean {name}?"));
     Complaint { at: given.span(), message: format!("no {what} {:?}{nearest}", given.get_ref()) }
 }

@@ -17,6 +17,7 @@ use crate::session::state::history::Before;
 use crate::session::state::overlay::{Overlay, Prompt};
 use crate::session::state::pending::{Letter, Pending};
 use crate::session::state::session::{Price, Session};
+use crate::words::similar::most_similar;
 
 /// The key that is passed to commands that are run from a line.
 pub(super) const ENTER: Key = Key::plain(Code::Enter);
@@ -186,7 +187,7 @@ pub fn run_line(session: &mut Session, text: &str) -> Done {
             run.map_err(|why| printable(&format!("{name}: {why}")).into())
         }
         (None, Some(_)) => Err(format!("{name} takes no words, but there are {rest:?}")),
-        (None, None) => Err(match nearest(name, names(&session.keymap)) {
+        (None, None) => Err(match most_similar(name, names(&session.keymap)) {
             Some(nearest) => format!("no command {name:?}; did you mean {nearest}?"),
             None => format!("no command {name:?}; Tab lists them"),
         }),
@@ -197,13 +198,4 @@ pub fn run_line(session: &mut Session, text: &str) -> Done {
 pub(super) fn run_untyped(session: &mut Session, text: &str) -> Vec<Effect> {
     (session.overlay, session.pending, session.notice) = (None, None, None);
     run_line(session, text).unwrap_or_else(|why| refuse(session, why))
-}
-
-/// The name most similar to this one.
-fn nearest<'a>(wanted: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    /// Smallest similarity of a suggested name (0: nothing in common, 1: equal).
-    const ALIKE: f64 = 0.7;
-    let rated = names.map(|name| (strsim::jaro(wanted, name), name));
-    let best = rated.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (best.0 >= ALIKE).then_some(best.1)
 }

@@ -5,7 +5,7 @@
 //! each.
 
 use crate::flow::Reason;
-use crate::question::Failure;
+use crate::question::NoAnswer;
 use crate::scene::{Answered, Request};
 use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::{answers, files, history, macros, mouse, typing, walk};
@@ -162,7 +162,7 @@ fn take(session: &mut Session, answered: Answered) {
     let failure = answered.result.as_ref().err().cloned();
     let asked = session.take(answered);
     if let Some(failure) = failure.filter(|_| asked)
-        && failure != Failure::Reason(Reason::Interrupted)
+        && failure != NoAnswer::Reason(Reason::Interrupted)
     {
         let again = with_keys(session, "{retry} tries again");
         refuse(session, format!("{name}: {failure}; {again}"));

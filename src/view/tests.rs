@@ -10,7 +10,7 @@ use super::layout::layout;
 use super::look::Look;
 use crate::flow::{Method, Outcome, Problem, Reason, Sample};
 use crate::oscillator::{Parameters, State, Symbol};
-use crate::question::Failure;
+use crate::question::NoAnswer;
 use crate::question::zones::Extent;
 use crate::scene::library::{find, library};
 use crate::scene::{Answer, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window};
@@ -205,7 +205,7 @@ fn a_stale_picture_stays_and_says_so() {
 fn a_question_without_an_answer_says_why() {
     let mut session = open("plain", 80, 24);
     for request in session.wants() {
-        let result = Err(Failure::Reason(Reason::Budget { evaluations: 5 }));
+        let result = Err(NoAnswer::Reason(Reason::Budget { evaluations: 5 }));
         update(&mut session, Msg::answered(request, result, 0.1));
     }
     let screen = text(&draw(&session, braille()));

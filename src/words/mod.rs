@@ -7,6 +7,7 @@ pub mod motion;
 pub mod number;
 pub mod provenance;
 pub mod quantity;
+pub mod similar;
 
 /// So many limit cycles.
 pub fn cycles(count: usize) -> String {

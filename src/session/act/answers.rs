@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::fit::Unfit;
 use crate::flow::{Problem, Reason};
 use crate::oscillator::PARAMETERS;
-use crate::question::{Failure, Rows};
+use crate::question::{NoAnswer, Rows};
 use crate::scene::{Answer, Answered, Fit, Topic, View};
 use crate::session::act::notice::{inform, refuse};
 use crate::session::read::fit::{fitted, is_pending};
@@ -88,7 +88,7 @@ impl Session {
             }
             Ok(_) => return false,
             // A scan that was stopped has been marked already.
-            Err(Failure::Reason(Reason::Interrupted)) => return true,
+            Err(NoAnswer::Reason(Reason::Interrupted)) => return true,
             Err(_) => scanned.progress = Progress::Stopped,
         }
         if scanned.rows.len() == scanned.scan.points() {

@@ -7,6 +7,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::words::similar::most_similar;
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Code {
     /// A printable character, as typed (shift already applied).
@@ -137,7 +139,7 @@ impl Key {
             }
             rest = after;
         }
-        let refused = || NoKey { text: text.to_owned(), nearest: nearest(rest) };
+        let refused = || NoKey { text: text.to_owned(), nearest: most_similar(rest, names()) };
         let code = code_named(rest).ok_or_else(refused)?;
         Ok(Key::new(code, control, alt, shift))
     }
@@ -169,17 +171,9 @@ fn code_point(name: &str) -> Option<Code> {
     char::from_u32(number).map(Code::Char)
 }
 
-/// Smallest similarity of a suggested name.
-const ALIKE: f64 = 0.7;
-
-fn nearest(name: &str) -> Option<&'static str> {
-    let lower = name.to_ascii_lowercase();
-    NAMES
-        .iter()
-        .map(|(_, name, _)| (strsim::jaro(&lower, name), *name))
-        .filter(|(likeness, _)| *likeness >= ALIKE)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, name)| name)
+/// The names of all keys that are not characters.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    NAMES.iter().map(|(_, name, _)| *name)
 }
 
 impl fmt::Display for Code {

@@ -6,7 +6,7 @@ pub mod pointer;
 use std::path::PathBuf;
 
 use crate::oscillator::Symbol;
-use crate::question::Failure;
+use crate::question::NoAnswer;
 use crate::scene::{Answer, Answered, Request};
 use crate::session::message::key::Key;
 use crate::session::message::pointer::Pointed;
@@ -50,7 +50,7 @@ pub enum Msg {
 
 impl Msg {
     /// The complete answer to a request, or why there is none, and the seconds that it took.
-    pub fn answered(request: Request, result: Result<Answer, Failure>, seconds: f64) -> Self {
+    pub fn answered(request: Request, result: Result<Answer, NoAnswer>, seconds: f64) -> Self {
         Msg::Answered(Box::new(Answered { request, result, seconds, complete: true }))
     }
 }

@@ -13,7 +13,7 @@ use crate::oscillator::belt::Quantity;
 use crate::oscillator::{Belt, Parameters, Symbol};
 use crate::proof::Proof;
 use crate::question;
-use crate::question::{Failure, Motion};
+use crate::question::{Motion, NoAnswer};
 use crate::scene::{Answer, Axes, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::state::answers::Standing;
 use crate::session::state::overlay::{Listed, Overlay};
@@ -305,7 +305,7 @@ impl Session {
     }
 
     /// Why there is no answer on this topic for the present problem.
-    pub fn failure(&self, topic: Topic, plot: usize) -> Option<&Failure> {
+    pub fn failure(&self, topic: Topic, plot: usize) -> Option<&NoAnswer> {
         self.answers.failure(&self.request(topic, plot)?)
     }
 

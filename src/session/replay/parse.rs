@@ -5,9 +5,10 @@ use std::fmt;
 use super::mouse;
 use crate::oscillator::PARAMETERS;
 use crate::scene::misread::printable;
-use crate::session::message::key::{Code, Key};
+use crate::session::message::key::{self, Code, Key};
 use crate::session::message::pointer::Gesture;
 use crate::session::replay::script::{Instruction, LONGEST, Located, Script};
+use crate::words::similar::most_similar;
 
 /// Why a text is not a keystroke file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -144,11 +145,10 @@ fn keys(name: &str) -> Result<Instruction, String> {
 /// A suggestion if a misspelt directive is more likely than a misspelt key.
 fn nearest_directive(name: &str) -> Option<String> {
     let word = name.split(' ').next().unwrap_or(name);
-    let (likeness, directive) = DIRECTIVES
-        .iter()
-        .map(|(directive, _)| (strsim::jaro(word, directive), directive))
-        .max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (likeness >= 0.8).then(|| format!("unknown key <{name}>; did you mean <{directive}>?"))
+    let directives = DIRECTIVES.map(|(directive, _)| directive);
+    let nearest = most_similar(word, directives.into_iter().chain(key::names()))?;
+    let told = || format!("unknown key <{name}>; did you mean <{nearest}>?");
+    directives.contains(&nearest).then(told)
 }
 
 fn alone(rest: &str, word: &str, step: Instruction) -> Result<Instruction, String> {

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use crate::flow::Reason;
-use crate::question::Failure;
+use crate::question::NoAnswer;
 use crate::scene::{Answer, Answered, Request};
 
 /// Limit on the integration steps in answers to questions that are no longer asked: some ten megabytes of
@@ -80,7 +80,7 @@ impl Answers {
     }
 
     /// Why a question has no answer.
-    pub fn failure(&self, request: &Request) -> Option<&Failure> {
+    pub fn failure(&self, request: &Request) -> Option<&NoAnswer> {
         self.held(request)?.result.as_ref().err()
     }
 
@@ -91,7 +91,7 @@ impl Answers {
 
     /// Stores an answer in place of the previous one; an interrupted one is ignored.
     pub fn keep(&mut self, answered: Answered) {
-        if answered.result != Err(Failure::Reason(Reason::Interrupted)) {
+        if answered.result != Err(NoAnswer::Reason(Reason::Interrupted)) {
             self.held.retain(|held| held.request != answered.request);
             self.held.push(Arc::new(answered));
         }

@@ -3,7 +3,7 @@
 use super::{COST, Trial, answered, by_hand};
 use crate::flow::{Limits, Method, Reason};
 use crate::oscillator::Symbol;
-use crate::question::{Failure, answer};
+use crate::question::{NoAnswer, answer};
 use crate::scene::{Answer, Request, TOPICS, Topic, find};
 use crate::session::act::parameters;
 use crate::session::read::wants::Unmeasured;
@@ -142,7 +142,7 @@ fn a_draft_that_fails_is_not_tried_again() {
     update(&mut trial.session, costly(request, 10_000_000));
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     let draft = trial.session.wants()[0].clone();
-    let failed = Err(Failure::Reason(Reason::OutOfRange));
+    let failed = Err(NoAnswer::Reason(Reason::OutOfRange));
     update(&mut trial.session, Msg::answered(draft.clone(), failed, 0.0));
     assert!(!trial.session.wants().contains(&draft));
     assert_eq!(trial.notice(), "", "what it is a draft of may still be answered");

@@ -7,7 +7,7 @@ use crate::flow::quality::DRAFT;
 use crate::numerics::elementary::hypot;
 use crate::oscillator::Symbol;
 use crate::question;
-use crate::question::{Failure, answer};
+use crate::question::{NoAnswer, answer};
 use crate::scene::{Answer, Request, TOPICS, Topic, library};
 use crate::session::act::parameters;
 use crate::session::{Msg, Row, Session, Size, update};
@@ -22,7 +22,7 @@ const HALF_FRAME: u64 = 200_000;
 fn give(session: &mut Session, request: Request) -> u64 {
     let found = answer(&request, &Limits::PATIENT);
     let evaluations = found.as_ref().map_or(0, |found| found.cost().evaluations);
-    let result = found.map_err(Failure::Reason);
+    let result = found.map_err(NoAnswer::Reason);
     update(session, Msg::answered(request, result, 0.0));
     evaluations
 }

@@ -3,7 +3,7 @@
 use super::{COST, Trial, answered};
 use crate::flow::Reason;
 use crate::oscillator::{Parameters, Symbol};
-use crate::question::Failure;
+use crate::question::NoAnswer;
 use crate::scene::{Request, Topic};
 use crate::session::{Msg, update};
 
@@ -168,9 +168,9 @@ fn a_failure_is_told_once_and_not_tried_again() {
     update(&mut trial.session, Msg::Key("<right>".parse().unwrap()));
     let request = trial.session.request(Topic::Cycles, 1).unwrap();
     let failed = |failure| Msg::answered(request.clone(), Err(failure), 0.0);
-    update(&mut trial.session, failed(Failure::Reason(Reason::Interrupted)));
+    update(&mut trial.session, failed(NoAnswer::Reason(Reason::Interrupted)));
     assert!(trial.session.is_open(&request), "an interrupted question is still a question");
-    update(&mut trial.session, failed(Failure::Reason(Reason::OutOfRange)));
+    update(&mut trial.session, failed(NoAnswer::Reason(Reason::OutOfRange)));
     assert!(!trial.session.is_open(&request));
     assert!(trial.session.failure(Topic::Cycles, 1).is_some());
     assert_eq!(trial.notice(), "cycles: left the range of floating-point numbers; F5 tries again");

@@ -6,7 +6,7 @@ use super::recorded::assert_alike;
 use super::strange::any_key;
 use super::{Trial, answered};
 use crate::flow::Reason;
-use crate::question::Failure;
+use crate::question::NoAnswer;
 use crate::scene::library;
 use crate::session::read::waiting::NEEDS;
 use crate::session::replay::{Action, Player, parse};
@@ -132,7 +132,7 @@ fn what_waits_is_run_when_its_computation_gives_up_and_says_so() {
             update(&mut trial.session, message);
         }
         while let Some(waiting) = trial.session.waiting.clone() {
-            let result = Err(Failure::Reason(Reason::OutOfRange));
+            let result = Err(NoAnswer::Reason(Reason::OutOfRange));
             update(&mut trial.session, Msg::answered(waiting.request, result, 0.0));
         }
         assert!(trial.notice().contains(said), "{keys}: {}", trial.notice());

@@ -1,0 +1,27 @@
+//! Suggestions for misspelt names.
+
+/// How much a suggestion must have in common with what was typed (0: nothing, 1: everything), and how much less
+/// than the best suggestion it may have.
+const ALIKE: (f64, f64) = (0.7, 0.1);
+
+/// The known names that resemble a misspelt one, best first, at most three.
+pub fn similar<Name: AsRef<str>>(
+    misspelt: &str,
+    known: impl IntoIterator<Item = Name>,
+) -> Vec<Name> {
+    let misspelt = misspelt.to_lowercase();
+    let rated = known.into_iter().map(|name| (strsim::jaro(&misspelt, name.as_ref()), name));
+    let mut rated: Vec<_> = rated.filter(|(likeness, _)| *likeness >= ALIKE.0).collect();
+    rated.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let least = rated.first().map_or(0.0, |(best, _)| best - ALIKE.1);
+    let close = rated.into_iter().take(3).take_while(|(likeness, _)| *likeness >= least);
+    close.map(|(_, name)| name).collect()
+}
+
+/// The known name that resembles a misspelt one most.
+pub fn most_similar<Name: AsRef<str>>(
+    misspelt: &str,
+    known: impl IntoIterator<Item = Name>,
+) -> Option<Name> {
+    similar(misspelt, known).into_iter().next()
+}
