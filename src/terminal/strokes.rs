@@ -112,7 +112,7 @@ impl Sheet {
     fn bridge(&mut self, x: u16, y: u16, cell: &Cell, shown: &Shown) -> bool {
         let Some(last) = self.strokes.last() else { return false };
         let end = last.start.x + last.width;
-        if last.start.y != y || end > x || x - end > 3 || !last.takes(cell) {
+        if last.start.y != y || end > x || usize::from(x - end) > SHORT_MOVE || !last.takes(cell) {
             return false;
         }
         let between: Option<Vec<&Cell>> = (end..x).map(|x| shown.narrow(x, y)).collect();

@@ -19,6 +19,9 @@ use crate::scene::misread::{self, Complaint, Misread};
 /// Largest displacement or velocity of a start, in SI units, in either direction.
 pub const FARTHEST_START: f64 = 1e6;
 
+/// Allowed disturbances, in N.
+const DISTURBANCES: (f64, f64) = (0.0, 1e6);
+
 /// Allowed durations of a motion, in s.
 pub const UNTIL_RANGE: (f64, f64) = (0.0, 1e6);
 
@@ -265,9 +268,8 @@ fn machine(
     let unfit = |message| Complaint { at: whole.clone(), message };
     let reduced = belt.reduce().map_err(|error| unfit(error.to_string()))?;
     Model::new(&belt).map_err(|error| unfit(error.to_string()))?;
-    let force = (0.0, FARTHEST_START);
     let disturbance = read.disturbance.as_ref();
-    let disturbance = number("disturbance", disturbance, Dimension::FORCE, "N", force, 0.0)?;
+    let disturbance = number("disturbance", disturbance, Dimension::FORCE, "N", DISTURBANCES, 0.0)?;
     let tolerances = Tolerances { half_widths, disturbance };
     tolerances.check(&belt).map_err(unfit)?;
     let (displacement, velocity) = read.start.read()?;
