@@ -3,7 +3,7 @@
 use super::number::significant;
 use crate::study::claims::{Certainty, Examined, Finding, Sense, Verdict};
 
-/// The name of the verdict where no number could be computed.
+/// The name of the verdict if no number could be computed.
 const UNKNOWN: &str = "unknown";
 
 /// The name of the verdict in documents.
@@ -31,7 +31,7 @@ pub fn verdict(examined: &Examined) -> String {
     }
 }
 
-/// How many claims have which verdict.
+/// A line that counts the claims by verdict and by mark.
 pub fn summary(examined: &[Examined]) -> String {
     const NAMES: [(&str, &str); 6] = [
         ("agrees", "agree"),

@@ -1,4 +1,4 @@
-//! What a fit has to say in sentences: what it cannot tell, what it left out, whether the model holds.
+//! Remarks on a fit, in sentences: what was left out, what cannot be determined, whether the model holds.
 
 use crate::fit::Fitted;
 use crate::fit::names::NAMES;

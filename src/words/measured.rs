@@ -3,7 +3,7 @@
 use super::number::significant;
 use crate::study::measure::Value;
 
-/// A value with all its digits; empty where there is none.
+/// A value with all its digits; empty if there is none.
 pub fn exact(value: Value) -> String {
     match value {
         Value::Nothing => String::new(),
@@ -13,7 +13,7 @@ pub fn exact(value: Value) -> String {
     }
 }
 
-/// A value to be read: eight digits, `-` where there is none.
+/// A value rounded to eight digits; `-` if there is none.
 pub fn rounded(value: Value) -> String {
     match value {
         Value::Nothing => "-".to_owned(),

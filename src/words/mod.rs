@@ -9,7 +9,7 @@ pub mod provenance;
 pub mod quantity;
 pub mod similar;
 
-/// So many limit cycles.
+/// `no limit cycle`, `1 cycle`, `2 cycles`.
 pub fn cycles(count: usize) -> String {
     match count {
         0 => "no limit cycle".to_owned(),
@@ -18,7 +18,7 @@ pub fn cycles(count: usize) -> String {
     }
 }
 
-/// Whether something attracts.
+/// `stable` or `unstable`.
 pub fn stability(stable: bool) -> &'static str {
     if stable { "stable" } else { "unstable" }
 }

@@ -26,7 +26,7 @@ pub fn sentence(motion: &Trajectory) -> String {
     }
 }
 
-/// After how many half swings.
+/// ` after 3 half swings`; empty if there were none.
 pub fn swings(motion: &Trajectory) -> String {
     match motion.crossings.len() {
         0 => String::new(),

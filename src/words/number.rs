@@ -27,15 +27,15 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// Writes `value` with the digits that matter where numbers `resolution` apart are told apart.
+/// Writes `value` with only the digits needed to distinguish numbers that are `resolution` apart.
 pub fn resolved(value: f64, resolution: f64) -> String {
     let ratio = log10(value.abs() / resolution);
     let digits = whole((ratio.ceil() + 1.0).clamp(1.0, 17.0));
     if ratio < 0.0 { "0".into() } else { significant(value, digits) }
 }
 
-/// Writes `value` so that it can be typed in again and means the same number, if `width` columns
-/// suffice; else rounds it to what fits.
+/// Writes `value` so that it reads back as the same number, if that fits into `width` columns; otherwise rounds
+/// it until it fits.
 pub fn exact(value: f64, width: usize) -> String {
     let full = format!("{value:?}");
     let full = full.strip_suffix(".0").unwrap_or(&full);
@@ -76,8 +76,7 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// Writes the time that the rest of `wanted` equal parts takes, where `done` took `elapsed` seconds:
-/// `12 s`, `3 min`, `2.5 h`.
+/// Writes the time left if `done` of `wanted` equal parts took `elapsed` seconds: `12 s`, `3 min`, `2.5 h`.
 pub fn remaining(elapsed: f64, done: usize, wanted: usize) -> String {
     let seconds = elapsed * real(wanted.saturating_sub(done)) / real(done.max(1));
     if seconds < 90.0 {

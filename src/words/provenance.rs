@@ -8,14 +8,14 @@ pub struct Provenance {
     /// Name of the program.
     pub program: String,
     pub version: String,
-    /// The revision of its source, where the build set `HOPFSCOPE_REVISION`.
+    /// The revision of its source, if `HOPFSCOPE_REVISION` was set when it was built.
     pub revision: Option<String>,
     /// The command line, quoted for a POSIX shell.
     pub command: String,
 }
 
 impl Provenance {
-    /// Of what this build answers to these arguments.
+    /// The provenance of what this build writes when called with these arguments.
     pub fn of(arguments: &[String]) -> Self {
         let program = env!("CARGO_PKG_NAME");
         Provenance {
@@ -26,7 +26,7 @@ impl Provenance {
         }
     }
 
-    /// A JSON document with one field more, `provenance`; what is not an object stays as it is.
+    /// Adds the field `provenance` to a JSON object; returns any other document unchanged.
     ///
     /// # Panics
     /// Never: a struct of strings can always be written.
@@ -42,13 +42,13 @@ impl Provenance {
         format!("{fields}{comma}\"provenance\":{own}}}\n")
     }
 
-    /// The program with its version, and revision where it is known.
+    /// The program and its version, with the revision if it is known.
     pub fn build(&self) -> String {
         let revision = self.revision.as_ref().map(|revision| format!(" ({revision})"));
         format!("{} {}{}", self.program, self.version, revision.unwrap_or_default())
     }
 
-    /// The arguments of the command line; nothing if it is not one that [`quoted`] wrote.
+    /// The arguments of the command line; `None` if [`quoted`] did not write it.
     pub fn arguments(&self) -> Option<Vec<String>> {
         let mut words = unquoted(&self.command)?.into_iter();
         words.next().filter(|program| *program == self.program)?;
@@ -69,7 +69,7 @@ pub fn quoted(words: &[String]) -> String {
     words.iter().map(quoted).collect::<Vec<_>>().join(" ")
 }
 
-/// The words of a line that [`quoted`] wrote; nothing where a quote is not closed.
+/// The words of a line that [`quoted`] wrote; `None` if a quote is not closed.
 fn unquoted(line: &str) -> Option<Vec<String>> {
     let mut words = Vec::new();
     let mut word: Option<String> = None;

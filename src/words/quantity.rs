@@ -2,16 +2,16 @@
 
 use super::number::significant;
 
-/// Prefixes and what they stand for, largest first.
+/// Prefixes and their factors, largest first.
 const PREFIXES: [(&str, f64); 6] =
     [("G", 1e9), ("M", 1e6), ("k", 1e3), ("", 1.0), ("m", 1e-3), ("u", 1e-6)];
 
-/// Smallest number that is written before a prefix: 0.25 m, but 25 mm.
+/// Smallest number written before a prefix of at most 1 (0.25 m, but 25 mm); ten times that for k, M and G.
 const LEAST: f64 = 0.1;
 
 /// A value given in an SI unit with at most `digits` significant digits: `5.47 mm`, `27.4 N`.
 ///
-/// Units that begin with a prefix of their own (kg) and pure numbers get none.
+/// Pure numbers, and units that already have a prefix (kg), get none.
 pub fn with_unit(value: f64, digits: usize, unit: &str) -> String {
     let plain = |value: f64| significant(value, digits);
     if unit.is_empty() {

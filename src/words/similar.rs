@@ -1,7 +1,7 @@
 //! Suggestions for misspelt names.
 
-/// How much a suggestion must have in common with what was typed (0: nothing, 1: everything), and how much less
-/// than the best suggestion it may have.
+/// Least similarity of a suggestion to what was typed (0: nothing in common, 1: equal), and how far it may fall
+/// short of the best suggestion.
 const ALIKE: (f64, f64) = (0.7, 0.1);
 
 /// The known names that resemble a misspelt one, best first, at most three.
