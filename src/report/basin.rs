@@ -53,7 +53,7 @@ pub fn csv(found: &SurveyedBasin, certified: Option<&ProvedKicks>) -> String {
     csv::sheet(&row(certified.map(|_| Survived::like())), [row(certified.map(survived))])
 }
 
-/// What borders the basin of the sticking set.
+/// A line on the border of the basin of the sticking set.
 pub(super) fn edge(edge: Edge) -> &'static str {
     match edge {
         Edge::None => "border of the basin of the sticking set: none\n",

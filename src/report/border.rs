@@ -21,7 +21,7 @@ struct BorderDocument<'a> {
     cost: CountedCost,
 }
 
-/// What is known at a value of the second parameter.
+/// The fold and the escape point at one value of the second parameter.
 #[derive(Default, Serialize)]
 struct BorderRow<'a> {
     value: f64,
@@ -38,7 +38,7 @@ struct BorderRow<'a> {
     certified: Option<BorderBounds>,
 }
 
-/// What is enclosed there, a column for each bound.
+/// The enclosures of both, with a column for each bound.
 #[derive(Serialize)]
 struct BorderBounds {
     #[serde(rename = "D_F")]
@@ -93,7 +93,7 @@ pub fn csv(found: &Boundary, certified: Option<&[Bordered]>) -> String {
     sheet.into_text()
 }
 
-/// One row for each value of the second parameter, to read.
+/// A table with one row for each value of the second parameter.
 pub fn table(found: &Boundary, seconds: f64) -> String {
     const PLACES: usize = 12;
     let kind = |grazes: bool| if grazes { "grazing" } else { "fold" };

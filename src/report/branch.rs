@@ -1,4 +1,4 @@
-//! The cycles along a parameter, and the special points.
+//! The cycles as a parameter varies, and the special points.
 
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ use crate::proof::range::Range;
 use crate::study::{Branch, BranchPoint, Special};
 use crate::words::number::{duration, significant};
 
-/// A point, with the number of the connected piece that it belongs to.
+/// A point, with the number of the connected piece to which it belongs.
 #[derive(Default, Serialize)]
 struct BranchRow {
     piece: Option<usize>,
@@ -74,7 +74,7 @@ pub fn csv(branch: &Branch, certified: Option<&Range>) -> String {
     sheet.into_text()
 }
 
-/// Piece by piece, then the special points.
+/// A table for each connected piece, then the special points.
 pub fn table(branch: &Branch, base: &Parameters, tolerance: f64, seconds: f64) -> String {
     let places = digits(tolerance).min(10);
     let mut out = format!("{}\n", parameters(base, Some(branch.parameter)));

@@ -1,4 +1,4 @@
-//! What is enclosed or proved, for tables and documents.
+//! Enclosures and proofs, for tables and documents.
 
 use serde::Serialize;
 
@@ -18,7 +18,7 @@ use crate::words::stability;
 
 const PLACES: usize = 12;
 
-/// An interval as a document has it; what is infinite is null.
+/// An interval in a document; an infinite end is null.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct IntervalDocument {
     lower: f64,
@@ -46,7 +46,7 @@ pub struct MotionDocument {
     end: PointBounds,
 }
 
-/// What is enclosed of a point of a motion, a column for each bound.
+/// The enclosure of a point of a motion, with a column for each bound.
 #[derive(Serialize)]
 pub struct PointBounds {
     tau: IntervalDocument,
@@ -57,12 +57,12 @@ pub struct PointBounds {
 }
 
 impl PointBounds {
-    /// With a column for everything.
+    /// An example with all columns, for the heading.
     pub fn like() -> Self {
         PointBounds::of(Interval::ALL, Interval::ALL, Interval::ALL)
     }
 
-    /// Of a point that is enclosed.
+    /// The bounds of a point that is enclosed.
     pub fn of(tau: Interval, q: Interval, v: Interval) -> Self {
         let [q, v] = [q, v].map(|it| Some(it.into()));
         PointBounds { tau: tau.into(), q, v, proved: true, open: None }
@@ -73,7 +73,7 @@ impl PointBounds {
     }
 }
 
-/// A motion until a time, for documents.
+/// A motion up to a time, for documents.
 pub fn followed(motion: &ProvedMotion, until: f64) -> MotionDocument {
     let turns = motion.turns.iter().map(|turn| TurnRow { tau: turn.tau.into(), q: turn.q.into() });
     let (outcome, tau, q, v, open) = match motion.fate {
@@ -109,7 +109,7 @@ pub fn motion_line(motion: &ProvedMotion, until: f64) -> String {
     format!("proved: {sentence}\n")
 }
 
-/// The kicks that are survived, enclosed.
+/// Enclosures of the smallest kicks that are not captured.
 #[derive(Serialize)]
 pub struct Survived {
     edge: Option<&'static str>,
@@ -154,25 +154,25 @@ pub fn kicks_lines(kicks: &ProvedKicks) -> String {
 }
 
 impl Survived {
-    /// With a column for everything.
+    /// An example with all columns, for the heading.
     pub fn like() -> Self {
         let all = Some(IntervalDocument::from(Interval::ALL));
         Survived { edge: None, displacement: all, impulse: all, proved: false, open: None }
     }
 }
 
-/// What holds for every value in a piece of a range, a column for each bound.
+/// What holds for every value in a piece of a range, with a column for each bound.
 #[derive(Clone, Copy, Serialize)]
 pub struct PieceBounds {
     value: IntervalDocument,
     cycles: Option<usize>,
     proved: bool,
-    /// Where in an open piece the number of cycles changes.
+    /// In an open piece, where the number of cycles changes.
     change: Option<IntervalDocument>,
 }
 
 impl PieceBounds {
-    /// With a column for everything.
+    /// An example with all columns, for the heading.
     pub fn like() -> Self {
         let all = Interval::ALL.into();
         PieceBounds { value: all, cycles: None, proved: false, change: Some(all) }
@@ -207,7 +207,7 @@ struct ChangeRow {
     above: usize,
 }
 
-/// A range of a parameter, decided.
+/// The number of cycles over a range of a parameter, where it is proved.
 #[derive(Serialize)]
 pub struct Decided {
     pieces: Vec<PieceRow>,
@@ -216,7 +216,7 @@ pub struct Decided {
     proved: bool,
 }
 
-/// A range, for documents.
+/// The pieces and changes of a range, for documents.
 pub fn decided(range: &Range) -> Decided {
     let piece = |piece: &RangePiece| PieceRow {
         over: piece.over.into(),
@@ -257,20 +257,20 @@ pub fn range_table(range: &Range, symbol: Symbol) -> String {
     format!("\nfor every value of {name} in\n{table}{changes}")
 }
 
-/// A value of a second parameter, and where in D the cycles change.
+/// A value of a second parameter, and the values of D at which the cycles change there.
 #[derive(Serialize)]
 pub struct Bordered {
     pub value: f64,
     pub fold: Option<IntervalDocument>,
     pub escape: Option<IntervalDocument>,
-    /// Whether what the search found is proved.
+    /// Whether everything that the search found is proved.
     pub proved: bool,
-    /// What of it is not.
+    /// What is not proved.
     pub open: Vec<&'static str>,
 }
 
 impl Bordered {
-    /// What is enclosed of a point.
+    /// The enclosures at a point that the search found.
     pub fn new(point: &BoundaryPoint, fold: Option<Interval>, escape: Option<Interval>) -> Self {
         let missing = [
             ("the fold", point.fold.is_some() && fold.is_none()),
@@ -299,7 +299,7 @@ pub fn border_lines(points: &[Bordered], symbol: Symbol) -> String {
     format!("\n{table}")
 }
 
-/// What holds for every value in an interval of parameters, as a table.
+/// The cycles that exist for all parameters in a box, as a table.
 pub fn box_table(proof: &Proof) -> String {
     let mut table =
         Table::new(&["cycle", "q_min", "q_max", "v_min", "v_max", "period", "multiplier"]);
@@ -341,7 +341,7 @@ pub fn box_table(proof: &Proof) -> String {
     format!("{}\n\n{text}{line}", heading.join(", "))
 }
 
-/// The ends of an interval in six digits, rounded outwards.
+/// The ends of an interval, rounded outward to six digits.
 fn outward(it: Interval) -> [String; 2] {
     let step = |value: f64| {
         let digits = pow(10.0, log10(value.abs()).floor() - 5.0);
@@ -370,7 +370,7 @@ struct BoxDocument<'a> {
     count: super::proof::Count<'a>,
 }
 
-/// The same for documents.
+/// The same for a document.
 pub fn boxed(proof: &Proof) -> impl Serialize {
     let cycles = proof.cycles.iter().map(|cycle| BoxCycle {
         stable: cycle.stable,
@@ -397,7 +397,7 @@ pub fn box_csv(proof: &Proof) -> String {
     super::csv::sheet(&like, cycles.chain(open))
 }
 
-/// What a checked certificate says.
+/// The statement of a certificate that has been checked.
 pub fn certificate_table(certificate: &Certificate) -> String {
     let interval = |[lower, upper]: Bounds| Interval::new(lower, upper);
     let value = |(name, it): (&str, Bounds)| {

@@ -1,4 +1,4 @@
-//! The paper against computation, as text: one row for each claim.
+//! The claims of the paper compared with computation: one row for each claim.
 
 use serde::Serialize;
 
@@ -34,7 +34,7 @@ struct ClaimRow<'a> {
     upper: Option<f64>,
 }
 
-/// One claim of a document.
+/// A claim, with the reason if nothing could be computed.
 #[derive(Serialize)]
 struct ReasonedClaim<'a> {
     #[serde(flatten)]
@@ -98,7 +98,7 @@ pub fn csv(examined: &[Examined]) -> String {
     csv::sheet(&ClaimRow::default(), examined.iter().map(row))
 }
 
-/// Columns for reading: the numbers first, because what is claimed has no fixed length.
+/// A table with the numbers first and the claim last, as its length varies.
 pub fn table(examined: &[Examined], seconds: f64) -> String {
     let titles = ["where", "verdict", "proof", "paper", "corrected", "computed", "claim"];
     let rows = examined.iter().map(|examined| {
@@ -129,7 +129,7 @@ pub fn table(examined: &[Examined], seconds: f64) -> String {
     out + &format!("\n{}, {}\n", claim::summary(examined), duration(seconds))
 }
 
-/// What is certain, or a dash.
+/// `proved`, `refuted`, `enclosed`, or `-`.
 fn mark(finding: Option<&Finding>) -> String {
     finding.and_then(|finding| finding.mark).map_or("-", Certainty::name).to_owned()
 }

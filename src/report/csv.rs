@@ -1,5 +1,5 @@
-//! Rows as comma-separated values: a line of names, then one line each; all digits, and nothing where a value does
-//! not exist.
+//! Comma-separated values: a line of names, then a line for each row. Numbers have all their digits; a cell whose
+//! value does not exist is empty.
 
 use csv::Writer;
 use serde::Serialize;
@@ -13,9 +13,10 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// No rows yet, with a column for each field of such a row; a field that is itself a record or a list has none,
-    /// but [`CERTIFIED`] has those of its own fields, two for bounds.
-    /// Columns may be called otherwise than their fields: `(field, name)`.
+    /// A sheet without rows, with a column for each field of rows like `row`. A field that is a record or a list has
+    /// no column, except [`CERTIFIED`]: each of its fields has one column, or two if it is a pair of bounds.
+    ///
+    /// `called` renames columns: `(field, name)`.
     pub fn like(row: &impl Serialize, called: &[(&str, &str)]) -> Self {
         let single = |(_, value): &(String, Value)| !value.is_object() && !value.is_array();
         let names: Vec<String> =
@@ -30,7 +31,7 @@ impl Sheet {
         sheet
     }
 
-    /// Adds a row. Its fields are found by their names; the cells of others stay empty.
+    /// Adds a row. Fields are matched to columns by name; a column without a field stays empty.
     pub fn row(&mut self, row: &impl Serialize) {
         let fields = fields(row);
         let cells: Vec<String> =
@@ -39,7 +40,7 @@ impl Sheet {
     }
 
     fn write(&mut self, cells: &[String]) {
-        // A vector takes everything, and all rows are of one length.
+        // Cannot fail: a vector accepts every write, and all rows have the same length.
         let _ = self.out.write_record(cells);
     }
 
@@ -49,14 +50,14 @@ impl Sheet {
     }
 }
 
-/// These rows, below the names of the fields of one.
+/// The rows, below a line with the names of the fields of `like`.
 pub fn sheet<R: Serialize>(like: &impl Serialize, rows: impl IntoIterator<Item = R>) -> String {
     let mut sheet = Sheet::like(like, &[]);
     rows.into_iter().for_each(|row| sheet.row(&row));
     sheet.into_text()
 }
 
-/// The field of a row with what is proved about it.
+/// The field of a row that holds what is proved about it.
 const CERTIFIED: &str = "certified";
 
 fn fields(row: &impl Serialize) -> Map<String, Value> {
@@ -90,12 +91,12 @@ fn cell(value: &Value) -> String {
     }
 }
 
-/// All digits that tell this double from its neighbours: `0.1`, `-3.0`, `1e-300`.
+/// The shortest decimal that reads back as this double: `0.1`, `-3.0`, `1e-300`.
 fn exact(value: f64) -> String {
     format!("{value:?}")
 }
 
-/// Cells as a line; those with a separator or quotes in them are quoted.
+/// Cells as a line; a cell that contains a separator or a quote is quoted.
 pub fn line(cells: &[String]) -> String {
     let mut sheet = Sheet { names: Vec::new(), out: Writer::from_writer(Vec::new()) };
     sheet.write(cells);

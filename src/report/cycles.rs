@@ -33,7 +33,7 @@ struct CycleDocument<'a> {
     cost: CountedCost,
 }
 
-/// Every cycle with what is proved about it, and beside them the harmonic balance if asked for.
+/// Every cycle with what is proved about it, and the harmonic balance if asked for.
 pub fn json(
     found: &Cycles,
     proof: &Proof,
@@ -51,7 +51,7 @@ pub fn json(
     })
 }
 
-/// One row for each cycle, and for each interval of clearances that is open.
+/// One row for each cycle and one for each interval of clearances that is open.
 pub fn csv(found: &Cycles, proof: &Proof) -> String {
     #[derive(Serialize)]
     struct CycleRow<'a> {
@@ -90,7 +90,7 @@ pub(super) fn cells(cycle: &Cycle, places: usize) -> Vec<String> {
     cells
 }
 
-/// The same in the digits that are certain.
+/// These cells, with the digits that are certain.
 fn certain_cycle(cycle: &Cycle, bounds: &Enclosure, places: usize) -> Vec<String> {
     let mut cells = self::cells(cycle, places);
     let Enclosure { q_min, q_max, v_min, v_max, period, multiplier, clearance } = *bounds;
@@ -101,9 +101,9 @@ fn certain_cycle(cycle: &Cycle, bounds: &Enclosure, places: usize) -> Vec<String
     cells
 }
 
-/// Every cycle in the digits that are proved, the harmonic answer beside it, and what borders the basin.
+/// Every cycle to the digits that are proved, the answer of harmonic balance, and the border of the basin.
 pub fn table(found: &Cycles, proof: &Proof, seconds: f64) -> String {
-    /// Cycles are computed to rounding; this many digits are for reading.
+    /// Digits shown; cycles are computed to rounding error.
     const PLACES: usize = 12;
     let mut out = format!("{}\n\n", parameters(&found.parameters, None));
     if !found.cycles.is_empty() {

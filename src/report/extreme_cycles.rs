@@ -11,10 +11,10 @@ use crate::study::extremes::sets::{BUDGET, LatticeCycle, SetAnswer, SetVerdict};
 use crate::words::number::{exact as short, significant};
 use crate::words::stability;
 
-/// Residual above which a row of the summary counts a cycle apart.
+/// Residual above which the summary counts a cycle as not closed.
 const CLOSED: f64 = 1e-11;
 
-/// As a table to read.
+/// As a readable table.
 pub fn table(verdicts: &[SetVerdict]) -> String {
     let list = |verdict: &SetVerdict, digits: usize, value: &dyn Fn(&LatticeCycle) -> f64| {
         let values = verdict.cycles().iter().map(|it| significant(value(it), digits));
@@ -43,7 +43,7 @@ pub fn table(verdicts: &[SetVerdict]) -> String {
     )
 }
 
-/// As comma-separated values: one row for each cycle, or for a set without any.
+/// As comma-separated values: one row for each cycle, and one for a set without cycles.
 pub fn csv(verdicts: &[SetVerdict]) -> String {
     let row = |verdict: &SetVerdict, answer, found: Option<&LatticeCycle>| ExtremeCyclesRow {
         parameters: verdict.parameters,
@@ -74,7 +74,7 @@ pub fn csv(verdicts: &[SetVerdict]) -> String {
     csv::sheet(&like, rows)
 }
 
-/// A set of parameters with one of its cycles.
+/// A set of parameters with one of its cycles, if it has any.
 #[derive(Serialize)]
 struct ExtremeCyclesRow {
     #[serde(flatten)]
@@ -110,7 +110,7 @@ fn sentence(answer: &SetAnswer) -> String {
     }
 }
 
-/// How many times each answer came.
+/// How often each answer occurred.
 fn summary(verdicts: &[SetVerdict]) -> String {
     let gave_up = |it: &&SetVerdict| matches!(it.answer, SetAnswer::GaveUp { .. });
     let with = |count: usize| {

@@ -1,4 +1,4 @@
-//! The lattice of extremes: one row for each motion, with every method's answer; and a summary.
+//! The lattice of extremes: one row for each motion with the answers of all methods, and a summary.
 
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ use crate::study::extremes::verdict::{BUDGET, METHODS};
 use crate::study::extremes::{MethodAnswer, MethodsVerdict, NamedExtreme};
 use crate::words::number::{exact as short, significant};
 
-/// As a table to read: the answer of `auto` and its cost, then the digits that each method lost.
+/// As a readable table: the answer of `auto` and its cost, then the digits that each method lost.
 pub fn table(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: f64) -> String {
     let mut titles = vec!["D", "r", "D2", "D3", "start", "answer", "evaluations", "sensitive"];
     titles.extend(METHODS.map(|method| method.spec().name));
@@ -108,7 +108,7 @@ pub fn json(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: f64)
     json::text(&ExtremesDocument { tolerance, budget: BUDGET, motions: verdicts, named })
 }
 
-/// What became of a motion, in a few words.
+/// How a motion ended, in a few words.
 fn short_sentence(outcome: &Outcome) -> String {
     match outcome {
         Outcome::Captured { tau, q } => {
@@ -134,7 +134,7 @@ fn mark(answer: &MethodAnswer) -> String {
     }
 }
 
-/// How many times each method answered, and how well.
+/// How often each method answered, and how well.
 fn summary(verdicts: &[MethodsVerdict]) -> String {
     type Asked<'a> = (Method, Vec<&'a MethodAnswer>);
     let asked = |method| (method, verdicts.iter().filter_map(|it| it.answer(method)).collect());

@@ -45,10 +45,10 @@ pub fn csv(found: &Guarantee) -> String {
     csv::sheet(&nominal, [&nominal, &GuaranteeRow { margin: "guaranteed", found: margin, reason }])
 }
 
-/// What keeps a number of 12 digits from being rounded up.
+/// Factor that keeps a number written with 12 digits from being rounded up.
 const BELOW: f64 = 1.0 - 5e-12;
 
-/// Sentences for reading; the guaranteed numbers are not rounded up.
+/// As sentences; guaranteed numbers are not rounded up.
 pub fn table(found: &Guarantee, seconds: f64) -> String {
     let ParameterBox { d, d2, d3, r } = found.known;
     let names = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R].map(|symbol| symbol.spec().name);

@@ -1,7 +1,7 @@
-//! The harmonic balance beside the true cycles: what each number of harmonics gives, and how wrong it is.
+//! Harmonic balance compared with the true cycles: the result for each number of harmonics, and its error.
 //!
-//! One row for each first-order answer and each number of harmonics, in every form of output. A row
-//! whose branch was lost on the way to that many harmonics has no numbers and says why; one without
+//! One row for each first-order answer and each number of harmonics, in every form of output. If the branch
+//! was lost before that number of harmonics was reached, the row has no numbers and says why. A row without
 //! errors has no true cycle to be compared with.
 
 use serde::Serialize;
@@ -13,7 +13,7 @@ use crate::study::harmonic_error::{Balanced, HarmonicBalance};
 use crate::words::number::significant;
 use crate::words::stability;
 
-/// One number of harmonics on the branch of one first-order answer.
+/// The result for one number of harmonics on the branch of one first-order answer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct BalanceRow {
     harmonics: usize,
@@ -66,9 +66,9 @@ pub fn rows(rungs: &[HarmonicBalance]) -> Vec<BalanceRow> {
         .collect()
 }
 
-/// As a table, with what is to be said about its rows below it.
+/// As a table, with notes on its rows below it.
 pub fn table(rungs: &[HarmonicBalance]) -> String {
-    /// Digits of a cycle that is an approximation.
+    /// Digits shown of a cycle, which is an approximation here.
     const PLACES: usize = 6;
     let rows = rows(rungs);
     if rows.is_empty() {
@@ -102,7 +102,7 @@ pub fn table(rungs: &[HarmonicBalance]) -> String {
     format!("\n{table}{}", notes.concat())
 }
 
-/// What is to be said about a row.
+/// A note on a row, if it needs one.
 fn note(row: &BalanceRow) -> Option<String> {
     let crossings = row.crossings.filter(|crossings| *crossings != 2);
     let more = crossings.map(|crossings| {

@@ -1,10 +1,10 @@
-//! JSON documents: numbers in shortest round-trip form, `null` where a value does not exist.
+//! JSON documents: numbers in the shortest form that reads back exactly, `null` for a value that does not exist.
 
 use serde::Serialize;
 
 use crate::flow::Cost;
 
-/// What an answer cost, counted and timed.
+/// The cost of an answer, counted and timed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CountedCost {
     #[serde(flatten)]
@@ -13,17 +13,17 @@ pub struct CountedCost {
     pub seconds: f64,
 }
 
-/// What an answer cost that has nothing to count.
+/// The cost of an answer in time alone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Seconds {
     /// Wall-clock seconds inside the process.
     pub seconds: f64,
 }
 
-/// A document and a newline.
+/// The document on one line, with a newline.
 ///
 /// # Panics
-/// Never: strings, numbers and structs of them have no way to fail, and keys are strings.
+/// Never: strings, numbers and structs of them can always be written, and keys are strings.
 pub fn text(document: &impl Serialize) -> String {
     match serde_json::to_string(document) {
         Ok(text) => text + "\n",

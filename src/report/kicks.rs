@@ -1,4 +1,4 @@
-//! What random kicks do, as text.
+//! The answer about random kicks.
 
 use serde::Serialize;
 
@@ -28,14 +28,14 @@ struct Again<'a> {
     density: &'a [f64],
 }
 
-/// How dense the places of rest are at one of them.
+/// The density of the places of rest at `q`.
 #[derive(Default, Serialize)]
 struct KicksRow {
     q: f64,
     density: f64,
 }
 
-/// One document; `mean` is null where no kick is ever lost.
+/// One document; `mean` is null if no kick is ever lost.
 pub fn json(parameters: &Parameters, kicks: &RandomKick, found: &Repeated, seconds: f64) -> String {
     text(&KicksDocument {
         parameters,
@@ -51,7 +51,7 @@ pub fn json(parameters: &Parameters, kicks: &RandomKick, found: &Repeated, secon
     })
 }
 
-/// The density of the places of rest, one cell a row.
+/// The density of the places of rest, one row for each cell of the sticking set.
 pub fn csv(parameters: &Parameters, found: &Repeated) -> String {
     let row = |(q, density)| KicksRow { q, density };
     csv::sheet(&KicksRow::default(), found.places(parameters.r).map(row))

@@ -1,6 +1,6 @@
-//! Answers as text, one file for each subject: to read, as comma-separated values and as JSON.
+//! Answers as readable text, as comma-separated values and as JSON; one file for each subject.
 //!
-//! A subject has its rows once; [`csv`], [`json`] and [`table`] are the forms.
+//! Each subject defines its rows once; [`csv`], [`json`] and [`table`] write them in the three forms.
 
 pub mod basin;
 pub mod belt;

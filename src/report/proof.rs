@@ -1,4 +1,4 @@
-//! What is proved about limit cycles, for tables and documents.
+//! Proofs about limit cycles, for tables and documents.
 
 use serde::Serialize;
 
@@ -17,13 +17,13 @@ use crate::words::number::significant;
 pub(super) struct ProvedCycleDocument<'a> {
     #[serde(flatten)]
     cycle: &'a Cycle,
-    /// Whether it exists, is the only one near by, and is enclosed.
+    /// Whether it is proved to exist, to be the only one nearby, and to lie in its enclosure.
     proved: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     enclosure: Option<Enclosure>,
 }
 
-/// What is proved about a cycle, or clearances that are open: a column for each bound.
+/// What is proved about a cycle, or an interval of clearances that is open, with a column for each bound.
 #[derive(Serialize)]
 pub(super) struct CycleBounds {
     proved: bool,
@@ -40,7 +40,7 @@ struct Clearances {
 }
 
 impl CycleBounds {
-    /// With a column for everything.
+    /// An example with all columns, for the heading.
     pub(super) fn like() -> Self {
         let q = Interval::ALL;
         let all = Enclosure {
@@ -72,15 +72,15 @@ impl CycleBounds {
 /// The number of cycles, with what is proved about it.
 #[derive(Serialize)]
 pub(super) struct Count<'a> {
-    /// Whether there are these cycles and no others.
+    /// Whether it is proved that there are these cycles and no others.
     proved: bool,
-    /// Clearances about which nothing is known.
+    /// Intervals of clearances about which nothing is known.
     open: &'a [Open],
     /// The parameters for which this holds: the doubles nearest to the decimal numbers given.
     parameters: ParameterBox,
 }
 
-/// The rows of a document.
+/// Every cycle with what is proved about it.
 pub(super) fn rows<'a>(cycles: &'a [Cycle], proof: &Proof) -> Vec<ProvedCycleDocument<'a>> {
     let row = |cycle| {
         let enclosure = enclosure(proof, cycle);
@@ -93,12 +93,12 @@ pub(super) fn enclosure(proof: &Proof, cycle: &Cycle) -> Option<Enclosure> {
     matching(proof, cycle).and_then(|proved| proved.enclosure)
 }
 
-/// The count of a document.
+/// The proof of the number of cycles.
 pub(super) fn count(proof: &Proof) -> Count<'_> {
     Count { proved: proof.is_complete(), open: &proof.open, parameters: proof.parameters }
 }
 
-/// `2 cycles, proved`, or what is open.
+/// `2 cycles, proved ..`, or what is open.
 pub(super) fn sentence(found: usize, proof: &Proof) -> String {
     let cycles = cycles(found);
     if proof.is_complete() {
@@ -118,15 +118,16 @@ pub(super) fn sentence(found: usize, proof: &Proof) -> String {
     out
 }
 
-/// The digits on which both ends of an enclosure agree, at most `most`; if there are none, a power of ten that bounds what
-/// over- or underflows, else `?`.
+/// The digits on which both ends of an enclosure agree, at most `most`. If there are none: a power of ten as a
+/// bound of a number that overflows or underflows, else `?`.
 pub(super) fn certain(value: Interval, most: usize) -> String {
     let ends = |digits| [value.lower(), value.upper()].map(|end| significant(end, digits));
     let agreed = (1..=most).rev().map(ends).find(|[lower, upper]| lower == upper);
     agreed.map(|[digits, _]| digits).or_else(|| beyond(value)).unwrap_or_else(|| "?".to_owned())
 }
 
-/// That a value is beyond a power of ten, if this is beyond what anyone asks of such a number.
+/// `> 1e149` for an enclosure without an upper end that lies above 1e100, `< 1e-322` for one that reaches from 0
+/// to less than 1e-100.
 fn beyond(value: Interval) -> Option<String> {
     const HUGE: f64 = 1e100;
     let power = |of: f64| log10(of).floor();
@@ -137,7 +138,7 @@ fn beyond(value: Interval) -> Option<String> {
     tiny.then(|| format!("< 1e{}", power(value.upper()) + 2.0))
 }
 
-/// What `?` means in a table, if it has any.
+/// A line that explains `?`; empty if the table has none.
 pub(super) fn uncertain(table: &str) -> &'static str {
     if table.contains('?') {
         "?: no digit of it is certain; bounds of half swings as stiff as these say little of it\n"

@@ -1,7 +1,7 @@
 //! Rows of a scan as text, one line each, for the command line, for files and for the explorer.
 //!
-//! A line begins with everything that its row depends on, so that lines can be checked, sorted, and combined
-//! with those of other scans, whatever file they come from.
+//! A line begins with all inputs of its row, so that lines can be checked, sorted, and combined with those of
+//! other scans, whichever file they come from.
 
 use clap::ValueEnum;
 
@@ -26,14 +26,14 @@ pub enum RowForm {
 const WIDTH: usize = 14;
 
 impl RowForm {
-    /// The form that the name of a file asks for: JSON where it ends so, else CSV.
+    /// The form for a file: JSON if its extension is `json` or `jsonl`, else CSV.
     pub fn of_file(path: &std::path::Path) -> Self {
         let ending = path.extension();
         let json = ending.is_some_and(|ending| ending == "json" || ending == "jsonl");
         if json { RowForm::Json } else { RowForm::Csv }
     }
 
-    /// The line before the rows; empty where there is none.
+    /// The line before the rows; empty if the form has none.
     pub fn heading(self, scan: &Scan) -> String {
         let inputs = scan.inputs(0).into_iter().map(|(name, _)| name);
         let names = inputs.chain(scan.measured()).chain(["reason"]);
@@ -49,7 +49,7 @@ impl RowForm {
         }
     }
 
-    /// How the row of point number `index` begins, whatever is measured there.
+    /// The beginning of the row of point `index`, which does not depend on what is measured there.
     pub fn beginning(self, scan: &Scan, index: usize) -> String {
         let inputs = scan.inputs(index).into_iter();
         match self {
@@ -69,7 +69,7 @@ impl RowForm {
         }
     }
 
-    /// The row of point number `index`.
+    /// The row of point `index`.
     pub fn line(self, scan: &Scan, index: usize, row: &ScanRow) -> String {
         let mut line = self.beginning(scan, index);
         let values = row.values.iter().copied();

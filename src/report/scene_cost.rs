@@ -1,5 +1,5 @@
-//! What scenes require, in every form of output: the questions of their layers, and what a step of each
-//! number asks again.
+//! The cost of scenes, in every form of output: the questions of their layers, and those that a step of each
+//! number repeats.
 
 use std::sync::Arc;
 
@@ -24,24 +24,24 @@ pub struct QuestionCost {
     pub seconds: f64,
 }
 
-/// What a step of a number costs.
+/// The cost of a step of a number.
 #[derive(Clone, Debug)]
 pub struct StepCost {
     pub name: &'static str,
-    /// What was asked again.
+    /// The questions that were computed again.
     pub recomputed: Vec<QuestionCost>,
-    /// What stayed as it was.
+    /// The questions whose answers did not change.
     pub reused: Vec<Topic>,
 }
 
 #[derive(Clone, Debug)]
 pub struct SceneCost {
     pub scene: Arc<Scene>,
-    /// The questions with which it opens.
+    /// The questions that it asks when it opens.
     pub questions: Vec<QuestionCost>,
-    /// The names of the layers that formulas draw.
+    /// The names of the layers that are drawn from formulas, without a question.
     pub formulas: Vec<&'static str>,
-    /// What a step of each of its numbers costs.
+    /// The cost of a step of each of its numbers.
     pub steps: Vec<StepCost>,
 }
 
@@ -134,7 +134,7 @@ struct SceneCostRow<'a> {
     question: &'a QuestionCost,
 }
 
-/// To read: one paragraph for each scene.
+/// As readable text: one table for each scene.
 pub fn table(scenes: &[SceneCost]) -> String {
     let one = |found: &SceneCost| {
         let mut table = Table::new(&["", "evaluations", "steps", "time", ""]);

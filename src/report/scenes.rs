@@ -20,7 +20,7 @@ struct SceneDocument<'a> {
     until: f64,
 }
 
-/// A scene and what it is called.
+/// A name of a scene, and its title.
 #[derive(Default, Serialize)]
 struct SceneRow<'a> {
     name: &'a str,
@@ -29,7 +29,7 @@ struct SceneRow<'a> {
 
 pub fn json<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
     let keymap = Keymap::default();
-    // What always holds, and what holds of the numbers given here.
+    // The texts as the scene opens; conditions that need a computation are taken not to hold.
     let here = |one| matches!(one, Condition::Here | Condition::Path | Condition::Opened);
     let sentence = |text: &str| keymap.fill(&said(text, here), |key| key.to_string());
     let document = |scene: &'a Scene, name: &'a str| SceneDocument {

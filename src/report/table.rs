@@ -7,14 +7,14 @@ use crate::numerics::elementary::powi;
 use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
 use crate::words::number::{exact, significant};
 
-/// A table: titles, and rows of as many cells; numbers stand with their points above each other.
+/// A table: titles, and rows with at most as many cells. Numbers are aligned at their decimal points.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table {
     titles: Vec<&'static str>,
     rows: Vec<Vec<String>>,
 }
 
-/// A column: its title, and the cell of a row.
+/// A column: its title, and a function that gives its cell of a row.
 pub type TableColumn<'a, R> = (&'static str, &'a dyn Fn(&R) -> String);
 
 impl Table {
@@ -39,7 +39,7 @@ impl Table {
         self.rows.push(cells);
     }
 
-    /// The table as text with every column aligned at its left end: for words.
+    /// The table as text with left-aligned columns, for words.
     pub fn aligned_left(&self) -> String {
         let titles = self.titles.iter().map(|title| (*title).to_owned()).collect();
         let rows: Vec<&Vec<String>> = std::iter::once(&titles).chain(&self.rows).collect();
@@ -55,7 +55,7 @@ impl Table {
         rows.iter().map(line).collect()
     }
 
-    /// Width of a column before and from the point on.
+    /// Width of a column before the decimal points, and from there on.
     fn widths(&self, column: usize) -> (usize, usize) {
         let cells = self.rows.iter().filter_map(|row| row.get(column));
         let (whole, part) = cells.map(|cell| split(cell)).fold((0, 0), |widest, (whole, part)| {
@@ -66,7 +66,7 @@ impl Table {
     }
 }
 
-/// A cell before and from its decimal point on.
+/// A cell before its decimal point, and from there on.
 fn split(cell: &str) -> (&str, &str) {
     cell.split_at(cell.find('.').unwrap_or(cell.len()))
 }
@@ -88,14 +88,14 @@ impl fmt::Display for Table {
     }
 }
 
-/// How many digits a tolerance makes trustworthy, 3 to 16.
+/// Number of digits to show for a tolerance, 3 to 16.
 pub(super) fn digits(tolerance: f64) -> usize {
     (3..16)
         .find(|&digits| powi(10.0, -digits) <= tolerance * 1.5)
         .map_or(16, |digits| usize::try_from(digits).unwrap_or(16))
 }
 
-/// `D = -0.1, D2 = 0, ...`.
+/// `D = -0.1, D2 = 0, ...`, without the parameter `but`.
 pub(super) fn parameters(parameters: &Parameters, but: Option<Symbol>) -> String {
     let initial = State { q: 0.0, v: 0.0 };
     let symbols = PARAMETERS.iter().map(|row| row.symbol);
@@ -106,12 +106,12 @@ pub(super) fn parameters(parameters: &Parameters, but: Option<Symbol>) -> String
     shown.map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// A number, or `-` where there is none.
+/// A number, or `-` if there is none.
 pub(super) fn rounded(value: Option<f64>, digits: usize) -> String {
     value.map_or_else(|| "-".to_owned(), |value| significant(value, digits))
 }
 
-/// Which motion: parameters and start.
+/// The parameters and the start of a motion.
 pub(super) fn motion(problem: &Problem) -> String {
     let State { q, v } = problem.initial;
     let parameters = parameters(&problem.parameters, None);

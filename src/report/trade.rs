@@ -12,11 +12,11 @@ use crate::study::accuracy::{Ending, Reference, Source};
 use crate::study::trade::{self, Trade};
 use crate::words::number::{count, duration, significant};
 
-/// A trade with the seconds that each row took, measured by someone with a clock.
+/// A trade-off with the time of each row, measured by the caller.
 #[derive(Clone, Debug)]
 pub struct Timed {
     pub trade: Trade,
-    /// Seconds of each row.
+    /// Seconds for each row.
     pub seconds: Vec<f64>,
 }
 
@@ -40,10 +40,11 @@ struct TradeRow {
     time_error: f64,
     /// Whether the motion ends as the reference does.
     agrees: bool,
-    /// Whether no other row has a smaller error in less time, and for fewer evaluations.
+    /// Whether no other row has a smaller error in less time.
     front: bool,
+    /// Whether no other row has a smaller error for fewer evaluations.
     front_by_evaluations: bool,
-    /// Whether this is the method and the accuracy that were asked for.
+    /// Whether this is the method and the accuracy in use.
     own: bool,
 }
 
@@ -71,7 +72,7 @@ struct TradeDocument<'a> {
     unanswered: Vec<Unanswered>,
 }
 
-/// All columns: those of a row, and why there is none.
+/// A row with all columns, including the reason of a row without an error.
 #[derive(Serialize)]
 struct Reasoned<'a> {
     #[serde(flatten)]
@@ -79,7 +80,7 @@ struct Reasoned<'a> {
     reason: Option<&'a str>,
 }
 
-/// What sets the accuracy of a row: tolerance, step and epsilon, those that do.
+/// Tolerance, step and epsilon of a row; `None` for those that do not set the accuracy of its method.
 fn dials(row: &trade::Tried) -> [Option<f64>; 3] {
     let problem = &row.problem;
     let dial = problem.method.spec().dial;
@@ -123,7 +124,7 @@ impl Timed {
             .collect()
     }
 
-    /// The rows that have none.
+    /// The rows that have no error.
     fn unanswered(&self) -> Vec<Unanswered> {
         let rows = self.trade.rows.iter();
         rows.filter_map(|row| {
@@ -136,7 +137,7 @@ impl Timed {
     }
 }
 
-/// Where the reference comes from and how good it is, in a sentence.
+/// The source of the reference and its accuracy, in a sentence.
 pub fn reference(trade: &Trade) -> String {
     let reference = &trade.reference;
     let (first, second) = match reference.source {
@@ -175,7 +176,7 @@ pub fn json(timed: &Timed) -> String {
     })
 }
 
-/// One line for each method and accuracy, those without an error at the end.
+/// One line for each method and accuracy; those without an error come last.
 pub fn csv(timed: &Timed) -> String {
     let (rows, unanswered) = (timed.rows(), timed.unanswered());
     let Some(first) = rows.first() else { return csv::sheet(&unanswered.first(), &unanswered) };
@@ -189,7 +190,7 @@ pub fn csv(timed: &Timed) -> String {
     sheet.into_text()
 }
 
-/// Every row to read, and below them a plot of them: the best choices are marked with `*`, the method in use
+/// A table of all rows, and a plot of them below it. The best choices are marked with `*`, the method in use
 /// with `<`.
 pub fn table(timed: &Timed, plot: &str) -> String {
     let Trade { problem, reference: known, .. } = &timed.trade;
@@ -260,11 +261,11 @@ fn end_of(outcome: &Outcome) -> String {
     }
 }
 
-/// Errors for which [`digits`] says what they cost.
+/// The errors whose cost [`digits`] shows.
 const LEVELS: [(f64, &str); 5] =
     [(1e-2, "1e-2"), (1e-4, "1e-4"), (1e-6, "1e-6"), (1e-9, "1e-9"), (1e-12, "1e-12")];
 
-/// What digits cost: for each method its cheapest row with at most an error, and what one digit more adds.
+/// The cost of accuracy: for each method the cheapest row within each error, and the factor for one more digit.
 pub fn digits(timed: &Timed) -> String {
     let mut titles = vec!["evaluations (time) for an error of"];
     titles.extend(LEVELS.map(|level| level.1));
@@ -303,7 +304,8 @@ fn line_of_digits(spec: &MethodSpec, rows: &[&TradeRow]) -> Vec<String> {
     cells
 }
 
-/// By what factor one digit more multiplies the evaluations, from the worst row to the best.
+/// The factor by which one more digit multiplies the evaluations, from the least to the most accurate row; `None`
+/// if these are less than one digit apart.
 fn growth(rows: &[&TradeRow]) -> Option<f64> {
     let known = || rows.iter().filter(|row| row.error > 0.0 && row.evaluations > 0);
     let worst = known().max_by(|one, other| one.error.total_cmp(&other.error))?;

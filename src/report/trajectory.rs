@@ -89,7 +89,7 @@ pub fn csv(motion: &Trajectory, certified: Option<&ProvedMotion>) -> String {
     csv::sheet(&like, std::iter::once(start).chain(turns).chain([end]))
 }
 
-/// The question, every turning point, the outcome, where the energy went, the cost.
+/// The problem, every turning point, the outcome, the energy balance and the cost.
 pub fn table(motion: &Trajectory, seconds: f64) -> String {
     let problem = &motion.problem;
     let places = digits(problem.tolerance);

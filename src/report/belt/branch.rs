@@ -1,4 +1,4 @@
-//! The cycles of a machine along one of its numbers, and where they change.
+//! The cycles of a machine as one of its numbers varies, and where they change.
 
 use serde::Serialize;
 
@@ -16,7 +16,7 @@ use crate::words::number::duration;
 use crate::words::quantity::with_unit;
 
 pub struct Branched<'a> {
-    /// What it is about.
+    /// The machine.
     pub head: &'a Head<'a>,
     /// The number that varies.
     pub varied: Varied,
@@ -26,11 +26,11 @@ pub struct Branched<'a> {
 
 /// The changes along one number at values of another.
 pub struct Borders<'a> {
-    /// What it is about.
+    /// The machine.
     pub head: &'a Head<'a>,
-    /// The number along which the changes lie, and the other.
+    /// The number along which the changes are located, and the other number.
     pub varied: (Varied, Varied),
-    /// The changes at each value of the other.
+    /// The changes at each value of the other number.
     pub rows: Vec<(f64, Vec<MachineSpecial>)>,
     pub seconds: f64,
 }
@@ -46,7 +46,7 @@ struct BeltBranchDocument<'a> {
     cost: MachineCost,
 }
 
-/// A cycle at a value; a value without cycles has one row that says so.
+/// A cycle at a value. A value without an answer has one row, with the reason.
 #[derive(Serialize)]
 struct BranchedPoint {
     value: f64,
@@ -103,7 +103,7 @@ fn words(kind: MachineSpecialKind) -> &'static str {
     }
 }
 
-/// The stable states that end at a change, while the number grows and while it falls.
+/// The stable states that end at a change, as the number increases and as it decreases.
 fn jumps(special: &MachineSpecial) -> String {
     let sentence = |jump: Option<Jump>, way: &str| {
         jump.map_or_else(String::new, |Jump { from, to }| {
@@ -122,7 +122,7 @@ fn jumps(special: &MachineSpecial) -> String {
     sentence(special.jumps.up, "growing") + &sentence(special.jumps.down, "falling")
 }
 
-/// The branch, to read.
+/// The branch as a table.
 pub fn table(branched: &Branched) -> String {
     let (name, unit) = (branched.varied.name(), branched.varied.unit());
     let mut rows = Table::new(&[&[name, "cycle"], CYCLE].concat());
@@ -219,7 +219,7 @@ pub fn borders_json(borders: &Borders) -> String {
     })
 }
 
-/// The changes, to read.
+/// The changes as a table.
 pub fn borders_table(borders: &Borders) -> String {
     let (along, against) = borders.varied;
     let mut table = Table::new(&[against.name(), along.name(), "what happens"]);

@@ -1,4 +1,4 @@
-//! An answer about a machine as a JSON document; physical quantities are in SI units.
+//! The answer about a machine as a JSON document; physical quantities are in SI units.
 
 use std::collections::BTreeMap;
 
@@ -36,7 +36,7 @@ struct MachineDocument<'a> {
     cost: MachineCost,
 }
 
-/// The numbers of a belt, and its dimensionless form.
+/// The numbers of a mass on a belt, and its dimensionless form.
 #[derive(Serialize)]
 struct BeltDocument<'a> {
     quantities: BTreeMap<&'static str, f64>,
@@ -63,10 +63,10 @@ impl<'a> BeltDocument<'a> {
     }
 }
 
-/// The kicks that are survived for certain.
+/// The kicks that are survived for certain, with what they allow for.
 #[derive(Serialize)]
 struct MachineGuaranteeDocument {
-    /// In m; null where every kick is survived, or nothing is certain.
+    /// In m; null if every kick is survived or nothing is certain.
     displacement: Option<f64>,
     /// In N s.
     impulse: Option<f64>,
@@ -74,7 +74,7 @@ struct MachineGuaranteeDocument {
     reason: Option<String>,
     /// In N.
     disturbance: f64,
-    /// The numbers that are not known exactly, each with its ends in SI units.
+    /// The intervals of the numbers that are not known exactly, in SI units.
     tolerances: BTreeMap<&'static str, Interval>,
 }
 
@@ -95,7 +95,7 @@ impl MachineGuaranteeDocument {
     }
 }
 
-/// A number without unit, and in SI units.
+/// A number in dimensionless form and in SI units.
 #[derive(Serialize)]
 struct Both {
     dimensionless: f64,
@@ -105,14 +105,14 @@ struct Both {
 #[derive(Serialize)]
 struct Friction {
     law: &'static str,
-    /// Quadratic mean of the distances of a table's points from the law.
+    /// Root mean square distance of a table's points from the law.
     #[serde(skip_serializing_if = "Option::is_none")]
     missed: Option<f64>,
     mu: f64,
     mu1: f64,
     mu2: f64,
     mu3: f64,
-    /// The coefficient up to which the belt holds the mass.
+    /// The coefficient of static friction between belt and mass.
     mu_s: Option<f64>,
 }
 
@@ -135,14 +135,14 @@ impl Friction {
     }
 }
 
-/// What the whole model says about all motions of a machine.
+/// All motions of a machine by the whole model.
 #[derive(Serialize)]
 pub(super) struct PortraitDocument {
     cycles: Vec<MachineCycleDocument>,
     neutral: bool,
     border: MachineBorderDocument,
     margin: Margins,
-    /// Beyond which right turning point motions are not known, and why.
+    /// The right turning point beyond which motions are not known, and why.
     #[serde(skip_serializing_if = "Option::is_none")]
     limit: Option<Limit>,
     /// Right turning points between which the search for cycles did not settle.
@@ -162,7 +162,7 @@ pub(super) struct MachineCycleDocument {
     stable: bool,
     #[serde(flatten)]
     numbers: CycleNumbers,
-    /// Of 0 there is none.
+    /// `None` for a multiplier of 0.
     log_multiplier: Option<f64>,
 }
 
@@ -175,7 +175,7 @@ pub(super) struct CycleNumbers {
     v_max: f64,
     period: f64,
     stick_duration: f64,
-    /// `None` where it overflows.
+    /// `None` if it overflows.
     multiplier: Option<f64>,
 }
 
@@ -242,7 +242,7 @@ impl MachineCycleDocument {
     }
 }
 
-/// The name of a kind of cycle.
+/// `stick-slip` or `slip`.
 pub(super) fn kind(cycle: &MachineCycle) -> &'static str {
     if cycle.sticks { "stick-slip" } else { "slip" }
 }
@@ -251,7 +251,7 @@ pub(super) fn kind(cycle: &MachineCycle) -> &'static str {
 struct MachineMotionDocument {
     start: StartDocument,
     outcome: OutcomeDocument,
-    /// How far it was followed, in s.
+    /// The time up to which it was followed, in s.
     until: f64,
     displacement: (f64, f64),
     velocity: (f64, f64),
@@ -262,7 +262,7 @@ struct MachineMotionDocument {
     second: Option<SecondDocument>,
 }
 
-/// The motion by another method, and by how much its end differs.
+/// The motion by a second method, and the difference between the ends.
 #[derive(Serialize)]
 struct SecondDocument {
     method: &'static str,
@@ -306,7 +306,7 @@ struct OutcomeDocument {
     cycle: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     x: Option<f64>,
-    /// When it came to rest, if within the time for which it was followed.
+    /// When it came to rest, if that was within the time followed.
     #[serde(skip_serializing_if = "Option::is_none")]
     t: Option<f64>,
 }
@@ -387,14 +387,14 @@ impl DesignDocument {
     }
 }
 
-/// Steps of the whole model, and the time.
+/// Integration steps of the whole model, and the time they took.
 #[derive(Serialize)]
 pub(super) struct MachineCost {
     pub steps: u64,
     pub seconds: f64,
 }
 
-/// Everything that is said about a machine, as a document.
+/// The whole answer about a machine as a document.
 pub fn json(answer: &MachineAnswer) -> String {
     let MachineAnswer { course, on_belt, .. } = answer;
     let certain = |belt: &OnBelt| Some(MachineGuaranteeDocument::new(belt, belt.certain.as_ref()?));

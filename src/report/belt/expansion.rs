@@ -1,5 +1,5 @@
-//! What the oscillator of the paper, with friction as a cubic, says about a machine, and by how much it is
-//! wrong about it.
+//! A machine approximated by the oscillator of the paper, whose friction is a cubic, and the errors of this
+//! approximation.
 
 use serde::Serialize;
 
@@ -15,7 +15,7 @@ use crate::study::{Cycle, Edge, Margin};
 #[derive(Serialize)]
 pub(super) struct Expansion<'a> {
     parameters: &'a Parameters,
-    /// Why it has no answer.
+    /// Why there is no answer.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     pub cycles: Vec<ExpandedCycle<'a>>,
@@ -31,11 +31,11 @@ pub(super) struct ExpandedCycle<'a> {
     pub v_min: f64,
     pub v_max: f64,
     pub period: f64,
-    /// Whether it is as fast as the belt, which the expansion does not know.
+    /// Whether it reaches the speed of the belt, where the expansion does not hold.
     pub reaches_belt: bool,
-    /// What the cubic leaves out of friction on its way.
+    /// The error of the cubic over the velocities of the cycle.
     pub taylor: Option<TaylorError>,
-    /// By how much it misses the cycle of the same stability that comes nearest; `None` without one.
+    /// Differences to the nearest cycle of the same stability; `None` if there is none.
     pub error: Option<CycleError>,
     dimensionless: &'a Cycle,
 }
@@ -55,7 +55,7 @@ pub(super) struct ExpandedMargin {
     #[serde(flatten)]
     pub physical: PhysicalMargin,
     dimensionless: Margin,
-    /// By how much they exceed the true ones; `None` where one of the two does not exist.
+    /// By how much they exceed those of the whole model; `None` if one of the two does not exist.
     pub error: MarginError,
 }
 

@@ -1,4 +1,5 @@
-//! What a mass on a belt or a vibration mode does, in physical units; beside a belt the oscillator of the paper.
+//! The motions of a mass on a belt or of a vibration mode, in physical units; for a belt also by the oscillator of
+//! the paper.
 
 pub mod branch;
 mod document;
@@ -24,12 +25,12 @@ use crate::study::design::{Kick, Needed};
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
 
-/// The part of a window from which the mass comes to rest.
+/// The fraction of the starts in a window from which the mass comes to rest.
 #[derive(Clone, Copy, Serialize)]
 #[serde(untagged)]
 pub enum RestShare {
     NotAsked,
-    /// Motions from the window lead beyond what is known.
+    /// Motions from the window leave the range that is known.
     Unknown,
     Is(f64),
 }
@@ -44,7 +45,7 @@ impl RestShare {
         if let RestShare::Is(share) = self { Some(share) } else { None }
     }
 
-    /// The cell of a table; none if it was not asked for.
+    /// The cell of a table; `None` if it was not asked for.
     fn cell(self) -> Option<String> {
         match self {
             RestShare::NotAsked => None,
@@ -53,7 +54,7 @@ impl RestShare {
         }
     }
 
-    /// A line to read; empty if it was not asked for.
+    /// A line of text; empty if it was not asked for.
     fn line(self) -> String {
         match self {
             RestShare::NotAsked => String::new(),
@@ -69,21 +70,21 @@ impl RestShare {
     }
 }
 
-/// Everything that is said about a mass on a belt or a vibration mode.
+/// The whole answer about a mass on a belt or a vibration mode.
 pub struct MachineAnswer<'a> {
     pub head: &'a Head<'a>,
     /// Displacement (m) and velocity (m/s) at the start.
     pub start: (f64, f64),
     pub course: Course,
     pub rest_share: RestShare,
-    /// The friction for a margin, if asked for.
+    /// The friction needed for a margin, if asked for.
     pub design: Option<Designed>,
-    /// What a mode does not have.
+    /// `None` for a mode.
     pub on_belt: Option<OnBelt<'a>>,
     pub seconds: f64,
 }
 
-/// What is said about a mass on a belt alone.
+/// The part of the answer that only a mass on a belt has.
 pub struct OnBelt<'a> {
     pub expansion: CubicExpansion,
     pub tolerances: &'a Tolerances,
@@ -92,38 +93,38 @@ pub struct OnBelt<'a> {
 }
 
 impl OnBelt<'_> {
-    /// The numbers that are not known exactly, each between its ends in SI units.
+    /// The numbers that are not known exactly, each with its interval in SI units.
     fn uncertain(&self) -> Vec<(Varied, Interval)> {
         self.tolerances.intervals(&self.expansion.belt)
     }
 }
 
-/// A number that may be infinite as one that may be missing.
+/// `None` unless the value is finite.
 fn finite(value: f64) -> Option<f64> {
     Some(value).filter(|value| value.is_finite())
 }
 
-/// The friction for a margin.
+/// The friction needed for a margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Designed {
     /// The kick that is to be survived.
     pub kick: Kick,
     /// Its size: m for a displacement, N s for an impulse.
     pub wanted: f64,
-    /// The friction, in N.
+    /// The friction needed, in N.
     pub needed: Needed,
-    /// Speed of the belt, if there is one, in m/s.
+    /// Speed of the belt in m/s; `None` for a mode.
     pub at: Option<f64>,
-    /// The friction that there is, in N.
+    /// The friction that the machine has, in N.
     pub has: f64,
 }
 
-/// What stands above an answer: what it is about.
+/// The heading of an answer: which machine, and its numbers.
 pub struct Head<'a> {
-    /// The name by which it is opened.
+    /// The name by which the machine is opened.
     pub name: &'a str,
     pub title: &'a str,
-    /// Its numbers, each with its name.
+    /// Name and value of each number.
     numbers: Vec<(String, String)>,
 }
 
@@ -136,7 +137,7 @@ impl<'a> Head<'a> {
         Head { name, title, numbers }
     }
 
-    /// Its numbers in one line, without one of them.
+    /// The numbers in one line, without `omitted`.
     fn numbers_without(&self, omitted: &str) -> String {
         let shown = self.numbers.iter().filter(|(name, _)| name != omitted);
         let shown = shown.map(|(name, value)| format!("{name} = {value}"));
@@ -144,10 +145,10 @@ impl<'a> Head<'a> {
     }
 }
 
-/// Digits of a physical quantity in a text.
+/// Significant digits of a physical quantity in text.
 const PLACES: usize = 5;
 
-/// Margins in SI units; `None` where every kick is survived.
+/// The margins in displacement (m) and impulse (N s); `None` if every kick is survived.
 fn margins(portrait: &Portrait) -> [Option<f64>; 2] {
     let impulse = |velocity: f64| portrait.model.mass * velocity;
     let margin = portrait.margin;
@@ -158,7 +159,7 @@ fn margins(portrait: &Portrait) -> [Option<f64>; 2] {
 }
 
 impl Designed {
-    /// The friction for it, in N.
+    /// The friction needed, in N; `None` if any suffices.
     fn force(&self) -> Option<f64> {
         match self.needed {
             Needed::Any => None,

@@ -1,4 +1,4 @@
-//! A machine along one of its quantities, point by point.
+//! A machine at a series of values of one of its quantities.
 
 use serde::Serialize;
 
@@ -18,13 +18,13 @@ pub struct SweepPoint {
     /// What the machine does there, or why it does not exist.
     pub found: Result<Portrait, String>,
     pub rest_share: RestShare,
-    /// The friction for a margin, if asked for.
+    /// The friction needed for a margin, if asked for.
     pub design: Option<Designed>,
 }
 
-/// A sweep with what is asked about it.
+/// A sweep over one number of a machine.
 pub struct MachineSweep<'a> {
-    /// What it is about.
+    /// The machine.
     pub head: &'a Head<'a>,
     /// The number that varies.
     pub varied: Varied,
@@ -78,7 +78,7 @@ pub fn json(sweep: &MachineSweep) -> String {
     })
 }
 
-/// What becomes of motions, in a few words.
+/// Where motions end, in a few words.
 fn regime(found: &Portrait) -> String {
     let rest = match found.border {
         MachineBorder::NoBasin => "no basin",
@@ -100,7 +100,7 @@ fn regime(found: &Portrait) -> String {
     if kinds.is_empty() { rest.to_owned() } else { format!("{rest}, {}", kinds.join(", ")) }
 }
 
-/// The sweep, to read.
+/// The sweep as a table.
 pub fn table(sweep: &MachineSweep) -> String {
     let (name, unit) = (sweep.varied.name(), sweep.varied.unit());
     let designs = sweep.points.iter().any(|point| point.design.is_some());
@@ -153,7 +153,7 @@ pub fn table(sweep: &MachineSweep) -> String {
     )
 }
 
-/// What a machine does at a value.
+/// The machine at one value.
 #[derive(Default, Serialize)]
 struct BeltSweepRow {
     value: f64,

@@ -1,4 +1,4 @@
-//! An answer about a machine as text to read, and as rows of comma-separated values.
+//! The answer about a machine as readable text, and as rows of comma-separated values.
 
 use serde::Serialize;
 
@@ -19,17 +19,17 @@ use crate::words::number::{duration, significant};
 use crate::words::quantity::with_unit;
 use crate::words::stability;
 
-/// Digits of a dimensionless number.
+/// Significant digits of a dimensionless number.
 const DIGITS: usize = 10;
 
-/// One line of the answer: what, its dimensionless value, its physical value and unit.
+/// One line of the answer: a label, the dimensionless value, and the physical value with its unit.
 struct QuantityRow {
     what: &'static str,
     dimensionless: Option<f64>,
     physical: Option<(f64, &'static str)>,
 }
 
-/// The numbers about a belt that stand alone.
+/// The single numbers that describe a mass on a belt.
 fn rows(
     CubicExpansion { belt, reduced, .. }: &CubicExpansion,
     portrait: &Portrait,
@@ -59,7 +59,7 @@ fn rows(
     ]
 }
 
-/// Everything that is said about a machine, to read.
+/// The whole answer about a machine as text.
 pub fn table(answer: &MachineAnswer) -> String {
     let (head, portrait) = (answer.head, &answer.course.portrait);
     let mut out = format!("{}: {}\n{}\n", head.name, head.title, head.numbers_without(""));
@@ -89,7 +89,7 @@ pub fn table(answer: &MachineAnswer) -> String {
     out + &format!("{} steps, {}\n", portrait.steps, duration(answer.seconds))
 }
 
-/// The kicks that are survived, two lines.
+/// The kicks that are survived, in two lines.
 fn survived(portrait: &Portrait) -> String {
     let [displacement, impulse] = margins(portrait);
     let all = |value: Option<f64>, unit| {
@@ -102,7 +102,7 @@ fn survived(portrait: &Portrait) -> String {
     )
 }
 
-/// The numbers about a belt that stand alone, a row each.
+/// The table of these numbers.
 fn quantities(expansion: &CubicExpansion, portrait: &Portrait) -> Table {
     let mut table = Table::new(&["", "dimensionless", "physical"]);
     for QuantityRow { what, dimensionless, physical } in rows(expansion, portrait) {
@@ -136,7 +136,7 @@ fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
     )
 }
 
-/// What borders the basin of rest, in a sentence.
+/// The border of the basin of rest, in a sentence.
 fn border(portrait: &Portrait) -> &'static str {
     match portrait.border {
         MachineBorder::None if portrait.margin.is_some() => {
@@ -157,7 +157,7 @@ fn border(portrait: &Portrait) -> &'static str {
     }
 }
 
-/// The nominal margins and those that hold for certain, side by side, and what they allow for.
+/// The nominal margins, the guaranteed ones, and the uncertainties for which these hold.
 fn guaranteed(
     belt: &OnBelt,
     portrait: &Portrait,
@@ -181,7 +181,7 @@ fn guaranteed(
         };
         format!("displacement {}, impulse {}", size(displacement, "m"), size(impulse, "N s"))
     };
-    // What is certain is not rounded up.
+    // Guaranteed numbers must not be rounded up.
     let below = |value: f64| finite(value * (1.0 - 5e-5));
     let [displacement, impulse] = margins(portrait);
     let certain = match certain {
@@ -195,7 +195,7 @@ fn guaranteed(
     )
 }
 
-/// What is not known of a machine, a line each.
+/// What is not known about the motions, one line each.
 fn gaps(portrait: &Portrait) -> String {
     let length = |x| with_unit(x, PLACES, "m");
     let limit = portrait.stop.map(|stop| {
@@ -208,7 +208,7 @@ fn gaps(portrait: &Portrait) -> String {
     limit.into_iter().chain(unresolved).collect()
 }
 
-/// The cycles, a row each.
+/// The table of cycles.
 fn cycles(cycles: &[MachineCycle]) -> String {
     if cycles.is_empty() {
         return "no cycle\n".to_owned();
@@ -220,11 +220,11 @@ fn cycles(cycles: &[MachineCycle]) -> String {
     table.to_string()
 }
 
-/// Titles of the columns that tell a cycle, behind that of its kind.
+/// Titles of the columns that describe a cycle, after that of its kind.
 pub(super) const CYCLE: &[&str] =
     &["x from", "to", "v from", "to", "period", "on the belt", "multiplier"];
 
-/// The cells of these columns, behind the kind.
+/// The kind of a cycle, then the cells of these columns.
 pub(super) fn cells(cycle: &MachineCycle) -> Vec<String> {
     let over = if cycle.overtakes { ", overtaking" } else { "" };
     let mut cells = vec![format!("{} {}{over}", stability(cycle.stable), kind(cycle))];
@@ -238,7 +238,7 @@ pub(super) fn cells(cycle: &MachineCycle) -> Vec<String> {
     cells
 }
 
-/// What becomes of the motion, in a sentence.
+/// How the motion ends, in a sentence.
 fn fate((x, v): (f64, f64), course: &Course) -> String {
     let length = |x| with_unit(x, PLACES, "m");
     let from = format!("from x = {}, v = {}: ", length(x), with_unit(v, PLACES, "m/s"));
@@ -262,7 +262,7 @@ fn fate((x, v): (f64, f64), course: &Course) -> String {
     } + &course.second.as_ref().map_or_else(String::new, |second| by(second, course))
 }
 
-/// The motion by another method beside the first, in a sentence.
+/// The motion by the second method, compared with the first, in a sentence.
 fn by(Second { way, tolerance, found }: &Second, course: &Course) -> String {
     let MachineState { t, x, v } = course.motion.end;
     let lead = format!("\nby {} at {tolerance:e}: ", way.name());
@@ -279,7 +279,7 @@ fn by(Second { way, tolerance, found }: &Second, course: &Course) -> String {
     }
 }
 
-/// What the cubic expansion says instead, in a sentence.
+/// The result of the cubic expansion, in a sentence.
 fn by_expansion(expansion: &CubicExpansion, portrait: &Portrait) -> String {
     let found = Expansion::new(expansion, portrait);
     let lead = "friction as a cubic (the oscillator of the paper) says: ";
@@ -347,7 +347,7 @@ pub fn csv(answer: &MachineAnswer) -> String {
     csv::sheet(&NumberRow::default(), rows)
 }
 
-/// A number without unit, and in SI units.
+/// A number in dimensionless form and in SI units.
 #[derive(Default, Serialize)]
 struct NumberRow {
     what: String,

@@ -1,4 +1,4 @@
-//! What a recorded motion says: as a table to read, a document and rows.
+//! The results of fitting a recorded motion, as a table, a document and rows.
 
 mod document;
 mod table;

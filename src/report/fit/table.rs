@@ -1,4 +1,4 @@
-//! A fit to read.
+//! A fit as readable text.
 
 use crate::fit::Fitted;
 use crate::fit::margin::Spread;
@@ -9,7 +9,7 @@ use crate::report::table::Table;
 use crate::words::fit::sentences;
 use crate::words::number::{duration, resolved, significant};
 
-/// Everything that is said about a fit.
+/// The whole answer of a fit.
 pub fn table(fitted: &Fitted) -> String {
     let estimate = &fitted.estimate;
     let mut out = format!("{}: {}\n\n", fitted.name, subject(fitted));
