@@ -31,7 +31,7 @@ pub struct Arguments {
     over: Over,
 }
 
-/// Reads the second parameter; a border is found along D itself, and knows nothing of where a motion starts.
+/// Reads the second parameter. The border is located along D and does not depend on the start of a motion.
 fn second(text: &str) -> Result<Over, String> {
     let over = input::over(text)?;
     let name = over.symbol.spec().name;
@@ -67,7 +67,8 @@ fn enclosed(found: &Found) -> Vec<Bordered> {
         let mut parameters = found.parameters;
         found.second.set(&mut parameters, &mut nowhere.clone(), point.value);
         let known = ParameterBox::from(&parameters);
-        // Where no two cycles meet smoothly, as at a grazing, the numbers of cycles on both sides are left.
+        // Where two cycles do not merge smoothly, as at a grazing, only the change in the number of cycles can be
+        // enclosed.
         let changes = |d: f64| Some(change_near(&known, Symbol::D, d)?.between);
         let fold = point.fold.and_then(|fold| {
             let clearance = fold.q_max - parameters.r;

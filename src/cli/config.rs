@@ -1,4 +1,4 @@
-//! The settings file of the user: where it is, and what it says.
+//! The user's settings file: its path and its content.
 
 use std::path::PathBuf;
 
@@ -22,7 +22,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// What the file says. The user's own file need not exist; one that is named must.
+    /// The content of the file. The user's own file need not exist; a file named on the command line must.
     pub fn read(&self) -> Result<Config, Failure> {
         let (path, named) = match (&self.config, self.no_config) {
             (Some(path), _) => (path.clone(), true),

@@ -66,7 +66,7 @@ impl Arguments {
         })
     }
 
-    /// What holds for every value in intervals of parameters.
+    /// Answers for all parameters in a box.
     fn run_box(&self, known: &ParameterBox) -> Result<(), Failure> {
         if self.harmonics.is_some() {
             let line = "intervals of parameters: --harmonics has no place for them";
@@ -81,7 +81,7 @@ impl Arguments {
         })
     }
 
-    /// Writes the certificate if it is wanted.
+    /// Writes the certificate, if asked for.
     fn certify(&self, proof: &Proof) -> Result<(), Failure> {
         let Some(path) = &self.certificate else { return Ok(()) };
         let unwritten = |why: String| Failure::Unanswered(format!("no certificate: {why}"));
@@ -104,7 +104,7 @@ impl Arguments {
     }
 }
 
-/// What the command answers.
+/// The answer of the command.
 struct CyclesAnswer {
     found: study::Cycles,
     proof: Proof,

@@ -68,7 +68,7 @@ impl Explore {
             None => self.start.scene_named(name)?,
         };
         let play = self.play.as_deref().map(played).transpose()?.unwrap_or_default();
-        // The terminal says its size before the first picture.
+        // The terminal reports its size before the first picture is drawn.
         let mut session = Session::new(scene, Size { width: 80, height: 24 });
         session.look = self.looks.wishes(&config);
         session.keymap = Arc::new(config.keymap);
@@ -82,7 +82,7 @@ impl Explore {
     }
 }
 
-/// The session that was left last.
+/// The file of the last session.
 fn last() -> Result<PathBuf, Failure> {
     let path = Memory::open().map(|memory| memory.last()).filter(|path| path.exists());
     path.ok_or_else(|| {
@@ -90,7 +90,7 @@ fn last() -> Result<PathBuf, Failure> {
     })
 }
 
-/// The steps that play a file, which is understood before anything runs.
+/// The steps that play a file. The file is parsed first, so that an error shows before anything runs.
 fn played(path: &Path) -> Result<Vec<Instruction>, Failure> {
     script(path)?;
     let text = Files::read(path).map_err(Failure::Usage)?;
@@ -99,15 +99,15 @@ fn played(path: &Path) -> Result<Vec<Instruction>, Failure> {
     Ok(vec![Instruction::File { name, text }, run])
 }
 
-/// Replaces a session by the one saved in a file.
+/// Replaces a session with the one saved in a file.
 pub fn open(session: &mut Session, path: &Path) -> Result<(), Failure> {
     let text = Files::read(path).map_err(Failure::Usage)?;
     let refused = |why| Failure::Usage(format!("{}: {why}", path.display()));
     save::open(session, &text).map_err(refused)
 }
 
-/// Runs the explorer until it is left, with steps that are played at the start; and with the file that is
-/// kept of what is done, if one is, and whether it may replace any other.
+/// Runs the explorer until it is left. `play` holds the steps that are played first; `record` is the file to
+/// record to, and whether it may replace a file that is not a recording.
 pub fn go(
     mut session: Session,
     play: &[Instruction],
@@ -119,7 +119,7 @@ pub fn go(
     let mut recorder = opening(&session).map_err(Failure::Unanswered)?;
     recorder.extend(play.iter().cloned());
     let mut recorder = Recorder::new(recorder);
-    // That a file cannot be written should be known before the session, not after it.
+    // A file that cannot be written is reported before the session, not after it.
     let record =
         record.map(|(path, force)| RecordingFile::begin(path, force, &started, &mut recorder));
     let record = record.transpose().map_err(Failure::Usage)?;
@@ -139,7 +139,7 @@ pub fn go(
         .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))
 }
 
-/// An interrupted session, with what is in it.
+/// An interrupted session, with a summary of its content.
 fn kept((ended, path): (SystemTime, PathBuf)) -> Kept {
     let what = Files::read(&path).and_then(|text| save::summary(&text));
     let what = what.unwrap_or_else(|why| {
@@ -149,7 +149,7 @@ fn kept((ended, path): (SystemTime, PathBuf)) -> Kept {
     Kept { when: ago(ended.elapsed().unwrap_or_default().as_secs()), what, path }
 }
 
-/// How long ago something was, in words.
+/// `just now`, `5 min ago`, `yesterday`.
 fn ago(seconds: u64) -> String {
     match seconds {
         0..60 => "just now".to_owned(),
@@ -160,7 +160,7 @@ fn ago(seconds: u64) -> String {
     }
 }
 
-/// What is said before the first key: that a session was interrupted, or what to press at the first start.
+/// The message before the first key: that sessions were interrupted or, at the first start, which keys to press.
 fn welcome(session: &Session, memory: &Memory) -> Option<String> {
     let said = if session.interrupted.len() > 1 {
         "sessions were interrupted: {restore} lists them, {forget-interrupted} forgets all"
@@ -183,7 +183,7 @@ fn started() -> String {
 
 /// The error for a first word that is neither a scene nor a command, with names that are similar.
 fn neither_scene_nor_command(name: &str) -> Failure {
-    /// How much two names must have in common (0: nothing, 1: equal), and how much less than the best may do.
+    /// Least similarity of a suggestion (0: nothing in common, 1: equal), and how far it may fall short of the best.
     const ALIKE: (f64, f64) = (0.7, 0.1);
     let scenes = names().map(|scene| (strsim::jaro(name, scene), scene.to_owned()));
     let commands = super::command_names().into_iter();

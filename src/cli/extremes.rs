@@ -1,4 +1,4 @@
-//! `hopfscope extremes`: how well motions at the edges of the range are answered.
+//! `hopfscope extremes`: the accuracy of every method at the extremes of all parameters.
 
 use clap::Args;
 use rayon::prelude::*;

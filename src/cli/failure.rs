@@ -1,4 +1,4 @@
-//! Why a command did not answer: one line for the user, and an exit code.
+//! Why a command has no answer: one line for the user, and an exit code.
 
 use std::fmt;
 use std::io;
@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use crate::scene::misread::printable;
 
-/// Why a command did not answer.
+/// Why a command has no answer.
 #[derive(Debug)]
 pub enum Failure {
     /// The input is wrong; exit code 2.
@@ -16,7 +16,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// An error of the command line's parser as one line.
+    /// An error of the command-line parser, as one line.
     pub fn from_parser(error: &clap::Error) -> Self {
         Failure::Usage(first_paragraphs(&error.render().to_string()))
     }
@@ -50,7 +50,7 @@ fn first_paragraphs(text: &str) -> String {
     let lines = text.lines().map(str::trim).take_while(|line| {
         !line.starts_with("Usage:") && !line.starts_with("For more information")
     });
-    // How to pass a word that looks like an option is of no use to one who mistyped an option.
+    // The tip on passing a value that looks like an option does not help a user who mistyped an option.
     let lines = lines.filter(|line| !line.starts_with("tip: to pass "));
     let mut sentence = String::new();
     for line in lines.filter(|line| !line.is_empty()) {

@@ -1,4 +1,4 @@
-//! `hopfscope figure`: what a scene shows, for papers and for other programs.
+//! `hopfscope figure`: the plots of a scene, for papers and for other programs.
 
 use std::path::PathBuf;
 
@@ -51,10 +51,10 @@ pub enum Printed {
     Svg,
 }
 
-/// The size of a panel that is drawn with characters, where no terminal says how wide.
+/// Size of a panel drawn with characters; a narrower terminal reduces the width.
 const PANEL: (u16, u16) = (100, 30);
 
-/// Fewest columns in which a panel reads.
+/// Fewest columns in which a panel is readable.
 const NARROWEST: u16 = 40;
 
 impl Arguments {

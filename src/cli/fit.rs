@@ -1,4 +1,4 @@
-//! `hopfscope fit`: what a recorded motion says about the oscillator.
+//! `hopfscope fit`: the parameters of the oscillator from a recorded motion.
 
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
@@ -103,7 +103,7 @@ fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
     Ok(chosen)
 }
 
-/// A positive quantity with or without its unit.
+/// A positive quantity, with or without a unit.
 fn positive(text: &str, dimension: Dimension, unit: &str) -> Result<f64, String> {
     let value = measured(text)?.as_a(dimension, unit)?;
     if value > 0.0 { Ok(value) } else { Err(format!("{text:?} is not positive")) }
@@ -195,7 +195,7 @@ impl Arguments {
         Ok(Question { choice, loss: self.loss, peaks: self.peaks })
     }
 
-    /// Mass or stiffness with the metres in the record's unit of length.
+    /// The mass or stiffness, if given, and the record's unit of length in metres.
     fn inertia(&self, unit: Option<&str>) -> Result<Option<(Inertia, f64)>, String> {
         let mass = self.mass.map(Inertia::Mass);
         let Some(inertia) = mass.or(self.stiffness.map(Inertia::Stiffness)) else {
@@ -211,7 +211,7 @@ impl Arguments {
     }
 }
 
-/// The contours of D and r, where both were estimated.
+/// The contours in D and r; none unless both were estimated.
 fn contours(found: &Estimate) -> Vec<Vec<[f64; 2]>> {
     if !(found.free[D] && found.free[R]) {
         return Vec::new();

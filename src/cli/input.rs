@@ -1,4 +1,4 @@
-//! Reading values of options: each refusal names the value and what is allowed.
+//! Reading the values of options. Every error names the value and what is allowed.
 
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -26,13 +26,13 @@ pub fn whole(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> 
     number.ok_or_else(|| format!("{text:?} is not a whole number in {least} .. {most}"))
 }
 
-/// Two numbers of a kind with a separator between them.
+/// Two numbers of the same type with a separator between them.
 pub fn pair<T: FromStr>(text: &str, separator: char) -> Option<(T, T)> {
     let (one, other) = text.split_once(separator)?;
     Some((one.parse().ok()?, other.parse().ok()?))
 }
 
-/// A number within a range, both ends included.
+/// A number within a closed range.
 pub fn within(name: &str, (min, max): (f64, f64), text: &str) -> Result<f64, String> {
     let allowed = format!("allowed: {min:?} .. {max:?}");
     let value = number(text).map_err(|refused| format!("{name}: {refused}; {allowed}"))?;
@@ -68,7 +68,7 @@ pub fn assignment(text: &str) -> Result<(Symbol, f64), String> {
     Ok((symbol, value_of(symbol, value)?))
 }
 
-/// `NAME=VALUE`, or `NAME=INTERVAL` where there is one.
+/// `NAME=VALUE` or `NAME=INTERVAL`.
 pub fn assigned(text: &str) -> Result<(Symbol, Interval), String> {
     if text.contains("+-") || text.contains("..") {
         return interval(text);
@@ -105,13 +105,13 @@ pub fn half_width(text: &str) -> Result<(Symbol, f64), String> {
     Ok((symbol, within(name, (0.0, symbol.spec().max), value)?))
 }
 
-/// A parameter and the values that it takes.
+/// A parameter and its values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Over {
     pub symbol: Symbol,
     /// Smallest and largest value.
     pub range: (f64, f64),
-    /// How many values.
+    /// Number of values.
     pub count: usize,
 }
 
@@ -126,7 +126,7 @@ pub fn over(text: &str) -> Result<Over, String> {
     Ok(Over { symbol, range: (from.min(to), from.max(to)), count })
 }
 
-/// `FROM:TO:COUNT`: two different ends, as they are read together, and 2 values or more.
+/// `FROM:TO:COUNT`: two different ends, which `ends` reads together, and a count from 2 to `most`.
 pub fn stepped(
     text: &str,
     form: &str,
@@ -145,10 +145,10 @@ pub fn stepped(
     Ok(((from, to), count))
 }
 
-/// Reads a number, or says in one line what is wrong with it.
+/// Reads a number; the error says in one line what is wrong.
 type ReadNumber<'a> = &'a dyn Fn(&str) -> Result<f64, String>;
 
-/// `LOW:HIGH,LOW:HIGH`; each side has its own reader of numbers.
+/// `LOW:HIGH,LOW:HIGH`; `read` has one function for each side.
 pub fn sides(text: &str, form: &str, read: [ReadNumber; 2]) -> Result<[(f64, f64); 2], String> {
     let (first, second) = text.split_once(',').ok_or(form)?;
     let side = |part: &str, read: ReadNumber| {
@@ -197,7 +197,7 @@ pub fn size(text: &str) -> Result<(u16, u16), String> {
     })
 }
 
-/// The file of a figure, and the form that its ending asks for.
+/// The file of a figure, and the form given by its extension.
 pub fn figure_file(text: &str) -> Result<(PathBuf, FileForm), String> {
     let path = PathBuf::from(text);
     FileForm::of_file(&path).map(|form| (path, form))

@@ -1,4 +1,4 @@
-//! `hopfscope keys`: what every key means, with the user's settings.
+//! `hopfscope keys`: the meaning of every key, under the user's settings.
 
 use clap::Args;
 use serde::Serialize;

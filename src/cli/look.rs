@@ -26,7 +26,7 @@ pub struct Looks {
 }
 
 impl Looks {
-    /// What the user wishes: the flags, else the settings file, else the defaults.
+    /// The user's choice: from the options, else from the settings file, else the default.
     pub fn wishes(self, config: &Config) -> Wishes {
         Wishes {
             glyphs: self.glyphs.or(config.glyphs).unwrap_or_default(),

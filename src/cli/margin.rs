@@ -1,4 +1,4 @@
-//! `hopfscope margin`: how large a kick is survived, for certain.
+//! `hopfscope margin`: the size up to which kicks are survived for certain.
 
 use clap::Args;
 

@@ -1,4 +1,4 @@
-//! `hopfscope merge`: the parts of a scan, put together where they are the whole.
+//! `hopfscope merge`: joins the parts of a scan if none is missing.
 
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, BufWriter, Write};
@@ -35,7 +35,7 @@ pub struct Arguments {
     force: bool,
 }
 
-/// Options that say which rows a scan computes and where they go, each with whether it has a value.
+/// Options for which rows a scan computes and where they are written, each with whether it takes a value.
 const OWN: [(&str, bool); 6] = [
     ("--shard", true),
     ("--shard-index0", true),
@@ -45,7 +45,7 @@ const OWN: [(&str, bool); 6] = [
     ("--force", false),
 ];
 
-/// A part, and what its provenance says.
+/// A part, and the scan to which it belongs according to its provenance.
 struct PartSource {
     path: PathBuf,
     provenance: Provenance,
@@ -89,7 +89,7 @@ impl Arguments {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// The parts that are there, at least one, and the paths where there is none.
+    /// The parts that exist, at least one, and the paths that do not.
     fn sources(&self) -> Result<(Vec<PartSource>, Vec<&Path>), Failure> {
         let (mut sources, mut absent) = (Vec::new(), Vec::new());
         for path in &self.parts {
@@ -159,7 +159,8 @@ impl PartSource {
     }
 }
 
-/// Says which rows of a gap are missing, one line for each shard that it meets, and what computes them.
+/// Reports the missing rows of a gap, one line for each shard that it overlaps, with the command that computes
+/// them.
 fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[PartSource]) {
     let all = sources[0].asked.scan.points();
     let shard = sources.iter().find_map(|source| source.asked.shard);
@@ -177,7 +178,8 @@ fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[PartSource]) 
     }
 }
 
-/// The command that computes just these rows: the one that left them out where it only has to be resumed.
+/// The command that computes just these rows: the original one with `--resume` if only the end of its part is
+/// missing, else one with `--rows`.
 fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[PartSource]) -> String {
     let stopped_here = |source: &&PartSource| {
         let points = &source.asked.points;
@@ -200,7 +202,7 @@ fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[PartSo
     command(arguments, first.asked.form, &path)
 }
 
-/// The command line that writes rows of this form to a file, whatever its name ends with.
+/// The command line that writes rows of this form to a file, whatever its extension.
 fn command(mut arguments: Vec<String>, form: RowForm, path: &Path) -> String {
     if form != RowForm::of_file(path) {
         arguments = without(&arguments, &[("--format", true)]);
@@ -211,10 +213,10 @@ fn command(mut arguments: Vec<String>, form: RowForm, path: &Path) -> String {
     Provenance::of(&arguments).command
 }
 
-/// A file that appears under its name once it is complete.
+/// A file that gets its name only when it is complete.
 struct GrowingFile<'a> {
     path: &'a Path,
-    /// Where it grows; it is the file itself if that is a device or a pipe.
+    /// The temporary file; the file itself if that is a device or a pipe.
     growing: PathBuf,
     file: BufWriter<File>,
 }
@@ -253,7 +255,7 @@ impl<'a> GrowingFile<'a> {
         provenance_file::write(self.path, provenance).map_err(unwritten)
     }
 
-    /// Whether the file has the same content already.
+    /// Whether the existing file has the same content.
     fn is_there(&self) -> io::Result<bool> {
         let [mut old, mut new] =
             [File::open(self.path)?, File::open(&self.growing)?].map(BufReader::new);

@@ -47,7 +47,7 @@ use clap::{Parser, Subcommand};
 
 use failure::Failure;
 
-/// What most begin with.
+/// Commands for a first try, below the help text.
 const EXAMPLES: &str = "\
 Examples:
   hopfscope                            the explorer: ? lists the keys, q leaves
@@ -134,8 +134,8 @@ impl Command {
     }
 }
 
-/// The words of a command line, with a settings file that is named before a command after it: the options of
-/// the explorer exclude commands, but this one belongs to some of them.
+/// Moves the options `--config` and `--no-config` from before a command to after it. Before a command they would
+/// be options of the explorer, which exclude commands; but some commands have them, too.
 fn settings_last(mut words: Vec<OsString>) -> Vec<OsString> {
     let named = words.iter().skip(1).take_while(|word| {
         let word = word.to_string_lossy();
@@ -150,7 +150,7 @@ fn settings_last(mut words: Vec<OsString>) -> Vec<OsString> {
     words
 }
 
-/// Parses the command line of this process, runs one command and says how it ended.
+/// Parses the command line of this process, runs one command and returns its exit code.
 pub fn main() -> ExitCode {
     let result = match Cli::try_parse_from(settings_last(std::env::args_os().collect())) {
         Ok(Cli { command: Some(command), .. }) => command.run(),

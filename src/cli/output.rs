@@ -1,4 +1,4 @@
-//! The options that say how an answer is printed, and the printing.
+//! The options for printing an answer, and the printing.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -29,8 +29,8 @@ pub struct Output {
 }
 
 impl Output {
-    /// Computes as often as is asked for: the answer, and the median of the seconds. `failed` begins the message of a
-    /// failure.
+    /// Computes as often as asked for; returns the answer and the median time in seconds. `failed` begins the message
+    /// of a failure.
     pub fn timed<T>(
         &self,
         failed: &str,
@@ -41,7 +41,7 @@ impl Output {
         Ok((found, seconds))
     }
 
-    /// Prints a list whose last column is text, which a terminal shows wrapped to its width.
+    /// Prints a list whose last column is text, wrapped to the width of a terminal.
     pub fn print_list(&self, answer: &str) -> Result<(), Failure> {
         if self.write.is_none() && self.format == Format::Table {
             return print(&on_terminal(answer));
@@ -49,7 +49,7 @@ impl Output {
         self.print(answer)
     }
 
-    /// Prints or writes an answer; a JSON document says itself where it comes from.
+    /// Prints an answer or writes it to a file. The provenance is part of a JSON document, and beside any other file.
     pub fn print(&self, answer: &str) -> Result<(), Failure> {
         let Some(path) = &self.write else { return print(&sourced(self.format, answer)) };
         let content = sourced(self.format, answer).into_bytes();
@@ -71,7 +71,7 @@ pub fn write_source(path: &Path) -> Result<(), Failure> {
         .map_err(|error| Failure::file(path, &error))
 }
 
-/// An answer; a JSON document with its provenance.
+/// The answer; with its provenance if it is a JSON document.
 pub fn sourced(format: Format, answer: &str) -> String {
     match format {
         Format::Json => provenance_file::of_process().within(answer),
@@ -88,7 +88,7 @@ pub struct Certify {
 }
 
 impl Certify {
-    /// Asks for the enclosure if it is wanted.
+    /// Computes the enclosure if it is wanted.
     pub fn ask<T>(self, ask: impl FnOnce() -> T) -> Option<T> {
         self.certify.then(ask)
     }
@@ -116,7 +116,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Writes a whole file. Without `force` a file with other content is left alone.
+/// Writes a whole file. Fails without `force` if the file has other content.
 pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
     if !force && holds_something(path) && std::fs::read(path).ok().as_deref() != Some(content) {
         let name = path.display();
@@ -126,7 +126,7 @@ pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
         .map_err(|error| Failure::Unanswered(format!("{} not written: {error}", path.display())))
 }
 
-/// A command line without these options, each with whether it has a value.
+/// A command line without these options, each given with whether it takes a value.
 pub fn without(words: &[String], options: &[(&str, bool)]) -> Vec<String> {
     let mut kept = Vec::new();
     let mut words = words.iter();
@@ -141,7 +141,7 @@ pub fn without(words: &[String], options: &[(&str, bool)]) -> Vec<String> {
     kept
 }
 
-/// Whether there is a file that is not empty; a device or a pipe has nothing to lose.
+/// Whether there is a regular file that is not empty; a device or a pipe can be written to without loss.
 pub fn holds_something(path: &Path) -> bool {
     std::fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() > 0)
 }

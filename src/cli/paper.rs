@@ -1,4 +1,4 @@
-//! `hopfscope paper`: what the paper says against what is computed.
+//! `hopfscope paper`: the claims of the paper compared with computation.
 
 use clap::Args;
 

@@ -1,4 +1,4 @@
-//! Which rows of a scan one process computes.
+//! The rows of a scan that one process computes.
 
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ pub struct Part {
     rows: Option<RowRange>,
 }
 
-/// Part `number` (from 1) of `of`.
+/// Part `number` of `of`, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: usize,
@@ -63,13 +63,13 @@ fn rows(text: &str) -> Result<RowRange, String> {
 }
 
 impl Shard {
-    /// Its points: the parts are runs of points in order, of equal length, give or take one.
+    /// The points of the shard. Shards are consecutive runs of points whose lengths differ by at most one.
     pub fn points(self, all: usize) -> Range<usize> {
         let end = |number: usize| all / self.of * number + (all % self.of).min(number);
         end(self.number - 1)..end(self.number)
     }
 
-    /// All shards of a scan that is cut as this one is.
+    /// All shards of the scan, this one included.
     pub fn siblings(self) -> impl Iterator<Item = Shard> {
         (1..=self.of).map(move |number| Shard { number, of: self.of })
     }
@@ -82,12 +82,12 @@ impl std::fmt::Display for Shard {
 }
 
 impl Part {
-    /// The shard that is asked for, if one is.
+    /// The shard asked for, if any.
     pub fn shard(self) -> Option<Shard> {
         self.shard.or(self.shard_index0)
     }
 
-    /// Its points of a scan with this many.
+    /// The points to compute, of `all` in the scan.
     pub fn points(self, all: usize) -> Result<Range<usize>, Failure> {
         match (self.shard(), self.rows) {
             (Some(shard), _) => Ok(shard.points(all)),

@@ -1,40 +1,40 @@
-//! The user's directories for settings and for what a program remembers, by the XDG conventions.
+//! The user's directories for settings and for state, by the XDG conventions.
 
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-/// How the names of kept sessions begin.
+/// Prefix of the file names of interrupted sessions.
 const INTERRUPTED: &str = "interrupted-";
 
-/// The name of the session that was left last.
+/// File name of the last session.
 const LAST: &str = "last.toml";
 
-/// A directory from the environment, if it is set to something.
+/// A path from the environment, if the variable is set and not empty.
 fn variable(name: &str) -> Option<PathBuf> {
     std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from)
 }
 
-/// The directory that a variable names, else one below the user's home.
+/// The directory in a variable if that is an absolute path, else one below the user's home.
 fn base(name: &str, below_home: &str) -> Option<PathBuf> {
     let named = variable(name).filter(|path| path.is_absolute());
     named.or_else(|| variable("HOME").map(|home| home.join(below_home)))
 }
 
-/// The user's own settings file, whether it exists or not; `None` where there is no directory for it.
+/// The user's own settings file, whether it exists or not; `None` if there is no directory for it.
 pub fn settings() -> Option<PathBuf> {
     Some(base("XDG_CONFIG_HOME", ".config")?.join("hopfscope/config.toml"))
 }
 
-/// What the program remembers.
+/// The directory in which the program keeps its state.
 #[derive(Clone, Debug)]
 pub struct Memory {
     folder: PathBuf,
-    /// Whether there was nothing before: the first start.
+    /// Whether the directory did not exist before: this is the first start.
     pub is_new: bool,
 }
 
 impl Memory {
-    /// The directory for it, made if need be; `None` where there is none.
+    /// Creates the directory if needed; `None` if that is impossible.
     pub fn open() -> Option<Memory> {
         let folder = base("XDG_STATE_HOME", ".local/state")?.join("hopfscope");
         let is_new = !folder.exists();
@@ -47,18 +47,18 @@ impl Memory {
         self.folder.join("copy.txt")
     }
 
-    /// Where this process keeps its session if it is interrupted.
+    /// The file in which this process saves its session if it is interrupted.
     pub fn keep(&self) -> PathBuf {
         self.folder.join(format!("{INTERRUPTED}{}.toml", std::process::id()))
     }
 
-    /// The session that was left or put aside last.
+    /// The file of the session that was left or put aside last.
     pub fn last(&self) -> PathBuf {
         self.folder.join(LAST)
     }
 
-    /// The sessions that were interrupted and have not been put aside since, with when they ended, the newest
-    /// first.
+    /// The files of interrupted sessions that have not been put aside since, with the times at which they ended, the
+    /// newest first.
     pub fn interrupted(&self) -> Vec<(SystemTime, PathBuf)> {
         let Ok(entries) = std::fs::read_dir(&self.folder) else { return Vec::new() };
         let kept = entries.filter_map(|entry| {

@@ -38,13 +38,13 @@ enum Engine {
     Parallel,
 }
 
-/// How many times a failed shard is retried.
+/// Maximum number of times that a failed shard is retried.
 const RETRIES: usize = 3;
 
-/// The file of the merged rows, where none is named.
+/// The file of the merged rows if none is named.
 const ROWS: &str = "rows.csv";
 
-/// Options of the scan that do not belong to its shards, each with whether it has a value.
+/// Options of the scan that are not passed to its shards, each with whether it takes a value.
 const OWN: [(&str, bool); 6] = [
     ("--plan", true),
     ("--shards", true),
@@ -75,7 +75,7 @@ impl Plan {
         self.plan.is_some()
     }
 
-    /// Prints or writes the recipe for the scan of this command line, `jobs` threads a shard.
+    /// Prints or writes the recipe for the scan of this command line, with `jobs` threads for each shard.
     pub fn run(
         &self,
         arguments: &[String],

@@ -27,7 +27,7 @@ impl Outlet {
     }
 }
 
-/// A message that is renewed from time to time.
+/// A message that is rewritten from time to time.
 #[derive(Debug)]
 pub struct StatusLine {
     place: Outlet,
@@ -36,12 +36,12 @@ pub struct StatusLine {
 }
 
 impl StatusLine {
-    /// Nothing is written yet.
+    /// A line on which nothing has been written.
     pub fn new(place: Outlet) -> Self {
         StatusLine { place, started: Instant::now(), written: None }
     }
 
-    /// Writes the message if it is time to; it is made of the seconds since the start.
+    /// Writes the message if it is due; `message` makes it from the seconds since the start.
     pub fn renew(&mut self, message: impl FnOnce(f64) -> String) {
         let now = Instant::now();
         if now < self.written.unwrap_or(self.started) + self.place.pause() {
@@ -64,18 +64,18 @@ impl StatusLine {
     }
 }
 
-/// Says how many rows are done, how fast, and how long the rest will take.
+/// Reports how many rows are done, how fast, and how long the rest will take.
 #[derive(Debug)]
 pub struct Progress {
     wanted: usize,
-    /// Rows that were there before.
+    /// Rows that had been computed earlier.
     before: usize,
     done: usize,
     line: StatusLine,
 }
 
 impl Progress {
-    /// The progress of `wanted` rows that begin now, after `before` that are done.
+    /// The progress of `wanted` rows that are about to be computed, after `before` that are done.
     pub fn new(wanted: usize, before: usize, place: Outlet) -> Self {
         Progress { wanted, before, done: 0, line: StatusLine::new(place) }
     }

@@ -69,7 +69,7 @@ impl Arguments {
         let script = script(&self.file)?;
         let (width, height) = self.size;
         let mut session = Session::new(self.start.scene()?, Size { width, height });
-        // The user's own settings would make the same file show something else.
+        // With the user's own settings the same file could show different screens.
         session.look = self.looks.wishes(&Config::default());
         let theme = session.look.theme;
         let size = ratatui::layout::Size { width, height };
@@ -88,7 +88,7 @@ impl Arguments {
     }
 }
 
-/// A terminal that shows everything, so that a replay looks the same wherever it runs.
+/// A terminal with all capabilities, so that a replay looks the same wherever it runs.
 fn anywhere() -> Environment {
     Environment {
         term: Some("xterm-256color".to_owned()),
@@ -99,13 +99,13 @@ fn anywhere() -> Environment {
     }
 }
 
-/// A keystroke file, read and understood before anything runs.
+/// A keystroke file, parsed completely before anything runs.
 pub fn script(file: &Path) -> Result<Script, Failure> {
     let text = bounded::text(file).map_err(|error| Failure::file(file, &error))?;
     parse(&text).map_err(|error| Failure::Usage(format!("{}: {error}", file.display())))
 }
 
-/// Writes the screens that a replay kept, each under its name.
+/// Writes each screen that a replay kept to a file with its name.
 fn write(
     directory: &Path,
     (format, paper): (ScreenFormat, Paper),

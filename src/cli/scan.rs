@@ -106,24 +106,24 @@ fn measures_help() -> String {
     format!("What to measure; repeatable: {}", MEASURES.map(|row| row.name).join(", "))
 }
 
-/// The same with what each measure is, as clap lists possible values.
+/// The same with the meaning of each measure, in the form in which clap lists possible values.
 fn measures_list() -> String {
     let rows = MEASURES.map(|row| format!("- {}: {}", row.name, row.meaning));
     format!("What to measure; repeatable:\n{}", rows.join("\n"))
 }
 
-/// A scan as it is asked for on a command line.
+/// A scan as requested on a command line.
 #[derive(Clone, Debug)]
 pub struct ScanRequest {
     /// The whole scan.
     pub scan: Scan,
     /// The form of its rows.
     pub form: RowForm,
-    /// The points that are to be computed.
+    /// The points to compute.
     pub points: Range<usize>,
-    /// Whether the line of names comes before their rows.
+    /// Whether the line of names comes before the rows.
     pub headed: bool,
-    /// The part that these points are, where it has a number.
+    /// The shard that consists of these points, if one was asked for.
     pub shard: Option<Shard>,
 }
 
@@ -134,7 +134,7 @@ enum Sink {
 }
 
 impl Sink {
-    /// How many rows wait in a journal for the rows before them.
+    /// Number of rows that wait in a journal for the rows before them.
     fn ahead(&self) -> usize {
         match self {
             Sink::Standard(_) => 0,
@@ -159,7 +159,7 @@ struct Writer<'a> {
     sink: Sink,
     tally: Tally,
     progress: Progress,
-    /// The error that ended the writing.
+    /// The error that stopped the writing.
     broken: Option<io::Error>,
 }
 
@@ -193,14 +193,14 @@ impl Taker for Writer<'_> {
 }
 
 impl ScanCommand {
-    /// The scan that a command line without its program asks for, if it is one of this version.
+    /// The scan of a command line without the program name; `None` if this version cannot parse it.
     pub fn of_line(arguments: &[String]) -> Option<Self> {
         arguments.first().filter(|command| *command == "scan")?;
         let parser = Self::augment_args(clap::Command::new("scan"));
         Self::from_arg_matches(&parser.try_get_matches_from(arguments).ok()?).ok()
     }
 
-    /// Computes and writes, until it is done or told to stop.
+    /// Computes and writes rows until all are done or a signal stops it.
     pub fn run(&self) -> Result<ExitCode, Failure> {
         let asked = self.asked()?;
         if self.plan.is_wanted() {
@@ -257,7 +257,7 @@ impl ScanCommand {
         Ok(self.report(&tally, stop.signal().filter(|_| tally.rows < tally.wanted)))
     }
 
-    /// What is to be computed, checked.
+    /// The scan and the points to compute, after checking the options.
     pub fn asked(&self) -> Result<ScanRequest, Failure> {
         let mut base = self.start.problem()?;
         base.until = self.until.unwrap_or(base.until);
@@ -274,12 +274,12 @@ impl ScanCommand {
         let scan =
             Scan::new(base, self.over.clone(), measures, conditions).map_err(Failure::Usage)?;
         let points = self.part.points(scan.points())?;
-        // By default `cat` puts the parts together.
+        // By default only the first part has a heading, so that `cat` can join the parts.
         let headed = points.start == 0 || self.header == HeaderWhen::Always;
         Ok(ScanRequest { scan, form: self.form()?, points, headed, shard: self.part.shard() })
     }
 
-    /// Where the rows go, and how many of them are there already.
+    /// Where the rows go, and how many of them are already there.
     fn sink(
         &self,
         asked: &ScanRequest,
@@ -328,7 +328,7 @@ impl ScanCommand {
         Ok(form)
     }
 
-    /// Reports rows without numbers, or the signal that stopped the scan.
+    /// Reports the rows that were given up, or the signal that stopped the scan.
     fn report(&self, tally: &Tally, signal: Option<i32>) -> ExitCode {
         let Some(signal) = signal else {
             if tally.given_up > 0 {
@@ -342,7 +342,7 @@ impl ScanCommand {
     }
 }
 
-/// How many rows there are.
+/// The number of rows wanted, written and given up.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
     wanted: usize,
@@ -360,7 +360,7 @@ impl std::fmt::Display for Tally {
     }
 }
 
-/// The signal that asked the process to stop, if one has; a second one ends it at once.
+/// The signal that asked the process to stop, if any; a second signal ends it at once.
 struct StopSignal(Arc<AtomicUsize>);
 
 impl StopSignal {

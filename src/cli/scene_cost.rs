@@ -1,4 +1,4 @@
-//! What scenes require, measured: each is opened and stepped as in the explorer, and its questions timed.
+//! The measured cost of scenes: each is opened and stepped as in the explorer, and its questions are timed.
 
 use std::sync::Arc;
 
@@ -11,13 +11,13 @@ use crate::scene::{Scene, library};
 use crate::session::act::parameters;
 use crate::session::{self, Msg, Row, Session, Size, update};
 
-/// How many times a quickly answered question is repeated for the median of its times.
+/// Number of times that a quickly answered question is measured for the median of its times.
 const TIMES: u32 = 5;
 
-/// Seconds below which one measurement says little.
+/// Time in seconds below which a single measurement is unreliable.
 const QUICK: f64 = 2e-3;
 
-/// Every scene of the program with what it costs.
+/// The cost of every built-in scene.
 pub fn measured() -> Result<Vec<SceneCost>, Failure> {
     library().iter().map(of).collect()
 }
@@ -46,7 +46,7 @@ fn of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
     })
 }
 
-/// Answers what a session asks until it asks nothing more.
+/// Answers the questions of a session until it asks no more, and returns their costs.
 fn settle(session: &mut Session, scene: &Scene) -> Result<Vec<QuestionCost>, Failure> {
     let mut answered = Vec::new();
     let mut failed = None;

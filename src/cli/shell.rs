@@ -1,5 +1,5 @@
-//! `hopfscope completions` and `hopfscope man`: what shells and readers of manuals need, derived from the
-//! definition of the command line.
+//! `hopfscope completions` and `hopfscope man`: shell completions and manual pages, derived from the definition of
+//! the command line.
 
 use std::path::PathBuf;
 

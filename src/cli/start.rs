@@ -1,4 +1,4 @@
-//! The options that say which motion is meant: scene, parameters, method, and what sets its accuracy.
+//! The options that define a motion: scene, parameters, method, and what sets its accuracy.
 
 use std::sync::Arc;
 
@@ -64,12 +64,12 @@ fn methods_help() -> String {
 }
 
 impl StartOptions {
-    /// The scene with what was set on the command line; a parameter that is set belongs to it.
+    /// The scene with the values set on the command line; a parameter set there is part of the scene.
     pub fn scene(&self) -> Result<Arc<Scene>, Failure> {
         self.scene_named(self.scene.as_deref().unwrap_or(PLAIN))
     }
 
-    /// The same with another scene.
+    /// The same for the scene with this name.
     pub fn scene_named(&self, name: &str) -> Result<Arc<Scene>, Failure> {
         let scene = find(name).map_err(Failure::Usage)?;
         if let Some((symbol, _)) = self.set.iter().find(|(_, value)| !value.is_point()) {
@@ -81,7 +81,7 @@ impl StartOptions {
         Ok(self.applied(scene))
     }
 
-    /// A scene with what was set on the command line.
+    /// A scene with the values set on the command line.
     pub fn applied(&self, mut scene: Arc<Scene>) -> Arc<Scene> {
         let dials = [self.tol, self.step, self.epsilon];
         if self.set.is_empty() && self.method.is_none() && dials.iter().all(Option::is_none) {
@@ -115,12 +115,12 @@ impl StartOptions {
         Ok(known)
     }
 
-    /// The motion of the scene with what was set on the command line.
+    /// The motion of the scene with the values set on the command line.
     pub fn problem(&self) -> Result<Problem, Failure> {
         Ok(self.scene()?.problem)
     }
 
-    /// Notes on standard error that studies of cycles ignore `--method`, if it was given.
+    /// Notes on standard error that studies of cycles ignore `--method`, if that option was given.
     pub fn note_own_method(&self) {
         if self.method.is_some() {
             eprintln!(

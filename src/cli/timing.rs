@@ -1,9 +1,9 @@
-//! How long a computation takes.
+//! Measuring how long a computation takes.
 
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Computes `times` times (at least once); returns the last answer and the median of the seconds.
+/// Computes `times` times (at least once); returns the last answer and the median time in seconds.
 pub fn timed<T>(times: u32, mut compute: impl FnMut() -> T) -> (T, f64) {
     let mut once = || {
         let started = Instant::now();
@@ -20,31 +20,32 @@ pub fn timed<T>(times: u32, mut compute: impl FnMut() -> T) -> (T, f64) {
     (answer, median(&mut seconds))
 }
 
-/// Rows of computations that take less than this are repeated until they have taken as long, at most
-/// [`ROUNDS`] times, when no number of repetitions is asked for: the first run of a short one says little.
+/// If no number of repetitions is asked for, a computation is repeated until its times add up to this many
+/// seconds, at most [`ROUNDS`] times. A single run of a short computation is unreliable.
 const ENOUGH: f64 = 0.02;
 
-/// Rounds that are always measured, so that one disturbed measurement does not count, unless they take [`LONG`]
-/// together.
+/// Number of rounds that are always measured, so that one disturbed measurement does not affect the median,
+/// unless they take more than [`LONG`] together.
 const FEW: usize = 5;
 
 /// See [`FEW`].
 const LONG: f64 = 0.5;
 
-/// What takes less than this is computed once before it is measured, so that the state of the caches does not
-/// count.
+/// A computation that takes less than this many seconds runs once before it is measured, so that it starts with
+/// warm caches.
 const SHORT: f64 = 1e-3;
 
-/// What takes less than this is measured over as many runs as take so long, which makes the time of reading the
-/// clock negligible.
+/// A computation that takes less than this many seconds is measured over as many runs as take this long, which
+/// makes the time of reading the clock negligible.
 const READABLE: f64 = 200e-6;
 
 /// See [`ENOUGH`].
 const ROUNDS: usize = 25;
 
-/// The median seconds of each of `count` computations, `times` each (by default as often as they need).
+/// The median times in seconds of `count` computations. Each is measured `times` times, or if that is 1, as often
+/// as [`ENOUGH`] and [`FEW`] require.
 ///
-/// They take turns, so that other work of the machine disturbs all of them alike.
+/// The computations take turns, so that other load on the machine disturbs all of them alike.
 pub fn in_turn<T>(times: u32, count: usize, mut compute: impl FnMut(usize) -> T) -> Vec<f64> {
     let mut seconds = vec![Vec::new(); count];
     let rounds = if times > 1 { times as usize } else { ROUNDS };
@@ -59,7 +60,7 @@ pub fn in_turn<T>(times: u32, count: usize, mut compute: impl FnMut(usize) -> T)
     seconds.iter_mut().map(|seconds| median(seconds)).collect()
 }
 
-/// The seconds of a computation; of a short one with everything that it needs in the caches.
+/// The time of a computation in seconds; that of a short one with warm caches.
 fn settled<T>(mut compute: impl FnMut() -> T) -> f64 {
     let cold = mean(1, &mut compute);
     if cold >= SHORT {
@@ -71,7 +72,7 @@ fn settled<T>(mut compute: impl FnMut() -> T) -> f64 {
     mean(times, &mut compute)
 }
 
-/// The mean seconds of this many computations in a row.
+/// The mean time in seconds of `times` runs in a row.
 fn mean<T>(times: u32, mut compute: impl FnMut() -> T) -> f64 {
     let started = Instant::now();
     for _ in 0..times {

@@ -1,4 +1,4 @@
-//! `hopfscope trade`: error against cost, every method over its tolerances on one motion.
+//! `hopfscope trade`: error against cost of every method at all its tolerances, on one motion.
 
 use clap::Args;
 
@@ -40,7 +40,7 @@ impl Arguments {
             Failure::Unanswered(format!("there is nothing to measure errors against: {reason}"))
         })?;
         let seconds = in_turn(self.output.repeat, trade.rows.len(), |index| {
-            // A row that was given up costs its whole budget and is not tried again.
+            // A row that was given up used its whole budget; it is not repeated.
             let row = &trade.rows[index];
             row.error().map(|_| trajectory(&row.problem, Detail::default(), &Limits::PATIENT))
         });

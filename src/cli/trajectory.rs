@@ -37,7 +37,7 @@ impl Arguments {
             let detail = Detail { energy, ..Detail::default() };
             trajectory(&problem, detail, &Limits::PATIENT)
         };
-        // The ledger checks the motion and is not part of its cost, so it is computed separately.
+        // The energy ledger only checks the motion and is no part of its cost, so it is computed in a second run.
         let (mut motion, seconds) = timed(self.output.repeat, || follow(false));
         if !matches!(motion.outcome, Outcome::GaveUp { .. }) {
             motion = follow(true);

@@ -1,23 +1,23 @@
-//! Lists whose last column is text, broken to the width of the terminal that shows them.
+//! Lists whose last column is text, wrapped to the width of the terminal.
 
-/// Narrowest last column that still reads as one: where there is less room it goes on below its row.
+/// Narrowest readable last column; with less room the text continues below its row.
 const NARROWEST: usize = 30;
 
-/// Blanks before text that goes on below its row.
+/// Number of blanks before text that continues below its row.
 const INDENT: usize = 4;
 
-/// A list as a terminal shows it; as it is where it goes to a file or a pipe.
+/// The list wrapped to the width of the terminal; unchanged if the output goes to a file or a pipe.
 pub fn on_terminal(list: &str) -> String {
     columns().map_or_else(|| list.to_owned(), |width| wrapped(list, usize::from(width)))
 }
 
-/// The columns of the terminal to which the output goes; `None` if it goes elsewhere.
+/// Number of columns of the terminal to which the output goes; `None` if it goes elsewhere.
 pub fn columns() -> Option<u16> {
     rustix::termios::tcgetwinsize(rustix::stdio::stdout()).map(|size| size.ws_col).ok()
 }
 
-/// The list with the last column of rows that are longer than `width` broken between words; the first line names the
-/// columns, two or more blanks apart.
+/// Wraps the last column of rows longer than `width` between words. The first line of the list holds the titles of
+/// the columns, separated by two or more blanks.
 fn wrapped(list: &str, width: usize) -> String {
     let heading: Vec<char> = list.lines().next().unwrap_or_default().chars().collect();
     let gap = heading.windows(2).rposition(|pair| pair == [' ', ' ']);

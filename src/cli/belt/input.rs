@@ -21,15 +21,14 @@ pub enum Name {
 /// A number and the values that it takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RangeInUnits {
-    /// The number.
     pub varied: Varied,
-    /// The first value and the last, in SI units.
+    /// The first and the last value, in SI units.
     pub ends: (f64, f64),
-    /// How many values.
+    /// Number of values.
     pub count: usize,
 }
 
-/// Where a motion starts; what is not given stays.
+/// The start of a motion; what is not given is left as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StartOverride {
     /// Displacement, in m.
@@ -47,7 +46,7 @@ pub struct WindowInUnits {
     pub v: (f64, f64),
 }
 
-/// A measured value as a value of a number of the machine.
+/// A value with a unit converted to SI units and checked against the range of the number.
 fn value_of(varied: Varied, read: &Measured) -> Result<f64, String> {
     varied.check(read.as_a(varied.dimension(), varied.unit())?)
 }
@@ -88,7 +87,7 @@ pub fn disturbance(text: &str) -> Result<f64, String> {
     if force >= 0.0 { Ok(force) } else { Err(format!("{text:?} is negative")) }
 }
 
-/// `x=..,v=..`, one of them or both.
+/// `x=..,v=..`, or one of them.
 pub fn start(text: &str) -> Result<StartOverride, String> {
     let mut start = StartOverride::default();
     for part in text.split(',') {
@@ -133,7 +132,7 @@ pub fn range(text: &str) -> Result<RangeInUnits, String> {
     Ok(RangeInUnits { varied, ends, count })
 }
 
-/// A margin: a displacement or an impulse, told apart by the unit.
+/// A margin: the unit decides whether it is a displacement or an impulse.
 pub fn margin(text: &str) -> Result<(Kick, f64), String> {
     let read = measured(text)?;
     let kick = match read.dimension {

@@ -99,13 +99,13 @@ fn long_about() -> String {
     )
 }
 
-/// What a name on the command line stands for.
+/// What the name on the command line refers to.
 enum MachineOrMode {
     Belt(Machine),
     Mode(Mode),
 }
 
-/// The machine or mode of a file, or the machine of the program.
+/// The machine or mode in a file, or a built-in machine.
 fn named(name: &str) -> Result<MachineOrMode, Failure> {
     let path = Path::new(name);
     // Read once: it may be a pipe.
@@ -136,7 +136,7 @@ fn named(name: &str) -> Result<MachineOrMode, Failure> {
     parse(&title, name, &text, fetch).map(MachineOrMode::Belt).map_err(|error| refused(&error))
 }
 
-/// The machine of a file, or of the program, to be looked at.
+/// The scene of a machine in a file or a built-in machine, for the explorer.
 pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
     let refused = |error: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {error}"));
     let machine = match named(name)? {
@@ -147,7 +147,7 @@ pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
     Ok(Arc::new(scaled.scene()))
 }
 
-/// What is asked about, and the motion of it that is followed.
+/// A machine or mode, and the motion to compute.
 struct MachineCase {
     name: String,
     title: String,
@@ -191,7 +191,7 @@ impl From<MachineOrMode> for MachineCase {
 }
 
 impl Arguments {
-    /// What is asked about, with what was set on the command line.
+    /// The machine and the motion, with the values set on the command line.
     fn case(&self) -> Result<MachineCase, Failure> {
         let mut case = MachineCase::from(named(&self.machine)?);
         for &(name, Toleranced { middle, half_width }) in &self.set {
@@ -219,7 +219,7 @@ impl Arguments {
         checked.map_err(Failure::Usage).map(|()| case)
     }
 
-    /// The method beside Taylor series.
+    /// The method that computes the motion a second time, if one is asked for.
     fn second(&self) -> Result<Option<SteppedMethod>, Failure> {
         let Some(method) = self.method else { return Ok(None) };
         let refused = |_| {
@@ -237,12 +237,12 @@ impl Arguments {
         Ok(Some(way))
     }
 
-    /// The tolerance of that method.
+    /// The tolerance of the second method.
     fn dial(&self) -> f64 {
         self.tol.unwrap_or(TOLERANCE)
     }
 
-    /// The tolerance of the Taylor steps, which stay exact beside another method.
+    /// The tolerance of the Taylor steps; `None` with a second method, to which `--tol` then applies.
     fn own(&self, second: Option<SteppedMethod>) -> Option<f64> {
         self.tol.filter(|_| second.is_none())
     }
@@ -266,7 +266,7 @@ impl Arguments {
         incomplete.map_or(Ok(()), |stop| Err(troubled(stop.into())))
     }
 
-    /// The answer about one motion and all others, not yet timed.
+    /// The answer about the motion and the machine, without its time.
     fn answer<'a>(
         &self,
         case: &'a MachineCase,
@@ -289,7 +289,7 @@ impl Arguments {
         Ok(MachineAnswer { head, start: *start, course, rest_share, design, on_belt, seconds: 0.0 })
     }
 
-    /// The answer along a number: a branch, or a sweep.
+    /// The branch or the sweep over a number.
     fn along(&self, subject: &Subject, head: &Head, known: &Tolerances) -> Result<(), Failure> {
         if let Some(range) = self.branch {
             return self.branched(subject, head, range);
@@ -305,7 +305,7 @@ impl Arguments {
         })
     }
 
-    /// The branch, or the changes along it at values of another number.
+    /// The branch, or the changes along it at each value of another number.
     fn branched(&self, subject: &Subject, head: &Head, range: RangeInUnits) -> Result<(), Failure> {
         let RangeInUnits { varied, ends, count } = range;
         if let Some(other) = self.against {
@@ -340,7 +340,7 @@ impl Arguments {
         known.map_or(RestShare::Unknown, RestShare::Is)
     }
 
-    /// The friction for the margin, if asked for.
+    /// The friction needed for the margin, if asked for.
     fn designed(&self, subject: &Subject, known: &Tolerances) -> Result<Option<Designed>, Trouble> {
         let Some((kick, wanted)) = self.design else { return Ok(None) };
         let needed = friction_for(subject, known, kick, wanted)?;
@@ -349,7 +349,7 @@ impl Arguments {
         Ok(needed.map(|needed| Designed { kick, wanted, needed, at, has }))
     }
 
-    /// The sweep, with the friction for the margin at each point if asked for.
+    /// The sweep, with the friction needed for the margin at each point if asked for.
     fn swept<'a>(
         &self,
         subject: &Subject,
@@ -378,7 +378,7 @@ impl Arguments {
     }
 }
 
-/// A machine that has no answer: its own fault is bad input.
+/// Why a machine has no answer; an error in the machine itself counts as bad input.
 fn troubled(trouble: Trouble) -> Failure {
     let line = format!("the belt could not be computed: {trouble}");
     if trouble.is_of_the_machine() {
