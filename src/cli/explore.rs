@@ -183,7 +183,8 @@ fn started() -> String {
 
 /// The error for a first word that is neither a scene nor a command, with names that are similar.
 fn neither_scene_nor_command(name: &str) -> Failure {
-    /// Least similarity of a suggestion (0: nothing in common, 1: equal), and how far it may fall short of the best.
+    /// Least similarity of a suggestion (0: nothing in common, 1: equal), and how far it may fall short of the
+    /// best.
     const ALIKE: (f64, f64) = (0.7, 0.1);
     let scenes = names().map(|scene| (strsim::jaro(name, scene), scene.to_owned()));
     let commands = super::command_names().into_iter();

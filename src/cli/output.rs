@@ -29,8 +29,8 @@ pub struct Output {
 }
 
 impl Output {
-    /// Computes as often as asked for; returns the answer and the median time in seconds. `failed` begins the message
-    /// of a failure.
+    /// Computes as often as asked for; returns the answer and the median time in seconds. `failed` begins the
+    /// message of a failure.
     pub fn timed<T>(
         &self,
         failed: &str,
@@ -49,7 +49,8 @@ impl Output {
         self.print(answer)
     }
 
-    /// Prints an answer or writes it to a file. The provenance is part of a JSON document, and beside any other file.
+    /// Prints an answer or writes it to a file. The provenance is part of a JSON document, and beside any other
+    /// file.
     pub fn print(&self, answer: &str) -> Result<(), Failure> {
         let Some(path) = &self.write else { return print(&sourced(self.format, answer)) };
         let content = sourced(self.format, answer).into_bytes();

@@ -57,8 +57,8 @@ impl Memory {
         self.folder.join(LAST)
     }
 
-    /// The files of interrupted sessions that have not been put aside since, with the times at which they ended, the
-    /// newest first.
+    /// The files of interrupted sessions that have not been put aside since, with the times at which they
+    /// ended, the newest first.
     pub fn interrupted(&self) -> Vec<(SystemTime, PathBuf)> {
         let Ok(entries) = std::fs::read_dir(&self.folder) else { return Vec::new() };
         let kept = entries.filter_map(|entry| {

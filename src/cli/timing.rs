@@ -43,7 +43,7 @@ const READABLE: f64 = 200e-6;
 const ROUNDS: usize = 25;
 
 /// The median times in seconds of `count` computations. Each is measured `times` times, or if that is 1, as often
-/// as [`ENOUGH`] and [`FEW`] require.
+/// as `ENOUGH` and `FEW` require.
 ///
 /// The computations take turns, so that other load on the machine disturbs all of them alike.
 pub fn in_turn<T>(times: u32, count: usize, mut compute: impl FnMut(usize) -> T) -> Vec<f64> {

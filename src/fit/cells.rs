@@ -1,30 +1,30 @@
-//! The cells of a file: lines, what separates them, and what stands in them.
+//! The cells of a file: lines, separators, and the values of cells.
 
 use super::clock;
 
-/// What instruments write where they have no number, in lower case.
+/// What instruments write for a missing number, in lower case.
 const MISSING: [&str; 14] = [
     "", "-", "--", "---", "nan", "na", "n/a", "#n/a", "null", "none", "inf", "-inf", "ovl",
     "overload",
 ];
 
-/// A cell.
+/// The value of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell {
-    /// A number, or seconds of a clock.
+    /// A number, or a clock time in seconds.
     Number(f64),
     /// A missing number, as instruments write it.
     Missing,
-    /// Something else.
+    /// Anything else.
     Text,
 }
 
-/// A line that holds something, with its number.
+/// A line that is not empty, with its number.
 #[derive(Clone, Copy)]
 pub struct NumberedLine<'a> {
-    /// From 1.
+    /// Counted from 1.
     pub number: usize,
-    /// Without blanks around it.
+    /// Without leading and trailing blanks.
     pub text: &'a str,
 }
 
@@ -32,7 +32,7 @@ pub struct NumberedLine<'a> {
 pub fn lines(text: &str) -> Vec<NumberedLine<'_>> {
     let mut found = Vec::new();
     let parts = text.split('\n').flat_map(|part| {
-        // A carriage return alone ends a line too; before a newline it belongs to it.
+        // A carriage return alone also ends a line; before a newline it is part of the line ending.
         part.strip_suffix('\r').unwrap_or(part).split('\r')
     });
     for (index, text) in parts.enumerate() {
@@ -45,19 +45,19 @@ pub fn lines(text: &str) -> Vec<NumberedLine<'_>> {
     found
 }
 
-/// How the cells of a line are told apart.
+/// What separates the cells of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Separator {
     /// This character.
     Sign(char),
-    /// Any number of blanks.
+    /// One or more blanks.
     Blanks,
 }
 
 impl Separator {
-    /// The separator of the last rows, which are data in any file.
+    /// The separator found in the last rows, which are data in every file.
     pub fn of(lines: &[NumberedLine]) -> Self {
-        /// Rows that decide.
+        /// Number of rows that decide.
         const ROWS: usize = 20;
         let last = &lines[lines.len().saturating_sub(ROWS)..];
         let most = |sign: &dyn Fn(&str) -> bool| {
@@ -85,14 +85,13 @@ impl Separator {
         }
     }
 
-    /// Whether a comma may stand in a number.
+    /// Whether a comma may be part of a number.
     pub fn comma_is_decimal(self) -> bool {
         self != Separator::Sign(',')
     }
 }
 
-/// The parts between separators that stand outside of quotation marks; where these do not pair they have no
-/// special meaning.
+/// The parts between separators outside quotation marks. Quotation marks that do not pair have no special meaning.
 fn split(text: &str, sign: char) -> Vec<&str> {
     let mut inside = false;
     let cells = text.split(|char| {
@@ -103,7 +102,7 @@ fn split(text: &str, sign: char) -> Vec<&str> {
     if inside { text.split(sign).collect() } else { cells }
 }
 
-/// What blanks separate; a unit in brackets belongs to the name before it.
+/// The words between blanks; a unit in brackets belongs to the name before it.
 fn words(text: &str) -> Vec<&str> {
     let is_unit = |word: &str| word.starts_with(['[', '(']);
     let mut found: Vec<&str> = Vec::new();
@@ -125,7 +124,7 @@ fn unquoted(cell: &str) -> &str {
     cell.trim().trim_matches('"').trim()
 }
 
-/// What stands in a cell.
+/// The value of a cell.
 pub fn read(cell: &str, comma_is_decimal: bool) -> Cell {
     if MISSING.contains(&cell.to_ascii_lowercase().as_str()) {
         return Cell::Missing;
@@ -135,7 +134,7 @@ pub fn read(cell: &str, comma_is_decimal: bool) -> Cell {
     }
     // A comma at the end of a cell separates it from the next.
     let plain = if comma_is_decimal && cell.contains(',') && !cell.ends_with(',') {
-        // With both signs the later one is the decimal sign, the other one groups digits.
+        // If there are both, the later sign is the decimal sign and the other one groups digits.
         if cell.rfind(',') > cell.rfind('.') {
             cell.replace('.', "").replace(',', ".")
         } else {

@@ -1,9 +1,9 @@
-//! Times as a clock shows them.
+//! Dates and times of day as instruments write them.
 
-/// Dates repeat after this many days: numbers stay small enough for some 15 nanoseconds.
+/// Dates count modulo this many days, so that seconds stay small enough for a resolution of about 15 ns.
 const REPEAT: i64 = 1000;
 
-/// Seconds of `12:34:56.789`, `34:56,789` or `2026-03-02T12:34:56.789Z`; `None` for all else.
+/// Seconds of `12:34:56.789`, `34:56,789` or `2026-03-02T12:34:56.789Z`; `None` for anything else.
 pub fn seconds(cell: &str) -> Option<f64> {
     let (days, clock) = match cell.split_once(['T', ' ']) {
         Some((date, clock)) => (days(date)?, clock.trim()),
@@ -27,7 +27,7 @@ fn plain(text: &str) -> Option<f64> {
     text.parse().ok().filter(|_| digits)
 }
 
-/// Days of `2026-03-02`, `2.3.2026` or `3/2/2026`, by the calendar.
+/// Number of the day `2026-03-02`, `2.3.2026` or `3/2/2026` in the calendar.
 fn days(date: &str) -> Option<i64> {
     let part = |text: &str| text.parse::<i64>().ok();
     let three = |sign: char| {
@@ -43,7 +43,7 @@ fn days(date: &str) -> Option<i64> {
                 },
             )
         })?;
-    // Years that begin in March have their leap day at the end.
+    // If years begin in March, the leap day is their last day.
     let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
     let leap = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
     Some(365 * year + leap + (153 * month + 2) / 5 + day)

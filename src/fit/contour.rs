@@ -1,5 +1,5 @@
-//! What the data say about two unknowns together: the line in their plane along which the loss, with all others
-//! refitted, has risen by a given amount.
+//! Joint confidence regions of two unknowns: the contour in their plane along which the loss, with all other
+//! unknowns refitted, has risen by a given amount.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -9,14 +9,14 @@ use super::observation::{R, UNKNOWNS, Unknowns};
 use super::refit::Refit;
 use crate::numerics::elementary::{cos, sin};
 
-/// Rises of chi-squared within which two unknowns lie together with 68 and 95 %.
+/// Rises of chi-squared whose contours contain two unknowns with a probability of 68 and 95 %.
 pub const RISES: [f64; 2] = [2.3, 6.0];
 
-/// Directions in which a contour is sought.
+/// Number of directions in which the contour is located.
 const DIRECTIONS: u32 = 24;
 
-/// Where chi-squared has risen by `rise` in the plane of two free unknowns, around the estimate; r stays at 0
-/// where the contour would cross it. Fails with [`NoFit::Interrupted`].
+/// The contour around the estimate along which chi-squared has risen by `rise`, in the plane of two free unknowns.
+/// It is cut off at r = 0. Fails with [`NoFit::Interrupted`].
 pub fn contour(
     estimate: &Estimate,
     places: [usize; 2],
@@ -35,7 +35,7 @@ pub fn contour(
     for index in 0..DIRECTIONS {
         let angle = std::f64::consts::TAU * f64::from(index) / f64::from(DIRECTIONS);
         let step = rise.sqrt() * root.l() * Vector2::new(cos(angle), sin(angle));
-        // All others follow by the linear model first.
+        // The linear model predicts the other unknowns.
         let weights = inverse * step;
         let along: Unknowns = std::array::from_fn(|place| {
             if place == one {
@@ -55,15 +55,16 @@ pub fn contour(
 }
 
 impl Refit<'_> {
-    /// How far along a direction the loss, `cost` at the estimate, has risen by `rise`; `None` where it escapes before.
+    /// The distance along a direction at which the loss, `cost` at the estimate, has risen by `rise`; `None` if
+    /// the motion escapes before.
     fn risen(
         &self,
         along: [f64; UNKNOWNS],
         (cost, rise): (f64, f64),
         runs: &mut Runs,
     ) -> Result<Option<f64>, NoFit> {
-        /// Refits, each at the end of a line through the rise of the one before; where the loss is quadratic the
-        /// first is right.
+        /// Number of refits. Each corrects the distance by the rise found before, as for a quadratic loss; if
+        /// the loss is quadratic, the first distance is right.
         const ROUNDS: usize = 3;
         let p = &self.estimate.p;
         let farthest = if along[R] < 0.0 { -p[R] / along[R] } else { f64::INFINITY };

@@ -1,4 +1,4 @@
-//! The curves of the pictures of a fit, computed once with the answer: drawing them computes nothing.
+//! The curves in the pictures of a fit. They are computed once, with the answer; drawing them computes nothing.
 
 use std::f64::consts::TAU;
 
@@ -18,36 +18,36 @@ pub type PlotPoint = [f64; 2];
 /// The window of a picture: left, right, bottom, top.
 pub type Extent = [f64; 4];
 
-/// What is drawn of a fit.
+/// The curves in the pictures of a fit.
 #[derive(Clone, Debug)]
 pub struct Curves {
-    /// Record, residuals and motion; `None` of peaks alone.
+    /// Record, residuals and motion; `None` for a record of peaks only.
     pub sampled: Option<Sampled>,
     /// Damping over amplitude.
     pub damping: Damping,
-    /// The share of draws whose smallest displacement not survived is less than the abscissa.
+    /// The fraction of draws whose smallest displacement not survived is less than the abscissa.
     pub spread: Vec<PlotPoint>,
-    /// The window that shows it well.
+    /// The window in which `spread` is shown.
     pub spread_extent: Extent,
 }
 
 /// Damping over amplitude.
 #[derive(Clone, Debug)]
 pub struct Damping {
-    /// Measured: amplitude, loss, and the standard error of the loss.
+    /// Measured: amplitude, relative loss of amplitude, and its standard error.
     pub measured: Vec<[f64; 3]>,
-    /// By the fitted motion, exactly.
+    /// Exact, from motions with the fitted parameters.
     pub exact: Vec<PlotPoint>,
-    /// By averaging.
+    /// By averaging, with the fitted parameters.
     pub averaged: Vec<PlotPoint>,
-    /// Around nine tenths of the draws of that: below, and back above.
+    /// The outline of 90 % of the draws by averaging: the lower bound, then back along the upper one.
     pub band: Vec<PlotPoint>,
-    /// What is worth seeing.
+    /// The window in which the damping is shown.
     pub extent: Extent,
 }
 
 impl Curves {
-    /// The window that shows the residuals well.
+    /// The window in which the residuals are shown.
     pub fn residual_extent(&self, deviation: f64) -> Option<Extent> {
         let seen = self.sampled.as_ref()?;
         let sizes = seen.residual.iter().filter(|it| it.is_finite()).map(|it| it.abs());
@@ -55,7 +55,7 @@ impl Curves {
         Some([*seen.t.first()?, *seen.t.last()?, -far, far])
     }
 
-    /// Computes them all.
+    /// Computes all curves.
     pub fn of(estimate: &Estimate, margins: &Margins) -> Self {
         let (spread, spread_extent) = spread(estimate, margins);
         Curves {
@@ -67,7 +67,7 @@ impl Curves {
     }
 }
 
-/// Autocorrelation of the residuals over lags in s, as far as two periods.
+/// Autocorrelation of the residuals over lags in s, up to two periods.
 pub fn memory(estimate: &Estimate) -> Vec<PlotPoint> {
     const LAGS: usize = 400;
     let Data::Samples { t, .. } = &estimate.data else { return Vec::new() };
@@ -80,13 +80,13 @@ pub fn memory(estimate: &Estimate) -> Vec<PlotPoint> {
     lags.iter().zip(values).map(|(lag, rho)| [real(*lag) * step, rho]).collect()
 }
 
-/// The relative loss of amplitude per unit of time between turning points two apart.
+/// Amplitude and relative loss of amplitude per unit of time, from four successive turning points.
 fn pair(q: &[f64]) -> Option<PlotPoint> {
     let half = |k: usize| 0.5 * (q[k + 1] - q[k]).abs();
     (q.len() == 4 && half(1) > 0.0).then(|| [half(1), (half(0) - half(2)) / (TAU * half(1))])
 }
 
-/// The exact damping from motions that begin at rest at a displacement, as it is measured.
+/// The exact damping, computed from a motion released at a displacement in the same way as from a record.
 fn exact(parameters: &Parameters, from: f64) -> Option<PlotPoint> {
     let way = Way { linear: false, with_derivatives: false, reach: 1e3 * from, turns: 3 };
     let found = follow(parameters, State { q: from, v: 0.0 }, &[40.0], way, |_, _| {}).ok()?;
@@ -124,8 +124,8 @@ fn damping(estimate: &Estimate, margins: &Margins) -> Damping {
     }
 }
 
-/// Each half peak to peak has the error of two turning points, which are read off about a sixth of a period of
-/// samples.
+/// The standard error of a measured decrement. Each half peak-to-peak value has the error of two turning points,
+/// each of which is read from the samples of about a sixth of a period.
 fn error_of_decrement(estimate: &Estimate, a: f64) -> f64 {
     let read = match &estimate.data {
         Data::Samples { t, .. } => {
@@ -137,7 +137,7 @@ fn error_of_decrement(estimate: &Estimate, a: f64) -> f64 {
     estimate.covariance.deviation / read.sqrt() / (TAU * a)
 }
 
-/// The averaged damping of nine tenths of the draws.
+/// The outline of the averaged damping of 90 % of the draws.
 fn band(margins: &Margins, amplitudes: &[f64]) -> Vec<PlotPoint> {
     let (mut below, mut above) = (Vec::new(), Vec::new());
     for &a in amplitudes {
@@ -154,9 +154,9 @@ fn band(margins: &Margins, amplitudes: &[f64]) -> Vec<PlotPoint> {
     below
 }
 
-/// The steps of the distribution of the margin, and the window that shows them well.
+/// The steps of the cumulative distribution of the margin, and the window in which they are shown.
 fn spread(estimate: &Estimate, margins: &Margins) -> (Vec<PlotPoint>, Extent) {
-    /// Largest amplitudes up to which margins are shown.
+    /// Margins are shown up to this multiple of the largest amplitude.
     const FAR: f64 = 10.0;
     let (_, largest) = estimate.amplitudes();
     let finite: Vec<f64> =
@@ -166,12 +166,12 @@ fn spread(estimate: &Estimate, margins: &Margins) -> (Vec<PlotPoint>, Extent) {
     for (index, &x) in finite.iter().enumerate() {
         steps.extend([[x, share(index)], [x, share(index + 1)]]);
     }
-    // The tail of margins far beyond the record says no more than that they are.
+    // Margins far beyond the record are not known well enough for their tail to be shown.
     let typical = margins.displacement.upper.or(margins.displacement.median);
     let far = typical.or(finite.last().copied()).unwrap_or(largest).min(FAR * largest);
     let to = far.max(largest) + 0.1 * (far.max(largest) - far.min(largest)).max(0.02 * largest);
     steps.push([to.max(finite.last().copied().unwrap_or(0.0)), share(finite.len())]);
-    // A narrow distribution is looked at closely.
+    // The window zooms in on a narrow distribution.
     let near = margins.displacement.lower.unwrap_or(0.0).min(largest);
     let from = if near > 0.7 * to { near - 0.3 * (to - near) } else { 0.0 };
     (steps, [from, to, 0.0, 1.0])

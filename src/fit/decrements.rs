@@ -5,7 +5,8 @@
 //! `delta(A) = D + 2 r/(pi A) + (3/8) D3 A^2`,
 //!
 //! so half peak-to-peak values `P` fall by `P_k - P_{k+1} = pi A delta(A)`, which is linear in r, D and D3 and
-//! free of the offset. D2 moves the midpoints of the swings: `(x_k + 2 x_{k+1} + x_{k+2})/4 = offset - (2/3) D2 A^2`.
+//! independent of the offset. D2 shifts the midpoints of the swings:
+//! `(x_k + 2 x_{k+1} + x_{k+2})/4 = offset - (2/3) D2 A^2`.
 
 use std::f64::consts::PI;
 
@@ -25,7 +26,7 @@ pub struct Averaged {
     pub d3: f64,
     /// Friction.
     pub r: f64,
-    /// Middle of the motion.
+    /// Displacement about which the motion is centred.
     pub offset: f64,
 }
 
@@ -34,18 +35,19 @@ pub fn averaged(d: f64, d3: f64, r: f64, amplitude: f64) -> f64 {
     d + 2.0 * r / (PI * amplitude) + 0.375 * d3 * amplitude * amplitude
 }
 
-/// Sets of terms to which decrements are fitted: r, D, D3. Few terms keep a hardly decaying motion from being
-/// guessed wildly.
+/// Sets of terms that are fitted to the decrements, as indices into r, D, D3. A fit of few terms cannot go far
+/// wrong if the motion hardly decays.
 const TERMS: [&[usize]; 4] = [&[0, 1, 2], &[0, 1], &[1, 2], &[1]];
 
-/// Reads damping and offset off the turning points, with fewer and fewer terms; empty for fewer than three.
+/// Damping and offset from the turning points, one result for each of `TERMS` that can be fitted; empty for
+/// fewer than three turning points.
 pub fn regressions(extremes: &[Extreme]) -> Vec<Averaged> {
     let largest =
         extremes.windows(2).map(|two| 0.5 * (two[1].x - two[0].x).abs()).fold(0.0, f64::max);
     if largest <= 0.0 || extremes.len() < 3 {
         return Vec::new();
     }
-    // In units of the largest amplitude, so that the columns are of one size.
+    // In units of the largest amplitude, so that the columns have similar norms.
     let unit: Vec<Extreme> =
         extremes.iter().map(|it| Extreme { x: (it.x - extremes[0].x) / largest, ..*it }).collect();
     let mut found = Vec::new();
@@ -63,7 +65,7 @@ pub fn regressions(extremes: &[Extreme]) -> Vec<Averaged> {
     found
 }
 
-/// r, D and D3 from the decrements; `None` for fewer decrements than terms, or where friction comes out negative.
+/// r, D and D3 from the decrements; `None` for fewer decrements than terms, or if the friction is negative.
 fn damping(extremes: &[Extreme], terms: &[usize]) -> Option<[f64; 3]> {
     let halves: Vec<f64> =
         extremes.windows(2).map(|two| 0.5 * (two[1].x - two[0].x).abs()).collect();
@@ -85,7 +87,7 @@ fn damping(extremes: &[Extreme], terms: &[usize]) -> Option<[f64; 3]> {
     (found[0] >= 0.0).then_some(found)
 }
 
-/// Offset and D2 from the midpoints; with strong damping the decay itself bends them, and D2 is left alone.
+/// Offset and D2 from the midpoints. Strong damping itself shifts the midpoints; D2 is then 0.
 fn middle(extremes: &[Extreme], d: f64) -> Option<(f64, f64)> {
     let rows: Vec<(Vec<f64>, f64)> = extremes
         .windows(3)
@@ -103,7 +105,7 @@ fn middle(extremes: &[Extreme], d: f64) -> Option<(f64, f64)> {
     Some((robust(&narrow)?[0], 0.0))
 }
 
-/// Linear regression with Cauchy weights, iterated: one wrong extreme spoils three decrements.
+/// Linear regression with iterated Cauchy weights, since one wrong extreme spoils three decrements.
 fn robust(rows: &[(Vec<f64>, f64)]) -> Option<DVector<f64>> {
     const ROUNDS: usize = 12;
     let width = rows.first()?.0.len();

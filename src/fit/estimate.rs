@@ -1,4 +1,4 @@
-//! What a record says: the best motion with its uncertainty.
+//! The estimate from a record: the best motion with its uncertainty.
 
 use serde::Serialize;
 
@@ -20,19 +20,19 @@ use crate::numerics::count::real;
 pub struct Rival {
     /// Half swings within the record.
     pub half_swings: usize,
-    /// How much worse it is, in units of the noise's variance.
+    /// By how much its loss exceeds that of the best, in units of the noise variance.
     pub delta_chi2: f64,
     /// Its unknowns.
     #[serde(skip)]
     pub p: Unknowns,
 }
 
-/// What a record says.
+/// The estimate from a record.
 #[derive(Clone, Debug)]
 pub struct Estimate {
-    /// What was asked.
+    /// Which numbers were asked for.
     pub choice: Choice,
-    /// What was measured and used.
+    /// The measured data.
     pub data: Data,
     /// How the motion begins.
     pub start: StartKind,
@@ -40,42 +40,42 @@ pub struct Estimate {
     pub p: Unknowns,
     /// Which of them are free.
     pub free: [bool; UNKNOWNS],
-    /// How well they are known.
+    /// Their covariance.
     pub covariance: Covariance,
-    /// Intervals of 95 %, by the place of the unknown.
+    /// 95 % intervals, indexed by the place of the unknown.
     pub intervals: [ProfileInterval; UNKNOWNS],
-    /// Measured less computed, one for each measured number; times of peaks in displacement units.
+    /// Measured minus computed, for each measured number; those of times of peaks in units of displacement.
     pub residuals: Vec<f64>,
-    /// Which of them count.
+    /// Which residuals count.
     pub used: Vec<bool>,
     /// Half swings within the record.
     pub half_swings: usize,
     /// Whether the motion comes to rest within the record.
     pub rests: bool,
-    /// Minima for other numbers of half swings, the best first, itself included.
+    /// The minima for different numbers of half swings; the first one is the estimate itself.
     pub rivals: Vec<Rival>,
-    /// What the residuals look like.
+    /// Correlation of the residuals.
     pub whiteness: Whiteness,
-    /// The turning points as read off the record.
+    /// The turning points read from the record.
     pub extremes: Vec<Extreme>,
-    /// Noise seen before any model.
+    /// The noise estimated without a model.
     pub noise: Noise,
-    /// Samples flattened at full scale, left out.
+    /// Number of samples flattened at full scale, left out.
     pub saturated: usize,
-    /// Samples at rest before the mass was struck, left out.
+    /// Number of samples at rest before the mass was struck, left out.
     pub before: usize,
-    /// Samples after the mass was excited again, left out.
+    /// Number of samples after the mass was excited again, left out.
     pub after: usize,
-    /// Samples at rest that repeat the rounding error of others, left out.
+    /// Number of samples at rest that repeat the rounding error of others, left out.
     pub alike: usize,
-    /// Motions computed with and without derivatives.
+    /// Number of motions computed with and without derivatives.
     pub motions: (u64, u64),
-    /// Motions larger than this have escaped.
+    /// Displacement beyond which a motion counts as escaped.
     pub reach: f64,
 }
 
 impl Estimate {
-    /// Samples left out because they do not belong to the motion.
+    /// Number of samples left out because they do not belong to the motion.
     #[must_use]
     pub fn outliers(&self) -> usize {
         self.used.iter().filter(|used| !**used).count() - self.alike
@@ -91,14 +91,14 @@ impl Estimate {
         NAMES.iter().filter(|row| self.choice.is_wanted(row) && self.free[row.place])
     }
 
-    /// Smallest and largest amplitude seen, half peak to peak.
+    /// Smallest and largest half peak-to-peak amplitude in the record.
     #[must_use]
     pub fn amplitudes(&self) -> (f64, f64) {
         let halves = self.extremes.windows(2).map(|two| 0.5 * (two[1].x - two[0].x).abs());
         halves.fold((f64::INFINITY, 0.0), |(low, high), half| (low.min(half), high.max(half)))
     }
 
-    /// Minima that the data do not rule out: within a rise of 4 of the best.
+    /// Minima that the data do not rule out: those with chi-squared less than 4 above the best.
     pub fn contenders(&self) -> impl Iterator<Item = &Rival> {
         self.rivals.iter().filter(|rival| rival.delta_chi2 < 4.0)
     }
@@ -107,10 +107,10 @@ impl Estimate {
 /// Residuals this many times the noise of the record cannot be noise, however it was filtered.
 const ALIEN: f64 = 10.0;
 
-/// Judges a minimum: noise, covariance, intervals, rivals.
+/// Assesses a minimum: noise, covariance, intervals, rivals.
 ///
 /// # Errors
-/// [`Unfit::Blind`] where an unknown has no influence; [`Unfit::Interrupted`].
+/// [`Unfit::Blind`] if an unknown has no influence; [`Unfit::Interrupted`].
 pub fn judged(
     problem: &LeastSquares,
     used: &[bool],
@@ -142,14 +142,14 @@ pub fn judged(
     let (mut whiteness, covariance) = if let Some(covariance) = covariance(&restored) {
         (restored, covariance)
     } else {
-        // A correlation that noise cannot have.
+        // Noise cannot have this correlation.
         (whiteness.systematic, whiteness.autocorrelation) = (true, Vec::new());
         let covariance = covariance(&whiteness).ok_or(Unfit::Blind)?;
         (whiteness, covariance)
     };
     whiteness.systematic |= problem.noise > 0.0 && covariance.deviation > ALIEN * problem.noise;
     whiteness.white &= !whiteness.systematic;
-    // Correlated noise makes larger differences of the loss by chance.
+    // With correlated noise, larger differences of the loss occur by chance.
     let unit = task.variance(&best.seen, covariance.freedom) * covariance.inflation(R);
     let rivals: Vec<Rival> = found
         .valleys
@@ -174,7 +174,7 @@ pub fn judged(
             if !problem.free[place] {
                 continue;
             }
-            // Where the model leaves something out there is no likelihood, and its profile means nothing.
+            // If the model leaves something out there is no likelihood, and a profile would be meaningless.
             let one = if whiteness.systematic {
                 profile.straight(place)
             } else {

@@ -1,4 +1,4 @@
-//! A fit with all that is said about it, and what the record itself cannot say: its unit, a mass.
+//! The whole result of a fit, with what the record itself does not contain: its unit, and a mass or stiffness.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +9,7 @@ use super::observation::OMEGA0;
 use super::record::Record;
 use crate::oscillator::belt::Units;
 
-/// What the record itself cannot say.
+/// The mass or stiffness, which a record does not contain.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Inertia {
@@ -19,7 +19,7 @@ pub enum Inertia {
     Stiffness(f64),
 }
 
-/// Units of length and how many metres they are.
+/// Units of length and their values in metres.
 pub const LENGTHS: [(&str, f64); 8] = [
     ("m", 1.0),
     ("mm", 1e-3),
@@ -31,28 +31,28 @@ pub const LENGTHS: [(&str, f64); 8] = [
     ("km", 1e3),
 ];
 
-/// How many metres a unit of length is.
+/// The value of a unit of length in metres; `None` if it is unknown.
 #[must_use]
 pub fn length_in_metres(unit: &str) -> Option<f64> {
     let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u");
     LENGTHS.iter().find(|(name, _)| *name == plain).map(|(_, metres)| *metres)
 }
 
-/// A fit with everything that is said about it.
+/// The whole result of a fit.
 #[derive(Clone, Debug)]
 pub struct Fitted {
     /// The name of the file.
     pub name: String,
-    /// What was read.
+    /// The data read from the file.
     pub record: Record,
-    /// What was estimated.
+    /// The estimate.
     pub estimate: Estimate,
     /// The distribution of the margin.
     pub margins: Margins,
-    /// What its pictures draw.
+    /// The curves in its pictures.
     pub curves: Curves,
-    /// For the pictures: where chi-squared has risen by each of [`RISES`](super::contour::RISES) in the plane of D
-    /// and r.
+    /// For the pictures: the contours in the plane of D and r along which chi-squared has risen by each of
+    /// [`RISES`](super::contour::RISES).
     pub contours: Vec<Vec<[f64; 2]>>,
     /// Mass or stiffness, if known, and the unit of the displacements in m.
     pub inertia: Option<(Inertia, f64)>,
@@ -61,8 +61,8 @@ pub struct Fitted {
 }
 
 impl Fitted {
-    /// What 1 of time, length, velocity, force and impulse stands for; the last two are not a number where neither
-    /// mass nor stiffness is known. `None` without a frequency or a known unit of length.
+    /// The units of time, length, velocity, force and impulse; the last two are NaN if neither mass nor
+    /// stiffness is known. `None` without an estimated frequency or a known unit of length.
     #[must_use]
     pub fn units(&self) -> Option<Units> {
         let displacement = length_in_metres(self.unit()).filter(|_| self.estimate.free[OMEGA0])?;
@@ -77,14 +77,15 @@ impl Fitted {
         Some(Units { omega_0, displacement, velocity, time: 1.0 / omega_0, impulse, force })
     }
 
-    /// Motions computed with and without derivatives, those that weigh the draws of the margin among the latter.
+    /// Number of motions computed with and without derivatives; the latter include those for the weights of the
+    /// draws.
     #[must_use]
     pub fn motions(&self) -> (u64, u64) {
         let (with, without) = self.estimate.motions;
         (with, without + self.margins.motions)
     }
 
-    /// The unit of the displacements as it is written behind numbers.
+    /// The unit of the displacements as written after numbers; empty if unknown.
     #[must_use]
     pub fn unit(&self) -> &str {
         self.record.unit.as_deref().unwrap_or("")

@@ -11,21 +11,21 @@ use super::turning_points::{Extreme, smoothed, turning_points, without_jumps};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{powi, sin_cos};
 
-/// First guesses and what they were read from.
+/// First guesses, and the turning points from which they were made.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guess {
-    /// The ways in which the record may begin, the likelier one first.
+    /// The ways in which the record may begin, the more likely one first.
     pub beginnings: Vec<Beginning>,
     /// The turning points.
     pub extremes: Vec<Extreme>,
-    /// The first sample in motion of a mass that seems to have been struck where it rested.
+    /// The first sample in motion, if the mass seems to have been struck at rest.
     pub struck: Option<usize>,
-    /// The first sample after which the mass was excited again.
+    /// The last sample before the mass was excited again.
     pub again: Option<usize>,
 }
 
-/// Reads guesses off a record; `None` where fewer than three turning points, a hold and a rest included, can be
-/// told from noise.
+/// Makes first guesses from a record; `None` if fewer than three turning points, including a hold and a rest, can
+/// be distinguished from noise.
 pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
     let cleaned = if noise.has_outliers { without_jumps(x) } else { x.to_vec() };
     let (low, high) = cleaned
@@ -33,7 +33,7 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)));
     let mut period = 1.0 / dominant_frequency(t, &cleaned)?;
     let mut extremes = Vec::new();
-    // Two rounds: the extremes themselves give a better period.
+    // Two rounds, since the extremes give a better period.
     for _ in 0..2 {
         let averaged = samples_within(t, period / 12.0).sqrt();
         let hysteresis = (6.0 * noise.deviation / averaged).max(0.02 * (high - low));
@@ -81,13 +81,14 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
     (!regressions.is_empty()).then_some(Guess { beginnings, extremes, struck, again })
 }
 
-/// How many samples a stretch of time holds on average, at least one.
+/// Average number of samples in a stretch of time, at least one.
 fn samples_within(t: &[f64], stretch: f64) -> f64 {
     let rate = real(t.len()) / (t[t.len() - 1] - t[0]);
     (rate * stretch).max(1.0)
 }
 
-/// Twice the slope of the times of extremes over their number; a missed extreme counts for two.
+/// The period: twice the slope of the times of the extremes over their number. A gap in which extremes were missed
+/// counts for as many half periods as fit.
 pub fn period_of(extremes: &[Extreme]) -> Option<f64> {
     let gaps: Vec<f64> = extremes.windows(2).map(|two| two[1].t - two[0].t).collect();
     if gaps.len() < 2 {
@@ -108,7 +109,7 @@ pub fn period_of(extremes: &[Extreme]) -> Option<f64> {
     Some(2.0 * up / down)
 }
 
-/// The level at which a record ends flat: its last extreme.
+/// The level of a flat end of the record, as a last extreme; `None` if the record does not end flat.
 fn rest(t: &[f64], x: &[f64], extremes: &[Extreme], period: f64, tail: f64) -> Option<Extreme> {
     let last = extremes.last()?;
     let from = t.partition_point(|&t| t < last.t + 0.55 * period);
@@ -121,7 +122,7 @@ fn rest(t: &[f64], x: &[f64], extremes: &[Extreme], period: f64, tail: f64) -> O
     flat.then_some(Extreme { t: last.t + 0.5 * period, x: level })
 }
 
-/// How a record begins, as far as its first turning point tells.
+/// How a record begins, judged by its first turning point.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Begins {
     Held,
@@ -129,8 +130,9 @@ enum Begins {
     Moving,
 }
 
-/// A mass in motion turns within half a period. What takes longer was held, if it scatters no more
-/// than the noise: a growth begins small and looks like a hold.
+/// A moving mass turns within half a period. If the first turn comes later and the record before it scatters no
+/// more than the noise, the mass was held. The scatter is checked because a growing motion begins small and looks
+/// like a hold.
 fn begins(t: &[f64], x: &[f64], noise: &Noise, first: Extreme, period: f64) -> Begins {
     let natural = (first.t - t[0]) / period;
     let begin = &x[..t.partition_point(|&time| time < first.t - 0.55 * period)];
@@ -143,8 +145,8 @@ fn begins(t: &[f64], x: &[f64], noise: &Noise, first: Extreme, period: f64) -> B
     }
 }
 
-/// The first sample clearly off the hold, if that lies between the first two turning points: what is let go is
-/// held outside of them.
+/// The first sample clearly off the level of the hold, if that level lies between the first two turning points. A
+/// mass that is released was held outside them.
 fn struck_at(
     t: &[f64],
     x: &[f64],
@@ -152,9 +154,9 @@ fn struck_at(
     hold: f64,
     extremes: &[Extreme],
 ) -> Option<usize> {
-    /// Parts of the first swing between which the middle of a struck mass lies.
+    /// Fractions of the first swing between which the rest level of a struck mass lies.
     const BETWEEN: std::ops::Range<f64> = 0.25..0.75;
-    /// Deviations of the noise that are off the hold.
+    /// Number of standard deviations of the noise beyond which a sample is off the hold.
     const OFF: f64 = 6.0;
     let [first, second, ..] = extremes else { return None };
     let part = (hold - first.x) / (second.x - first.x);
@@ -164,16 +166,17 @@ fn struck_at(
     BETWEEN.contains(&part).then_some(from.min(moving))
 }
 
-/// The last sample near the turning point after which a decay grows at once: a free motion that decays continues
-/// decaying, since its swings keep their order.
+/// The last sample near the turning point at which a decay suddenly turns into growth. A free motion that decays
+/// keeps decaying, because its swings keep their order.
 fn excited_again(t: &[f64], x: &[f64], extremes: &[Extreme]) -> Option<usize> {
-    /// A swing wider than the one before by this factor was not free.
+    /// A swing of a decay that is wider than the preceding one by this factor was not free.
     const WIDER: f64 = 1.5;
-    /// This many swings after it are wider, too: one wrong turning point spoils two.
+    /// Number of swings that must be wider, including the first: one wrong turning point spoils two swings.
     const SWINGS: usize = 4;
-    /// Noise makes a swing of a decay wider than the one before by less than this.
+    /// Before the excitation, a swing must be narrower than the preceding one by this factor to count as decay.
     const NARROWER: f64 = 0.9;
-    /// What is near, as a fraction of the new swing: more than a rest differs from the last turning point seen before it.
+    /// How near a sample must be to the turning point, as a fraction of the new swing. A rest differs by less
+    /// from the last turning point before it.
     const NEAR: f64 = 0.1;
     let widths: Vec<f64> = extremes.windows(2).map(|two| (two[1].x - two[0].x).abs()).collect();
     let grows = |swings: &[f64]| {
@@ -189,7 +192,8 @@ fn excited_again(t: &[f64], x: &[f64], extremes: &[Extreme]) -> Option<usize> {
     Some(from + x[from..to].iter().rposition(near)?)
 }
 
-/// Displacement and velocity at the first sample, from an undamped swing through the first third of a period.
+/// Displacement and velocity at the first sample, from an undamped oscillation fitted to the first third of a
+/// period.
 fn first_state(t: &[f64], x: &[f64], p: &Unknowns, period: f64) -> Option<(f64, f64)> {
     let to = t.partition_point(|&time| time <= t[0] + period / 3.0).max(3).min(t.len());
     let mut normal = nalgebra::Matrix2::zeros();

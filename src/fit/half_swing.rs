@@ -1,30 +1,31 @@
 //! One half swing with its derivatives, in the frame of its half plane ([`HalfPlane`]).
 //!
-//! Beside the motion `x' = v, v' = f(x, v)` run four solutions of the variational equation
-//! `y' = w, w' = -y + (df/dv) w + g`: one homogeneous, begun across the flow, and those of D, D2 and D3 with
-//! `g = -2 v, -v^2, -v^3`. Every other derivative is a combination of these and of the flow itself: a shift of
-//! the start splits into a part along the flow, which only delays the motion, and a part across it. Where the
-//! damping is linear and stays so, all of it is a formula; elsewhere the Taylor coefficients of motion and
-//! derivatives obey one recurrence.
+//! Along with the motion `x' = v, v' = f(x, v)`, four solutions of the variational equation
+//! `y' = w, w' = -y + (df/dv) w + g` are computed: a homogeneous one that starts across the flow, and those for
+//! D, D2 and D3 with `g = -2 v, -v^2, -v^3`. All other derivatives are combinations of these and of the flow
+//! itself: a shift of the start splits into a part along the flow, which only delays the motion, and a part
+//! across it. If the damping is linear and stays so, everything has a closed form; otherwise the Taylor
+//! coefficients of motion and derivatives obey one recurrence.
 
 use crate::numerics::count::real;
 use crate::numerics::elementary::{atan2, exp, pow, sin_cos};
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::oscillator::HalfPlane;
 
-/// Solutions of the variational equation: across the flow, by D, by D2 of this frame, by D3.
+/// Number of solutions of the variational equation: across the flow, and the derivatives with respect to D, D2 (of
+/// this frame) and D3.
 pub const WAYS: usize = 4;
 
-/// Order of the series.
+/// Order of the Taylor series.
 const ORDER: usize = 18;
 
 /// Largest truncation error of a step, relative to the state.
 const TOLERANCE: f64 = 1e-13;
 
-/// Longest step: no two arrivals at `v = 0` fit in.
+/// Longest step, too short for two arrivals at `v = 0`.
 const LONGEST: f64 = 2.0;
 
-/// `x`, `v`, then the positions of the [`WAYS`], padded to a width that vectorises.
+/// `x`, `v`, then the derivatives of the position in the order of [`WAYS`], padded to a width that vectorizes.
 type Lanes = [f64; 8];
 
 /// A point of the motion with its derivatives.
@@ -40,16 +41,16 @@ pub struct Jet {
     pub w: [f64; WAYS],
 }
 
-/// A stretch of a half swing that one formula describes.
+/// A part of a half swing that is described by one formula.
 #[derive(Clone, Debug)]
 pub struct Stretch {
     field: HalfPlane,
-    /// Whether derivatives are carried along.
+    /// Whether derivatives are computed.
     with_derivatives: bool,
     formula: Formula,
-    /// How long the formula holds.
+    /// Time for which the formula holds.
     pub duration: f64,
-    /// Whether the stretch ends on `v = 0`.
+    /// Whether the stretch ends at `v = 0`.
     pub arrives: bool,
 }
 
@@ -61,14 +62,14 @@ enum Formula {
     Series(Box<[Lanes; ORDER + 1]>),
 }
 
-/// Above this damping the closed form loses digits to `omega`.
+/// Damping above which the closed form loses digits because `omega` is small.
 const OSCILLATORY: f64 = 0.9;
 
 impl Stretch {
-    /// The first stretch of the motion from `start`, in closed form if `linear` (then `D2 = D3 = 0`, and their
-    /// derivatives are not wanted) and the damping allows it.
+    /// The first stretch of the motion from `start`; in closed form if `linear` is set and the damping allows it.
+    /// `linear` requires `D2 = D3 = 0` and leaves out the derivatives with respect to them.
     ///
-    /// `None` where the numbers leave their range.
+    /// `None` if numbers overflow.
     pub fn new(field: HalfPlane, start: Jet, linear: bool, with_derivatives: bool) -> Option<Self> {
         if linear && field.d.abs() < OSCILLATORY {
             return Some(Self::linear(field, start, with_derivatives));
@@ -86,7 +87,7 @@ impl Stretch {
         Stretch { field, with_derivatives, formula, duration: phase / omega, arrives: true }
     }
 
-    /// Moves on to the stretch that begins at `start`; `false` where the numbers leave their range.
+    /// Replaces the stretch with the one that begins at `start`; `false` if numbers overflow.
     pub fn advance(&mut self, start: Jet) -> bool {
         let Formula::Series(terms) = &mut self.formula else { return false };
         let duration = if self.with_derivatives {
@@ -151,7 +152,7 @@ fn linear_jet(d: f64, omega: f64, start: &Jet, t: f64) -> Jet {
     let (c, s) = (decay * cosine, decay * sine / omega);
     let flow = |x: f64, v: f64| (c * x + s * (v + d * x), c * v - s * (x + d * v));
     let (x, v) = flow(start.x, start.v);
-    // dC/dD = t D S and dS/dD = -D (t C - S)/omega^2, beside the decay's own -t.
+    // dC/dD = t D S and dS/dD = -D (t C - S)/omega^2; the decay adds a factor -t.
     let bend = d / (omega * omega);
     let (c_by_d, s_by_d) = (t * (d * s - c), -t * s - bend * (t * c - s));
     let mut jet = Jet { x, v, ..Jet::default() };
@@ -162,7 +163,7 @@ fn linear_jet(d: f64, omega: f64, start: &Jet, t: f64) -> Jet {
     jet
 }
 
-/// Computes the coefficients; returns how far they may be used.
+/// Computes the Taylor coefficients; returns the time for which they are accurate enough.
 fn expand<const DERIVATIVES: bool>(
     terms: &mut [Lanes; ORDER + 1],
     field: &HalfPlane,
@@ -214,7 +215,7 @@ fn expand<const DERIVATIVES: bool>(
         pow(TOLERANCE * size / last, 1.0 / real(order))
     };
     let step = tail(ORDER, size).min(tail(ORDER - 1, size));
-    // NaN stays NaN and is refused by the caller; no tail at all allows any step.
+    // The caller refuses NaN. If the last terms are 0 the step is infinite and LONGEST applies.
     if step.is_nan() { step } else { step.min(LONGEST) }
 }
 
@@ -224,7 +225,7 @@ fn velocity(terms: &[Lanes; ORDER + 1], t: f64) -> f64 {
 
 /// The first arrival at `v = 0` after the start, given `v(end) <= 0`.
 ///
-/// A start on `v = 0` does not count: there the polynomial is divided by its root.
+/// A start at `v = 0` does not count: the polynomial is then divided by the factor of this root.
 fn arrival(terms: &[Lanes; ORDER + 1], end: f64) -> f64 {
     let skip = usize::from(terms[0][1] == 0.0);
     let value = |t: f64| {

@@ -1,6 +1,6 @@
-//! The lines above the numbers: names of columns and their units.
+//! The header lines above the numbers: names of columns and their units.
 
-/// Units of time and how many seconds they are.
+/// Units of time and their values in seconds.
 pub const TIME_UNITS: [(&str, f64); 7] = [
     ("s", 1.0),
     ("ms", 1e-3),
@@ -11,10 +11,11 @@ pub const TIME_UNITS: [(&str, f64); 7] = [
     ("sec", 1.0),
 ];
 
-/// What columns of times are called, in lower case; the first that a name contains decides.
+/// Parts of the names of time columns, in lower case.
 const TIMES: [&str; 5] = ["time", "zeit", "temps", "tiempo", "seconds"];
 
-/// What columns of displacements are called; earlier ones first.
+/// Parts of the names of displacement columns, in lower case, in order of preference; single letters are whole
+/// names.
 const DISPLACEMENTS: [&str; 11] = [
     "displ",
     "weg",
@@ -42,7 +43,7 @@ struct ColumnHeader {
     unit: Option<String>,
 }
 
-/// How many seconds a unit of time is.
+/// The value of a unit of time in seconds; `None` if it is unknown.
 pub fn seconds(unit: &str) -> Option<f64> {
     let plain = unit.to_lowercase().replace(['\u{b5}', '\u{3bc}'], "u");
     TIME_UNITS.iter().find(|(name, _)| *name == plain).map(|(_, seconds)| *seconds)
@@ -73,7 +74,8 @@ impl ColumnHeader {
 }
 
 impl Header {
-    /// The header that these lines make: the last one with a known name, and units that may follow it.
+    /// The header in these lines: the last line with a known name, or else the last line; and the units from
+    /// the line after it, if there is one.
     pub fn of(lines: &[Vec<&str>]) -> Self {
         let read = |line: &Vec<&str>| Header {
             columns: line.iter().map(|cell| ColumnHeader::read(cell)).collect(),
@@ -103,7 +105,7 @@ impl Header {
         self.columns.is_empty()
     }
 
-    /// The names.
+    /// The names of the columns.
     pub fn names(&self) -> Vec<&str> {
         self.columns.iter().map(|column| column.name.as_str()).collect()
     }
@@ -125,13 +127,13 @@ impl Header {
             .map(|(place, _)| place)
     }
 
-    /// The column of times. A capital T is a temperature.
+    /// The column of times. A column `T` holds temperatures.
     pub fn time(&self) -> Option<usize> {
         let called = |name: &str| TIMES.iter().any(|time| name.to_lowercase().contains(time));
         self.find(called, None).or_else(|| self.find(|name| name == "t", None))
     }
 
-    /// The column of displacements beside that of times.
+    /// The column of displacements; `time` is the column of times, which is skipped.
     pub fn displacement(&self, time: Option<usize>) -> Option<usize> {
         let is = |known: &str, name: &str| {
             let name = name.to_lowercase();

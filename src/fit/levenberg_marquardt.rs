@@ -1,9 +1,10 @@
-//! Nonlinear least squares with exact gradients: Levenberg and Marquardt's method on a QR factor.
+//! Nonlinear least squares with exact gradients: the Levenberg-Marquardt method on a QR factor.
 //!
-//! Each set of gradients is factored once; every damping that is tried costs a factor of 16 rows. The damping
-//! is scaled by the largest column norms met so far (More, *The Levenberg-Marquardt algorithm*, 1978), its size
-//! follows the ratio of actual to predicted reduction (Nielsen, 1999). A trial point whose motion escapes is a
-//! rejected step. Friction that would become negative is held at zero while it wants to.
+//! Each set of gradients is factored once; every damping that is tried costs another factorization of at most
+//! 17 rows. The damping is scaled by the largest column norms so far (More, *The Levenberg-Marquardt
+//! algorithm*, 1978); its size follows the ratio of actual to predicted reduction (Nielsen, 1999). A trial
+//! point whose motion escapes is a rejected step. If a step would make friction negative, it is recomputed with
+//! friction set to zero.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -13,20 +14,20 @@ use super::triangle::triangle;
 use crate::numerics::count::real;
 use crate::numerics::elementary::powi;
 
-/// What the iteration counts and whom it asks.
+/// Counters of the computation, and the check for an interruption.
 pub struct Runs<'a> {
-    /// Motions with derivatives.
+    /// Number of motions computed with derivatives.
     pub with_derivatives: u64,
-    /// Motions without.
+    /// Number of motions computed without derivatives.
     pub plain: u64,
-    /// Asked before each motion; `true` ends the computation.
+    /// Called before each motion; `true` ends the computation.
     pub interrupted: &'a dyn Fn() -> bool,
     /// The smallest root mean square of residuals that a descent has reached.
     pub closest: f64,
 }
 
 impl<'a> Runs<'a> {
-    /// Nothing is computed yet.
+    /// Counters at zero.
     pub fn new(interrupted: &'a dyn Fn() -> bool) -> Self {
         Runs { with_derivatives: 0, plain: 0, interrupted, closest: f64::INFINITY }
     }
@@ -37,11 +38,11 @@ impl<'a> Runs<'a> {
 pub enum NoFit {
     /// The motion of the first guess escapes.
     Lost,
-    /// A newer question took its place.
+    /// The computation was interrupted.
     Interrupted,
 }
 
-/// Passes an interruption on, and hands back what else may fail.
+/// Turns an interruption into an error; passes on every other result.
 ///
 /// # Errors
 /// [`NoFit::Interrupted`].
@@ -52,27 +53,27 @@ pub fn interrupted<T>(result: Result<T, NoFit>) -> Result<Result<T, NoFit>, NoFi
     }
 }
 
-/// A point at which the iteration ended.
+/// The point at which the iteration ended.
 #[derive(Clone, Debug)]
 pub struct Optimum {
     /// The unknowns.
     pub p: Unknowns,
     /// The loss, in squared units of the residuals.
     pub cost: f64,
-    /// The model against the record, with derivatives.
+    /// The model compared with the record, with derivatives.
     pub seen: Seen,
 }
 
-/// What is estimated, and how residuals count.
+/// What is estimated, and how residuals are weighted.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
     /// Record and model.
     pub observation: &'a Observation,
     /// Which unknowns are free.
     pub free: [bool; UNKNOWNS],
-    /// How residuals count.
+    /// How residuals are weighted.
     pub loss: Loss,
-    /// Which residuals count at all; empty: all of them.
+    /// Which residuals count; all of them if empty.
     pub used: &'a [bool],
     /// Only this many residuals, from the first on, count.
     pub horizon: usize,
@@ -81,10 +82,10 @@ pub struct Task<'a> {
 /// Maximum number of iterations.
 const MOST: usize = 50;
 
-/// Maximum number of iterations where a rough answer will do.
+/// Maximum number of iterations for a rough answer.
 const FEW: usize = 12;
 
-/// The relative reduction of the loss below which the iteration has settled.
+/// Relative reduction of the loss below which the iteration has converged.
 const SETTLED: f64 = 1e-10;
 
 impl Task<'_> {
@@ -104,17 +105,17 @@ impl Task<'_> {
         used.map(|(_, residual)| residual).collect()
     }
 
-    /// Variance of the noise: the loss's own measure of the residuals over the degrees of freedom.
+    /// Variance of the noise: the sum of squared influences (weight times residual) over the degrees of freedom.
     pub fn variance(&self, seen: &Seen, freedom: f64) -> f64 {
         let used = self.used_residuals(seen).into_iter();
         let influence = |residual: &Residual| self.loss.weight(residual.value) * residual.value;
         used.map(|residual| powi(influence(residual), 2)).sum::<f64>() / freedom
     }
 
-    /// Compares record and model, and counts it.
+    /// Compares the model with the record, and counts the motion.
     ///
     /// # Errors
-    /// [`NoFit`] where the model escapes, or when interrupted.
+    /// [`NoFit`] if the motion of the model escapes, or when interrupted.
     pub fn look(&self, p: &Unknowns, derivatives: bool, runs: &mut Runs) -> Result<Seen, NoFit> {
         if (runs.interrupted)() {
             return Err(NoFit::Interrupted);
@@ -123,7 +124,7 @@ impl Task<'_> {
         self.observation.compare(p, derivatives).map_err(|_| NoFit::Lost)
     }
 
-    /// The columns of the free unknowns.
+    /// The places of the free unknowns.
     pub fn columns(&self) -> Vec<usize> {
         (0..UNKNOWNS).filter(|&column| self.free[column]).collect()
     }
@@ -145,12 +146,12 @@ impl Task<'_> {
     /// Iterates from a first guess.
     ///
     /// # Errors
-    /// [`NoFit`] where even the guess cannot be compared with the record.
+    /// [`NoFit`] if even the guess cannot be compared with the record.
     pub fn solve(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, NoFit> {
         self.solve_within(SETTLED, MOST, guess, runs)
     }
 
-    /// The same to a fraction of a standard error: enough for a start, or for the profile of the loss.
+    /// The same to a fraction of a standard error, which suffices for a start or for the profile of the loss.
     ///
     /// # Errors
     /// As [`Task::solve`].
@@ -215,7 +216,7 @@ impl Task<'_> {
     }
 }
 
-/// The damped step and the reduction of the loss that the linear model predicts.
+/// The damped step, and the reduction of the loss predicted by the linear model.
 fn damped_step(
     factor: &DMatrix<f64>,
     norms: &[f64],

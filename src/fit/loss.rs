@@ -1,4 +1,4 @@
-//! How a residual counts: squared, or less where it is large.
+//! Loss functions: the square of a residual, or less if the residual is large.
 
 use crate::numerics::elementary::{ln_1p, powi};
 
@@ -7,12 +7,12 @@ use crate::numerics::elementary::{ln_1p, powi};
 pub enum Loss {
     /// `e^2`.
     Linear,
-    /// `2 s^2 (sqrt(1 + (e/s)^2) - 1)`: large residuals count by their size.
+    /// `2 s^2 (sqrt(1 + (e/s)^2) - 1)`: linear in large residuals.
     SoftL1 {
         /// See [`Loss`].
         scale: f64,
     },
-    /// `s^2 ln(1 + (e/s)^2)`: large residuals count hardly more than moderate ones.
+    /// `s^2 ln(1 + (e/s)^2)`: large residuals count little more than moderate ones.
     Cauchy {
         /// See [`Loss`].
         scale: f64,
@@ -31,14 +31,15 @@ impl Loss {
             Loss::Linear => residual * residual,
             Loss::SoftL1 { scale } => {
                 let part = powi(residual / scale, 2);
-                // The same as sqrt(1 + z) - 1, without its cancellation.
+                // sqrt(1 + z) - 1 without cancellation.
                 2.0 * scale * scale * part / (1.0 + (1.0 + part).sqrt())
             }
             Loss::Cauchy { scale } => scale * scale * ln_1p(powi(residual / scale, 2)),
         }
     }
 
-    /// The weight of a residual in the equivalent weighted least squares: the derivative of the loss by `e^2`.
+    /// The weight of a residual in the equivalent weighted least-squares problem: the derivative of the loss with
+    /// respect to `e^2`.
     pub fn weight(self, residual: f64) -> f64 {
         match self {
             Loss::Linear => 1.0,

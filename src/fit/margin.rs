@@ -1,9 +1,10 @@
-//! From the uncertainty of the parameters to that of the margin.
+//! The uncertainty of the margin that follows from that of the parameters.
 //!
 //! D, D2, D3 and r are drawn from their joint distribution, and the smallest kick that is not survived is computed
-//! exactly for each draw. The derivative would explode where the margin ends in a fold, or is infinite on one
-//! side of it; quantiles do not. Draws are spread evenly (an additive recurrence) rather than at random, so few of
-//! them suffice. Where the loss is not quadratic they come from the likelihood itself ([`super::posterior`]).
+//! exactly for each draw. Linear error propagation would fail near a fold, where the derivative of the margin
+//! diverges or the margin is infinite on one side; quantiles remain valid. Draws are spread evenly (an additive
+//! recurrence) rather than at random, so few of them suffice. If the loss is not quadratic they come from the
+//! likelihood itself ([`super::posterior`]).
 
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
@@ -20,16 +21,16 @@ use crate::study::closings::all_closings;
 use crate::study::fold::fold;
 use crate::study::margin::Margin;
 
-/// Quantiles of what may not exist, such as a margin where every kick is survived.
+/// Quantiles of a quantity that may not exist, such as the margin if every kick is survived.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
-    /// The median; `None` where most draws have none.
+    /// The median; `None` if the quantity does not exist in at least half of the draws.
     pub median: Option<f64>,
-    /// 2.5 % lie below.
+    /// The 2.5 % quantile.
     pub lower: Option<f64>,
-    /// 2.5 % lie above.
+    /// The 97.5 % quantile.
     pub upper: Option<f64>,
-    /// The share of draws in which there is none.
+    /// The fraction of draws in which the quantity does not exist.
     pub none: f64,
 }
 
@@ -53,25 +54,26 @@ pub struct Margins {
     pub displacement: Spread,
     /// The smallest impulse from the middle of the sticking set that is not captured, as `velocity/omega0`.
     pub impulse: Spread,
-    /// The right turning point of the smallest stable cycle; none: the share without one.
+    /// The right turning point of the smallest stable cycle; `none` is the fraction of draws without one.
     pub cycle: Spread,
-    /// The damping `D_F` of the fold, above which every motion is captured; none: the share without a fold.
+    /// The damping `D_F` of the fold, above which every motion is captured; `none` is the fraction of draws
+    /// without a fold.
     pub fold: Spread,
     /// Whether the median displacement lies outside the amplitudes measured.
     pub extrapolated: bool,
-    /// Every draw's smallest displacement in ascending order; infinite where all are survived.
+    /// The smallest displacement not captured for every draw, in ascending order; infinite if all are survived.
     #[serde(skip)]
     pub displacements: Vec<f64>,
     /// The parameters drawn.
     #[serde(serialize_with = "number")]
     pub draws: Vec<Parameters>,
-    /// Where draws were weighted by their likelihood: as many of equal weight would tell as much.
+    /// The effective number of draws, if they were weighted by their likelihood.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub effective: Option<f64>,
-    /// Motions computed to weigh them.
+    /// Number of motions computed for the weights.
     #[serde(skip)]
     pub motions: u64,
-    /// Draws whose margin could not be computed.
+    /// Number of draws whose margin could not be computed.
     pub failed: usize,
 }
 
@@ -79,10 +81,10 @@ fn number<S: Serializer>(draws: &[Parameters], out: S) -> Result<S::Ok, S::Error
     draws.len().serialize(out)
 }
 
-/// How many draws.
+/// Default number of draws.
 pub const DRAWS: usize = 400;
 
-/// The distribution of the margins that the estimate leaves.
+/// The distribution of the margins that follows from an estimate.
 ///
 /// # Errors
 /// [`Reason::Interrupted`].
@@ -118,7 +120,7 @@ pub fn margins(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Mar
     })
 }
 
-/// What follows from one set of parameters.
+/// The margin, the smallest stable cycle and the fold for one set of parameters.
 struct MarginOfDraw {
     margin: Margin,
     /// Right turning point of the smallest stable cycle.

@@ -1,14 +1,14 @@
-//! A recorded motion, and what it says about the oscillator: estimates of all its numbers with honest errors.
+//! Fitting the oscillator to a recorded motion: estimates of all its numbers, with honest errors.
 //!
-//! [`record`] reads what instruments write. [`guess`] reads a first guess off the turning points, by the decrements
-//! of averaging ([`decrements`]). [`motion`] follows a motion with its exact derivatives, half swing by half swing
-//! ([`half_swing`]); [`observation`] compares it with the record; [`levenberg_marquardt`] descends, and [`search`]
-//! makes sure that it descends into the right [`valley`]. [`samples`] and [`peaks`] put it together; [`mod@estimate`]
-//! judges: covariance, also for correlated noise ([`uncertainty`], [`residuals`]), intervals where the loss is not
-//! quadratic ([`profile`]), what only combinations are known of ([`separable`]), and what all this leaves of the
-//! margin ([`margin`]).
+//! [`record`] reads the files of instruments. [`guess`] makes a first guess from the turning points, by the
+//! decrements of averaging ([`decrements`]). [`motion`] follows a motion with its exact derivatives, half swing by
+//! half swing ([`half_swing`]); [`observation`] compares it with the record. [`levenberg_marquardt`] minimizes the
+//! loss, and [`search`] finds the right [`valley`] for it. [`samples`] and [`peaks`] combine these steps.
+//! [`mod@estimate`] assesses the result: covariance, also for correlated noise ([`uncertainty`], [`residuals`]);
+//! intervals where the loss is not quadratic ([`profile`]); numbers of which only combinations are known
+//! ([`separable`]); and the resulting uncertainty of the margin ([`margin`]).
 //!
-//! Nothing here touches a file: text goes in, estimates come out.
+//! Nothing here reads or writes files: text goes in, estimates come out.
 //!
 //! ```
 //! use hopfscope::fit::{Question, Reading, estimate, parse};
@@ -84,8 +84,8 @@ use std::cell::Cell;
 
 use levenberg_marquardt::Runs;
 
-/// Motions after which a fit gives up: a record of this oscillator takes about a hundred, one with a drift
-/// about a thousand.
+/// Number of motions after which a fit gives up. A record of this oscillator takes about a hundred, one with a
+/// drift about a thousand.
 const MOST_MOTIONS: u64 = 6000;
 
 /// Fits a record.

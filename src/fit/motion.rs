@@ -1,28 +1,28 @@
-//! A motion with its derivatives by everything that it depends on, half swing by half swing.
+//! A motion with its derivatives with respect to all numbers on which it depends, half swing by half swing.
 //!
-//! A half swing from `(x, v)` ends at `(X, 0)` after T; friction only turns its end into the next start
-//! `x = 2 r - X`. So derivatives are chained from one half swing to the next, without a jump matrix: with
-//! `dX` and `dT` of the half swing, `dx = 2 dr - dX` and `dtau` grows by `dT = -dv/f`. This is what a saltation
-//! matrix at `v = 0` gives, and it is never singular: a moving mass always stops with `f = -X < 0`.
+//! A half swing from `(x, v)` ends at `(X, 0)` after T; friction enters only where this end becomes the next start
+//! `x = 2 r - X`. So derivatives are chained from one half swing to the next without a jump matrix: with
+//! `dX` and `dT` of the half swing, `dx = 2 dr - dX` and `dtau` grows by `dT = -dv/f`. This equals the result of a
+//! saltation matrix at `v = 0`, and it is never singular: a moving mass always stops with `f = -X < 0`.
 //! Inside a half swing a later start only delays the motion: `dq` contains `-v dtau`.
 
 use super::half_swing::{Jet, Stretch};
 use crate::numerics::elementary::hypot;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 
-/// What a motion depends on: D, D2, D3, r, q0, v0.
+/// Number of the quantities on which a motion depends: D, D2, D3, r, q0, v0.
 pub const NUMBERS: usize = 6;
 
-/// Place of r among the [`NUMBERS`].
+/// Index of r among the [`NUMBERS`].
 const R: usize = 3;
 
 /// Maximum number of half swings of one motion.
 const MOST: usize = 100_000;
 
-/// Maximum number of steps of one half swing, a hundred times what any recorded motion takes.
+/// Maximum number of steps in one half swing, a hundred times what any recorded motion takes.
 const STEPS: u32 = 5_000;
 
-/// The derivatives by the [`NUMBERS`].
+/// Derivatives with respect to the [`NUMBERS`].
 pub type Gradient = [f64; NUMBERS];
 
 /// A point of a motion.
@@ -39,9 +39,9 @@ pub struct MotionPoint {
 /// A turning point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FittedTurn {
-    /// When.
+    /// Dimensionless time.
     pub tau: f64,
-    /// Where.
+    /// Displacement.
     pub q: f64,
     /// Derivatives of the time.
     pub tau_by: Gradient,
@@ -49,12 +49,12 @@ pub struct FittedTurn {
     pub q_by: Gradient,
 }
 
-/// A motion as far as it was followed.
+/// The turning points of a motion, as far as it was followed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FollowedMotion {
-    /// Every arrival at `v = 0` within the time, the last one included where it rests.
+    /// Every arrival at `v = 0` within the time, including the one that is captured.
     pub turns: Vec<FittedTurn>,
-    /// Whether the last turn is a capture.
+    /// Whether the mass comes to rest: at the last turn or, without turns, from the start.
     pub rests: bool,
 }
 
@@ -65,13 +65,13 @@ pub struct Way {
     pub linear: bool,
     /// Whether derivatives are wanted.
     pub with_derivatives: bool,
-    /// A motion larger than this is taken to be lost.
+    /// Displacement or velocity beyond which a motion counts as lost.
     pub reach: f64,
-    /// Maximum number of turning points; later times are not answered.
+    /// Maximum number of turning points; no points are computed after that.
     pub turns: usize,
 }
 
-/// The motion grew beyond its reach, or its half swings beyond number.
+/// The motion grew beyond its reach, or took too many half swings or steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MotionLost;
 
@@ -83,10 +83,10 @@ struct StartGradient {
     tau: Gradient,
 }
 
-/// Follows the motion from `start` through the ascending `times`, handing each point to `see`.
+/// Follows the motion from `start` through the ascending `times` and passes each point to `see`.
 ///
 /// # Errors
-/// [`MotionLost`] where the motion escapes before the last time.
+/// [`MotionLost`] if the motion escapes before the last time.
 pub fn follow(
     parameters: &Parameters,
     start: State,
@@ -104,7 +104,7 @@ pub fn follow(
         return Ok(followed);
     };
     let sign = side.sign();
-    // A velocity of -0 would mean a motion that has just arrived.
+    // A velocity of -0 would stand for a motion that has just arrived.
     let (mut x, mut v) = (sign * start.q + r, start.v.abs());
     let mut chain = StartGradient::default();
     chain.x[R] = 1.0;
@@ -139,15 +139,15 @@ pub fn follow(
     Err(MotionLost)
 }
 
-/// The start of a half swing.
+/// A half swing: its start with the derivatives of the start.
 struct HalfSwing<'a> {
     parameters: &'a Parameters,
     side: Side,
     field: HalfPlane,
     start: Jet,
-    /// The start's shift along the flow, for each number: a delay.
+    /// Derivatives of the start along the flow, as a delay, for each number.
     along: Gradient,
-    /// The start's shift across the flow, for each number.
+    /// Derivatives of the start across the flow, for each number.
     across: Gradient,
     chain: &'a StartGradient,
 }
@@ -173,7 +173,8 @@ impl<'a> HalfSwing<'a> {
         HalfSwing { parameters, side, field, start, along, across, chain }
     }
 
-    /// Combines the solutions of the variational equation: across the flow, by D, D2 and D3.
+    /// The derivatives with respect to all numbers from the solutions of the variational equation: across the
+    /// flow, and with respect to D, D2 and D3.
     #[inline]
     fn combined(&self, ways: &[f64; 4]) -> Gradient {
         let [across, d, d2, d3] = *ways;
@@ -184,7 +185,8 @@ impl<'a> HalfSwing<'a> {
         by
     }
 
-    /// Sees the times of this half swing; the turn that ends it and its position, if it comes in time.
+    /// Passes the points at the times within this half swing to `see`; returns the turn that ends it, if it comes
+    /// before the last time, and its position.
     fn follow(
         &self,
         tau: f64,
@@ -223,7 +225,7 @@ impl<'a> HalfSwing<'a> {
             if stretch.arrives {
                 return Ok((Some(self.turn(tau + until, &end)), end.x));
             }
-            // Neither a motion that escapes nor one whose steps no longer move the time comes to an end.
+            // A motion that escapes, or whose steps no longer advance the time, never ends.
             if !(end.x.abs().max(end.v) <= reach && until > passed) {
                 return Err(MotionLost);
             }
@@ -256,7 +258,8 @@ mod tests {
     use crate::flow::trajectory::trajectory;
     use crate::flow::{Detail, Limits, Outcome, Problem};
 
-    /// Onto a stable cycle, to rest near a fold, to rest over asymmetric damping, undamped; from rest and moving.
+    /// Onto a stable cycle, to rest near a fold, to rest over asymmetric damping, with linear damping; from
+    /// rest and moving.
     const MOTIONS: [(Parameters, State); 4] = [
         (Parameters { d: -0.05, d2: 0.01, d3: 0.004, r: 0.1 }, State { q: 9.0, v: 0.5 }),
         (Parameters { d: -0.08, d2: 0.02, d3: 0.003, r: 0.4 }, State { q: 3.9, v: 0.0 }),
@@ -332,7 +335,7 @@ mod tests {
             let series = points(&parameters, start, &times(), way(false, true));
             for (formula, series) in formula.iter().zip(&series) {
                 assert!((formula.q - series.q).abs() < 1e-12, "{start:?}");
-                // By D, r, q0 and v0; those of D2 and D3 are not wanted of the formula.
+                // With respect to D, r, q0 and v0; the closed form leaves out D2 and D3.
                 for p in [0, 3, 4, 5] {
                     let off = (formula.by[p] - series.by[p]).abs();
                     assert!(off < 1e-11 * formula.by[p].abs().max(1.0), "number {p}: {off}");

@@ -1,4 +1,4 @@
-//! The numbers that a fit estimates, by their names.
+//! The names of the numbers that a fit estimates.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,14 +11,14 @@ pub struct NameSpec {
     pub name: &'static str,
     /// Its place among the unknowns.
     pub place: usize,
-    /// Power of a length in its unit.
+    /// Power of the unit of length in its unit.
     pub length: i32,
-    /// Power of a second in its unit.
+    /// Power of the second in its unit.
     pub time: i32,
 }
 
 impl NameSpec {
-    /// Its unit: powers of the record's unit of length and of a second.
+    /// Its unit: powers of the record's unit of length and of the second.
     pub fn unit(&self, length: &str) -> String {
         let length = if length.is_empty() { "unit" } else { length };
         let power = |name: &str, power: i32| match power {
@@ -46,10 +46,10 @@ pub fn named(name: &str) -> Option<&'static NameSpec> {
     NAMES.iter().find(|row| row.name == name)
 }
 
-/// The rows with these names, between commas.
+/// The rows with these names, separated by commas.
 ///
 /// # Errors
-/// One line that lists the names there are.
+/// One line that lists the known names.
 pub fn listed(text: &str) -> Result<Vec<&'static NameSpec>, String> {
     text.split(',').map(known).collect()
 }
@@ -60,7 +60,7 @@ fn known(text: &str) -> Result<&'static NameSpec, String> {
     })
 }
 
-/// A number to hold, and its value, from `NAME=VALUE`.
+/// A number to be held and its value, from `NAME=VALUE`.
 ///
 /// # Errors
 /// One line that says what is allowed.
@@ -80,17 +80,17 @@ pub fn assigned(text: &str) -> Result<(&'static NameSpec, f64), String> {
     }
 }
 
-/// What a fit estimates, and what it holds.
+/// Which numbers a fit estimates, and which it holds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "SavedChoice", into = "SavedChoice")]
 pub struct Choice {
-    /// Names to estimate; `None`: all that are not held.
+    /// Numbers to estimate; `None` for all that are not held.
     pub free: Option<Vec<&'static NameSpec>>,
-    /// Values to hold.
+    /// Numbers to hold, with their values.
     pub held: Vec<(&'static NameSpec, f64)>,
 }
 
-/// The same by names, as it is saved.
+/// A [`Choice`] by names, as it is saved.
 #[derive(Serialize, Deserialize)]
 struct SavedChoice {
     free: Option<Vec<String>>,
@@ -124,8 +124,9 @@ impl PartialEq for NameSpec {
 }
 
 impl Choice {
-    /// The value at which a number is held; damping and friction that are neither free nor set are zero, and
-    /// `omega0` and the offset are estimated unless they are set: no record comes without them.
+    /// The value at which a number is held; `None` if it is free. Damping and friction that are neither free
+    /// nor set are held at zero. `omega0` and the offset are free unless set, since every record depends on
+    /// them.
     pub fn held(&self, row: &NameSpec) -> Option<f64> {
         if let Some((_, value)) = self.held.iter().find(|(held, _)| *held == row) {
             return Some(*value);
@@ -140,7 +141,7 @@ impl Choice {
         !held && self.free.as_ref().is_none_or(|free| free.contains(&row))
     }
 
-    /// Which unknowns are free, and the values of the others.
+    /// The values at which unknowns are held; `None` for the free ones.
     pub fn unknowns(&self) -> [Option<f64>; UNKNOWNS] {
         let mut held = [None; UNKNOWNS];
         for row in &NAMES {

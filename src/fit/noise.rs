@@ -1,5 +1,5 @@
-//! What a record shows of its own noise before any model: scatter, steps of the converter, impossible jumps,
-//! and samples flattened at full scale.
+//! Properties of a record's noise that need no model: scatter, steps of the converter, impossible jumps, and
+//! samples flattened at full scale.
 
 use std::f64::consts::PI;
 
@@ -16,32 +16,32 @@ pub fn median(mut values: Vec<f64>) -> f64 {
     *found
 }
 
-/// The robust standard deviation: the median magnitude of a normal deviate is 0.6745.
+/// A robust standard deviation: the median magnitude over 0.6745, which is that of a standard normal variable.
 pub fn robust_deviation(values: impl Iterator<Item = f64>) -> f64 {
     median(values.map(f64::abs).collect()) / 0.6745
 }
 
-/// Noise of a record, seen in its second differences; with few samples a period, in what is left of each sample when
-/// the two before it have told what they can.
+/// Noise of a record, from its second differences or, with few samples per period, from the errors of the best
+/// linear prediction of each sample by the two before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Noise {
-    /// Standard deviation. Filtered noise looks up to three times smaller here: for thresholds only.
+    /// Standard deviation, for thresholds only: that of filtered noise comes out up to three times too small.
     pub deviation: f64,
-    /// Whether some samples jump impossibly.
+    /// Whether some samples make impossible jumps.
     pub has_outliers: bool,
-    /// The smallest step from one sample to the next: of the converter, or of the last digit written; 0 if
-    /// there is none.
+    /// The smallest nonzero step from one sample to the next, that of the converter or of the last digit
+    /// written; 0 if there is none.
     pub step: f64,
-    /// Whether neighbouring samples differ by noise of more than a step, rather than by the motion alone.
+    /// Whether neighbouring samples differ not only by the motion but by noise larger than a step.
     pub is_audible: bool,
 }
 
 impl Noise {
-    /// The noise of successive samples, `samples_per_period` of them a period.
+    /// The noise of successive samples, with `samples_per_period` of them in each period.
     pub fn of(x: &[f64], samples_per_period: f64) -> Self {
-        /// With fewer samples a period the motion itself has large second differences.
+        /// With fewer samples per period the motion itself has large second differences.
         const FEW: f64 = 12.0;
-        /// This share of impossible second differences makes a record one with outliers.
+        /// Fraction of impossible second differences above which a record has outliers.
         const SHARE: f64 = 0.003;
         let differences = [0.0, 2.0, -1.0];
         let [level, one, two] = Some(x)
@@ -59,23 +59,24 @@ impl Noise {
         let deviation = median(second.clone()) / 0.6745 / (1.0 + one * one + two * two).sqrt();
         let mut sorted = second.clone();
         sorted.sort_by(f64::total_cmp);
-        // With one sample in twelve spoiled, a quarter of the second differences are.
+        // If one sample in twelve is spoiled, a quarter of the second differences are.
         let high = sorted.get(sorted.len() * 7 / 10).copied().unwrap_or(0.0);
         let impossible = (8.0 * median(second)).max(4.0 * high);
         let jumps = sorted.iter().filter(|value| **value > impossible).count();
         let has_outliers = impossible > 0.0 && real(jumps) > SHARE * real(sorted.len());
-        // Where most differences vanish there is the rounding of the converter, and that of decimals.
+        // If most differences vanish, the rounding error of the converter or of the decimals remains.
         let deviation = deviation.max(quantised);
         let is_audible = deviation > step && alternates(x);
         Noise { deviation, has_outliers, step, is_audible }
     }
 
-    /// How many readings of a mass at rest tell as much as all of them, where residuals have this variance: the
-    /// converter rounds each to the same step, and only noise of a good fraction of a step averages that error out.
+    /// The number of readings of a mass at rest that carry as much information as all of them, if residuals
+    /// have this variance. The converter rounds all of them to the same step; this error averages out only if
+    /// the noise is a good fraction of a step.
     ///
     /// With normal noise of `s` steps the mean reading is off by `sum_k (-1)^k sin(2 pi k x)/(pi k)
-    /// exp(-2 pi^2 k^2 s^2)` steps, the Fourier series of the rounding error, of which the mean square over all
-    /// places x is summed here.
+    /// exp(-2 pi^2 k^2 s^2)` steps, the Fourier series of the rounding error. Its mean square over all places x is
+    /// computed here.
     pub fn readings_at_rest(&self, variance: f64) -> f64 {
         const TERMS: u32 = 12;
         let square = powi(self.step, 2);
@@ -89,8 +90,8 @@ impl Noise {
     }
 }
 
-/// Whether fourth differences change their sign from sample to sample more often than not: those of a smooth motion
-/// hardly ever do, those of white noise do in four cases of five.
+/// Whether fourth differences change sign from sample to sample more often than not. Those of a smooth motion
+/// hardly ever do; those of white noise do in four cases of five.
 fn alternates(x: &[f64]) -> bool {
     let fourth =
         x.windows(5).map(|five| five[0] + five[4] - 4.0 * (five[1] + five[3]) + 6.0 * five[2]);
@@ -99,7 +100,7 @@ fn alternates(x: &[f64]) -> bool {
     2 * changes > fourth.len()
 }
 
-/// The level, and the weights of the two samples before, that predict a sample best.
+/// The constant and the weights of the two preceding samples in the best linear prediction of a sample.
 fn told_by_two(x: &[f64]) -> Option<[f64; 3]> {
     let mut normal = nalgebra::Matrix3::zeros();
     let mut right = nalgebra::Vector3::zeros();
@@ -111,14 +112,15 @@ fn told_by_two(x: &[f64]) -> Option<[f64; 3]> {
     Some(normal.cholesky()?.solve(&right).into())
 }
 
-/// Which samples lie within full scale: a converter that saturates repeats its largest or smallest value far
-/// more often than the values next to it.
+/// Which samples lie within full scale. A converter that saturates repeats its largest or smallest value far more
+/// often than the values next to it.
 ///
-/// What the record begins or ends with does not count where the noise is smaller than a step of the converter:
-/// a mass may be held, or rest, at its extreme. Noise that is larger cannot be silent there. Next to flattened
-/// samples noise has chosen which ones are left, so those are left out until the motion is clear of the limit.
+/// If the noise is smaller than a step of the converter, repetitions at the beginning and the end of the record do
+/// not count, since a mass may be held, or rest, at its extreme; larger noise would show there. Next to flattened
+/// samples the noise decides which samples remain, so these are also left out until the motion is clear of the
+/// limit.
 pub fn within_scale(x: &[f64], noise: &Noise) -> Vec<bool> {
-    /// Deviations of the noise that are clear of the limit.
+    /// Distance that is clear of the limit, in standard deviations of the noise.
     const CLEAR: f64 = 6.0;
     let (low, high) = x
         .iter()
@@ -142,7 +144,7 @@ pub fn within_scale(x: &[f64], noise: &Noise) -> Vec<bool> {
 }
 
 fn is_saturated(x: &[f64], limit: f64, range: f64, noise: &Noise) -> bool {
-    /// The neighbouring values that are counted for comparison, as a fraction of the range.
+    /// Width of the band of neighbouring values counted for comparison, as a fraction of the range.
     const BAND: f64 = 0.01;
     /// Fewest repetitions, and how much more frequent they must be.
     const FEWEST: usize = 8;
@@ -207,7 +209,8 @@ mod tests {
     fn readings_at_rest_share_the_error_of_their_step_unless_noise_averages_it_out() {
         let noise = Noise { step: 0.5, ..Noise::default() };
         let alike = |dither: f64| noise.readings_at_rest(0.25 * (1.0 / 12.0 + dither * dither));
-        // No noise: one reading tells all, to the terms left out. Half a step of noise: all tell something.
+        // Without noise one reading carries all information, up to the truncated terms; with half a step of
+        // noise each reading adds some.
         assert!((alike(0.0) - 1.0).abs() < 0.06, "{}", alike(0.0));
         assert!((8.0..16.0).contains(&alike(0.2)), "{}", alike(0.2));
         assert!(alike(0.5) > 1e4);

@@ -1,14 +1,15 @@
-//! What a record should show: the model of the observation and its residuals.
+//! The model of a record, and its residuals.
 //!
-//! `x(t) = offset + q(omega0 (t - t0); D, D2, D3, r, q0, v0)` in the unit of the record. Held until an unknown
-//! release, or in motion from the first sample on: both have the same eight unknowns except for the last. Turning
-//! points, with or without times, are the same motion seen only where `v = 0`.
+//! `x(t) = offset + q(omega0 (t - t0); D, D2, D3, r, q0, v0)` in the unit of the record. The mass is either
+//! held until an unknown time of release, or in motion from the first sample on; the two cases differ only in
+//! the last of the eight unknowns. Turning points, with or without times, are the same motion observed only
+//! where `v = 0`.
 
 use super::motion::{FittedTurn, Gradient, MotionLost, Way, follow};
 use crate::numerics::count::real;
 use crate::oscillator::{Parameters, State};
 
-/// How many unknowns there are.
+/// Number of unknowns.
 pub const UNKNOWNS: usize = 8;
 
 /// Places of the unknowns.
@@ -35,7 +36,7 @@ pub type Unknowns = [f64; UNKNOWNS];
 /// How the recorded motion begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StartKind {
-    /// Held at rest until it is let go.
+    /// Held at rest, then released.
     Release,
     /// In motion at the first sample.
     Moving,
@@ -57,13 +58,13 @@ pub enum Data {
         t: Option<Vec<f64>>,
         /// Displacements.
         x: Vec<f64>,
-        /// Size of an error of the times beside one of the displacements, in s per length.
+        /// Ratio of the errors of the times to those of the displacements, in s per unit of length.
         ratio: f64,
     },
 }
 
 impl Data {
-    /// Every residual's number: samples, or displacements and times of peaks.
+    /// Number of residuals: of samples, or of displacements and times of peaks.
     #[must_use]
     pub fn residuals(&self) -> usize {
         match self {
@@ -87,16 +88,16 @@ impl Data {
     }
 }
 
-/// A residual: measured less computed, and the derivatives of what is computed.
+/// A residual, with the derivatives of the computed value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Residual {
-    /// Measured less computed.
+    /// Measured minus computed.
     pub value: f64,
     /// Derivatives of the computed value.
     pub by: Unknowns,
 }
 
-/// What the model says about the whole record.
+/// The model compared with the whole record.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seen {
     /// One for each measured number.
@@ -122,7 +123,7 @@ pub struct Observation {
     pub start: StartKind,
     /// Whether D2 and D3 are held at zero.
     pub linear: bool,
-    /// A motion larger than this has escaped.
+    /// Displacement beyond which a motion counts as escaped.
     pub reach: f64,
 }
 
@@ -130,7 +131,7 @@ impl Observation {
     /// Compares the record with the model.
     ///
     /// # Errors
-    /// [`MotionLost`] where the model escapes before the record ends.
+    /// [`MotionLost`] if the motion of the model escapes before the record ends.
     pub fn compare(&self, p: &Unknowns, with_derivatives: bool) -> Result<Seen, MotionLost> {
         if !(p[OMEGA0] > 0.0 && p.iter().all(|value| value.is_finite())) {
             return Err(MotionLost);
@@ -172,14 +173,14 @@ impl Observation {
     }
 }
 
-/// Derivatives by D, D2, D3, r and q0 at their places among the unknowns.
+/// The derivatives with respect to D, D2, D3, r and q0, at their places among the unknowns.
 fn unknowns(by: &Gradient) -> Unknowns {
     let mut all = [0.0; UNKNOWNS];
     all[D..=Q0].copy_from_slice(&by[..5]);
     all
 }
 
-/// Compares turning points; times count in the unit `ratio`.
+/// Compares turning points; residuals of times are divided by `ratio`.
 fn peaks(
     p: &Unknowns,
     t: Option<&[f64]>,
@@ -187,7 +188,7 @@ fn peaks(
     ratio: f64,
     way: Way,
 ) -> Result<Seen, MotionLost> {
-    /// No half swing of a motion that keeps oscillating takes longer.
+    /// Upper bound of the duration of a half swing, in a motion that keeps oscillating.
     const SLOWEST: f64 = 50.0;
     let patience = [SLOWEST * real(x.len())];
     let way = Way { turns: x.len() - 1, ..way };
@@ -196,8 +197,8 @@ fn peaks(
     let mut first = FittedTurn { q: p[Q0], ..Default::default() };
     first.q_by[4] = 1.0;
     let mut turns: Vec<_> = std::iter::once(first).chain(followed.turns.iter().copied()).collect();
-    // A swing that has died away continues with amplitude zero: so nothing jumps where the last turning point crosses
-    // the rim of the sticking set.
+    // After the mass has come to rest the motion continues with amplitude zero. So nothing jumps when the last
+    // turning point crosses the rim of the sticking set.
     while followed.rests && turns.len() < x.len() {
         let last = turns[turns.len() - 1];
         turns.push(FittedTurn { tau: last.tau + std::f64::consts::PI, ..last });

@@ -14,7 +14,7 @@ use super::record::Record;
 use super::search::Beginning;
 use super::turning_points::Extreme;
 
-/// Fits a list of peaks: the errors of displacements and times are weighed against each other by their residuals.
+/// Fits a list of peaks. The relative weight of displacements and times follows from their residuals.
 /// Fails with [`Unfit`].
 pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
     const ROUNDS: usize = 8;
@@ -47,7 +47,7 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
         (p[OMEGA0], p[OFFSET], p[LAST]) = (omega0, averaged.offset, time(0));
         (p[D], p[D2], p[D3]) = (averaged.d, averaged.d2, averaged.d3);
         p[Q0] = x[0] - averaged.offset;
-        // A guess that rests before the last peak is useless: less friction keeps the mass moving.
+        // A guess that comes to rest before the last peak is useless; with less friction the mass keeps moving.
         for part in [1.0, 0.9, 0.7, 0.4, 0.0] {
             p[R] = part * averaged.r;
             guesses.push(placed(&held, p));
@@ -81,14 +81,15 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
     Ok(estimate)
 }
 
-/// Squared residuals, all of them; how large they are is not known beforehand.
+/// The least-squares problem with all residuals; the noise is not known beforehand.
 fn asked(data: &Data, free: [bool; UNKNOWNS]) -> LeastSquares<'_> {
     let reach = reach(data.displacements());
     LeastSquares { data, free, loss: Loss::Linear, used: &[], noise: 0.0, reach }
 }
 
-/// How much larger the errors of the times are than those of the displacements, in the present unit: each from
-/// its residuals and the part of the unknowns that it determines (its leverage).
+/// The ratio of the errors of the times to those of the displacements, relative to the present ratio. Each
+/// error is estimated from its residuals and their degrees of freedom, with one minus its leverage for each
+/// residual.
 fn spread_ratio(task: &Task, optimum: &Optimum, peaks: usize) -> f64 {
     let columns = task.columns();
     let width = columns.len();

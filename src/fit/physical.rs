@@ -6,10 +6,10 @@ use super::fitted::{Fitted, Inertia};
 use super::observation::{D, D2, D3, OMEGA0, R, UNKNOWNS};
 use crate::numerics::elementary::powi;
 
-/// A physical number.
+/// An estimated number in SI units.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EstimatedNumber {
-    /// What it is.
+    /// Its symbol.
     #[serde(skip)]
     pub name: &'static str,
     /// Its value.
@@ -20,7 +20,7 @@ pub struct EstimatedNumber {
     pub unit: &'static str,
 }
 
-/// A quantity as mass times powers of `omega0` and of the unit of length, times one of the unknowns.
+/// A quantity as the mass times a factor, powers of `omega0` and of the unit of length, and one of the unknowns.
 struct Law {
     name: &'static str,
     unit: &'static str,
@@ -30,7 +30,7 @@ struct Law {
     length: i32,
 }
 
-/// With `x = offset + q` and `tau = omega0 t` the model times the stiffness is
+/// With `x = offset + q` and `tau = omega0 t`, the model multiplied by the stiffness is
 /// `m x'' + d1 x' + d2 x'^2 + d3 x'^3 + c (x - offset) = friction within -R .. R`.
 const LAWS: [Law; 6] = [
     Law { name: "m", unit: "kg", factor: 1.0, unknown: None, omega0: 0, length: 0 },
@@ -41,7 +41,8 @@ const LAWS: [Law; 6] = [
     Law { name: "R", unit: "N", factor: 1.0, unknown: Some(R), omega0: 2, length: 1 },
 ];
 
-/// The physical numbers, with errors from the covariance of the fit.
+/// The physical numbers with standard errors from the covariance of the fit; none if neither mass nor stiffness is
+/// known.
 pub fn rows(fitted: &Fitted) -> Vec<EstimatedNumber> {
     let Some((inertia, metres)) = fitted.inertia else { return Vec::new() };
     LAWS.iter().map(|law| row(fitted, law, inertia, metres)).collect()
@@ -50,7 +51,7 @@ pub fn rows(fitted: &Fitted) -> Vec<EstimatedNumber> {
 fn row(fitted: &Fitted, law: &Law, inertia: Inertia, metres: f64) -> EstimatedNumber {
     let estimate = &fitted.estimate;
     let omega0 = estimate.p[OMEGA0];
-    // With the stiffness given the mass is c/omega0^2.
+    // If the stiffness is given, the mass is c/omega0^2.
     let (scale, power) = match inertia {
         Inertia::Mass(mass) => (mass, law.omega0),
         Inertia::Stiffness(stiffness) => (stiffness, law.omega0 - 2),
@@ -70,7 +71,7 @@ fn row(fitted: &Fitted, law: &Law, inertia: Inertia, metres: f64) -> EstimatedNu
     EstimatedNumber { name: law.name, value: constant * number, standard_error, unit: law.unit }
 }
 
-/// Factors that turn a displacement of the record into metres and a velocity over `omega0` into an impulse.
+/// Factors that convert a displacement of the record to metres, and a velocity over `omega0` to an impulse.
 pub fn kicks(fitted: &Fitted) -> Option<(f64, f64)> {
     let (inertia, metres) = fitted.inertia?;
     let omega0 = fitted.estimate.p[OMEGA0];

@@ -1,8 +1,8 @@
-//! Draws of the parameters from what a record says of them.
+//! Draws of the parameters from their distribution given a record.
 //!
-//! Where the loss is quadratic they are normal. Elsewhere draws of all unknowns from the normal distribution are
-//! weighted by the ratio of the likelihood `exp(-delta chi^2/2)` to the density of the draw, and drawn again by
-//! these weights: with negative friction ruled out, this is the posterior for a uniform prior.
+//! If the loss is quadratic, the draws are normal. Otherwise all unknowns are drawn from the normal
+//! distribution, weighted by the ratio of the likelihood `exp(-delta chi^2/2)` to the density of the draw, and
+//! resampled by these weights. With negative friction ruled out, this gives the posterior for a uniform prior.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -20,17 +20,17 @@ use crate::oscillator::Parameters;
 pub struct Drawn {
     /// The parameters.
     pub draws: Vec<Parameters>,
-    /// Where they were weighted: the number of independent draws that would carry as much information.
+    /// If they were weighted: the number of independent draws that would carry as much information.
     pub effective: Option<f64>,
-    /// Motions computed to weigh them.
+    /// Number of motions computed for the weights.
     pub motions: u64,
 }
 
-/// Weighted draws for each one that is kept.
+/// Number of weighted draws for each one that is kept.
 const SPARE: usize = 4;
 
-/// With fewer effective draws than this fraction of those wanted the normal distribution is not a guide to the
-/// likelihood, and its own draws stand.
+/// With fewer effective draws than this fraction of those wanted, the normal distribution is too far from the
+/// likelihood for weighting, and unweighted normal draws are used.
 const FEWEST: f64 = 0.1;
 
 /// Draws from the distribution of an estimate. Fails with [`Reason::Interrupted`].
@@ -53,7 +53,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
         }
     }
     let normal = Normal::of(estimate, places);
-    // Negative friction, which the data may allow but nature does not, counts as zero.
+    // Negative friction is physically impossible and counts as zero.
     let draw = |index: usize| {
         let mut p = normal.point(index);
         p[R] = p[R].max(0.0);
@@ -62,7 +62,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
     Ok(Drawn { draws: (0..draws).map(draw).collect(), effective: None, motions })
 }
 
-/// The ratio of likelihood to density at each point, up to a common factor.
+/// The ratio of the likelihood to the density at each point, up to a common factor.
 fn weights(
     estimate: &Estimate,
     normal: &Normal,
@@ -76,7 +76,7 @@ fn weights(
         return Err(Reason::Interrupted);
     };
     let weight = |p: &Unknowns| {
-        // A motion that escapes is not the one recorded.
+        // A motion that escapes cannot be the recorded one.
         let cost = refit.cost(p, &mut runs()).unwrap_or(f64::INFINITY);
         let likelihood = exp(-0.5 * (cost - least) / unit);
         let weight = if p[R] >= 0.0 { likelihood / normal.density(p) } else { 0.0 };
@@ -86,7 +86,7 @@ fn weights(
     if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(weights) }
 }
 
-/// Draws by weight, at even steps through their sum.
+/// Resamples points by weight, at even steps through the sum of the weights.
 fn resampled(points: &[Unknowns], weights: &[f64], draws: usize) -> Vec<Parameters> {
     let sum: f64 = weights.iter().sum();
     let step = sum / real(draws);
@@ -102,14 +102,14 @@ fn resampled(points: &[Unknowns], weights: &[f64], draws: usize) -> Vec<Paramete
     found
 }
 
-/// The normal distribution of the unknowns; with several minima each takes its part.
+/// The normal distribution of the unknowns; a mixture if there are several minima.
 struct Normal {
     columns: Vec<usize>,
     scale: Vec<f64>,
-    /// Directions, and the deviation along each.
+    /// Principal directions in scaled unknowns, and the standard deviation along each.
     directions: DMatrix<f64>,
     deviations: Vec<f64>,
-    /// Minima with their weights, which sum up to one.
+    /// Minima with their weights, which add up to one.
     centers: Vec<(f64, Unknowns)>,
 }
 
@@ -120,7 +120,7 @@ impl Normal {
         let scaled = DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
             estimate.covariance.of(columns[i], columns[j]) / (scale[i] * scale[j])
         });
-        // Where every number is held there is one point.
+        // If every number is held, there is a single point.
         let (directions, values) = if columns.is_empty() {
             (scaled, Vec::new())
         } else {
@@ -169,10 +169,10 @@ impl Normal {
     }
 }
 
-/// Point `index` of an evenly spread sequence: multiples of powers of the inverse of the root of
+/// Point `index` of a low-discrepancy sequence: multiples of powers of the inverse of the root of
 /// `x^(dimensions + 1) = x + 1`, modulo 1 (Roberts, 2018).
 fn evenly(index: usize, dimensions: usize) -> Vec<f64> {
-    /// Each iteration divides the error by the dimensions and more.
+    /// Each iteration divides the error by more than the number of dimensions.
     const ITERATIONS: usize = 60;
     let (number, power) = (real(index) + 1.0, 1.0 / (real(dimensions) + 1.0));
     let root = (0..ITERATIONS).fold(1.0_f64, |root, _| pow(1.0 + root, power));
@@ -182,8 +182,7 @@ fn evenly(index: usize, dimensions: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The value below which a normal variable lies with this probability, to 4.5e-4 (Abramowitz and Stegun,
-/// 26.2.23).
+/// The quantile of the standard normal distribution, to 4.5e-4 (Abramowitz and Stegun, 26.2.23).
 fn normal_at(probability: f64) -> f64 {
     let tail = probability.min(1.0 - probability).max(f64::MIN_POSITIVE);
     let t = (-2.0 * ln(tail)).sqrt();
@@ -206,7 +205,7 @@ mod tests {
             let mean = |value: &dyn Fn(&[f64]) -> f64| {
                 drawn.iter().map(|it| value(it)).sum::<f64>() / f64::from(count)
             };
-            // Standard errors of the means of as many independent draws: of x, x^2 and x y.
+            // The standard errors that the means of x, x^2 and x y would have for as many independent draws.
             let one = 1.0 / f64::from(count).sqrt();
             for i in 0..dimensions {
                 assert!(mean(&|it| normal_at(it[i])).abs() < one);

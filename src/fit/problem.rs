@@ -1,4 +1,4 @@
-//! A record with what is asked of it, and how well a minimum explains it.
+//! The least-squares problem of a record, and how well a minimum explains the record.
 
 use super::levenberg_marquardt::{Optimum, Task};
 use super::loss::Loss;
@@ -7,39 +7,40 @@ use super::observation::{D2, D3, Data, OMEGA0, Observation, StartKind, UNKNOWNS}
 use super::residuals::whiteness;
 use crate::numerics::count::real;
 
-/// What the search is told.
+/// The least-squares problem of a record.
 #[derive(Clone, Copy, Debug)]
 pub struct LeastSquares<'a> {
-    /// What was measured.
+    /// The measured data.
     pub data: &'a Data,
     /// Which unknowns are free.
     pub free: [bool; UNKNOWNS],
-    /// How residuals count.
+    /// How residuals are weighted.
     pub loss: Loss,
-    /// Which residuals count; empty: all.
+    /// Which residuals count; all of them if empty.
     pub used: &'a [bool],
-    /// Noise of the record as far as it is known beforehand; 0 where it is not.
+    /// Standard deviation of the noise, if it is known beforehand; else 0.
     pub noise: f64,
-    /// A motion larger than this has escaped.
+    /// Displacement beyond which a motion counts as escaped.
     pub reach: f64,
 }
 
-/// What the residuals of a minimum look like.
+/// What the residuals of a minimum may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// White and small.
     Noise,
-    /// Small, with a short memory: filtered noise, or a minimum next to the right one.
+    /// Small, with short-range correlation: filtered noise, or a minimum next to the right one.
     Correlated,
-    /// Too large, or swinging with the motion.
+    /// Too large, or oscillating with the motion.
     Unexplained,
 }
 
-/// Residuals this many times the noise may still be noise: filtered noise hides from second differences.
+/// Residuals up to this many times the noise may still be noise, since second differences underestimate filtered
+/// noise.
 const HIDDEN: f64 = 4.0;
 
 impl LeastSquares<'_> {
-    /// Record and model.
+    /// The record and the model of its start.
     pub fn observation(&self, start: StartKind) -> Observation {
         let free = |place: usize| self.free[place];
         Observation {
@@ -50,18 +51,18 @@ impl LeastSquares<'_> {
         }
     }
 
-    /// What is estimated, and how residuals count.
+    /// The task of minimizing the loss.
     pub fn task<'a>(&'a self, observation: &'a Observation) -> Task<'a> {
         let LeastSquares { free, loss, used, .. } = *self;
         Task { observation, free, loss, used, horizon: usize::MAX }
     }
 
-    /// How far the residuals are from noise.
+    /// Whether the residuals look like noise.
     pub fn verdict(&self, optimum: &Optimum) -> Verdict {
         let Data::Samples { t, .. } = self.data else { return Verdict::Unexplained };
         let residuals: Vec<f64> = self.residuals(optimum).collect();
         let deviation = robust_deviation(residuals.iter().copied());
-        // What a robust loss tolerates must not look like a swing.
+        // Outliers that a robust loss tolerates must not look like an oscillation.
         let within: Vec<f64> = residuals
             .into_iter()
             .map(|value| value.clamp(-4.0 * deviation, 4.0 * deviation))
@@ -81,8 +82,8 @@ impl LeastSquares<'_> {
         deviation <= HIDDEN * self.noise
     }
 
-    /// Whether the residuals are no larger than noise may be, whatever they look like: those of a coarse converter
-    /// are alike where the mass rests.
+    /// Whether the residuals are no larger than noise may be. Their correlation does not matter, since those of
+    /// a coarse converter are all equal while the mass rests.
     pub fn comes_near(&self, optimum: &Optimum) -> bool {
         let squares = self.residuals(optimum).map(|it| it * it);
         let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), it| (sum + it, count + 1.0));

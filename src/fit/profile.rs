@@ -1,26 +1,26 @@
 //! Intervals by the profile of the loss, where it is not quadratic.
 //!
-//! The interval of 95 % ends where the loss, minimised over all other unknowns, has risen by what noise alone
-//! explains. Where the loss is quadratic this is the minimum and a multiple of the standard error, which one motion
-//! checks on each side. Elsewhere the end is sought with all others refitted.
+//! The 95 % interval ends where the loss, minimized over all other unknowns, has risen by as much as noise alone
+//! explains. If the loss is quadratic, the ends lie at a multiple of the standard error from the minimum, which is
+//! checked by one motion on each side. Otherwise the ends are found by refitting all other unknowns.
 
 use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task};
 use super::observation::{R, Unknowns};
 use super::uncertainty::{Covariance, deviation_of_95_percent};
 
-/// An interval of 95 %.
+/// A 95 % interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ProfileInterval {
-    /// Its lower end; `None` where the data set no bound.
+    /// Its lower end; `None` if the data set no bound.
     pub lower: Option<f64>,
-    /// Its upper end; `None` where the data set no bound.
+    /// Its upper end; `None` if the data set no bound.
     pub upper: Option<f64>,
     /// Whether the loss is quadratic within it.
     pub quadratic: bool,
 }
 
 impl ProfileInterval {
-    /// The smallest interval that holds both.
+    /// The smallest interval that contains both.
     pub fn joined(self, other: ProfileInterval) -> Self {
         let both = |one: Option<f64>, two: Option<f64>, pick: fn(f64, f64) -> f64| {
             one.zip(two).map(|(one, two)| pick(one, two))
@@ -33,18 +33,18 @@ impl ProfileInterval {
     }
 }
 
-/// How far the rise of the loss may be from quadratic, relative to itself.
+/// Largest deviation of the rise of the loss from that of a quadratic one, relative to the latter.
 const QUADRATIC: f64 = 0.2;
 
 /// Maximum number of refits for one end.
 const REFITS: usize = 8;
 
-/// Standard errors beyond which no bound is sought.
+/// Distance beyond which no bound is sought, in half widths of the interval by the standard error.
 const FARTHEST: f64 = 60.0;
 
 /// The profile of one unknown about a minimum.
 pub struct Profile<'a> {
-    /// What was fitted.
+    /// The fit.
     pub task: &'a Task<'a>,
     /// The minimum.
     pub optimum: &'a Optimum,
@@ -64,7 +64,7 @@ impl Profile<'_> {
         let mut quadratic = true;
         for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
             let straight = self.shifted(&self.optimum.p, unknown, sign * reach);
-            // Friction cannot be negative: r ends at 0, and what depends on r has a kink there.
+            // Friction cannot be negative: r ends at 0, and unknowns that depend on r have a kink there.
             let crosses = straight[R] < 0.0 && self.task.free[R];
             if !crosses && self.rises_by(&straight, rise, runs)? {
                 *end = Some(straight[unknown]);
@@ -76,7 +76,7 @@ impl Profile<'_> {
         Ok(ProfileInterval { lower: ends[0], upper: ends[1], quadratic })
     }
 
-    /// The interval by the standard error alone.
+    /// The interval by the standard error alone, without a profile.
     pub fn straight(&self, unknown: usize) -> ProfileInterval {
         let z = deviation_of_95_percent(self.covariance.independent(unknown));
         let (center, reach) = (self.optimum.p[unknown], z * self.covariance.error(unknown));
@@ -90,7 +90,7 @@ impl Profile<'_> {
         std::array::from_fn(|place| from[place] + by * along[place])
     }
 
-    /// Whether the loss there has risen as a quadratic one would have.
+    /// Whether the loss at `p` has risen as a quadratic one would have.
     fn rises_by(&self, p: &Unknowns, rise: f64, runs: &mut Runs) -> Result<bool, NoFit> {
         match self.task.look(p, false, runs) {
             Ok(seen) => {
@@ -102,7 +102,8 @@ impl Profile<'_> {
         }
     }
 
-    /// The end on one side, by refits: a secant on the root of the rise, which is straight where it is quadratic.
+    /// The end on one side, by refits: a secant method on the square root of the rise, which is linear for a
+    /// quadratic loss.
     fn sought(
         &self,
         unknown: usize,

@@ -1,4 +1,4 @@
-//! What is asked of a fit, and why there may be no answer.
+//! The question that a fit answers, and the reasons why there may be no answer.
 
 use std::fmt;
 
@@ -24,7 +24,7 @@ pub enum LossName {
     Cauchy,
 }
 
-/// The losses by the names that users give them.
+/// The losses by their names on the command line.
 pub const LOSSES: [(&str, LossName); 4] = [
     ("auto", LossName::Auto),
     ("linear", LossName::Linear),
@@ -32,12 +32,12 @@ pub const LOSSES: [(&str, LossName); 4] = [
     ("cauchy", LossName::Cauchy),
 ];
 
-/// What is asked of a fit.
+/// The question that a fit answers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Question {
-    /// What is estimated and what is held.
+    /// Which numbers are estimated and which are held.
     pub choice: Choice,
-    /// How residuals count.
+    /// How residuals are weighted.
     pub loss: LossName,
     /// Whether the record is a list of peaks.
     pub peaks: bool,
@@ -48,34 +48,34 @@ pub struct Question {
 pub enum Unfit {
     /// Too few samples or peaks for this many unknowns.
     TooFew {
-        /// Numbers measured.
+        /// Number of measured values.
         measured: usize,
-        /// Unknowns.
+        /// Number of unknowns.
         unknowns: usize,
     },
     /// The record shows no swings.
     NoSwings,
-    /// Peaks that do not lie on opposite sides in turn.
+    /// Successive peaks do not lie on opposite sides.
     NotAlternating {
-        /// Number of the first such peak, from 1.
+        /// Number of the first such peak, counted from 1.
         peak: usize,
     },
     /// No motion of the model comes near the record.
     NoMotion,
     /// An unknown has no influence on the record.
     Blind,
-    /// A newer question took its place.
+    /// The computation was interrupted.
     Interrupted,
-    /// The work was bounded.
+    /// The maximum number of motions was reached.
     GaveUp {
-        /// Motions computed.
+        /// Number of motions computed.
         motions: u64,
-        /// How far the closest of them is off, as a root mean square; infinite where none was found.
+        /// Root mean square of the residuals of the closest of them; infinite if there is none.
         closest: f64,
     },
-    /// It is being fitted.
+    /// The fit is still running.
     Underway {
-        /// Motions computed so far.
+        /// Number of motions computed so far.
         motions: u64,
     },
 }
@@ -124,16 +124,16 @@ impl From<NoFit> for Unfit {
     }
 }
 
-/// A guess with the held values in their places.
+/// A guess in which held unknowns have their values.
 #[must_use]
 pub fn placed(held: &[Option<f64>; UNKNOWNS], guess: Unknowns) -> Unknowns {
     std::array::from_fn(|place| held[place].unwrap_or(guess[place]))
 }
 
-/// The size beyond which a motion has escaped, for a record with these displacements.
+/// The displacement beyond which a motion counts as escaped, for a record with these displacements.
 #[must_use]
 pub fn reach(x: &[f64]) -> f64 {
-    /// In ranges of the record.
+    /// In multiples of the range of the record.
     const FAR: f64 = 30.0;
     let (low, high) = x
         .iter()

@@ -1,7 +1,7 @@
-//! Reads what instruments write: two columns of numbers among headers, comments, units and gaps.
+//! Reads the files of instruments: two columns of numbers among headers, comments, units and gaps.
 //!
-//! Separator, decimal sign, columns and units are found from the text itself. What is read is what was
-//! written: times in seconds, displacements in the unit of the file, missing samples left out.
+//! Separator, decimal sign, columns and units are determined from the text itself. Times are converted to seconds;
+//! displacements remain in the unit of the file, and missing samples are left out.
 
 use std::fmt;
 
@@ -14,7 +14,7 @@ use super::header::{self, Header};
 /// A column of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Column {
-    /// By its number, from 1.
+    /// By its number, counted from 1.
     Number(usize),
     /// By the name in the header.
     Name(String),
@@ -23,35 +23,35 @@ pub enum Column {
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Reading {
-    /// The column of times, if not to be found by its name.
+    /// The column of times; `None` to find it by its name or position.
     pub time: Option<Column>,
-    /// The column of displacements, if not to be found by its name.
+    /// The column of displacements; `None` to find it by its name or position.
     pub displacement: Option<Column>,
-    /// Rows are successive turning points, with or without times.
+    /// Whether rows are successive turning points, with or without times.
     pub peaks: bool,
 }
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
-    /// Times in s; none where a list of peaks has none.
+    /// Times in s; `None` for a list of peaks without times.
     pub t: Option<Vec<f64>>,
     /// Displacements in the unit of the file.
     pub x: Vec<f64>,
     /// Unit of the displacements, if the file names one.
     pub unit: Option<String>,
-    /// Rows without a usable number.
+    /// Number of rows without a usable number.
     pub missing: usize,
-    /// Rows that repeat another one.
+    /// Number of rows that repeat another one.
     pub repeated: usize,
 }
 
 /// Why a file cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BadRecord {
-    /// Line, from 1; 0 where the file as a whole is meant.
+    /// Line, counted from 1; 0 for the file as a whole.
     pub line: usize,
-    /// Column, from 1; 0 where the line as a whole is meant.
+    /// Column, counted from 1; 0 for the line as a whole.
     pub column: usize,
     /// What is wrong, and what is allowed.
     pub problem: String,
@@ -70,7 +70,7 @@ impl fmt::Display for BadRecord {
 
 impl std::error::Error for BadRecord {}
 
-/// The text of a file: UTF-8, UTF-16 with its mark, or else Latin-1.
+/// The text of a file: UTF-8, UTF-16 with a byte order mark, or else Latin-1.
 #[must_use]
 pub fn decoded(bytes: &[u8]) -> String {
     let wide = |pair: fn([u8; 2]) -> u16| {
@@ -94,7 +94,7 @@ fn whole(problem: impl Into<String>) -> BadRecord {
 /// Reads a file.
 ///
 /// # Errors
-/// [`BadRecord`] with line and column of what cannot be understood.
+/// [`BadRecord`] with the line and column of what cannot be parsed.
 pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
     let text = decoded(bytes);
     let lines = lines(&text);
@@ -122,7 +122,7 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
     };
     let last = cells.iter().rposition(numeric).unwrap_or(first);
     let width = cells[first].len();
-    // Names of several words cannot be told apart by blanks.
+    // Blanks cannot separate names that consist of several words.
     let header = Some(Header::of(&cells[..first]));
     let header = header.filter(|it| separator != Separator::Blanks || it.names().len() <= width);
     let header = header.unwrap_or_default();
@@ -183,7 +183,7 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
     Ok(record)
 }
 
-/// Which columns are read, from 0.
+/// The columns that are read, counted from 0.
 struct Chosen {
     time: Option<usize>,
     displacement: usize,
@@ -230,7 +230,7 @@ fn columns(
     }
 }
 
-/// Whether a column only numbers the rows, from 0 or 1.
+/// Whether a column only numbers the rows, starting at 0 or 1.
 fn counts_rows(rows: &[Vec<&str>], column: usize, decimal: bool) -> bool {
     let value = |row: &Vec<&str>| match row.get(column).map(|cell| read(cell, decimal)) {
         Some(Cell::Number(value)) => Some(value),
@@ -274,7 +274,7 @@ mod tests {
         ] {
             let found = pairs(&read(text).unwrap());
             assert_eq!(found.len(), expected.len(), "{text}");
-            // Seconds of three years have 52 bits, too.
+            // Seconds within 1000 days are rounded to about 15 ns.
             for (one, other) in found.iter().zip(&expected) {
                 assert!((one.0 - other.0).abs() < 3e-8 && one.1 == other.1, "{text}: {found:?}");
             }

@@ -1,4 +1,4 @@
-//! A fit after some of its numbers have been moved: all others follow, from where they were.
+//! Refits of an estimate with some numbers held at new values.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -10,16 +10,16 @@ use super::profile::ProfileInterval;
 use super::question::Unfit;
 use super::uncertainty::Covariance;
 
-/// An estimate of which some unknowns are held; the loss is that of the samples that count.
+/// An estimate with some unknowns held. The loss is that of the samples that count.
 pub struct Refit<'a> {
-    /// What was estimated.
+    /// The original estimate.
     pub estimate: &'a Estimate,
     observation: Observation,
     free: [bool; UNKNOWNS],
 }
 
 impl<'a> Refit<'a> {
-    /// The estimate with these unknowns held, at values still to be given.
+    /// The estimate with these unknowns held, at values to be given later.
     pub fn without(estimate: &'a Estimate, places: &[usize]) -> Self {
         let mut free = estimate.free;
         for place in places {
@@ -44,10 +44,10 @@ impl<'a> Refit<'a> {
         }
     }
 
-    /// The best motion near a guess, with the held unknowns as they are there.
+    /// The best motion near a guess, with the held unknowns as in the guess.
     ///
     /// # Errors
-    /// [`NoFit`] where that motion escapes, or when interrupted.
+    /// [`NoFit`] if the motion of the guess escapes, or when interrupted.
     pub fn at(&self, mut guess: Unknowns, runs: &mut Runs) -> Result<Optimum, NoFit> {
         guess[R] = guess[R].max(0.0);
         self.task().solve_roughly(guess, runs)
@@ -56,13 +56,14 @@ impl<'a> Refit<'a> {
     /// The loss at a point.
     ///
     /// # Errors
-    /// [`NoFit`] where the motion escapes, or when interrupted.
+    /// [`NoFit`] if the motion escapes, or when interrupted.
     pub fn cost(&self, p: &Unknowns, runs: &mut Runs) -> Result<f64, NoFit> {
         let task = self.task();
         Ok(task.cost(&task.look(p, false, runs)?))
     }
 
-    /// The loss that one unit of chi-squared is worth; correlated noise makes larger differences by chance.
+    /// The loss that corresponds to one unit of chi-squared. It is larger for correlated noise, with which larger
+    /// differences occur by chance.
     ///
     /// # Errors
     /// [`NoFit`] when interrupted.
@@ -72,10 +73,10 @@ impl<'a> Refit<'a> {
     }
 }
 
-/// The same estimate with some numbers held: all that follows from the new minimum, except intervals and rivals.
+/// The estimate with some numbers held: everything that follows from the new minimum, except intervals and rivals.
 ///
 /// # Errors
-/// [`Unfit::NoMotion`] where the motion with these numbers escapes; [`Unfit::Interrupted`].
+/// [`Unfit::NoMotion`] if the motion with these numbers escapes; [`Unfit::Blind`]; [`Unfit::Interrupted`].
 pub fn held(
     estimate: &Estimate,
     numbers: &[(usize, f64)],
@@ -92,7 +93,7 @@ pub fn held(
         p: optimum.p,
         free: refit.free,
         covariance,
-        // Ends are not sought; whether the likelihood is quadratic will not have changed.
+        // The ends are not computed; it is assumed that the likelihood is quadratic where it was before.
         intervals: estimate.intervals.map(|it| ProfileInterval { lower: None, upper: None, ..it }),
         residuals: optimum.seen.residuals.iter().map(|residual| residual.value).collect(),
         half_swings,
@@ -102,7 +103,7 @@ pub fn held(
     })
 }
 
-/// Where all unknowns go by the linear model when some are moved.
+/// All unknowns as predicted by the linear model, after some have been set to new values.
 fn following(estimate: &Estimate, numbers: &[(usize, f64)]) -> Unknowns {
     let Covariance { columns, white, .. } = &estimate.covariance;
     let at = |place: usize| columns.iter().position(|column| *column == place);
@@ -128,14 +129,14 @@ fn following(estimate: &Estimate, numbers: &[(usize, f64)]) -> Unknowns {
 /// The best motion with one of the unknowns held at a value.
 ///
 /// # Errors
-/// [`NoFit`] where the motion with that value escapes, or when interrupted.
+/// [`NoFit`] if the motion with that value escapes, or when interrupted.
 pub fn refitted(
     estimate: &Estimate,
     place: usize,
     value: f64,
     runs: &mut Runs,
 ) -> Result<Optimum, NoFit> {
-    // The others follow by the linear model first; the descent has the rest to do.
+    // The descent starts from the prediction of the linear model.
     let guess = following(estimate, &[(place, value)]);
     Refit::without(estimate, &[place]).at(guess, runs)
 }

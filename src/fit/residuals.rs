@@ -1,36 +1,36 @@
-//! What the residuals say: whether they are noise, and of which kind.
+//! Tests of the residuals: whether they are noise, and of which kind.
 
 use serde::Serialize;
 
 use crate::numerics::count::{real, whole};
 use crate::numerics::elementary::{ln, powi};
 
-/// What the residuals look like.
+/// Correlation of the residuals.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Whiteness {
     /// Correlation of neighbouring residuals.
     pub correlation: f64,
-    /// Autocorrelation of the noise model at lags 1, 2, ..; empty where the residuals are white.
+    /// Autocorrelation of the noise model at lags 1, 2, ..; empty if the residuals are white.
     #[serde(skip)]
     pub autocorrelation: Vec<f64>,
-    /// Whether they cannot be told from independent noise.
+    /// Whether they cannot be distinguished from independent noise.
     pub white: bool,
-    /// Whether they swing with the motion: then the model leaves something out.
+    /// Whether they oscillate with the motion, which means that the model leaves something out.
     pub systematic: bool,
 }
 
-/// Deviation of a normal variable that chance exceeds once in a thousand times.
+/// Deviation that a normal variable exceeds by chance once in a thousand times.
 const RARE: f64 = 3.09;
 
 /// Highest order of the autoregressive noise model.
 const ORDERS: usize = 10;
 
-/// The longest memory of filtered noise, in periods of the motion.
+/// The longest correlation time of filtered noise, in periods of the motion.
 const LONG: f64 = 0.25;
 
-/// Judges residuals in the order of time.
+/// Tests residuals that are in the order of time.
 pub fn whiteness(residuals: &[f64], samples_per_period: f64) -> Whiteness {
-    /// Fewer residuals say nothing.
+    /// Fewest residuals that can be tested.
     const FEWEST: usize = 24;
     let n = residuals.len();
     if n < FEWEST {
@@ -48,25 +48,25 @@ pub fn whiteness(residuals: &[f64], samples_per_period: f64) -> Whiteness {
 }
 
 impl Whiteness {
-    /// Judges what is left beside a noise with these autocorrelations.
+    /// Sets the noise model, and tests whether it leaves systematic residuals.
     fn with_memory(self, noise: Vec<f64>, residuals: &[f64], samples_per_period: f64) -> Self {
-        // A correlation as long as a good fraction of a swing does not come from a filter, but from a drift or from
-        // what the model leaves out.
+        // Correlation over a good fraction of a period does not come from a filter, but from a drift or from
+        // something that the model leaves out.
         let memory: f64 = noise.iter().sum();
         let systematic =
             memory > LONG * samples_per_period || swings(residuals, &noise, samples_per_period);
         Whiteness { autocorrelation: noise, systematic, ..self }
     }
 
-    /// The same for the noise before the fit absorbed a part of it: the one whose residuals, by `left_over`,
-    /// have the autocorrelations that are seen.
+    /// The same for the noise before the fit absorbed a part of it. This is the noise whose residuals after a
+    /// fit, as computed by `left_over`, have the observed autocorrelations.
     pub fn restored(
         self,
         residuals: &[f64],
         samples_per_period: f64,
         left_over: impl Fn(&[f64], usize) -> Vec<f64>,
     ) -> Self {
-        /// Each round leaves a part of the error of the one before.
+        /// Each round leaves only a part of the error of the preceding round.
         const ROUNDS: usize = 6;
         if self.autocorrelation.is_empty() {
             return self;
@@ -91,9 +91,10 @@ fn short_lags(n: usize) -> Vec<usize> {
     (1..=ORDERS.min(n / 5)).collect()
 }
 
-/// Whether some half swing is fitted worse than chance has it: a wrong last half swing is lost in the average.
+/// Whether some half swing is fitted worse than chance allows. A wrong last half swing would not show in an
+/// average.
 fn is_patchy(residuals: &[f64], samples_per_period: f64) -> bool {
-    /// Deviations that chance does not reach in thousands of half swings.
+    /// Number of standard deviations that chance does not reach in thousands of half swings.
     const FAR: f64 = 5.0;
     let width = (whole((0.5 * samples_per_period).min(real(residuals.len())))).max(8);
     let square = |e: &f64| e * e;
@@ -105,7 +106,7 @@ fn is_patchy(residuals: &[f64], samples_per_period: f64) -> bool {
     })
 }
 
-/// The autocorrelation of residuals at these lags.
+/// The autocorrelations of residuals at these lags; 0 if all residuals are 0.
 pub fn autocorrelations(residuals: &[f64], lags: &[usize]) -> Vec<f64> {
     let power: f64 = residuals.iter().map(|e| e * e).sum();
     let at = |lag: usize| -> f64 {
@@ -115,16 +116,18 @@ pub fn autocorrelations(residuals: &[f64], lags: &[usize]) -> Vec<f64> {
     lags.iter().map(|&lag| if power > 0.0 { at(lag) / power } else { 0.0 }).collect()
 }
 
-/// The value that a chi-squared variable exceeds as rarely as a normal one exceeds `z` (Wilson and Hilferty).
+/// The value that a chi-squared variable exceeds with the same probability as a normal one exceeds `z` (Wilson and
+/// Hilferty).
 fn chi_squared(freedom: f64, z: f64) -> f64 {
     let part = 2.0 / (9.0 * freedom);
     freedom * powi(1.0 - part + z * part.sqrt(), 3)
 }
 
-/// The autocorrelation of the autoregressive noise that fits best: Levinson and Durbin's recursion, with the
-/// order that Bayes's criterion takes. Estimates at long lags would be mostly noise; the model's decay.
+/// The autocorrelation of the autoregressive noise that fits best, by the Levinson-Durbin recursion with the order
+/// chosen by the Bayesian information criterion. Direct estimates at long lags would be mostly noise; those of the
+/// model decay.
 fn autoregressive(rho: &[f64], n: usize) -> Vec<f64> {
-    /// Correlation below this counts as zero.
+    /// Correlations below this count as zero.
     const NOTHING: f64 = 0.01;
     let mut best = (f64::INFINITY, Vec::new());
     let (mut coefficients, mut power): (Vec<f64>, f64) = (Vec::new(), 1.0);
@@ -154,12 +157,12 @@ fn autoregressive(rho: &[f64], n: usize) -> Vec<f64> {
     all
 }
 
-/// Whether correlation comes back at lags of a sixth of a period to two periods, where filtered noise has
-/// forgotten itself.
+/// Whether there is correlation at lags from a sixth of a period to two periods, where that of filtered noise has
+/// decayed.
 fn swings(residuals: &[f64], short: &[f64], samples_per_period: f64) -> bool {
-    /// Lags to look at, spread over the range.
+    /// Maximum number of lags examined, spread over the range.
     const LAGS: usize = 150;
-    /// How far beyond chance.
+    /// Number of standard deviations beyond chance.
     const FAR: f64 = 5.0;
     let lag =
         |periods: f64| (whole((periods * samples_per_period).min(real(residuals.len())))).max(1);
@@ -170,7 +173,7 @@ fn swings(residuals: &[f64], short: &[f64], samples_per_period: f64) -> bool {
     let step = (to - from).div_ceil(LAGS);
     let lags: Vec<usize> = (from..to).step_by(step).collect();
     let rho = autocorrelations(residuals, &lags);
-    // Bartlett: beyond its memory, the estimates of correlated noise scatter by this much more.
+    // Bartlett: beyond the range of the correlation, the variance of its estimates is larger by this factor.
     let spread = 1.0 + 2.0 * short.iter().map(|rho| rho * rho).sum::<f64>();
     let sum: f64 = rho.iter().map(|rho| real(residuals.len()) * rho * rho).sum();
     let independent = (real(lags.len()) * real(step) / spread).clamp(1.0, real(lags.len()));

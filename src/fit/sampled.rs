@@ -1,4 +1,4 @@
-//! What is drawn of a sampled record, and the fitted motion beside it.
+//! The plotted points of a sampled record and of the fitted motion.
 
 use super::estimate::Estimate;
 use super::motion::{Way, follow};
@@ -6,10 +6,10 @@ use super::observation::{Data, LAST, OMEGA0, Q0, StartKind, parameters};
 use crate::numerics::count::real;
 use crate::oscillator::State;
 
-/// Maximum number of points of a record that are drawn; of longer ones every second, third, .. is.
+/// Maximum number of points plotted of a record. Of longer records every second, third, .. sample is plotted.
 const POINTS: usize = 4000;
 
-/// What is drawn of a sampled record.
+/// The plotted points of a sampled record.
 #[derive(Clone, Debug)]
 pub struct Sampled {
     /// Times in s; NaN in a gap.
@@ -23,9 +23,9 @@ pub struct Sampled {
 }
 
 impl Sampled {
-    /// What is drawn of a fitted record; `None` of peaks alone.
+    /// The plotted points of a fitted record; `None` for a record of peaks.
     pub fn of(estimate: &Estimate) -> Option<Self> {
-        /// A step longer than the usual one by this factor is a gap.
+        /// A step longer than the average one by this factor is a gap.
         const GAP: f64 = 6.0;
         let Data::Samples { t, x } = &estimate.data else { return None };
         let every = t.len().div_ceil(POINTS);
@@ -52,9 +52,9 @@ impl Sampled {
     }
 }
 
-/// The fitted motion, finely.
+/// The fitted motion at closely spaced times.
 fn motion(estimate: &Estimate, t: &[f64]) -> Vec<[f64; 3]> {
-    /// Points on each half swing.
+    /// Number of points for each half swing.
     const FINE: usize = 40;
     let p = &estimate.p;
     let (first, last) = (t[0], t[t.len() - 1]);
@@ -71,7 +71,7 @@ fn motion(estimate: &Estimate, t: &[f64]) -> Vec<[f64; 3]> {
     }
     let way = Way { linear: false, with_derivatives: false, reach: f64::MAX, turns: usize::MAX };
     let start = State { q: p[Q0], v: velocity };
-    // The motion was followed through the record before, so it is not lost now.
+    // Cannot be lost: the fit has already followed this motion through the record.
     let _ = follow(&parameters(p), start, &taus, way, |index, point| {
         points.push([at(index), point.q, point.v]);
     });

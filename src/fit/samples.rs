@@ -69,7 +69,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     if question.loss == LossName::Auto {
         problem.loss = Loss::Linear;
         used = refined(&problem, loss.is_robust(), &mut found, runs)?;
-        // Where no motion fits, nothing is known about rest.
+        // If no motion fits, it is not known where the mass rests.
         if (LeastSquares { used: &used, ..problem }).comes_near(&found.valleys[0].optimum) {
             alike = telling(&problem, &noise, &mut used, &mut found, runs)?;
         }
@@ -82,8 +82,8 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     Ok(estimate)
 }
 
-/// Leaves out readings of a mass at rest that repeat the rounding error of others, and fits again; keeps those
-/// that carry information.
+/// Leaves out readings of a mass at rest that only repeat the rounding error of others, and fits again. Returns
+/// the readings that are kept.
 fn telling(
     problem: &LeastSquares,
     noise: &Noise,
@@ -91,7 +91,7 @@ fn telling(
     found: &mut Minima,
     runs: &mut Runs,
 ) -> Result<Vec<bool>, NoFit> {
-    /// The fit that a common error of the rest had misled shows too much noise.
+    /// Two rounds, since the first fit, biased by the common error at rest, overestimates the noise.
     const ROUNDS: usize = 2;
     let possible = used.to_vec();
     let mut telling = vec![true; used.len()];
@@ -118,7 +118,7 @@ fn telling(
     Ok(telling)
 }
 
-/// All samples in motion, and this many of those held and those at rest, evenly spread; at least two.
+/// Selects all samples in motion, and `enough` (at least two) of those held and of those at rest, evenly spread.
 fn some_at_rest(problem: &LeastSquares, found: &Minima, enough: f64) -> Vec<bool> {
     const FEWEST: usize = 2;
     let Data::Samples { t, .. } = problem.data else { return vec![true; problem.data.residuals()] };
@@ -145,7 +145,7 @@ fn some_at_rest(problem: &LeastSquares, found: &Minima, enough: f64) -> Vec<bool
     some
 }
 
-/// Leaves out what cannot belong to the motion and fits again, until nothing changes.
+/// Leaves out samples that cannot belong to the motion and fits again, until nothing changes.
 fn refined(
     problem: &LeastSquares,
     robust: bool,
@@ -156,7 +156,7 @@ fn refined(
     const MOST: f64 = 0.15;
     const ROUNDS: usize = 4;
     let mut used = vec![true; problem.data.residuals()];
-    // The search may have ended with a loss that forgives: then even an unchanged choice is fitted again.
+    // If the search used a robust loss, even an unchanged selection is fitted again.
     let mut settled = !robust;
     for _ in 0..ROUNDS {
         let seen = &found.valleys[0].optimum.seen;
@@ -174,8 +174,8 @@ fn refined(
     Ok(used)
 }
 
-/// The size beyond which a residual does not belong to the motion: a multiple of the deviation of those within
-/// it. Chance puts 7 in a million there.
+/// The size beyond which a residual does not belong to the motion: a multiple of the standard deviation of the
+/// residuals within it. Chance exceeds it 7 times in a million.
 fn limit_of(residuals: &[f64]) -> f64 {
     const IMPOSSIBLE: f64 = 4.5;
     const ROUNDS: usize = 5;

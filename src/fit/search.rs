@@ -1,4 +1,4 @@
-//! From first guesses to the best minimum: several starts, and horizons that grow.
+//! The search for the best minimum from first guesses, with several starts and growing horizons.
 
 use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task, interrupted};
 use super::loss::Loss;
@@ -12,34 +12,35 @@ use crate::numerics::count::real;
 pub struct Beginning {
     /// How the motion begins.
     pub start: StartKind,
-    /// Whether the record leaves no doubt of that.
+    /// Whether the record leaves no doubt about this.
     pub certain: bool,
     /// Guesses of the unknowns.
     pub guesses: Vec<Unknowns>,
 }
 
-/// Everything that was found.
+/// The minima that were found.
 #[derive(Clone, Debug)]
 pub struct Minima {
     /// How the motion begins.
     pub start: StartKind,
-    /// The minima by their cost; the first is the answer.
+    /// The minima in the order of their cost; the first is the answer.
     pub valleys: Vec<Valley>,
 }
 
-/// The parts of a record through which a horizon grows.
+/// The fractions of a record to which the horizon grows.
 const HORIZONS: [f64; 4] = [0.2, 0.35, 0.6, 0.85];
 
-/// Motions with derivatives after which no further way is tried: what is not explained by then is not a motion of
-/// this oscillator.
+/// Number of motions with derivatives after which no other way of descent is tried: a record that is not
+/// explained by then is not a motion of this oscillator.
 const ENOUGH: u64 = 250;
 
-/// Fewest half swings of a horizon.
+/// Fewest half swings within a horizon.
 const FEWEST: usize = 4;
 
 impl LeastSquares<'_> {
-    /// Follows the guesses down, those of each way of beginning in the order in which they resemble the record,
-    /// until one explains it; else the best of all. Fails with [`NoFit`] where no guess leads anywhere.
+    /// Descends from the closest guess of each way of beginning, trying one way of descent after the other,
+    /// until a minimum explains the record; otherwise the best minimum found is taken. Fails with [`NoFit`] if
+    /// no descent succeeds.
     pub fn search(&self, guesses: &[Beginning], runs: &mut Runs) -> Result<Minima, NoFit> {
         let mut best: Option<(StartKind, Optimum)> = None;
         let mut failure = NoFit::Lost;
@@ -71,7 +72,7 @@ impl LeastSquares<'_> {
             if best.as_ref().is_some_and(|(_, best)| tired || self.explains(best)) {
                 break;
             }
-            // The beginning that came closer goes first the next time.
+            // Only the beginning that came closest is tried in the next round.
             let mut ranked: Vec<_> = costs.into_iter().zip(starts).collect();
             ranked.sort_by(|one, other| one.0.total_cmp(&other.0));
             starts = ranked.into_iter().map(|(_, start)| start).collect();
@@ -91,8 +92,7 @@ impl LeastSquares<'_> {
         Ok(Minima { start, valleys })
     }
 
-    /// The minima that follow from those without D2 and D3: where noise leaves room for many valleys, these
-    /// have fewer.
+    /// The minima reached from those without D2 and D3, which have fewer valleys if noise leaves room for many.
     fn by_fewer_terms(
         &self,
         start: StartKind,
@@ -131,8 +131,8 @@ impl LeastSquares<'_> {
         (cost / count).sqrt()
     }
 
-    /// Fits every minimum again, with the residuals that count now. Fails with [`NoFit`] when interrupted, or the
-    /// motion is lost.
+    /// Fits every minimum again with the residuals that now count. Fails with [`NoFit`] when interrupted, or if
+    /// the motion is lost.
     pub fn polish(&self, found: &mut Minima, runs: &mut Runs) -> Result<(), NoFit> {
         let observation = self.observation(found.start);
         let task = self.task(&observation);
@@ -145,8 +145,8 @@ impl LeastSquares<'_> {
         Ok(())
     }
 
-    /// Whether a minimum is better than the best one so far. A release that explains no more than a mass in
-    /// motion does is not one: the record shows no hold.
+    /// Whether a minimum is better than the best one so far. A release must be clearly better than a mass in
+    /// motion, since otherwise the record shows no hold.
     fn is_better(&self, found: &Optimum, start: StartKind, best: &Optimum) -> bool {
         let unit = best.cost / real(self.data.residuals().max(1));
         let needed = if start == StartKind::Release { 4.0 * unit } else { -4.0 * unit };
@@ -154,8 +154,8 @@ impl LeastSquares<'_> {
         found.cost < best.cost - needed
     }
 
-    /// For each way of beginning the guess that comes closest to the record as it stands, with D2 and D3 or
-    /// without: a wrong one of these may let every motion escape.
+    /// For each way of beginning, the guess that is closest to the record before any descent. Guesses without D2 and
+    /// D3 are also tried, since with wrong values of these every motion may escape.
     fn ranked(
         &self,
         guesses: &[Beginning],
@@ -181,10 +181,10 @@ impl LeastSquares<'_> {
     }
 }
 
-/// A way from a guess to a minimum.
+/// A way of descent from a guess to a minimum.
 type Descent = fn(&LeastSquares, &Task, Unknowns, &mut Runs) -> Result<Optimum, NoFit>;
 
-/// The ways in the order in which they are tried.
+/// The ways of descent in the order in which they are tried.
 const WAYS: [Descent; 4] = [
     |_, task, guess, runs| task.solve(guess, runs),
     growing,
@@ -201,7 +201,7 @@ fn without(mut guess: Unknowns, places: &[usize], problem: &LeastSquares) -> Unk
     guess
 }
 
-/// Descends on a growing part of the record, with a loss that tolerates what is still far off.
+/// Descends on a growing part of the record, with a robust loss that tolerates samples that are still far off.
 fn growing(
     problem: &LeastSquares,
     task: &Task,

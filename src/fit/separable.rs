@@ -1,8 +1,8 @@
-//! What the data cannot separate: damping numbers that are known only together.
+//! Damping numbers that the data cannot separate: only a combination of them is known.
 //!
-//! The damping that a motion feels at amplitude A is `D + 2 r/(pi A) + (3/8) D3 A^2`, and over a small range of
-//! amplitudes the terms cannot be told apart. Where the error of a term is as large as the damping itself, the
-//! combination of such terms that the data do know is reported instead.
+//! The damping of a motion at amplitude A is `D + 2 r/(pi A) + (3/8) D3 A^2`, and over a small range of
+//! amplitudes the terms cannot be separated. If the errors of terms are of the order of the damping itself, the
+//! combination of these terms that the data determine is reported instead.
 
 use std::f64::consts::PI;
 
@@ -13,10 +13,10 @@ use super::estimate::Estimate;
 use super::names::{NAMES, NameSpec};
 use super::observation::{D, D3, R};
 
-/// Numbers that are known only together.
+/// A combination of numbers that are not known separately.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Combination {
-    /// The numbers and their weights; the first weighs 1.
+    /// The numbers and their weights; the first weight is 1.
     pub terms: Vec<(&'static NameSpec, f64)>,
     /// Value of the weighted sum.
     pub value: f64,
@@ -24,17 +24,18 @@ pub struct Combination {
     pub standard_error: f64,
 }
 
-/// The error of a term beyond which it is not known by itself, as a fraction of the largest damping seen.
+/// The error of a term beyond which it is not known separately, as a fraction of the largest damping in the
+/// record.
 const UNKNOWN: f64 = 0.5;
 
-/// The combinations to report; none where every number is known by itself.
+/// The combinations to report; none if every number is known separately.
 pub fn combinations(estimate: &Estimate) -> Vec<Combination> {
     let (low, high) = estimate.amplitudes();
     if !(low > 0.0 && high >= low) {
         return Vec::new();
     }
     let middle = (low * high).sqrt();
-    // How much of the damping a unit of each number is.
+    // The damping due to one unit of each number.
     let scale = |place: usize| match place {
         D => Some(1.0),
         R => Some(2.0 / (PI * middle)),
@@ -56,8 +57,8 @@ pub fn combinations(estimate: &Estimate) -> Vec<Combination> {
     best_known(estimate, &unknown).into_iter().collect()
 }
 
-/// The combination with the smallest error: the strongest direction of the information that is left when all
-/// other unknowns are estimated too.
+/// The combination with the smallest error: the principal direction of the information that remains when all other
+/// unknowns are estimated as well.
 fn best_known(estimate: &Estimate, unknown: &[(&'static NameSpec, f64)]) -> Option<Combination> {
     let size = unknown.len();
     let covariance = DMatrix::from_fn(size, size, |i, j| {

@@ -5,11 +5,11 @@ use std::f64::consts::TAU;
 use crate::numerics::count::real;
 use crate::numerics::elementary::{powi, sin_cos};
 
-/// Maximum number of points of the evenly spaced copy that is transformed.
+/// Maximum number of evenly spaced points that are transformed.
 const MOST: usize = 1 << 14;
 
-/// The frequency in 1/s at which the record times its frequency has most power: without that factor a long
-/// hold or rest, or a drift, would win. `None` for fewer than eight samples or no duration.
+/// The frequency in 1/s at which the power times the squared frequency is largest. Without that factor a long
+/// hold or rest, or a drift, would dominate. `None` for fewer than eight samples or no duration.
 pub fn dominant_frequency(t: &[f64], x: &[f64]) -> Option<f64> {
     let count = t.len().next_power_of_two().clamp(64, MOST);
     let (first, last) = (*t.first()?, *t.last()?);
@@ -22,7 +22,7 @@ pub fn dominant_frequency(t: &[f64], x: &[f64]) -> Option<f64> {
     let mut values: Vec<(f64, f64)> = even.iter().map(|x| (x - mean, 0.0)).collect();
     transform(&mut values);
     let power = |k: usize| powi(real(k), 2) * (powi(values[k].0, 2) + powi(values[k].1, 2));
-    // Four times zero padding would place the peak more finely; the extremes do so later anyway.
+    // Zero padding would locate the peak more accurately, but the extremes do so later anyway.
     let best = (1..count / 2).max_by(|&one, &other| power(one).total_cmp(&power(other)))?;
     let around = (best.saturating_sub(1).max(1)..=best + 1).map(|k| (real(k), power(k)));
     let (weighted, weight) =
@@ -46,7 +46,7 @@ fn resampled(t: &[f64], x: &[f64], count: usize) -> Vec<f64> {
     (0..count).map(at).collect()
 }
 
-/// The discrete Fourier transform in place, by Cooley and Tukey's halving.
+/// The discrete Fourier transform in place, by the radix-2 algorithm of Cooley and Tukey.
 fn transform(values: &mut [(f64, f64)]) {
     let count = values.len();
     let bits = count.trailing_zeros();

@@ -1,14 +1,14 @@
-//! The triangular factor of a tall matrix, a block of rows at a time.
+//! The triangular factor of a tall matrix, computed by blocks of rows.
 
 use nalgebra::DMatrix;
 
-/// Rows that are factored together: they stay in the cache.
+/// Number of rows that are factored together, few enough to stay in the cache.
 const BLOCK: usize = 128;
 
-/// The factor R of a matrix with `width` columns whose rows `fill` writes one after the other.
+/// The factor R of a matrix with `count` rows and `width` columns.
 ///
-/// `fill(index, row)` writes row `index` of `count`. The orthogonal factor is never formed: what it would be
-/// applied to is appended as a further column.
+/// `fill(index, row)` writes row `index`. The orthogonal factor is never formed: a vector to which it would be
+/// applied is appended as another column.
 pub fn triangle(
     width: usize,
     count: usize,

@@ -6,16 +6,16 @@ use super::noise::median;
 use crate::numerics::count::real;
 use crate::numerics::elementary::{atan2, hypot, sin_cos};
 
-/// A turning point read off a record.
+/// A turning point read from a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extreme {
-    /// When, in s.
+    /// Time in s.
     pub t: f64,
-    /// Where.
+    /// Displacement.
     pub x: f64,
 }
 
-/// The record averaged over a window of time: gaps and uneven sampling do no harm.
+/// The record averaged over a window of time, which allows gaps and uneven sampling.
 pub fn smoothed(t: &[f64], x: &[f64], window: f64) -> Vec<f64> {
     let (mut from, mut to, mut sum) = (0, 0, 0.0);
     let mut out = Vec::with_capacity(x.len());
@@ -33,15 +33,15 @@ pub fn smoothed(t: &[f64], x: &[f64], window: f64) -> Vec<f64> {
     out
 }
 
-/// The record without single jumps: medians of five.
+/// The record without isolated jumps, by medians of five samples.
 pub fn without_jumps(x: &[f64]) -> Vec<f64> {
     let around = |index: usize| x[index.saturating_sub(2)..(index + 3).min(x.len())].to_vec();
     (0..x.len()).map(|index| median(around(index))).collect()
 }
 
-/// The turning points of a record with this period: a zigzag through the smoothed record that turns only after
-/// it has come back by `hysteresis`, each corner refined by a parabola through the samples around it. The
-/// first sample is not counted.
+/// The turning points of a record with this period. They are the corners of a zigzag through the smoothed
+/// record that turns only after the record has come back by `hysteresis`. Each corner is refined by a parabola
+/// through the samples around it. The first corner is left out.
 pub fn turning_points(t: &[f64], x: &[f64], period: f64, hysteresis: f64) -> Vec<Extreme> {
     let smooth = smoothed(t, x, period / 12.0);
     let corners = zigzag(&smooth, hysteresis);
@@ -55,7 +55,7 @@ pub fn turning_points(t: &[f64], x: &[f64], period: f64, hysteresis: f64) -> Vec
     without_bursts(found, 0.3 * period)
 }
 
-/// Removes pairs of corners closer than `least`: what jumps back and forth is not a swing.
+/// Removes pairs of turning points that are closer than `least`: jumps back and forth are not swings.
 fn without_bursts(mut found: Vec<Extreme>, least: f64) -> Vec<Extreme> {
     let mut index = 0;
     while index + 1 < found.len() {
@@ -69,7 +69,7 @@ fn without_bursts(mut found: Vec<Extreme>, least: f64) -> Vec<Extreme> {
     found
 }
 
-/// Indices of the corners, except for the first: where the first movement begins the record may be held.
+/// Indices of the corners, except for the first, before which the mass may be held.
 fn zigzag(x: &[f64], hysteresis: f64) -> Vec<usize> {
     let mut corners = Vec::new();
     let (mut lowest, mut highest) = (0, 0);
@@ -94,10 +94,10 @@ fn zigzag(x: &[f64], hysteresis: f64) -> Vec<usize> {
     corners
 }
 
-/// The turning point of an undamped swing through the samples within half a period of a corner: for records of a
-/// few samples a period, which hardly ever meet the turning points themselves.
+/// The turning point of an undamped oscillation through the samples within half a period of a corner, for records
+/// with few samples per period, which hardly ever contain the turning points themselves.
 fn swing(t: &[f64], x: &[f64], corner: usize, period: f64) -> Option<Extreme> {
-    /// Just more than half a period, so that four samples a period are five.
+    /// Slightly more than half a period, so that with four samples per period five samples are within reach.
     const REACH: f64 = 0.55;
     let turn = |s: f64| {
         let (sine, cosine) = sin_cos(TAU * REACH * s);
@@ -117,8 +117,8 @@ fn parabola(t: &[f64], x: &[f64], corner: usize, reach: f64) -> Option<Extreme> 
     (s.abs() <= 1.0).then(|| Extreme { t: t[corner] + s * reach, x: level + 0.5 * s * slope })
 }
 
-/// The sum of three functions of `s = (t - middle)/reach` that comes nearest to the samples within reach; `None` for
-/// fewer than five.
+/// The coefficients of the linear combination of three functions of `s = (t - middle)/reach` that fits the samples
+/// within reach best; `None` for fewer than five samples.
 fn fitted(
     t: &[f64],
     x: &[f64],

@@ -1,4 +1,4 @@
-//! How well the unknowns are known: covariance, also for correlated noise.
+//! The covariance of the unknowns, also for correlated noise.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,25 +12,25 @@ use crate::numerics::elementary::powi;
 pub struct Covariance {
     /// The free unknowns.
     pub columns: Vec<usize>,
-    /// What the noise does to them.
+    /// Their covariance for the noise of the record.
     pub matrix: DMatrix<f64>,
-    /// What white noise of the same size would do: the inverse curvature of the loss.
+    /// Their covariance for white noise of the same size: the inverse curvature of the loss.
     pub white: DMatrix<f64>,
     /// Standard deviation of the noise.
     pub deviation: f64,
-    /// Degrees of freedom: residuals less what the unknowns have absorbed of their noise.
+    /// Degrees of freedom: the number of residuals minus the noise absorbed by the unknowns.
     pub freedom: f64,
-    /// How many residuals' worth of noise the unknowns have absorbed.
+    /// The noise absorbed by the unknowns, in residuals.
     absorbed: f64,
-    /// Kinds of residuals, of each of which the size is estimated for itself.
+    /// Number of kinds of residuals, whose variances are estimated separately.
     kinds: f64,
 }
 
 impl Covariance {
     /// The covariance at a minimum, for noise with these autocorrelations (none: white).
     ///
-    /// With correlated noise `cov(J'e) = s^2 sum_l rho_l J_t' J_(t+l)`, which stands between two inverses of
-    /// `J'J`. `None` where an unknown has no influence at all.
+    /// With correlated noise `cov(J'e) = s^2 sum_l rho_l J_t' J_(t+l)`, which is multiplied by the inverse of
+    /// `J'J` from both sides. `None` if an unknown has no influence at all.
     pub fn at(task: &Task, optimum: &Optimum, autocorrelation: &[f64]) -> Option<Self> {
         let columns = task.columns();
         let width = columns.len();
@@ -51,7 +51,7 @@ impl Covariance {
         } else {
             &bread * correlated(&rows, autocorrelation, width) * &bread
         };
-        // Each unknown absorbs the noise along its gradient; of white noise that is one residual's worth.
+        // Each unknown absorbs the noise along its gradient, which for white noise is that of one residual.
         let absorbed = if autocorrelation.is_empty() {
             real(width)
         } else {
@@ -61,13 +61,13 @@ impl Covariance {
         if freedom < 1.0 || !spread.iter().all(|value| value.is_finite()) {
             return None;
         }
-        // For a robust loss the influence of a residual is its weight times itself.
+        // For a robust loss the influence of a residual is its weight times its value.
         let weighted = used.iter().map(|it| (task.loss.weight(it.value), it.value));
         let (sum, influence) = weighted.fold((0.0, 0.0), |(sum, influence), (weight, value)| {
             (sum + weight * value * value, influence + powi(weight * value, 2))
         });
         let variance = influence / freedom;
-        // The errors of displacements and times of peaks are each known from their own residuals only.
+        // The errors of displacements and of times of peaks are each estimated from their own residuals only.
         let kinds = match &task.observation.data {
             Data::Peaks { t: Some(_), .. } => 2.0,
             _ => 1.0,
@@ -83,8 +83,8 @@ impl Covariance {
         })
     }
 
-    /// Whether the autocorrelations were those of a noise: then no variance is negative, and the unknowns absorb some
-    /// of it.
+    /// Whether noise can have the autocorrelations: then all variances are positive, and the unknowns absorb
+    /// some of the noise.
     pub fn is_possible(&self) -> bool {
         self.absorbed > 0.0 && self.matrix.diagonal().iter().all(|variance| *variance > 0.0)
     }
@@ -93,7 +93,7 @@ impl Covariance {
         self.columns.iter().position(|&column| column == unknown)
     }
 
-    /// Covariance of two unknowns; 0 where one is held.
+    /// Covariance of two unknowns; 0 if one is held.
     pub fn of(&self, one: usize, other: usize) -> f64 {
         match (self.place(one), self.place(other)) {
             (Some(one), Some(other)) => self.matrix[(one, other)],
@@ -101,7 +101,7 @@ impl Covariance {
         }
     }
 
-    /// Standard error of an unknown; 0 where it is held.
+    /// Standard error of an unknown; 0 if it is held.
     pub fn error(&self, unknown: usize) -> f64 {
         self.of(unknown, unknown).max(0.0).sqrt()
     }
@@ -111,22 +111,24 @@ impl Covariance {
         self.of(one, other) / (self.error(one) * self.error(other))
     }
 
-    /// How much larger the variance is than with white noise of the same size.
+    /// The ratio of the variance of an unknown to that with white noise of the same size.
     pub fn inflation(&self, unknown: usize) -> f64 {
         self.place(unknown).map_or(1.0, |at| self.matrix[(at, at)] / self.white[(at, at)])
     }
 
-    /// The number of independent residuals that would tell as much about the variance of an unknown (Satterthwaite).
+    /// The number of independent residuals that would determine the variance of an unknown as well
+    /// (Satterthwaite).
     ///
-    /// Of correlated noise the memory is estimated, too: for an autoregression of first order with the inflation
-    /// `I = (1 + rho)/(1 - rho)` of slow unknowns the relative variance of their variance is `2 (1 + 2 I)/n`.
+    /// For correlated noise the correlation is estimated, too. A first-order autoregression inflates the
+    /// variance of unknowns with slowly varying gradients by `I = (1 + rho)/(1 - rho)`; the relative variance
+    /// of this variance is `2 (1 + 2 I)/n`.
     pub fn independent(&self, unknown: usize) -> f64 {
         let inflation = self.inflation(unknown);
         let repeated = if inflation == 1.0 { 1.0 } else { 1.0 + 2.0 * inflation.max(1.0) };
         self.freedom / (self.kinds * repeated)
     }
 
-    /// How all unknowns follow a unit change of one of them when the loss is kept as small as possible.
+    /// The changes of all unknowns for a unit change of one of them, with the loss kept as small as possible.
     pub fn along(&self, unknown: usize) -> Unknowns {
         let mut along = [0.0; UNKNOWNS];
         if let Some(at) = self.place(unknown) {
@@ -138,7 +140,7 @@ impl Covariance {
     }
 }
 
-/// The sum over all pairs of rows of their correlation times their outer product.
+/// The sum of the outer products of all pairs of rows, weighted by their correlation.
 fn correlated(rows: &[Vec<f64>], autocorrelation: &[f64], width: usize) -> DMatrix<f64> {
     let mut meat = DMatrix::<f64>::zeros(width, width);
     for (row, ahead) in rows.iter().zip(blurred(rows, autocorrelation)) {
@@ -151,7 +153,7 @@ fn correlated(rows: &[Vec<f64>], autocorrelation: &[f64], width: usize) -> DMatr
     &meat + meat.transpose()
 }
 
-/// For each row half of itself and what all later rows weigh in by their correlation with it.
+/// For each row, half of it plus all later rows, weighted by their correlation with it.
 fn blurred(rows: &[Vec<f64>], autocorrelation: &[f64]) -> impl Iterator<Item = Vec<f64>> {
     rows.iter().enumerate().map(|(index, row)| {
         let mut ahead: Vec<f64> = row.iter().map(|value| 0.5 * value).collect();
@@ -164,8 +166,9 @@ fn blurred(rows: &[Vec<f64>], autocorrelation: &[f64]) -> impl Iterator<Item = V
     })
 }
 
-/// The autocorrelations at lags 1, 2, .. that the residuals of a fit to noise with these autocorrelations have
-/// on average: with `H = Q Q'`, which the unknowns absorb, the residuals have the covariance `(1 - H) S (1 - H)`.
+/// The mean autocorrelations at lags 1, 2, .. of the residuals of a fit to noise with these autocorrelations.
+/// The unknowns absorb the projection `H = Q Q'` of the noise, so the residuals have the covariance
+/// `(1 - H) S (1 - H)`.
 pub fn left_over(task: &Task, optimum: &Optimum, noise: &[f64], lags: usize) -> Vec<f64> {
     let columns = task.columns();
     let width = columns.len();
@@ -217,8 +220,8 @@ pub fn left_over(task: &Task, optimum: &Optimum, noise: &[f64], lags: usize) -> 
     (1..=lags).map(|lag| at(lag) / power).collect()
 }
 
-/// The deviation within which a normal variable, or with few degrees of freedom one of Student's, lies with
-/// 95 % (expansion in the inverse degrees of freedom; 0.3 % off at 3).
+/// The deviation within which a variable with Student's distribution lies with a probability of 95 % (expansion
+/// about the normal distribution in the inverse degrees of freedom; error of 0.3 % at 3).
 pub fn deviation_of_95_percent(freedom: f64) -> f64 {
     let z: f64 = 1.959_963_984_540_054;
     let (z3, z5, z7) = (powi(z, 3), powi(z, 5), powi(z, 7));

@@ -1,8 +1,8 @@
-//! The minima that belong to different numbers of half swings.
+//! The minima for different numbers of half swings.
 //!
-//! A motion that comes to rest within the record has a minimum of its own for each number of half swings
-//! before the rest: where a turning point crosses the rim of the sticking set the residuals are continuous and
-//! their derivatives are not. So one descent never decides.
+//! If the motion comes to rest within the record, there is a separate minimum for each number of half swings
+//! before the rest: where a turning point crosses the rim of the sticking set, the residuals are continuous but
+//! their derivatives are not. A single descent is therefore never enough.
 
 use std::cmp::Ordering;
 
@@ -14,16 +14,16 @@ use crate::numerics::count::real;
 /// A local minimum with its number of half swings.
 #[derive(Clone, Debug)]
 pub struct Valley {
-    /// Half swings within the record.
+    /// Number of half swings within the record.
     pub half_swings: usize,
     /// The minimum.
     pub optimum: Optimum,
 }
 
 impl LeastSquares<'_> {
-    /// Whether the right valley may be far from this minimum: noise hides how many half swings there are.
+    /// Whether the right valley may be far from this minimum because noise hides the number of half swings.
     pub fn may_be_elsewhere(&self, task: &Task, optimum: &Optimum) -> bool {
-        /// An error of r of this fraction of it.
+        /// Relative error of r above which the number of half swings is uncertain.
         const LOOSE: f64 = 0.03;
         let r = optimum.p[R];
         self.free[R]
@@ -34,17 +34,18 @@ impl LeastSquares<'_> {
                     && way_of_friction(task, optimum).is_none_or(|way| way.error > LOOSE * r))
     }
 
-    /// These minima, and those of neighbouring numbers of half swings, the lowest first.
+    /// These minima, and those for neighbouring numbers of half swings, the lowest first.
     ///
-    /// From the lowest one known, one half swing more and one less are tried, and what comes closest to the record
-    /// when r alone is moved and all else follows; until nothing is lower. Fails with [`NoFit::Interrupted`].
+    /// Descents start from points around the lowest known minimum: with one half swing more and one less, and
+    /// from the closest points to the record along a change of r that the other unknowns follow. This is
+    /// repeated until no lower minimum is found. Fails with [`NoFit::Interrupted`].
     pub fn valleys(
         &self,
         task: &Task,
         optima: Vec<Optimum>,
         runs: &mut Runs,
     ) -> Result<Vec<Valley>, NoFit> {
-        /// Maximum number of minima around which others are sought.
+        /// Maximum number of minima around which others are searched for.
         const MOST: usize = 8;
         let mut valleys = Vec::new();
         for optimum in optima {
@@ -94,22 +95,22 @@ pub fn by_cost(one: &Valley, other: &Valley) -> Ordering {
     one.optimum.cost.total_cmp(&other.optimum.cost)
 }
 
-/// Points beyond the rim of the sticking set: the last half swing falls away, or one more is added.
+/// Points beyond the rim of the sticking set, with one half swing less or one more.
 ///
-/// Along the valley of r, with all other unknowns following as the linear model has it. Where the residuals
-/// are white and even the linear model puts the rim far outside the noise, there is no point worth asking.
+/// They lie along the valley of r, where all other unknowns follow r by the linear model. If the residuals are
+/// white and the linear model puts the rim far outside the noise, the point is left out.
 fn beyond_the_rim(optimum: &Optimum, way: &WayOfFriction, verdict: Verdict) -> Vec<Unknowns> {
-    /// How far beyond the rim: a fraction of the way to it, and standard errors.
+    /// Distance beyond the rim: this fraction of the way to it, plus this many standard errors of r.
     const BEYOND: f64 = 0.1;
     const ERRORS: f64 = 0.5;
-    /// The farthest rim, in standard errors.
+    /// Largest distance of the rim, in standard errors of r.
     const FAR: f64 = 30.0;
     let r = optimum.p[R];
     let turns = &optimum.seen.turns;
     let last = turns.iter().rev().take(2);
     let mut guesses = Vec::new();
     for turn in last {
-        // How the clearance of this turn changes with r along the valley; by D .. q0, then r itself.
+        // The derivative of the clearance of this turn along the valley: by D .. q0, then r itself.
         let change: f64 =
             turn.q_by[..5].iter().zip(&way.along[2..7]).map(|(by, along)| by * along).sum();
         let slope = change * turn.q.signum() - 1.0;
@@ -123,9 +124,9 @@ fn beyond_the_rim(optimum: &Optimum, way: &WayOfFriction, verdict: Verdict) -> V
     guesses
 }
 
-/// Of the points along the valley of r, for each number of half swings without a minimum yet, the one that comes
-/// closest to the record; a few of these. Each costs one motion without derivatives. Only points that noise could
-/// nearly explain are worth a descent.
+/// The points along the valley of r that are closest to the record: one for each number of half swings, if it is
+/// lower than the minimum known there, and only a few of these. Each point tried costs one motion without
+/// derivatives. Only points that noise could nearly explain are worth a descent.
 fn along_the_valley(
     task: &Task,
     optimum: &Optimum,
@@ -133,11 +134,11 @@ fn along_the_valley(
     known: &[Valley],
     runs: &mut Runs,
 ) -> Result<Vec<Unknowns>, NoFit> {
-    /// Steps on each side: fractions of r, and standard errors.
+    /// Steps on each side: `STEPS` of the fraction `PART` of r, and `ERRORS` of one standard error.
     const PART: f64 = 0.012;
     const STEPS: u32 = 22;
     const ERRORS: u32 = 15;
-    /// A rise of chi squared beyond which a point is too far off.
+    /// Rise of chi-squared beyond which a point is too far off.
     const FAR: f64 = 500.0;
     let parts = (1..=STEPS).map(|k| PART * f64::from(k) * optimum.p[R]);
     let errors = (1..=ERRORS).map(|k| f64::from(k) * way.error);
@@ -155,14 +156,14 @@ fn along_the_valley(
     Ok(closest.beside(known))
 }
 
-/// Steps of r on each side: a valley may be no wider than a percent of r.
+/// Factors of successive steps of r on each side; a valley may be as narrow as one percent of r.
 const FINE: [f64; 9] = [1.01, 1.01, 1.01, 1.02, 1.02, 1.04, 1.04, 1.04, 1.04];
 
-/// Such steps to twice and to half of r.
+/// Factors that lead to about twice and half of r.
 pub const WIDE: [f64; 9] = [1.03, 1.04, 1.05, 1.06, 1.08, 1.1, 1.12, 1.15, 1.2];
 
-/// The same with all else fitted again at each step of r: while the residuals are not white the right minimum may
-/// be so far that nothing follows linearly. Fails with [`NoFit::Interrupted`].
+/// The same with all other unknowns refitted at each step of r: while the residuals are not white, the right
+/// minimum may be too far away for the linear model. Fails with [`NoFit::Interrupted`].
 pub fn through_the_valley(
     task: &Task,
     optimum: &Optimum,
@@ -185,7 +186,7 @@ pub fn through_the_valley(
     Ok(closest.beside(known))
 }
 
-/// For each number of half swings the point that comes closest to the record.
+/// For each number of half swings, the point that is closest to the record.
 #[derive(Default)]
 struct Closest(Vec<(usize, f64, Unknowns)>);
 
@@ -198,7 +199,7 @@ impl Closest {
         }
     }
 
-    /// The closest few that are lower than the minimum known for their number of half swings.
+    /// A few of the closest points that are lower than the minimum known for their number of half swings.
     fn beside(mut self, known: &[Valley]) -> Vec<Unknowns> {
         /// Maximum number of points from which to descend.
         const MOST: usize = 3;
@@ -211,14 +212,14 @@ impl Closest {
     }
 }
 
-/// How all unknowns follow a change of r, and the standard error of r.
+/// The change of all unknowns with r, and the standard error of r.
 struct WayOfFriction {
     along: Unknowns,
     error: f64,
 }
 
 impl WayOfFriction {
-    /// The point where r has been moved by this much.
+    /// The point after r has been changed by `step`.
     fn moved(&self, from: &Optimum, step: f64) -> Unknowns {
         std::array::from_fn(|place| from.p[place] + step * self.along[place])
     }
@@ -226,7 +227,7 @@ impl WayOfFriction {
 
 fn way_of_friction(task: &Task, optimum: &Optimum) -> Option<WayOfFriction> {
     let mut columns = task.columns();
-    // With r as the last column the factor's last row says how well r is known when all else follows.
+    // With r as the last column, the last row of the factor gives the error of r when all other unknowns follow.
     columns.retain(|&column| column != R);
     columns.push(R);
     let factor = task.factor(&optimum.seen, &columns);

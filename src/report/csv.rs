@@ -13,8 +13,9 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// A sheet without rows, with a column for each field of rows like `row`. A field that is a record or a list has
-    /// no column, except [`CERTIFIED`]: each of its fields has one column, or two if it is a pair of bounds.
+    /// A sheet without rows, with a column for each field of rows like `row`. A field that is a record or a
+    /// list has no column, except [`CERTIFIED`]: each of its fields has one column, or two if it is a pair of
+    /// bounds.
     ///
     /// `called` renames columns: `(field, name)`.
     pub fn like(row: &impl Serialize, called: &[(&str, &str)]) -> Self {
