@@ -1,12 +1,12 @@
-//! Taylor series, implicit steps while stability, not accuracy, limits the series, and the closed form
-//! of a linear oscillation.
+//! The automatic method: Taylor series; implicit steps while stability rather than accuracy limits the series;
+//! and the closed form of a linear oscillation.
 //!
-//! On a slow manifold an explicit step is a fixed multiple of the damping time however smooth the motion
-//! is. So the product of step and damping rate tells: below 1 where accuracy limits the step, while under
-//! stability the noise of the fast motion in coefficient N keeps it near `(N!)^(1/N)`, about 0.4 N. Both
-//! factors come from the state in its own units, so the choice scales and mirrors as the motion does, and
-//! the same question always gets the same answer. At loose tolerances that noise may be larger than the
-//! velocity itself and hide the sign; so a half swing of very many steps is suspect too.
+//! On a slow manifold the length of an explicit step is a fixed multiple of the damping time, however smooth
+//! the motion is. The product of step and damping rate therefore tells the two cases apart. It is below 1 where
+//! accuracy limits the step. Where stability does, noise of the fast motion in coefficient N keeps it near
+//! `(N!)^(1/N)`, about 0.4 N. Both factors come from the state in its own units, so the choice scales and
+//! mirrors as the motion does, and the same question always gets the same answer. At loose tolerances this
+//! noise may exceed the velocity and hide the sign, so a half swing of very many steps is suspect too.
 
 use super::exact::Exact;
 use super::limits::Reason;
@@ -15,63 +15,63 @@ use super::stiff::Stiff;
 use super::taylor::Taylor;
 use crate::oscillator::HalfPlane;
 
-/// Damping times, as a fraction of its order, in a step of the series beyond which stability limits it.
+/// Length of a series step, in damping times and as a fraction of the order, beyond which stability limits it.
 const LIMITED: f64 = 1.0 / 3.0;
 
-/// Damping times in an implicit step below which the series is cheaper, measured by `hopfscope trade`:
-/// a stiff relaxation oscillation would cost half as much again with a fifth of this.
+/// Length of an implicit step, in damping times, below which the series is cheaper. Measured by `hopfscope
+/// trade`: with a fifth of this value a stiff relaxation oscillation would cost half as much again.
 const WORTHWHILE: f64 = 120.0;
 
-/// Growth of an implicit step over the one before it while it is still on its way to that length.
+/// Growth from one implicit step to the next that shows that the step length is still building up.
 const GROWING: f64 = 1.5;
 
-/// Short implicit steps in a row that may fail to grow, as one does after a step was refused.
+/// Consecutive short implicit steps that may fail to grow, as happens after a rejected step.
 const STALLED: u32 = 3;
 
 /// Length of the first implicit step, as a multiple of the limited step before it.
 const FIRST: f64 = 4.0;
 
-/// Steps of the series in one half swing after which implicit ones are tried, whatever limits it (an
-/// oscillation needs a dozen), and the factor by which this grows if they were not worthwhile.
+/// Series steps in one half swing after which implicit steps are tried, whatever limits the series (an
+/// oscillation needs a dozen), and the factor by which this number grows if they were not worthwhile.
 const MANY: (u64, u64) = (100, 4);
 
-/// Longest step in closed form. It could be a whole half swing; so it is of moderate curvature.
+/// Longest step in closed form. It could span a whole half swing; the limit keeps its curvature moderate.
 const CLOSED: f64 = 1.0;
 
-/// Limited steps in a row before implicit ones are tried, at first and, if they were not worthwhile, at
-/// most. A motion that is stiff for a dozen steps only is over before implicit ones pay.
+/// Consecutive limited steps before implicit ones are tried: initially, and at most, after implicit steps that
+/// were not worthwhile. A motion that is stiff for only a dozen steps is over before implicit steps pay.
 const PATIENCE: (u32, u32) = (12, 320);
 
-/// The stepper.
+/// The stepper that chooses the method of each step.
 #[derive(Clone, Debug)]
 pub struct Auto {
     field: HalfPlane,
     taylor: Taylor,
     tolerance: f64,
-    /// Made when it is first needed: most motions never are stiff.
+    /// Created when first needed: most motions are never stiff.
     stiff: Option<Box<Stiff>>,
     exact: Exact,
-    /// What took the last step.
+    /// The method of the last step.
     last: Taken,
     /// Whether the field is a linear oscillation.
     linear: bool,
     /// Whether the next step is to be implicit.
     implicit: bool,
-    /// Length of the last implicit step in a row, and whether one of them was worthwhile.
+    /// Length of the last implicit step in the current run, and whether any step of the run was worthwhile.
     reached: f64,
     worthwhile: bool,
-    /// Short implicit steps in a row that did not grow.
+    /// Consecutive short implicit steps that did not grow.
     stalled: u32,
-    /// Limited steps in a row, and how many are waited for.
+    /// Consecutive limited steps, and how many it takes to try implicit ones.
     limited: u32,
     patience: u32,
-    /// Steps of the series in this half swing, and how many are waited for.
+    /// Series steps in this half swing, and how many it takes to try implicit ones.
     series_steps: u64,
     many: u64,
     implicit_steps: u64,
 }
 
-/// What took a step.
+/// The method that took a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Taken {
     Series,
@@ -79,12 +79,12 @@ enum Taken {
     Closed,
 }
 
-/// One step of a motion, kept to be looked at again.
+/// One step of a motion, kept for later evaluation.
 #[derive(Clone, Debug)]
 pub enum LastStep {
     /// A Taylor polynomial.
     Series(Box<Taylor>),
-    /// A polynomial of collocation.
+    /// A collocation polynomial.
     Implicit(Box<Stiff>),
     /// The closed form of a linear oscillation.
     Closed(Exact),
@@ -111,7 +111,7 @@ impl LastStep {
 }
 
 impl Auto {
-    /// A stepper whose relative error a step is about `tolerance`.
+    /// A stepper with a relative error per step of about `tolerance`.
     pub fn new(tolerance: f64) -> Self {
         let field = HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 };
         Auto {
@@ -134,7 +134,7 @@ impl Auto {
         }
     }
 
-    /// How many steps were implicit.
+    /// Number of implicit steps.
     pub fn implicit_steps(&self) -> u64 {
         self.implicit_steps
     }
@@ -144,7 +144,7 @@ impl Auto {
         self.stiff.as_deref().filter(|_| self.last == Taken::Implicit)
     }
 
-    /// A copy of the last step alone, to be kept.
+    /// A copy of the last step, to be kept.
     pub fn last_step(&mut self) -> LastStep {
         self.prepare_dense();
         match self.implicit() {
@@ -159,7 +159,7 @@ impl Auto {
         self.implicit().map_or_else(|| self.taylor.square_integral(), |stiff| stiff.powers().second)
     }
 
-    /// The largest v in the last step, if the acceleration changes its sign there.
+    /// The largest v in the last step, if the acceleration changes sign there.
     pub fn fastest(&mut self) -> Option<f64> {
         self.prepare_dense();
         match self.last {
@@ -168,7 +168,7 @@ impl Auto {
         }
     }
 
-    /// Takes a step by the present method, then decides on the next one.
+    /// Takes a step by the current method, then chooses the method of the next one.
     fn step(
         &mut self,
         series: impl FnOnce(&mut Taylor) -> Result<Step, Reason>,
@@ -320,7 +320,8 @@ mod tests {
         assert_eq!(choice(&run([0.0; 4], 1.0, 1.0, Method::Exact, 1e-10)), None);
     }
 
-    /// Counted in evaluations, beside the series and the implicit method, one of which may give up.
+    /// Cost is measured in evaluations and compared with the series and the implicit method, one of which may
+    /// give up.
     #[test]
     fn it_is_as_good_as_the_better_of_both() {
         for parameters in [[-0.1, 0.0, 1.0, 0.1], [0.1, 0.0, 1e6, 0.1], [20.0, 0.1, 0.0, 0.0]] {
@@ -328,7 +329,7 @@ mod tests {
                 for tolerance in [1e-4, 1e-8, 1e-12] {
                     let auto = run(parameters, q, 1e4, Method::Auto, tolerance);
                     assert!(!matches!(auto.outcome, Outcome::GaveUp { .. }), "{auto:?}");
-                    // With less than half of its cost neither of the two comes to the end.
+                    // With less than half of this cost neither of the two reaches the end.
                     let evaluations = auto.cost.evaluations.saturating_sub(400) / 2;
                     let limits = Limits { evaluations, ..Limits::PATIENT };
                     for method in [Method::Taylor, Method::Stiff] {

@@ -1,4 +1,4 @@
-//! A computed motion between its samples, for pictures that move.
+//! A computed motion between its samples, for animation.
 
 use super::motion::{Outcome, Sample, Trajectory};
 use crate::numerics::hermite::Hermite;
@@ -14,8 +14,8 @@ impl Trajectory {
         }
     }
 
-    /// Where the motion is at a time from its start on: between two samples on the cubic with the
-    /// displacements and velocities of both, at rest after its capture. `None` without samples.
+    /// The motion at any time from its start: between two samples on the cubic through their displacements and
+    /// velocities, and at rest after capture. `None` without samples.
     pub fn at(&self, tau: f64) -> Option<Sample> {
         let last = *self.samples.last()?;
         if let Outcome::Captured { tau: since, q } = self.outcome

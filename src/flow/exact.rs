@@ -7,10 +7,11 @@ use crate::numerics::count::whole;
 use crate::numerics::quadrature::GAUSS;
 use crate::oscillator::HalfPlane;
 
-/// Maximum number of pieces into which a step is cut for drawing and for quadrature; a piece is one unit of time.
+/// Maximum number of pieces into which a step is cut for drawing and for quadrature. A piece is one unit of
+/// time long.
 const MOST_PIECES: f64 = 4096.0;
 
-/// The stepper. It serves fields with `D2 = D3 = 0` and is exact to rounding for every D.
+/// The stepper. It applies to fields with `D2 = D3 = 0` and is exact to rounding for every D.
 #[derive(Clone, Debug)]
 pub struct Exact {
     field: HalfPlane,
@@ -21,7 +22,7 @@ pub struct Exact {
 }
 
 impl Exact {
-    /// A stepper that has not begun.
+    /// A stepper that has taken no step yet.
     pub fn new() -> Self {
         Exact {
             field: HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 },
@@ -34,9 +35,9 @@ impl Exact {
 }
 
 impl Exact {
-    /// The largest v in the last step, if the acceleration changes its sign there.
+    /// The largest v in the last step, if the acceleration changes sign there.
     ///
-    /// Velocity and acceleration obey the equation of displacement and velocity.
+    /// Velocity and acceleration obey the same equation as displacement and velocity.
     pub fn fastest(&self) -> Option<f64> {
         let StepPoint { x, v } = self.start;
         let acceleration = self.field.acceleration(x, v);

@@ -1,8 +1,8 @@
 //! Explicit Runge-Kutta: the adaptive pairs DOP853 and DOPRI5, and the classical method of fixed step.
 //!
-//! One stepper serves all [`Scheme`]s. The adaptive ones follow the step size rule of Hairer, Norsett
-//! and Wanner (sections II.4 and II.10 of their book). A step that passes `v = 0` is taken again,
-//! shorter, until it ends there: Newton's method on the step length, so a crossing is as good as a step.
+//! One stepper serves all [`Scheme`]s. The adaptive schemes use the step size control of Hairer, Norsett and
+//! Wanner (sections II.4 and II.10 of their book). A step that passes `v = 0` is repeated with Newton's method
+//! on its length until it ends there, so a crossing is as accurate as a step.
 
 use super::limits::Reason;
 use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
@@ -11,8 +11,8 @@ use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scaling::{rough_exp2, rough_log2};
 use crate::oscillator::HalfPlane;
 
-/// Part of the length of the last step by which it may still change; it settles in about four attempts, and
-/// one more would change it by the square of this.
+/// Relative change of the length of the last step below which it counts as settled. This takes about four
+/// attempts; one more would change the length by the square of this.
 const SETTLED: f64 = 1e-9;
 
 /// Maximum number of slopes that a dense output combines.
@@ -21,16 +21,16 @@ const MOST_SLOPES: usize = 16;
 /// Maximum number of coefficients of a dense output.
 const MOST_DENSE: usize = 7;
 
-/// A step of the classical method is stable while it is below this fraction of the damping time (it is
-/// 2.785 for real eigenvalues; the eigenvalue may grow within the step).
+/// A step of the classical method counts as stable below this many damping times. (The bound is 2.785 for real
+/// eigenvalues, but the eigenvalue may grow within the step.)
 const STABLE: f64 = 2.0;
 
-/// The stepper.
+/// An explicit Runge-Kutta stepper.
 #[derive(Clone, Debug)]
 pub struct Explicit<const S: usize, const R: usize, F: Field = HalfPlane> {
     scheme: &'static Scheme<S, R>,
     field: F,
-    /// Largest estimated relative error of a step; of no meaning where steps have a fixed length.
+    /// Largest estimated relative error of a step; unused where steps have a fixed length.
     tolerance: f64,
     /// Length to try next; 0 before the first step of an adaptive scheme.
     next: f64,
@@ -56,21 +56,21 @@ pub type Dopri5<F = HalfPlane> = Explicit<7, 8, F>;
 pub type Rk4<F = HalfPlane> = Explicit<4, 4, F>;
 
 impl<F: Field> Dop853<F> {
-    /// The pair of order 8; its estimated relative error a step stays below `tolerance`.
+    /// The pair of order 8; the estimated relative error of each step stays below `tolerance`.
     pub fn dop853(field: F, tolerance: f64) -> Self {
         Self::new(&dop853::SCHEME, field, tolerance, 0.0)
     }
 }
 
 impl<F: Field> Dopri5<F> {
-    /// The pair of order 5; its estimated relative error a step stays below `tolerance`.
+    /// The pair of order 5; the estimated relative error of each step stays below `tolerance`.
     pub fn dopri5(field: F, tolerance: f64) -> Self {
         Self::new(&dopri5::SCHEME, field, tolerance, 0.0)
     }
 }
 
 impl<F: Field> Rk4<F> {
-    /// The classical method with steps of length `step`, its error unknown.
+    /// The classical method with steps of length `step` and no error estimate.
     pub fn rk4(field: F, step: f64) -> Self {
         Self::new(&rk4::SCHEME, field, 0.0, step)
     }
@@ -99,7 +99,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         self.scheme.estimate == ErrorEstimate::None
     }
 
-    /// Makes `from` the start of the next attempts, and evaluates the slope there unless it is known.
+    /// Makes `from` the start of the next attempts and evaluates the slope there unless it is known.
     fn start_at(&mut self, from: StepPoint) {
         let slope = if self.scheme.last_is_end && from == self.end {
             self.acceleration[S - 1]
@@ -110,7 +110,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         (self.start, self.velocity[0], self.acceleration[0]) = (from, from.v, slope);
     }
 
-    /// One step of length `h` from `self.start`, whose first slope stands.
+    /// One step of length `h` from `self.start`, whose slope is already known.
     fn attempt(&mut self, h: f64) -> StepPoint {
         let columns = &self.scheme.columns;
         let (mut sum_x, mut sum_v) = ([0.0; R], [0.0; R]);
@@ -134,8 +134,8 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         StepPoint { x: self.start.x + h * sum_x[S - 1], v: self.start.v + h * sum_v[S - 1] }
     }
 
-    /// Error of the attempt in units of the tolerance, below 1 is accepted, and the power of the step
-    /// with which it grows.
+    /// Error of the attempt in units of the tolerance (accepted up to 1), and the power of the step length with
+    /// which it grows.
     fn error(&self, h: f64, end: StepPoint) -> (f64, f64) {
         let scale = ErrorScale::new(self.tolerance, self.start, end);
         let norm = |(x, v): (f64, f64)| {
@@ -156,7 +156,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         }
     }
 
-    /// Steps until the error is below the tolerance and `accept` says that the end makes sense.
+    /// Repeats the step until its error is within the tolerance and `accept` approves its end.
     fn accepted(
         &mut self,
         longest: f64,
@@ -179,7 +179,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
                 if !self.is_fixed() {
                     let factor = if error == 0.0 { grow } else { factor(error).clamp(0.2, grow) };
                     let next = (length * factor).min(LONGEST);
-                    // A step cut short by the end time says nothing about the next one.
+                    // A step cut short by the end time says nothing about the length of the next one.
                     self.next = if length < self.next { self.next.max(next) } else { next };
                 }
                 return Ok((length, end));
@@ -211,13 +211,13 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         }
         let slope = slope(end);
         let rest = if slope == 0.0 { 0.0 } else { -end.v / slope };
-        // The stages belong to `length`: what is computed from them must not be stretched by `rest`.
+        // The stages belong to `length`: quantities computed from them must not be stretched by `rest`.
         (self.duration, self.end) = (length, end);
         let end = StepPoint { x: end.x + rest * end.v + 0.5 * rest * rest * slope, v: 0.0 };
         Step { duration: (length + rest).max(0.0), end, crossed: true }
     }
 
-    /// A first step: the state may change by a hundredth of its size (Hairer, Norsett and Wanner II.4).
+    /// First step: the state may change by a hundredth of its size (Hairer, Norsett and Wanner II.4).
     fn first_step(&self) -> f64 {
         let slope = self.velocity[0].abs().max(self.acceleration[0].abs());
         if slope > 0.0 { (0.01 * self.start.size() / slope).min(LONGEST) } else { LONGEST }
@@ -225,7 +225,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
 }
 
 impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
-    /// Refuses a step of fixed length whose stages are damped faster than it can follow.
+    /// Rejects a step of fixed length if damping is too fast at any of its stages.
     fn check_stability(&self, length: f64) -> Result<(), Reason> {
         if !self.is_fixed() {
             return Ok(());
@@ -253,7 +253,7 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
             longest = longest.min(stopping_time(from.v, self.acceleration[0]));
         }
         loop {
-            // A step that turned around passed two crossings and is taken again, shorter.
+            // A step that turned around passed two crossings and is repeated with a shorter length.
             let makes_sense = |end: StepPoint| end.v <= 0.0 || end.x >= from.x;
             let (duration, end) = self.accepted(longest, makes_sense)?;
             self.check_stability(duration)?;
@@ -326,7 +326,7 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
         StepPoint { x: value(self.start.x, &self.dense[0]), v: value(self.start.v, &self.dense[1]) }
     }
 
-    /// The quadrature of the method itself: its stages are its nodes.
+    /// The quadrature of the method: its stages are the nodes.
     fn powers(&self) -> Powers {
         let mut powers = Powers::default();
         for (weight, &v) in self.scheme.weights.iter().zip(&self.velocity) {

@@ -4,17 +4,17 @@ use std::fmt;
 
 use serde::Serialize;
 
-/// Bounds on a computation: evaluations it may spend, and a way to be told to stop.
+/// Bounds on a computation: a budget of evaluations and a means of interruption.
 #[derive(Clone, Copy)]
 pub struct Limits<'a> {
     /// Maximum number of evaluations of the field (a Taylor series of order N counts as N).
     pub evaluations: u64,
-    /// Asked at every step; `true` ends the computation with [`Reason::Interrupted`].
+    /// Called at every step; `true` ends the computation with [`Reason::Interrupted`].
     pub interrupted: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Limits<'static> {
-    /// The budget of one question that is not interrupted: some seconds of work.
+    /// The budget of one question, without interruption: a few seconds of computing.
     pub const PATIENT: Limits<'static> =
         Limits { evaluations: 400_000_000, interrupted: &|| false };
 }
@@ -25,41 +25,41 @@ impl Default for Limits<'static> {
     }
 }
 
-/// Why a computation gave up. The numbers say how far it came.
+/// Why a computation gave up, with the numbers that explain it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "why")]
 pub enum Reason {
-    /// A newer question took its place.
+    /// A newer question replaced this one.
     Interrupted,
     /// The budget of evaluations is spent.
     Budget {
         /// Evaluations spent.
         evaluations: u64,
     },
-    /// The step that the tolerance asks for no longer moves the time.
+    /// The step that the tolerance requires is too small to advance the time.
     StepTooSmall {
         /// Size of that step.
         step: f64,
     },
-    /// The fixed step is too long for the damping that the motion meets.
+    /// The fixed step is too long for the damping that the motion encounters.
     StepTooLong {
         /// The step.
         step: f64,
         /// The longest step that is stable there.
         stable: f64,
     },
-    /// A number left the range of floating point.
+    /// A number left the floating-point range.
     OutOfRange,
-    /// The method cannot serve these parameters.
+    /// The method does not apply to these parameters.
     NotApplicable {
-        /// What it would need.
+        /// What the method requires.
         needs: &'static str,
     },
-    /// An iteration did not settle.
+    /// An iteration did not converge.
     NoConvergence {
-        /// What was sought.
+        /// The quantity sought.
         sought: &'static str,
-        /// Smallest relative change reached.
+        /// Relative change at which the iteration stopped.
         change: f64,
     },
 }

@@ -1,14 +1,14 @@
-//! The list of ways to integrate a half swing.
+//! The methods that integrate a motion.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// A way to integrate.
+/// An integration method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// The cheapest method that meets the tolerance asked for.
+    /// The cheapest method that meets the requested tolerance.
     Auto,
     /// Closed form of the piecewise linear oscillator.
     Exact,
@@ -50,19 +50,19 @@ pub struct MethodSpec {
     pub method: Method,
     /// Its name on the command line and on the screen.
     pub name: &'static str,
-    /// What sets its accuracy.
+    /// The number that sets its accuracy.
     pub dial: Dial,
-    /// Whether it finds the arrivals at `v = 0`, and so where a motion rests.
+    /// Whether it locates the arrivals at `v = 0`, and hence where a motion rests.
     pub events: bool,
     /// Order of accuracy, in words.
     pub order: &'static str,
     /// What it promises, and under which assumption.
     pub guarantee: &'static str,
-    /// Where it comes from.
+    /// Its origin: publication, equations or practice.
     pub source: &'static str,
 }
 
-/// Every method, in the order in which they are shown.
+/// Every method, in display order.
 pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::Auto,
@@ -156,14 +156,13 @@ pub const METHODS: &[MethodSpec] = &[
     },
 ];
 
-/// Length of the fixed step where none is given.
+/// Default length of the fixed step.
 pub const STEP: f64 = 0.01;
 
-/// Lengths of a fixed step that make sense: half swings last at least pi where damping is below
-/// critical.
+/// Sensible lengths of a fixed step: half swings last at least pi where damping is below critical.
 pub const STEP_RANGE: (f64, f64) = (1e-7, 1.0);
 
-/// Velocity over which friction is smoothed where none is given.
+/// Default velocity over which friction is smoothed.
 pub const EPSILON: f64 = 1e-3;
 
 /// Velocities over which friction may be smoothed.

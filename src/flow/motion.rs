@@ -1,4 +1,4 @@
-//! A motion as data: the question, what to keep of the answer, and the answer.
+//! A motion as data: the problem, what to keep of the solution, and the solution.
 
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +20,7 @@ pub struct Problem {
     pub method: Method,
     /// Largest relative error of a step.
     pub tolerance: f64,
-    /// Length of the step of the methods that keep it fixed.
+    /// Step length of the methods with a fixed step.
     pub step: f64,
     /// Velocity over which the method `smoothed` smoothes friction.
     pub epsilon: f64,
@@ -41,13 +41,13 @@ impl Default for Problem {
     }
 }
 
-/// What to keep of a motion besides its outcome and its crossings; what is not asked for costs nothing.
+/// What to keep of a motion besides its outcome. What is not requested costs nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Detail {
-    /// Every arrival at `v = 0`. Without friction nothing happens there: if they are not asked for, no
+    /// Every arrival at `v = 0`. Without friction nothing happens there, so unless crossings are requested no
     /// method looks for them. With friction a motion cannot be followed without them.
     pub crossings: bool,
-    /// Points for drawing: how many on each integration step (0 for none).
+    /// Number of points for drawing on each integration step (0 for none).
     pub samples_per_step: usize,
     /// The energy ledger.
     pub energy: bool,
@@ -68,16 +68,16 @@ pub enum Outcome {
     Captured {
         /// Time of the arrival.
         tau: f64,
-        /// Place of rest.
+        /// Displacement at rest.
         q: f64,
     },
     /// Still moving at the end time.
     Moving {
         /// The end time.
         tau: f64,
-        /// Displacement then.
+        /// Displacement at the end time.
         q: f64,
-        /// Velocity then.
+        /// Velocity at the end time.
         v: f64,
     },
     /// The velocity runs to infinity in finite time.
@@ -87,9 +87,9 @@ pub enum Outcome {
     },
     /// No answer.
     GaveUp {
-        /// How far it came.
+        /// The time reached.
         tau: f64,
-        /// Why.
+        /// Why the computation gave up.
         #[serde(serialize_with = "reason_as_text")]
         reason: Reason,
     },
@@ -126,7 +126,7 @@ impl Sample {
     }
 }
 
-/// What a computation cost, counted.
+/// Operation counts of a computation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Cost {
     /// Evaluations of the field; a Taylor series of order N counts as N.
@@ -148,20 +148,20 @@ impl std::ops::AddAssign for Cost {
 /// A computed motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
-    /// The question.
+    /// The problem that was solved.
     pub problem: Problem,
-    /// The method that answered it: never `Auto`, but the one that took most of its steps.
+    /// The method that took most of the steps; never `Auto`.
     pub method: Method,
-    /// Steps that `Auto` took by the implicit method.
+    /// Steps that `Auto` took with the implicit method.
     pub implicit_steps: u64,
     /// How the motion ended.
     pub outcome: Outcome,
     /// Every arrival at `v = 0` after the start, the last one included.
     pub crossings: Vec<Crossing>,
-    /// Where the energy went, if asked for.
+    /// The energy balance, if requested.
     pub ledger: Option<Ledger>,
-    /// Points for drawing, if asked for; the first is the start.
+    /// Points for drawing, if requested; the first is the start.
     pub samples: Vec<Sample>,
-    /// What it cost.
+    /// Cost of the computation.
     pub cost: Cost,
 }

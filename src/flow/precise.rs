@@ -1,8 +1,8 @@
-//! A motion to more digits than a double holds, to measure the error of all others.
+//! A motion to more digits than a double holds, used to measure the error of all other methods.
 //!
-//! The Taylor series of [`super::taylor`] in numbers of twice the working precision: order and steps
-//! are chosen so that truncation stays below rounding, and a crossing is a root of the step's own
-//! polynomial. It shares no arithmetic with the methods that it judges. It takes a hundred times their time.
+//! The Taylor series of [`super::taylor`] in twice the working precision. Order and steps are chosen so that
+//! truncation stays below rounding, and a crossing is a root of the polynomial of its step. It shares no
+//! arithmetic with the methods that it judges, and takes a hundred times as long.
 
 use super::limits::{Limits, Reason};
 use super::motion::{Cost, Problem};
@@ -15,7 +15,7 @@ use crate::numerics::twofold::Twofold;
 use crate::oscillator::sticking::rests;
 use crate::oscillator::{HalfPlane, Side};
 
-/// An arrival at `v = 0`, or where a motion is at its end.
+/// An arrival at `v = 0`, or the end of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arrived {
     /// Time.
@@ -31,11 +31,11 @@ pub struct Arrived {
 pub enum PreciseEnd {
     /// At rest: the last arrival, or the start.
     Captured(Arrived),
-    /// Moving still at the end time.
+    /// Still moving at the end time.
     Moving(Arrived),
-    /// The velocity becomes infinite at this time.
+    /// The velocity becomes infinite in finite time.
     Escaped {
-        /// The time.
+        /// Time of the blow-up.
         tau: Twofold,
     },
 }
@@ -47,11 +47,11 @@ pub struct Precise {
     pub turns: Vec<Arrived>,
     /// How it ended.
     pub end: PreciseEnd,
-    /// What it cost; an evaluation here takes a hundred times that of a double.
+    /// Cost; an evaluation takes a hundred times as long as one in doubles.
     pub cost: Cost,
 }
 
-/// How finely a motion is computed.
+/// How finely a motion is computed: order and tolerance of the series.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain {
     /// Order of the series, at most 32.
@@ -63,25 +63,25 @@ pub struct Grain {
 /// Truncation below rounding.
 pub const FINE: Grain = Grain { order: 32, tolerance: 1e-30 };
 
-/// Three digits fewer by other steps: how far both differ says how good the finer one is at least.
+/// Three digits fewer, with other steps: the difference between the two bounds the error of the finer one.
 pub const COARSE: Grain = Grain { order: 28, tolerance: 1e-27 };
 
 /// Maximum number of coefficients.
 const MOST: usize = 33;
 
-/// How many of the last coefficients decide on a step.
+/// Number of trailing coefficients that determine the step.
 const TAIL: usize = 4;
 
-/// Times of a blow-up are read off their asymptotic form only where it holds so much better than a
-/// double can tell.
+/// Factor on the error bound of [`super::swing`] below which the time of a blow-up is taken from its asymptotic
+/// form, so that the form holds far better than a double can resolve.
 const SURE: f64 = 1e-8;
 
 const ZERO: Twofold = Twofold { high: 0.0, low: 0.0 };
 
-/// Computes the motion of a problem; its method and tolerance are not looked at.
+/// Computes the motion of a problem, ignoring its method and tolerance.
 ///
-/// Guarantee: the error is that of some hundred operations of relative error `1e-31`, amplified as the
-/// motion itself amplifies disturbances; measure it by two grains.
+/// Guarantee: the error is that of some hundred operations of relative error `1e-31`, amplified as the motion
+/// itself amplifies disturbances. Compare two grains to measure it.
 ///
 /// # Errors
 /// [`Reason`] where the budget does not suffice (stiff motions) or a number leaves the range of doubles.
@@ -126,11 +126,11 @@ pub fn precise(problem: &Problem, grain: Grain, limits: &Limits) -> Result<Preci
     }
 }
 
-/// The half swing from rest at `(-start, 0)`: where it ends, and how long it takes; `None` where its velocity
-/// becomes infinite.
+/// The half swing from rest at `(-start, 0)`: its end and duration, or `None` where its velocity becomes
+/// infinite.
 ///
 /// # Errors
-/// As [`precise`].
+/// Those of [`precise`].
 pub fn half_swing(
     field: HalfPlane,
     start: Twofold,
@@ -138,7 +138,7 @@ pub fn half_swing(
     cost: &mut Cost,
     limits: &Limits,
 ) -> Result<Option<(Twofold, Twofold)>, Reason> {
-    /// No half swing that arrives takes longer.
+    /// Upper bound on the duration of any half swing that arrives.
     const PATIENCE: f64 = 1e100;
     let mut swing = PreciseSwing::new(field, (start.opposite(), ZERO), grain);
     Ok(match swing.run(0.0, Twofold::of(PATIENCE), cost, limits)? {
@@ -147,16 +147,16 @@ pub fn half_swing(
     })
 }
 
-/// Where a half swing led.
+/// How a half swing ended.
 enum Arrival {
     Standstill,
     Time,
     Escape,
 }
 
-/// One half swing, in units of a power of two in which it is near 1.
+/// One half swing, in units of a power of two that bring it near 1.
 struct PreciseSwing {
-    /// The field in the units of the problem, and in those of the swing.
+    /// The field in the units of the problem, and in those of the half swing.
     plane: HalfPlane,
     field: HalfPlane,
     unit: i32,
@@ -189,7 +189,7 @@ impl PreciseSwing {
         (scaled(self.x[0], self.unit), scaled(self.v[0], self.unit))
     }
 
-    /// Steps until `v = 0`, the time is over or escape is certain.
+    /// Steps until `v = 0`, the end of the time span, or certain escape.
     fn run(
         &mut self,
         elapsed: f64,
@@ -231,7 +231,7 @@ impl PreciseSwing {
         }
     }
 
-    /// Takes a step of at most this duration; says whether it ended at `v = 0`, and how long it was.
+    /// Takes a step of at most this duration. Returns whether it ended at `v = 0`, and its length.
     fn advance(&mut self, duration: Twofold, cost: &mut Cost) -> Result<(bool, Twofold), Reason> {
         let from = self.x[0];
         let mut t = scaled(duration, -self.time_exponent);
@@ -245,7 +245,8 @@ impl PreciseSwing {
                 t = self.root(t);
             }
             let x = self.value(&self.x, t);
-            // A standstill lies at x >= 0, and above v = 0 the position grows; else the step passed two.
+            // A standstill lies at x >= 0, and above v = 0 the position grows; otherwise the step passed two
+            // crossings.
             if (crossed && x.high >= 0.0) || (!crossed && x.minus(from).high >= 0.0) {
                 (self.x[0], self.v[0]) = (x, if crossed { ZERO } else { v });
                 cost.steps += 1;
@@ -256,14 +257,14 @@ impl PreciseSwing {
         }
     }
 
-    /// Expands at the point reached; gives the longest step that the tolerance allows.
+    /// Expands at the current point; returns the longest step that the tolerance allows.
     fn settle(&mut self, cost: &mut Cost) -> Result<f64, Reason> {
         loop {
             self.expand();
             cost.evaluations += self.grain.order as u64;
             if let Some(allowed) = self.allowed() {
                 let duration = times_power(allowed, self.time_exponent).min(LONGEST);
-                // Near the step as unit of time, coefficients neither over- nor underflow.
+                // With a time unit near the step length, coefficients neither overflow nor underflow.
                 self.time_exponent = if (exponent(duration) - self.time_exponent).abs() > 8 {
                     let (from, to) = (self.time_exponent, exponent(duration));
                     self.change_unit(to - from);
@@ -280,7 +281,7 @@ impl PreciseSwing {
         }
     }
 
-    /// Coefficients in powers of a unit of time that is `2^shift` times the one before.
+    /// Rescales the coefficients to a unit of time that is `2^shift` times the previous one.
     fn change_unit(&mut self, shift: i32) {
         let mut power = 0;
         for k in 0..=self.grain.order {
@@ -328,7 +329,7 @@ impl PreciseSwing {
         Some(exp(steps[0].max(steps[1]).min(600.0))).filter(|step| *step > 0.0)
     }
 
-    /// The sum of a series.
+    /// The value of a series at `t`.
     fn value(&self, coefficients: &[Twofold; MOST], t: Twofold) -> Twofold {
         let terms = coefficients[..=self.grain.order].iter().rev();
         terms.fold(ZERO, |sum, coefficient| sum.by(t).plus(*coefficient))
@@ -336,7 +337,7 @@ impl PreciseSwing {
 
     /// First root of v in `(0, end]`: Newton's method in a bracket.
     fn root(&self, end: Twofold) -> Twofold {
-        /// A Newton step of this relative length leaves an error below rounding: it is squared.
+        /// After a Newton step of this relative length the error, its square, is below rounding.
         const SETTLED: f64 = 1e-17;
         let (mut low, mut high, mut t) = (ZERO, end, end);
         for _ in 0..300 {
@@ -362,7 +363,7 @@ impl PreciseSwing {
     }
 }
 
-/// Size at which the unit is chosen again.
+/// Size at which the unit is chosen anew.
 const FAR: f64 = 1e60;
 
 /// A number times a power of two.

@@ -1,20 +1,20 @@
-//! The dial: one number sets how exactly a method computes, and four stops on it have names.
+//! The dial: one number sets the accuracy of a method, and four values of it have names.
 //!
-//! Which number that is depends on the method: the error of a step, its length, or the width over which
-//! friction is smoothed. [`Problem::setting`] is that number whatever it is called.
+//! Which number it is depends on the method: the error of a step, its length, or the velocity over which
+//! friction is smoothed. [`Problem::setting`] returns it for any method.
 
 use super::method::{Dial, EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
 use super::motion::Problem;
 
-/// Relative errors of a step that make sense for double precision.
+/// Sensible relative errors of a step in double precision.
 pub const TOLERANCE_RANGE: (f64, f64) = (1e-15, 1e-2);
 
-/// A named stop of the dial.
+/// A named setting of the dial.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quality {
     /// Its name.
     pub name: &'static str,
-    /// What it is for, in a few words.
+    /// Its purpose, in a few words.
     pub meaning: &'static str,
     /// Relative error of a step.
     pub tolerance: f64,
@@ -24,7 +24,7 @@ pub struct Quality {
     pub epsilon: f64,
 }
 
-/// The stops, from coarse to fine.
+/// The named settings, from coarse to fine.
 pub const QUALITIES: [Quality; 4] = [
     Quality {
         name: "draft",
@@ -56,11 +56,11 @@ pub const QUALITIES: [Quality; 4] = [
     },
 ];
 
-/// The coarsest stop: what is computed first where the wanted quality takes long.
+/// The coarsest setting, computed first where the desired quality takes long.
 pub const DRAFT: Quality = QUALITIES[0];
 
 impl Dial {
-    /// What the number is called.
+    /// Name of the number.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -70,7 +70,7 @@ impl Dial {
         }
     }
 
-    /// What the number is, in a few words.
+    /// Meaning of the number, in a few words.
     #[must_use]
     pub fn meaning(self) -> &'static str {
         match self {
@@ -80,7 +80,7 @@ impl Dial {
         }
     }
 
-    /// Which numbers make sense.
+    /// Sensible values of the number.
     #[must_use]
     pub fn range(self) -> (f64, f64) {
         match self {
@@ -92,7 +92,7 @@ impl Dial {
 }
 
 impl Quality {
-    /// The number of this stop on a dial.
+    /// The value of this setting on a dial.
     #[must_use]
     pub fn setting(&self, dial: Dial) -> f64 {
         match dial {
@@ -104,8 +104,8 @@ impl Quality {
 }
 
 impl Problem {
-    /// The number that sets the accuracy of the method; of a closed form the tolerance, which it does not
-    /// look at.
+    /// The number that sets the accuracy of the method. For the closed form it is the tolerance, which has no
+    /// effect.
     #[must_use]
     pub fn setting(&self) -> f64 {
         match self.method.spec().dial {
@@ -115,7 +115,7 @@ impl Problem {
         }
     }
 
-    /// The same motion by the same method with another such number.
+    /// The same motion by the same method, with another value of [`Problem::setting`].
     #[must_use]
     pub fn with_setting(mut self, number: f64) -> Self {
         match self.method.spec().dial {
@@ -126,21 +126,21 @@ impl Problem {
         self
     }
 
-    /// The same motion at a stop of the dial, whatever method comes to compute it.
+    /// The same motion at a named setting, for any method.
     #[must_use]
     pub fn at(self, quality: &Quality) -> Self {
         let Quality { tolerance, step, epsilon, .. } = *quality;
         Problem { tolerance, step, epsilon, ..self }
     }
 
-    /// The stop at which the dial stands, if it stands at one.
+    /// The current named setting, if the dial is at one.
     #[must_use]
     pub fn quality(&self) -> Option<&'static Quality> {
         let dial = self.method.spec().dial;
         QUALITIES.iter().find(|quality| quality.setting(dial) == self.setting())
     }
 
-    /// The next stop on the finer or the coarser side; `None` beyond the last.
+    /// The next named setting on the finer or the coarser side; `None` beyond the last.
     #[must_use]
     pub fn next_quality(&self, finer: bool) -> Option<&'static Quality> {
         let (dial, here) = (self.method.spec().dial, self.setting());

@@ -1,14 +1,15 @@
-//! Dry friction made into a field, so that common integrators can run across `v = 0`: for comparison.
+//! Dry friction turned into a field, so that common integrators can run across `v = 0`; for comparison.
 //!
-//! Two habits: the sign becomes `tanh(v/epsilon)`, smooth but stiff, at rate `r/epsilon` near `v = 0`, and
-//! nowhere zero inside the sticking set, so that nothing ever rests; or the sign is kept, and what should
-//! rest chatters across `v = 0` in steps that no longer have the order of their method.
+//! There are two common practices. One replaces the sign by `tanh(v/epsilon)`. The field is then smooth but
+//! stiff, with rate `r/epsilon` near `v = 0`, and vanishes nowhere else in the sticking set, so that nothing
+//! else ever rests. The other keeps the sign. What should rest then chatters across `v = 0`, and the steps lose
+//! the order of their method.
 
 use super::step::Field;
 use crate::numerics::elementary::tanh;
 use crate::oscillator::{HalfPlane, Parameters, Side};
 
-/// What stands for the sign of `v`.
+/// The law that replaces the sign of `v`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SignLaw {
     /// `tanh(v/epsilon)`.
@@ -17,7 +18,7 @@ pub enum SignLaw {
     Sign,
 }
 
-/// The field of the whole phase plane with friction by such a law.
+/// The field of the whole phase plane with friction by a [`SignLaw`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regularized {
     /// Damping and restoring force.
@@ -27,7 +28,7 @@ pub struct Regularized {
 }
 
 impl Regularized {
-    /// The field of these parameters.
+    /// The field for these parameters.
     pub fn new(parameters: &Parameters, law: SignLaw) -> Self {
         Regularized { smooth: HalfPlane::new(parameters, Side::Upper), r: parameters.r, law }
     }

@@ -1,4 +1,4 @@
-//! A motion in progress: half swings glued where they end, and what is kept of them.
+//! A motion in progress: half swings joined end to end, and what is kept of them.
 
 use std::ops::ControlFlow;
 
@@ -17,13 +17,13 @@ use crate::oscillator::{HalfPlane, Ledger, Side, State};
 /// A motion in progress.
 pub struct MotionRun {
     pub(super) detail: Detail,
-    /// What is known so far.
+    /// The results so far.
     pub(super) found: Trajectory,
     pub(super) time: Sum,
     pub(super) works: Works,
 }
 
-/// Works of the damping terms and the path length, in the units of the problem.
+/// Work of the damping terms and path length, in the units of the problem.
 #[derive(Default)]
 pub(super) struct Works {
     linear: f64,
@@ -33,7 +33,7 @@ pub(super) struct Works {
 }
 
 impl MotionRun {
-    /// At the start.
+    /// A run at its start.
     pub fn new(problem: &Problem, method: Method, detail: Detail) -> Self {
         let moving = Outcome::Moving { tau: 0.0, q: problem.initial.q, v: problem.initial.v };
         let mut samples = Vec::new();
@@ -57,7 +57,7 @@ impl MotionRun {
         }
     }
 
-    /// No answer.
+    /// Ends the run without an answer.
     pub fn give_up(mut self, reason: Reason) -> Trajectory {
         self.found.outcome = Outcome::GaveUp { tau: self.time.value(), reason };
         self.found
@@ -74,7 +74,7 @@ impl MotionRun {
         self.close(outcome, stepper.evaluations(), stepper.rejected())
     }
 
-    /// The motion with its outcome, its cost and its ledger.
+    /// The motion with its outcome, cost and energy ledger.
     pub(super) fn close(mut self, outcome: Outcome, evaluations: u64, rejected: u64) -> Trajectory {
         let Problem { parameters, initial, .. } = self.found.problem;
         self.found.outcome = outcome;
@@ -89,7 +89,7 @@ impl MotionRun {
             && let Some(end) = end
         {
             let ledger = self.works.balance(initial, end, parameters.r);
-            // Energies may leave the range of numbers where states do not.
+            // Energies may overflow where states do not.
             self.found.ledger = ledger.residual.is_finite().then_some(ledger);
         }
         self.found
@@ -112,7 +112,7 @@ impl MotionRun {
         }
     }
 
-    /// Glues half swings, the first of them on `side`, until the motion ends.
+    /// Joins half swings, the first on `side`, until the motion ends.
     fn half_swings<S: Stepper>(
         &mut self,
         mut side: Side,
@@ -159,7 +159,7 @@ impl MotionRun {
                     }
                     self.found.crossings.push(Crossing { tau, q });
                     self.works.path += way;
-                    // The next half swing starts from its clearance, known better than from q - r.
+                    // The next half swing starts from its clearance, which is known more accurately than q - r.
                     let (clearance, of) = match stop {
                         Some(stop) => stop.beyond(side.sign() * last.q - r),
                         None => (x - 2.0 * r, 0),
@@ -175,7 +175,7 @@ impl MotionRun {
         }
     }
 
-    /// What to do at each step on this side: keep points for drawing and book the works.
+    /// The callback for each step on this side: keeps points for drawing and adds up the work.
     fn watcher<S: Stepper>(
         &mut self,
         side: Side,
@@ -200,7 +200,7 @@ impl MotionRun {
         }
     }
 
-    /// Books steps and time; hands on how the piece ended, or the outcome where it failed.
+    /// Records steps and time; returns how the piece ended, or the outcome where it failed.
     fn book(&mut self, result: Result<Swing, Failed>) -> Result<SwingEnd, Outcome> {
         let (duration, steps) = match &result {
             Ok(swing) => (swing.duration, swing.steps),
@@ -226,7 +226,7 @@ impl MotionRun {
 }
 
 impl Works {
-    /// Books the work of the damping terms over one step measured in units of `2^unit`.
+    /// Adds the work of the damping terms over one step measured in units of `2^unit`.
     pub(super) fn add(&mut self, powers: &Powers, field: &HalfPlane, unit: i32) {
         let field = field.in_units(unit);
         let energy = |work: f64| times_power(times_power(work, unit), unit);
@@ -251,10 +251,10 @@ impl Works {
     }
 }
 
-/// Hands evenly spaced points of a step to `keep`, its end included, its start not.
+/// Passes evenly spaced points of a step to `keep`, including its end but not its start.
 ///
-/// At the edge of the range a position from the centre of its spiral may overflow, or the polynomial of a
-/// step between two points that do not: what is not a number is left out.
+/// Near the largest numbers, a position measured from the centre of its spiral may overflow, and so may the
+/// polynomial of a step between two finite points. Points that are not finite are left out.
 pub(super) fn sample<F: Field, S: Stepper<F>>(
     stepper: &mut S,
     step: &Step,

@@ -1,4 +1,4 @@
-//! What a way of integrating must offer: one step of the smooth field on one side of `v = 0`.
+//! The interface of an integration method: one step of the smooth field on one side of `v = 0`.
 
 use super::limits::Reason;
 use crate::oscillator::HalfPlane;
@@ -19,20 +19,20 @@ impl StepPoint {
     }
 }
 
-/// The error that a step may have in each component.
+/// The error allowed in each component of a step.
 ///
-/// That of the position is relative to the state, that of the velocity to the velocities of the step: far
-/// out they are much smaller than the position, and it is they that escape, or creep, or turn.
+/// For the position it is relative to the state, for the velocity to the velocities of the step. Far out,
+/// velocities are much smaller than the position, yet it is the velocity that escapes, creeps or changes sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorScale {
-    /// For the position.
+    /// Allowed error of the position.
     pub x: f64,
-    /// For the velocity.
+    /// Allowed error of the velocity.
     pub v: f64,
 }
 
 impl ErrorScale {
-    /// For a step between these points with this relative tolerance.
+    /// The scale of a step between these points with this relative tolerance.
     pub fn new(tolerance: f64, start: StepPoint, end: StepPoint) -> Self {
         ErrorScale {
             x: tolerance * start.size().max(end.size()),
@@ -41,13 +41,12 @@ impl ErrorScale {
     }
 }
 
-/// Longest step of a method that looks for `v = 0` where damping is below critical. Half of the shortest
-/// half swing of a linear oscillator (pi), rounded up: no step of this length or less passes two
-/// crossings.
+/// Longest step of a method that looks for `v = 0` where damping is below critical: half of the shortest half
+/// swing of a linear oscillator (pi), rounded up. No step of at most this length passes two crossings.
 pub const LONGEST: f64 = 2.0;
 
-/// The longest first step worth trying from a velocity that falls at once: a few times the time in which
-/// it would stop if it fell on like this. Without it an arrival after 1e-300 would be sought in steps of 1.
+/// The longest first step worth trying when the velocity falls at once: a few times the time in which it would
+/// reach zero at this rate. Without this bound an arrival after 1e-300 would be sought in steps of 1.
 pub fn stopping_time(v: f64, acceleration: f64) -> f64 {
     const FEW: f64 = 4.0;
     if v > 0.0 && acceleration < 0.0 { FEW * v / -acceleration } else { f64::INFINITY }
@@ -58,10 +57,10 @@ pub trait Field: Copy {
     /// The acceleration `v'`.
     fn acceleration(&self, x: f64, v: f64) -> f64;
 
-    /// Divergence of the field, the derivative of the acceleration by v; that by x is -1.
+    /// Divergence of the field, i.e. the derivative of the acceleration by v. (Its derivative by x is -1.)
     fn divergence(&self, v: f64) -> f64;
 
-    /// Sum of the magnitudes of all terms of the acceleration: what its rounding error is relative to.
+    /// Sum of the magnitudes of all terms of the acceleration, the scale of its rounding error.
     fn magnitude(&self, x: f64, v: f64) -> f64;
 }
 
@@ -85,22 +84,23 @@ impl Field for HalfPlane {
 /// An accepted step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
-    /// How long it took.
+    /// Duration of the step.
     pub duration: f64,
-    /// Where it ended.
+    /// End point.
     pub end: StepPoint,
-    /// Whether it ended by arriving at `v = 0`; then `end.v` is exactly 0.
+    /// Whether it ended by arriving at `v = 0`; `end.v` is then exactly 0.
     pub crossed: bool,
 }
 
 impl Step {
-    /// Whether a motion above `v = 0` can arrive there: at `x < 0` the field would lift it off again.
+    /// Whether a motion above `v = 0` can arrive at the end point: at `x < 0` the field would lift it off
+    /// again.
     pub fn is_possible(&self) -> bool {
         self.end.x >= 0.0
     }
 }
 
-/// Integrals of powers of `v` over a piece of a motion; the works of the damping terms follow from them.
+/// Integrals of powers of `v` over a piece of a motion; they give the work of the damping terms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Powers {
     /// Integral of `v^2`.
@@ -121,23 +121,23 @@ impl Powers {
     }
 }
 
-/// A way of integrating a smooth field, that of one side by default.
+/// A method that integrates a smooth field, by default that of one side.
 ///
-/// Between [`Stepper::begin`] calls the field stays the same. After an accepted step, [`Stepper::at`]
-/// and [`Stepper::powers`] speak of that step.
+/// The field stays the same between calls of [`Stepper::begin`]. After an accepted step, [`Stepper::at`] and
+/// [`Stepper::powers`] refer to that step.
 pub trait Stepper<F: Field = HalfPlane> {
     /// Prepares for steps in this field.
     fn begin(&mut self, field: &F);
 
-    /// Takes one step from a point with `v >= 0` (on `v = 0`: with `x < 0`), at most `longest` long,
-    /// and not beyond the first arrival at `v = 0`. Fails with [`Reason::StepTooSmall`] or [`Reason::OutOfRange`]
-    /// where no step meets the tolerance.
+    /// Takes one step of at most `longest` from a point with `v >= 0` (on `v = 0`: with `x < 0`), and not
+    /// beyond the first arrival at `v = 0`. Fails with [`Reason::StepTooSmall`] or [`Reason::OutOfRange`] where
+    /// no step meets the tolerance.
     fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason>;
 
-    /// Takes one step, at most `longest` long, wherever it leads: `v = 0` is not looked for.
+    /// Takes one step of at most `longest`, wherever it leads, without looking for `v = 0`.
     fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason>;
 
-    /// Makes [`Stepper::at`] usable for the last step, if that costs something.
+    /// Prepares [`Stepper::at`] for the last step, if that takes any work.
     fn prepare_dense(&mut self) {}
 
     /// The point at `time` after the start of the last step.
@@ -146,7 +146,7 @@ pub trait Stepper<F: Field = HalfPlane> {
     /// The integrals of powers of `v` over the last step.
     fn powers(&self) -> Powers;
 
-    /// How many pieces of moderate curvature the last step has, for drawing.
+    /// Number of pieces of moderate curvature in the last step, for drawing.
     fn pieces(&self) -> usize {
         1
     }

@@ -1,14 +1,17 @@
 //! Implicit collocation for stiff motions: Radau IIA of order 5, 9 or 13, L-stable.
 //!
-//! Far out cubic damping forces the velocity onto a slow manifold at a rate that may be millions of times
-//! that of the motion along it; an explicit step must follow that rate, an implicit one need not. The
-//! stages are the unknowns. Positions depend on velocities linearly, `X = x + h A V`, so that only the
-//! velocities remain: S equations with the analytic Jacobian `1 - h A div(V) + h^2 A^2`, solved by
-//! Newton's method. The error is the difference to an embedded solution of order S, filtered as Hairer
-//! and Wanner describe in section IV.8 of *Solving Ordinary Differential Equations II*. Where damping is
-//! not stiff over a step, the solution is better than this difference by as much as its order is higher;
-//! where it is, its order is reduced to that of the stages, and it is hardly better at all. So the
-//! tolerance of the difference depends on both.
+//! Far out, cubic damping forces the velocity onto a slow manifold at a rate that may be millions of times that
+//! of the motion along it. An explicit step must follow that rate, an implicit one need not.
+//!
+//! The stages are the unknowns. Positions depend on velocities linearly, `X = x + h A V`, so only the
+//! velocities remain: S equations with the analytic Jacobian `1 - h A div(V) + h^2 A^2`, solved by Newton's
+//! method. The error estimate is the difference from an embedded solution of order S, filtered as described by
+//! Hairer and Wanner in section IV.8 of *Solving Ordinary Differential Equations II*.
+//!
+//! Where damping is not stiff over a step, the order of the solution is higher than that of this difference and
+//! its error correspondingly smaller. Where damping is stiff, the order is reduced to that of the stages and
+//! the solution is hardly more accurate than the difference. The tolerance of the difference therefore depends
+//! on both.
 
 mod algebra;
 mod arrival;
@@ -27,26 +30,26 @@ use crate::oscillator::HalfPlane;
 /// The scheme for each tolerance: the first whose bound is not above it.
 static SCHEMES: [(f64, &Collocation); 3] = [(5e-4, &THREE), (1e-8, &FIVE), (0.0, &SEVEN)];
 
-/// Part of the way to an arrival after which it is looked at again, from nearby. Where a motion creeps
+/// Fraction of the way to an arrival after which the arrival is sought anew, from nearby. Where a motion creeps
 /// in along `v^2 = -x/D2`, a hundredth of the way out is left.
 const SHORT_OF: f64 = 0.9;
 
-/// Newton iterations before a step is taken again, shorter. They converge quadratically.
+/// Newton iterations before a step is repeated with a shorter length. They converge quadratically.
 const ITERATIONS: usize = 12;
 
-/// Smallest tolerance for the embedded solution: its difference is not known better.
+/// Smallest tolerance for the embedded solution: the difference from it is not known more accurately.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Difference to the embedded solution that rounding makes, in units of that of one velocity.
+/// Difference from the embedded solution caused by rounding, in units of the rounding error of one velocity.
 const NOISE: f64 = 16.0;
 
-/// Part of the tolerance that Newton's method may leave.
+/// Fraction of the tolerance that Newton's method may leave as error.
 const LEFT: f64 = 0.01;
 
-/// Longest step, as a multiple of the one before, over which the last polynomial is a good first guess.
+/// Longest step, as a multiple of the previous one, for which the last polynomial gives a good initial guess.
 const FORESEEN: f64 = 3.0;
 
-/// The stepper.
+/// The implicit stepper.
 #[derive(Clone, Debug)]
 pub struct Stiff<F: Field = HalfPlane> {
     scheme: &'static Collocation,
@@ -55,7 +58,7 @@ pub struct Stiff<F: Field = HalfPlane> {
     field: F,
     /// Tolerance of a step for the embedded solution, where damping is not stiff.
     tolerance: f64,
-    /// Tolerance of the solution.
+    /// The requested tolerance, that of the solution.
     asked: f64,
     /// Length to try next; 0 before the first step.
     next: f64,
@@ -67,14 +70,15 @@ pub struct Stiff<F: Field = HalfPlane> {
     /// Velocities and accelerations of the stages.
     velocity: [f64; MOST],
     acceleration: [f64; MOST],
-    /// Divided differences of x and v over the start and the nodes, once asked for.
+    /// Divided differences of x and v over the start and the nodes; those of x only after
+    /// [`Stepper::prepare_dense`].
     dense: [[f64; MOST + 1]; 2],
     evaluations: u64,
     rejected: u64,
 }
 
 impl<F: Field> Stiff<F> {
-    /// A stepper whose relative error a step is about `tolerance`.
+    /// A stepper with a relative error per step of about `tolerance`.
     pub fn new(field: F, tolerance: f64) -> Self {
         let scheme = SCHEMES.iter().find(|row| tolerance >= row.0).map_or(&SEVEN, |row| row.1);
         let stages = scheme.nodes.len();
@@ -103,18 +107,18 @@ impl<F: Field> Stiff<F> {
         }
     }
 
-    /// Says how long the next step may be expected to be.
+    /// Sets the length to try for the next step.
     pub fn expect_length(&mut self, length: f64) {
         self.next = length;
     }
 
-    /// The largest v in the last step, if the acceleration changes its sign there; after
-    /// [`Stepper::prepare_dense`].
+    /// The largest v in the last step, if the acceleration changes sign there. Call [`Stepper::prepare_dense`]
+    /// first.
     ///
-    /// Bisection on the acceleration along the polynomial: v is flat there, an error e of the time costs
-    /// e^2 of v.
+    /// Bisection on the acceleration along the polynomial. Since v is flat there, an error e in time costs only
+    /// e^2 in v.
     pub fn fastest(&self) -> Option<f64> {
-        /// Halvings to half the digits of the time.
+        /// Number of halvings; they give the time to half its digits.
         const HALVINGS: u32 = 30;
         let falls = |time: f64| {
             let point = self.at(time);
@@ -130,7 +134,7 @@ impl<F: Field> Stiff<F> {
     fn start_at(&mut self, from: StepPoint) {
         self.slope = self.field.acceleration(from.x, from.v);
         self.evaluations += 1;
-        // A first guess comes from the last polynomial only where this step continues it.
+        // The last polynomial gives an initial guess only where this step continues it.
         if from != self.end {
             self.duration = 0.0;
         }
@@ -142,7 +146,7 @@ impl<F: Field> Stiff<F> {
         }
     }
 
-    /// First guess of the velocities of the stages over a step of length `h`.
+    /// Initial guess of the stage velocities over a step of length `h`.
     fn guess(&self, h: f64) -> [f64; MOST] {
         let mut guess = [0.0; MOST];
         let rate = self.field.divergence(self.start.v).min(0.0);
@@ -159,7 +163,7 @@ impl<F: Field> Stiff<F> {
         guess
     }
 
-    /// Solves for the stages of a step of length `h`; `None` where Newton's method does not settle.
+    /// Solves for the stages of a step of length `h`; `None` where Newton's method does not converge.
     fn attempt(&mut self, h: f64, mut velocity: [f64; MOST]) -> Option<StepPoint> {
         let Collocation { nodes, integrals, .. } = *self.scheme;
         let stages = nodes.len();
@@ -198,7 +202,7 @@ impl<F: Field> Stiff<F> {
             // Convergence is quadratic: the next change would be about this one times `shrunk^2`.
             let settled = moved * shrunk * shrunk <= LEFT * self.asked * size;
             if settled || moved <= (f64::EPSILON * size).max(self.rounding(h)) {
-                // What the last change does to the accelerations needs no evaluation.
+                // The effect of the last change on the accelerations needs no evaluation.
                 for j in 0..stages {
                     acceleration[j] += rate[j] * change[j] - h * weighted(integrals[j], &change);
                 }
@@ -214,10 +218,10 @@ impl<F: Field> Stiff<F> {
         None
     }
 
-    /// Error of the velocities of stages over a step of length `h` from rounding of the acceleration.
+    /// Error of the stage velocities over a step of length `h` from rounding of the acceleration.
     ///
-    /// On a slow manifold large terms balance: their rounding, divided by the damping, is what a velocity is
-    /// worth there, however short the step.
+    /// On a slow manifold large terms balance. Their rounding error, divided by the damping, limits the
+    /// accuracy of a velocity there, however short the step.
     fn rounding(&self, h: f64) -> f64 {
         let StepPoint { x, v } = self.start;
         let part = self.scheme.start * h;
@@ -233,13 +237,13 @@ impl<F: Field> Stiff<F> {
         self.tolerance.min(reduced.max(ROUNDING))
     }
 
-    /// The error that an attempt over a step of length `h` to `end` may have.
+    /// The error allowed for an attempt over a step of length `h` to `end`.
     fn scale(&self, h: f64, end: StepPoint) -> ErrorScale {
         let scale = ErrorScale::new(self.tolerance_of(h, end), self.start, end);
         ErrorScale { v: scale.v.max(NOISE * self.rounding(h)), ..scale }
     }
 
-    /// Error of the last attempt in units of what it may be: below 1 is accepted.
+    /// Error of the last attempt in units of the allowed error; accepted up to 1.
     fn error(&mut self, h: f64, scale: ErrorScale, first: bool) -> f64 {
         let Collocation { error: weights, start: own, .. } = *self.scheme;
         let part = h * own;
@@ -248,8 +252,8 @@ impl<F: Field> Stiff<F> {
             x: h * weighted(weights, &self.velocity),
             v: h * weighted(weights, &self.acceleration),
         };
-        // The difference to the embedded solution times `(1 - part J)^-1`, which keeps it bounded
-        // where damping is stiff.
+        // The difference from the embedded solution times `(1 - part J)^-1`, which keeps it bounded where
+        // damping is stiff.
         let filtered = |x: f64, v: f64| {
             let determinant = 1.0 - part * rate + part * part;
             StepPoint {
@@ -262,7 +266,7 @@ impl<F: Field> Stiff<F> {
         if norm(error) < 1.0 || !first {
             return norm(error);
         }
-        // On a first or repeated step a start off the slow manifold is filtered once more.
+        // On a first or repeated step, the error of a start off the slow manifold is filtered once more.
         let v = self.start.v + error.v;
         let slope = self.field.acceleration(self.start.x + error.x, v);
         self.evaluations += 1;
@@ -271,9 +275,9 @@ impl<F: Field> Stiff<F> {
 }
 
 impl<F: Field> Stiff<F> {
-    /// Steps until the error is below the tolerance; the step is not longer than `longest`.
+    /// Repeats the step, at most `longest` long, until its error is within the tolerance.
     ///
-    /// With `above`, also until no stage but the last ones lies below `v = 0` and the position grows.
+    /// With `above`, a step that ends above `v = 0` is also repeated if its position does not grow.
     fn accepted(&mut self, longest: f64, above: bool) -> Result<(f64, StepPoint), Reason> {
         let stages = self.scheme.nodes.len();
         let power = -1.0 / (real(stages) + 1.0);
@@ -298,7 +302,7 @@ impl<F: Field> Stiff<F> {
                     let turned = above && end.v > 0.0 && end.x < self.start.x;
                     if error <= 1.0 && !turned {
                         let next = length * factor.clamp(0.2, grow);
-                        // A step cut short by the end time says nothing about the next one.
+                        // A step cut short by the end time says nothing about the length of the next one.
                         self.next = if length < self.next { self.next.max(next) } else { next };
                         return Ok((length, end));
                     }
@@ -318,10 +322,10 @@ impl<F: Field> Stiff<F> {
         self.dense[1] = differences(self.scheme.nodes, self.start.v, &self.velocity);
     }
 
-    /// The longest step that cannot pass two crossings: where damping is above critical, any.
+    /// The longest step that cannot pass two crossings; unlimited where damping is above critical.
     ///
-    /// Where neighbours part, a step follows them: a long one would damp what grows and stay on a manifold
-    /// that every motion leaves.
+    /// Where neighbouring motions diverge, the step length is bounded by their rate: a long step would damp
+    /// what grows and stay on a manifold that every motion leaves.
     fn longest(&self) -> f64 {
         const CRITICAL: f64 = 2.0;
         let rate = self.field.divergence(self.start.v);
@@ -330,7 +334,7 @@ impl<F: Field> Stiff<F> {
         } else if rate > 0.0 {
             LONGEST.min(1.0 / rate)
         } else {
-            // The rate may be -0, whose reciprocal is not a bound.
+            // The rate may be -0, whose reciprocal is no bound.
             LONGEST
         }
     }
@@ -339,7 +343,7 @@ impl<F: Field> Stiff<F> {
 impl<F: Field> Stepper<F> for Stiff<F> {
     fn begin(&mut self, field: &F) {
         self.field = *field;
-        // What is known of the last step belonged to another field.
+        // What is known about the last step belonged to another field.
         self.end = StepPoint { x: f64::NAN, v: f64::NAN };
     }
 
@@ -390,7 +394,7 @@ impl<F: Field> Stepper<F> for Stiff<F> {
         StepPoint { x: value(&self.dense[0]), v: value(&self.dense[1]) }
     }
 
-    /// The quadrature of the collocation, exact for polynomials of its order.
+    /// The quadrature of the collocation scheme, exact for polynomials of degree below its order.
     fn powers(&self) -> Powers {
         let mut powers = Powers::default();
         let weights = self.scheme.integrals[self.scheme.nodes.len() - 1];
@@ -409,8 +413,8 @@ impl<F: Field> Stepper<F> for Stiff<F> {
     }
 }
 
-/// The tolerance for the embedded solution of order S with which the solution of order `2 S - 1` has
-/// about the tolerance that was asked for (as in the authors' program), where damping is not stiff.
+/// The tolerance for the embedded solution of order S that gives the solution of order `2 S - 1` about the
+/// requested tolerance (as in the authors' program), where damping is not stiff.
 fn embedded_tolerance(tolerance: f64, stages: usize) -> f64 {
     let stages = real(stages);
     0.1 * pow(tolerance, (stages + 1.0) / (2.0 * stages))

@@ -1,9 +1,9 @@
-//! Where a motion stops that is about to: next to `v = 0`, with hardly any way to go.
+//! Where a motion stops that is about to: next to `v = 0`, with hardly any distance to go.
 //!
-//! A start at the rim of the sticking set, with next to no velocity, comes to `v = 0` a little further out,
-//! perhaps by less than the position can show. That little decides: it is the clearance of the next swing,
-//! and where the rim repels (`D <= -1`) it grows forever. So it is computed by itself, and with its
-//! exponent, because it is quadratic in the velocity.
+//! A start at the rim of the sticking set, with a tiny velocity, reaches `v = 0` a little further out, perhaps
+//! by less than the position can resolve. This small distance is decisive: it is the clearance of the next
+//! swing, and where the rim repels (`D <= -1`) it grows forever. It is therefore computed separately and with
+//! its own exponent, because it is quadratic in the velocity.
 
 use super::step::StepPoint;
 use crate::numerics::quadrature::GAUSS;
@@ -13,23 +13,25 @@ use crate::oscillator::HalfPlane;
 /// How far a motion still moves, and for how long.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ComingToRest {
-    /// Distance to the place where it stops, in units of `2^unit`; 0 where it has stopped already.
+    /// Distance to the stopping place in units of `2^unit`; 0 where the motion has already stopped.
     pub distance: f64,
     /// Exponent of that unit.
     pub unit: i32,
-    /// How long it takes.
+    /// Time until it stops.
     pub duration: f64,
 }
 
 impl ComingToRest {
-    /// The stop of a motion through `point` if its way is next to nothing beside its position; else `None`.
+    /// The stop of a motion through `point` if its remaining distance is negligible beside its position;
+    /// otherwise `None`.
     ///
-    /// With x constant `v' = -(x + force)`, so the way is the integral of `v/(x + force)` over v, by
+    /// With x constant, `v' = -(x + force)`, so the distance is the integral of `v/(x + force)` over v, by
     /// Gauss's rule. Guarantee: a relative error of 1e-12 at most.
     pub fn of(field: &HalfPlane, point: StepPoint) -> Option<Self> {
         /// Largest damping force as a fraction of the position.
         const WEAK: f64 = 1e-3;
-        /// Largest way as a fraction of the position: the force of the spring changes by as much.
+        /// Largest distance as a fraction of the position; the force of the spring changes by the same
+        /// fraction.
         const NOTHING: f64 = 1e-12;
         let unit = exponent(point.v);
         let HalfPlane { d, d2, d3 } = field.in_units(unit);
@@ -39,7 +41,7 @@ impl ComingToRest {
         if !(x > 0.0 && top > 0.0 && force(top) <= WEAK * x && top * top <= NOTHING * x * x) {
             return None;
         }
-        // In units of the position neither integral leaves the range of numbers.
+        // In units of the position neither integral overflows or underflows.
         let rate = |v: f64| 1.0 / (1.0 + v * (2.0 * d + v * (d2 + v * d3)) / x);
         let nodes = GAUSS.iter().map(|&(node, weight)| (node * top, weight * rate(node * top)));
         let (way, time) =
@@ -58,8 +60,8 @@ impl ComingToRest {
         times_power(self.distance, self.unit)
     }
 
-    /// How far it stops beyond a place that it has `passed` by so much already (negative: not yet), and the
-    /// exponent of the unit of that.
+    /// How far it stops beyond a place that it has already `passed` by this much (negative: not yet), and the
+    /// exponent of the unit of the result.
     pub fn beyond(&self, passed: f64) -> (f64, i32) {
         if passed == 0.0 { (self.distance, self.unit) } else { (passed + self.way(), 0) }
     }
@@ -76,7 +78,7 @@ mod tests {
         let field = HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 };
         for (x, v) in [(2.0, 1e-9), (3e-5, 1e-18), (1e200, 1e-100)] {
             let stop = ComingToRest::of(&field, StepPoint { x, v }).unwrap();
-            // In units of 2^-600 the last of these ways is a number.
+            // In units of 2^-600 the last of these distances is representable.
             let way = times_power(stop.distance, stop.unit + 600);
             let expected = 0.5 * times_power(v, 300) * (times_power(v, 300) / x);
             assert!((way / expected - 1.0).abs() < 1e-15, "{stop:?}");
@@ -86,7 +88,7 @@ mod tests {
         assert_eq!(ComingToRest::of(&field, StepPoint { x: -2.0, v: 1e-30 }), None);
     }
 
-    /// The way is quadratic in the velocity: it exists where its square underflows.
+    /// The distance is quadratic in the velocity: it is known even where that square underflows.
     #[test]
     fn ways_below_the_range_of_numbers_keep_their_digits() {
         let field = HalfPlane { d: -1.5, d2: 3.0, d3: 1e3 };
@@ -96,7 +98,8 @@ mod tests {
         assert!((log / expected - 1.0).abs() < 1e-15, "{stop:?}");
     }
 
-    /// A damping force that is a fraction of the position changes the way by about two thirds of that fraction.
+    /// A damping force that is a fraction of the position changes the distance by about two thirds of that
+    /// fraction.
     #[test]
     fn damping_shortens_the_way() {
         let (x, v) = (1.0, 1e-9);

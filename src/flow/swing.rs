@@ -1,7 +1,7 @@
 //! One half swing: steps of the smooth field until `v = 0`, the end time, or certain escape.
 //!
-//! The state is kept near 1 in units of a power of two, so that motions of any size are computed alike
-//! and a motion scaled by a power of two is the same to the last bit.
+//! The state is kept near 1 in units of a power of two. Motions of any size are thus computed alike, and a
+//! motion scaled by a power of two is the same to the last bit.
 
 use std::ops::ControlFlow;
 
@@ -12,10 +12,10 @@ use crate::numerics::scaling::{exponent, times_power};
 use crate::numerics::sum::Sum;
 use crate::oscillator::HalfPlane;
 
-/// Size, as a power of two, at which the unit is chosen again.
+/// Size, as a power of two, at which the unit is chosen anew.
 const FAR: i32 = 300;
 
-/// Relative error left in the time of a blow-up when it is read off its asymptotic form.
+/// Relative error allowed in the time of a blow-up when it is taken from its asymptotic form.
 const BLOW_UP_ERROR: f64 = 1e-14;
 
 /// How a half swing ended.
@@ -26,12 +26,12 @@ pub enum SwingEnd {
         /// Position in the frame of the half plane.
         x: f64,
     },
-    /// At the end time, or where the watcher said so.
+    /// At the end time, or where the watcher stopped it.
     Stopped {
-        /// Where.
+        /// The point reached.
         point: StepPoint,
     },
-    /// Before the end time the velocity becomes infinite.
+    /// The velocity becomes infinite before the end time.
     Escape,
 }
 
@@ -40,7 +40,7 @@ pub enum SwingEnd {
 pub struct Swing {
     /// How it ended.
     pub end: SwingEnd,
-    /// How long it took (to the blow-up where it escaped).
+    /// Duration (until the blow-up where it escaped).
     pub duration: f64,
     /// Accepted steps.
     pub steps: u64,
@@ -49,19 +49,20 @@ pub struct Swing {
 /// A half swing that could not be completed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Failed {
-    /// Why.
+    /// Why it failed.
     pub reason: Reason,
-    /// How far it came.
+    /// The time reached.
     pub duration: f64,
     /// Accepted steps.
     pub steps: u64,
 }
 
-/// Runs one half swing from `start` (`v > 0`, or `v = 0` and `x < 0`), given in units of `2^unit`, for at
-/// most `longest`.
+/// Runs one half swing from `start` (`v > 0`, or `v = 0` and `x < 0`), given in units of `2^unit`, for at most
+/// `longest`.
 ///
-/// `watch` sees each accepted step: the stepper that holds it, the time at which it began, the exponent
-/// of the unit in which its numbers are measured, and the step; it may stop the swing there. Fails with [`Failed`]
+/// `watch` is called after each accepted step with the stepper that holds it, the time at which it began, the
+/// exponent of its unit, and the step; it may stop the swing there. Errors are [`Failed`], with the reason and
+/// the time reached.
 /// with the reason and the time reached.
 pub fn swing<S: Stepper>(
     stepper: &mut S,
@@ -74,7 +75,7 @@ pub fn swing<S: Stepper>(
     drive(stepper, S::advance, field, (start, unit), longest, limits, watch)
 }
 
-/// Follows a motion for `longest` without looking for `v = 0`, through as many half swings as it takes.
+/// Follows a motion for `longest` without looking for `v = 0`, through as many half swings as occur.
 ///
 /// Assumption: there is no friction. Then the field of the upper side holds on both sides.
 pub fn glide<S: Stepper>(
@@ -88,7 +89,7 @@ pub fn glide<S: Stepper>(
     drive(stepper, S::pass, field, (start, 0), longest, limits, watch)
 }
 
-/// Takes steps by `advance` until it crosses, the time is over, or escape is certain.
+/// Takes steps with `advance` until a crossing, the end of the time span, or certain escape.
 fn drive<S: Stepper>(
     stepper: &mut S,
     advance: impl Fn(&mut S, StepPoint, f64) -> Result<Step, Reason>,
@@ -154,10 +155,10 @@ fn drive<S: Stepper>(
     }
 }
 
-/// The step, or where it changed nothing as many like it as it takes to move x to the next number.
+/// The step itself or, if it changed nothing, as many like it as it takes to move x to the next number.
 ///
-/// Far out, where large terms balance, rounding makes points of rest of which the motion knows nothing: x
-/// moves on by less than its own rounding, and every further step would be the same again.
+/// Far out, where large terms balance, rounding creates spurious points of rest: x moves by less than its own
+/// rounding error, and every further step would be the same again.
 fn progress(step: Step, from: StepPoint, longest: f64) -> Step {
     if step.crossed || step.end != from || from.v == 0.0 {
         return step;
@@ -173,8 +174,8 @@ fn progress(step: Step, from: StepPoint, longest: f64) -> Step {
 
 /// Time until v becomes infinite, where escape is certain and this time is known to rounding.
 ///
-/// The time is that of the two driving terms alone ([`blow_up`]); it is used when what the others change is
-/// below [`BLOW_UP_ERROR`] of the time so far.
+/// The time is that of the two driving terms alone ([`blow_up`]). It is used once the effect of the other terms
+/// is below [`BLOW_UP_ERROR`] of the time so far.
 pub(super) fn time_to_blow_up(field: &HalfPlane, point: StepPoint, elapsed: f64) -> Option<f64> {
     let (rest, others) = blow_up(field, point)?;
     (rest * others <= BLOW_UP_ERROR * elapsed).then_some(rest)
@@ -185,13 +186,13 @@ pub(crate) fn is_escaping(field: &HalfPlane, point: StepPoint) -> bool {
     blow_up(field, point).is_some()
 }
 
-/// Where escape is certain: the time to it by the terms that drive v alone, and the size of all others relative
-/// of theirs.
+/// Where escape is certain: the time until then from the terms that drive v alone, and the size of all other
+/// terms relative to theirs.
 ///
-/// For `v < 0` (met where there is no friction) the mirror image is asked. With `a = -D2` and `b = -D3`
-/// the terms `a v^2 + b v^3` drive v. Escape is certain once they exceed eight times all others together
-/// and x cannot catch up any more, and if `a` brakes, it does so with less than half of what `b` gives:
-/// from then on v grows, and these ratios with it.
+/// For `v < 0` (reached only without friction) the mirror image is taken. With `a = -D2` and `b = -D3` the
+/// terms `a v^2 + b v^3` drive v. Escape is certain once they exceed eight times all others together and x can
+/// no longer catch up; if `a` brakes, it must do so with at most half of what `b` gives. From then on v grows,
+/// and these ratios with it.
 fn blow_up(field: &HalfPlane, point: StepPoint) -> Option<(f64, f64)> {
     let v = point.v.abs();
     let (a, b) = (if point.v < 0.0 { field.d2 } else { -field.d2 }, -field.d3);
@@ -210,13 +211,13 @@ fn blow_up(field: &HalfPlane, point: StepPoint) -> Option<(f64, f64)> {
 
 /// The integral of `1/(a v^2 + b v^3)` from v to infinity.
 ///
-/// It is `(1 - s ln(1 + 1/s))/(a v)` with `s = b v/a`; where `a` adds little, a series in `1/s`.
+/// It is `(1 - s ln(1 + 1/s))/(a v)` with `s = b v/a`; where `a` contributes little, a series in `1/s`.
 fn time_to_infinity(a: f64, b: f64, v: f64) -> f64 {
     /// Magnitude of s beyond which nine terms of the series are exact to rounding.
     const LARGE: f64 = 100.0;
     let s = b * v / a;
     if s.abs() <= LARGE {
-        // Below, 1/s would overflow; s ln(1/s) is nothing beside 1 long before.
+        // For smaller s, 1/s would overflow; s ln(1/s) is negligible beside 1 long before.
         let bend = if s.abs() < f64::MIN_POSITIVE { 0.0 } else { s * ln_1p(1.0 / s) };
         return (1.0 - bend) / (a * v);
     }

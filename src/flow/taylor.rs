@@ -1,12 +1,12 @@
-//! Taylor series of the polynomial field, with crossings as roots of the step's own polynomial.
+//! Taylor series of the polynomial field; crossings are roots of the polynomial of their step.
 //!
 //! The field of a half plane is a cubic polynomial in `v`, so the coefficients of the solution obey a
 //! recurrence of two Cauchy products. The radius of convergence rho is estimated from the last few
-//! coefficients, and the step is `h = rho e^(1/N)` with order N and tolerance e, so that the last term
-//! is about e times the size of the state (Jorba and Zou, *A software package for the numerical
-//! integration of ODEs by means of high-order Taylor methods*, Experimental Mathematics 14 (2005),
-//! section 3.2). Assumption: the series has settled by its last four terms. Then the truncation error
-//! of a step is about `e h/(rho - h)` of the state.
+//! coefficients. With order N and tolerance e, the step `h = rho e^(1/N)` makes the last term about e times the
+//! size of the state (Jorba and Zou, *A software package for the numerical integration of ODEs by means of
+//! high-order Taylor methods*, Experimental Mathematics 14 (2005), section 3.2). Assumption: the last four
+//! terms of the series have reached its asymptotic behaviour. Then the truncation error of a step is about `e
+//! h/(rho - h)` of the state.
 
 use super::limits::Reason;
 use super::step::{LONGEST, Powers, Step, StepPoint, Stepper};
@@ -22,18 +22,18 @@ use crate::oscillator::HalfPlane;
 /// Highest order.
 const MOST: usize = 28;
 
-/// Length of a coefficient array, beyond `MOST + 1`.
+/// Length of a coefficient array, at least `MOST + 1`.
 const LENGTH: usize = 32;
 
-/// The last term of a step is kept this much below the tolerance, so that the error of some dozens of
-/// steps together still stays near it.
+/// The last term of a step is kept below the tolerance by this factor, so that the accumulated error of some
+/// dozens of steps still stays near the tolerance.
 const AIM: f64 = 0.125;
 
-/// How many of the last coefficients decide on the length of a step.
+/// Number of trailing coefficients that determine the step length.
 const TAIL: usize = 4;
 
-/// Order for each tolerance: the smallest bound not below the tolerance decides. The orders minimise
-/// the measured time of the benchmark `flow` at these tolerances.
+/// Order for each tolerance: the largest bound not above the tolerance decides. The orders minimise the time
+/// measured by the benchmark `flow` at these tolerances.
 const ORDERS: [(f64, usize); 10] = [
     (1e-2, 8),
     (1e-3, 10),
@@ -47,7 +47,7 @@ const ORDERS: [(f64, usize); 10] = [
     (0.0, 26),
 ];
 
-/// The stepper.
+/// The Taylor stepper.
 #[derive(Clone, Debug)]
 pub struct Taylor {
     field: HalfPlane,
@@ -57,7 +57,7 @@ pub struct Taylor {
     /// Coefficients of x and v in powers of `t / 2^time_exponent`.
     x: [f64; LENGTH],
     v: [f64; LENGTH],
-    /// Coefficients of the integral of `v^2`; only kept up where the field is not linear.
+    /// Coefficients of the integral of `v^2`; maintained only where the field is not linear.
     square_integral: [f64; LENGTH],
     inner: Inner,
     time_exponent: i32,
@@ -72,13 +72,13 @@ pub struct Taylor {
 const INVERSE: [f64; LENGTH] = reciprocals();
 
 impl Taylor {
-    /// A stepper whose relative truncation error a step is about `tolerance`.
+    /// A stepper with a relative truncation error per step of about `tolerance`.
     pub fn new(tolerance: f64) -> Self {
         let order = ORDERS.iter().find(|row| tolerance >= row.0).map_or(MOST, |row| row.1);
         Self::with_order(tolerance, order)
     }
 
-    /// The same with a chosen order, at most 28.
+    /// As [`Taylor::new`], with a given order of at most 28.
     pub fn with_order(tolerance: f64, order: usize) -> Self {
         Taylor {
             field: HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 },
@@ -103,9 +103,9 @@ impl Taylor {
     /// Fills the coefficient arrays at a point.
     ///
     /// With `force = D2 v + D3 v^2`, coefficient k of the damping is a sum over products of earlier
-    /// coefficients. The newest two enter it linearly and are kept in registers, so that each waits only
-    /// for one product of the one before it; the sums over the others run over memory written at least
-    /// two rounds ago.
+    /// coefficients. The newest two enter it linearly and are kept in registers, so that each coefficient waits
+    /// for only one product of its predecessor. The sums over the others run over memory written at least two
+    /// iterations ago.
     fn expand(&mut self, from: StepPoint) {
         let HalfPlane { d, d2, d3 } = self.field;
         let unit = times_power(1.0, self.time_exponent);
@@ -127,9 +127,9 @@ impl Taylor {
             }
             return;
         }
-        // With 0 < i < k in `square_k = sum of v_i v_(k-i)`, coefficient k of v^2 is
-        // `2 v0 v_k + square_k`, that of the force `slope v_k + d3 square_k`, and the damping holds
-        // `damping v_k + neighbour v_(k-1)` beside what only earlier coefficients have a part in.
+        // With `square_k = sum of v_i v_(k-i)` over 0 < i < k, coefficient k of v^2 is `2 v0 v_k + square_k`
+        // and that of the force is `slope v_k + d3 square_k`. The damping contains `damping v_k + neighbour
+        // v_(k-1)` besides terms in earlier coefficients only.
         let slope = d2 + 2.0 * d3 * v0;
         let damping = 2.0 * d + force0 + v0 * slope;
         let (cubic, cubic1) = (d3 * v0, d3 * v1);
@@ -139,7 +139,7 @@ impl Taylor {
         for k in 1..order {
             let (inner, product) = if k < 4 { (0.0, 0.0) } else { self.inner.sums(k) };
             let earlier = cubic * inner + (cubic1 * square_before + product);
-            // In `square_2` and its product v1 meets itself, once instead of twice.
+            // In `square_2` and its product, v1 is paired with itself, so it counts once instead of twice.
             let next = if k == 2 { 0.5 * before } else { before };
             let acceleration = -(self.x[k] + (neighbour * next + earlier)) - damping * newest;
             let square = 2.0 * v1 * next + inner;
@@ -156,11 +156,11 @@ impl Taylor {
 
     /// The step length for this tolerance, or `None` where coefficients overflowed.
     ///
-    /// The error of v is measured by the velocities of the step, the larger of `abs(v_0)` and
-    /// `abs(v_1) h`: far out they are much smaller than the position. The radius of convergence is the
-    /// least of the estimates `(size / abs(v_k))^(1/k)` from the last [`TAIL`] coefficients: near a turning
-    /// point every other one almost vanishes, and those of a pair of complex poles pass through zero now
-    /// and then, so that fewer would sometimes see nothing.
+    /// The error of v is relative to the velocities of the step, the larger of `abs(v_0)` and `abs(v_1) h`: far
+    /// out they are much smaller than the position. The radius of convergence is the least of the estimates
+    /// `(size / abs(v_k))^(1/k)` from the last [`TAIL`] coefficients. Near a turning point every other
+    /// coefficient almost vanishes, and those of a pair of complex poles pass through zero now and then, so
+    /// fewer would sometimes miss the trend.
     fn allowed(&self) -> Option<f64> {
         let log2 = |value: f64| if value == 0.0 { f64::NEG_INFINITY } else { rough_log2(value) };
         let (size, slope) = (log2(self.v[0].abs()), log2(self.v[1].abs()));
@@ -183,8 +183,8 @@ impl Taylor {
 
     /// First root of v in `(0, end]`, in units of the coefficients, given `v(end) <= 0`.
     ///
-    /// Newton's method on the polynomial starts at the root of the parabola through both ends with the slope
-    /// of the first. `v > 0` just after 0 is known (from the side entered), whatever `v(0)` is.
+    /// Newton's method on the polynomial, from the root of the parabola through both ends with the initial
+    /// slope. `v > 0` just after 0 is known from the side entered, whatever `v(0)` is.
     fn root(&self, end: f64, v_end: f64) -> f64 {
         const SETTLED: PlaceTolerance = PlaceTolerance::Relative(1e-9);
         let (v, slope) = (self.v[0], self.v[1]);
@@ -199,14 +199,13 @@ impl Taylor {
 }
 
 impl Taylor {
-    /// The integral of `v^2` over the last step, from the series itself; nonlinear fields only.
+    /// The integral of `v^2` over the last step, from its series; nonlinear fields only.
     pub fn square_integral(&self) -> f64 {
         let t = times_power(self.duration, -self.time_exponent);
         value(&self.square_integral[..=self.order], t)
     }
 
-    /// The largest v in the last step, if the acceleration changes its sign there.
-    ///
+    /// The largest v in the last step, if the acceleration changes sign there.
     pub fn fastest(&self) -> Option<f64> {
         let end = times_power(self.duration, -self.time_exponent);
         let slopes = derivative(&self.v);
@@ -214,7 +213,7 @@ impl Taylor {
         if !(slopes[0] > 0.0 && value(slopes, end) <= 0.0) {
             return None;
         }
-        // v is flat there: an error e of the time costs e^2 of v.
+        // Since v is flat there, an error e in time costs only e^2 in v.
         let settled = PlaceTolerance::Absolute(1e-9 * end);
         let bracket = Bracket::falling(0.0, end);
         let peak = newton(bracket, 0.5 * end, settled, |t| value_and_slope(slopes, t));
@@ -224,14 +223,14 @@ impl Taylor {
 
 /// The coefficients from the second on, laid out for sums of products whose indices add up to k.
 ///
-/// Each is kept in pairs with its neighbours, which are read as they were written: a processor hands on
-/// at once what it has just stored, but not when it is read together with something else.
+/// Each is stored in a pair with its neighbour and read as it was written: a processor forwards what it has
+/// just stored at once, but not if it is read together with other memory.
 #[derive(Clone, Debug)]
 struct Inner {
-    /// Element i holds coefficients i and i + 1 of v, and of the force.
+    /// Element i holds coefficients i and i + 1, of v and of the force.
     v: [Pair; LENGTH],
     force: [Pair; LENGTH],
-    /// Element i holds coefficients i and i - 1 of v; a zero ends a sum in place of coefficient 1.
+    /// Element i holds coefficients i and i - 1 of v; zero replaces coefficient 1 to end a sum.
     reversed: [Pair; LENGTH],
 }
 
@@ -242,7 +241,7 @@ impl Inner {
     const EMPTY: Inner =
         Inner { v: [[0.0; 2]; LENGTH], force: [[0.0; 2]; LENGTH], reversed: [[0.0; 2]; LENGTH] };
 
-    /// Keeps coefficients `k - 1` and k.
+    /// Stores coefficients `k - 1` and k.
     fn keep(&mut self, k: usize, v: Pair, force: Pair) {
         (self.v[k - 1], self.force[k - 1]) = (v, force);
         self.reversed[k] = [v[1], if k > 2 { v[0] } else { 0.0 }];
@@ -273,7 +272,7 @@ impl Taylor {
             if let Some(allowed) = self.allowed() {
                 return Ok(allowed);
             }
-            // Coefficients that overflow belong to a time scale far below 1: take a smaller unit.
+            // Coefficients that overflow belong to a time scale far below 1: use a smaller unit.
             if self.time_exponent < -1000 {
                 return Err(Reason::OutOfRange);
             }
@@ -284,7 +283,7 @@ impl Taylor {
 
     fn accept(&mut self, duration: f64, end: StepPoint) -> Step {
         self.duration = duration;
-        // Keep the unit of time near the step, so that coefficients neither over- nor underflow.
+        // Keep the unit of time near the step length, so that coefficients neither overflow nor underflow.
         let drift = exponent(duration);
         if (drift - self.time_exponent).abs() > 20 {
             self.next_time_exponent = drift;

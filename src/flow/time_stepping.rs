@@ -1,24 +1,24 @@
-//! Moreau and Jean's time stepping: steps of fixed length that ask for a balance of impulses, friction
-//! being whatever within `[-r, r]` the balance needs. For comparison.
+//! Moreau and Jean's time stepping, for comparison: fixed steps that require a balance of impulses, in which
+//! friction takes whatever value within `[-r, r]` the balance needs.
 //!
-//! Over a step of length h the midpoint rule takes restoring force and damping, and friction acts with
-//! one value of the set-valued sign of the velocity at its end. If friction can bring the velocity to
-//! rest it does; so the method sticks where it should, but it knows the instant of no crossing, and
-//! each passage of `v = 0` costs an error of order `h^2` in v (J. J. Moreau, *Unilateral contact and dry
-//! friction in finite freedom dynamics*, 1988; M. Jean, *The non-smooth contact dynamics method*,
-//! Computer Methods in Applied Mechanics and Engineering 177, 1999).
+//! Over a step of length h the midpoint rule covers restoring force and damping; friction acts with one value
+//! of the set-valued sign of the velocity at the end of the step. If friction can bring the velocity to rest,
+//! it does. The method therefore sticks where it should, but it locates no crossing, and each passage of `v =
+//! 0` costs an error of order `h^2` in v (J. J. Moreau, *Unilateral contact and dry friction in finite freedom
+//! dynamics*, 1988; M. Jean, *The non-smooth contact dynamics method*, Computer Methods in Applied Mechanics
+//! and Engineering 177, 1999).
 
 use super::limits::Reason;
 use super::step::{Powers, Step, StepPoint, Stepper};
 use crate::oscillator::HalfPlane;
 
-/// Newton iterations for the velocity at the end of a step; the residual is nearly linear.
+/// Newton iterations for the velocity at the end of a step. The residual is nearly linear.
 const ITERATIONS: usize = 50;
 
-/// A step is solvable by a contraction while it is below this fraction of the damping time.
+/// Below this many damping times the equation of a step is a contraction and can be solved.
 const STABLE: f64 = 2.0;
 
-/// The stepper, in coordinates `(q, v)` of the whole phase plane.
+/// The time stepper, in coordinates `(q, v)` of the whole phase plane.
 #[derive(Clone, Debug)]
 pub struct TimeStepping {
     field: HalfPlane,
@@ -37,7 +37,7 @@ impl TimeStepping {
         TimeStepping { field, r, length, start, end: start, duration: length, evaluations: 0 }
     }
 
-    /// The impulse that is missing without friction if the step ends with velocity `v`.
+    /// The impulse still needed from friction if the step is to end with velocity `v`.
     fn missing(&mut self, h: f64, v: f64) -> f64 {
         self.evaluations += 1;
         let StepPoint { x, v: before } = self.start;
@@ -46,7 +46,7 @@ impl TimeStepping {
         (v - before) - h * self.field.acceleration(position, middle)
     }
 
-    /// Velocity at the end of a step, friction being `friction` throughout: Newton's method.
+    /// Velocity at the end of a step under constant `friction`, by Newton's method.
     fn solve(&mut self, h: f64, friction: f64) -> Result<f64, Reason> {
         let mut v = self.start.v;
         let mut change = f64::INFINITY;
@@ -89,7 +89,7 @@ impl Stepper for TimeStepping {
         let v = if to_rest.abs() <= strongest {
             0.0
         } else {
-            // What is missing grows with v: more than friction can supply means that v ends below 0.
+            // The missing impulse grows with v: if it exceeds what friction can supply, v ends below 0.
             self.solve(h, if to_rest > 0.0 { self.r } else { -self.r })?
         };
         self.duration = h;
@@ -100,7 +100,7 @@ impl Stepper for TimeStepping {
         Ok(Step { duration: h, end: self.end, crossed: false })
     }
 
-    /// Between the ends of a step the velocity is taken to be linear, as the method does.
+    /// Within a step the velocity is taken to be linear, as in the method.
     fn at(&self, time: f64) -> StepPoint {
         let part = time / self.duration;
         let v = self.start.v + part * (self.end.v - self.start.v);

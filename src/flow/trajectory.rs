@@ -1,4 +1,4 @@
-//! A motion: swings until it is captured, escapes, reaches its end or is given up.
+//! Computes a motion until it is captured, escapes, reaches its end time or is given up.
 
 use super::auto::Auto;
 use super::exact::Exact;
@@ -15,9 +15,9 @@ use crate::oscillator::{HalfPlane, Side};
 
 /// Computes a motion.
 ///
-/// Guarantee: the answer is one of the typed outcomes; no number in it is NaN. With the methods that
-/// find events, the place and time of every crossing carry the error of the steps before it, of relative
-/// size `tolerance` each.
+/// Guarantee: the result is one of the typed outcomes, and no number in it is NaN. With the methods that find
+/// events, the place and time of every crossing carry the errors of the previous steps, each of relative size
+/// `tolerance`.
 #[must_use]
 pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Trajectory {
     let Problem { parameters, tolerance, step, epsilon, .. } = *problem;
@@ -56,7 +56,7 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
     }
 }
 
-/// Why this method answered, in a short sentence; nothing where it was asked for by name.
+/// Why this method was chosen, in a short sentence; `None` where it was requested by name.
 #[must_use]
 pub fn choice(found: &Trajectory) -> Option<String> {
     if found.problem.method != Method::Auto {

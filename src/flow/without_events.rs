@@ -1,4 +1,4 @@
-//! Motions by steps that know no `v = 0`: the driver of the methods that stand here for comparison.
+//! Motions by steps that ignore `v = 0`: the driver of the methods included for comparison.
 
 use super::limits::{Limits, Reason};
 use super::motion::{Crossing, Outcome, Problem, Sample, Trajectory};
@@ -9,10 +9,10 @@ use crate::oscillator::sticking::rests;
 use crate::oscillator::{HalfPlane, Side, State};
 
 impl MotionRun {
-    /// Takes steps until the end time, and counts the changes of sign of the velocity as crossings.
+    /// Takes steps until the end time, and counts sign changes of the velocity as crossings.
     ///
-    /// `sticks` says whether a motion that this method brings to `v = 0` inside the sticking set stays
-    /// there. Positions at crossings are those of a velocity that is linear within the step.
+    /// `sticks` says whether a motion that this method brings to `v = 0` inside the sticking set stays there.
+    /// Positions at crossings assume a velocity that is linear within the step.
     pub fn walk<F: Field, S: Stepper<F>>(
         mut self,
         stepper: &mut S,
@@ -59,7 +59,7 @@ impl MotionRun {
         self.close(outcome, stepper.evaluations(), stepper.rejected())
     }
 
-    /// Keeps what is asked for of a step from `start`.
+    /// Records what was requested of a step from `start`.
     fn book_step<F: Field, S: Stepper<F>>(
         &mut self,
         stepper: &mut S,
@@ -76,7 +76,7 @@ impl MotionRun {
         if self.detail.energy {
             self.works.add(&stepper.powers(), field, 0);
         }
-        // The path inside the step, there and back where the velocity changes its sign.
+        // The path within the step, out and back where the velocity changes sign.
         let end = step.end;
         if start.v != 0.0 && start.v.signum() * end.v <= 0.0 {
             let part = start.v / (start.v - end.v);
@@ -102,10 +102,10 @@ mod tests {
     use super::*;
     use crate::oscillator::Parameters;
 
-    /// Where the motion from (2, 0) comes to rest after three half swings, in closed form.
+    /// Where the motion from (2, 0) rests after three half swings, in closed form.
     const REST: f64 = -0.116_144_440_390_138;
 
-    /// D = -0.1, r = 0.5.
+    /// The problem with D = -0.1 and r = 0.5, from rest at `q`.
     fn from(q: f64) -> Problem {
         Problem {
             parameters: Parameters { d: -0.1, d2: 0.0, d3: 0.0, r: 0.5 },
@@ -133,7 +133,7 @@ mod tests {
             [0.1, 0.001].map(|step| run(&Problem { method: Method::SignRk4, step, ..from(2.0) }));
         assert!((end(&coarse) - REST).abs() > 0.1, "{:?}", coarse.outcome);
         assert!(matches!(fine.outcome, Outcome::Moving { .. }));
-        // The motion has three half swings; all others are false, one in a few steps.
+        // The motion has three half swings; all other crossings are spurious, one every few steps.
         assert!(fine.crossings.len() > 1000, "{}", fine.crossings.len());
     }
 
@@ -150,7 +150,7 @@ mod tests {
         assert!(creep[3] > 9 * creep[2], "{creep:?}");
     }
 
-    /// Creeping belongs to the smoothed law; only its price belongs to the integrator.
+    /// Creeping is a property of the smoothed law; only its cost depends on the integrator.
     #[test]
     fn an_implicit_method_creeps_to_the_same_place() {
         let problem = Problem { epsilon: 1e-4, ..from(0.4) };

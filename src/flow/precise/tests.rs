@@ -32,8 +32,8 @@ fn without_damping_each_half_swing_takes_pi_and_two_r_to_thirty_digits() {
     assert_eq!(found.end, PreciseEnd::Captured(found.turns[11]));
 }
 
-/// D = 2 sqrt(2)/3 makes `omega = 1/3`, but is not a double; so the ratio of two successive half swings
-/// about the shifted centre stands for it: it is the same each time.
+/// `D = 2 sqrt(2)/3` would make `omega = 1/3` but is not a double. The test therefore uses the ratio of two
+/// successive half swings about the shifted centre, which is the same each time.
 #[test]
 fn linear_half_swings_shrink_by_one_and_the_same_factor() {
     let r = 0.25;

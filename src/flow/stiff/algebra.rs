@@ -1,4 +1,4 @@
-//! The small linear algebra of a collocation step: elimination, and polynomials through its stages.
+//! The small linear algebra of a collocation step: elimination, and polynomials through the stages.
 
 /// Maximum number of stages.
 pub(super) const MOST: usize = 7;

@@ -5,7 +5,8 @@ use super::algebra::{MOST, interpolated};
 use crate::flow::step::{ErrorScale, Field, Step, StepPoint};
 use crate::numerics::root::{Bracket, PlaceTolerance, bisect, try_newton};
 
-/// Part of the length of the last step by which it may still change; it settles in about four attempts.
+/// Relative change of the length of the last step below which it counts as settled; this takes about four
+/// attempts.
 const SETTLED: f64 = 1e-9;
 
 impl<F: Field> Stiff<F> {
@@ -14,7 +15,7 @@ impl<F: Field> Stiff<F> {
         let nodes = self.scheme.nodes;
         let (whole, polynomial) = (self.duration, self.dense[1]);
         let at = |length: f64| interpolated(nodes, &polynomial, length / whole);
-        // The polynomial of the whole step says about where; steps that end there say exactly where.
+        // The polynomial of the whole step locates the arrival roughly; steps that end there locate it exactly.
         let (low, high) = self.bracket(whole);
         let (low, high) = bisect(low, high, 10, |length| at(length) <= 0.0);
         let mut last = (whole, self.end, 0.0);
@@ -32,15 +33,15 @@ impl<F: Field> Stiff<F> {
         .ok()?;
         let (length, end, rest) = last;
         (rest.abs() <= SETTLED * length).then(|| {
-            // The stages belong to `length`: what is computed from them must not be stretched by `rest`.
+            // The stages belong to `length`: quantities computed from them must not be stretched by `rest`.
             self.keep(length, end);
             let end = StepPoint { x: end.x + 0.5 * rest * end.v, v: 0.0 };
             Step { duration: length + rest, end, crossed: true }
         })
     }
 
-    /// Whether the place of an arrival is known relative to itself, not only of the position from which its
-    /// step began: a motion that creeps in from far out may end its swing in one step.
+    /// Whether the place of an arrival is accurate relative to itself, not only relative to the position where
+    /// its step began: a motion that creeps in from far out may end its swing in one step.
     pub(super) fn is_sharp(&mut self, arrival: &Step) -> bool {
         let scale = self.scale(arrival.duration, arrival.end);
         let place = ErrorScale {
@@ -50,7 +51,7 @@ impl<F: Field> Stiff<F> {
         arrival.end.x < f64::MIN_POSITIVE || self.error(arrival.duration, place, true) <= 1.0
     }
 
-    /// Where in the step the velocity first becomes zero, as far as the stages tell.
+    /// Bracket of the first zero of the velocity in the step, as far as the stages tell.
     fn bracket(&self, whole: f64) -> (f64, f64) {
         let mut low = 0.0;
         for (node, &v) in self.scheme.nodes.iter().zip(&self.velocity) {

@@ -21,14 +21,14 @@ fn far_out(tolerance: f64) -> Problem {
     }
 }
 
-/// On the slow manifold `v^3 = -x` the way in takes `1.5 q^(2/3)` = 15,000.
+/// On the slow manifold `v^3 = -x` the inward motion takes `1.5 q^(2/3)` = 15,000.
 #[test]
 fn far_out_some_hundred_steps_do_what_an_explicit_method_needs_a_hundred_million_for() {
     for tolerance in [1e-4, 1e-8, 1e-12] {
         let motion = trajectory(&far_out(tolerance), Detail::default(), &Limits::PATIENT);
         assert!(motion.cost.steps < 130, "{} steps", motion.cost.steps);
         assert!(matches!(motion.outcome, Outcome::Captured { .. }));
-        // The same with 1e-14.
+        // From a run with tolerance 1e-14.
         let expected = [15_000.005_326_401_7, 15_012.606_267_750_5];
         let found = [motion.crossings[0].tau, motion.crossings[4].tau];
         for (found, expected) in found.iter().zip(expected) {
@@ -38,8 +38,8 @@ fn far_out_some_hundred_steps_do_what_an_explicit_method_needs_a_hundred_million
     }
 }
 
-/// With D2 against it a motion creeps along `v^2 = -x/D2` and then stops within a step or two, at
-/// `1/(2 D2)` to within a relative D3/D2^2. Its time is that of the series with steps to rounding.
+/// Against the damping of D2, a motion creeps along `v^2 = -x/D2` and then stops within a step or two, at `1/(2
+/// D2)` to within a relative D3/D2^2. The reference time comes from the series with steps exact to rounding.
 #[test]
 fn a_step_that_begins_stiff_and_ends_at_rest_keeps_the_digits_of_its_end() {
     let field = HalfPlane { d: 0.0, d2: 122.0, d3: 0.015 };

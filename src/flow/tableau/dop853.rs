@@ -16,7 +16,7 @@ pub static SCHEME: Scheme<STAGES, 16> = Scheme {
 
 const STAGES: usize = 12;
 
-/// Row `i` gives stage `i + 1` from the slopes of the stages before it.
+/// Row `i` gives stage `i + 1` from the slopes of the previous stages.
 #[rustfmt::skip]
 const A: [&[f64]; STAGES - 1] = [
     &[
@@ -71,7 +71,7 @@ const WEIGHTS: [f64; STAGES] = [
     -0.152_160_949_662_516_1, 0.201_365_400_804_030_34, 0.044_710_615_727_772_59,
 ];
 
-/// Difference to the embedded solution of order 5.
+/// Difference from the embedded solution of order 5.
 #[rustfmt::skip]
 const ERROR5: [f64; STAGES] = [
     0.013_120_044_994_194_88, 0.0, 0.0, 0.0, 0.0, -1.225_156_446_376_204_4,
@@ -79,7 +79,7 @@ const ERROR5: [f64; STAGES] = [
     0.334_179_118_713_017_5, 0.081_923_206_485_115_71, -0.022_355_307_863_886_294,
 ];
 
-/// Difference to the embedded solution of order 3.
+/// Difference from the embedded solution of order 3.
 #[rustfmt::skip]
 const ERROR3: [f64; STAGES] = [
     -0.189_800_754_072_407_62, 0.0, 0.0, 0.0, 0.0, 4.450_312_892_752_409,
@@ -87,7 +87,7 @@ const ERROR3: [f64; STAGES] = [
     -0.152_160_949_662_516_1, 0.201_365_400_804_030_34, 0.022_651_792_198_360_82,
 ];
 
-/// Three more stages for the dense output; slope 12 is that at the end of the step.
+/// Three more stages for the dense output; slope 12 is the one at the end of the step.
 #[rustfmt::skip]
 const EXTRA: [&[f64]; 3] = [
     &[

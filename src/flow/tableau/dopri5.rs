@@ -14,10 +14,10 @@ pub static SCHEME: Scheme<STAGES, 8> = Scheme {
     dense: &DENSE,
 };
 
-/// Stages; the last one stands at the end of the step.
+/// Number of stages; the last one is at the end of the step.
 const STAGES: usize = 7;
 
-/// Row `i` gives stage `i + 1` from the slopes of the stages before it.
+/// Row `i` gives stage `i + 1` from the slopes of the previous stages.
 #[rustfmt::skip]
 const A: [&[f64]; STAGES - 1] = [
     &[1.0 / 5.0],
@@ -34,7 +34,7 @@ const WEIGHTS: [f64; STAGES] = [
     35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0, 0.0,
 ];
 
-/// Difference to the embedded solution of order 4.
+/// Difference from the embedded solution of order 4.
 #[rustfmt::skip]
 const ERROR: [f64; STAGES] = [
     71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0,

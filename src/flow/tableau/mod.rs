@@ -1,4 +1,4 @@
-//! Coefficients, and nothing else: what the methods look up, one file for each.
+//! Coefficients of the methods, one file for each.
 //!
 //! [`Scheme`] is the form in which the explicit steppers read theirs.
 
@@ -9,12 +9,12 @@ pub mod rk4;
 
 /// An explicit Runge-Kutta scheme of S stages as a stepper reads it: by slopes, not by stages.
 ///
-/// As soon as a slope is known it is added, with its weights, to all sums that will need it: these
-/// additions do not wait for each other, unlike those within one stage.
+/// As soon as a slope is known it is added, with its weights, to all sums that need it. Unlike the additions
+/// within one stage, these do not depend on each other.
 #[derive(Debug)]
 pub struct Scheme<const S: usize, const R: usize> {
-    /// `columns[j][i]` is the weight of slope `j` in sum `i`. Sums `0 .. S - 1` are those of stages
-    /// `1 .. S`, sum `S - 1` is that of the solution, the error estimates follow, zeros fill up.
+    /// `columns[j][i]` is the weight of slope `j` in sum `i`. Sums `0 .. S - 1` belong to stages `1 .. S` and
+    /// sum `S - 1` to the solution. The error estimates follow, and zeros fill the rest.
     pub columns: [[f64; R]; S],
     /// Weights of the solution.
     pub weights: [f64; S],
@@ -22,7 +22,7 @@ pub struct Scheme<const S: usize, const R: usize> {
     pub estimate: ErrorEstimate,
     /// Whether the last stage is evaluated at the end of the step, where the next one begins.
     pub last_is_end: bool,
-    /// Stages that only the dense output needs, after the slope at the end of the step.
+    /// Stages needed only for the dense output, after the slope at the end of the step.
     pub extra: &'static [&'static [f64]],
     /// Coefficients of the dense output beyond the cubic Hermite part.
     pub dense: &'static [&'static [f64]],
@@ -35,12 +35,12 @@ pub enum ErrorEstimate {
     None,
     /// By an embedded solution; the error grows with this power of the step.
     Embedded(f64),
-    /// By two embedded solutions of order 5 and 3; together their error grows with this power.
+    /// By two embedded solutions of order 5 and 3; the combined error grows with this power.
     Combined(f64),
 }
 
 impl<const S: usize, const R: usize> Scheme<S, R> {
-    /// Turns rows, as they are published, into columns.
+    /// Turns rows, as published, into columns.
     const fn columns(stages: &[&[f64]], weights: &[f64; S], errors: &[&[f64; S]]) -> [[f64; R]; S] {
         let mut columns = [[0.0; R]; S];
         let mut j = 0;

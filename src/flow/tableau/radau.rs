@@ -2,32 +2,33 @@
 //!
 //! Butcher and Ehle; Hairer and Wanner, *Solving Ordinary Differential Equations II*, 2nd edition
 //! (1996), section IV.8, and *Stiff differential equations solved by Radau methods*, Journal of
-//! Computational and Applied Mathematics 111 (1999). The numbers are the collocation conditions solved
-//! with 60 digits.
+//!  Computational and Applied Mathematics 111 (1999). The coefficients were computed from the collocation
+//!  conditions with 60 digits.
 
 use crate::numerics::count::real;
 /// A collocation scheme.
 #[derive(Debug)]
 pub struct Collocation {
-    /// Where the stages lie, as fractions of the step; the last one at its end.
+    /// Positions of the stages as fractions of the step; the last one is at its end.
     pub nodes: &'static [f64],
-    /// Integrals of the Lagrange polynomials from 0 to each node; the last row is the quadrature.
+    /// Integrals of the Lagrange polynomials from 0 to each node; the last row gives the quadrature weights.
     pub integrals: &'static [&'static [f64]],
-    /// Difference to the embedded solution of order S, beside the weight below.
+    /// Difference from the embedded solution of order S, without the term with the weight below.
     pub error: &'static [f64],
-    /// Weight in that difference of the slope at the start: the real eigenvalue of `integrals`.
+    /// Weight of the slope at the start in that difference: the real eigenvalue of `integrals`.
     pub start: f64,
-    /// Damping times in a step by which the order is half reduced, in the sense of
+    /// Length of a step, in damping times, at which the order is half reduced in the sense of
     /// [`Collocation::reduced_order`].
     pub stiff: f64,
 }
 
 impl Collocation {
-    /// The error of the solution as a fraction of that of the embedded one, from the reduction of its order.
+    /// The error of the solution as a fraction of that of the embedded solution, given the order reduction.
     ///
-    /// For `v' = -k (v - t^(S+1)) + (S + 1) t^S`, where the solution of order `2 S - 1` would be exact without
-    /// damping (Prothero and Robinson's problem; Hairer and Wanner, section IV.15). With k h damping times
-    /// in a step this part grows as `(k h)^(S-1)` towards S. The formula is good to a fifth.
+    /// Derived from `v' = -k (v - t^(S+1)) + (S + 1) t^S`, where the solution of order `2 S - 1` would be exact
+    /// without damping (the problem of Prothero and Robinson; Hairer and Wanner, section IV.15). With k h
+    /// damping times in a step this fraction grows as `(k h)^(S-1)` towards S. The formula is accurate to a
+    /// fifth.
     pub fn reduced_order(&self, damping_times: f64) -> f64 {
         let growth = damping_times / (damping_times + self.stiff);
         let stages = real(self.nodes.len());
@@ -180,7 +181,7 @@ mod tests {
         (0..20).find(wrong).unwrap()
     }
 
-    /// Errors of the solution and of the embedded one, over a step of length 1, by their definitions.
+    /// Errors of the solution and of the embedded one over a step of length 1, from their definitions.
     fn errors(scheme: &Collocation, damping: f64) -> (f64, f64) {
         let stages = scheme.nodes.len();
         let degree = i32::try_from(stages).unwrap() + 1;

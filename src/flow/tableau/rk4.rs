@@ -13,7 +13,7 @@ pub static SCHEME: Scheme<STAGES, 4> = Scheme {
 
 const STAGES: usize = 4;
 
-/// Row `i` gives stage `i + 1` from the slopes of the stages before it.
+/// Row `i` gives stage `i + 1` from the slopes of the previous stages.
 const A: [&[f64]; STAGES - 1] = [&[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]];
 
 /// Weights of the solution.

@@ -1,4 +1,4 @@
-//! Motions against closed forms and energy.
+//! Motions against closed forms and energy balances.
 
 use proptest::prelude::*;
 
@@ -31,7 +31,7 @@ const METHODS_UNDER_TEST: [Method; 5] =
 #[test]
 fn undamped_motion_loses_two_r_a_half_swing_and_rests() {
     for method in METHODS_UNDER_TEST {
-        // Order 5 needs ten times the steps, each with its own error.
+        // Order 5 needs ten times as many steps, each with its own error.
         let bound = if method == Method::Dopri5 { 1e-10 } else { 1e-11 };
         let motion = run(&problem([0.0, 0.0, 0.0, 0.125], (3.0, 0.0), method));
         let places: Vec<f64> = motion.crossings.iter().map(|crossing| crossing.q).collect();
@@ -80,7 +80,7 @@ fn one_ulp_outside_the_sticking_set_the_motion_swings_once_and_is_captured() {
     }
 }
 
-/// Far out the cubic term alone acts: `v' = v^3` from v0 blows up after `1/(2 v0^2)`.
+/// Far out the cubic term dominates: `v' = v^3` from v0 blows up after `1/(2 v0^2)`.
 #[test]
 fn blow_up_time_of_a_cubic_tends_to_the_elementary_one() {
     let start = (0.0, 1e4);
@@ -91,7 +91,7 @@ fn blow_up_time_of_a_cubic_tends_to_the_elementary_one() {
     }
 }
 
-/// Without friction the field is smooth across `v = 0`: fewer steps, the same motion.
+/// Without friction the field is smooth across `v = 0`: the same motion takes fewer steps.
 #[test]
 fn without_friction_nobody_looks_for_events_unless_asked() {
     for method in METHODS_UNDER_TEST {
@@ -126,7 +126,7 @@ fn with_friction_events_are_found_whether_asked_for_or_not() {
     assert_eq!(motion.crossings.len(), 19);
 }
 
-/// A step of fixed length that its damping makes unstable is refused, never taken.
+/// A fixed step that is unstable under the damping is refused, never taken.
 #[test]
 fn a_fixed_step_that_is_too_long_is_refused() {
     for method in [Method::Rk4, Method::SignRk4, Method::TimeStepping] {
@@ -179,8 +179,8 @@ fn samples_next_to_the_largest_numbers_are_numbers() {
     }
 }
 
-/// The last step of a swing is found by Newton's method: its works are those of that step, and not of one
-/// that is longer by the last correction.
+/// Newton's method finds the last step of a swing. The work must be that of this step, not of one that is
+/// longer by the last correction.
 #[test]
 fn the_energy_ledger_of_a_short_motion_closes_to_rounding() {
     let parameters =
