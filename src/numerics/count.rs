@@ -1,12 +1,12 @@
-//! Counts as real numbers, and back.
+//! Conversion between counts and real numbers.
 
-/// A count as a double: exact below `2^53`, which no count here reaches.
+/// A count as a double. Exact below `2^53`, which no count here reaches.
 #[expect(clippy::cast_precision_loss, reason = "counts are below 2^53")]
 pub const fn real(count: usize) -> f64 {
     count as f64
 }
 
-/// The whole part of a number; 0 for what is negative or NaN.
+/// The integer part of a number; 0 for negative numbers and NaN.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
 pub fn whole(number: f64) -> usize {
     number as usize

@@ -1,6 +1,6 @@
-//! Numbers as text that is read back as the same number.
+//! Numbers as text that parses back to the same number.
 
-/// The shortest text that is read back as this number, without a needless `.0`.
+/// The shortest text that parses back to this number, without a redundant `.0`.
 pub fn shortest(value: f64) -> String {
     // Debug, unlike Display, writes very large and very small numbers with an exponent.
     let text = format!("{value:?}");

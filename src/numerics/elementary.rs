@@ -1,19 +1,19 @@
-//! Elementary functions with one implementation on every machine.
+//! Elementary functions with the same results on every machine.
 //!
-//! What the methods of `f64` (`exp`, `sin`, `powf`, ...) return in the last digit is up to the C library of the
-//! machine, and for `powi` up to the compiler. These are the same instructions everywhere, so that a scan shared by
-//! machines of several kinds agrees to the last byte. `clippy.toml` forbids the methods. `sqrt` and `mul_add` are
-//! exact on every machine and need no other.
+//! The last digit of the methods of `f64` (`exp`, `sin`, `powf`, ...) depends on the machine's C library, and
+//! that of `powi` on the compiler. The functions here execute the same instructions everywhere, so that a scan
+//! shared by machines of several kinds agrees to the last byte. `clippy.toml` forbids the methods. `sqrt` and
+//! `mul_add` are exact on every machine and need no replacement.
 //!
-//! Errors stay below one unit in the last place (those of the `libm` crate, a translation of FreeBSD's and musl's
-//! functions); nothing that is called proved rests on them: see [`crate::numerics::Interval`].
+//! Errors stay below one unit in the last place (those of the `libm` crate, a translation of FreeBSD's and
+//! musl's functions). Nothing that is called proved depends on them: see [`crate::numerics::Interval`].
 
 pub use libm::{
     acos, acosh, asin, asinh, atan, atan2, cbrt, cos, cosh, exp, exp2, expm1 as exp_m1, hypot,
     log as ln, log1p as ln_1p, log2, log10, pow, sin, sincos as sin_cos, sinh, tan, tanh,
 };
 
-/// `base` to a whole power, by repeated squaring.
+/// `base` to an integer power, by repeated squaring.
 pub fn powi(base: f64, power: i32) -> f64 {
     let (mut left, mut square, mut product) = (power.unsigned_abs(), base, 1.0);
     while left > 0 {
@@ -30,8 +30,8 @@ pub fn powi(base: f64, power: i32) -> f64 {
 mod tests {
     use super::*;
 
-    /// The last digits of the first terms, as any machine must find them: a program built for another C library,
-    /// or another kind of processor, runs this test as well.
+    /// The last digits of the first terms must be the same on any machine. This test also runs in builds for
+    /// other C libraries and processors.
     #[test]
     fn the_last_digits_are_the_same_on_every_machine() {
         let digest = (1..4000).fold(0_u64, |digest, k| {

@@ -1,4 +1,4 @@
-//! The cubic through values and slopes at both ends of an interval.
+//! The cubic with given values and slopes at both ends of an interval.
 
 /// A cubic on `0 ..= 1`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,11 +29,11 @@ impl Hermite {
         a + t * (2.0 * b + t * 3.0 * c)
     }
 
-    /// Where its slope vanishes between 0 and 1, in order.
+    /// Points between 0 and 1 where the slope vanishes, in increasing order.
     pub fn extrema(&self) -> [Option<f64>; 2] {
         let [a, b, c] = self.coefficients();
         let root = (b * b - 3.0 * a * c).sqrt();
-        // The quotient that does not cancel, and the other by the product of both roots.
+        // One root from the quotient without cancellation, the other from the product of the roots.
         let sum = -(b + root.copysign(b));
         let (one, other) = (sum / (3.0 * c), a / sum);
         let inside = |t: f64| (t > 0.0 && t < 1.0).then_some(t);

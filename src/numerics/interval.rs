@@ -1,11 +1,11 @@
 //! Intervals with outward rounding, in safe stable Rust.
 //!
-//! Rust rounds every `+ - * /` and `sqrt` to the nearest double (IEEE 754), so the exact result lies
-//! strictly within one unit in the last place of the computed one, and the next double below and above
-//! enclose it: also where the result is subnormal, or overflows (the double below infinity is the
-//! largest finite one, which an overflowing exact result exceeds). A bound that is not a number says
-//! nothing and becomes infinite. So every operation here contains all exact results for all members of
-//! its operands; the functions at the end bound the remainder of a series in the same arithmetic.
+//! Rust rounds every `+ - * /` and `sqrt` to the nearest double (IEEE 754), so the exact result lies strictly
+//! within one unit in the last place of the computed one, and the next doubles below and above enclose it. This
+//! also holds where the result is subnormal or overflows (the double below infinity is the largest finite one,
+//! which an overflowing exact result exceeds). A bound that is NaN carries no information and becomes infinite.
+//! Thus the result of every operation here contains all exact results for all members of its operands. The
+//! functions at the end bound the remainder of a series in the same arithmetic.
 
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,
@@ -25,10 +25,10 @@ pub struct Interval {
     upper: f64,
 }
 
-/// The number pi: the double nearest to it lies below it.
+/// The number pi; the nearest double is below it.
 pub const PI: Interval = Interval { lower: std::f64::consts::PI, upper: 3.141_592_653_589_793_6 };
 
-/// Upper 33 bits of `ln 2`; its products with whole numbers below `2^20` are exact.
+/// Upper 32 bits of `ln 2`; products with integers below `2^20` are exact.
 const LN_2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fee0_0000);
 
 /// `ln 2 - LN_2_HIGH = 1.908_214_929_270_587_816..e-10`.
@@ -36,10 +36,10 @@ const LN_2_LOW: Interval =
     Interval { lower: 1.908_214_929_270_587e-10, upper: 1.908_214_929_270_588e-10 };
 
 impl Interval {
-    /// Every number: what an operation without a sensible result returns.
+    /// All numbers: the result of an operation that has no meaningful one.
     pub const ALL: Interval = Interval { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
-    /// The numbers from `lower` to `upper`; every number if they are out of order or one is not a number.
+    /// The numbers from `lower` to `upper`; all numbers if the bounds are out of order or NaN.
     pub const fn new(lower: f64, upper: f64) -> Self {
         if lower <= upper { Interval { lower, upper } } else { Interval::ALL }
     }
@@ -57,7 +57,7 @@ impl Interval {
         Interval::outward(middle - radius, middle + radius)
     }
 
-    /// One double further out on either side than two rounded bounds.
+    /// The interval one double beyond each of two rounded bounds.
     fn outward(lower: f64, upper: f64) -> Self {
         let lower = if lower.is_nan() { f64::NEG_INFINITY } else { lower.next_down() };
         let upper = if upper.is_nan() { f64::INFINITY } else { upper.next_up() };
@@ -74,13 +74,13 @@ impl Interval {
         self.upper
     }
 
-    /// A double within, near the middle; 0 if both bounds are infinite.
+    /// A member near the middle; 0 if both bounds are infinite.
     pub fn middle(self) -> f64 {
         let middle = 0.5 * self.lower + 0.5 * self.upper;
         if middle.is_nan() { 0.0 } else { middle.clamp(self.lower, self.upper) }
     }
 
-    /// A number that no member is further away from [`Interval::middle`] than.
+    /// Upper bound of the distance of any member from [`Interval::middle`].
     pub fn radius(self) -> f64 {
         let middle = self.middle();
         if self.lower == self.upper {
@@ -94,7 +94,7 @@ impl Interval {
         if self.lower == self.upper { 0.0 } else { (self.upper - self.lower).next_up() }
     }
 
-    /// What is no further from a member than this.
+    /// All numbers at most `off` from a member.
     pub fn widened(self, off: f64) -> Self {
         Interval::outward(self.lower - off, self.upper + off)
     }
@@ -104,7 +104,7 @@ impl Interval {
         self.lower <= value && value <= self.upper
     }
 
-    /// Whether every member of `self` is one of `other`.
+    /// Whether every member of `self` is a member of `other`.
     pub fn is_within(self, other: Self) -> bool {
         other.lower <= self.lower && self.upper <= other.upper
     }
@@ -114,18 +114,18 @@ impl Interval {
         self.lower.is_finite() && self.upper.is_finite()
     }
 
-    /// Whether it is a single double.
+    /// Whether the interval is a single double.
     pub fn is_point(self) -> bool {
         self.lower == self.upper
     }
 
-    /// The members of both; `None` if there are none.
+    /// The common members; `None` if there are none.
     pub fn intersection(self, other: Self) -> Option<Self> {
         let (lower, upper) = (self.lower.max(other.lower), self.upper.min(other.upper));
         (lower <= upper).then_some(Interval { lower, upper })
     }
 
-    /// The smallest interval that holds both.
+    /// The smallest interval that contains both.
     pub fn hull(self, other: Self) -> Self {
         Interval { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
     }
@@ -142,12 +142,12 @@ impl Interval {
         Interval::new(smallest.max(0.0), one.max(other).next_up())
     }
 
-    /// All square roots of members, which must not be negative.
+    /// Square roots of all members, none of which may be negative.
     pub fn sqrt(self) -> Self {
         Interval::outward(self.lower.sqrt(), self.upper.sqrt())
     }
 
-    /// Twice: exact, unless it overflows.
+    /// Twice the interval; exact unless it overflows.
     pub fn twice(self) -> Self {
         Interval::new(2.0 * self.lower, 2.0 * self.upper)
     }
@@ -172,7 +172,7 @@ impl Interval {
         Interval::new(atan(self.lower).lower, atan(self.upper).upper)
     }
 
-    /// A polynomial with these coefficients, by Horner's rule, lowest power first.
+    /// The polynomial with these coefficients, lowest power first, by Horner's rule.
     pub fn polynomial(self, coefficients: &[Interval]) -> Self {
         coefficients.iter().rev().fold(Interval::point(0.0), |sum, &next| sum * self + next)
     }
@@ -180,9 +180,9 @@ impl Interval {
 
 /// `exp(value)`.
 ///
-/// With `n` the whole number nearest to `value/ln 2`, `y = value - n ln 2` is at most 0.3466 in size up
-/// to rounding of n, and `exp(value) = 2^n exp(y)`. The terms of degree 18 and more of `exp(y)` are together
-/// below `0.36^18/18! e^0.36 < 1e-23` for `abs(y) < 0.36`.
+/// With `n` the integer nearest to `value/ln 2`, `y = value - n ln 2` is at most 0.3466 in magnitude up to
+/// rounding of n, and `exp(value) = 2^n exp(y)`. The terms of `exp(y)` of degree 18 and higher sum to less than
+/// `0.36^18/18! e^0.36 < 1e-23` for `abs(y) < 0.36`.
 fn exp(value: f64) -> Interval {
     const TERMS: usize = 18;
     const REMAINDER: f64 = 1e-23;
@@ -212,7 +212,8 @@ fn exp(value: f64) -> Interval {
     sum * Interval::point(f64::from_bits(biased << 52))
 }
 
-/// `ln(value)`: with y near it, `r = value exp(-y)` is near 1, and `ln(value) - y = ln(r)` is between `1 - 1/r` and `r - 1`.
+/// `ln(value)`. With y near it, `r = value exp(-y)` is near 1, and `ln(value) - y = ln(r)` is between `1 - 1/r`
+/// and `r - 1`.
 fn ln(value: f64) -> Interval {
     if !(value > f64::MIN_POSITIVE && value < f64::INFINITY) {
         return Interval::ALL;
@@ -224,8 +225,8 @@ fn ln(value: f64) -> Interval {
     Interval::point(y) + off
 }
 
-/// `exp(value) - 1`: below 1/2 by its own series, whose terms of degree 19 and more are together a part
-/// below `0.5^18/19! e^0.5 < 1e-22` of its first.
+/// `exp(value) - 1`. Up to 1/2 by its own series; its terms of degree 19 and higher sum to less than
+/// `0.5^18/19! e^0.5 < 1e-22` of the first term.
 fn exp_m1(value: f64) -> Interval {
     const REMAINDER: f64 = 1e-22;
     if !(value.abs() <= 0.5) {
@@ -239,9 +240,9 @@ fn exp_m1(value: f64) -> Interval {
     y * (sum + Interval::new(-REMAINDER, REMAINDER))
 }
 
-/// `atan(value)`: halved three times by `atan(x) = 2 atan(x/(1 + sqrt(1 + x^2)))`, which brings the
-/// argument within `tan(pi/16) < 0.199`; then the alternating series, whose error is less than its first
-/// omitted term, `0.199^31/31 < 1e-22` of an argument of at most 0.199.
+/// `atan(value)`. Halving three times by `atan(x) = 2 atan(x/(1 + sqrt(1 + x^2)))` brings the argument within
+/// `tan(pi/16) < 0.199`. The error of the alternating series is then less than its first omitted term, which is
+/// below `0.199^30/31 < 1e-22` of the argument.
 fn atan(value: f64) -> Interval {
     const REMAINDER: f64 = 1e-22;
     if value.is_nan() {
@@ -318,7 +319,7 @@ impl Div for Interval {
     }
 }
 
-/// With a double for the other operand, which stands for itself.
+/// Operations with a double as the other operand, exact as given.
 macro_rules! with_a_double {
     ($($operation:ident $method:ident),*) => {$(
         impl $operation<f64> for Interval {
@@ -333,8 +334,7 @@ macro_rules! with_a_double {
 
 with_a_double!(Add add, Sub sub, Mul mul, Div div);
 
-/// The outward hull of four rounded results; `min` and `max` skip what is not a number, so that is
-/// looked for first.
+/// The outward hull of four rounded results. Since `min` and `max` ignore NaN, it is tested for first.
 fn extremes(results: [f64; 4]) -> Interval {
     if results.iter().any(|result| result.is_nan()) {
         return Interval::ALL;

@@ -1,11 +1,10 @@
-//! Arithmetic that every other ring builds on, and that knows nothing of oscillators.
+//! Arithmetic used by every other ring, independent of oscillators.
 //!
 //! - Numbers: [`interval`] rounds outwards, [`twofold`] carries twice the digits, [`wide`] a far wider range,
-//!   [`scaling`] multiplies by powers of two without error, [`sum`] remembers what rounding takes, [`mod@count`]
-//!   turns counts into real numbers and back, [`random`] simulates noise.
-//! - Functions: [`elementary`] has those of every pocket calculator, [`root`] finds zeros inside brackets,
-//!   [`quadrature`] integrates, [`polynomial`] evaluates, [`hermite`] interpolates by cubics, [`spline`] smooths
-//!   measured points.
+//!   [`scaling`] multiplies by powers of two without error, [`sum`] compensates rounding, [`mod@count`] converts
+//!   between counts and real numbers, [`random`] simulates noise.
+//! - Functions: [`elementary`] has those of the standard library, [`root`] finds zeros inside brackets, [`quadrature`]
+//!   integrates, [`polynomial`] evaluates, [`hermite`] interpolates by cubics, [`spline`] smooths measured points.
 
 pub(crate) mod count;
 pub(crate) mod decimal;

@@ -1,7 +1,7 @@
 //! Polynomials and power series, lowest power first.
 
 use crate::numerics::count::real;
-/// `1, 1/2, 1/3, ..` behind a zero: the reciprocals of `0 .. N`, with 0 for that of 0.
+/// The reciprocals of `0 .. N`, with 0 for that of 0.
 pub const fn reciprocals<const N: usize>() -> [f64; N] {
     let mut table = [0.0; N];
     let mut k = 1;
@@ -36,7 +36,7 @@ pub fn value_and_slope(coefficients: &[f64], t: f64) -> (f64, f64) {
     })
 }
 
-/// A function and its first three derivatives at one place.
+/// A function and its first three derivatives at one point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Derivatives {
     pub value: f64,
@@ -49,7 +49,7 @@ pub struct Derivatives {
 }
 
 impl Derivatives {
-    /// The cubic Taylor polynomial with these derivatives, `step` away from its centre.
+    /// The cubic Taylor polynomial with these derivatives, at distance `step` from its centre.
     pub fn cubic(&self, step: f64) -> f64 {
         self.value + step * (self.first + step * (self.second / 2.0 + step * self.third / 6.0))
     }
@@ -60,7 +60,7 @@ impl Derivatives {
     }
 }
 
-/// The value by Horner's rule, and three derivatives by the same rule differentiated.
+/// The value by Horner's rule, and three derivatives by differentiating that rule.
 pub fn derivatives(coefficients: &[f64], t: f64) -> Derivatives {
     let mut sum = Derivatives::default();
     for coefficient in coefficients.iter().rev() {
@@ -72,8 +72,7 @@ pub fn derivatives(coefficients: &[f64], t: f64) -> Derivatives {
     sum
 }
 
-/// The value by Horner's rule in even and odd powers: two chains of half the length, which do not wait for
-/// each other.
+/// The value by Horner's rule in even and odd powers: two independent chains of half the length.
 #[inline]
 pub fn value_in_two(coefficients: &[f64], t: f64) -> f64 {
     let square = t * t;

@@ -1,4 +1,4 @@
-//! Integrals: Gauss's rule with ten points, and an adaptive rule of Gauss and Kronrod with its error.
+//! Integrals: the 10-point Gauss rule, and an adaptive Gauss-Kronrod rule with an error estimate.
 
 /// Nodes and weights of the Gauss-Legendre rule with 10 points on `[0, 1]`, exact to degree 19.
 pub const GAUSS: [(f64, f64); 10] = [
@@ -14,7 +14,7 @@ pub const GAUSS: [(f64, f64); 10] = [
     (0.986_953_264_258_585_9, 0.033_335_672_154_344_07),
 ];
 
-/// The integral over `[0, 1]` by Gauss's rule.
+/// The integral over `[0, 1]` by the Gauss rule.
 pub fn gauss(function: impl Fn(f64) -> f64) -> f64 {
     GAUSS.iter().map(|&(node, weight)| weight * function(node)).sum()
 }
@@ -27,13 +27,12 @@ pub struct Integral {
     pub error: f64,
 }
 
-/// Integrates over a range, halving intervals until the rules of Gauss and of Kronrod agree on each to
-/// `tolerance`.
+/// Integrates over a range, halving intervals until the Gauss and Kronrod rules agree on each to `tolerance`.
 ///
-/// Assumption: the function is smooth except for kinks. The error is the sum of the differences between both
+/// Assumption: the function is smooth except for kinks. The error is the sum of the differences between the two
 /// rules, a large overestimate where the function is smooth.
 ///
-/// Hard-wired: an interval is halved 30 times at most, when a kink is within 1e-9 of the range.
+/// Hard-wired: an interval is halved at most 30 times, which locates a kink to 1e-9 of the range.
 pub fn integrate(function: &impl Fn(f64) -> f64, range: (f64, f64), tolerance: f64) -> Integral {
     const DEPTH: u32 = 30;
     let mut total = Integral { value: 0.0, error: 0.0 };
@@ -51,11 +50,11 @@ pub fn integrate(function: &impl Fn(f64) -> f64, range: (f64, f64), tolerance: f
     total
 }
 
-/// The 15-point rule of Kronrod, and its difference from the 7-point rule of Gauss within it.
+/// The 15-point Kronrod rule and its difference from the embedded 7-point Gauss rule.
 ///
 /// Nodes and weights: Piessens et al., QUADPACK (1983), rounded to doubles.
 fn gauss_kronrod(function: &impl Fn(f64) -> f64, from: f64, to: f64) -> Integral {
-    /// Node, Kronrod weight, Gauss weight (0 where the node is not a node of Gauss).
+    /// Node, Kronrod weight, Gauss weight (0 where the node is not a Gauss node).
     const NODES: [(f64, f64, f64); 8] = [
         (0.991_455_371_120_812_6, 0.022_935_322_010_529_224, 0.0),
         (0.949_107_912_342_758_5, 0.063_092_092_629_978_55, 0.129_484_966_168_869_7),

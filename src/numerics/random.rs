@@ -11,12 +11,12 @@ pub struct Random {
 }
 
 impl Random {
-    /// The stream of this seed.
+    /// The stream for this seed.
     pub fn new(seed: u64) -> Self {
         Random { state: seed }
     }
 
-    /// Evenly distributed over (0, 1).
+    /// A number uniformly distributed over (0, 1).
     pub fn even(&mut self) -> f64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut mixed = self.state;
@@ -28,7 +28,7 @@ impl Random {
         even
     }
 
-    /// Normally distributed with mean 0 and deviation 1 (Box and Muller).
+    /// A number normally distributed with mean 0 and standard deviation 1 (Box and Muller).
     pub fn normal(&mut self) -> f64 {
         (-2.0 * ln(self.even())).sqrt() * cos(TAU * self.even())
     }

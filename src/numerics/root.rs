@@ -1,16 +1,16 @@
 //! Zeros of functions of one variable, inside brackets.
 //!
-//! [`newton`] is for functions that come with their derivative, [`illinois`] for those without,
-//! [`bisect`] for conditions, and [`maximum`] for the largest value. Each returns a bracket as narrow as it became,
-//! and each ends after a fixed number of evaluations whatever the function does. The versions named `try_..` are for functions that
-//! may fail; they stop at the first error.
+//! [`newton`] is for functions with a known derivative, [`illinois`] for those without, [`bisect`] for
+//! conditions, and [`maximum`] for the largest value. Each returns its final bracket and ends after a fixed
+//! number of evaluations, whatever the function does. The versions named `try_..` are for functions that may
+//! fail; they stop at the first error.
 
 use std::convert::Infallible;
 
-/// Halvings without a limit: [`bisect`] then ends at two neighbouring doubles.
+/// No limit on halvings: [`bisect`] then ends at two neighbouring doubles.
 pub const TO_ROUNDING: u32 = u32::MAX;
 
-/// An interval at whose ends a function has different signs.
+/// An interval at whose ends a function has opposite signs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bracket {
     /// The lower end.
@@ -22,12 +22,12 @@ pub struct Bracket {
 }
 
 impl Bracket {
-    /// A bracket of a function that is positive at `high` and not at `low`.
+    /// A bracket of a function that is positive at `high` but not at `low`.
     pub fn rising(low: f64, high: f64) -> Self {
         Bracket { low, high, rising: true }
     }
 
-    /// A bracket of a function that is positive at `low` and not at `high`.
+    /// A bracket of a function that is positive at `low` but not at `high`.
     pub fn falling(low: f64, high: f64) -> Self {
         Bracket { low, high, rising: false }
     }
@@ -41,18 +41,18 @@ impl Bracket {
         if place > self.low && place < self.high { place } else { self.middle() }
     }
 
-    /// Moves one end to a place at which the function has this value.
+    /// Moves one end to `place`, where the function has this value.
     pub fn narrow(&mut self, place: f64, value: f64) {
         *(if (value > 0.0) == self.rising { &mut self.high } else { &mut self.low }) = place;
     }
 }
 
-/// A change of the place so small that the search ends with it.
+/// The change of the place at which a search ends.
 #[derive(Clone, Copy, Debug)]
 pub enum PlaceTolerance {
-    /// So small by itself.
+    /// An absolute change.
     Absolute(f64),
-    /// So small a part of the place.
+    /// A change relative to the place.
     Relative(f64),
 }
 
@@ -68,20 +68,21 @@ impl PlaceTolerance {
 /// A zero and the bracket around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Root {
-    /// The best place known; not outside the bracket.
+    /// The best estimate; never outside the bracket.
     pub at: f64,
-    /// What the signs of the evaluations prove.
+    /// The bracket established by the signs of the evaluations.
     pub bracket: Bracket,
 }
 
-/// Newton's method from `start` inside a bracket, halving it wherever a step would leave it.
+/// Newton's method from `start` inside a bracket, which is halved wherever a step would leave it.
 ///
-/// `function` gives the value and the derivative. Assumption: it is continuous on the bracket and has its
-/// signs at the ends. Guarantee: the result lies in the final bracket, at whose ends the function still has
-/// these signs. Near a simple zero the error of the result is about the square of the last step, as a part
-/// of the length over which the function bends; so half the digits wanted are enough for `settled`.
+/// `function` returns the value and the derivative. Assumption: it is continuous on the bracket and has the
+/// bracket's signs at the ends. Guarantee: the result lies in the final bracket, at whose ends the function
+/// still has these signs. Near a simple zero the error of the result is about the square of the last step,
+/// relative to the length over which the function bends; half the desired digits therefore suffice for
+/// `settled`.
 ///
-/// Hard-wired: 200 evaluations. Newton's method takes some five and bisection to rounding about sixty.
+/// Hard-wired: 200 evaluations. Newton's method takes about five, and bisection to rounding about sixty.
 #[inline]
 pub fn newton(
     bracket: Bracket,
@@ -111,7 +112,7 @@ pub fn try_newton<E>(
             return Ok(Root { at: newton.clamp(bracket.low, bracket.high), bracket });
         }
         let next = bracket.inside(newton);
-        // No double is left between the ends.
+        // No double lies between the ends.
         if value == 0.0 || next <= bracket.low || next >= bracket.high {
             break;
         }
@@ -120,11 +121,11 @@ pub fn try_newton<E>(
     Ok(Root { at, bracket })
 }
 
-/// Where a condition begins to hold, on the way from `without` to `with`, in at most this many halvings.
+/// The point between `without` and `with` where a condition begins to hold, in at most this many halvings.
 ///
-/// Assumption: it holds at `with` and not at `without`; neither is tried. Guarantee: the result is a pair
-/// of places, without and with it, that are apart by the way divided by `2^halvings`, or neighbouring
-/// doubles. If the condition changes more than once, this is one of its changes.
+/// Assumption: the condition holds at `with` and not at `without`; neither is tested. Guarantee: the result is
+/// a pair of places, without and with the condition, whose distance is the initial one divided by `2^halvings`,
+/// or which are neighbouring doubles. If the condition changes more than once, this is one of the changes.
 pub fn bisect(
     without: f64,
     with: f64,
@@ -152,14 +153,14 @@ pub fn try_bisect<E>(
     Ok((without, with))
 }
 
-/// The rule of Illinois: secants inside a bracket, where an end that stays twice counts half.
+/// The Illinois method: secants inside a bracket, halving the value at an end that is kept twice.
 ///
-/// Assumption: `ends` are two places with values of different sign, or 0, of a continuous function.
-/// Guarantee: the result is the final bracket, places and values, with the smaller value first. The search
-/// ends when a value is at most `small` in size (never, if that is negative), or the bracket at most `width` wide. An infinite value makes
-/// the next step a halving.
+/// Assumption: `ends` are two places with values of opposite sign, or 0, of a continuous function. Guarantee:
+/// the result is the final bracket, places and values, with the value of smaller magnitude first. The search
+/// ends when a value is at most `small` in magnitude (never, if `small` is negative) or the bracket is at most
+/// `width` wide. An infinite value makes the next step a halving.
 ///
-/// Hard-wired: 100 evaluations; the order of convergence is 1.44, so that ten are usual.
+/// Hard-wired: 100 evaluations. The order of convergence is 1.44, so ten are usual.
 pub fn illinois<E>(
     ends: [(f64, f64); 2],
     small: f64,
@@ -168,7 +169,7 @@ pub fn illinois<E>(
 ) -> Result<[(f64, f64); 2], E> {
     const EVALUATIONS: u32 = 100;
     let [mut one, mut other] = ends;
-    // The values as the secant weighs them.
+    // The values as weighted by the secant.
     let (mut weight, mut weight_of_other) = (one.1, other.1);
     let mut moved = None;
     for _ in 0..EVALUATIONS {
@@ -196,12 +197,12 @@ pub fn illinois<E>(
     Ok(if one.1.abs() < other.1.abs() { [one, other] } else { [other, one] })
 }
 
-/// A bracket at most `width` wide around the largest value of a function, by golden section.
+/// A bracket at most `width` wide around the maximum of a function, by golden section search.
 ///
-/// Assumption: the function has one maximum between `low` and `high`. Guarantee: the bracket then holds it. A
-/// maximum is flat, so that rounding hides about half of the digits of its place, and none of its value.
+/// Assumption: the function has one maximum between `low` and `high`. Guarantee: the bracket contains it. A
+/// maximum is flat, so rounding hides about half of the digits of its place, but none of its value.
 ///
-/// Hard-wired: 100 evaluations, which shrink a bracket by 20 digits.
+/// Hard-wired: 100 evaluations, which shrink a bracket by 20 orders of magnitude.
 pub fn maximum(low: f64, high: f64, width: f64, function: impl Fn(f64) -> f64) -> (f64, f64) {
     let Ok(ends) = try_maximum(low, high, width, |at| Ok::<_, Infallible>(function(at)));
     ends
@@ -215,7 +216,7 @@ pub fn try_maximum<E>(
     mut function: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<(f64, f64), E> {
     const EVALUATIONS: u32 = 100;
-    /// The shorter part of a golden section.
+    /// The smaller fraction of a golden section.
     const GOLDEN: f64 = 0.381_966_011_250_105_2;
     let mut value = |at: f64| function(at).map(|value| (at, value));
     let mut left = value(low + GOLDEN * (high - low))?;
@@ -256,7 +257,7 @@ mod tests {
         assert!(root.bracket.low <= root.at && root.at <= root.bracket.high);
     }
 
-    /// Newton's method by itself would run away from `atan`, divide by zero on the plateau, and cycle.
+    /// Unprotected, Newton's method would diverge on `atan`, divide by zero on the plateau, and cycle.
     #[test]
     fn newton_finds_what_newton_alone_would_lose() {
         let far =
@@ -327,7 +328,7 @@ mod tests {
     }
 
     proptest! {
-        /// `sinh(k (x - root))` is as straight or as bent as one likes.
+        /// `sinh(k (x - root))` ranges from nearly straight to strongly bent.
         #[test]
         fn illinois_finds_the_root(root in -1.0..1.0_f64, k in 0.01..5.0_f64, back in any::<bool>()) {
             let function = |x: f64| sinh(k * (x - root));

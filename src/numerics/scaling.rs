@@ -1,4 +1,4 @@
-//! Powers of two as units: multiplying by one is exact, so nothing is lost on the way.
+//! Powers of two as units: multiplication by one of them is exact.
 
 /// The exponent `k` with `2^k <= abs(value) < 2^(k + 1)`; 0 for zero.
 pub fn exponent(value: f64) -> i32 {
@@ -20,14 +20,14 @@ fn power(k: i32) -> f64 {
     f64::from_bits(u64::from((k.clamp(-1022, 1023) + 1023).unsigned_abs()) << 52)
 }
 
-/// `value * 2^k`, rounded once at most, for every `k`.
+/// `value * 2^k` for every `k`, rounded at most once.
 pub fn times_power(value: f64, k: i32) -> f64 {
     if (-1022..=1023).contains(&k) {
         value * power(k)
     } else if k > 0 {
         value * power(1023) * power((k - 1023).min(1023)) * power((k - 2046).max(0))
     } else {
-        // Two steps would round twice in the subnormal range; the first keeps the value normal.
+        // Two steps would round twice in the subnormal range; the first step keeps the value normal.
         let lifted = k + 1022;
         if exponent(value) + lifted >= -1022 {
             value * power(lifted) * power(-1022)
@@ -37,8 +37,8 @@ pub fn times_power(value: f64, k: i32) -> f64 {
     }
 }
 
-/// `log2(value)` to about two digits, from the bits alone: step sizes need no more, and this way they
-/// do not depend on any mathematical library.
+/// `log2(value)` to about two digits, from the bits alone. Step sizes need no more, and this way they do not
+/// depend on any mathematical library.
 pub fn rough_log2(value: f64) -> f64 {
     let k = exponent(value);
     let fraction = times_power(value, -k) - 1.0;

@@ -1,17 +1,17 @@
 //! The smoothest curve near measured points: a smoothing spline of degree five.
 //!
-//! A table of `mu(v)` has no derivatives; the oscillator needs three. They come from an assumption, which
-//! is said here: of all curves that miss the points by `scatter` in the quadratic mean, take the one
-//! with the least integral of `mu'''^2`. It is a polynomial of degree five between neighbouring points,
-//! continuous with four derivatives, and with `mu''' = 0` at the first and the last point. With a
-//! scatter of 0 it passes through every point, and then every error of a point is an error of the law,
-//! amplified in the third derivative by the cube of the inverse spacing.
+//! A table of `mu(v)` has no derivatives, but the oscillator needs three. They follow from an assumption: of
+//! all curves whose root mean square distance from the points is `scatter`, take the one with the least
+//! integral of `mu'''^2`. It is a polynomial of degree five between neighbouring points, has four continuous
+//! derivatives, and satisfies `mu''' = 0` at the first and the last point. With a scatter of 0 it passes
+//! through every point; every error of a point is then an error of the law, amplified in the third derivative
+//! by the cube of the inverse spacing.
 //!
-//! Method (as in Reinsch's for degree three): `mu'''` is a sum of the quadratic B-splines `M_i` over four
-//! neighbouring points, each of integral 1, and `6 [x_i .. x_i+3] mu = integral of M_i mu'''` ties its
-//! coefficients `c` to the values `g` at the points: `G c = 6 Q g` with the Gram matrix `G` and the third
-//! divided differences `Q`. The least `|y - g|^2 + lambda c G c` has `g = y - 6 lambda Q' c` and
-//! `(G + 36 lambda Q Q') c = 6 Q y`, a system of seven diagonals.
+//! Method (analogous to Reinsch's for degree three): `mu'''` is a sum of the quadratic B-splines `M_i` over
+//! four neighbouring points, each of integral 1. Its coefficients `c` are related to the values `g` at the
+//! points by `6 [x_i .. x_i+3] mu = integral of M_i mu'''`, that is, `G c = 6 Q g` with the Gram matrix `G` and
+//! the third divided differences `Q`. The minimum of `|y - g|^2 + lambda c G c` has `g = y - 6 lambda Q' c` and
+//! `(G + 36 lambda Q Q') c = 6 Q y`, a system with seven diagonals.
 
 use std::fmt;
 
@@ -23,50 +23,50 @@ use super::root::bisect;
 use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, ln, powi};
 
-/// Fewest points that have a third derivative.
+/// Smallest number of points with a third derivative.
 pub const FEWEST: usize = 4;
 
-/// What a curve is laid near.
+/// The data of a curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Points {
     points: Vec<(f64, f64)>,
     scatter: f64,
 }
 
-/// A curve near points.
+/// A smooth curve near given points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Points", into = "Points")]
 pub struct SmoothingSpline {
-    /// What it is laid near, to be written down.
+    /// The data of the curve, for serialization.
     given: Points,
     /// Abscissae, increasing.
     x: Vec<f64>,
-    /// Values of the curve there.
+    /// Values of the curve at the abscissae.
     g: Vec<f64>,
-    /// Its first and second derivatives at the left end of each interval.
+    /// First and second derivatives at the left end of each interval.
     slopes: Vec<(f64, f64)>,
-    /// Its third derivative on each interval, as a quadratic in the distance from the left end.
+    /// Third derivative on each interval, as a quadratic in the distance from the left end.
     third: Vec<[f64; 3]>,
-    /// Quadratic mean of the distances from the points.
+    /// Root mean square distance from the points.
     missed: f64,
 }
 
-/// Points through which no curve can be laid.
+/// Why no curve can be constructed from points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PointsError {
-    /// Too few of them.
+    /// Too few points.
     TooFew {
-        /// How many.
+        /// Their number.
         count: usize,
     },
-    /// Not a number, or a velocity that does not exceed the one before; `index` from 0.
+    /// Not a finite number, or an abscissa that does not exceed the previous one.
     Point {
-        /// Which point.
+        /// Index of the point, from 0.
         index: usize,
     },
-    /// Numbers overflow on the way; of the points the two closest are these, `index` and the next.
+    /// The computation overflowed; `index` and the next are the two closest points.
     Uneven {
-        /// The first of the two, from 0.
+        /// Index of the first of the two, from 0.
         index: usize,
     },
 }
@@ -108,9 +108,9 @@ impl From<SmoothingSpline> for Points {
 }
 
 impl SmoothingSpline {
-    /// The smoothest curve that misses `points` by `scatter` (at most) in the quadratic mean. Fails with
-    /// [`PointsError`] for fewer than four points, numbers that are not finite, abscissae that do not increase or
-    /// are so uneven that numbers overflow.
+    /// The smoothest curve whose root mean square distance from `points` is (at most) `scatter`. Fails with
+    /// [`PointsError`] for fewer than four points, for numbers that are not finite, and for abscissae that do
+    /// not increase or are so uneven that numbers overflow.
     pub fn new(points: &[(f64, f64)], scatter: f64) -> Result<Self, PointsError> {
         if points.len() < FEWEST {
             return Err(PointsError::TooFew { count: points.len() });
@@ -144,18 +144,17 @@ impl SmoothingSpline {
         (self.x[0], self.x[self.x.len() - 1])
     }
 
-    /// How many points it has.
+    /// Number of points.
     pub fn points(&self) -> usize {
         self.x.len()
     }
 
-    /// By how much it misses the points, in the quadratic mean.
+    /// Root mean square distance from the points.
     pub fn missed(&self) -> f64 {
         self.missed
     }
 
-    /// Its pieces in their order: from where to where, and the coefficients of powers of the distance from the
-    /// left end.
+    /// The pieces in order: their two ends, and the coefficients in powers of the distance from the left end.
     pub fn polynomials(&self) -> impl Iterator<Item = (f64, f64, [f64; 6])> + '_ {
         let ends = self.x.windows(2).zip(&self.g).zip(self.slopes.iter().zip(&self.third));
         ends.map(|((ends, value), ((first, second), [a, b, c]))| {
@@ -164,7 +163,7 @@ impl SmoothingSpline {
         })
     }
 
-    /// The curve and its derivatives at `x`; beyond the ends its last pieces go on.
+    /// The curve and its derivatives at `x`; beyond the ends the end pieces are continued.
     pub fn at(&self, x: f64) -> Derivatives {
         let after = self.x.partition_point(|&knot| knot <= x);
         let piece = after.clamp(1, self.x.len() - 1) - 1;
@@ -180,7 +179,7 @@ impl SmoothingSpline {
     }
 }
 
-/// A quadratic, integrated three times from 0 to `t`.
+/// The threefold integral of a quadratic from 0 to `t`.
 fn thrice([a, b, c]: [f64; 3], t: f64) -> f64 {
     powi(t, 3) * (a / 6.0 + t * (b / 24.0 + t * c / 60.0))
 }
@@ -191,13 +190,13 @@ fn quadratic_mean(one: &[f64], other: &[f64]) -> f64 {
     (squares / count).sqrt()
 }
 
-/// Seven diagonals of a symmetric matrix: `row[k]` is the element `k` columns to the right.
+/// The seven diagonals of a symmetric matrix: `row[k]` is the element `k` columns to the right.
 type Band = Vec<[f64; 4]>;
 
-/// What the points make of the problem.
+/// The linear system for given points.
 struct System<'a> {
     y: &'a [f64],
-    /// Third divided differences: row i acts on the points i to i + 3.
+    /// Third divided differences: row i acts on points i to i + 3.
     q: Vec<[f64; 4]>,
     gram: Band,
     penalty: Band,
@@ -238,11 +237,11 @@ impl<'a> System<'a> {
         (c, g)
     }
 
-    /// The smoothing at which the curve misses the points by `scatter`.
+    /// The smoothing for which the curve has the root mean square distance `scatter` from the points.
     fn smoothing(&self, scatter: f64) -> f64 {
-        /// Range of the logarithm in which it is sought, around that where both matrices weigh the same.
+        /// Half the search range of the logarithm, around the value where both matrices have equal weight.
         const REACH: f64 = 50.0;
-        /// Halvings: to rounding.
+        /// Number of halvings, enough to reach rounding.
         const HALVINGS: u32 = 60;
         if scatter <= 0.0 {
             return 0.0;
@@ -268,7 +267,7 @@ fn divided_difference(x: &[f64]) -> [f64; 4] {
 
 /// The B-spline of integral 1 over `x[0..4]` at `at`: `3 [x0 .. x3] max(x - at, 0)^2`.
 fn bump(x: &[f64], at: f64) -> f64 {
-    // By the recurrence of Cox and de Boor, whose terms are all positive.
+    // By the Cox-de Boor recurrence, whose terms are all positive.
     let hat = |i: usize| {
         let (a, b, c) = (x[i], x[i + 1], x[i + 2]);
         if at < a || at > c {
@@ -283,7 +282,7 @@ fn bump(x: &[f64], at: f64) -> f64 {
     3.0 * smooth / (x[3] - x[0])
 }
 
-/// Integral of the product of two B-splines, by a rule that is exact for polynomials.
+/// Integral of the product of two B-splines, by a rule exact for these polynomials.
 fn overlap(x: &[f64], one: usize, other: usize) -> f64 {
     let integral = |interval: usize| {
         let (left, length) = (x[interval], x[interval + 1] - x[interval]);
@@ -293,7 +292,7 @@ fn overlap(x: &[f64], one: usize, other: usize) -> f64 {
     (other..one + 3).map(integral).sum()
 }
 
-/// Solves a positive definite system of seven diagonals by `L D L'`.
+/// Solves a positive definite system with seven diagonals by `L D L'`.
 fn solve(mut band: Band, mut b: Vec<f64>) -> Vec<f64> {
     let rows = band.len();
     for row in 0..rows {
@@ -332,13 +331,14 @@ fn third_derivatives(x: &[f64], c: &[f64]) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// First and second derivatives at the left end of each interval: those with which the curve meets the
-/// values at both ends and at the neighbouring point.
+/// First and second derivatives at the left end of each interval, such that the curve takes the given values at
+/// both ends and at the neighbouring point.
 fn slopes(x: &[f64], g: &[f64], third: &[[f64; 3]]) -> Vec<(f64, f64)> {
     (0..third.len())
         .map(|interval| {
             let (left, right) = (x[interval], x[interval + 1]);
-            // A point on the other side, seen from the left end; its value without the third derivative.
+            // Position of the neighbouring point relative to the left end, and its value without the third
+            // derivative.
             let (far, rise) = if interval > 0 {
                 let far = x[interval - 1] - left;
                 (far, g[interval - 1] - g[interval] - back(third[interval - 1], -far))
@@ -354,15 +354,15 @@ fn slopes(x: &[f64], g: &[f64], third: &[[f64; 3]]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// What a third derivative on the interval of length `h` to the left adds to the value at its far end,
+/// Contribution of a third derivative on the interval of length `h` to the left to the value at its far end,
 /// seen from its right end.
 fn back([a, b, c]: [f64; 3], h: f64) -> f64 {
-    // The same quadratic in the distance from the right end, mirrored.
+    // The same quadratic in the distance from the right end.
     let mirrored = [a + h * (b + h * c), -(b + 2.0 * h * c), c];
     -thrice(mirrored, h)
 }
 
-/// What the third derivatives on two neighbouring intervals add to the value at the end of the second,
+/// Contribution of the third derivatives on two neighbouring intervals to the value at the end of the second,
 /// `far` from the left end of the first, whose length is `h`.
 fn ahead(first: [f64; 3], second: [f64; 3], h: f64, far: f64) -> f64 {
     let [a, b, c] = first;

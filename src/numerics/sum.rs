@@ -1,6 +1,6 @@
-//! A sum that remembers what rounding takes from it.
+//! A compensated sum.
 
-/// A compensated sum (Neumaier's): terms below its last digit are not lost, however many they are.
+/// A compensated sum (Neumaier's): terms below its last digit are not lost, however many there are.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sum {
     sum: f64,
@@ -18,12 +18,12 @@ impl Sum {
         self.sum + (self.lost + term)
     }
 
-    /// `end` less the sum.
+    /// `end` minus the sum.
     pub fn until(self, end: f64) -> f64 {
         (end - self.sum) - self.lost
     }
 
-    /// Adds a term that is not negative.
+    /// Adds a non-negative term.
     pub fn add(&mut self, term: f64) {
         let sum = self.sum + term;
         self.lost +=

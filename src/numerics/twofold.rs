@@ -1,8 +1,9 @@
-//! Numbers of twice the working precision, for the few places where a difference decides.
+//! Numbers of twice the working precision, for the few places where a difference is critical.
 //!
-//! A [`Twofold`] is the unevaluated sum of two doubles. It carries a frequency `sqrt(1 - D^2)` near
-//! `abs(D) = 1`, an exponent of some thousand, or a discriminant near zero without loss, so that what
-//! is derived from them is right to the last digits of a double (T. J. Dekker, *A floating-point
+//! A [`Twofold`] is the unevaluated sum of two doubles. It represents a frequency `sqrt(1 - D^2)` near `abs(D)
+//! = 1`, an exponent of several thousand, or a discriminant near zero without loss, so that what is derived
+//! from them is accurate to the last digits of a double (T. J. Dekker, *A floating-point technique for
+//! extending the available precision*, Numerische Mathematik 18, 1971).
 //! technique for extending the available precision*, Numerische Mathematik 18, 1971).
 
 use crate::numerics::elementary::{exp, exp_m1, sin_cos};
@@ -12,19 +13,19 @@ use crate::numerics::elementary::{exp, exp_m1, sin_cos};
 pub struct Twofold {
     /// The sum rounded to a double.
     pub high: f64,
-    /// What that rounding took.
+    /// The rounding error of `high`.
     pub low: f64,
 }
 
 /// The number pi.
 pub const PI: Twofold = Twofold { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
 
-/// Relative error of one operation of [`Twofold`], generously.
+/// Relative error of one operation of [`Twofold`], rounded up generously.
 #[cfg(test)]
 pub const UNIT: f64 = 1e-31;
 
 impl Twofold {
-    /// A double.
+    /// A double as a [`Twofold`].
     pub fn of(value: f64) -> Self {
         Twofold { high: value, low: 0.0 }
     }
@@ -36,13 +37,13 @@ impl Twofold {
         Twofold { high, low: (a - (high - b_part)) + (b - b_part) }
     }
 
-    /// `a * b` without error, as long as nothing over- or underflows.
+    /// `a * b` without error, barring overflow and underflow.
     pub fn product(a: f64, b: f64) -> Self {
         let high = a * b;
         Twofold { high, low: a.mul_add(b, -high) }
     }
 
-    /// `abs(1 - d^2)`, right to all digits however near `abs(d)` is to 1.
+    /// `abs(1 - d^2)`, accurate to all digits however near `abs(d)` is to 1.
     pub fn from_one_minus_square(d: f64) -> Self {
         let square = Self::product(d, d);
         let difference = Self::sum(1.0, -square.high);
@@ -50,14 +51,14 @@ impl Twofold {
         if exact.high < 0.0 { Twofold { high: -exact.high, low: -exact.low } } else { exact }
     }
 
-    /// The sum of two of them, right to its last digits also where they cancel.
+    /// The sum, accurate to its last digits even under cancellation.
     pub fn plus(self, other: Self) -> Self {
         let (high, low) = (Self::sum(self.high, other.high), Self::sum(self.low, other.low));
         let middle = Self::sum(high.high, high.low + low.high);
         Self::sum(middle.high, middle.low + low.low)
     }
 
-    /// The difference of two of them.
+    /// The difference.
     pub fn minus(self, other: Self) -> Self {
         self.plus(other.opposite())
     }
@@ -79,14 +80,14 @@ impl Twofold {
         Self::sum(product.high, self.low.mul_add(factor, product.low))
     }
 
-    /// The product of two of them.
+    /// The product.
     pub fn by(self, other: Self) -> Self {
         let product = Self::product(self.high, other.high);
         let cross = self.high.mul_add(other.low, self.low * other.high);
         Self::sum(product.high, product.low + cross)
     }
 
-    /// The quotient; the divisor is not zero.
+    /// The quotient; the divisor must not be zero.
     pub fn over(self, divisor: Self) -> Self {
         let first = self.high / divisor.high;
         let back = divisor.times(first);
@@ -94,7 +95,7 @@ impl Twofold {
         Self::sum(first, rest / divisor.high)
     }
 
-    /// The square root of a number that is not negative.
+    /// The square root; the number must not be negative.
     pub fn sqrt(self) -> Self {
         let root = self.high.sqrt();
         if root == 0.0 {
@@ -104,7 +105,7 @@ impl Twofold {
         Self::sum(root, rest / (2.0 * root))
     }
 
-    /// The exponential as a double, right to its last digits even where the exponent is large.
+    /// The exponential as a double, accurate to its last digits even for large exponents.
     pub fn exp(self) -> f64 {
         let value = exp(self.high);
         if value.is_finite() { value.mul_add(self.low, value) } else { value }
@@ -122,7 +123,7 @@ impl Twofold {
         (cos.mul_add(self.low, sin), sin.mul_add(-self.low, cos))
     }
 
-    /// Rounded to a double.
+    /// The number rounded to a double.
     pub fn value(self) -> f64 {
         self.high + self.low
     }
@@ -154,7 +155,7 @@ mod tests {
 
     #[test]
     fn a_large_exponent_costs_no_digits() {
-        // e^700 to twenty digits; a double's rounding of 700.1 alone would take three of them.
+        // e^700 to twenty digits; rounding 700.1 to a double would alone cost three of them.
         let exponent = Twofold::product(700.1, 1.0);
         assert_eq!(exponent.exp(), exp(700.1));
         let split = Twofold::sum(700.0, 0.1);

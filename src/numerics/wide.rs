@@ -1,9 +1,9 @@
 //! Numbers with the precision of a double and a far wider range.
 //!
-//! Amplitudes of the harmonic approximation are products and roots of parameters whose intermediate
-//! values overflow long before the result does (`r^2 D3` at `r = 1e-300`). With the exponent apart,
-//! only the result can. A factor that is a power of two changes the exponent alone, so that the
-//! scaling symmetry of the oscillator holds to the last bit.
+//! Amplitudes of the harmonic approximation are products and roots of parameters, whose intermediate values
+//! overflow long before the result does (`r^2 D3` at `r = 1e-300`). With a separate exponent, only the result
+//! can overflow. A factor that is a power of two changes only the exponent, so the scaling symmetry of the
+//! oscillator holds to the last bit.
 
 use crate::numerics::elementary::cbrt;
 use crate::numerics::scaling::{exponent, times_power};
@@ -18,7 +18,7 @@ pub struct Wide {
 }
 
 impl Wide {
-    /// A positive double; subnormal ones are no exception.
+    /// A positive double, which may be subnormal.
     pub fn of(value: f64) -> Self {
         let exponent = exponent(value);
         Wide { mantissa: times_power(value, -exponent), exponent }
@@ -51,12 +51,12 @@ impl Wide {
         Self::normal(cbrt(times_power(self.mantissa, rest)), self.exponent.div_euclid(3))
     }
 
-    /// The nearest double; 0 or infinite beyond its range.
+    /// The nearest double; 0 or infinity beyond the range of doubles.
     pub fn rounded(self) -> f64 {
         times_power(self.mantissa, self.exponent)
     }
 
-    /// The nearest double, if that is neither 0 nor infinite.
+    /// The nearest double, unless it is 0 or infinite.
     pub fn value(self) -> Option<f64> {
         let value = self.rounded();
         (value > 0.0 && value.is_finite()).then_some(value)

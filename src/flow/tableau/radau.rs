@@ -2,8 +2,8 @@
 //!
 //! Butcher and Ehle; Hairer and Wanner, *Solving Ordinary Differential Equations II*, 2nd edition
 //! (1996), section IV.8, and *Stiff differential equations solved by Radau methods*, Journal of
-//!  Computational and Applied Mathematics 111 (1999). The coefficients were computed from the collocation
-//!  conditions with 60 digits.
+//! Computational and Applied Mathematics 111 (1999). The coefficients were computed from the collocation
+//! conditions with 60 digits.
 
 use crate::numerics::count::real;
 /// A collocation scheme.

@@ -1,14 +1,14 @@
-//! Interval arithmetic against exact and against fifty-digit results.
+//! Interval arithmetic against exact and fifty-digit results.
 
 use proptest::prelude::*;
 
 use super::*;
 use crate::numerics::elementary::{atan, exp, powi};
 
-/// A number known to twice the digits of a double, as a sum of two.
+/// A number in twice the precision of a double, as a sum of two doubles.
 type Long = (f64, f64);
 
-/// Whether an interval holds it.
+/// Whether the interval contains the number.
 fn holds(interval: Interval, (high, low): Long) -> bool {
     (interval.lower < high || (interval.lower == high && low >= 0.0))
         && (interval.upper > high || (interval.upper == high && low <= 0.0))
@@ -16,7 +16,7 @@ fn holds(interval: Interval, (high, low): Long) -> bool {
 
 #[test]
 fn squares_and_negatives_stay_members() {
-    // The squares of both lie beside the double next to them, one above it and one below.
+    // Both exact squares lie next to their nearest doubles, one above and one below.
     for x in [0.1, 0.3, 1.1, 1.3] {
         let high = x * x;
         let exact = (high, f64::mul_add(x, x, -high));
@@ -88,7 +88,7 @@ fn functions_beyond_the_range_of_doubles_are_bounded() {
     assert!(Interval::point(800.0).exp().lower() > 1e150);
     let small = Interval::point(-800.0).exp();
     assert!(small.lower() == 0.0 && small.upper() > 0.0 && small.upper() < 1e-300);
-    // The smallest normal doubles, on either side of where the result is scaled.
+    // Near the smallest normal doubles, on both sides of the point where the result is rescaled.
     for x in [-708.0, -708.4, -709.0] {
         let bound = Interval::point(x).exp();
         let above = Interval::point(x + 1.0).exp() * Interval::point(-1.0).exp();
@@ -120,7 +120,7 @@ fn overflow_and_underflow_stay_outside() {
     assert_eq!(tiny.square().lower(), 0.0);
 }
 
-/// The error of a rounded operation, exactly: of a sum by Dekker's method, of a product by a fused one.
+/// The exact error of a rounded operation: Dekker's method for a sum, a fused operation for a product.
 fn errors(a: f64, b: f64) -> [(Interval, (f64, f64)); 3] {
     let (x, y) = (Interval::point(a), Interval::point(b));
     let exact_sum = |a: f64, b: f64| {
@@ -143,7 +143,7 @@ proptest! {
         for (interval, exact) in errors(a, b) {
             prop_assert!(holds(interval, exact), "{a:?} {b:?}: {interval} {exact:?}");
         }
-        // A quotient is held if the product with its ends lies on either side of the dividend.
+        // A quotient is contained if the products with its bounds lie on both sides of the dividend.
         let quotient = Interval::point(a) / Interval::point(b);
         let back = quotient * Interval::point(b);
         prop_assert!(b == 0.0 || back.contains(a));

@@ -58,7 +58,7 @@ fn derivatives_away_from_the_ends_converge_to_those_of_the_law() {
 
 #[test]
 fn scatter_is_taken_out_by_as_much_as_was_said() {
-    // Even deviations of quadratic mean 0.01, from a congruential generator.
+    // Uniform deviations of root mean square 0.01, from a congruential generator.
     let mut points = sampled(stribeck, 60);
     let mut seed = 1_u32;
     for point in &mut points {
@@ -73,7 +73,7 @@ fn scatter_is_taken_out_by_as_much_as_was_said() {
     let (smooth, rough) = (spline.at(0.5).first, rough.at(0.5).first);
     assert!((smooth / slope - 1.0).abs() < 0.1, "{smooth} for {slope}");
     assert!((rough / slope - 1.0).abs() > 0.2, "{rough} for {slope}");
-    // With all the scatter that there is, the least squares parabola is left.
+    // If all deviation is allowed as scatter, the least squares parabola remains.
     let parabola = SmoothingSpline::new(&points, 1.0).unwrap();
     assert!(parabola.at(0.5).third.abs() < 1e-6);
 }
