@@ -1,33 +1,36 @@
 //! The return map G of the clearance z at the right turning point, `z = q - r > 0`, and its inverse.
 //!
-//! Motions of a half plane do not cross. So where a half swing ends increases with its start; G increases, and so does
-//! its inverse. `-inf` stands for a motion that has come to rest, `+inf` for one that never turns.
+//! Motions of a half plane do not cross, so the end of a half swing increases with its start. Hence G
+//! increases, and so does its inverse. `-inf` stands for a motion that has come to rest, `+inf` for one that
+//! never turns.
 
 use super::motion::{Field, Swing};
 use crate::numerics::Interval;
 
-/// G, or its inverse, at some parameters.
+/// G or its inverse, for given parameters.
 pub struct Map {
-    /// The fields of its two half swings. G begins below `v = 0`, on the way from the right turning point to the left one.
+    /// The fields of the two half swings. G begins below `v = 0`, on the way from the right turning point to
+    /// the left one.
     fields: [Field; 2],
-    /// A half swing from the clearance z starts that much further away from its centre than z.
+    /// A half swing from the clearance z starts at the distance z plus this from its centre.
     before: Interval,
-    /// It ends that much further away from its centre than the next clearance.
+    /// It ends at the distance of the next clearance plus this from its centre.
     after: Interval,
 }
 
 impl Map {
-    /// The map for `D`, `D2`, `D3`, `r`; the fences are those of its two half swings.
+    /// The map for `D`, `D2`, `D3`, `r`; `fences` has one entry for each half swing.
     pub fn new([d, d2, d3, r]: [Interval; 4], inverse: bool, fences: [f64; 2]) -> Self {
         let (gap, none) = (r.twice(), Interval::point(0.0));
-        // A motion run backward, in the frame `y = -x`, obeys the same equation with all coefficients negated.
+        // A motion in reversed time, in the frame `y = -x`, obeys the same equation with all coefficients
+        // negated.
         let [a, c] = if inverse { [-d.twice(), -d3] } else { [d.twice(), d3] };
         let [before, after] = if inverse { [gap, none] } else { [none, gap] };
         let fields = [Field::new([a, -d2, c], fences[0]), Field::new([a, d2, c], fences[1])];
         Map { fields, before, after }
     }
 
-    /// Bounds of all images of an interval of clearances, by those of its ends.
+    /// Bounds of the images of an interval of clearances, from those of its ends.
     pub fn images(&self, of: Interval) -> Interval {
         let mut at = of;
         for field in &self.fields {
@@ -40,7 +43,8 @@ impl Map {
         at
     }
 
-    /// Bounds of the clearance after one half swing; from 0 only the lower one, from infinity the upper one.
+    /// Bounds of the clearance after one half swing; only the lower one from 0, only the upper one from
+    /// infinity.
     fn half(&self, field: &Field, z: f64) -> Interval {
         let start = self.before + z;
         let end = if z == f64::INFINITY {
@@ -57,7 +61,7 @@ impl Map {
 
     /// The derivative over an interval of clearances; `None` where it is not certain.
     ///
-    /// That of a half swing is `z/X exp(-I)` by Liouville's theorem, X its end and I the integral of `f'`.
+    /// For a half swing it is `z/X exp(-I)` by Liouville's theorem, with its end X and the integral I of `f'`.
     pub fn slope(&self, over: Interval) -> Option<Interval> {
         let (mut at, mut slope) = (over, Interval::point(1.0));
         for field in &self.fields {

@@ -1,8 +1,9 @@
 //! Certificates of limit cycles, and the program that checks them.
 //!
-//! A certificate says that at some parameters there is this number of limit cycles and no others, at any amplitude. Its
-//! steps cover all clearances `z > 0` of right turning points, from 0 to infinity, each by one statement about the
-//! return map G, which increases, for z between `from` and `to`; where `to` is left out it is infinite.
+//! A certificate states that, for given parameters, there are exactly so many limit cycles, at any amplitude.
+//! Its steps cover all clearances `z > 0` of right turning points, from 0 to infinity. Each step makes one
+//! statement about the return map G, which is increasing, for z between `from` and `to`; if `to` is omitted it
+//! is infinite.
 //!
 //! | step | statement | shown by |
 //! |---|---|---|
@@ -13,8 +14,9 @@
 //! | `unstable` | one cycle | so does `G^-1` |
 //! | theorems | the number of cycles | their conditions |
 //!
-//! Nothing here is shared with the search for cycles or with the proofs that wrote the certificate, but the arithmetic
-//! of intervals ([`crate::numerics::interval`]). [`motion`] encloses half swings, [`map`] makes G of them.
+//! This module shares only interval arithmetic ([`crate::numerics::interval`]) with the search for cycles and
+//! with the proofs that produced the certificate. [`motion`] encloses half swings, [`map`] combines them into
+//! G.
 
 pub mod map;
 pub mod motion;
@@ -27,19 +29,19 @@ use map::Map;
 /// Lower and upper bound.
 pub type Bounds = [f64; 2];
 
-/// What a file says.
+/// The content of a certificate file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
-    /// Bounds of D, D2, D3 and r; it holds for all values between them.
+    /// Bounds of D, D2, D3 and r; the certificate holds for all values between them.
     pub parameters: [Bounds; 4],
-    /// How many limit cycles there are.
+    /// Number of limit cycles.
     pub cycles: usize,
     /// The steps, in order.
     pub steps: Vec<CertificateStep>,
 }
 
-/// A step.
+/// One step of a certificate.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CertificateStep {
@@ -48,15 +50,15 @@ pub struct CertificateStep {
     pub from: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to: Option<f64>,
-    /// Of a cycle: bounds of its clearance.
+    /// For a cycle: bounds of its clearance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<Bounds>,
-    /// Where half swings are stiff: the velocities of the fences of both, 0 for none.
+    /// Where half swings are stiff: the velocity of the fence of each, 0 for none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fences: Option<[f64; 2]>,
 }
 
-/// What a step shows.
+/// The statement of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum StepKind {
@@ -65,26 +67,27 @@ pub enum StepKind {
     Above,
     Stable,
     Unstable,
-    /// None, by the theorem: `r + 2 D w + D3 w^3` has one sign for all `w >= 0`, so that a first integral of the motion
-    /// with D2 alone only falls, or only rises.
+    /// No cycle, by the theorem: `r + 2 D w + D3 w^3` has one sign for all `w >= 0`, so that a first integral
+    /// of the motion with D2 alone only decreases, or only increases.
     OneWay,
-    /// None, by the theorem: `D <= -1`, `D3 <= 0`; in one half plane nothing turns.
+    /// No cycle, by the theorem: `D <= -1`, `D3 <= 0`; in one half plane no motion turns.
     Overdamped,
-    /// One, by the theorem: `D2 = D3 = 0`, `-1 < D < 0 < r`; half swings are affine.
+    /// One cycle, by the theorem: `D2 = D3 = 0`, `-1 < D < 0 < r`; half swings are affine.
     Affine,
-    /// One, by the theorem of A. Lins, W. de Melo and C. C. Pugh, *On Lienard's equation* (1977): `r = 0`, `D D3 < 0`.
+    /// One cycle, by the theorem of A. Lins, W. de Melo and C. C. Pugh, *On Lienard's equation* (1977): `r =
+    /// 0`, `D D3 < 0`.
     Frictionless,
 }
 
-/// `Err` of what does not hold.
+/// An error with the text `what` unless the condition holds.
 fn known(holds: bool, what: &str) -> Result<(), String> {
     if holds { Ok(()) } else { Err(what.to_owned()) }
 }
 
-/// Checks a file: every step, that they leave no gap, and how many cycles they show.
+/// Checks a file: that every step holds, that the steps leave no gap, and how many cycles they show.
 ///
 /// # Errors
-/// The first thing that does not hold, after the number of its line.
+/// The first statement that does not hold, after its line number.
 pub fn check(text: &str) -> Result<Certificate, String> {
     let given: Certificate = serde_json::from_str(text).map_err(|error| {
         let why = error.to_string();
@@ -99,7 +102,7 @@ pub fn check(text: &str) -> Result<Certificate, String> {
     known(sensible, "these are not bounds of parameters")
         .map_err(|why| at_line("\"parameters\"", 0, why))?;
     let parameters = given.parameters.map(|[low, high]| Interval::new(low, high));
-    // How far the steps have come.
+    // The clearance up to which the steps have come, and the cycles shown so far.
     let (mut at, mut cycles) = (0.0, 0);
     for (number, step) in given.steps.iter().enumerate() {
         let shown = step.verify(parameters, at);
@@ -114,15 +117,16 @@ pub fn check(text: &str) -> Result<Certificate, String> {
 }
 
 impl StepKind {
-    /// How many cycles there are by a theorem; `None` if this is not one, or its conditions are not met by all of these
-    /// parameters.
+    /// The number of cycles by a theorem; `None` if this step is not a theorem, or its conditions do not hold
+    /// for all of these parameters.
     pub fn theorem(self, [d, d2, d3, r]: [Interval; 4]) -> Option<usize> {
         let zero = |it: Interval| it == Interval::point(0.0);
         let (negative, positive) =
             (|it: Interval| it.upper() < 0.0, |it: Interval| it.lower() > 0.0);
         let (holds, cycles) = match self {
             StepKind::OneWay => {
-                // For D < 0 < D3 the least value, at w^2 = -2 D/(3 D3), is positive where 32 D^3 + 27 r^2 D3 > 0.
+                // For D < 0 < D3 the minimum, at `w^2 = -2 D/(3 D3)`, is positive where `32 D^3 + 27 r^2 D3 >
+                // 0`.
                 let least = Interval::point(32.0) * d * d.square()
                     + Interval::point(27.0) * r.square() * d3;
                 let gains = zero(r) && d.upper() <= 0.0 && d3.upper() <= 0.0;
@@ -144,7 +148,7 @@ impl StepKind {
 }
 
 impl CertificateStep {
-    /// Checks a step that begins at a clearance. Returns how many cycles it shows.
+    /// Checks a step that begins at the clearance `at`. Returns the number of cycles it shows.
     fn verify(&self, parameters: [Interval; 4], at: f64) -> Result<usize, String> {
         let (from, to) = (self.from, self.to.unwrap_or(f64::INFINITY));
         let gap = format!("it begins at {from:?}, and the step before ends at {at:?}");
@@ -154,7 +158,7 @@ impl CertificateStep {
         let map = Map::new(parameters, inverse, self.fences.unwrap_or_default());
         match self.kind {
             StepKind::Within => {
-                // Infinite clearances are those of all.
+                // An infinite interval is bounded by the images of all clearances.
                 let of = Interval::new(if to < f64::INFINITY { to } else { 0.0 }, to);
                 known(map.images(of).upper() < from, "images of G may lie beyond `from`")?;
             }
@@ -175,10 +179,11 @@ impl CertificateStep {
         known(self.clearance.is_none(), "only a cycle has a clearance").map(|()| 0)
     }
 
-    /// Checks that there is one cycle, and that its clearance lies between its bounds.
+    /// Checks that there is exactly one cycle, and that its clearance lies between its bounds.
     ///
-    /// The map K, which is G where the cycle attracts and else its inverse, has a derivative below 1 throughout, so that
-    /// it has one fixed point at most. As `K(z) > z` at one bound and `K(z) < z` at the other, there is one between them.
+    /// The map K, which is G where the cycle attracts and its inverse otherwise, has a derivative below 1
+    /// throughout, so it has at most one fixed point. Since `K(z) > z` at one bound and `K(z) < z` at the
+    /// other, there is one between them.
     fn verify_cycle(&self, map: &Map, [from, to]: Bounds) -> Result<(), String> {
         let slope = map.slope(Interval::new(from, to)).ok_or("a turn is not certain")?;
         known(slope.upper() < 1.0, "the map that should contract may not")?;

@@ -1,17 +1,17 @@
-//! A half swing enclosed by the plainest argument that does it.
+//! Encloses a half swing by the simplest argument that suffices.
 //!
 //! In the frame of a half plane a motion obeys `x' = v`, `v' = -x - f(v)`, `f(v) = a v + b v^2 + c v^3`, and runs
 //! from `(-z, 0)` through `v > 0` to the next `v = 0`. All motions from a disc are carried in steps:
 //!
-//! 1. *Where they are.* If the box B contains the disc D and `D + [0, h] F(B)`, F the field, no motion from D leaves B
+//! 1. *Location.* If the box B contains the disc D and `D + [0, h] F(B)`, F the field, no motion from D leaves B
 //!    within the time h (Picard).
-//! 2. *The motion of the centre* is its Taylor polynomial of degree `N - 1` and a remainder, `h^N` times the
-//!    coefficient N at some point of B. Coefficients are intervals, so that rounding is included.
-//! 3. *The others stay near it.* The symmetric part of the Jacobian `[0 1; -1 -f'(v)]` is `diag(0, -f'(v))`: in
-//!    B the distance of two motions grows at most as `exp(m h)` with `m = max(0, -f')`.
-//! 4. *No return is missed.* Within a step v is positive on all of B, or changes one way only there.
+//! 2. *The centre* moves along its Taylor polynomial of degree `N - 1` with a remainder, `h^N` times coefficient
+//!    N at some point of B. Coefficients are intervals, so rounding is included.
+//! 3. *The others stay near it.* The symmetric part of the Jacobian `[0 1; -1 -f'(v)]` is `diag(0, -f'(v))`, so
+//!    in B the distance of two motions grows at most as `exp(m h)` with `m = max(0, -f')`.
+//! 4. *No return is missed.* Within a step v is positive on all of B, or monotone there.
 //!
-//! Lemmas are those of `docs/proofs.md`.
+//! The lemmas are those of `docs/proofs.md`.
 
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,
@@ -22,7 +22,7 @@ use crate::numerics::Interval;
 use crate::numerics::elementary::{pow, powi};
 use crate::numerics::root::bisect;
 
-/// A half plane.
+/// The field of a half plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
     /// a, b and c.
@@ -30,10 +30,11 @@ pub struct Field {
     fence: Option<Fence>,
 }
 
-/// A half swing, of all starts and coefficients.
+/// A half swing, for all its starts and coefficients.
 #[derive(Clone, Copy, Debug)]
 pub struct Swing {
-    /// Where it ends: `-inf` if no further out than the sticking set reaches, `+inf` if it never does.
+    /// End position: `-inf` if no further out than the edge of the sticking set, `+inf` if the swing never
+    /// ends.
     pub end: Interval,
     pub time: Interval,
     /// The integral of `f'` over time.
@@ -43,10 +44,10 @@ pub struct Swing {
 /// Degree of the remainder.
 const ORDER: usize = 22;
 
-/// Size of a remainder relative to the state, above which steps become shorter.
+/// Size of a remainder, relative to the state, above which steps are shortened.
 const SMALL: f64 = 2e-16;
 
-/// Steps after which a half swing is given up.
+/// Steps after which a half swing is abandoned.
 const STEPS: usize = 1_000;
 
 /// Taylor coefficients: of x, of v, of the integral of `f'`, and of `v^2`.
@@ -59,15 +60,17 @@ fn point(value: f64) -> Interval {
     Interval::point(value)
 }
 
-/// Of which nothing is known.
+/// A half swing about which nothing is known.
 const UNKNOWN: Swing = Swing { end: Interval::ALL, time: Interval::ALL, damping: Interval::ALL };
 
-/// A velocity e, and a short piece of the line `v = e` through which all motions fall that become faster.
+/// A velocity e, and a short piece of the line `v = e` through which all motions fall that become faster than
+/// e.
 type Fence = [Interval; 2];
 
 impl Field {
-    /// With a fence at this velocity e, if there is one (lemma 11): where `f'` is positive and does not fall from e on, and
-    /// `4 (a - 3 c v^2) <= f'^3`, motions fall through `v = e` between `x = -f(e)` and `x = -f(e) + 2 e/f'(e)`.
+    /// A field, with a fence at this velocity e if there is one (lemma 11): where `f'` is positive and does not
+    /// decrease from e on, and `4 (a - 3 c v^2) <= f'^3`, motions fall through `v = e` between `x = -f(e)` and
+    /// `x = -f(e) + 2 e/f'(e)`.
     pub fn new(coefficients: [Interval; 3], velocity: f64) -> Self {
         let (field, e) = (Field { coefficients, fence: None }, point(velocity));
         let [a, b, c] = coefficients;
@@ -95,7 +98,7 @@ impl Field {
         -x - self.force(v)
     }
 
-    /// The Taylor coefficients of all motions from a place.
+    /// The Taylor coefficients of all motions from a box.
     fn series(&self, [x, v]: StateBox) -> Series {
         let [a, b, c] = self.coefficients;
         let mut found = [[point(0.0); 4]; ORDER + 1];
@@ -122,8 +125,9 @@ impl Field {
         found
     }
 
-    /// Whether what is at most at `x` and has at least the velocity `v` never comes back to `v = 0` (lemma 7): on the line
-    /// through this corner motions cross upwards, because `P(v) = m - (a + 2) v - b v^2 - c v^3` is not negative from v on.
+    /// Whether motions with position at most `x` and velocity at least `v` never return to `v = 0` (lemma 7):
+    /// motions cross the line through this corner upwards, because `P(v) = m - (a + 2) v - b v^2 - c v^3` is
+    /// not negative from v on.
     fn never_returns(&self, [x, v]: StateBox) -> bool {
         let [a, b, c] = self.coefficients;
         let at = point(v.lower());
@@ -136,7 +140,8 @@ impl Field {
         m.lower() > 0.0 && v.lower() >= 0.0 && c.upper() <= 0.0 && (linear || square)
     }
 
-    /// Whether the energy of what is at this place does not grow, and is too small to come further out than `reach`.
+    /// Whether the energy of motions in this box does not grow and is too small for them to go further out than
+    /// `reach`.
     fn stays(&self, [x, v]: StateBox, reach: f64) -> bool {
         let [a, b, c] = self.coefficients;
         let most = (x.square() + v.square()).sqrt().upper();
@@ -144,8 +149,9 @@ impl Field {
         most <= reach && (a + speeds * (b + speeds * c)).lower() >= 0.0
     }
 
-    /// The end of motions that are faster than the fence, by those from both ends of its piece (lemma 12); they became so
-    /// after a first part. On the way `f'` is at least `rate v`, and what the ends leave open of time and area is small.
+    /// The end of motions faster than the fence, from the motions through both ends of its piece (lemma 12);
+    /// `first` is the part until they became so fast. On the way `f'` is at least `rate v`, and the uncertainty
+    /// of time and area is small.
     fn fall(&self, [e, piece]: Fence, first: Swing, reach: f64) -> Option<Swing> {
         let [a, b, c] = self.coefficients;
         let rate = point(a.lower().min(0.0)) / e + b.twice() + c * e * 3.0;
@@ -170,8 +176,9 @@ impl Field {
         Some(Swing { end, damping, ..UNKNOWN })
     }
 
-    /// The half swing from all z of an interval so far out that nothing slows them down before they are faster than e: as
-    /// long as `x <= -z/2`, v grows at least at the rate `z/2 - d`, d bounding the damping below e (lemma 12).
+    /// The half swing from all z of an interval so far out that nothing slows motions down before they are
+    /// faster than e: as long as `x <= -z/2`, v grows at least at the rate `z/2 - d`, where d bounds the
+    /// damping below e (lemma 12).
     fn far(&self, z: Interval, [e, piece]: Fence, reach: f64) -> Option<Swing> {
         let slow = Interval::new(0.0, e.upper());
         let half = point(z.lower()) / 2.0;
@@ -185,8 +192,9 @@ impl Field {
         reaches.then(|| self.fall([e, piece], Swing { end, damping, ..UNKNOWN }, reach))?
     }
 
-    /// The end of motions that fall through `v = e > 0` at positive x in a piece, for `b < 0 < c`, where that is at a fold of
-    /// `x = -f(v)` (end of lemma 12); `before` bounds the integral of `f'` until then from below.
+    /// The end of motions that fall through a piece of `v = e > 0` at positive x, for `b < 0 < c`, where that
+    /// is at a fold of `x = -f(v)` (end of lemma 12); `before` bounds the integral of `f'` until then from
+    /// below.
     fn beyond_fold(&self, [e, piece]: Fence, before: Interval) -> Option<Swing> {
         let [a, b, c] = self.coefficients;
         if !(b.upper() < 0.0 && c.lower() > 0.0 && piece.lower() > 0.0) {
@@ -203,14 +211,16 @@ impl Field {
         (rate.lower() > 0.0).then_some(Swing { end, damping, ..UNKNOWN })
     }
 
-    /// What bounds all ends from above, however far out a motion starts: where they fall through the fence, its right end.
+    /// Upper bound of all ends, however far out a motion starts: the end of the motion from the right end of
+    /// the fence.
     pub fn greatest(&self) -> Interval {
         let from = |[e, piece]: Fence| self.follow(Disc::new([point(piece.upper()), e]), 0.0, None);
         self.fence.and_then(from).map_or(Interval::ALL, |it| it.end)
     }
 
-    /// What bounds all ends from below, however near to the centre a motion starts, for `a <= -2`, where this is a node: no
-    /// motion passes below the parabola `v = x - k x^2`, `k = 2 |b| + 1`, if `x (2 k^2 + |c|) <= k - |b|` (lemma 10).
+    /// Lower bound of all ends, however near to the centre a motion starts, for `a <= -2`, where the centre is
+    /// a node. No motion passes below the parabola `v = x - k x^2`, `k = 2 |b| + 1`, if `x (2 k^2 + |c|) <= k -
+    /// |b|` (lemma 10).
     pub fn least(&self) -> Interval {
         let [a, b, c] = self.coefficients;
         let [b, c] = [b, c].map(|it| point(it.magnitude()));
@@ -224,7 +234,8 @@ impl Field {
             .map_or(Interval::ALL, |it| it.end)
     }
 
-    /// The half swing from rest at `-z`, for all z of an interval; `reach` is how far the sticking set reaches.
+    /// The half swing from rest at `-z`, for all z of an interval; `reach` is the outer edge of the sticking
+    /// set.
     pub fn swing(&self, z: Interval, reach: f64) -> Swing {
         if !(z.lower() > 0.0) {
             return UNKNOWN;
@@ -239,13 +250,14 @@ impl Field {
         self.follow(disc, reach, fence)
     }
 
-    /// The half swing of all motions from a disc, which are at rest if its centre is; `None` where it is not certain.
+    /// The half swing of all motions from a disc; they are at rest if its centre is. `None` where it is not
+    /// certain.
     fn follow(&self, mut disc: Disc, reach: f64, fence: Option<Fence>) -> Option<Swing> {
         for _ in 0..STEPS {
             let series = self.series(disc.centre.map(point));
             let last = series[ORDER][0].magnitude().max(series[ORDER][1].magnitude());
             let longest = pow(1e-6 * SMALL * disc.size() / last, 1.0 / 22.0).min(0.4);
-            // The polynomial of the velocity tells when about it vanishes; no bound rests on it.
+            // The polynomial of the velocity gives the approximate time of its zero; no bound depends on it.
             let velocity = |h: f64| {
                 let middles = series.iter().take(ORDER).rev().map(|row| row[1].middle());
                 middles.fold(0.0, |sum: f64, next| sum * h + next)
@@ -278,17 +290,17 @@ impl Field {
     }
 }
 
-/// A disc of motions under way.
+/// A disc of motions in progress.
 pub struct Disc {
     centre: [f64; 2],
     radius: f64,
-    /// Since the start: time, and the integral of `f'`.
+    /// Elapsed time, and the integral of `f'` over it.
     time: Interval,
     damping: Interval,
 }
 
 impl Disc {
-    /// Around a box of which one side is a point.
+    /// The disc around a box with one side of zero width.
     fn new(place: StateBox) -> Self {
         let radius = place[0].radius().max(place[1].radius());
         Disc { centre: place.map(Interval::middle), radius, time: point(0.0), damping: point(0.0) }
@@ -298,7 +310,7 @@ impl Disc {
         self.centre.map(|middle| Interval::around(middle, self.radius))
     }
 
-    /// What is known so far.
+    /// The half swing up to here.
     fn swing(&self) -> Swing {
         Swing { end: self.square()[0], time: self.time, damping: self.damping }
     }
@@ -307,7 +319,8 @@ impl Disc {
         self.centre[0].abs().max(self.centre[1].abs())
     }
 
-    /// The disc after a step; `None` if no box is found, the remainder is large, or a return might be missed.
+    /// The disc after a step; `None` if no box is found, the remainder is too large, or a return might be
+    /// missed.
     fn step(&self, field: &Field, series: &Series, h: f64) -> Option<Disc> {
         let (start, time) = (self.square(), Interval::new(0.0, h));
         let next =
@@ -347,8 +360,9 @@ impl Disc {
         radius.is_finite().then_some(Disc { centre, radius, time, damping })
     }
 
-    /// The end, with `abs(v) <= m` for all motions: as long as this is so, and x is within a tenth of itself, v falls at
-    /// least at the rate A, so that it vanishes within the time `m/A`, before or after, and x moves `m^2/A`.
+    /// The end, with `abs(v) <= m` for all motions. While this holds and x changes by at most a tenth, v falls
+    /// at least at the rate A. It therefore vanishes within the time `m/A`, before or after, in which x moves
+    /// at most `m^2/A`.
     fn end(&self, field: &Field) -> Option<Swing> {
         let [x, v] = self.square();
         let m = point(v.magnitude());

@@ -1,4 +1,4 @@
-//! Statements that are true by a closed form are shown; those next to them, which are false, are refused.
+//! Statements that a closed form proves true are accepted; false ones next to them are refused.
 
 use super::*;
 use crate::numerics::interval::PI;
@@ -7,7 +7,7 @@ fn point(value: f64) -> Interval {
     Interval::point(value)
 }
 
-/// Whether a step of a cycle is shown.
+/// Whether a cycle step is accepted.
 fn shown(
     kind: StepKind,
     parameters: [f64; 4],
@@ -33,7 +33,7 @@ fn the_derivative_of_linear_swings_is_held() {
             for z in [0.7, 3.0] {
                 let slope = Map::new(linear, inverse, [0.0; 2]).slope(point(z));
                 let Some(slope) = slope.filter(|it| it.lower() > 0.0) else {
-                    // Forward these have come to rest.
+                    // In forward time these have come to rest.
                     assert!(!inverse && d > 0.0 && r > 0.0, "{d} {r} {z}");
                     continue;
                 };
@@ -60,8 +60,8 @@ fn bounds_of_a_clearance_that_miss_it_are_refused() {
     assert_eq!(shown(-2.0 * off, -off).unwrap_err(), "the clearance may be above its bounds");
 }
 
-/// Next to a fold two cycles are close: at one the derivative of G is 1.0022, at the other 0.9978. That there is one in a
-/// step which holds both is wrong by that little.
+/// Next to a fold two cycles are close: the derivative of G is 1.0022 at one and 0.9978 at the other. A step
+/// that contains both and claims one is wrong by that little.
 #[test]
 fn a_step_that_holds_two_cycles_is_refused() {
     let near_fold = [-0.172_784_28, 0.2, 0.5, 0.1];
@@ -72,7 +72,7 @@ fn a_step_that_holds_two_cycles_is_refused() {
     assert_eq!(shown(repelling - 1e-6).unwrap_err(), "the map that should contract may not");
 }
 
-/// `r + 2 D w + D3 w^3` for `D = -3/8`, `D3 = 1/4` has its least value at `w = 1`: `r - 1/2`.
+/// `r + 2 D w + D3 w^3` for `D = -3/8`, `D3 = 1/4` has its minimum at `w = 1`: `r - 1/2`.
 #[test]
 fn the_first_integral_falls_where_its_rate_has_one_sign() {
     for (off, holds) in [(1e-12, Some(0)), (-1e-12, None)] {
@@ -81,7 +81,7 @@ fn the_first_integral_falls_where_its_rate_has_one_sign() {
     }
 }
 
-/// Each set meets all conditions of its theorem but one, or all of them.
+/// Each set meets all conditions of its theorem, or all but one.
 #[test]
 fn a_theorem_needs_each_of_its_conditions() {
     use StepKind::{Affine, Frictionless, OneWay, Overdamped};
@@ -109,7 +109,8 @@ fn a_theorem_needs_each_of_its_conditions() {
     }
 }
 
-/// Bounds in the wrong order hold nothing, of which everything would be true; and there is no friction below zero.
+/// Bounds in the wrong order contain nothing, of which any statement would be true; and friction is never
+/// negative.
 #[test]
 fn bounds_that_hold_no_parameters_are_refused() {
     let with = |d: &str, r: &str| {

@@ -1,4 +1,4 @@
-//! Bounds of steps, fences and arrivals, where they are attained or nearly.
+//! Bounds of steps, fences and arrivals in cases where they are sharp or nearly so.
 
 use super::*;
 use crate::numerics::elementary::{atan, exp, hypot, sin_cos};
@@ -15,7 +15,7 @@ fn stepped(field: &Field, disc: &Disc, h: f64) -> Option<Disc> {
     disc.step(field, &field.series(disc.centre.map(point)), h)
 }
 
-/// A displacement in velocity of a linear swing, carried over the time h.
+/// A velocity displacement of a linear swing after the time h.
 fn displaced(a: f64, h: f64) -> f64 {
     let half = a / 2.0;
     let root = (half * half - 1.0).sqrt();
@@ -24,7 +24,7 @@ fn displaced(a: f64, h: f64) -> f64 {
     hypot(one - other, fast * one - slow * other) / (fast - slow)
 }
 
-/// Motions of a rotation keep their distance; where a fast direction repels they part at the rate that is allowed.
+/// Motions of a rotation keep their distance; where a fast direction repels they separate at the maximum rate.
 #[test]
 fn a_disc_grows_as_its_motions_part() {
     let rotation = field([0.0; 3]);
@@ -39,7 +39,8 @@ fn a_disc_grows_as_its_motions_part() {
     }
 }
 
-/// Motions under different damping part: the disc holds both, and its radius is what the velocity is apart.
+/// Motions under different damping separate; the disc contains both, and its radius is their difference in
+/// velocity.
 #[test]
 fn a_disc_holds_the_motions_of_all_coefficients() {
     let wide = Field::new([Interval::new(0.9, 1.1), point(0.0), point(0.0)], 0.0);
@@ -56,11 +57,12 @@ fn a_disc_holds_the_motions_of_all_coefficients() {
 }
 
 /// With `v' = B v^2 - 1` the integral of `f' = -2 B v` is `2 ln(cosh t - sqrt(B) v sinh t)` at the time
-/// `t/sqrt(B)`, except for what x moves, a relative `1e-18`. Over this step the polynomial alone is off by `4e-15`,
-/// four times what it rounds.
+/// `t/sqrt(B)`, except for the motion of x, a relative `1e-18`. Over this step the error of the polynomial
+/// alone is `4e-15`, four times its rounding error.
 #[test]
 fn a_step_holds_what_its_polynomial_leaves_out() {
-    /// For `t = 0.0245`, `sqrt(B) v = 10`: the double nearest to -0.5613450494823475487, computed with 40 digits.
+    /// For `t = 0.0245`, `sqrt(B) v = 10`: the double nearest to -0.5613450494823475487, computed with 40
+    /// digits.
     const EXACT: f64 = -0.561_345_049_482_347_5;
     let root = 1e9;
     let fast = field([0.0, -root * root, 0.0]);
@@ -68,7 +70,7 @@ fn a_step_holds_what_its_polynomial_leaves_out() {
     assert!(after.damping.contains(EXACT), "{}", after.damping);
 }
 
-/// Of motions around the centre some turn one way and some the other within any time.
+/// Of the motions around the centre, some turn one way and some the other within any time.
 #[test]
 fn motions_that_may_turn_both_ways_are_not_carried() {
     let rotation = field([0.0; 3]);
@@ -77,7 +79,8 @@ fn motions_that_may_turn_both_ways_are_not_carried() {
     assert!(stepped(&rotation, &disc(0.5, 0.05, 0.1), 0.1).is_some());
 }
 
-/// What is not yet at rest, or was before, arrives further out and at another time: by the spiral's closed form.
+/// Motions not yet at rest, or at rest before, arrive further out and at another time; the closed form is a
+/// spiral.
 #[test]
 fn an_arrival_holds_what_is_left_of_the_way() {
     for a in [-0.4, 0.0, 0.6] {
@@ -98,8 +101,8 @@ fn an_arrival_holds_what_is_left_of_the_way() {
     }
 }
 
-/// Of a linear node all motions from far out follow its slow line, on which `x = -v/lambda`, `lambda^2 - a
-/// lambda + 1 = 0`; for `a = 2` that passes the right end of the piece.
+/// All motions of a linear node from far out follow its slow line, on which `x = -v/lambda`, `lambda^2 - a
+/// lambda + 1 = 0`. For `a = 2` this line passes the right end of the piece.
 #[test]
 fn the_piece_of_a_fence_reaches_to_the_slow_line() {
     let (a, e) = (2.001, 0.3);
@@ -109,11 +112,11 @@ fn the_piece_of_a_fence_reaches_to_the_slow_line() {
     let at = -e / slow;
     assert!(piece.contains(at) && piece.upper() - at < 0.07 * piece.width(), "{piece} {at}");
     assert!(piece.contains(-a * e));
-    // Nearer to the centre than this no motion is held.
+    // For smaller damping there is no fence.
     assert!(fence(1.999).is_none());
 }
 
-/// From `v = 0` at `-m` on, `P` is `(v - 1)^2 + m - 1` for `a = 0`, `b = -1`; where it is negative somewhere
+/// From `v = 0` at `-m` on, `P` is `(v - 1)^2 + m - 1` for `a = 0`, `b = -1`. Where it is negative somewhere,
 /// nothing is claimed.
 #[test]
 fn what_never_returns_is_told_from_what_may() {
@@ -129,7 +132,7 @@ fn what_never_returns_is_told_from_what_may() {
         ([0.95, -1.0, 0.0], [-1.18, 1.0], true),
         ([0.95, -1.0, 0.0], [-1.17, 1.0], false),
         ([0.95, -1.0, 0.0], [-1.1, 1.0], false),
-        // The centre itself is at rest; a cubic damping brings everything back.
+        // The centre is at rest, and cubic damping brings every motion back.
         ([-3.0, -1.0, 0.0], [0.0, 0.0], false),
         ([-3.0, -1.0, 1e-9], [-1.0, 0.0], false),
     ] {
@@ -138,8 +141,8 @@ fn what_never_returns_is_told_from_what_may() {
     }
 }
 
-/// Next to a node every swing ends beyond the bound of all, however near to the centre it starts; it is none in
-/// a spiral.
+/// Next to a node every swing, however near to the centre it starts, ends beyond the common bound. A spiral has
+/// no such bound.
 #[test]
 fn swings_from_next_to_a_node_end_beyond_their_bound() {
     for coefficients in [[-2.0, 0.5, 1.0], [-2.2, -0.5, 1.0], [-2.5, 0.0, 3.0]] {
