@@ -22,8 +22,7 @@ impl Map {
     /// The map for `D`, `D2`, `D3`, `r`; `fences` has one entry for each half swing.
     pub fn new([d, d2, d3, r]: [Interval; 4], inverse: bool, fences: [f64; 2]) -> Self {
         let (gap, none) = (r.twice(), Interval::point(0.0));
-        // A motion in reversed time, in the frame `y = -x`, obeys the same equation with all coefficients
-        // negated.
+        // A motion in reversed time, in the frame `y = -x`, obeys the same equation with all coefficients negated.
         let [a, c] = if inverse { [-d.twice(), -d3] } else { [d.twice(), d3] };
         let [before, after] = if inverse { [gap, none] } else { [none, gap] };
         let fields = [Field::new([a, -d2, c], fences[0]), Field::new([a, d2, c], fences[1])];
@@ -43,8 +42,7 @@ impl Map {
         at
     }
 
-    /// Bounds of the clearance after one half swing; only the lower one from 0, only the upper one from
-    /// infinity.
+    /// Bounds of the clearance after one half swing: only a lower bound for z = 0, only an upper one for infinite z.
     fn half(&self, field: &Field, z: f64) -> Interval {
         let start = self.before + z;
         let end = if z == f64::INFINITY {

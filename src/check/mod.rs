@@ -15,8 +15,7 @@
 //! | theorems | the number of cycles | their conditions |
 //!
 //! This module shares only interval arithmetic ([`crate::numerics::interval`]) with the search for cycles and
-//! with the proofs that produced the certificate. [`motion`] encloses half swings, [`map`] combines them into
-//! G.
+//! with the proofs that produced the certificate. [`motion`] encloses half swings, [`map`] combines them into G.
 
 pub mod map;
 pub mod motion;
@@ -74,8 +73,8 @@ pub enum StepKind {
     Overdamped,
     /// One cycle, by the theorem: `D2 = D3 = 0`, `-1 < D < 0 < r`; half swings are affine.
     Affine,
-    /// One cycle, by the theorem of A. Lins, W. de Melo and C. C. Pugh, *On Lienard's equation* (1977): `r =
-    /// 0`, `D D3 < 0`.
+    /// One cycle, by the theorem of A. Lins, W. de Melo and C. C. Pugh, *On Lienard's equation* (1977):
+    /// `r = 0`, `D D3 < 0`.
     Frictionless,
 }
 
@@ -125,8 +124,7 @@ impl StepKind {
             (|it: Interval| it.upper() < 0.0, |it: Interval| it.lower() > 0.0);
         let (holds, cycles) = match self {
             StepKind::OneWay => {
-                // For D < 0 < D3 the minimum, at `w^2 = -2 D/(3 D3)`, is positive where `32 D^3 + 27 r^2 D3 >
-                // 0`.
+                // For D < 0 < D3 the minimum, at `w^2 = -2 D/(3 D3)`, is positive where `32 D^3 + 27 r^2 D3 > 0`.
                 let least = Interval::point(32.0) * d * d.square()
                     + Interval::point(27.0) * r.square() * d3;
                 let gains = zero(r) && d.upper() <= 0.0 && d3.upper() <= 0.0;

@@ -33,8 +33,7 @@ pub struct Field {
 /// A half swing, for all its starts and coefficients.
 #[derive(Clone, Copy, Debug)]
 pub struct Swing {
-    /// End position: `-inf` if no further out than the edge of the sticking set, `+inf` if the swing never
-    /// ends.
+    /// End position: `-inf` if no further out than the edge of the sticking set, `+inf` if the swing never ends.
     pub end: Interval,
     pub time: Interval,
     /// The integral of `f'` over time.
@@ -63,8 +62,7 @@ fn point(value: f64) -> Interval {
 /// A half swing about which nothing is known.
 const UNKNOWN: Swing = Swing { end: Interval::ALL, time: Interval::ALL, damping: Interval::ALL };
 
-/// A velocity e, and a short piece of the line `v = e` through which all motions fall that become faster than
-/// e.
+/// A velocity e, and a short piece of the line `v = e` through which all motions fall that become faster than e.
 type Fence = [Interval; 2];
 
 impl Field {
@@ -193,8 +191,7 @@ impl Field {
     }
 
     /// The end of motions that fall through a piece of `v = e > 0` at positive x, for `b < 0 < c`, where that
-    /// is at a fold of `x = -f(v)` (end of lemma 12); `before` bounds the integral of `f'` until then from
-    /// below.
+    /// is at a fold of `x = -f(v)` (end of lemma 12); `before` bounds the integral of `f'` until then from below.
     fn beyond_fold(&self, [e, piece]: Fence, before: Interval) -> Option<Swing> {
         let [a, b, c] = self.coefficients;
         if !(b.upper() < 0.0 && c.lower() > 0.0 && piece.lower() > 0.0) {
@@ -219,8 +216,8 @@ impl Field {
     }
 
     /// Lower bound of all ends, however near to the centre a motion starts, for `a <= -2`, where the centre is
-    /// a node. No motion passes below the parabola `v = x - k x^2`, `k = 2 |b| + 1`, if `x (2 k^2 + |c|) <= k -
-    /// |b|` (lemma 10).
+    /// a node. No motion passes below the parabola `v = x - k x^2`, `k = 2 |b| + 1`, if
+    /// `x (2 k^2 + |c|) <= k - |b|` (lemma 10).
     pub fn least(&self) -> Interval {
         let [a, b, c] = self.coefficients;
         let [b, c] = [b, c].map(|it| point(it.magnitude()));
@@ -234,8 +231,7 @@ impl Field {
             .map_or(Interval::ALL, |it| it.end)
     }
 
-    /// The half swing from rest at `-z`, for all z of an interval; `reach` is the outer edge of the sticking
-    /// set.
+    /// The half swing from rest at `-z`, for all z of an interval; `reach` is the outer edge of the sticking set.
     pub fn swing(&self, z: Interval, reach: f64) -> Swing {
         if !(z.lower() > 0.0) {
             return UNKNOWN;
@@ -250,8 +246,7 @@ impl Field {
         self.follow(disc, reach, fence)
     }
 
-    /// The half swing of all motions from a disc; they are at rest if its centre is. `None` where it is not
-    /// certain.
+    /// The half swing of all motions from a disc; they are at rest if its centre is. `None` where it is not certain.
     fn follow(&self, mut disc: Disc, reach: f64, fence: Option<Fence>) -> Option<Swing> {
         for _ in 0..STEPS {
             let series = self.series(disc.centre.map(point));
@@ -319,8 +314,7 @@ impl Disc {
         self.centre[0].abs().max(self.centre[1].abs())
     }
 
-    /// The disc after a step; `None` if no box is found, the remainder is too large, or a return might be
-    /// missed.
+    /// The disc after a step; `None` if no box is found, the remainder is too large, or a return might be missed.
     fn step(&self, field: &Field, series: &Series, h: f64) -> Option<Disc> {
         let (start, time) = (self.square(), Interval::new(0.0, h));
         let next =

@@ -109,8 +109,7 @@ fn a_theorem_needs_each_of_its_conditions() {
     }
 }
 
-/// Bounds in the wrong order contain nothing, of which any statement would be true; and friction is never
-/// negative.
+/// Bounds in the wrong order contain nothing, of which any statement would be true; and friction is never negative.
 #[test]
 fn bounds_that_hold_no_parameters_are_refused() {
     let with = |d: &str, r: &str| {

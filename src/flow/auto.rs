@@ -18,8 +18,8 @@ use crate::oscillator::HalfPlane;
 /// Length of a series step, in damping times and as a fraction of the order, beyond which stability limits it.
 const LIMITED: f64 = 1.0 / 3.0;
 
-/// Length of an implicit step, in damping times, below which the series is cheaper. Measured by `hopfscope
-/// trade`: with a fifth of this value a stiff relaxation oscillation would cost half as much again.
+/// Length of an implicit step, in damping times, below which the series is cheaper. Measured by
+/// `hopfscope trade`: with a fifth of this value a stiff relaxation oscillation would cost half as much again.
 const WORTHWHILE: f64 = 120.0;
 
 /// Growth from one implicit step to the next that shows that the step length is still building up.

@@ -72,8 +72,8 @@ const MOST: usize = 33;
 /// Number of trailing coefficients that determine the step.
 const TAIL: usize = 4;
 
-/// Factor on the error bound of [`super::swing`] below which the time of a blow-up is taken from its asymptotic
-/// form, so that the form holds far better than a double can resolve.
+/// Factor on the bound of [`super::swing::time_to_blow_up`] below which the time of a blow-up is taken from its
+/// asymptotic form, so that the form holds far better than a double can resolve.
 const SURE: f64 = 1e-8;
 
 const ZERO: Twofold = Twofold { high: 0.0, low: 0.0 };
@@ -126,8 +126,7 @@ pub fn precise(problem: &Problem, grain: Grain, limits: &Limits) -> Result<Preci
     }
 }
 
-/// The half swing from rest at `(-start, 0)`: its end and duration, or `None` where its velocity becomes
-/// infinite.
+/// The half swing from rest at `(-start, 0)`: its end and duration, or `None` where its velocity becomes infinite.
 ///
 /// # Errors
 /// Those of [`precise`].

@@ -104,8 +104,7 @@ impl Quality {
 }
 
 impl Problem {
-    /// The number that sets the accuracy of the method. For the closed form it is the tolerance, which has no
-    /// effect.
+    /// The number that sets the accuracy of the method. For the closed form it is the tolerance, which has no effect.
     #[must_use]
     pub fn setting(&self) -> f64 {
         match self.method.spec().dial {

@@ -93,8 +93,7 @@ pub struct Step {
 }
 
 impl Step {
-    /// Whether a motion above `v = 0` can arrive at the end point: at `x < 0` the field would lift it off
-    /// again.
+    /// Whether a motion above `v = 0` can arrive at the end point: at `x < 0` the field would lift it off again.
     pub fn is_possible(&self) -> bool {
         self.end.x >= 0.0
     }

@@ -70,8 +70,7 @@ pub struct Stiff<F: Field = HalfPlane> {
     /// Velocities and accelerations of the stages.
     velocity: [f64; MOST],
     acceleration: [f64; MOST],
-    /// Divided differences of x and v over the start and the nodes; those of x only after
-    /// [`Stepper::prepare_dense`].
+    /// Divided differences of x and v over the start and the nodes; those of x only after [`Stepper::prepare_dense`].
     dense: [[f64; MOST + 1]; 2],
     evaluations: u64,
     rejected: u64,
@@ -112,8 +111,7 @@ impl<F: Field> Stiff<F> {
         self.next = length;
     }
 
-    /// The largest v in the last step, if the acceleration changes sign there. Call [`Stepper::prepare_dense`]
-    /// first.
+    /// The largest v in the last step, if the acceleration changes sign there. Call [`Stepper::prepare_dense`] first.
     ///
     /// Bisection on the acceleration along the polynomial. Since v is flat there, an error e in time costs only
     /// e^2 in v.

@@ -30,8 +30,7 @@ impl ComingToRest {
     pub fn of(field: &HalfPlane, point: StepPoint) -> Option<Self> {
         /// Largest damping force as a fraction of the position.
         const WEAK: f64 = 1e-3;
-        /// Largest distance as a fraction of the position; the force of the spring changes by the same
-        /// fraction.
+        /// Largest distance as a fraction of the position; the force of the spring changes by the same fraction.
         const NOTHING: f64 = 1e-12;
         let unit = exponent(point.v);
         let HalfPlane { d, d2, d3 } = field.in_units(unit);
@@ -98,8 +97,7 @@ mod tests {
         assert!((log / expected - 1.0).abs() < 1e-15, "{stop:?}");
     }
 
-    /// A damping force that is a fraction of the position changes the distance by about two thirds of that
-    /// fraction.
+    /// A damping force that is a fraction of the position changes the distance by about two thirds of that fraction.
     #[test]
     fn damping_shortens_the_way() {
         let (x, v) = (1.0, 1e-9);

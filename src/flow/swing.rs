@@ -63,7 +63,6 @@ pub struct Failed {
 /// `watch` is called after each accepted step with the stepper that holds it, the time at which it began, the
 /// exponent of its unit, and the step; it may stop the swing there. Errors are [`Failed`], with the reason and
 /// the time reached.
-/// with the reason and the time reached.
 pub fn swing<S: Stepper>(
     stepper: &mut S,
     field: &HalfPlane,

@@ -5,8 +5,8 @@
 //! coefficients. With order N and tolerance e, the step `h = rho e^(1/N)` makes the last term about e times the
 //! size of the state (Jorba and Zou, *A software package for the numerical integration of ODEs by means of
 //! high-order Taylor methods*, Experimental Mathematics 14 (2005), section 3.2). Assumption: the last four
-//! terms of the series have reached its asymptotic behaviour. Then the truncation error of a step is about `e
-//! h/(rho - h)` of the state.
+//! terms of the series have reached its asymptotic behaviour. Then the truncation error of a step is about
+//! `e h/(rho - h)` of the state.
 
 use super::limits::Reason;
 use super::step::{LONGEST, Powers, Step, StepPoint, Stepper};
@@ -128,8 +128,8 @@ impl Taylor {
             return;
         }
         // With `square_k = sum of v_i v_(k-i)` over 0 < i < k, coefficient k of v^2 is `2 v0 v_k + square_k`
-        // and that of the force is `slope v_k + d3 square_k`. The damping contains `damping v_k + neighbour
-        // v_(k-1)` besides terms in earlier coefficients only.
+        // and that of the force is `slope v_k + d3 square_k`. The damping contains
+        // `damping v_k + neighbour v_(k-1)` besides terms in earlier coefficients only.
         let slope = d2 + 2.0 * d3 * v0;
         let damping = 2.0 * d + force0 + v0 * slope;
         let (cubic, cubic1) = (d3 * v0, d3 * v1);

@@ -3,10 +3,10 @@
 //!
 //! Over a step of length h the midpoint rule covers restoring force and damping; friction acts with one value
 //! of the set-valued sign of the velocity at the end of the step. If friction can bring the velocity to rest,
-//! it does. The method therefore sticks where it should, but it locates no crossing, and each passage of `v =
-//! 0` costs an error of order `h^2` in v (J. J. Moreau, *Unilateral contact and dry friction in finite freedom
-//! dynamics*, 1988; M. Jean, *The non-smooth contact dynamics method*, Computer Methods in Applied Mechanics
-//! and Engineering 177, 1999).
+//! it does. The method therefore sticks where it should, but it locates no crossing, and each passage of
+//! `v = 0` costs an error of order `h^2` in v (J. J. Moreau, *Unilateral contact and dry friction in finite
+//! freedom dynamics*, 1988; M. Jean, *The non-smooth contact dynamics method*, Computer Methods in Applied
+//! Mechanics and Engineering 177, 1999).
 
 use super::limits::Reason;
 use super::step::{Powers, Step, StepPoint, Stepper};

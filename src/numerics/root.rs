@@ -79,8 +79,7 @@ pub struct Root {
 /// `function` returns the value and the derivative. Assumption: it is continuous on the bracket and has the
 /// bracket's signs at the ends. Guarantee: the result lies in the final bracket, at whose ends the function
 /// still has these signs. Near a simple zero the error of the result is about the square of the last step,
-/// relative to the length over which the function bends; half the desired digits therefore suffice for
-/// `settled`.
+/// relative to the length over which the function bends; half the desired digits therefore suffice for `settled`.
 ///
 /// Hard-wired: 200 evaluations. Newton's method takes about five, and bisection to rounding about sixty.
 #[inline]

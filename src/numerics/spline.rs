@@ -337,8 +337,7 @@ fn slopes(x: &[f64], g: &[f64], third: &[[f64; 3]]) -> Vec<(f64, f64)> {
     (0..third.len())
         .map(|interval| {
             let (left, right) = (x[interval], x[interval + 1]);
-            // Position of the neighbouring point relative to the left end, and its value without the third
-            // derivative.
+            // Position of the neighbouring point relative to the left end, and its value without the third derivative.
             let (far, rise) = if interval > 0 {
                 let far = x[interval - 1] - left;
                 (far, g[interval - 1] - g[interval] - back(third[interval - 1], -far))

@@ -1,10 +1,9 @@
 //! Numbers of twice the working precision, for the few places where a difference is critical.
 //!
-//! A [`Twofold`] is the unevaluated sum of two doubles. It represents a frequency `sqrt(1 - D^2)` near `abs(D)
-//! = 1`, an exponent of several thousand, or a discriminant near zero without loss, so that what is derived
-//! from them is accurate to the last digits of a double (T. J. Dekker, *A floating-point technique for
+//! A [`Twofold`] is the unevaluated sum of two doubles. It represents a frequency `sqrt(1 - D^2)` near
+//! `abs(D) = 1`, an exponent of several thousand, or a discriminant near zero without loss, so that what is
+//! derived from them is accurate to the last digits of a double (T. J. Dekker, *A floating-point technique for
 //! extending the available precision*, Numerische Mathematik 18, 1971).
-//! technique for extending the available precision*, Numerische Mathematik 18, 1971).
 
 use crate::numerics::elementary::{exp, exp_m1, sin_cos};
 

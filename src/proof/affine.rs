@@ -7,8 +7,8 @@ use crate::numerics::interval::PI;
 
 /// The only cycle for `D2 = D3 = 0`, `-1 < D < 0`, `r > 0`.
 ///
-/// With `x = pi abs(D)/omega` a half swing ends where it began, mirrored, at the clearance
-/// `2 r/(exp(x) - 1)`. Both are written with `exp(-x)`, which does not overflow.
+/// With `x = pi abs(D)/omega` a half swing ends at the mirror image of its start at the clearance
+/// `2 r/(exp(x) - 1)`. Clearance and velocity are written with `exp(-x)`, which does not overflow.
 pub fn affine_cycle(parameters: &ParameterBox) -> Option<Enclosure> {
     let ParameterBox { d, r, .. } = *parameters;
     let one = Interval::point(1.0);

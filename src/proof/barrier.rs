@@ -1,18 +1,19 @@
-//! Barriers: curves that motions cross one way only, and what they say about swings that cannot be computed,
-//! because they start next to a node or arbitrarily far out.
+//! Barriers: curves that motions cross one way only. They bound swings that cannot be computed because they
+//! start next to a node or arbitrarily far out.
 
 use super::field::Field;
 use super::funnel::Funnel;
 use super::swing::{StartBox, swing_below};
 use crate::numerics::Interval;
 
-/// Lower bound of where swings that start next to the centre end, for `a <= -2`: there the centre is a
-/// node that repels, and every swing, however small, leaves its neighbourhood along the steep direction (lemma 10).
+/// Lower bound of the ends of swings that start next to the centre, for `a <= -2`. The centre is then a
+/// repelling node, and every swing, however small, leaves its neighbourhood along the steep direction (lemma 10).
 ///
 /// With `k = 2 abs(b) + 1` motions cross the parabola `v = x - k x^2` upwards as long as
-/// `x (2 k^2 + abs(c)) <= k - abs(b)`, and those from next to the centre begin above it.
+/// `x (2 k^2 + abs(c)) <= k - abs(b)`, and those from next to the centre start above it.
 pub fn least_end(field: &Field, funnel: Option<&Funnel>) -> f64 {
-    /// A part of the largest point, so that the motion forgets where it was begun.
+    /// Fraction of the largest admissible point at which the motion is started, so that its exact start does
+    /// not matter.
     const NEAR: f64 = 1e-3;
     let [b, c] = [field.b, field.c].map(|it| Interval::point(it.magnitude()));
     let two = Interval::point(2.0);
@@ -35,7 +36,7 @@ mod tests {
     use super::*;
     use crate::proof::swing::swing;
 
-    /// However near to the centre a swing starts, it ends beyond the bound of all.
+    /// However near to the centre a swing starts, it ends beyond the common bound.
     #[test]
     fn swings_from_next_to_a_node_end_beyond_their_bound() {
         for coefficients in [[-2.0, 0.5, 1.0], [-2.2, -0.5, 1.0], [-2.5, 0.0, 3.0]] {

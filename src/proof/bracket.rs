@@ -1,20 +1,20 @@
-//! A change of verdict, closed in from both sides as far as verdicts are certain.
+//! A change of verdict, narrowed from both sides as far as verdicts are certain.
 
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
 
-/// Numbers between which a verdict changes, next to a guess: at the two ends it is certain and not the same.
+/// An interval near a guess in which a verdict changes: at its ends the verdict is certain and different.
 ///
-/// Between them it may be uncertain (`None`); the ends are moved inward until little else is left.
+/// Inside it may be uncertain (`None`); the ends are moved inward as far as practicable.
 pub fn bracket<T: PartialEq>(
     near: f64,
     mut verdict: impl FnMut(f64) -> Option<T>,
 ) -> Option<Interval> {
-    /// First distance from the guess, relative to it, how it grows, and how often.
+    /// First distance from the guess relative to it, its growth factor, and the number of distances tried.
     const FIRST: f64 = 1e-15;
     const GROWTH: f64 = 8.0;
     const TIMES: i32 = 15;
-    /// Attempts to move an end further in once an uncertain number was found.
+    /// Attempts to move each end further in once an uncertain value was found.
     const CLOSER: usize = 4;
     let (mut low, mut high, kind) = (0..TIMES).find_map(|step| {
         let away = FIRST * powi(GROWTH, step) * near.abs();

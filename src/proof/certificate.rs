@@ -1,7 +1,7 @@
-//! What was proved about cycles, written down so that [`crate::check`] can verify it step by step.
+//! Writes down what was proved about cycles, so that [`crate::check`] can verify it step by step.
 //!
-//! A proof tells how many cycles there are and about where. From this the steps are computed again, by the map of the
-//! checker: it walks from the sticking set outwards, as far at a time as the image of where it stands.
+//! A proof gives the number of cycles and their approximate places. From this the steps are computed again with
+//! the map of the checker: a walk from the sticking set outwards, each step up to the image of its start.
 
 use super::cycles::{Proof, ProvedCycle};
 use super::map::{Direction, ProvedMap};
@@ -42,7 +42,7 @@ pub fn certificate(proof: &Proof) -> Result<Certificate, String> {
     Ok(Certificate { parameters: parameters.map(bounds), cycles: proof.cycles.len(), steps })
 }
 
-/// The file: a line for each step, every number in its shortest form that reads back exactly.
+/// The file: one line for each step, every number in its shortest form that parses back exactly.
 ///
 /// # Errors
 /// If a number is infinite or NaN.
@@ -58,19 +58,19 @@ pub fn text(of: &Certificate) -> Result<String, serde_json::Error> {
 struct Walk {
     parameters: [Interval; 4],
     at: f64,
-    /// Whether G lies above the diagonal here.
+    /// Whether G is above the diagonal at `at`.
     above: bool,
     steps: Vec<CertificateStep>,
 }
 
-/// Steps after which a certificate is given up.
+/// Steps after which a certificate is abandoned.
 const MOST: usize = 3_000;
 
-/// Velocities of fences, or none.
+/// The fence velocities of the two half swings, or none.
 type Fences = Option<[f64; 2]>;
 
 impl Walk {
-    /// G, or its inverse, without fences and with them.
+    /// G or its inverse, without fences and with them.
     fn maps(&self, inverse: bool) -> [(Fences, Map); 2] {
         let [d, d2, d3, _] = self.parameters.map(Interval::middle);
         let sign = if inverse { -1.0 } else { 1.0 };
@@ -79,7 +79,8 @@ impl Walk {
             .map(|fences| (fences, Map::new(self.parameters, inverse, fences.unwrap_or_default())))
     }
 
-    /// From where motions come to rest within a turn, or from next to a node that repels.
+    /// The first step: up to where motions still come to rest within a turn, or out of the neighbourhood of a
+    /// repelling node.
     fn begin(&mut self, proof: &Proof) -> Result<(), String> {
         let mut map = ProvedMap::new(&proof.parameters);
         let second = map.half(1, Direction::Backward, Interval::point(0.0)).lower();
@@ -100,7 +101,7 @@ impl Walk {
         self.step(most).map_err(|_| "no start is certain to come to rest within a turn".to_owned())
     }
 
-    /// Takes one step.
+    /// Appends one step.
     fn take(&mut self, kind: StepKind, to: Option<f64>, clearance: Option<Bounds>, fences: Fences) {
         self.steps.push(CertificateStep { kind, from: self.at, to, clearance, fences });
         self.at = to.unwrap_or(f64::INFINITY);
@@ -110,7 +111,8 @@ impl Walk {
         if self.above { StepKind::Above } else { StepKind::Below }
     }
 
-    /// How far the image of the present point lets the walk go; infinitely far if it never turns.
+    /// How far the image of the current point lets the walk go (infinitely far if it never turns), and the
+    /// fences used.
     fn reach(&self) -> (f64, Fences) {
         let at = Interval::point(self.at);
         let reaches = self
@@ -127,9 +129,9 @@ impl Walk {
         found
     }
 
-    /// One step, to a place at most.
+    /// One step, at most up to `most`.
     fn step(&mut self, most: f64) -> Result<(), String> {
-        /// A little less than the image allows, so that rounding cannot matter.
+        /// A fraction of what the image allows, so that rounding cannot matter.
         const PART: f64 = 0.95;
         let (from, (reach, fences)) = (self.at, self.reach());
         let to = if reach < f64::INFINITY { most.min(from + PART * (reach - from)) } else { most };
@@ -142,8 +144,8 @@ impl Walk {
 
     /// Walks up to a cycle and past it.
     fn pass(&mut self, cycle: &ProvedCycle) -> Result<(), String> {
-        /// Widths of the step, as fractions of the clearance, widest first; and how much wider than the proof's the
-        /// bounds of the clearance are, narrowest first.
+        /// Relative amounts by which the step extends beyond the cycle's bounds, widest first, and by which the
+        /// bounds of the clearance are widened, narrowest first.
         const WIDTHS: [f64; 11] = [0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10];
         const WIDER: [f64; 11] =
             [1e-13, 1e-12, 1e-11, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.03, 0.1];
@@ -177,7 +179,7 @@ impl Walk {
         Err(why.to_owned())
     }
 
-    /// Leaves the last cycle behind.
+    /// Covers everything beyond the last cycle.
     fn leave(&mut self) -> Result<(), String> {
         let all = Interval::new(0.0, f64::INFINITY);
         let [_, (fences, map)] = self.maps(false);
@@ -196,8 +198,7 @@ impl Walk {
     }
 }
 
-/// The velocity of a fence for these coefficients: where the slope of the damping is large enough for the
-/// motions to meet.
+/// The fence velocity for these coefficients, where the slope of the damping is large enough for motions to merge.
 pub fn fence([linear, square, cube]: [f64; 3]) -> f64 {
     let steep = 8.0_f64.max(4.0 * linear);
     let steep = if square < 0.0 { steep.max(6.0 * cbrt(square * square / cube)) } else { steep };

@@ -1,29 +1,29 @@
 //! The count of limit cycles: every clearance between the inner and the outer end is excluded, or lies in an
-//! interval that holds exactly one cycle, or is reported as open.
+//! interval that contains exactly one cycle, or is reported as open.
 //!
-//! Where the return map G lies above the diagonal at A, no cycle has its clearance in `[A, G(A))`: G
-//! increases, so that `G(z) >= G(A) > z` there. The three other cases are the same with the inverse and with
-//! the other sign. So a gap is walked through from both sides by iteration; what the walks leave is
-//! decided by the derivative, which differs from 1 throughout (one cycle if the signs differ, none if they
-//! do not), or by the distance from the diagonal in the middle; else it is halved.
+//! Where the return map G is above the diagonal at A, no cycle has its clearance in `[A, G(A))`: G is
+//! increasing, so `G(z) >= G(A) > z` there. The other three cases follow with the inverse and with the opposite
+//! sign. A gap is thus narrowed from both sides by iteration. What remains is decided by the derivative, if it
+//! differs from 1 throughout (one cycle if the signs differ, none otherwise), or by the distance from the
+//! diagonal in the middle. Otherwise the gap is halved.
 
 use super::ends::{Sign, sign_at};
 use super::map::{Bound, Direction, ProvedMap};
 use crate::numerics::Interval;
 use crate::numerics::elementary::pow;
 
-/// A gap this narrow, relative to itself, is not halved any more.
+/// Relative width below which a gap is not halved any more.
 const NARROWEST: f64 = 1e-13;
 
-/// An end of a gap, with the side of the diagonal on which the map lies there.
+/// An end of a gap, and the side of the diagonal on which the map lies there.
 pub type GapEnd = (f64, Sign);
 
 /// The outcome for all gaps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Count {
-    /// Intervals of clearances that hold exactly one cycle each, and whether it attracts.
+    /// Intervals of clearances that contain exactly one cycle each, and whether it attracts.
     pub unique: Vec<(Interval, bool)>,
-    /// Intervals about which nothing is known.
+    /// Undecided intervals.
     pub open: Vec<Interval>,
 }
 
@@ -36,9 +36,9 @@ impl Count {
         mut high: GapEnd,
         halvings: u32,
     ) {
-        /// A walk continues while each step closes this fraction of the gap.
+        /// The iteration continues while each pass closes this fraction of the gap.
         const WORTH: f64 = 0.25;
-        /// Two cycles' worth of walking before the derivative is asked.
+        /// Relative width below which a gap with different signs at its ends goes straight to the derivative.
         const NEAR: f64 = 0.15;
         loop {
             let before = high.0 - low.0;
@@ -68,7 +68,7 @@ impl Count {
         self.decide(map, middle, high, halvings - 1);
     }
 
-    /// Leaves a gap open, together with an open one that it touches.
+    /// Leaves a gap open, merging it with an open one that it touches.
     fn leave(&mut self, low: GapEnd, high: GapEnd) {
         let gap = Interval::new(low.0, high.0);
         match self.open.last_mut() {
@@ -77,9 +77,9 @@ impl Count {
         }
     }
 
-    /// Decides by the derivative, of the map or of its inverse; whether it could.
+    /// Decides a gap by the derivative of the map or of its inverse; returns whether that succeeded.
     fn settle(&mut self, map: &mut ProvedMap, gap: Interval, low: Sign, high: Sign) -> bool {
-        // Near a cycle that repels the inverse contracts, and is known where the map itself is not.
+        // Near a repelling cycle the inverse contracts, and is known where the map itself is not.
         let repels = low == Sign::Below && high == Sign::Above;
         let directions = [Direction::Forward, Direction::Backward];
         let order = if repels { [directions[1], directions[0]] } else { directions };
@@ -104,7 +104,7 @@ impl Count {
         if low != high {
             return false;
         }
-        // On one side of the diagonal in the middle by more than the map can come closer on the way to an end.
+        // Whether the distance from the diagonal in the middle exceeds any approach towards an end.
         let middle = Interval::point(gap.middle());
         let away = map.image(direction, middle) - middle;
         let sway = (slope - Interval::point(1.0)) * (gap - middle);
@@ -131,9 +131,9 @@ fn from_above(map: &mut ProvedMap, (at, sign): GapEnd) -> f64 {
     map.image_bound(direction, at, Bound::Upper).min(at)
 }
 
-/// A point inside a gap at which the sign is certain.
+/// A point inside a gap where the sign is certain.
 fn clear_middle(map: &mut ProvedMap, gap: Interval) -> Option<GapEnd> {
-    /// Parts of the way at which to look.
+    /// Fractions of the gap to try.
     const PARTS: [f64; 6] = [0.5, 0.57, 0.43, 0.64, 0.36, 0.79];
     let (low, high) = (gap.lower(), gap.upper());
     let wide = low > 0.0 && high > 4.0 * low;
@@ -149,8 +149,7 @@ mod tests {
     use super::*;
     use crate::proof::ParameterBox;
 
-    /// Next to a fold the derivative of G differs from 1 by little, and there are two cycles, at 0.415062 and
-    /// 0.416022.
+    /// Next to a fold the derivative of G differs little from 1, and there are two cycles, at 0.415062 and 0.416022.
     #[test]
     fn cycles_next_to_a_fold_are_told_apart() {
         let [d, d2, d3, r] = [-0.172_784_28, 0.2, 0.5, 0.1].map(Interval::point);
@@ -159,7 +158,8 @@ mod tests {
         count.decide(&mut map, (0.414, Sign::Below), (0.417, Sign::Below), 40);
         let cycles = [(0.415_062_415_659, false), (0.416_021_602_729, true)];
         assert!(count.open.is_empty() && count.unique.len() == 2, "{count:?}");
-        // Between them the derivative passes 1, which it is 0.0022 away from at both: it decides nothing.
+        // Between them the derivative passes through 1. At both it differs from 1 by only 0.0022, so it decides
+        // nothing.
         let both = Interval::new(0.415_06, 0.416_03);
         for direction in [Direction::Forward, Direction::Backward] {
             let mut settled = Count::default();

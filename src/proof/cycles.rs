@@ -1,4 +1,4 @@
-//! All limit cycles at given parameters, proved: how many there are, and bounds of their numbers.
+//! All limit cycles for given parameters, proved: their number, and bounds of their characteristics.
 
 use serde::Serialize;
 
@@ -12,40 +12,40 @@ use super::theorems::{Theorem, theorem};
 use crate::numerics::Interval;
 use crate::numerics::scaling::exponent;
 
-/// A limit cycle that exists and is the only one in an interval of clearances.
+/// A limit cycle that exists and is unique in an interval of clearances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProvedCycle {
-    /// In which its clearance `q_max - r` lies, and no other cycle's.
+    /// Contains its clearance `q_max - r` and that of no other cycle.
     pub within: Interval,
     /// Whether it attracts.
     pub stable: bool,
-    /// Bounds of its numbers, where they could be computed.
+    /// Bounds of its characteristics, where they could be computed.
     pub enclosure: Option<Enclosure>,
 }
 
-/// Clearances about which nothing is proved.
+/// Clearances for which nothing is proved.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Open {
-    /// Smallest.
+    /// Smallest clearance.
     pub lower: f64,
-    /// Largest; infinite where there is no bound.
+    /// Largest clearance; infinite where there is no bound.
     pub upper: f64,
-    /// Why.
+    /// Why they are open.
     pub reason: &'static str,
 }
 
 /// What is proved about the limit cycles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Proof {
-    /// For all of these parameters.
+    /// The parameters for all of which it holds.
     pub parameters: ParameterBox,
-    /// The theorem that gave their number without computing motions.
+    /// The theorem that gave the number of cycles without computing motions.
     pub theorem: Option<Theorem>,
     /// The cycles, by amplitude.
     pub cycles: Vec<ProvedCycle>,
-    /// What could not be decided; there are these cycles and no others if this is empty.
+    /// What could not be decided. If this is empty, there are these cycles and no others.
     pub open: Vec<Open>,
-    /// Certified half swings that it took.
+    /// Number of certified half swings computed.
     pub swings: u32,
 }
 
@@ -62,10 +62,10 @@ const CLOSE: &str = "the return map comes closer to its diagonal than it can be 
 const PARTLY: &str =
     "the number of cycles differs, or may differ, within the parameters' intervals";
 
-/// Proves how many cycles there are and encloses them; `hints` are clearances near which some may lie.
+/// Proves the number of cycles and encloses them; `hints` are clearances near which cycles may lie.
 #[must_use]
 pub fn prove(parameters: &ParameterBox, hints: &[f64]) -> Proof {
-    // Near the ends of the range of doubles r is brought to about 1: exactly, or as an interval.
+    // Near the limits of the range of doubles, r is scaled to about 1: exactly, or as an interval.
     let unit = if parameters.r.lower() > 0.0 { exponent(parameters.r.middle()) } else { 0 };
     let unit = if unit.abs() > 300 { unit } else { 0 };
     let local = parameters.in_units_of(unit);
@@ -119,7 +119,7 @@ fn prove_in_units(parameters: &ParameterBox, hints: &[f64]) -> Proof {
     proof
 }
 
-/// Counts by the return map.
+/// Counts cycles by the return map.
 fn counted(map: &mut ProvedMap) -> Count {
     /// Halvings of the whole range before a gap is left open.
     const HALVINGS: u32 = 60;

@@ -1,4 +1,4 @@
-//! The derivatives of the return map by the clearance and by each parameter, enclosed.
+//! Enclosures of the derivatives of the return map with respect to the clearance and each parameter.
 
 use super::field::{Field, ParameterBox};
 use super::swing::{StartBox, swing_with_derivatives};
@@ -8,25 +8,25 @@ use crate::oscillator::Side;
 /// Derivatives of the next clearance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Derivatives {
-    /// The next clearance itself.
+    /// The next clearance.
     pub image: Interval,
-    /// By the clearance.
+    /// With respect to the clearance.
     pub clearance: Interval,
-    /// By D.
+    /// With respect to D.
     pub d: Interval,
-    /// By D2.
+    /// With respect to D2.
     pub d2: Interval,
-    /// By D3.
+    /// With respect to D3.
     pub d3: Interval,
-    /// By r.
+    /// With respect to r.
     pub r: Interval,
 }
 
-/// The return map and its derivatives at all clearances of an interval, for all parameters of a box; `None` where a
-/// swing is not certain, or does not return.
+/// The return map and its derivatives for all clearances of an interval and all parameters of a box; `None`
+/// where a swing is not certain or does not return.
 ///
-/// With the half maps `h` and `H`, `G(z) = H(h(z) - 2 r) - 2 r`; their derivatives by the coefficients of the field
-/// are those of lemma 21, with `a = 2 D`, `b = D2` above `v = 0` and `-D2` below, `c = D3`.
+/// With the half maps `h` and `H`, `G(z) = H(h(z) - 2 r) - 2 r`. Their derivatives with respect to the
+/// coefficients of the field are those of lemma 21, with `a = 2 D`, `b = D2` above `v = 0` and `-D2` below, `c = D3`.
 pub fn derivatives(parameters: &ParameterBox, clearance: Interval) -> Option<Derivatives> {
     let gap = parameters.r.twice();
     let zero = Interval::point(0.0);
@@ -51,8 +51,8 @@ pub fn derivatives(parameters: &ParameterBox, clearance: Interval) -> Option<Der
     known.then_some(Derivatives { image: from, clearance, d, d2, d3, r })
 }
 
-/// The derivatives of a cycle's clearance by D, D2, D3 and r, by the implicit function theorem; `None` where the derivative
-/// of the map may be 1.
+/// The derivatives of a cycle's clearance with respect to D, D2, D3 and r, by the implicit function theorem;
+/// `None` where the derivative of the map may be 1.
 pub fn cycle_derivatives(parameters: &ParameterBox, clearance: Interval) -> Option<[Interval; 4]> {
     let Derivatives { clearance: slope, d, d2, d3, r, .. } = derivatives(parameters, clearance)?;
     let off = Interval::point(1.0) - slope;

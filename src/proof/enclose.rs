@@ -1,5 +1,5 @@
-//! A limit cycle enclosed: existence and uniqueness near a guess by the interval Newton method, then all its
-//! numbers.
+//! Enclosure of a limit cycle: existence and uniqueness near a guess by the interval Newton method, then all
+//! its characteristics.
 
 use super::field::{ParameterBox, scaled};
 use super::map::{Direction, ProvedMap};
@@ -7,7 +7,7 @@ use super::swing::Swing;
 use crate::numerics::Interval;
 use serde::Serialize;
 
-/// Bounds of the numbers of one limit cycle.
+/// Bounds of the characteristics of one limit cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Enclosure {
     /// Right turning point.
@@ -22,11 +22,10 @@ pub struct Enclosure {
     pub period: Interval,
     /// Floquet multiplier.
     pub multiplier: Interval,
-    /// `q_max - r`.
+    /// Clearance `q_max - r`.
     pub clearance: Interval,
 }
 
-/// The same lengths in units of `2^-k`.
 impl Enclosure {
     /// Every length multiplied by `2^k`.
     #[must_use]
@@ -55,18 +54,19 @@ impl Enclosure {
     }
 }
 
-/// Encloses the only cycle with a clearance in `within`, which exists, `guess` being near it.
+/// Encloses the only cycle with a clearance in `within`, which must exist; `guess` is near it.
 ///
-/// The map is run the way in which it contracts: at a cycle that repels, backward.
+/// The map is run in the direction in which it contracts: backward for a repelling cycle.
 pub fn enclose(
     map: &mut ProvedMap,
     guess: f64,
     within: Interval,
     stable: bool,
 ) -> Option<Enclosure> {
-    /// Radii to try, relative to the guess.
+    /// Radii of the interval Newton method, relative to the guess.
     const RADII: [f64; 6] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2];
-    /// Steps of Newton's method before that, and a change after which the next error is rounding.
+    /// Steps of the plain Newton method before it, and the relative change after which the next error is at
+    /// rounding level.
     const STEPS: usize = 8;
     const SMALL: f64 = 1e-8;
     let direction = if stable { Direction::Forward } else { Direction::Backward };
@@ -90,11 +90,11 @@ pub fn enclose(
             break;
         }
     }
-    // The only cycle within an interval lies in every step of the method from there, interior or not.
+    // The only cycle in an interval lies in each Newton step from there, whether in its interior or not.
     let only = |map: &mut ProvedMap| newton(map, within, direction)?.intersection(within);
     let known = around.map(|(inner, _)| inner);
     let mut clearance = known.or_else(|| only(map).or(within.is_finite().then_some(within)))?;
-    // Over so little as the smallest radius the derivative is as good as at a point.
+    // Over the smallest radius the derivative is as accurate as at a point.
     if !around.is_some_and(|(_, radius)| radius <= RADII[0])
         && let Some(better) = newton(map, clearance, direction)
     {
@@ -103,8 +103,8 @@ pub fn enclose(
     describe(map, clearance, direction)
 }
 
-/// One step of the interval Newton method: all fixed points in `over` lie in the result, and if that lies in
-/// the interior of `over` there is exactly one.
+/// One step of the interval Newton method. All fixed points in `over` lie in the result; if the result lies in
+/// the interior of `over`, there is exactly one.
 fn newton(map: &mut ProvedMap, over: Interval, direction: Direction) -> Option<Interval> {
     let middle = Interval::point(over.middle());
     let off = map.image(direction, middle) - middle;
@@ -122,7 +122,7 @@ fn polished(map: &mut ProvedMap, near: f64, direction: Direction) -> f64 {
     if next > 0.5 * near && next < 2.0 * near { next } else { near }
 }
 
-/// All numbers of the cycle with this clearance.
+/// All characteristics of the cycle with this clearance.
 fn describe(map: &mut ProvedMap, clearance: Interval, direction: Direction) -> Option<Enclosure> {
     let ParameterBox { r, .. } = map.parameters;
     let gap = r.twice();
@@ -137,7 +137,7 @@ fn describe(map: &mut ProvedMap, clearance: Interval, direction: Direction) -> O
         Direction::Backward => [left + gap, clearance + gap],
     };
     let [below, above] = [0, 1].map(|index| map.whole_swing(index, direction, starts[index]));
-    // What D2 contributes to the divergence vanishes around a closed curve.
+    // The contribution of D2 to the divergence vanishes around a closed curve.
     let cubic = |swing: &Swing| {
         let c = scaled(scaled(map.parameters.d3, swing.unit), swing.unit);
         c * swing.square * Interval::point(3.0)
@@ -153,7 +153,7 @@ fn describe(map: &mut ProvedMap, clearance: Interval, direction: Direction) -> O
         _ => (positive, positive),
     };
     let mut multiplier = multiplier.intersection(positive)?;
-    // Of a stiff cycle that is known better from the map, which contracts.
+    // For a stiff cycle it is known more accurately from the map, which contracts.
     let stable = direction == Direction::Forward;
     if !(multiplier.upper() < 1.0 || multiplier.lower() > 1.0)
         && let Some(slope) = map.slope(direction, clearance)
@@ -185,7 +185,8 @@ mod tests {
         ProvedMap::new(&ParameterBox { d, d2, d3, r })
     }
 
-    /// Linear half swings multiply by `m = exp(-pi D/sqrt(1 - D^2))`: the cycle is at `2 r/(m - 1)`, its multiplier `m^2`.
+    /// Linear half swings are multiplied by `m = exp(-pi D/sqrt(1 - D^2))`: the cycle is at `2 r/(m - 1)`, its
+    /// multiplier is `m^2`.
     #[test]
     fn the_cycle_of_linear_swings_is_held() {
         let one = Interval::point(1.0);
@@ -194,7 +195,7 @@ mod tests {
             let m = (-PI * damping / ((one + damping) * (one - damping)).sqrt()).exp();
             let exact = Interval::point(2.0 * r) / (m - one);
             let (at, mut map) = (exact.middle(), map([d, 0.0, 0.0, r]));
-            // Of an affine map a step of Newton's method leads there from anywhere.
+            // For an affine map one step of Newton's method leads there from anywhere.
             let aside = Interval::new(1.02 * at, 1.03 * at);
             for direction in [Direction::Forward, Direction::Backward] {
                 let found = newton(&mut map, aside, direction).unwrap();
@@ -206,7 +207,7 @@ mod tests {
         }
     }
 
-    /// A guess far off does no harm: Newton's method leads out of its surroundings, and is not believed there.
+    /// A guess far off does no harm: Newton's method leaves its neighbourhood, and its result there is rejected.
     #[test]
     fn what_lies_outside_of_the_interval_is_not_believed() {
         let within = Interval::new(0.6, 0.65);

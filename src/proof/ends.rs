@@ -1,10 +1,10 @@
-//! The two ends of the search for cycles: below one clearance and above another there is none.
+//! The two ends of the search for cycles: clearances below and above which there is no cycle.
 
 use super::barrier::least_end;
 use super::map::{Direction, ProvedMap};
 use crate::numerics::Interval;
 
-/// On which side of the diagonal the return map lies.
+/// The side of the diagonal on which the return map lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// The next clearance is larger, or the motion never turns again.
@@ -13,7 +13,7 @@ pub enum Sign {
     Below,
 }
 
-/// What lies at an end.
+/// The result at one end of the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SearchEnd {
     /// No cycle has its clearance beyond this one, at which the map has this sign.
@@ -24,11 +24,11 @@ pub enum SearchEnd {
     Open,
 }
 
-/// The inner end.
+/// The inner end of the search.
 pub fn inner_end(map: &mut ProvedMap) -> SearchEnd {
-    /// Halvings of a clearance that comes to rest, where the inverse is not known.
+    /// Halvings of the trial clearance where the inverse is not known.
     const HALVINGS: i32 = 40;
-    // The last clearances from which the second swing, and both swings, end in the sticking set.
+    // The largest clearances from which the second swing, and both swings, end in the sticking set.
     let second = map.half(1, Direction::Backward, Interval::point(0.0));
     if second.lower() == f64::INFINITY {
         return SearchEnd::Empty;
@@ -50,7 +50,7 @@ pub fn inner_end(map: &mut ProvedMap) -> SearchEnd {
         let passed = map.half(1, Direction::Forward, Interval::point(least[0])).lower();
         let bound = passed.max(least[1]);
         if bound > 0.0 && bound < f64::INFINITY {
-            // No image is smaller, if every motion comes back at all.
+            // No image is smaller, provided that every motion returns.
             let returns = map.parameters.d3.lower() > 0.0 && least[0] > 0.0;
             let sign = if returns { Some(Sign::Above) } else { sign_at(map, bound) };
             return sign.map_or(SearchEnd::Open, |sign| SearchEnd::At(bound, sign));
@@ -69,7 +69,7 @@ pub fn inner_end(map: &mut ProvedMap) -> SearchEnd {
     SearchEnd::Open
 }
 
-/// The outer end; `inner` is the clearance at the inner one.
+/// The outer end of the search; `inner` is the clearance at the inner one.
 pub fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
     let [first, second] = [0, 1].map(|index| {
         let greatest = map.greatest(index, Direction::Forward);
@@ -97,7 +97,7 @@ pub fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
             if map.parameters.d3.lower() > 0.0 { Some(Sign::Below) } else { sign_at(map, bound) };
         return sign.map_or(SearchEnd::Open, |sign| SearchEnd::At(bound, sign));
     }
-    // The same for the inverse, which brings everything below its greatest image.
+    // The same for the inverse, all of whose images are below its greatest one.
     let back = map.greatest(1, Direction::Backward);
     let whole = map.greatest(0, Direction::Backward);
     let through = map.half(0, Direction::Backward, Interval::point(back)).upper();
@@ -123,7 +123,7 @@ fn escape(map: &mut ProvedMap, inner: f64) -> SearchEnd {
     SearchEnd::Open
 }
 
-/// On which side of the diagonal the map certainly lies at a clearance.
+/// The side of the diagonal on which the map certainly lies at a clearance.
 pub fn sign_at(map: &mut ProvedMap, clearance: f64) -> Option<Sign> {
     let image = map.image(Direction::Forward, Interval::point(clearance));
     if image.lower() > clearance {

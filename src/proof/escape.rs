@@ -1,8 +1,9 @@
-//! The escape point, enclosed in a parameter: where the cycle that borders the basin reaches infinity.
+//! The escape point, enclosed in a parameter: where the cycle that bounds the basin reaches infinity.
 //!
-//! For `D3 = 0`, `D2 != 0` one half map has a last clearance `z_c`, beyond which no motion returns, and the other maps even
-//! infinity to a finite clearance B. Where `B > z_c` the return map lies above its diagonal just below `z_c`, and
-//! below it near the sticking set, so that there is a cycle between; it reaches infinity where `B = z_c` (lemma 20).
+//! For `D3 = 0`, `D2 != 0` one half map has a last clearance `z_c`, beyond which no motion returns, and the
+//! other maps even infinity to a finite clearance B. Where `B > z_c` the return map is above the diagonal just
+//! below `z_c` and below it near the sticking set, so there is a cycle between. It reaches infinity where
+//! `B = z_c` (lemma 20).
 
 use super::bracket::bracket;
 use super::field::{Field, ParameterBox};
@@ -11,8 +12,9 @@ use super::swing::{Passage, StartBox, swing};
 use crate::numerics::Interval;
 use crate::oscillator::{Side, Symbol};
 
-/// Encloses the value of the parameter `symbol`, D, D2 or r, near which a cycle escapes to infinity, for `D3 = 0`; the other
-/// parameters are those of `parameters`, which may be intervals. `None` where nothing could be proved.
+/// Encloses the value of the parameter `symbol` (D, D2 or r) near `near` at which a cycle escapes to infinity,
+/// for `D3 = 0`. The other parameters are those of `parameters`, which may be intervals. `None` where nothing
+/// could be proved.
 pub fn enclose_escape(parameters: &ParameterBox, symbol: Symbol, near: f64) -> Option<Interval> {
     bracket(near, |at| returns_from_infinity(&parameters.with(symbol, Interval::point(at))))
 }
@@ -42,7 +44,7 @@ pub fn returns_from_infinity(parameters: &ParameterBox) -> Option<bool> {
     let field = Field::new(parameters, weak);
     let run =
         |field: &Field, from: f64| swing(field, &StartBox::at_rest(Interval::point(from)), false);
-    // The nearest start and the strongest damping escape, or the farthest start and the weakest damping do not.
+    // Either the nearest start escapes under the strongest damping, or the farthest start returns under the weakest.
     if start.lower() > 0.0 && run(&field.strongest(), start.lower()) == Passage::Never {
         return Some(false);
     }

@@ -1,4 +1,4 @@
-//! The field of a half plane with its coefficients known to lie in intervals.
+//! The field of a half plane with coefficients in intervals.
 
 use crate::numerics::Interval;
 use crate::numerics::scaling::times_power;
@@ -6,14 +6,14 @@ pub use crate::oscillator::ParameterBox;
 use crate::oscillator::{Side, Symbol};
 
 impl ParameterBox {
-    /// The same with lengths measured in units of `2^k`.
+    /// The same parameters with lengths in units of `2^k`.
     #[must_use]
     pub fn in_units_of(&self, k: i32) -> Self {
         let d3 = scaled(scaled(self.d3, k), k);
         ParameterBox { d: self.d, d2: scaled(self.d2, k), d3, r: scaled(self.r, -k) }
     }
 
-    /// The same with one parameter replaced; a start is not a parameter.
+    /// The same parameters with one replaced; symbols of a start are ignored.
     #[must_use]
     pub fn with(&self, symbol: Symbol, value: Interval) -> Self {
         let mut changed = *self;
@@ -27,7 +27,7 @@ impl ParameterBox {
         changed
     }
 
-    /// Whether each parameter is one double.
+    /// Whether every parameter is a single double.
     #[must_use]
     pub fn is_point(&self) -> bool {
         [self.d, self.d2, self.d3, self.r].iter().all(|it| it.is_point())
@@ -60,27 +60,27 @@ impl Field {
         Field { a: -self.a, b: -self.b, c: -self.c }
     }
 
-    /// The same field for motions measured in units of `2^k`.
+    /// The same field for motions in units of `2^k`.
     #[must_use]
     pub fn in_units_of(&self, k: i32) -> Self {
         Field { a: self.a, b: scaled(self.b, k), c: scaled(scaled(self.c, k), k) }
     }
 
-    /// The member that damps least: of all fields here its motion from a given start lies highest.
+    /// The member with the least damping: of all fields here its motion from a given start is the highest.
     #[must_use]
     pub fn weakest(&self) -> Self {
         let least = |it: Interval| Interval::point(it.lower());
         Field { a: least(self.a), b: least(self.b), c: least(self.c) }
     }
 
-    /// The member that damps most.
+    /// The member with the most damping.
     #[must_use]
     pub fn strongest(&self) -> Self {
         let most = |it: Interval| Interval::point(it.upper());
         Field { a: most(self.a), b: most(self.b), c: most(self.c) }
     }
 
-    /// Whether it is one field.
+    /// Whether it is a single field.
     #[must_use]
     pub fn is_point(&self) -> bool {
         [self.a, self.b, self.c].iter().all(|it| it.is_point())
@@ -99,7 +99,7 @@ impl Field {
     }
 }
 
-/// `value * 2^k`: exact unless it leaves the normal range, where it is one double wider on both sides.
+/// `value * 2^k`; exact, unless it leaves the normal range, where it is widened by one double on each side.
 #[must_use]
 pub fn scaled(value: Interval, k: i32) -> Interval {
     let bound = |bound: f64, widen: fn(f64) -> f64| {

@@ -1,9 +1,10 @@
 //! The fold of limit cycles, enclosed in a parameter, by signs alone.
 //!
-//! On one side of a fold the displacement `G(z) - z` has two zeros near its clearance, on the other none. If both
-//! are proved at two values of a parameter, and the displacement keeps one sign at the ends of an interval of clearances
-//! for all values between, then between the two values two cycles meet and vanish there (lemma 19). No derivative by the
-//! parameter is needed; where that has one sign, for D, D3 and r, there is one such value only.
+//! On one side of a fold the displacement `G(z) - z` has two zeros near its clearance, on the other none.
+//! Suppose both are proved at two values of a parameter, and the displacement keeps one sign at the ends of an
+//! interval of clearances for all values between. Then two cycles merge and vanish between the two values
+//! (lemma 19). No derivative by the parameter is needed. Where that derivative has one sign (for D, D3 and r),
+//! there is only one such value.
 
 use super::bracket::bracket;
 use super::count::Count;
@@ -16,14 +17,14 @@ use crate::oscillator::Symbol;
 /// A fold of limit cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fold {
-    /// The parameter at which two cycles meet.
+    /// The parameter value at which two cycles merge.
     pub value: Interval,
     /// Their common clearance `q_max - r`.
     pub clearance: Interval,
 }
 
-/// Encloses the fold that is near a value of the parameter `symbol` and a clearance; the other parameters are those of
-/// `parameters`, which may be intervals. `None` where nothing could be proved.
+/// Encloses the fold near the value `near` of the parameter `symbol` and near a clearance. The other parameters
+/// are those of `parameters`, which may be intervals. `None` where nothing could be proved.
 ///
 /// The bounds of the value are about as close as rounding allows: a few units of 1e-15.
 pub fn enclose_fold(
@@ -34,7 +35,8 @@ pub fn enclose_fold(
 ) -> Option<Fold> {
     /// Half the width of the interval of clearances, relative to the clearance.
     const WIDTHS: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
-    /// Halvings of the first, and how many more each takes: nearer to the fold than 1e-8 all is rounding.
+    /// Halvings for the first width, and how many more for each further one: closer to the fold than 1e-8
+    /// rounding dominates.
     const HALVINGS: u32 = 6;
     const MORE: usize = 3;
     let place = |at: Interval| parameters.with(symbol, at);
@@ -54,7 +56,7 @@ fn sides(map: &mut ProvedMap, gap: Interval) -> Option<Sign> {
     (sign_at(map, gap.upper())? == low).then_some(low)
 }
 
-/// Whether there are two cycles in a gap, one of them on either side of a clearance, or none; `None` if neither is certain.
+/// Whether a gap contains two cycles, one on either side of `near`, or none; `None` if neither is certain.
 fn inside(parameters: &ParameterBox, gap: Interval, near: f64, halvings: u32) -> Option<bool> {
     if !(parameters.r.lower() >= 0.0) {
         return None;
@@ -69,9 +71,9 @@ fn inside(parameters: &ParameterBox, gap: Interval, near: f64, halvings: u32) ->
     (count.open.is_empty() && count.unique.is_empty()).then_some(false)
 }
 
-/// All clearances in a gap at which the derivative of the return map may be 1: where two cycles meet it is.
+/// All clearances in a gap at which the derivative of the return map may be 1, as it is where two cycles merge.
 fn touching(parameters: &ParameterBox, gap: Interval) -> Interval {
-    /// The part of the interval that is tried at either end: a smaller one where a larger one is not certain.
+    /// Fractions of the interval to cut off at each end; a smaller one is tried where a larger one is not certain.
     const PARTS: [f64; 4] = [0.3, 0.1, 0.03, 0.01];
     let mut map = ProvedMap::new(parameters);
     let mut regular = |lower: f64, upper: f64| {

@@ -1,9 +1,10 @@
-//! Stiff half swings: between two fences they follow a slow manifold, and forget where they started.
+//! Stiff half swings: between two fences they follow a slow manifold and lose memory of their start.
 //!
 //! Where the slope `f'(v) = a + 2 b v + 3 c v^2` of the damping is large, a motion drops onto the curve
-//! `x = -f(v)`, along which it then creeps: no explicit step may be long there. But there is nothing to compute either.
-//! All motions that were faster than some `speed` fall through it within a short piece of the line
-//! `v = speed` (lemma 11), and motions from its two ends, which are no longer stiff, arrive almost together.
+//! `x = -f(v)` and then creeps along it, which would force any explicit method to short steps. But nothing
+//! needs to be computed there. All motions that were faster than some `speed` fall through it within a short
+//! piece of the line `v = speed` (lemma 11), and the motions from the two ends of this piece, which are no
+//! longer stiff, arrive almost together.
 
 use super::field::{Field, scaled};
 use super::swing::{Passage, StartBox, Swing, swing};
@@ -11,33 +12,33 @@ use crate::numerics::Interval;
 use crate::numerics::elementary::cbrt;
 use crate::numerics::scaling::exponent;
 
-/// The beginning of motions, until they are all faster than the funnel's speed.
+/// The beginning of motions, until all of them are faster than the speed of the funnel.
 #[derive(Clone, Copy, Debug)]
 pub struct Climb {
-    /// Upper bound of where that is.
+    /// Upper bound of the position at that moment.
     position: f64,
-    /// Upper bound of the integral of the divergence of the field until then.
+    /// Upper bound of the integral of the divergence of the field up to that moment.
     divergence: f64,
 }
 
-/// Where the motions of a field that were faster than `speed` fall through it, and arrive.
+/// Where motions that were faster than `speed` fall through it, and where they arrive.
 #[derive(Clone, Copy, Debug)]
 pub struct Funnel {
     /// The velocity at which the fences end.
     speed: f64,
-    /// A velocity from which motions certainly reach that.
+    /// A velocity from which motions certainly reach `speed`.
     pub ceiling: f64,
-    /// Starts at rest up to this far from the centre stay between the fences; may be infinite.
+    /// Starts at rest up to this distance from the centre stay between the fences; may be infinite.
     pub reach: f64,
     /// Positions at which motions fall through `speed`.
     entry: Interval,
     /// Lower bound of `f'(v)/v` between the fences, 0 if not positive.
     rate: f64,
-    /// The motion from the left end of `entry`, of the field that damps most.
+    /// The motion from the left end of `entry`, for the field with the most damping.
     low: Option<Swing>,
-    /// The motion from the right end, of the field that damps least.
+    /// The motion from the right end, for the field with the least damping.
     high: Option<Swing>,
-    /// Where motions arrive that fall off a fold of the slow manifold.
+    /// Arrivals of motions that fall off a fold of the slow manifold.
     beyond_fold: Interval,
 }
 
@@ -49,9 +50,9 @@ struct Fences {
 }
 
 impl Funnel {
-    /// The funnel of a field, if it has one: for `c > 0`, or `b > 0`.
+    /// The funnel of a field, if there is one: for `c > 0`, or `b > 0`.
     pub fn new(field: &Field, swings: &mut u32) -> Option<Self> {
-        // In units in which b, or c, is about 1.
+        // In units in which b or c is about 1.
         let (b, c) = (field.b.magnitude(), field.c.magnitude());
         let unit = if b > 0.0 { -exponent(b) } else { -exponent(c) / 2 };
         let local = field.in_units_of(unit);
@@ -83,7 +84,7 @@ impl Funnel {
         let v = Interval::point(speed);
         let force = |v: Interval| v * (a + v * (b + v * c));
         let (top, reach) = if c.lower() >= 0.0 {
-            // The slope is convex, and increases from the speed on.
+            // The slope is convex and increases from the speed on.
             let convex = (b + three * c * v).lower() >= 0.0;
             (if convex { v } else { return None }, f64::INFINITY)
         } else if c.upper() < 0.0 && fastest > speed {
@@ -92,7 +93,7 @@ impl Funnel {
         } else {
             return None;
         };
-        // Piece by piece, because the slope, which is smallest at an end of each, varies much.
+        // Done piece by piece, because the slope, which is smallest at an end of each piece, varies strongly.
         let fenced = |from: f64, to: f64| {
             let [from, to] = [from, to].map(Interval::point);
             let least = Interval::point(field.slope(from).lower().min(field.slope(to).lower()));
@@ -120,7 +121,7 @@ impl Funnel {
         let rate = rate.lower().max(0.0);
         let known = entry.is_finite() && speed > 0.0 && reach > 0.0;
         let beyond_fold = beyond_fold(field, entry, v).unwrap_or(Interval::ALL);
-        // Beyond a thousand times their own length motions run away, as far as the other branch.
+        // At velocities beyond a thousand times their length scale, motions run away to the other branch.
         let ceiling = if beyond_fold.is_finite() {
             speed.min(1e3 * (1.0 + a.magnitude()) / b.magnitude())
         } else {
@@ -143,13 +144,13 @@ impl Funnel {
         self.speed
     }
 
-    /// Lower bound of where all motions arrive that were faster than `speed`.
+    /// Lower bound of the arrivals of all motions that were faster than `speed`.
     pub fn least(&self) -> f64 {
         let low = self.low.map_or(f64::NEG_INFINITY, |low| low.end.lower());
         low.max(self.beyond_fold.lower())
     }
 
-    /// Lower bound of where a motion arrives that has this passage below the ceiling.
+    /// Lower bound of the arrival of a motion with this passage below the ceiling.
     pub fn least_after(funnel: Option<&Self>, field: &Field, passage: &Passage) -> f64 {
         match passage {
             Passage::Arrives(swing) => swing.end.lower(),
@@ -161,7 +162,7 @@ impl Funnel {
         }
     }
 
-    /// Upper bound of where motions arrive that start at rest, up to `reach` away.
+    /// Upper bound of the arrivals of motions that start at rest, up to `reach` away.
     pub fn greatest(&self) -> f64 {
         let high = self.high.map_or(f64::INFINITY, |high| high.end.upper());
         high.min(self.beyond_fold.upper())
@@ -188,12 +189,12 @@ impl Funnel {
         self.run_away(field, (way - Interval::point(start.lower())).upper(), (push * time).upper())
     }
 
-    /// The climb of motions that were found to be faster than the ceiling.
+    /// The climb of motions known to be faster than the ceiling.
     pub fn climb_of(&self, field: &Field, swing: &Swing) -> Option<Climb> {
         self.run_away(field, swing.end.upper(), swing.divergence.upper())
     }
 
-    /// From the ceiling on to the speed (lemma 12).
+    /// The climb from the ceiling to the speed (lemma 12).
     fn run_away(&self, field: &Field, position: f64, divergence: f64) -> Option<Climb> {
         let (speed, v) = (Interval::point(self.speed), Interval::point(self.ceiling));
         if speed == v {
@@ -201,10 +202,10 @@ impl Funnel {
         }
         let Field { a, b, c } = *field;
         let two = Interval::point(2.0);
-        // Half of what the square gains over the cube remains beside all the rest.
+        // Half of the excess of the square over the cube remains after all other terms.
         let half = (-b - c * speed) / two;
         let half = Interval::point(half.lower());
-        // At least the logarithm of the ratio of both velocities.
+        // At least the logarithm of the ratio of the two velocities.
         let doublings = f64::from(exponent((speed / v).upper()) + 1);
         let logarithm = Interval::point(0.7) * Interval::point(doublings);
         if !(half.lower() > 0.0) {
@@ -224,8 +225,8 @@ impl Funnel {
         })
     }
 
-    /// Where motions arrive, and an upper bound of the derivative of that by their start; `climb` is the part until
-    /// they were all faster than `speed` (lemma 12).
+    /// The arrivals, and an upper bound of their derivative with respect to the start; `climb` is the part
+    /// until all motions were faster than `speed` (lemma 12).
     pub fn contraction(
         &self,
         field: &Field,
@@ -244,8 +245,8 @@ impl Funnel {
         (slope < f64::INFINITY).then(|| (end, Interval::new(0.0, slope)))
     }
 
-    /// The whole swing, of motions that were found to fall from their largest velocity: the duration and the integral of
-    /// `v^2` of the part between the fences follow from by how little they miss the slow manifold (lemma 12).
+    /// The whole swing of motions known to fall from their largest velocity. The duration and the integral of
+    /// `v^2` between the fences follow from the bound on their distance from the slow manifold (lemma 12).
     pub fn swing_after(&self, field: &Field, start: Interval, fallen: &Swing) -> Option<Swing> {
         if !(start.upper() <= self.reach && self.rate > 0.0) {
             return None;
@@ -290,7 +291,7 @@ impl Funnel {
         let [end, entry, speed] =
             [end, self.entry, Interval::point(self.speed)].map(|it| scaled(it, -unit));
         let apart = Interval::point(end.width());
-        // How fast a motion can still be that has reached the first of the two ends, and for how long.
+        // How fast a motion can still be when it has reached the first of the two ends, and for how long.
         let speed_left = (Interval::point(3.0 * end.upper()) * apart).sqrt().upper();
         let left = Interval::new(0.0, speed_left);
         let drag = Interval::point((left * (a + left * (b + left * c))).magnitude());
@@ -309,10 +310,10 @@ impl Funnel {
         Some((duration, squares))
     }
 
-    /// Lower bound of the same for motions that fall off a fold.
+    /// Lower bound of this integral for motions that fall off a fold.
     ///
-    /// The slope is never below `a - b^2/(3 c)`; what moves faster than half the velocity of the fold has only the way
-    /// to the end to go, and what is slower falls at a certain rate at least.
+    /// The slope is never below `a - b^2/(3 c)`. A motion faster than half the velocity of the fold has only
+    /// the distance to the end to cover, and a slower one falls at least at a certain rate.
     fn damping_beyond_fold(&self, field: &Field) -> Option<Interval> {
         if !self.beyond_fold.is_finite() {
             return None;
@@ -324,7 +325,7 @@ impl Funnel {
         let least = (a - b.square() / (three * c)).lower().min(0.0);
         let turning = -b / (three * c);
         let half = Interval::point(turning.upper());
-        // The force falls as far as the fold, so that it is not below this up to half of the velocity there.
+        // The force decreases up to the fold, so at up to half of the velocity there it is not below this.
         let force = half.square() * (b + c * half) + half * Interval::point(a.lower().min(0.0));
         let rate = Interval::point(entry.lower()) + force;
         let way = Interval::point((end - entry).upper());
@@ -338,14 +339,14 @@ impl Funnel {
     }
 }
 
-/// Where motions arrive that fall through `speed` at `entry`, right of the centre, for `b < 0 < c` (lemma 12).
+/// The arrivals of motions that fall through `speed` at `entry`, right of the centre, for `b < 0 < c` (lemma 12).
 fn beyond_fold(field: &Field, entry: Interval, speed: Interval) -> Option<Interval> {
     let Field { a, b, c } = *field;
     if !(b.upper() < 0.0 && c.lower() > 0.0 && entry.lower() > 0.0) {
         return None;
     }
     let pull = Interval::point(a.lower().min(0.0)) * speed;
-    // The least value of b v^2 + c v^3.
+    // The minimum of b v^2 + c v^3.
     let least = Interval::point(4.0) * b * b.square() / (Interval::point(27.0) * c.square());
     let fold = -(least + pull);
     let last = Interval::point(fold.upper().max(entry.upper())) + speed.twice();
@@ -353,14 +354,14 @@ fn beyond_fold(field: &Field, entry: Interval, speed: Interval) -> Option<Interv
 }
 
 impl Fences {
-    /// Chooses where the fences end, in plain numbers: the slope of the damping is as large there as it takes to make
+    /// Chooses where the fences end, in plain numbers: where the slope of the damping is large enough to make
     /// the two motions meet.
     fn place(field: &Field) -> Option<Self> {
         /// The slope at which a motion is no longer stiff.
         const SLOPE: f64 = 8.0;
-        /// The same next to a fold of the slow manifold, by the cube root of its stiffness.
+        /// The same next to a fold of the slow manifold, per cube root of its stiffness.
         const AT_FOLD: f64 = 6.0;
-        /// Stays on the safe side of the roots.
+        /// Relative margin that keeps the fences on the safe side of the roots.
         const ROOM: f64 = 1e-9;
         let Field { a, b, c } = field.weakest();
         let [a, b, c] = [a, b, c].map(Interval::lower);

@@ -1,9 +1,9 @@
 //! The edge of the basin of the sticking set, and the smallest kicks that are not captured, enclosed.
 //!
-//! By lemma 8 the starts at rest on one side that are captured are those nearer to the sticking set than some
-//! clearance: that of the innermost cycle if this one repels. Where there is no cycle the clearance lies between
-//! one that certainly comes to rest and one that certainly does not. An impulse is captured if the half swing
-//! that it begins ends nearer than this.
+//! By lemma 8, the starts at rest on one side that are captured are those nearer to the sticking set than some
+//! clearance; it is that of the innermost cycle if this cycle repels. Where there is no cycle, the clearance
+//! lies between one from which motions certainly come to rest and one from which they certainly do not. An
+//! impulse is captured if the half swing that it starts ends nearer than this.
 
 use super::cycles::{Proof, ProvedCycle};
 use super::field::ParameterBox;
@@ -13,7 +13,7 @@ use super::theorems::Theorem;
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
 
-/// What is proved to border the basin.
+/// What provably borders the basin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProvedEdge {
     /// Nothing: every motion comes to rest.
@@ -24,17 +24,17 @@ pub enum ProvedEdge {
     Separatrix,
 }
 
-/// The smallest kicks that are not captured: what is below the lower bound comes to rest, what is above the upper
-/// one does not.
+/// The smallest kicks that are not captured: kicks below the lower bound come to rest, kicks above the upper
+/// bound do not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProvedKicks {
     /// What borders the basin, where that is proved.
     pub edge: Option<ProvedEdge>,
     /// Smallest displacement at rest; `None` where all are captured or nothing is known.
     pub displacement: Option<Interval>,
-    /// Smallest impulse at `q = 0`; likewise.
+    /// Smallest impulse at `q = 0`; `None` likewise.
     pub impulse: Option<Interval>,
-    /// Why something is open.
+    /// Why part of the answer is open.
     pub open: Option<&'static str>,
 }
 
@@ -42,11 +42,11 @@ const NO_FRICTION: &str = "without friction nothing comes to rest in a finite ti
 const NO_EDGE: &str = "no start is certain not to come to rest";
 const ATTRACTS: &str = "the innermost cycle attracts";
 
-/// Turns that a motion is followed before its fate is left open.
+/// Turns for which a motion is followed before its fate is left open.
 const TURNS: usize = 300;
 
-/// Bounds of the kicks, `proof` being about the cycles at the same parameters; `hints` are kicks near them, of
-/// displacements and of impulses.
+/// Bounds of the kicks. `proof` is about the cycles for the same parameters; `hints` are approximate values of
+/// the displacement and the impulse.
 pub fn kicks(proof: &Proof, hints: [Option<f64>; 2]) -> ProvedKicks {
     let parameters = &proof.parameters;
     let open =
@@ -117,7 +117,7 @@ pub fn edge(proof: &Proof) -> Option<ProvedEdge> {
     lost.then_some(ProvedEdge::Separatrix)
 }
 
-/// The innermost cycle, if it is certain that there is none within it.
+/// The innermost cycle, if there is certainly none inside it.
 fn innermost(proof: &Proof) -> Option<&ProvedCycle> {
     let first = proof.cycles.first()?;
     proof.open.iter().all(|gap| gap.lower >= first.within.upper()).then_some(first)
@@ -131,7 +131,7 @@ fn smaller(one: Interval, other: Interval) -> Interval {
 /// Whether no motion grows beyond all bounds.
 fn is_bounded(map: &mut ProvedMap, proof: &Proof) -> bool {
     let ParameterBox { d2, d3, .. } = proof.parameters;
-    // Of the first integral of lemma 13 for D2 = 0, the energy, every motion loses.
+    // Every motion loses energy, the first integral of lemma 13 for D2 = 0.
     let energy = proof.theorem == Some(Theorem::OneWay) && d2 == Interval::point(0.0);
     let barred = [0, 1]
         .iter()
@@ -141,7 +141,7 @@ fn is_bounded(map: &mut ProvedMap, proof: &Proof) -> bool {
 
 /// Whether a start at rest with this clearance is captured, where that is certain; `half` is its first half swing.
 ///
-/// `known` are clearances up to which all are, and from which on none is; it learns from the answer.
+/// `known` bounds the edge: starts below it are captured, starts above it are not. The answer updates it.
 fn at_rest(map: &mut ProvedMap, half: usize, from: f64, known: &mut Interval) -> Option<bool> {
     let mut at = Interval::point(from);
     for _ in 0..TURNS {
@@ -150,7 +150,7 @@ fn at_rest(map: &mut ProvedMap, half: usize, from: f64, known: &mut Interval) ->
             map.steps = 0;
             at = map.half(index, Direction::Forward, at);
         }
-        // What has not come nearer in a turn never will.
+        // A motion that has not come nearer in one turn never will.
         if at.lower() >= from.min(known.upper()) {
             *known = Interval::new(known.lower(), known.upper().min(from));
             return Some(false);
@@ -166,8 +166,8 @@ fn at_rest(map: &mut ProvedMap, half: usize, from: f64, known: &mut Interval) ->
     None
 }
 
-/// Whether an impulse at `q = 0` is captured, where that is certain, given the clearances of the edge on the right
-/// and on the left.
+/// Whether an impulse at `q = 0` is captured, where that is certain; `edge` holds the clearances of the edge on
+/// the right and on the left.
 fn pushed(map: &mut ProvedMap, half: usize, speed: f64, edge: [Interval; 2]) -> Option<bool> {
     let field = *map.halves[half].field(Direction::Forward);
     let start = StartBox { x: map.parameters.r, v: Interval::point(speed) };
@@ -185,10 +185,10 @@ fn pushed(map: &mut ProvedMap, half: usize, speed: f64, edge: [Interval; 2]) -> 
     }
 }
 
-/// Between the largest number that is certain to be captured and the smallest that is certain not to be, which is
+/// An interval from the largest value that is certainly captured to the smallest that certainly is not,
 /// infinite where none is found.
 fn threshold(hint: Option<f64>, mut captured: impl FnMut(f64) -> Option<bool>) -> Option<Interval> {
-    /// Ever larger strides away from the hint, up to a factor of `1.5^255`.
+    /// Number of increasing strides from the hint in either direction; the largest is a factor of `1.5^128`.
     const STRIDES: i32 = 8;
     let hint = hint.filter(|hint| *hint > 0.0 && hint.is_finite()).unwrap_or(1.0);
     let stride = |index: i32| powi(1.5, 2_i32.pow(index.unsigned_abs()));
@@ -222,7 +222,7 @@ fn threshold(hint: Option<f64>, mut captured: impl FnMut(f64) -> Option<bool>) -
         }
     };
     let (low, high) = bisect(low, high, |answer| answer);
-    // What is not certain counts as lost for the lower bound, and as captured for the upper.
+    // Uncertain values count as not captured for the lower bound, and as captured for the upper.
     let lower = bisect(low, high, |answer| Some(answer == Some(true))).0;
     let upper = bisect(low, high, |answer| Some(answer != Some(false))).1;
     Some(Interval::new(lower, upper))

@@ -1,9 +1,9 @@
 //! The return map of the right turning point, bounded on both sides, and its inverse.
 //!
-//! Values are clearances `z > 0` from the sticking set, and two special values: `-inf` for a motion that
-//! has come to rest, `+inf` for one that never turns again. Both keep the map increasing, so that one
-//! order serves for all of them. It also increases where damping or friction is taken away (lemma 8), so that
-//! bounds over intervals of parameters come from their ends.
+//! Values are clearances `z > 0` from the sticking set, and two special values: `-inf` for a motion that has
+//! come to rest, `+inf` for one that never turns again. With both the map remains increasing. It also increases
+//! when damping or friction is reduced (lemma 8), so bounds over intervals of parameters follow from the ends
+//! of these.
 
 use std::cell::OnceCell;
 
@@ -13,7 +13,7 @@ use super::swing::{MOST_STEPS, Passage, StartBox, Swing, swing, swing_below, swi
 use crate::numerics::Interval;
 use crate::oscillator::Side;
 
-/// The half map of one side, both ways.
+/// The half map of one side, in both directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Half {
     forward: Field,
@@ -22,42 +22,42 @@ pub struct Half {
 
 /// The map from one right turning point to the next.
 ///
-/// The first half swing runs below `v = 0`, from the right turning point to the left one, the second above.
+/// The first half swing runs below `v = 0`, from the right turning point to the left one; the second runs above.
 #[derive(Clone, Debug)]
 pub struct ProvedMap {
     /// The parameters.
     pub parameters: ParameterBox,
-    /// The two half maps in the order in which they are run.
+    /// The two half maps, in the order of the forward map.
     pub halves: [Half; 2],
-    /// Where stiff swings end, for each half and direction, once that was asked for.
+    /// The funnel of each half and direction, once it has been computed.
     funnels: [[OnceCell<Option<Funnel>>; 2]; 2],
     /// `2 r`.
     pub gap: Interval,
-    /// Half swings computed so far.
+    /// Number of half swings computed so far.
     pub swings: u32,
-    /// Steps they took, about.
+    /// Approximate number of steps they took.
     pub steps: u32,
 }
 
-/// Which way a map is run.
+/// The direction in which a map is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// With time.
+    /// Forward in time.
     Forward,
-    /// Against it: the inverse.
+    /// Backward in time: the inverse.
     Backward,
 }
 
-/// Steps of integration after which nothing more is computed: some 50 milliseconds.
+/// Integration steps after which nothing more is computed: about 50 milliseconds.
 const MOST_WORK: u32 = 30_000;
 
-/// Starts closer together than this fraction of themselves are one ball where the derivative is asked for.
+/// Relative distance below which starts form one ball for the derivative.
 const NARROW: f64 = 1e-9;
 
-/// Starts that differ by rounding only are one ball where the end is asked for.
+/// Relative distance, at rounding level, below which starts form one ball for the end.
 const ROUNDED: f64 = 1e-15;
 
-/// A derivative this small need not be known any better.
+/// A derivative below this need not be known more accurately.
 const SUPERSTABLE: f64 = 1e-6;
 
 /// Which bound is meant.
@@ -70,7 +70,7 @@ pub enum Bound {
 }
 
 impl Half {
-    /// The field that a direction runs.
+    /// The field for a direction.
     pub fn field(&self, direction: Direction) -> &Field {
         match direction {
             Direction::Forward => &self.forward,
@@ -80,7 +80,7 @@ impl Half {
 }
 
 impl ProvedMap {
-    /// The map at these parameters.
+    /// The map for these parameters.
     pub fn new(parameters: &ParameterBox) -> Self {
         let half = |side| {
             let forward = Field::new(parameters, side);
@@ -102,7 +102,7 @@ impl ProvedMap {
         self.run_below(field, start, f64::INFINITY)
     }
 
-    /// The same, given up as soon as every motion is faster than the ceiling.
+    /// As [`Self::run`], but stops as soon as every motion is faster than the ceiling.
     fn run_below(&mut self, field: &Field, start: Interval, ceiling: f64) -> Passage {
         if self.steps > MOST_WORK {
             return Passage::Unknown;
@@ -117,7 +117,7 @@ impl ProvedMap {
         passage
     }
 
-    /// A swing from rest with all its numbers; between the fences where it is stiff.
+    /// A swing from rest with all its results; where it is stiff, between the fences.
     pub fn whole_swing(
         &mut self,
         index: usize,
@@ -135,7 +135,7 @@ impl ProvedMap {
         funnel.swing_after(&field, start, &fallen)
     }
 
-    /// Where stiff swings of a half end.
+    /// The funnel of a half, if it has one.
     pub fn funnel(&mut self, index: usize, direction: Direction) -> Option<Funnel> {
         let place = &self.funnels[index][usize::from(direction == Direction::Backward)];
         let field = self.halves[index].field(direction);
@@ -145,21 +145,21 @@ impl ProvedMap {
         funnel
     }
 
-    /// Upper bound of where all swings of a half end, however far out they start.
+    /// Upper bound of the ends of all swings of a half, however far out they start.
     pub fn greatest(&mut self, index: usize, direction: Direction) -> f64 {
         self.greatest_from(index, direction, f64::INFINITY)
     }
 
-    /// The same for those that start up to this far out.
+    /// Upper bound of the ends of swings that start up to this far out.
     fn greatest_from(&mut self, index: usize, direction: Direction, from: f64) -> f64 {
         let funnel = self.funnel(index, direction);
         funnel.filter(|it| from <= it.reach).map_or(f64::INFINITY, |it| it.greatest())
     }
 
-    /// Lower bound of where a swing ends. Where none can be computed, that of a start further in serves: it
-    /// ends below.
+    /// Lower bound of the end of a swing. Where none can be computed, the bound for a start further in is used:
+    /// that swing ends below.
     fn least(&mut self, index: usize, direction: Direction, start: f64) -> f64 {
-        /// How many times a start is quartered in search of one that is not stiff.
+        /// Times that a start is quartered in search of one that is not stiff.
         const SHORTENINGS: i32 = 6;
         let funnel = self.funnel(index, direction);
         let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
@@ -179,7 +179,7 @@ impl ProvedMap {
         f64::NEG_INFINITY
     }
 
-    /// Upper bound of where a swing ends.
+    /// Upper bound of the end of a swing.
     fn most(&mut self, index: usize, direction: Direction, start: f64) -> f64 {
         let funnel = self.funnel(index, direction);
         let field = self.halves[index].field(direction).weakest();
@@ -236,7 +236,7 @@ impl ProvedMap {
         }
     }
 
-    /// The clearances after swings that end at these positions: `-inf` where they end in the sticking set.
+    /// The clearances after swings that end at these positions; `-inf` where they end in the sticking set.
     fn after(&self, direction: Direction, end: Interval) -> Interval {
         match direction {
             Direction::Forward => {
@@ -248,7 +248,7 @@ impl ProvedMap {
         }
     }
 
-    /// The order in which a direction runs the halves.
+    /// The order of the halves in a direction.
     fn order(direction: Direction) -> [usize; 2] {
         match direction {
             Direction::Forward => [0, 1],
@@ -275,7 +275,7 @@ impl ProvedMap {
         self.image_and_slope(direction, over).map(|(_, slope)| slope)
     }
 
-    /// The images of an interval of clearances, and the derivative there.
+    /// The images of an interval of clearances, and the derivative over it.
     pub fn image_and_slope(
         &mut self,
         direction: Direction,
@@ -295,7 +295,7 @@ impl ProvedMap {
         Some((from, product))
     }
 
-    /// Where a half swing from an interval of starts ends, and the derivative of that by the start.
+    /// The end of a half swing from an interval of starts, and its derivative with respect to the start.
     fn half_slope(
         &mut self,
         index: usize,
@@ -328,11 +328,11 @@ impl ProvedMap {
         Some((swing.end, slope))
     }
 
-    /// A swing from an interval of starts at rest, and the derivative of its end by the start:
+    /// A swing from an interval of starts at rest, and the derivative of its end with respect to the start:
     /// `z/X exp(integral of the divergence)` (lemma 9).
     ///
-    /// The end and the integral of `v^2` are increasing functions of the start, and decreasing ones of the
-    /// damping: wide intervals take them from two motions, and only the duration from the ball.
+    /// The end and the integral of `v^2` increase with the start and decrease with the damping. For wide
+    /// intervals they are taken from two motions, and only the duration from the ball.
     fn swing_over(
         &mut self,
         field: &Field,

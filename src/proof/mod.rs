@@ -1,18 +1,21 @@
-//! Proofs: half swings that are enclosed whatever the rounding, and from them the limit cycles, all of them.
+//! Proofs: half swings enclosed rigorously, whatever the rounding, and from them all limit cycles.
 //!
 //! A [`swing`] carries a ball, measured in a [`norm`], around Taylor polynomials in plain doubles ([`series`],
-//! [`step`], [`rounding`]) through one half plane, for every [`field`] in a box of parameters. What is too stiff for that
-//! runs through a [`funnel`], and next to a node above a [`barrier`]. Two half swings are the return [`map`], with bounds
-//! from both sides, its inverse and its derivative. The [`ends`] are clearances between which all cycles lie; the
-//! [`count`] excludes every clearance between them, or finds it in an interval with exactly one cycle, which is
-//! then enclosed ([`enclose`], [`affine`]). Where a [`theorems`] decides, nothing is computed. [`cycles`] puts it
-//! together. [`derivatives`] are those of the map by its parameters ([`sensitivity`], [`model`]). [`fold`] and
-//! [`escape`] enclose the value of a parameter at which the number of cycles changes, by a [`bracket`] of verdicts.
+//! [`step`], [`rounding`]) through one half plane, for every [`field`] in a box of parameters. Swings too stiff
+//! for this run through a [`funnel`], and those next to a node above a [`barrier`]. Two half swings form the
+//! return [`map`], with bounds from both sides, its inverse and its derivative. The [`ends`] are clearances
+//! between which all cycles lie. The [`count`] excludes every clearance between them, or finds it in an
+//! interval with exactly one cycle, which is then enclosed ([`enclose`], [`affine`]). Where one of the
+//! [`theorems`] decides, nothing is computed. [`cycles`] combines these parts.
 //!
-//! "Unknown" and "open" are answers everywhere; nothing here shares code with the search in `study`.
+//! [`derivatives`] are those of the map with respect to its parameters ([`sensitivity`], [`model`]). [`fold`]
+//! and [`escape`] enclose the value of a parameter at which the number of cycles changes, by a [`bracket`] of
+//! verdicts.
 //!
-//! Comparisons are written so that what is not a number fails them. The lemmas that the comments count on, with
-//! their proofs, are in `docs/proofs.md`.
+//! "Unknown" and "open" are possible answers everywhere. Nothing here shares code with the search in `study`.
+//!
+//! Comparisons are written so that NaN fails them. The lemmas cited in comments, with their proofs, are in
+//! `docs/proofs.md`.
 //!
 //! ```
 //! use hopfscope::oscillator::Parameters;

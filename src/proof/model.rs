@@ -1,7 +1,7 @@
-//! Taylor models in one variable: a polynomial over a step, and a bound of what it leaves out.
+//! Taylor models in one variable: a polynomial over a step, and a bound on what it omits.
 //!
-//! The polynomial is in the part of the step that has passed, from 0 to 1. Its coefficients are plain doubles, taken as they
-//! are; everything else, roundings included, is in the bound.
+//! The variable of the polynomial is the elapsed fraction of the step, from 0 to 1. Its coefficients are plain
+//! doubles, taken as exact; everything else, including rounding, is in the bound.
 
 use super::rounding::{INFLATE, UNDERFLOW, UNIT};
 use super::series::{INVERSE, ORDER};
@@ -15,10 +15,11 @@ pub struct TaylorModel {
 }
 
 impl TaylorModel {
-    /// A polynomial with these coefficients of powers of time on a step of length `h`, and what is within `rest` of it.
+    /// The functions within `rest` of a polynomial with these coefficients of powers of time, on a step of
+    /// length `h`.
     ///
-    /// The power and its product round at most `k + 1` times for the coefficient of degree k. Coefficients beyond the
-    /// model's degree go to the rest.
+    /// The power and its product round at most `k + 1` times for the coefficient of degree k. Coefficients
+    /// beyond the degree of the model go to the rest.
     #[must_use]
     pub fn of_series(coefficients: &[f64], h: f64, rest: f64) -> Self {
         let mut model = TaylorModel { terms: [0.0; ORDER], rest };
@@ -46,7 +47,7 @@ impl TaylorModel {
         self.terms.iter().map(|term| term.abs()).sum()
     }
 
-    /// Covers the roundings of the sums by which `rest` was found, and what underflows.
+    /// Covers underflow and the rounding of the sums that produced `rest`.
     fn inflated(mut self) -> Self {
         self.rest = self.rest * INFLATE + UNDERFLOW;
         self
@@ -87,7 +88,7 @@ impl TaylorModel {
             for (place, two) in product.terms[i..].iter_mut().zip(&other.terms) {
                 *place += one * two;
             }
-            // What meets this term at the degrees that are left out.
+            // What meets this term in the omitted degrees.
             tail += one.abs() * tails[ORDER - i];
         }
         let (one, two) = (self.polynomial(), other.polynomial());
@@ -115,8 +116,8 @@ impl TaylorModel {
 
     /// The exponentials of all members; `None` where they are too large.
     ///
-    /// `exp(y) = exp(y/2^n)^(2^n)` with `abs(y)/2^n <= 1/4`, whose series is cut after degree 14: the rest is below
-    /// `0.25^15/15! exp(0.25) < 1e-21`.
+    /// `exp(y) = exp(y/2^n)^(2^n)` with `abs(y)/2^n <= 1/4`. The series is truncated after degree 14: the rest
+    /// is below `0.25^15/15! exp(0.25) < 1e-21`.
     #[must_use]
     pub fn exp(&self) -> Option<Self> {
         const LARGEST: f64 = 30.0;
@@ -164,7 +165,7 @@ mod tests {
     use crate::numerics::elementary::{exp, sin};
     use crate::numerics::twofold::Twofold;
 
-    /// `exp` of the integral of a known function, against its closed form, and the width that is promised.
+    /// `exp` of the integral of a known function against its closed form, and the promised width.
     #[test]
     fn models_hold_closed_forms() {
         for h in [0.1, 0.7, 1.5] {
@@ -196,7 +197,7 @@ mod tests {
         assert!(nothing.exp().is_none());
     }
 
-    /// What lies within the rest of a model stays within those of its results.
+    /// What lies within the rest of a model stays within the rests of its results.
     #[test]
     fn members_of_models_stay_members() {
         let point = Interval::point;
@@ -214,7 +215,7 @@ mod tests {
         assert!(product.at_end().width() < 1.2 && model.magnitude() >= 1.25);
     }
 
-    /// The roundings of a product, against its coefficients in twice the precision.
+    /// The rounding errors of a product, against its coefficients in twice the precision.
     #[test]
     fn roundings_of_products_are_in_the_rest() {
         let series: Vec<f64> = (0..ORDER / 2).map(|k| 0.1 + sin(0.7 + k as f64)).collect();

@@ -1,4 +1,4 @@
-//! A motion, enclosed: half swing by half swing, until it comes to rest, until a time, or until it escapes.
+//! Enclosure of a motion, half swing by half swing, until it comes to rest, reaches the end time, or escapes.
 
 use super::field::{Field, ParameterBox};
 use super::map::{Direction, ProvedMap};
@@ -9,9 +9,9 @@ use crate::numerics::Interval;
 /// An arrival at `v = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProvedTurn {
-    /// When.
+    /// Time of the arrival.
     pub tau: Interval,
-    /// Where.
+    /// Displacement.
     pub q: Interval,
 }
 
@@ -20,33 +20,33 @@ pub struct ProvedTurn {
 pub enum ProvedFate {
     /// At rest.
     Captured {
-        /// Since when.
+        /// Time of the arrival.
         tau: Interval,
-        /// Where.
+        /// Displacement at rest.
         q: Interval,
     },
-    /// Still under way at the end time.
+    /// Still moving at the end time.
     Moving {
-        /// Displacement then.
+        /// Displacement at the end time.
         q: Interval,
-        /// Velocity then.
+        /// Velocity at the end time.
         v: Interval,
     },
-    /// Beyond all bounds at a finite time.
+    /// Unbounded after a finite time.
     Escaped {
-        /// That time.
+        /// Time of the blow-up.
         tau: Interval,
     },
-    /// Not certain from a time on.
+    /// Uncertain from some time on.
     Open {
-        /// Up to which the motion is enclosed.
+        /// Time up to which the motion is enclosed.
         tau: Interval,
-        /// Why no further.
+        /// Why it is not enclosed further.
         reason: &'static str,
     },
 }
 
-/// A motion as far as it is enclosed: what holds for all parameters and starts that were given.
+/// A motion as far as it is enclosed, valid for all given parameters and starts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProvedMotion {
     /// Every arrival at `v = 0`, the last one included.
@@ -62,7 +62,7 @@ const STIFF: &str = "a half swing is too stiff or too wide to be enclosed";
 const NEVER: &str = "it never turns again, and the time of its escape has no bound";
 const LONG: &str = "its half swings are too many";
 
-/// Half swings after which a motion is given up.
+/// Half swings after which a motion is abandoned.
 const MOST: usize = 20_000;
 
 /// Encloses the motion from displacements `q` and velocities `v` until a time, which may be infinite.
@@ -136,7 +136,7 @@ pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> P
     ProvedMotion { turns, fate }
 }
 
-/// Where a swing ends: from a wide interval of starts at rest by the motions from its ends (lemma 8).
+/// End of a swing; for a wide interval of starts at rest, from the motions of its two ends (lemma 8).
 fn end(map: &mut ProvedMap, field: &Field, start: &StartBox, whole: &Swing) -> Interval {
     let point = start.x.is_point() && field.is_point();
     if point || start.v != Interval::point(0.0) {

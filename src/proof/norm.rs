@@ -1,4 +1,4 @@
-//! The norm in which distances between a motion and its polynomial are measured.
+//! The norm for distances between a motion and its polynomial.
 
 use super::rounding::INFLATE;
 
@@ -9,29 +9,29 @@ use super::rounding::INFLATE;
 pub struct Norm {
     /// `s`.
     pub(super) skew: f64,
-    /// Upper bound of `2/sqrt(4 - s^2)`: no component is larger than this many times the norm.
+    /// Upper bound of `2/sqrt(4 - s^2)`: no component exceeds this multiple of the norm.
     pub stretch: f64,
 }
 
 impl Norm {
-    /// The norm with a skew, brought within the range in which it is of use.
+    /// The norm with a skew, clamped to the useful range.
     pub fn new(skew: f64) -> Self {
-        /// Beyond this it is too flat.
+        /// Beyond this skew the norm is too flat.
         const FLATTEST: f64 = 1.999;
         let skew = if skew.is_nan() { 0.0 } else { skew.clamp(-FLATTEST, FLATTEST) };
-        // 4 - s^2 is at least 0.0039; its absolute error of 4.5e-16 is 1.2e-13 of it.
+        // 4 - s^2 is at least 0.0039; its absolute error of 4.5e-16 is a relative 1.2e-13.
         Norm { skew, stretch: 2.0 / (4.0 - skew * skew).sqrt() * INFLATE }
     }
 
-    /// The skew in which errors grow least where the damping slope is m: the norm of the eigenvectors.
+    /// The skew for which errors grow least where the damping slope is m: the norm of the eigenvectors.
     pub fn fitting(m: f64) -> Self {
         Norm::new(if m.abs() > 2.0 { 4.0 / m } else { m })
     }
 
-    /// At most how many times larger a vector is in another norm.
+    /// Upper bound of the factor by which a vector is larger in another norm.
     ///
-    /// The ratio of the squares on the unit circle is `(2 + s' y)/(2 + s y)` with `y = sin 2 phi`, monotone in y. Its
-    /// terms are at least 0.001, and their absolute error of 2.3e-16 is 2.3e-13 of them.
+    /// The ratio of the squares on the unit circle is `(2 + s' y)/(2 + s y)` with `y = sin 2 phi`, monotone in
+    /// y. Its terms are at least 0.001, and their absolute error of 2.3e-16 is a relative 2.3e-13.
     pub fn into(self, other: Norm) -> f64 {
         if self.skew == other.skew {
             return 1.0;

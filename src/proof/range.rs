@@ -1,5 +1,5 @@
-//! A range of a parameter, piece by piece: how many cycles there are for every value in a piece, and between
-//! which values their number changes.
+//! A range of a parameter, piece by piece: the number of cycles for every value in a piece, and the values
+//! between which this number changes.
 
 use super::cycles::prove;
 use super::field::ParameterBox;
@@ -7,16 +7,16 @@ use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
 use crate::oscillator::Symbol;
 
-/// Part of a range with what is proved for all values in it.
+/// Part of a range, with what is proved for all values in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RangePiece {
-    /// The values.
+    /// The values of the parameter.
     pub over: Interval,
-    /// Whether each cycle attracts, smallest first; `None` where their number is open.
+    /// Whether each cycle attracts, smallest cycle first; `None` where their number is open.
     pub cycles: Option<Vec<bool>>,
 }
 
-/// Whether each cycle attracts, at all values; `None` where that is not proved.
+/// Whether each cycle attracts, for all parameters of the box; `None` where that is not proved.
 pub fn cycles_at(parameters: &ParameterBox) -> Option<Vec<bool>> {
     let proof = prove(parameters, &[]);
     proof.is_complete().then(|| proof.cycles.iter().map(|cycle| cycle.stable).collect())
@@ -34,17 +34,17 @@ pub struct Range {
 /// Values of a parameter between which cycles appear or vanish.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CountChange {
-    /// The number is proved at both ends.
+    /// The values; the number of cycles is proved at both ends.
     pub between: Interval,
     /// Whether each cycle attracts, at the lower end.
     pub below: Vec<bool>,
-    /// And at the upper one.
+    /// Whether each cycle attracts, at the upper end.
     pub above: Vec<bool>,
 }
 
 /// Decides a range of values.
 pub fn range(base: &ParameterBox, symbol: Symbol, (low, high): (f64, f64)) -> Range {
-    /// Parts of the range that are tried as a whole.
+    /// Number of initial parts of the range.
     const PARTS: i32 = 16;
     /// Halvings of a part.
     const HALVINGS: u32 = 10;
@@ -89,7 +89,7 @@ fn split(
     }
 }
 
-/// Narrows values between which the cycles change from one number to another, both being proved at the ends.
+/// Narrows an interval of values over which the cycles change, while both ends remain proved.
 fn narrowed(
     ask: &mut impl FnMut(Interval) -> Option<Vec<bool>>,
     over: Interval,
@@ -109,7 +109,7 @@ fn narrowed(
     Interval::new(low, high)
 }
 
-/// The change between two values a part `away` of a third below and above it, if there is one.
+/// The change between the values `at - away abs(at)` and `at + away abs(at)`, if there is one.
 pub fn change_within(
     base: &ParameterBox,
     symbol: Symbol,
@@ -123,10 +123,10 @@ pub fn change_within(
     (below != above).then_some(CountChange { between, below, above })
 }
 
-/// The change nearest to a value, if there is one: between values on both sides at which the numbers of cycles are
-/// proved and differ.
+/// The change nearest to a value, if there is one: between values on both sides at which the numbers of cycles
+/// are proved and differ.
 pub fn change_near(base: &ParameterBox, symbol: Symbol, hint: f64) -> Option<CountChange> {
-    /// Powers of ten, as fractions of the value, at which to ask.
+    /// Distances to try, as powers of ten relative to the value.
     const AWAY: std::ops::RangeInclusive<i32> = -12..=-3;
     let mut ask = |value: Interval| cycles_at(&base.with(symbol, value));
     let mut found = AWAY.map(|power| powi(10.0, power));

@@ -1,4 +1,4 @@
-//! Within a half swing: where a motion is at a time, and when one that never turns blows up.
+//! Within a half swing: the state of a motion at a time, and the blow-up of a motion that never turns.
 
 use super::field::{Field, scaled};
 use super::norm::Norm;
@@ -10,13 +10,13 @@ use crate::numerics::Interval;
 use crate::numerics::elementary::cbrt;
 use crate::numerics::scaling::exponent;
 
-/// Size of the last term of a step relative to the state: below rounding.
+/// Size of the last term of a step, relative to the state: below rounding.
 const TOLERANCE: f64 = 2e-17;
 
-/// Attempts with ever shorter steps before giving up.
+/// Attempts with successively shorter steps before giving up.
 const ATTEMPTS: usize = 12;
 
-/// A ball of motions under way, in units in which its start is near 1.
+/// A ball of motions in progress, in units in which its start is near 1.
 struct Ride {
     local: Prepared,
     norm: Norm,
@@ -49,7 +49,7 @@ impl Ride {
         })
     }
 
-    /// One step, no longer than `most`. The velocity does not vanish on the way, nor at its end (lemma 5).
+    /// One step, at most `most` long. The velocity vanishes neither during the step nor at its end (lemma 5).
     fn step(&mut self, most: f64) -> Option<()> {
         self.series.expand(self.local.middles(), self.x, self.v);
         let mut h = self.series.step(TOLERANCE).min(most);
@@ -74,11 +74,11 @@ impl Ride {
         (Interval::around(self.x, off), Interval::around(self.v, off))
     }
 
-    /// Upper bound of the time until the velocity is infinite; none where that is not certain.
+    /// Upper bound of the time until the velocity is infinite; `None` where that is not certain.
     ///
-    /// Above the line `v = x + m` it grows at least at the rate `k0 + k1 u + k2 u^2 + k3 u^3`, u being what it has
-    /// gained (lemma 7). For every U, `k0 u' >= 1` gives at most `U/k0` up to there, and `k u^n` from there on at
-    /// most `1/((n - 1) k U^(n - 1))`.
+    /// Above the line `v = x + m` the velocity grows at least at the rate `k0 + k1 u + k2 u^2 + k3 u^3`, where
+    /// u is its gain (lemma 7). For every U, the constant term bounds the time until `u = U` by `U/k0`, and
+    /// `k u^n` bounds the time from there on by `1/((n - 1) k U^(n - 1))`.
     fn remaining(&self) -> Option<f64> {
         let (x, v) = self.state();
         let (x, v) = (x.upper(), v.lower());
@@ -106,9 +106,9 @@ impl Ride {
     }
 }
 
-/// Position and velocity at a time after the start, of all motions of a box of starts and fields.
+/// Position and velocity at a time after the start, for all motions of a box of starts and fields.
 ///
-/// `None` where they are not known, or where the velocity may have come to 0 before.
+/// `None` where they are not known, or where the velocity may have reached 0 before.
 pub fn state_at(field: &Field, start: &StartBox, time: Interval) -> Option<(Interval, Interval)> {
     let mut ride = Ride::new(field, start)?;
     let target = time.middle();
@@ -125,7 +125,7 @@ pub fn state_at(field: &Field, start: &StartBox, time: Interval) -> Option<(Inte
     None
 }
 
-/// Where motions are up to a time `off` before and after they are in a box: a larger box that they do not leave.
+/// A larger box that motions do not leave within the time `off` before and after they are in a box.
 fn about(field: &Field, (x, v): (Interval, Interval), off: f64) -> Option<(Interval, Interval)> {
     let time = Interval::new(-off, off);
     let (mut wide_x, mut wide_v) = (x, v);
@@ -141,9 +141,9 @@ fn about(field: &Field, (x, v): (Interval, Interval), off: f64) -> Option<(Inter
     None
 }
 
-/// The time at which the velocity becomes infinite, of motions that never turn; `None` where it has no bound.
+/// The time at which the velocity of motions that never turn becomes infinite; `None` where it has no bound.
 pub fn blow_up(field: &Field, start: &StartBox) -> Option<Interval> {
-    /// The bound is good enough when it leaves this fraction of the time open.
+    /// Relative uncertainty of the time at which the bound is good enough.
     const GOOD: f64 = 1e-12;
     let mut ride = Ride::new(field, start)?;
     let mut best: Option<Interval> = None;

@@ -1,9 +1,9 @@
-//! Derivatives of a half swing by the coefficients of its field, enclosed.
+//! Derivatives of a half swing with respect to the coefficients of its field, enclosed.
 //!
-//! By a coefficient p, the cross product `J` of the field with the variation of the motion obeys `J' = -f' J + g v`, with
-//! `g = v, v^2, v^3` for a, b, c, and is `-X dX/dp` on arrival (lemma 21). So what is needed are the integrals of
-//! `v^2, v^3, v^4`, each weighted by how much of an area survives until the end. They are added up step by step, in
-//! Taylor models.
+//! For a coefficient p, the cross product `J` of the field with the variation of the motion obeys
+//! `J' = -f' J + g v`, with `g = v, v^2, v^3` for a, b, c, and equals `-X dX/dp` on arrival (lemma 21). The
+//! derivatives thus need the integrals of `v^2, v^3, v^4`, each weighted by the fraction of an area that
+//! survives until the end. They are accumulated step by step in Taylor models.
 
 use super::field::Field;
 use super::model::TaylorModel;
@@ -43,7 +43,8 @@ impl Weighted {
         Some(Weighted(sums))
     }
 
-    /// The same at a moment at most `lag` earlier or later, around which the velocity is at most `speed` in size.
+    /// The integrals at a moment at most `lag` earlier or later, around which the velocity is at most `speed`
+    /// in magnitude.
     pub fn within(&self, field: &Field, lag: f64, speed: f64) -> Self {
         let late = Interval::new(-lag, lag);
         let slope = field.slope(Interval::new(-speed, speed));
@@ -57,7 +58,7 @@ impl Weighted {
         }))
     }
 
-    /// The derivatives of the end by a, b and c.
+    /// The derivatives of the end with respect to a, b and c.
     pub fn derivatives(&self, end: Interval) -> [Interval; 3] {
         self.0.map(|sum| -(sum / end))
     }

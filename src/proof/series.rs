@@ -1,7 +1,7 @@
-//! Taylor polynomials of a motion, and in which order their coefficients are computed.
+//! Taylor polynomials of a motion, with a fixed order of operations for their coefficients.
 //!
-//! The order matters: lemma 2 counts the roundings that each term passes, so that every change here
-//! changes the numbers there. A test computes with numbers that count theirs.
+//! The order matters: lemma 2 counts the rounding errors that each term passes through, so every change here
+//! changes the numbers there. A test computes with numbers that count their rounding errors.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -14,7 +14,7 @@ pub const ORDER: usize = 28;
 /// Length of the arrays: `ORDER + 1` coefficients, filled with zeros to a multiple of [`LANES`].
 pub(super) const LENGTH: usize = 32;
 
-/// Sums run in this many lanes; the count of roundings does not depend on the order of a sum.
+/// Sums run in this many lanes; the rounding count does not depend on the order within a sum.
 const LANES: usize = 4;
 
 /// `1 / k`, rounded to the nearest double.
@@ -31,7 +31,7 @@ pub struct Series<T = f64> {
     pub(super) square: [T; LENGTH],
 }
 
-/// What coefficients are computed in: doubles, and in the tests numbers that count their roundings.
+/// The type of the coefficients: doubles, or in the tests numbers that count their rounding errors.
 pub trait Scalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
@@ -39,7 +39,7 @@ pub trait Scalar:
     const ZERO: Self;
     /// `1 / k`, rounded.
     fn inverse(k: usize) -> Self;
-    /// A finished coefficient, from now on taken as it is.
+    /// A finished coefficient, taken as exact from now on.
     #[must_use]
     fn taken(self) -> Self;
 }
@@ -56,14 +56,12 @@ impl Scalar for f64 {
     }
 }
 
-/// Sums of `one[i] other[k - i]` for `2 <= i <= k - 2`, in lanes, for two arrays; `other` holds its factor in reverse,
-/// from place `ORDER` down.
+/// Sums of `one[i] other[k - i]` for `2 <= i <= k - 2`, in lanes, for two arrays. `other` holds its factor in
+/// reverse, from index `ORDER` down. It holds zeros for degrees 0 and 1, so the last lanes add zeros.
 ///
-/// `other` holds nothing for degrees 0 and 1, so that the last lanes add zeros.
-///
-/// Of these `k - 3` products each passes at most `k/4 + 2` roundings: one as a product, the others on the way down its
-/// lane, two where the lanes meet. Adding zeros is exact. Nothing is read that was written in the last two
-/// rounds, because waiting for memory would take longer than the sum.
+/// Each of these `k - 3` products passes at most `k/4 + 2` roundings: one as a product, two where the lanes are
+/// combined, the others along its lane. Adding zeros is exact. Nothing is read that was written in the last two
+/// iterations, because waiting for memory would take longer than the sum.
 fn inner<T: Scalar>(both: [&[T; LENGTH]; 2], other: &[T; 2 * LENGTH], k: usize) -> [T; 2] {
     let mut lanes = [[T::ZERO; LANES]; 2];
     if k < 4 {
@@ -88,9 +86,9 @@ impl<T: Scalar> Series<T> {
 
     /// Fills the coefficients at `(x, v)` of the field `a, b, c`.
     ///
-    /// With `f = b v + c v^2` the damping is `a v + f v`. The newest coefficient enters `v^2`, f and the damping
-    /// linearly: with `rest` for what the others contribute to `v^2`,
-    /// `f_k = slope v_k + c rest_k`, and the damping is `damping v_k` plus what only earlier ones contribute.
+    /// With `f = b v + c v^2` the damping is `a v + f v`. The newest coefficient enters `v^2`, f and the
+    /// damping linearly: with `rest` for the contribution of the others to `v^2`, `f_k = slope v_k + c rest_k`,
+    /// and the damping is `damping v_k` plus a contribution of earlier coefficients only.
     pub fn expand(&mut self, [a, b, c]: [T; 3], x: T, v: T) {
         let mut force = [T::ZERO; LENGTH];
         let mut backward = [T::ZERO; 2 * LENGTH];
@@ -107,7 +105,7 @@ impl<T: Scalar> Series<T> {
         let (mut before, mut newest, mut force_before) = (v, v1, force0);
         let mut force1 = T::ZERO;
         for k in 1..ORDER {
-            // Both sums leave out the two outermost products on either side.
+            // Both sums omit the two outermost products on either side.
             let [among, product] = inner([&self.v, &force], &backward, k);
             let rest = match k {
                 1 => T::ZERO,
@@ -136,9 +134,9 @@ impl<T: Scalar> Series<T> {
         }
     }
 
-    /// Position and velocity of the polynomial at a time, by Horner's rule in even and odd powers, which do not wait for
-    /// each other. A coefficient of degree k passes at most `2 + 3 k/2` roundings: its own sum, three for each square of
-    /// the time, one for an odd power of it, and the last sum.
+    /// Position and velocity of the polynomial at a time, by Horner's rule in even and odd powers, two
+    /// independent chains. A coefficient of degree k passes at most `2 + 3 k/2` roundings: its own sum, three
+    /// for each square of the time, one for an odd power of it, and the last sum.
     #[must_use]
     pub fn at(&self, time: T) -> (T, T) {
         let square = time * time;
@@ -155,10 +153,10 @@ impl<T: Scalar> Series<T> {
 }
 
 impl Series {
-    /// A step over which the last two terms are about `tolerance` of the state.
+    /// A step length for which the last two terms are about `tolerance` of the state.
     #[must_use]
     pub fn step(&self, tolerance: f64) -> f64 {
-        /// Nothing is gained beyond: a half turn takes 3.14.
+        /// Longer steps gain nothing: a half turn takes 3.14.
         const LONGEST: f64 = 1.6;
         let size = tolerance * self.x[0].abs().max(self.v[0].abs());
         let root = |k: usize| {

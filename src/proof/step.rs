@@ -1,15 +1,15 @@
-//! One certified step: a Taylor polynomial in plain doubles, and a bound of how far the motion is from it.
+//! One certified step: a Taylor polynomial in plain doubles, and a bound on the distance of the motion from it.
 //!
-//! The coefficients are computed in ordinary rounded arithmetic and then taken as they are: they define
-//! an exact polynomial `(p, w)(t)` for `(x, v)`. It misses the equation by a defect
+//! The coefficients are computed in ordinary rounded arithmetic and then taken as exact: they define an exact
+//! polynomial `(p, w)(t)` for `(x, v)`. It satisfies the equation up to a defect
 //!
 //! `p' - w` and `w' + p + a w + b w^2 + c w^3`,
 //!
-//! which is bounded from sums of magnitudes (rounding, lemma 2; truncation, lemma 3), and the distance
-//! `e` between motion and polynomial obeys a linear equation with this defect as its force. In the norm
+//! which is bounded by sums of magnitudes (rounding, lemma 2; truncation, lemma 3). The distance `e` between
+//! motion and polynomial obeys a linear equation with this defect as its force. In the norm
 //! `abs(e)^2 = e_x^2 + s e_x e_v + e_v^2`, `abs(s) < 2`, it grows no faster than a logarithmic norm allows
-//! (lemma 4). With s near 2 D the norm follows the linear spiral exactly, so that the ball keeps its
-//! relative size through many turns of growth or decay.
+//! (lemma 4). With s near 2 D the norm follows the linear spiral exactly, so the ball keeps its relative size
+//! through many turns of growth or decay.
 //!
 //! `docs/proofs.md` has the lemmas and the count of every rounding.
 
@@ -20,7 +20,7 @@ use super::series::{INVERSE, LENGTH, ORDER, Series};
 use crate::numerics::Interval;
 use crate::numerics::elementary::ln;
 
-/// A field prepared for stepping: middles and radii of its coefficients, and the skew of the norm.
+/// A field prepared for stepping: middles, radii and largest magnitudes of its coefficients.
 #[derive(Clone, Copy, Debug)]
 pub struct Prepared {
     a: f64,
@@ -45,7 +45,7 @@ impl Prepared {
         Prepared { a, b, c, spread, most, field: *field }
     }
 
-    /// The middles of a, b, c, with which coefficients are computed.
+    /// The middles of a, b, c, used to compute the coefficients.
     #[must_use]
     pub fn middles(&self) -> [f64; 3] {
         [self.a, self.b, self.c]
@@ -57,27 +57,27 @@ impl Prepared {
         &self.field
     }
 
-    /// A ball, its norm and radius, in the norm of [`Prepared::norm`].
+    /// The norm chosen for the next step, and the radius of a ball in it, given its norm and radius before.
     #[must_use]
     pub fn ball(&self, (before, radius): (Norm, f64), velocities: [f64; 2], h: f64) -> (Norm, f64) {
         let norm = self.norm(before, velocities, h);
         (norm, radius * before.into(norm) * INFLATE)
     }
 
-    /// The norm in which errors grow least over the next step, between these two velocities, and a while beyond, the
-    /// change of norm included.
+    /// The norm in which errors grow least over the next step, between these two velocities, and for a while
+    /// beyond, including the cost of changing the norm.
     ///
-    /// Any answer is right; this one keeps balls small.
+    /// Any norm is valid; this one keeps balls small.
     fn norm(&self, before: Norm, [now, next]: [f64; 2], h: f64) -> Norm {
-        /// How much longer the present conditions are assumed to last, in time.
+        /// Time for which the present conditions are assumed to last, if the step is shorter.
         const WHILE: f64 = 0.6;
-        /// A change that gains less than this, in the logarithm of the ball, is left alone.
+        /// A change with a smaller gain, in the logarithm of the radius, is not made.
         const WORTH: f64 = 0.25;
         let slope = |v: f64| self.a + v * (2.0 * self.b + v * 3.0 * self.c);
         let (start, end) = (slope(now), slope(next));
         let (low, high) = (start.min(end), start.max(end));
         let time = h.max(WHILE);
-        // No norm grows less than the eigenvalues do.
+        // In no norm do errors grow more slowly than the eigenvalues.
         let least = 0.5 * ((low * low - 4.0).max(0.0).sqrt() - low);
         if (before.rate(low, high) - least) * time < WORTH {
             return before;
@@ -97,25 +97,25 @@ impl Prepared {
     }
 }
 
-/// What a step ends with.
+/// The result of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Reached {
-    /// The polynomial at the end of the step, rounded.
+    /// Position of the polynomial at the end of the step, rounded.
     pub x: f64,
-    /// Its velocity.
+    /// Velocity of the polynomial there.
     pub v: f64,
     /// Norm of the distance between `(x, v)` and the motion.
     pub radius: f64,
-    /// How far any component of the motion is from the polynomial over the step.
+    /// Largest distance of any component of the motion from the polynomial over the step.
     pub off: f64,
-    /// Integral of `v^2` over the step, of the polynomial.
+    /// Integral of `v^2` of the polynomial over the step.
     pub square: f64,
-    /// How far that is from the integral along the motion.
+    /// Largest difference from the integral along the motion.
     pub square_error: f64,
 }
 
-/// The numbers of lemma 2, counted on the way to `k + 1` times a coefficient of degree `k + 1`: in terms of v
-/// and of x, of a, of b and of c, those of b and c with a part for each degree.
+/// The numbers of lemma 2: the roundings in `k + 1` times a coefficient of degree `k + 1`, for terms in v, in
+/// x, in a, in b and in c, those of b and c with a part for each degree.
 ///
 /// - 2: `x_(k+1)` is `v_k` times a rounded inverse.
 /// - 4: x passes a sum and a difference, then the inverse and its product.
@@ -126,15 +126,16 @@ pub struct Reached {
 ///   add up to i, and all to k: five twelfths of each, three times.
 const ROUNDINGS: [f64; 7] = [2.0, 4.0, 6.0, 11.0, 0.5, 13.0, 1.25];
 
-/// Roundings by Horner's rule in even and odd powers: two for each term, and this many for each degree of it.
+/// Roundings of Horner's rule in even and odd powers: two for each term, and this many for each degree.
 const HORNER: [f64; 2] = [2.0, 1.5];
 
-/// Roundings of a coefficient of `v^2`, of degree 27 at most: `k/4 + 2` in the sum of products, and two sums
+/// Roundings of a coefficient of `v^2` of degree 27 at most: `k/4 + 2` in the sum of products, and two sums
 /// (lemma 3).
 const SQUARE: f64 = 11.0;
 
-/// More than the roundings of the integral of `v^2` except for its coefficients, for each term after it is divided by
-/// `k + 1`: 10 for the first, 9 sums and the time; others, which pass `k + 12`, have fewer (end of lemma 4).
+/// Upper bound on the roundings of each term of the integral of `v^2`, apart from those of its coefficients and
+/// after division by `k + 1`: 10 for the first term, which passes 9 sums and the time. Other terms, which pass
+/// `k + 12`, have fewer (end of lemma 4).
 const INTEGRAL: f64 = 12.0;
 
 /// The bound of all roundings of the defect over a step, in units of roundoff.
@@ -147,19 +148,20 @@ fn roundings(numbers: &[f64; 7], [a, b, c]: [f64; 3], [x, v, _, degree]: [f64; 4
         + c * v * v * (c0 * v + c1 * degree)
 }
 
-/// Sums of magnitudes over a step: everything the bounds are made of.
+/// Sums of magnitudes over a step, from which all bounds are built.
 struct Sums {
     x: f64,
     v: f64,
     /// Weighted by the degree.
     x_degree: f64,
     v_degree: f64,
-    /// Of v, weighted by the degree times the degree before.
+    /// Sum for v, weighted by the degree times the previous degree.
     bend: f64,
-    /// Of v, from the first degree on, and from [`THIRD`] on.
+    /// Sums for v, from the first degree on, and from [`THIRD`] on.
     after_first: f64,
     after_third: f64,
-    /// Of `v^2`, and its products with the tails of v that make degrees of [`ORDER`] and more; likewise of v.
+    /// Sum for `v^2`, and its products with the tails of v that have degrees of at least [`ORDER`]; likewise
+    /// for v.
     squares: f64,
     high_squares: f64,
     high_cubes: f64,
@@ -168,13 +170,13 @@ struct Sums {
     integral: f64,
 }
 
-/// Of three degrees that add up to [`ORDER`] and more, one is larger than this.
+/// Of three degrees that sum to [`ORDER`] or more, at least one is larger than this.
 const THIRD: usize = ORDER / 3;
 
-/// Sums run in this many lanes, which do not wait for each other.
+/// Sums run in this many independent lanes.
 const LANES: usize = 4;
 
-/// The degrees, and each times the one before.
+/// The degrees, and each of them times the previous one.
 const DEGREES: [[f64; LENGTH]; 2] = {
     let (mut table, mut degree) = ([[0.0; LENGTH]; 2], 0.0);
     let mut k = 0;
@@ -198,7 +200,7 @@ fn dot(one: &[f64; LENGTH], other: &[f64; LENGTH]) -> f64 {
     (lanes[0] + lanes[1]) + (lanes[2] + lanes[3])
 }
 
-/// The powers of a number: one of degree k is rounded k times at most.
+/// The powers of a number; the one of degree k is rounded at most k times.
 fn powers(h: f64) -> [f64; LENGTH] {
     let (square, mut table) = (h * h, [1.0; LENGTH]);
     (table[1], table[2], table[3]) = (h, square, square * h);
@@ -215,7 +217,7 @@ impl Sums {
         let terms: [f64; LENGTH] = std::array::from_fn(|k| series.v[k].abs() * powers[k]);
         let squares: [f64; LENGTH] = std::array::from_fn(|k| series.square[k] * powers[k]);
         let sizes = squares.map(f64::abs);
-        // Place i holds the sum of the terms from degree `ORDER - i` on.
+        // Element i holds the sum of the terms from degree `ORDER - i` on.
         let mut tails = [0.0; LENGTH];
         let mut tail = 0.0;
         for (place, term) in tails.iter_mut().zip(terms[..=ORDER].iter().rev()) {
@@ -242,7 +244,7 @@ impl Sums {
         }
     }
 
-    /// Lemma 3: terms of degree [`ORDER`] and more of the defect, times h to their degree.
+    /// Lemma 3: terms of the defect of degree [`ORDER`] and more, times h to their degree.
     fn truncation(&self, [a, b, c]: [f64; 3]) -> f64 {
         let Sums { v, last_x, last_v, high_squares, .. } = *self;
         let cube_tail =
@@ -250,7 +252,8 @@ impl Sums {
         last_v + (last_x + a * last_v) + b * high_squares + c * cube_tail
     }
 
-    /// The roundings of the integral of `v^2`, over h. A coefficient passes at most `k + 1`, by which it is divided.
+    /// The roundings of the integral of `v^2`, divided by h. A coefficient passes at most `k + 1`, by which it
+    /// is divided.
     fn area_roundings(&self) -> f64 {
         UNIT * (self.v * self.v + INTEGRAL * self.squares)
     }
@@ -269,8 +272,8 @@ const NEXT: [f64; LENGTH] = {
 
 impl Prepared {
     /// Carries a ball around the start of a series over a step of length h to its `end` by [`Series::at`];
-    /// `None` where nothing can be said, because the ball grows too much or the motion might turn around
-    /// `v = 0` unseen.
+    /// `None` where nothing can be stated, because the ball grows too much or the motion might cross `v = 0`
+    /// and return unseen.
     #[must_use]
     pub fn carry(
         &self,
@@ -289,7 +292,7 @@ impl Prepared {
         let spread = v * (spread_a + v * (spread_b + v * spread_c));
         let underflow = UNDERFLOW * (1.0 + a + b + c);
         let defect = (truncation + rounding + spread + underflow) * INFLATE;
-        // Lemma 4. A first guess of the tube, checked below.
+        // Lemma 4. A first guess of the tube, verified below.
         let pushed = (radius + h * defect) * INFLATE;
         let tube = 3.0 * pushed;
         let off = norm.stretch * tube * INFLATE;
@@ -297,7 +300,8 @@ impl Prepared {
         let growth = self.growth(norm, speeds);
         let factor = exponential(growth * h * if growth > 0.0 { INFLATE } else { 1.0 / INFLATE })?;
         let carried = (factor.max_inside * pushed) * INFLATE;
-        // Lemma 5: v stays positive, or less than half a turn is made, so that it cannot have left and come back.
+        // Lemma 5: v stays positive, or less than half a turn is made, so it cannot have become negative and
+        // positive again.
         let speed = (v + norm.stretch * tube) * INFLATE;
         let turning = h * (1.0 + 0.5 * (a + speed * (b + speed * c))) * INFLATE;
         if !(carried < tube && (speeds.lower() > 0.0 || turning < std::f64::consts::PI)) {
@@ -307,7 +311,7 @@ impl Prepared {
         let evaluation = UNIT * (once * (x + v) + each * (x_degree + v_degree)) + UNDERFLOW;
         let at_end = factor.at_end * radius + factor.max_inside * (h * defect);
         let off = norm.stretch * carried;
-        // v^2 along the motion against the polynomial, its tail, and the roundings of its coefficients and sum.
+        // v^2 along the motion minus v^2 of the polynomial, the tail, and the roundings of coefficients and sum.
         let square_error =
             h * (off * (2.0 * v + off) + square_tail + sums.area_roundings() + UNDERFLOW);
         Some(Reached {
@@ -322,16 +326,17 @@ impl Prepared {
 
     /// Largest rate at which the norm of an error grows while both velocities are in `v`.
     ///
-    /// The error obeys `e_x' = e_v`, `e_v' = -e_x - m e_v` with `m = a + b (v + w) + c (v^2 + v w + w^2)` for the
-    /// velocities v and w of motion and polynomial, and the rate is at most
+    /// The error obeys `e_x' = e_v`, `e_v' = -e_x - m e_v` with `m = a + b (v + w) + c (v^2 + v w + w^2)` for
+    /// the velocities v and w of motion and polynomial. The rate is at most
     /// `(-s + max((s - m)(1 + k), (s - m)(1 - k)))/2` with `k = 2/sqrt(4 - s^2)`.
     fn growth(&self, norm: Norm, v: Interval) -> f64 {
-        /// More than the roundings of the sums below, relative to their terms.
+        /// Relative upper bound on the roundings of the sums below.
         const ROUNDED: f64 = 1e-15;
         let [spread_a, spread_b, spread_c] = self.spread;
         let (speed, s, k) = (v.magnitude(), norm.skew, norm.stretch);
         let linear = [v.lower(), v.upper()].map(|v| 2.0 * self.b * v);
-        // v^2 + v w + w^2 for v and w in one interval: between 0 (3/4 of the larger square) and 3 of it.
+        // v^2 + v w + w^2 for v and w in one interval: between 0 (or 3/4 of the larger square) and 3 times that
+        // square.
         let least = if v.contains(0.0) { 0.0 } else { v.lower().abs().min(v.upper().abs()) };
         let cubic = [least, speed].map(|v| 3.0 * self.c * (v * v));
         let blur = spread_a
@@ -339,7 +344,7 @@ impl Prepared {
             + ROUNDED * (self.most[0] + speed * (2.0 * self.most[1] + 3.0 * self.most[2] * speed));
         let low = self.a + linear[0].min(linear[1]) + cubic[0].min(cubic[1]) - blur;
         let high = self.a + linear[0].max(linear[1]) + cubic[0].max(cubic[1]) + blur;
-        // Least and largest are not told from what is not a number.
+        // NaN has no minimum or maximum.
         if !(low <= high && blur < f64::INFINITY) {
             return f64::INFINITY;
         }
@@ -349,10 +354,10 @@ impl Prepared {
     }
 }
 
-/// All velocities of the polynomial over a step from `v0` to `v1`, and what is within `off` of them.
+/// All velocities of the polynomial over a step from `v0` to `v1`, and all within `off` of them.
 ///
-/// They are within the sum of the terms of `v0`, and within `h^2/8` times the largest second derivative of the
-/// interval from `v0` to `v1`: a function is that close to its chord. `v1` itself is rounded.
+/// They differ from `v0` by at most the sum of the other terms, and from the chord of `v0` and `v1` by at most
+/// `h^2/8` times the largest second derivative. `v1` itself is rounded.
 fn velocities(sums: &Sums, v0: f64, v1: f64, off: f64) -> Interval {
     let away = Interval::around(v0, (sums.after_first + off) * INFLATE);
     let rounded = UNIT * (HORNER[0] * sums.v + HORNER[1] * sums.v_degree);
@@ -363,20 +368,20 @@ fn velocities(sums: &Sums, v0: f64, v1: f64, off: f64) -> Interval {
 
 /// Bounds of `exp(rate h)` over a step.
 struct Growth {
-    /// At its end.
+    /// At the end of the step.
     at_end: f64,
-    /// The largest over all parts of it: what the force of a moment grows to at most.
+    /// The maximum over all parts of the step, a bound on the growth of a force that acts for a moment.
     max_inside: f64,
 }
 
-/// Upper bounds of `exp(z)`; `None` for z above 0.9 or not a number.
+/// Upper bounds of `exp(z)`; `None` for z above 0.9 or NaN.
 fn exponential(z: f64) -> Option<Growth> {
     const LARGEST: f64 = 0.9;
     if !(z <= LARGEST) {
         return None;
     }
-    // Below zero the sum up to z^4/24 is an upper bound because the series alternates; above, the rest is
-    // at most z^5 (1/120 + 0.9/720 + ..) < 0.01 z^5.
+    // Below zero the sum up to z^4/24 is an upper bound because the series alternates. Above zero the remainder
+    // is at most z^5 (1/120 + 0.9/720 + ..) < 0.01 z^5.
     let z = z.max(-LARGEST);
     let rest = if z > 0.0 { 0.01 * z } else { 0.0 };
     let sum = 1.0 + z * (1.0 + z * (0.5 + z * (1.0 / 6.0 + z * (1.0 / 24.0 + rest))));

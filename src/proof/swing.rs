@@ -13,7 +13,7 @@ use crate::numerics::elementary::powi;
 use crate::numerics::root::{Bracket, PlaceTolerance, illinois, newton};
 use crate::numerics::scaling::exponent;
 
-/// Where a half swing starts: any point of a box. On `v = 0` it starts left of the centre, `x < 0`.
+/// The start of a half swing: any point of a box. On `v = 0` it starts left of the centre, `x < 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StartBox {
     /// Position in the frame of the half plane.
@@ -23,7 +23,7 @@ pub struct StartBox {
 }
 
 impl StartBox {
-    /// At rest with this clearance from the sticking set.
+    /// A start at rest with this clearance from the sticking set.
     pub fn at_rest(clearance: Interval) -> Self {
         StartBox { x: -clearance, v: Interval::point(0.0) }
     }
@@ -32,32 +32,32 @@ impl StartBox {
 /// A half swing that arrives at `v = 0`; each interval holds the values of all starts and fields.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swing {
-    /// Position at which it arrives.
+    /// Position of the arrival.
     pub end: Interval,
-    /// Velocity there: 0, unless it was given up.
+    /// Velocity at the arrival: 0, unless the swing was stopped early.
     pub speed: Interval,
-    /// How long it takes.
+    /// Duration.
     pub duration: Interval,
-    /// Integral of the divergence of the field along it.
+    /// Integral of the divergence of the field along the swing.
     pub divergence: Interval,
     /// Integral of `v^2`, in units of `2^(2 unit)`.
     pub square: Interval,
     /// Exponent of the unit of `square`.
     pub unit: i32,
-    /// Largest velocity, if asked for.
+    /// Largest velocity, if requested.
     pub fastest: Option<Interval>,
-    /// Derivatives of `end` by the coefficients a, b and c of the field, if asked for.
+    /// Derivatives of `end` with respect to the coefficients a, b and c of the field, if requested.
     pub derivatives: Option<[Interval; 3]>,
     /// Steps taken.
     pub steps: u32,
 }
 
-/// What can be said of a half swing.
+/// What is certain about a half swing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Passage {
     /// Every motion arrives at `v = 0`.
     Arrives(Swing),
-    /// No motion does: the velocity never falls again.
+    /// No motion arrives: the velocity never falls again.
     Never,
     /// Every motion becomes faster than the ceiling; the swing ends where that is certain.
     Exceeds(Swing),
@@ -88,34 +88,34 @@ impl Passage {
     }
 }
 
-/// Size of the last term of a step relative to the state: below rounding.
+/// Size of the last term of a step, relative to the state: below rounding.
 const TOLERANCE: f64 = 2e-17;
 
-/// Steps after which a swing is given up: a smooth one takes ten, a stiff one any number.
+/// Steps after which a swing is abandoned: a smooth one takes ten, a stiff one any number.
 pub const MOST_STEPS: u32 = 250;
 
-/// Attempts with ever shorter steps before giving up.
+/// Attempts with successively shorter steps before giving up.
 const ATTEMPTS: usize = 12;
 
 /// Computes a half swing of every field in `field` from every point of `start`.
 ///
-/// Guarantee: the bounds hold for the exact motions, whatever the rounding. `Unknown` where they cannot be
-/// had: a stiff or a wide motion, or one that arrives within its own error of the centre.
+/// Guarantee: the bounds hold for the exact motions, whatever the rounding. The result is `Unknown` where there
+/// are no bounds: for a stiff or a wide motion, or one that arrives within its own error of the centre.
 pub fn swing(field: &Field, start: &StartBox, wants_fastest: bool) -> Passage {
     run(field, start, f64::INFINITY, wants_fastest, None)
 }
 
-/// The same, given up as soon as every motion is certainly faster than `ceiling`.
+/// As [`swing`], but stops as soon as every motion is certainly faster than `ceiling`.
 pub fn swing_below(field: &Field, start: &StartBox, ceiling: f64) -> Passage {
     run(field, start, ceiling, false, None)
 }
 
-/// The same with the largest velocity, given up after that was reached.
+/// As [`swing_below`] with the largest velocity; it stops only after that was reached.
 pub fn swing_past_peak(field: &Field, start: &StartBox, ceiling: f64) -> Passage {
     run(field, start, ceiling, true, None)
 }
 
-/// The same with the derivatives by the coefficients of the field (lemma 21), for four times the cost.
+/// As [`swing`] with the derivatives by the coefficients of the field (lemma 21), at four times the cost.
 pub fn swing_with_derivatives(field: &Field, start: &StartBox) -> Passage {
     run(field, start, f64::INFINITY, false, Some(Weighted::default()))
 }
@@ -138,7 +138,7 @@ fn run(
     let local = Prepared::new(&field.in_units_of(unit));
     let start = StartBox { x: scaled(start.x, -unit), v: scaled(start.v, -unit) };
     let (x, v) = (start.x.middle(), start.v.middle());
-    // The norm of a vector is at most the sum of its components' magnitudes.
+    // The norm of a vector is at most the sum of the magnitudes of its components.
     let radius = (start.x.radius() + start.v.radius()) * INFLATE;
     if never_returns(local.field(), start.x.upper(), start.v.lower()) {
         return Passage::Never;
@@ -177,7 +177,7 @@ fn run(
     Passage::Unknown
 }
 
-/// The derivatives of a length by a, b and c in units `2^k` times as large.
+/// The derivatives of a length by a, b and c, in units `2^k` times as large.
 fn by_units([a, b, c]: [Interval; 3], k: i32) -> [Interval; 3] {
     let two = |it| scaled(scaled(it, k), k);
     [scaled(a, k), two(b), scaled(two(c), k)]
@@ -185,9 +185,9 @@ fn by_units([a, b, c]: [Interval; 3], k: i32) -> [Interval; 3] {
 
 /// Whether no motion from positions up to `x` and velocities from `v` on ever returns to `v = 0` (lemma 7).
 ///
-/// On the line `v = x + m` motions cross to the left where `P(v) = m - (a + 2) v - b v^2 - c v^3 >= 0`, and
-/// above it the acceleration is at least `P(v) + v`. So if P is not negative from v on, what is above the line
-/// and faster than v stays so.
+/// Motions cross the line `v = x + m` to the left where `P(v) = m - (a + 2) v - b v^2 - c v^3 >= 0`, and above
+/// it the acceleration is at least `P(v) + v`. So if P is not negative from v on, motions above the line and
+/// faster than v stay so.
 pub fn never_returns(field: &Field, x: f64, v: f64) -> bool {
     let m = Interval::point(v) - Interval::point(x);
     if !(field.c.upper() <= 0.0 && m.lower() > 0.0 && v >= 0.0) {
@@ -196,7 +196,7 @@ pub fn never_returns(field: &Field, x: f64, v: f64) -> bool {
     let [a, b, c] = [field.a, field.b, field.c].map(|it| Interval::point(it.upper()));
     let (at, two, three) = (Interval::point(v), Interval::point(2.0), Interval::point(3.0));
     let linear = a + two;
-    // Coefficients of P in powers of the velocity beyond v.
+    // Coefficients of P in powers of the velocity in excess of v.
     let p0 = m - at * (linear + at * (b + at * c));
     let p1 = -(linear + at * (b * two + at * c * three));
     let p2 = -(b + at * c * three);
@@ -211,8 +211,8 @@ pub fn never_returns(field: &Field, x: f64, v: f64) -> bool {
     if !(p3.lower() > 0.0) {
         return false;
     }
-    // Half of the cubic term makes up for the square by u^3 >= 2 t u^2 - t^2 u, the other half for what is
-    // then linear by u^3 >= 3 t^2 u - 2 t^3; both hold for all u, t >= 0.
+    // Half of the cubic term compensates the square by u^3 >= 2 t u^2 - t^2 u, the other half the remaining
+    // linear term by u^3 >= 3 t^2 u - 2 t^3; both hold for all u, t >= 0.
     let half = p3 / two;
     let linear = if holds(p2) { p1 } else { p1 - p2.square() / (p3 * two) };
     if holds(linear) {
@@ -235,28 +235,28 @@ struct SwingRun {
     square: f64,
     square_error: f64,
     fastest: Option<Interval>,
-    /// For the derivatives by the coefficients, if they are wanted.
+    /// Weighted integrals for the derivatives by the coefficients, if requested.
     weighted: Option<Weighted>,
-    /// Velocity beyond which nothing more is computed.
+    /// Velocity above which the computation stops.
     ceiling: f64,
 }
 
-/// What a step says of the largest velocity.
+/// What a step tells about the largest velocity.
 enum Speed {
-    /// It comes later.
+    /// It is reached later.
     StillRising,
     /// It was reached.
     Largest(Interval),
-    /// It was reached, but is not certain enough.
+    /// It was reached, but its bounds are not certain enough.
     Uncertain,
 }
 
 enum Arrival {
     Later,
     Now {
-        /// Where.
+        /// Position of the arrival.
         end: Interval,
-        /// How far from the end of the last step, in time.
+        /// Largest time between the arrival and the end of the last step.
         lag: f64,
     },
     /// Faster than the ceiling, at this position and velocity.
@@ -322,16 +322,16 @@ impl SwingRun {
 
     /// The arrival at `v = 0` near the end of the last step (lemma 6).
     ///
-    /// There `abs(v) <= most`, and as long as that is so, v falls at a rate of at least
-    /// `x - most (abs(a) + ..)`: so the time of arrival is within `most/rate`, and the position within `most` times
-    /// that.
+    /// There `abs(v) <= most`, and as long as this holds, v falls at a rate of at least
+    /// `x - most (abs(a) + ..)`. The time of arrival is therefore within `most/rate`, and the position within
+    /// `most` times that.
     fn arrive(&self, off: f64) -> Option<Arrival> {
         let most = (self.v.abs() + off) * INFLATE;
         let x = Interval::around(self.x, off);
         let field = self.local.field();
         let speed = Interval::new(-most, most);
         let damping = speed * (field.a + speed * (field.b + speed * field.c));
-        // While the motion moves on, or is followed back, x only grows.
+        // Whether the motion continues or is followed back, x only grows.
         let rate = Interval::point(x.lower()) - Interval::point(damping.magnitude());
         if !(rate.lower() > 0.0) {
             return None;
@@ -344,13 +344,13 @@ impl SwingRun {
         Some(Arrival::Now { end, lag })
     }
 
-    /// The largest velocity if it is reached within this step.
+    /// The largest velocity, if it is reached within this step.
     ///
-    /// Where the acceleration vanishes its derivative is `-v < 0`: there is one such moment in a half swing.
-    /// Near it, with acceleration at most `d` in size at velocity v, the rest of the rise is at most
+    /// Where the acceleration vanishes its derivative is `-v < 0`, so there is one such moment in a half swing.
+    /// Near it, with acceleration at most `d` in magnitude at velocity v, the remaining rise is at most
     /// `d^2/(v - d f)`, where f bounds the slope of the damping.
     fn turn_of_speed(&self, series: &Series, h: f64, end: &Reached) -> Speed {
-        /// An error of the moment costs its square.
+        /// An error in the moment costs only its square.
         const NEAR: f64 = 1e-10;
         let field = self.local.field();
         let rough =
@@ -390,7 +390,7 @@ impl SwingRun {
     ) -> Option<Swing> {
         let Field { a, b, c } = *self.local.field();
         let duration = Interval::around(self.time, (self.time_error + lag) * INFLATE);
-        // Beyond the end of the step v is below its bound there, whose square times the lag is less than this.
+        // Beyond the end of the step v stays below its bound there, whose square times the lag bounds the integral.
         let speed = self.v.abs() + self.norm.stretch * self.radius * INFLATE;
         let beyond = lag * powi(speed, 2);
         let square = Interval::around(self.square, (self.square_error + beyond) * INFLATE);
@@ -415,9 +415,9 @@ impl SwingRun {
 }
 
 /// Where the polynomial of v vanishes at or just beyond `h`, by Newton's method inside a bracket; otherwise a
-/// shorter step. The flag says which. No bound depends on how good the root is.
+/// shorter step. The flag tells which. No bound depends on the accuracy of the root.
 fn arrival(series: &Series, h: f64, ahead: f64) -> Option<(f64, bool)> {
-    /// How far beyond the step its polynomial is trusted.
+    /// How far beyond the step its polynomial is used, as a multiple of the step.
     const BEYOND: f64 = 1.02;
     let bracket = Bracket::falling(0.0, if ahead > 0.0 { BEYOND * h } else { h });
     let at = newton(bracket, h, PlaceTolerance::Relative(1e-9), |at| series.velocity(at)).at;

@@ -9,13 +9,13 @@ use crate::numerics::Interval;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Theorem {
-    /// The first integral of D2 changes one way on every motion (lemma 13): no cycle.
+    /// The first integral for D2 alone changes monotonically on every motion (lemma 13): no cycle.
     OneWay,
-    /// Beyond critical damping nothing holds a motion back that has left the sticking set (lemma 14): no cycle.
+    /// Beyond critical damping nothing holds back a motion that has left the sticking set (lemma 14): no cycle.
     Overdamped,
     /// Half swings are affine maps (lemma 15): one cycle, for `-1 < D < 0` and `r > 0`.
     Affine,
-    /// Without friction the field is one cubic (Lins, de Melo and Pugh 1977): one cycle for `D D3 < 0`.
+    /// Without friction the field is a single cubic (Lins, de Melo and Pugh 1977): one cycle for `D D3 < 0`.
     Frictionless,
 }
 
@@ -40,7 +40,7 @@ pub fn theorem(parameters: &ParameterBox) -> Option<Theorem> {
 fn one_way(d: Interval, d3: Interval, r: Interval) -> bool {
     let loses = d.lower() >= 0.0 && d3.lower() >= 0.0;
     let gains = r.upper() == 0.0 && d.upper() <= 0.0 && d3.upper() <= 0.0;
-    // Its least value, at w = 3 r/(4 abs(D)) when it is zero, is positive where 32 abs(D)^3 < 27 r^2 D3.
+    // Its minimum (at w = 3 r/(4 abs(D)) when it is zero) is positive where 32 abs(D)^3 < 27 r^2 D3.
     let cube = Interval::point(32.0) * (-d) * d.square();
     let loses_yet = d3.lower() > 0.0
         && d.upper() < 0.0
@@ -52,7 +52,7 @@ fn one_way(d: Interval, d3: Interval, r: Interval) -> bool {
 mod tests {
     use super::*;
 
-    /// `r + 2 D w + D3 w^3` for `D = -3/8`, `D3 = 1/4` has its least value at `w = 1`: `r - 1/2`.
+    /// `r + 2 D w + D3 w^3` for `D = -3/8`, `D3 = 1/4` has its minimum at `w = 1`: `r - 1/2`.
     #[test]
     fn the_first_integral_falls_where_its_rate_has_one_sign() {
         let [d, d2, d3] = [-0.375, 0.2, 0.25].map(Interval::point);
@@ -62,7 +62,7 @@ mod tests {
         }
     }
 
-    /// Each set next to a theorem meets all of its conditions but one.
+    /// Each undecided set meets all conditions of a theorem but one.
     #[test]
     fn a_theorem_needs_each_of_its_conditions() {
         for ([d, d2, d3, r], decided) in [

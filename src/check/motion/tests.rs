@@ -39,8 +39,7 @@ fn a_disc_grows_as_its_motions_part() {
     }
 }
 
-/// Motions under different damping separate; the disc contains both, and its radius is their difference in
-/// velocity.
+/// Motions under different damping separate; the disc contains both, and its radius is their difference in velocity.
 #[test]
 fn a_disc_holds_the_motions_of_all_coefficients() {
     let wide = Field::new([Interval::new(0.9, 1.1), point(0.0), point(0.0)], 0.0);
@@ -61,8 +60,7 @@ fn a_disc_holds_the_motions_of_all_coefficients() {
 /// alone is `4e-15`, four times its rounding error.
 #[test]
 fn a_step_holds_what_its_polynomial_leaves_out() {
-    /// For `t = 0.0245`, `sqrt(B) v = 10`: the double nearest to -0.5613450494823475487, computed with 40
-    /// digits.
+    /// For `t = 0.0245`, `sqrt(B) v = 10`: the double nearest to -0.5613450494823475487, computed with 40 digits.
     const EXACT: f64 = -0.561_345_049_482_347_5;
     let root = 1e9;
     let fast = field([0.0, -root * root, 0.0]);
@@ -79,8 +77,7 @@ fn motions_that_may_turn_both_ways_are_not_carried() {
     assert!(stepped(&rotation, &disc(0.5, 0.05, 0.1), 0.1).is_some());
 }
 
-/// Motions not yet at rest, or at rest before, arrive further out and at another time; the closed form is a
-/// spiral.
+/// Motions not yet at rest, or at rest before, arrive further out and at another time; the closed form is a spiral.
 #[test]
 fn an_arrival_holds_what_is_left_of_the_way() {
     for a in [-0.4, 0.0, 0.6] {
@@ -101,8 +98,8 @@ fn an_arrival_holds_what_is_left_of_the_way() {
     }
 }
 
-/// All motions of a linear node from far out follow its slow line, on which `x = -v/lambda`, `lambda^2 - a
-/// lambda + 1 = 0`. For `a = 2` this line passes the right end of the piece.
+/// All motions of a linear node from far out follow its slow line, on which `x = -v/lambda`,
+/// `lambda^2 - a lambda + 1 = 0`. For `a = 2` this line passes the right end of the piece.
 #[test]
 fn the_piece_of_a_fence_reaches_to_the_slow_line() {
     let (a, e) = (2.001, 0.3);

@@ -5,8 +5,7 @@ use super::algebra::{MOST, interpolated};
 use crate::flow::step::{ErrorScale, Field, Step, StepPoint};
 use crate::numerics::root::{Bracket, PlaceTolerance, bisect, try_newton};
 
-/// Relative change of the length of the last step below which it counts as settled; this takes about four
-/// attempts.
+/// Relative change of the length of the last step below which it counts as settled; this takes about four attempts.
 const SETTLED: f64 = 1e-9;
 
 impl<F: Field> Stiff<F> {

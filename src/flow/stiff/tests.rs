@@ -38,8 +38,8 @@ fn far_out_some_hundred_steps_do_what_an_explicit_method_needs_a_hundred_million
     }
 }
 
-/// Against the damping of D2, a motion creeps along `v^2 = -x/D2` and then stops within a step or two, at `1/(2
-/// D2)` to within a relative D3/D2^2. The reference time comes from the series with steps exact to rounding.
+/// Against the damping of D2, a motion creeps along `v^2 = -x/D2` and then stops within a step or two, at
+/// `1/(2 D2)` to within a relative D3/D2^2. The reference time comes from the series with steps exact to rounding.
 #[test]
 fn a_step_that_begins_stiff_and_ends_at_rest_keeps_the_digits_of_its_end() {
     let field = HalfPlane { d: 0.0, d2: 122.0, d3: 0.015 };

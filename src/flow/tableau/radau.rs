@@ -27,8 +27,7 @@ impl Collocation {
     ///
     /// Derived from `v' = -k (v - t^(S+1)) + (S + 1) t^S`, where the solution of order `2 S - 1` would be exact
     /// without damping (the problem of Prothero and Robinson; Hairer and Wanner, section IV.15). With k h
-    /// damping times in a step this fraction grows as `(k h)^(S-1)` towards S. The formula is accurate to a
-    /// fifth.
+    /// damping times in a step this fraction grows as `(k h)^(S-1)` towards S. The formula is accurate to a fifth.
     pub fn reduced_order(&self, damping_times: f64) -> f64 {
         let growth = damping_times / (damping_times + self.stiff);
         let stages = real(self.nodes.len());

@@ -1,11 +1,11 @@
-//! Time and area of stiff swings: of those that have a first integral, of those that steps enclose too, in other units,
-//! and of intervals of coefficients and starts.
+//! Time and area of stiff swings: compared with a first integral, with swings enclosed by steps, in other
+//! units, and for intervals of coefficients and starts.
 
 use super::super::swing::swing_past_peak;
 use super::*;
 use crate::numerics::elementary::exp;
 
-/// The swing from rest that is followed to its fall, and between the fences from there on.
+/// The swing from rest, followed to its fall and then continued between the fences.
 fn between_fences(field: &Field, start: Interval) -> Swing {
     let funnel = Funnel::new(field, &mut 0).unwrap();
     let fallen = swing_past_peak(field, &StartBox::at_rest(start), funnel.speed());
@@ -22,8 +22,9 @@ fn area(swing: &Swing) -> Interval {
     swing.square_in(0)
 }
 
-/// With `v^2` alone, and `y` the way from the start, `v^2 = (l - y - l exp(-2 b y))/b`, `l = z + 1/(2 b)`, as soon as
-/// `exp(-2 b l)` is below rounding: it ends at `1/(2 b)`. Time and area are integrals of `1/v` and `v` over y.
+/// With `v^2` alone, and the distance `y` from the start, `v^2 = (l - y - l exp(-2 b y))/b`, `l = z + 1/(2 b)`,
+/// once `exp(-2 b l)` is below rounding; the swing ends at `1/(2 b)`. Time and area are integrals of `1/v` and
+/// `v` over y.
 #[test]
 fn a_swing_with_a_first_integral_is_held() {
     const PIECES: u32 = 20_000;
@@ -31,7 +32,7 @@ fn a_swing_with_a_first_integral_is_held() {
         let way: f64 = z + 0.5 / b;
         let (mut time, mut below) = (0.0, 0.0);
         for piece in 0..PIECES {
-            // `y = l u^2 (3 - 2 u)` takes away the square roots at both ends.
+            // `y = l u^2 (3 - 2 u)` removes the square roots at both ends.
             let u = (f64::from(piece) + 0.5) / f64::from(PIECES);
             let y = way * u * u * (3.0 - 2.0 * u);
             let left = way * (1.0 - u) * (1.0 - u) * (1.0 + 2.0 * u);
@@ -71,7 +72,7 @@ fn steps_that_still_get_through_agree_with_the_fences() {
     }
 }
 
-/// `(v, b, c) -> (v 2^k, b 2^-k, c 2^-2k)` leaves time as it is, to the last bit.
+/// `(v, b, c) -> (v 2^k, b 2^-k, c 2^-2k)` leaves time unchanged to the last bit.
 #[test]
 fn other_units_change_nothing_but_lengths() {
     let (one, start) = (field([-0.2, 0.3, 0.1]), Interval::point(300.0));
@@ -84,7 +85,7 @@ fn other_units_change_nothing_but_lengths() {
     }
 }
 
-/// Each corner of the box is followed by steps, to its end to thirteen digits.
+/// Each corner of the box is followed by steps, and its end known to thirteen digits.
 #[test]
 fn an_interval_of_swings_holds_each_of_them() {
     let around = |value: f64| Interval::around(value, 1e-7 * value.abs());

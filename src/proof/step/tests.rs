@@ -1,4 +1,4 @@
-//! The roundings counted by hand in this file, counted again by numbers that do it themselves.
+//! The rounding counts derived by hand, verified by numbers that count their own roundings.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -7,7 +7,7 @@ use crate::numerics::elementary::{exp, sin_cos};
 use crate::numerics::twofold::Twofold;
 use crate::proof::series::Scalar;
 
-/// A magnitude, and how many units of roundoff times a magnitude it may be off.
+/// A magnitude, and its possible error in units of roundoff.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Counted {
     size: f64,
@@ -28,7 +28,7 @@ impl Add for Counted {
     }
 }
 
-/// Of magnitudes a difference is a sum.
+/// For magnitudes a difference is a sum.
 #[expect(clippy::suspicious_arithmetic_impl, reason = "the worst case of a difference")]
 impl Sub for Counted {
     type Output = Counted;
@@ -57,9 +57,9 @@ impl Neg for Counted {
 }
 
 thread_local! {
-    /// Roundings of the coefficients taken so far, in pairs of x and v.
+    /// Roundings of the coefficients finished so far, in pairs for x and v.
     static TAKEN: std::cell::RefCell<Vec<f64>> = const { std::cell::RefCell::new(Vec::new()) };
-    /// Sizes that coefficients of v have instead of their own, if there are any.
+    /// Sizes that replace those of the coefficients of v, if there are any.
     static PLANTED: std::cell::RefCell<Vec<f64>> = const { std::cell::RefCell::new(Vec::new()) };
 }
 
@@ -67,7 +67,7 @@ impl Scalar for Counted {
     const ZERO: Counted = Counted { size: 0.0, roundings: 0.0 };
 
     fn inverse(k: usize) -> Counted {
-        // Only powers of two have an exact inverse; counting one for all is what the bound does.
+        // Only powers of two have an exact inverse; the bound counts one rounding for every k, and so does this.
         Counted { size: INVERSE[k], roundings: INVERSE[k] }
     }
 
@@ -85,7 +85,7 @@ impl Scalar for Counted {
 }
 
 /// For each degree: the roundings of `k + 1` times the next coefficients of x and v, and the sums of magnitudes
-/// by which the numbers of [`ROUNDINGS`] are multiplied.
+/// that the numbers of [`ROUNDINGS`] multiply.
 fn counted(field: [f64; 3], x: f64, v: f64) -> Vec<(f64, [f64; 7])> {
     let mut series = Series::<Counted>::EMPTY;
     TAKEN.with_borrow_mut(Vec::clear);
@@ -97,7 +97,7 @@ fn counted(field: [f64; 3], x: f64, v: f64) -> Vec<(f64, [f64; 7])> {
     let row = |k: usize| {
         let degree = f64::from(u8::try_from(k).unwrap());
         let cube: f64 = (0..=k).map(|i| square(i) * size(k - i)).sum();
-        // In sums over all degrees `v v'` is half, and `v^2 v'` a third, of the degree times v^2 and v^3.
+        // In sums over all degrees `v v'` is a half, and `v^2 v'` a third, of the degree times v^2 and v^3.
         let (b0, c0) = (b * square(k), c * cube);
         let sizes =
             [size(k), series.x[k].size, a * size(k), b0, 0.5 * degree * b0, c0, degree / 3.0 * c0];
@@ -106,11 +106,11 @@ fn counted(field: [f64; 3], x: f64, v: f64) -> Vec<(f64, [f64; 7])> {
     (0..ORDER).map(row).collect()
 }
 
-/// The bound is never below the count, and halving any of its numbers brings it below somewhere: for series
-/// that motions have, and for series of which only two terms are not next to nothing.
+/// The bound is never below the count, and halving any of its numbers brings it below the count somewhere: for
+/// series of real motions, and for series in which only two terms are not negligible.
 #[test]
 fn the_bound_of_roundings_is_what_counting_gives() {
-    /// Next to nothing, but not so that adding it is exact.
+    /// Negligible, but large enough that adding it is not exact.
     const LITTLE: f64 = 1e-30;
     let sparse = |one: usize, other: usize| -> Vec<f64> {
         let size = |k| if k == one || k == other { 1.0 } else { LITTLE };
@@ -175,8 +175,8 @@ fn a_polynomial_is_evaluated_with_the_roundings_counted() {
     }
 }
 
-/// The coefficients against the equation in twice the precision: each is off by what its roundings allow, which a
-/// part 1e-13 of one of them would exceed.
+/// The coefficients against the equation in twice the precision. Each error is within what its roundings allow;
+/// an error of 1e-13 in one of them would exceed that.
 #[test]
 fn every_coefficient_obeys_the_equation_to_rounding() {
     for field in [[-0.4, 0.2, 0.5], [0.3, -0.7, -0.2], [-0.2, 0.0, 0.0], [1.9, 3.0, 7.0]] {
@@ -203,7 +203,7 @@ fn every_coefficient_obeys_the_equation_to_rounding() {
                     product(&squares, &series.v, k).times(field[2]),
                 ];
                 let defect = terms.into_iter().fold(of(0.0), Twofold::plus).high.abs();
-                // Lemma 2, term by term; of three factors two are of degree k together at most.
+                // Lemma 2, term by term; of three factors, two have a combined degree of at most k.
                 let [a, b, c] = field.map(f64::abs);
                 let cubes = product(&square_sizes, &sizes, k).high;
                 let allowed = UNIT
@@ -284,7 +284,7 @@ fn nothing_is_said_of_what_is_not_a_number() {
     assert!(local.carry(norm, &series, (0.2, series.at(0.2)), f64::NAN).is_none());
     assert!(local.carry(norm, &series, (f64::NAN, series.at(f64::NAN)), 1e-15).is_none());
     assert!(local.carry(norm, &series, (5.0, series.at(5.0)), 1e-15).is_none());
-    // Nothing times something infinite is not a number.
+    // Zero times infinity is NaN.
     let linear = Prepared::new(&Field { a: point(-0.2), b: point(0.0), c: point(0.0) });
     assert_eq!(linear.growth(norm, Interval::ALL), f64::INFINITY);
     series.v[7] = f64::NAN;
@@ -302,7 +302,7 @@ fn exponentials_are_bounded_from_above() {
     assert!(exponential(0.91).is_none() && exponential(f64::NAN).is_none());
 }
 
-/// A turn is half a period long: in a longer step the velocity could have been negative and be positive again.
+/// A half turn takes half a period: in a longer step the velocity could become negative and positive again.
 #[test]
 fn no_step_is_longer_than_a_turn() {
     let point = Interval::point;
@@ -316,20 +316,20 @@ fn no_step_is_longer_than_a_turn() {
             "{h}"
         );
     }
-    // Damping turns the angle faster, by half of its slope at most.
+    // Damping makes the angle turn faster, by at most half of its slope.
     let damped = Prepared::new(&Field { a: point(1.0), b: point(0.0), c: point(0.0) });
     series.expand(damped.middles(), -0.9, 0.2);
     for (h, held) in [(2.05, true), (2.12, false)] {
         let found = damped.carry(Norm::fitting(1.0), &series, (h, series.at(h)), 1e-12);
         assert_eq!(found.is_some(), held, "{h}");
     }
-    // Where the velocity is certainly positive throughout, the bound of the angle does not matter.
+    // Where the velocity is certainly positive throughout, the bound on the angle does not matter.
     let fast = Prepared::new(&Field { a: point(0.0), b: point(-50.0), c: point(0.0) });
     series.expand(fast.middles(), 0.0, 1.0);
     assert!(fast.carry(Norm::new(0.0), &series, (1e-3, series.at(1e-3)), 1e-12).is_some());
 }
 
-/// Of a series whose terms are all positive the bound of what is cut off is what is cut off.
+/// For a series of positive terms the truncation bound equals what is truncated.
 #[test]
 fn truncation_is_bounded_by_all_terms_that_are_cut_off() {
     let (h, mut series) = (0.5, Series::<f64>::EMPTY);
@@ -364,8 +364,8 @@ fn truncation_is_bounded_by_all_terms_that_are_cut_off() {
     }
 }
 
-/// A spiral of which a step cuts off more than it rounds, against its closed form, and its area with a ball
-/// around it.
+/// A spiral whose truncation error in a step exceeds its rounding error, against its closed form, and its area
+/// with a ball around it.
 #[test]
 fn a_step_holds_what_its_polynomial_leaves_out() {
     let point = Interval::point;
@@ -379,7 +379,7 @@ fn a_step_holds_what_its_polynomial_leaves_out() {
     let velocity = (powers[0] - powers[1]) / (2.0 * root);
     let off = (end.v - velocity).abs();
     assert!(off > 1e-13 && off <= norm.stretch * end.radius, "{off:e} {:e}", end.radius);
-    // Without damping, and displaced in velocity by the radius of the ball.
+    // Without damping, displaced in velocity by the radius of the ball.
     let local = Prepared::new(&Field { a: point(0.0), b: point(0.0), c: point(0.0) });
     let (h, ball) = (0.1, 1e-3);
     series.expand(local.middles(), 0.0, 1.0);
@@ -408,8 +408,8 @@ fn velocities_within_a_step_are_held() {
     assert!(around.contains(2.1) && around.contains(0.9) && around.upper() < 2.1 + 1e-9);
 }
 
-/// Motions with the coefficients at both ends of an interval are held; where `v = 1` they part by `h` times its
-/// radius.
+/// Motions with the coefficients at both ends of an interval are enclosed; where `v = 1` they separate by `h`
+/// times its radius.
 #[test]
 fn a_step_holds_the_motions_of_all_coefficients() {
     let (h, spread) = (0.01, 0.1);
@@ -421,7 +421,7 @@ fn a_step_holds_the_motions_of_all_coefficients() {
         let mut series = Series::<f64>::EMPTY;
         series.expand(local.middles(), 0.0, 1.0);
         let end = local.carry(Norm::new(0.0), &series, (h, series.at(h)), 0.0).unwrap();
-        // `v' = -c_k v^k` from v = 1, except for x, which adds less than `h^3`.
+        // `v' = -c_k v^k` from v = 1, except for x, which contributes less than `h^3`.
         let velocity =
             [exp(-spread * h), 1.0 / (1.0 + spread * h), 1.0 / (1.0 + 2.0 * spread * h).sqrt()];
         let off = 1.0 - velocity[wide];
@@ -433,7 +433,7 @@ fn a_step_holds_the_motions_of_all_coefficients() {
     }
 }
 
-/// How much longer a vector is in another norm is attained on a diagonal.
+/// The largest ratio of a vector's length in two norms occurs on a diagonal.
 #[test]
 fn a_change_of_norm_holds_every_direction() {
     for (from, to) in [(0.0, 1.0), (0.0, -1.5), (1.9, -1.9), (-0.5, 0.7), (1.0, 1.5)] {

@@ -1,11 +1,11 @@
-//! What never returns, by the polynomial that decides it.
+//! The criterion for motions that never return, by the polynomial that decides it.
 
 use super::never_returns;
 use crate::numerics::Interval;
 use crate::proof::field::Field;
 
-/// `P = m - (a + 2) v - b v^2 - c v^3` is bounded from below by its coefficients; where it is negative somewhere nothing may
-/// be claimed.
+/// `P = m - (a + 2) v - b v^2 - c v^3` is bounded from below by its coefficients. Where it is negative
+/// somewhere, nothing may be claimed.
 #[test]
 fn what_never_returns_is_told_from_what_may() {
     for (coefficients, [x, v], never) in [
@@ -25,7 +25,7 @@ fn what_never_returns_is_told_from_what_may() {
         ([1.0, 0.0, -1.0], [-1.99, 0.0], false),
         // `m - 3 v^2 + v^3`, at least `m - 4`.
         ([-2.0, 3.0, -1.0], [-3.99, 0.0], false),
-        // The centre itself is at rest; a cubic damping brings everything back.
+        // The centre is at rest, and cubic damping brings every motion back.
         ([-3.0, -1.0, 0.0], [0.0, 0.0], false),
         ([-3.0, -1.0, 1e-9], [-1.0, 0.0], false),
     ] {

@@ -1,8 +1,8 @@
-//! The roundings of `v^2` and of its integral, and of a ball whose norm changes.
+//! The roundings of `v^2` and of its integral, and a ball under a change of norm.
 
 use super::*;
 
-/// Of degree k a coefficient of `v^2` passes as many roundings as are counted, and never more than `k + 1`.
+/// A coefficient of `v^2` of degree k passes as many roundings as are counted, and never more than `k + 1`.
 #[test]
 fn coefficients_of_the_square_pass_the_roundings_counted() {
     let mut most: f64 = 0.0;
@@ -28,12 +28,12 @@ fn coefficients_of_the_square_pass_the_roundings_counted() {
     assert!(most > 0.5 * SQUARE, "half would do: {most}");
 }
 
-/// Numbers of which each is a little less than half of the last place of the sum so far are all lost.
+/// Terms that are each a little less than half of the last place of the running sum are all lost.
 #[test]
 fn the_roundings_of_an_area_are_held() {
     let (h, mut series) = (1.0, Series::<f64>::EMPTY);
     let little = 0.999 * UNIT;
-    // Four lanes: their first numbers make 1, and what is lost comes later, or where they meet.
+    // Four lanes: their first terms sum to 1, and the losses come later, or where the lanes are combined.
     series.square[0] = 1.0;
     for k in 1..ORDER {
         let lane_of_the_first = k % LANES == 0;
@@ -50,7 +50,7 @@ fn the_roundings_of_an_area_are_held() {
     assert!(off > 0.6 * bound && off <= bound, "{off:e} {bound:e}");
 }
 
-/// A ball that is measured in another norm keeps its members: one along the shortest direction of the new norm.
+/// A ball measured in another norm keeps its members: tested on one along the shortest direction of the new norm.
 #[test]
 fn a_ball_in_another_norm_keeps_its_members() {
     let damped = Prepared::new(&Field {
