@@ -1,8 +1,9 @@
-//! What a machine costs by the whole model, beside plain time-stepping: `cargo bench --bench belt`.
+//! Cost of a machine by the whole model, compared with plain time stepping: `cargo bench --bench belt`.
 //!
-//! The open benchmark of basin stability (Stribeck friction on a belt): what a start ends as, a portrait with
-//! all cycles, and the share of a window. The comparison integrates the same motion with a fixed step and
-//! sticks where the velocity crosses the belt's; it is no more than plausible, but it is what one would do.
+//! The case is the open benchmark of basin stability (Stribeck friction on a belt): the fate of a start, a
+//! portrait with all cycles, and the share of a window. The comparison integrates the same motion with a fixed
+//! step and sticks where the velocity crosses that of the belt. It is merely plausible, but it is the obvious
+//! approach.
 
 use divan::Bencher;
 use divan::black_box;
@@ -15,7 +16,7 @@ fn main() {
     divan::main();
 }
 
-/// The benchmark's oscillator at a belt speed of 1.5.
+/// The oscillator of the benchmark at a belt speed of 1.5.
 fn machine() -> Belt {
     Belt {
         mass: 1.0,
@@ -66,7 +67,7 @@ fn motion_of_a_hundred_time_units(bencher: Bencher) {
     bencher.bench_local(|| MachineMotion::new(&model, black_box(1.4), black_box(0.0), 100.0).end);
 }
 
-/// The same motion with a fixed step of 1e-3 of classical Runge and Kutta.
+/// The same motion by the classical Runge-Kutta method with a fixed step of 1e-3.
 fn stepped((mut x, mut v): (f64, f64), until: u32) -> (f64, f64) {
     let steady = 0.5 + 0.5 * exp(-3.0_f64);
     let slope = |x: f64, v: f64| {
@@ -96,8 +97,8 @@ fn time_stepping_of_a_hundred_time_units(bencher: Bencher) {
     bencher.bench_local(|| stepped((black_box(1.4), black_box(0.0)), 100));
 }
 
-/// As the benchmark decides it: by what still moves after 400 time units. A cycle is found in the same way,
-/// and a share by some thousand such starts.
+/// The decision as in the benchmark: by what is still moving after 400 time units. A cycle is found in the same
+/// way, and a share from some thousand such starts.
 #[divan::bench]
 fn fate_of_a_start_by_time_stepping(bencher: Bencher) {
     bencher.bench_local(|| stepped((black_box(-0.611), black_box(0.994)), 400).1.abs() > 0.2);

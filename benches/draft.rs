@@ -1,9 +1,9 @@
-//! What a key takes at draft quality until its picture is out: `cargo bench --bench draft`.
+//! Time from a key press to its picture at draft quality: `cargo bench --bench draft`.
 //!
-//! The whole way, as in the explorer: the key goes into the loop, the session asks, the worker answers from
-//! its thread, the painter writes. For every scene, every row of its parameter pane (the dial is one) and
-//! both arrows: the time from the key to the last byte of the first picture in which every layer has an
-//! answer of today, draft or not. The terminal takes each picture at once.
+//! This covers the whole path, as in the explorer: the key enters the loop, the session asks, the worker
+//! answers from its thread, the painter writes. Measured for every scene, every row of its parameter pane
+//! (including the dial) and both arrows: the time from the key to the last byte of the first picture in which
+//! every layer has a current answer, draft or not. The terminal accepts each picture at once.
 
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -22,17 +22,17 @@ use hopfscope::session::{Effect, Msg, Session, Size};
 use hopfscope::terminal::{Environment, Screen};
 use ratatui::Frame;
 
-/// The screens.
+/// The screen sizes measured.
 const SIZES: [(u16, u16); 2] = [(80, 24), (200, 60)];
 
-/// Times that a key is measured; the median counts.
+/// Measurements of each key; the median counts.
 const TIMES: usize = 3;
 
-/// As long as this without a byte, with nothing wanted, all is done.
+/// Silence after which, with no request pending, everything is done.
 const QUIET: Duration = Duration::from_millis(25);
 
 fn main() {
-    // `cargo test --benches` only wants to know that it runs.
+    // `cargo test --benches` only checks that the program runs.
     if std::env::args().any(|argument| argument == "--test") {
         return;
     }
@@ -54,12 +54,12 @@ fn main() {
     println!("worst: {:.2} ms, {}", milliseconds(worst.0), worst.1);
 }
 
-/// The explorer, which says whether its picture is complete.
+/// The explorer, with flags that tell whether its picture is complete.
 struct Watched {
     explorer: Explorer,
-    /// Whether each layer of the picture drawn last has an answer of today.
+    /// Whether each layer of the last picture has a current answer.
     complete: Arc<AtomicBool>,
-    /// Whether nothing is wanted.
+    /// Whether no request is pending.
     idle: Arc<AtomicBool>,
 }
 
@@ -84,7 +84,7 @@ impl Application for Watched {
     }
 }
 
-/// A terminal that says when bytes arrive, and answers at once.
+/// A terminal that reports when bytes arrive, and answers at once.
 struct Line {
     complete: Arc<AtomicBool>,
     arrived: Sender<(Instant, bool)>,
@@ -93,7 +93,7 @@ struct Line {
 
 impl Write for Line {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        // A program that has left does not want to know.
+        // The receiver may be gone when the program ends.
         let _ = self.arrived.send((Instant::now(), self.complete.load(Ordering::Acquire)));
         let _ = self.events.send(Event::Shown);
         Ok(bytes.len())
@@ -104,7 +104,7 @@ impl Write for Line {
     }
 }
 
-/// The keyboard and the eyes.
+/// The user: keyboard and eyes.
 struct User {
     events: Sender<Event>,
     arrived: Receiver<(Instant, bool)>,
@@ -117,7 +117,7 @@ impl User {
         self.events.send(Event::Session(Msg::Key(key))).expect("the loop runs");
     }
 
-    /// Waits until all is computed and drawn.
+    /// Waits until everything is computed and drawn.
     fn settle(&self) {
         loop {
             let quiet = self.arrived.recv_timeout(QUIET).is_err();
@@ -127,7 +127,7 @@ impl User {
         }
     }
 
-    /// Presses a key: the time until its first complete picture is out.
+    /// Presses a key; returns the time until its first complete picture is written.
     fn press(&self, name: &str) -> Duration {
         let begun = Instant::now();
         self.key(name);
@@ -137,7 +137,7 @@ impl User {
     }
 }
 
-/// The most expensive key of a scene, and what it takes.
+/// The most expensive key of a scene, and its time.
 fn costliest(scene: &Arc<Scene>, (width, height): (u16, u16)) -> (Duration, String) {
     let mut session = Session::new(Arc::clone(scene), Size { width, height });
     session.problem = session.problem.at(&DRAFT);

@@ -1,7 +1,7 @@
 //! Fits and their gradients: `cargo bench --bench fit`.
 //!
-//! Gradients through the events by sensitivities of half swings, beside forward differences; whole fits of ten
-//! thousand samples and of a short record; and what a step of a held number takes until all others have followed.
+//! Gradients through the events by sensitivities of half swings, compared with forward differences; whole fits
+//! of ten thousand samples and of a short record; and a step of a held number until all others have followed.
 
 use divan::{Bencher, black_box};
 use hopfscope::fit::levenberg_marquardt::Runs;
@@ -14,7 +14,7 @@ fn main() {
     divan::main();
 }
 
-/// omega0, offset, D, D2, D3, r, q0 and the time of release or the velocity: a decay to rest, and a long ringing.
+/// omega0, offset, D, D2, D3, r, q0, and the time of release or the velocity: a decay to rest, and a long ringing.
 const DECAY: (Unknowns, StartKind, f64) =
     ([10.0, 0.5, 0.02, 0.005, 0.0005, 0.15, 6.0, 0.3], StartKind::Release, 6.0);
 const RINGING: (Unknowns, StartKind, f64) =

@@ -1,4 +1,4 @@
-//! What an answer costs: `cargo bench`.
+//! Cost of motions, cycles, basins and branches: `cargo bench`.
 //!
 //! W1 is the motion D = -0.1, D3 = 0.05, r = 0.1 from (3, 0) until tau = 200: 63 half swings.
 
@@ -15,7 +15,7 @@ fn main() {
     divan::main();
 }
 
-/// Every method with what sets its accuracy: tolerance, step or epsilon.
+/// Every method with the setting of its accuracy: tolerance, step or epsilon.
 const METHODS_AND_DIALS: [(Method, f64); 26] = [
     (Method::Auto, 1e-4),
     (Method::Auto, 1e-8),
@@ -73,7 +73,7 @@ fn w1_by(bencher: Bencher, (method, dial): (Method, f64)) {
     follow(bencher, w1(method, dial), Detail::default());
 }
 
-/// Far out cubic damping is stiff: 15,000 units of time until the first arrival at v = 0.
+/// Far out, cubic damping is stiff: 15,000 units of time until the first arrival at v = 0.
 #[divan::bench(args = [Method::Auto, Method::Stiff])]
 fn far_out(bencher: Bencher, method: Method) {
     let problem = Problem {
@@ -99,7 +99,7 @@ fn w1_with_points_for_drawing(bencher: Bencher) {
     );
 }
 
-/// The same number of half swings without cubic damping, in closed form.
+/// As many half swings without cubic damping, in closed form.
 #[divan::bench]
 fn piecewise_linear_exact(bencher: Bencher) {
     let mut problem = w1(Method::Exact, 1e-12);
@@ -109,14 +109,14 @@ fn piecewise_linear_exact(bencher: Bencher) {
     follow(bencher, problem, Detail::default());
 }
 
-/// Both cycles at the parameters of the reference values, with their multipliers.
+/// Both cycles for the parameters of the reference values, with their multipliers.
 #[divan::bench]
 fn two_cycles(bencher: Bencher) {
     let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
     bencher.bench(|| cycles(black_box(&parameters), false, &Limits::PATIENT));
 }
 
-/// The one cycle of a piecewise linear oscillator with a little asymmetry.
+/// The single cycle of a piecewise linear oscillator with slight asymmetry.
 #[divan::bench]
 fn one_cycle(bencher: Bencher) {
     let parameters = Parameters { d: -0.2, d2: 0.3, d3: 0.0, r: 0.5 };
@@ -132,7 +132,7 @@ fn basin_by_ordering(bencher: Bencher) {
         .bench(|| SurveyedBasin::of(black_box(&parameters), &window, (320, 384), &Limits::PATIENT));
 }
 
-/// The same by brute force, for 32 by 38 starts only: a hundredth of them.
+/// The same basin by brute force, for only 32 by 38 starts: a hundredth of them.
 #[divan::bench(sample_count = 3)]
 fn basin_by_brute_force_one_start_in_a_hundred(bencher: Bencher) {
     let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };

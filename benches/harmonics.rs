@@ -1,4 +1,4 @@
-//! What the harmonic balance costs: `cargo bench --bench harmonics`.
+//! Cost of the harmonic balance: `cargo bench --bench harmonics`.
 
 use divan::{Bencher, black_box};
 use hopfscope::closed_form::harmonic::amplitudes;
@@ -28,7 +28,7 @@ fn asymmetric(bencher: Bencher, harmonics: usize) {
     balance(bencher, Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 }, harmonics);
 }
 
-/// Nothing to be found: the branch ends at its fold.
+/// No cycle exists: the branch ends at its fold.
 #[divan::bench(args = HARMONICS)]
 fn beyond_the_fold(bencher: Bencher, harmonics: usize) {
     balance(bencher, Parameters { d: -0.1727, d2: 0.2, d3: 0.5, r: 0.1 }, harmonics);

@@ -1,4 +1,4 @@
-//! What a proof costs beside the plain computation: `cargo bench --bench proof`.
+//! Cost of a proof, compared with the plain computation: `cargo bench --bench proof`.
 //!
 //! The cases are those of three reference systems; both half swings of a case start at the same clearance.
 
@@ -22,8 +22,8 @@ fn main() {
     divan::main();
 }
 
-/// What a version in C took on a machine of this kind, written by hand for the processor at hand (gcc 12, -O3
-/// -march=native), in microseconds: figures recorded once, for comparison.
+/// Times in microseconds of a version handwritten in C for the processor of a similar machine (gcc 12, -O3
+/// -march=native): recorded once, for comparison.
 const RECORDED: &str = "\
 recorded of a version in C: half swings 0, 1, 3 certified 8.0, 12.5, 3.0 us, plain 5.4, 9.9, 1.7 us;
 one cycle with its multiplier 12 to 130 us; the count of cases 0, 1 at all amplitudes 700, 600 us";
@@ -76,7 +76,7 @@ fn fold_enclosed(bencher: Bencher) {
     bencher.bench_local(|| enclose_fold(&parameters, Symbol::D, black_box(near), 0.415_541_875));
 }
 
-/// The return map with its derivatives by the clearance and by all parameters.
+/// The return map with its derivatives with respect to the clearance and all parameters.
 #[divan::bench(args = [0, 1])]
 fn map_with_derivatives(bencher: Bencher, case: usize) {
     let parameters = ParameterBox::from(&CASES[case]);
@@ -90,7 +90,7 @@ fn all_cycles_proved(bencher: Bencher, case: usize) {
     bencher.bench_local(|| prove(black_box(&parameters), &[]));
 }
 
-/// The search that the proof checks.
+/// The search that the proof verifies.
 #[divan::bench(args = [0, 1])]
 fn all_cycles_searched(bencher: Bencher, case: usize) {
     bencher.bench_local(|| cycles(black_box(&CASES[case]), false, &Limits::PATIENT).is_ok());

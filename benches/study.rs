@@ -1,8 +1,7 @@
-//! What questions about many cycles cost, and what the same takes by the simplest independent way:
-//! `cargo bench --bench study`.
+//! Cost of questions about many cycles, compared with the simplest independent method: `cargo bench --bench study`.
 //!
-//! The simplest ways: for all cycles a dense scan of the return map and Newton's method at each change of sign; for a
-//! fold the top of the graph `D(u)`; for a border one such fold after the other.
+//! The simplest methods are: for all cycles, a dense scan of the return map with Newton's method at each sign
+//! change; for a fold, the top of the graph `D(u)`; for a border, one such fold after the other.
 
 use divan::{Bencher, black_box};
 use hopfscope::flow::{Limits, Problem};
@@ -37,7 +36,7 @@ fn all_cycles() -> usize {
     cycles(black_box(&CASE), false, LIMITS).unwrap().cycles.len()
 }
 
-/// Nothing is guaranteed: two cycles closer than the grid are passed over.
+/// Without any guarantee: two cycles closer than the grid are missed.
 #[divan::bench]
 fn all_cycles_by_a_dense_scan() -> usize {
     const GRID: u32 = 400;
@@ -85,7 +84,7 @@ fn a_border_by_graphs() -> f64 {
     folds.sum()
 }
 
-/// Regimes over D and D3, and over r and D3, as scenes show them.
+/// Regimes over D and D3, and over r and D3, as in the scenes.
 #[divan::bench(args = [Symbol::D, Symbol::R])]
 fn a_chart(bencher: Bencher, right: Symbol) {
     let right_range = if right == Symbol::D { (-0.9, 0.2) } else { (0.0, 0.5) };
@@ -94,7 +93,7 @@ fn a_chart(bencher: Bencher, right: Symbol) {
     bencher.bench_local(|| chart(black_box(&CASE), plane, resolution, LIMITS).is_ok());
 }
 
-/// One of the branches of an overview, as scenes show it.
+/// One of the branches of an overview, as in the scenes.
 #[divan::bench(args = [0.0, 0.1])]
 fn a_branch(bencher: Bencher, r: f64) {
     let parameters = Parameters { d2: 0.0, r, ..CASE };

@@ -1,8 +1,8 @@
-//! What the explorer costs in a real terminal: `cargo bench --bench terminal`.
+//! Cost of the explorer in a real terminal: `cargo bench --bench terminal`.
 //!
-//! A pty with an emulator behind it answers as a terminal does. For each size: the time from the start of
-//! the process to the first full picture, from a key to the picture that follows from it, the bytes of
-//! a key and of a changed cell, and what 500 keys at once take until the picture is right.
+//! A pty with an emulator behind it answers like a terminal. Measured for each size: the time from the start of
+//! the process to the first full picture, and from a key to the resulting picture; the bytes of a key and of a
+//! changed cell; and the time after 500 keys at once until the picture is right.
 
 #[path = "../tests/support/mod.rs"]
 mod support;
@@ -11,23 +11,23 @@ use std::time::{Duration, Instant};
 
 use support::{Answers, PROGRAM, Terminal};
 
-/// The sizes that are measured.
+/// The screen sizes measured.
 const SIZES: [(u16, u16); 3] = [(80, 24), (120, 40), (200, 60)];
 
-/// Starts of the program, whose median counts.
+/// Number of program starts; the median counts.
 const STARTS: usize = 11;
 
-/// Keys, whose median counts.
+/// Number of keys; the median counts.
 const KEYS: usize = 41;
 
-/// As long as this without a byte, a picture is complete.
+/// Silence after which a picture is complete.
 const QUIET: Duration = Duration::from_millis(60);
 
-/// Right and left arrow in turn: the picture moves and stays typical.
+/// Right and left arrow in turn, so that the picture moves but remains typical.
 const ARROWS: [&str; 2] = ["\x1b[C", "\x1b[D"];
 
 fn main() {
-    // `cargo test --benches` only wants to know that it runs.
+    // `cargo test --benches` only checks that the program runs.
     if std::env::args().any(|argument| argument == "--test") {
         return;
     }
@@ -55,7 +55,7 @@ fn main() {
     }
 }
 
-/// Starts the program; how long its first picture took.
+/// Starts the program; returns the time until its first picture.
 fn start(size: (u16, u16)) -> (Terminal, Duration) {
     let begun = Instant::now();
     let mut terminal = Terminal::start(&[PROGRAM], &[], size, Answers::AtOnce);
@@ -63,7 +63,7 @@ fn start(size: (u16, u16)) -> (Terminal, Duration) {
     (terminal, took)
 }
 
-/// What one key cost.
+/// Cost of one key.
 struct Key {
     latency: Duration,
     bytes: usize,
@@ -79,7 +79,7 @@ fn press(terminal: &mut Terminal, key: &str) -> Key {
     Key { latency, bytes: terminal.written.len() - written, cells: changed }
 }
 
-/// Types 500 keys at once; the time from the last of them to the last frame, and the bytes.
+/// Types 500 keys at once; returns the time from the last of them to the last frame, and the bytes.
 fn burst(terminal: &mut Terminal) -> (Duration, usize) {
     let written = terminal.written.len();
     terminal.types(&ARROWS[0].repeat(500));
@@ -87,7 +87,7 @@ fn burst(terminal: &mut Terminal) -> (Duration, usize) {
     (last_frame(terminal, begun), terminal.written.len() - written)
 }
 
-/// The time until the last byte of the frames that come now.
+/// The time until the last byte of the frames that are arriving.
 fn last_frame(terminal: &mut Terminal, begun: Instant) -> Duration {
     let frames = terminal.frames();
     terminal.wait("a frame", |terminal| terminal.frames() > frames);
@@ -100,7 +100,7 @@ fn last_frame(terminal: &mut Terminal, begun: Instant) -> Duration {
     }
 }
 
-/// What stands in every cell, and how it looks.
+/// Content and style of every cell.
 fn cells(terminal: &Terminal) -> Vec<String> {
     let screen = terminal.screen();
     let (rows, columns) = screen.size();

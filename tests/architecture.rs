@@ -1,5 +1,7 @@
-//! The rings of modules: imports point inwards only, no files import each other in a circle, and the inner rings
+//! The rings of modules: imports point inwards only, no files import each other in a cycle, and the inner rings
 //! use nothing from outside.
+//!
+//! `src/lib.rs` describes the rings; these tests enforce them by reading the paths in the sources.
 //!
 //! `src/lib.rs` describes the rings; these tests read the paths in the sources and keep it so.
 
@@ -25,13 +27,13 @@ const RINGS: [&[&str]; 14] = [
     &["terminal", "runtime", "cli"],
 ];
 
-/// Modules that do not know each other: both draw the same pictures, each in its own way.
+/// Modules that must not use each other: both draw the same pictures, each in its own way.
 const SIBLINGS: [(&str, &str); 2] = [("view", "figure"), ("view", "report")];
 
-/// Rings that know no terminal, thread, clock, environment variable or file: all within `view`.
+/// Number of inner rings, all within `view`, that use no terminal, thread, clock, environment variable or file.
 const PURE: usize = 12;
 
-/// Crates and modules that only the outer rings may use, and what they stand for.
+/// Crates and modules reserved for the outer rings, and what they give access to.
 const OUTSIDE: [(&str, &str); 13] = [
     ("std::env", "the environment"),
     ("std::fs", "files"),
@@ -88,7 +90,7 @@ fn sources() -> Vec<Source> {
     found.into_iter().map(source).filter(|source| !is_test(&source.path)).collect()
 }
 
-/// Whether a whole file is compiled for tests only.
+/// Whether a whole file is compiled only for tests.
 fn is_test(path: &Path) -> bool {
     path.file_stem().is_some_and(|stem| stem == "tests") || path.iter().any(|part| part == "tests")
 }
@@ -102,14 +104,14 @@ fn without_tests(text: &str) -> String {
     code.lines().map(|line| line.split("//").next().unwrap()).collect::<Vec<_>>().join("\n")
 }
 
-/// A path that a file uses, and the name by which it offers it to others, if it does.
+/// A path that a file uses, and the name under which it re-exports it, if it does.
 #[derive(Debug, PartialEq)]
 struct Used {
     path: Vec<String>,
     offered: Option<String>,
 }
 
-/// Every path that a text uses, from the root: those of `use` and those written out.
+/// Every path that a text uses, from the root: those in `use` declarations and those written out.
 fn used(module: &[String], text: &str) -> Vec<Used> {
     let is_word = |char: char| char.is_alphanumeric() || char == '_';
     let mut found = Vec::new();
@@ -146,7 +148,7 @@ fn used(module: &[String], text: &str) -> Vec<Used> {
     found
 }
 
-/// Calls `each` with every path of a `use` tree and the name that it brings.
+/// Calls `each` with every path of a `use` tree and the name that it introduces.
 fn expand(tree: &str, before: &[String], each: &mut dyn FnMut(Vec<String>, &str)) {
     let mut depth = 0;
     let branches = tree.split(|char| {
@@ -169,7 +171,7 @@ fn expand(tree: &str, before: &[String], each: &mut dyn FnMut(Vec<String>, &str)
     }
 }
 
-/// A path as it is written in a module, from the root; of what is outside, as it is.
+/// A path as written in a module, from the root; external paths unchanged.
 fn from_root(module: &[String], path: Vec<String>) -> Vec<String> {
     let mut base = module.to_vec();
     let mut words = path.into_iter().peekable();
@@ -182,14 +184,14 @@ fn from_root(module: &[String], path: Vec<String>) -> Vec<String> {
             }
             return base.into_iter().chain(words).collect();
         }
-        // What begins with a child's name is in the module itself; anything else is outside.
+        // A path that begins with the name of a child is in the module itself; anything else is external.
         _ => return words.collect(),
     }
     words.next();
     base.into_iter().chain(words).collect()
 }
 
-/// The files, and which of them each uses.
+/// The files, and which others each of them uses.
 struct Files {
     sources: Vec<Source>,
     by_module: BTreeMap<Vec<String>, usize>,
@@ -219,8 +221,7 @@ impl Files {
         Files { sources, by_module, used }
     }
 
-    /// The file in which what a path names is defined: what a file merely offers again is looked for where
-    /// that comes from.
+    /// The file in which the target of a path is defined; re-exports are followed to their origin.
     fn home(&self, path: &[String], depth: usize) -> Option<usize> {
         let mut file = *self.by_module.get(&path[..1])?;
         for at in 1..path.len() {
@@ -238,7 +239,7 @@ impl Files {
         Some(file)
     }
 
-    /// Which files each file uses. That a module offers what its children define makes no circle.
+    /// Which files each file uses. A re-export of definitions of a child module makes no cycle.
     fn uses(&self) -> Vec<BTreeSet<usize>> {
         let of_file = |file: usize| {
             let own = &self.sources[file].module;
@@ -251,7 +252,7 @@ impl Files {
     }
 }
 
-/// The largest sets of files of which each uses, by some way, each other.
+/// The largest sets of files each of which uses every other, directly or indirectly.
 fn circles(uses: &[BTreeSet<usize>]) -> Vec<BTreeSet<usize>> {
     let reach = |from: usize| {
         let mut found = BTreeSet::new();
@@ -273,7 +274,7 @@ fn circles(uses: &[BTreeSet<usize>]) -> Vec<BTreeSet<usize>> {
     circles
 }
 
-/// The ring of a module, from 0 inside.
+/// The ring of a module, counted from 0 at the centre.
 fn ring(module: &str) -> Option<usize> {
     RINGS.iter().position(|ring| ring.contains(&module))
 }
@@ -354,7 +355,7 @@ fn the_inner_rings_touch_nothing_outside() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The files of a small house, each by its module and its text.
+/// Files of a small example, each by its module and its text.
 fn house(files: &[(&str, &str)]) -> Files {
     let source = |(module, text): &(&str, &str)| Source {
         path: module.into(),
@@ -402,7 +403,7 @@ fn a_circle_is_seen_through_whatever_a_module_offers_again() {
     );
 }
 
-/// Whether what CONTRIBUTING.md names is there: a file, a folder, or something in the module that it is said to be in.
+/// Whether something named in CONTRIBUTING.md exists: a file, a folder, or an item in the module given for it.
 fn is_there(root: &Path, sources: &[Source], name: &str) -> bool {
     let path = name.trim_end_matches("*.toml").trim_end_matches('/');
     if name.contains(['/', '.']) {

@@ -1,4 +1,4 @@
-//! The border of the basin at any multiplier, against numbers computed elsewhere and against motions.
+//! The border of the basin for any multiplier, against numbers computed elsewhere and against motions.
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Outcome, Problem, Reason};
@@ -14,8 +14,8 @@ use serde::Deserialize;
 
 const LIMITS: Limits = Limits::PATIENT;
 
-/// A row of `data/borders.json`: half maps run backward by series of order 34 in quadruple precision, from
-/// the end points of the sticking set until nothing changes, and 9 x 9 motions run forward.
+/// A row of `data/borders.json`: half maps run backward by series of order 34 in quadruple precision, from the
+/// end points of the sticking set until convergence, and 9 x 9 motions run forward.
 #[derive(Debug, Deserialize)]
 struct Row {
     #[serde(flatten)]
@@ -23,7 +23,7 @@ struct Row {
     displacement: f64,
     impulse: f64,
     area: Option<f64>,
-    /// Of the cycle that is the border, where one is.
+    /// Logarithm of the multiplier, if the border is a cycle.
     log_multiplier: Option<f64>,
     window: [f64; 4],
     captured: u64,
@@ -73,7 +73,7 @@ fn the_margin_is_the_extreme_of_the_cycle_that_borders_the_basin() {
         let picture = found.picture.unwrap();
         let displacement = picture.margin.displacement.unwrap();
         assert!(same(displacement, cycle.q_max.min(-cycle.q_min), 1e-12), "{row:?}");
-        // The curve that is drawn has the extremes of the cycle, up to the distance of its points.
+        // The drawn curve has the extremes of the cycle, up to the spacing of its points.
         let extreme =
             |part: fn(&State) -> f64| picture.curves[0].iter().map(part).fold(0.0, f64::max);
         for (drawn, exact) in [
@@ -88,7 +88,7 @@ fn the_margin_is_the_extreme_of_the_cycle_that_borders_the_basin() {
     assert!(largest > 300.0, "{largest}");
 }
 
-/// A start beside a border, and whether it lies inside.
+/// A start next to a border, and whether it is inside.
 fn beside_the_border(found: &Basin, part: f64) -> Vec<(State, bool)> {
     /// Relative distance from the border.
     const BESIDE: f64 = 1e-5;
@@ -109,7 +109,7 @@ fn beside_the_border(found: &Basin, part: f64) -> Vec<(State, bool)> {
     starts
 }
 
-/// Whether a motion is captured; `None` where it ends neither way in time.
+/// Whether a motion is captured; `None` where neither end is reached in time.
 fn is_captured(parameters: Parameters, initial: State) -> Option<bool> {
     let problem =
         Problem { parameters, initial, until: 300.0, tolerance: 1e-13, ..Problem::default() };
@@ -117,7 +117,7 @@ fn is_captured(parameters: Parameters, initial: State) -> Option<bool> {
     match motion.outcome {
         Outcome::Captured { .. } => Some(true),
         Outcome::Escaped { .. } | Outcome::GaveUp { reason: Reason::OutOfRange, .. } => Some(false),
-        // Without nonlinear damping motions that are not captured grow for ever, and escape at no time.
+        // Without nonlinear damping, motions that are not captured grow forever and do not escape in finite time.
         Outcome::Moving { .. } if parameters.is_piecewise_linear() => Some(false),
         Outcome::Moving { .. } | Outcome::GaveUp { .. } => None,
     }
@@ -172,8 +172,8 @@ fn a_scan_measures_what_the_basin_has() {
     }
 }
 
-/// The area is that of the part of a window around the basin which is captured: a quadrature over the
-/// displacement, where the area is one over time.
+/// The area is that of the captured part of a window around the basin: a quadrature over the displacement,
+/// compared with the area, which is a quadrature over time.
 #[test]
 fn areas_are_those_of_the_captured_part_of_a_window() {
     let closed = rows().into_iter().filter_map(|row| row.area.map(|area| (row, area)));
@@ -193,8 +193,8 @@ fn areas_are_those_of_the_captured_part_of_a_window() {
     }
 }
 
-/// `2 r^2/abs(D)`: both half planes hold the triangle-like piece between the node and `2 r`, over which the work
-/// of friction and damping alone decides.
+/// `2 r^2/abs(D)`: both half planes contain the triangle-like region between the node and `2 r`, in which only
+/// the work of friction and damping is decisive.
 #[test]
 fn the_linear_basin_beside_repelling_nodes_has_its_closed_form() {
     for (d, r) in [(-1.0, 1.0), (-2.0, 1.0), (-1.5, 0.3), (-50.0, 2.0), (-1.000_000_1, 1e-3)] {
@@ -210,7 +210,7 @@ fn the_linear_basin_beside_repelling_nodes_has_its_closed_form() {
 
 #[test]
 fn the_motions_of_a_centre_are_neutral() {
-    // Inside the parabola where the first integral of D2 vanishes all are periodic, outside all run away.
+    // Inside the parabola where the first integral of D2 vanishes all motions are periodic; outside all run away.
     let parameters = Parameters { d: 0.0, d2: 0.5, d3: 0.0, r: 0.0 };
     let found = basin(&parameters, 3.0, &LIMITS).unwrap();
     for index in 0..400 {
@@ -230,7 +230,7 @@ fn starts_of_a_hair_beside_the_sticking_set_go_where_they_belong() {
     let node = Parameters { d: -1.5, d2: 0.0, d3: 0.0, r: 1.0 };
     let nearly =
         Parameters { d: -0.999_975_931_443_767_5, d2: -8.747_989_131_568_893, d3: 0.0, r: 0.1 };
-    // Its cycle has the clearance 6.5e-31: what passes the rim of the sticking set by less comes back.
+    // The cycle has the clearance 6.5e-31: a motion that passes the rim of the sticking set by less returns.
     let close = Parameters { d: -0.999, d2: 0.0, d3: 0.0, r: 1.0 };
     for (parameters, q, v, captured) in [
         (node, 1.0, 1e-9, false),
@@ -256,7 +256,7 @@ fn starts_of_a_hair_beside_the_sticking_set_go_where_they_belong() {
         let rests = matches!(outcome, Outcome::Captured { .. });
         assert_eq!(rests, captured, "{parameters:?} {start:?} {outcome:?}");
     }
-    // Of a start within rounding of the rim a grid counts the rest, and nothing beside it.
+    // For a start within rounding of the rim, a grid counts the rest and nothing beside it.
     let window = Window { q: (1.0, 1.0), v: (-1e-9, 1e-9) };
     let counts = basin(&node, 3.0, &LIMITS).unwrap().count(&window, 1, 3, &LIMITS).unwrap();
     assert_eq!((counts.captured, counts.escaped), (1, 2));
@@ -273,7 +273,7 @@ fn signed_magnitude(exponents: std::ops::Range<f64>) -> impl Strategy<Value = f6
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
 
-    /// Whatever the multiplier: what the basin says of starts on either side of its border their motions do.
+    /// For any multiplier: motions on either side of the border do what the basin predicts.
     #[test]
     fn borders_part_motions(
         d in prop_oneof![-3.0..10.0, -1.2..0.6],

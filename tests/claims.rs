@@ -1,4 +1,4 @@
-//! The paper against computation: what is known to be wrong is found to be wrong, by numbers.
+//! The paper against computation: statements known to be wrong are found wrong, by numbers.
 
 use std::sync::LazyLock;
 
@@ -8,8 +8,8 @@ use hopfscope::study::claims::{
     Certainty, Examined, Finding, Sense, UNSAID, Verdict, claims, examine,
 };
 
-/// Of the piecewise linear motion with D = -0.1, r = 0.1 from rest at q = 1.5 until tau = 20, from its closed
-/// form in 30 digits.
+/// Change of energy of the piecewise linear motion with D = -0.1, r = 0.1 from rest at q = 1.5 until tau = 20,
+/// from its closed form with 30 digits.
 const CHANGE_OF_ENERGY: f64 = 21.673_075_535_168_95;
 
 /// All claims, examined once for all tests.
@@ -35,7 +35,7 @@ fn every_claim_is_decided_by_numbers() {
         assert!(finding.bound() >= 0.0 && finding.difference().unwrap().is_finite(), "{name}");
         assert!(finding.cases > 0, "{name}");
         assert_eq!(finding.paper.is_none(), one.claim.section == UNSAID, "{name}");
-        // What is computed is known well enough to decide: to six digits or a count.
+        // Computed numbers are known well enough to decide: to six digits, or as a count.
         assert!(finding.computed.error <= 1e-5 * finding.computed.value.abs().max(1e-5), "{name}");
     }
 }
@@ -85,7 +85,7 @@ fn false_statements_are_found_false() {
     }
 }
 
-/// The first of them in the paper's own range.
+/// The first of these cases lies in the paper's own range.
 #[test]
 fn general_statements_fail_in_some_cases() {
     for (equation, words, fails) in [
@@ -109,7 +109,7 @@ fn at_the_parameters_of_fig_13_d2_merely_distorts() {
     }
 }
 
-/// (18, 19) over the motion, beside the closed form half swing by half swing.
+/// (18, 19) over the motion, compared with the closed form half swing by half swing.
 #[test]
 fn the_rates_of_the_energy_add_up_to_its_change() {
     for equation in ["(18)", "(19)"] {
@@ -128,7 +128,7 @@ fn nothing_passes_as_an_approximation_that_is_off_by_more_than_a_tenth() {
     }
 }
 
-/// At the speeds at which `hopfscope belt --sweep` says so.
+/// At the speeds where `hopfscope belt --sweep` reports it.
 #[test]
 fn the_belt_is_overtaken_where_it_is_slow() {
     let slower = about("after (2)", "stay slower");
@@ -173,7 +173,7 @@ fn what_proofs_reach_carries_a_mark_and_no_mark_contradicts_a_verdict() {
             _ => assert!([None, Some(Certainty::Refuted)].contains(&mark), "{name}: {mark:?}"),
         }
         if let Some(bounds) = finding.computed.bounds {
-            // A number of the search lies within its bounds, up to its own error.
+            // A number found by the search lies within the proved bounds, up to its own error.
             let (value, slack) = (finding.computed.value, finding.computed.error);
             let within = bounds.lower() - slack <= value && value <= bounds.upper() + slack;
             assert!(within, "{name}: {value} {bounds}");

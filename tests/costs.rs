@@ -1,4 +1,4 @@
-//! What answers cost, counted in evaluations: the bounds are a few per cent above what is needed.
+//! Cost of answers, counted in evaluations; the bounds are a few per cent above the need.
 
 use hopfscope::flow::Limits;
 use hopfscope::oscillator::{Parameters, Symbol};
@@ -32,7 +32,7 @@ fn a_single_fold_costs_no_more_than_one_of_many() {
 
 #[test]
 fn folds_are_the_tops_of_the_graph_of_all_cycles() {
-    // The other way follows the graph and takes up to twenty times as long.
+    // The other method follows the graph and takes up to twenty times as long.
     for (d2, d3, r) in [
         (0.0, 1e-6, 1.0),
         (0.2, 0.5, 0.1),

@@ -1,7 +1,7 @@
-//! The README and the pages of `docs/` say what the program does.
+//! The README and the pages of `docs/` describe what the program does.
 //!
-//! In a `console` block each line that begins with `$ hopfscope` is run, and what stands below it must be
-//! what is printed; a line `..` stands for any number of lines.
+//! In a `console` block each line that begins with `$ hopfscope` is run, and the lines below it must match its
+//! output; a line `..` stands for any number of lines.
 
 mod program;
 
@@ -11,7 +11,7 @@ use std::path::Path;
 
 use program::run;
 
-/// Every page: its name and its text.
+/// Every page, with name and text.
 fn pages() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = fs::read_dir(root.join("docs")).unwrap().map(|entry| entry.unwrap().path());
@@ -24,13 +24,13 @@ fn pages() -> Vec<(String, String)> {
     found
 }
 
-/// The contents of the blocks of a kind.
+/// The contents of the blocks of one kind.
 fn blocks<'a>(text: &'a str, kind: &str) -> Vec<&'a str> {
     let fence = format!("```{kind}\n");
     text.split(&fence).skip(1).filter_map(|rest| rest.split("```").next()).collect()
 }
 
-/// Whether `given` is what `shown` says, where a line `..` stands for any number of lines.
+/// Whether `given` matches `shown`, where a line `..` stands for any number of lines.
 fn matches(shown: &[&str], given: &[&str]) -> bool {
     match (shown, given) {
         ([], []) | ([".."], _) => true,
@@ -61,11 +61,11 @@ fn every_answer_shown_is_the_one_that_is_given() {
     assert!(shown_answers > 1);
 }
 
-/// The names of the commands, as the help lists them.
+/// The names of the commands in the help text.
 fn commands() -> BTreeSet<String> {
     let help = run(&["--help"]).out;
     let listed = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
-    // A description that is wrapped continues further to the right.
+    // The continuation of a wrapped description is indented further.
     let rows = listed.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   "));
     let names = rows.filter_map(|line| line.split_whitespace().next());
     names.filter(|name| *name != "help").map(str::to_owned).collect()
@@ -87,7 +87,7 @@ fn every_option_that_a_page_names_exists() {
     for help in helps.chain([run(&["--help"]).out]) {
         known.extend(options(&help));
     }
-    // Those of cargo and of other programs.
+    // Options of cargo and of other programs.
     known.extend(
         [
             "release",
@@ -141,7 +141,7 @@ fn manuals_and_completions_name_every_command() {
         assert!(page.contains(".TH") && page.contains("OPTIONS"), "{command}");
         assert!(script.contains(&command), "{command}");
     }
-    // A second run changes nothing; a page of somebody else's stays.
+    // A second run changes nothing, and a page of another origin is kept.
     assert_eq!(run(&["man", path]).code, 0);
     fs::write(folder.path().join("hopfscope.1"), "mine").unwrap();
     run(&["man", path]).is_refused(&["hopfscope.1", "--force replaces it"]);

@@ -1,8 +1,8 @@
-//! Whatever is read from outside - scene files, settings, machines, tables, keystroke files, pasted text,
-//! lines of commands, options - is understood or refused in one line. Nothing panics, nothing hangs.
+//! Everything read from outside - scene files, settings, machines, tables, keystroke files, pasted text,
+//! command lines, options - is either understood or refused in one line. Nothing panics, nothing hangs.
 //!
 //! The inputs are the program's own files with a few bytes changed, pieces of them in a wrong order, and
-//! text that is none of it. Seeds are fixed, so every run reads the same.
+//! unrelated text. Seeds are fixed, so every run reads the same.
 
 use std::fs;
 use std::path::Path;
@@ -14,13 +14,13 @@ use hopfscope::session::{Msg, Session, Size, config, lines, replay, run_line, up
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-/// A message for people: one line, not empty, nothing that a terminal would obey.
+/// A message for people: one line, not empty, without terminal control characters.
 fn assert_one_line(message: &str, input: &str) {
     assert!(!message.trim().is_empty(), "an empty refusal of {input:?}");
     assert!(!message.chars().any(char::is_control), "{message:?} refuses {input:?}");
 }
 
-/// The texts of all files in a folder of the project with this extension.
+/// The texts of all files with this extension in a folder of the project.
 fn files(folder: &str, extension: &str) -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|it| it.unwrap().path()).collect();
@@ -29,7 +29,7 @@ fn files(folder: &str, extension: &str) -> Vec<String> {
     paths.iter().map(|path| fs::read_to_string(path).unwrap()).collect()
 }
 
-/// What is put into a text where it hurts.
+/// Text fragments likely to cause trouble.
 const SPLINTERS: [&str; 36] = [
     "",
     "\0",
@@ -69,7 +69,7 @@ const SPLINTERS: [&str; 36] = [
     "<wait*100000>",
 ];
 
-/// One change of a text: at a place, this many characters give way to something.
+/// One change of a text: the place, the number of characters replaced, and the replacement.
 type Change = (prop::sample::Index, usize, prop::sample::Index);
 
 fn changes() -> impl Strategy<Value = Vec<Change>> {
@@ -77,7 +77,7 @@ fn changes() -> impl Strategy<Value = Vec<Change>> {
     prop::collection::vec(change, 1..6)
 }
 
-/// The text with these changes; what gives way is replaced by a splinter or by a later piece of the text.
+/// The text with these changes; each replacement is a splinter or a later piece of the text.
 fn changed(text: &str, changes: &[Change]) -> String {
     let mut letters: Vec<char> = text.chars().collect();
     for (place, length, what) in changes {
@@ -93,7 +93,7 @@ fn changed(text: &str, changes: &[Change]) -> String {
     letters.into_iter().collect()
 }
 
-/// Gives each of the texts with changes, and texts out of nothing, to `read`.
+/// Passes each of the texts with changes, and arbitrary texts, to `read`.
 fn fuzz(texts: &[String], cases: u32, read: impl Fn(&str)) {
     let config =
         Config { cases, max_shrink_iters: 64, failure_persistence: None, ..Config::default() };
@@ -204,7 +204,7 @@ fn pasted_text_wherever_text_can_be_typed() {
     });
 }
 
-/// Options come from a shell, so there is no null character in them.
+/// Options come from a shell, so they contain no null character.
 #[test]
 fn values_of_options() {
     let commands: [&[&str]; 6] = [

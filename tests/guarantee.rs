@@ -1,4 +1,4 @@
-//! Guaranteed margins: no bounded disturbance, and no parameters of the box, lead out of them, and the worst
+//! Guaranteed margins: no bounded disturbance and no parameters of the box lead out of them, and the worst
 //! disturbance leads out from just beyond.
 
 use hopfscope::flow::Limits;
@@ -13,16 +13,16 @@ fn between(random: &mut Random, interval: Interval) -> f64 {
     low + random.even() * (high - low)
 }
 
-/// A disturbance, in units of its bound, over time and the sign of the velocity.
+/// A disturbance as a function of time and the sign of the velocity, in units of its bound.
 #[derive(Clone, Copy)]
 enum Force {
-    /// Always with the motion: the worst.
+    /// Always in the direction of the motion: the worst.
     Along,
-    /// With the motion, except for a part of the time against it.
+    /// In the direction of the motion for this fraction of the time, otherwise against it.
     Mostly(f64),
-    /// Harmonic, of this frequency and phase.
+    /// Harmonic, with this frequency and phase.
     Harmonic(f64, f64),
-    /// Jumps between both signs after this many steps.
+    /// Changes sign every so many steps, shifted by so many.
     Telegraph(u32, u32),
 }
 
@@ -64,11 +64,11 @@ impl Force {
     }
 }
 
-/// Length of a step, over which the disturbance is constant.
+/// Length of a step, during which the disturbance is constant.
 const STEP: f64 = 0.02;
 
-/// Follows a disturbed motion by the method of Runge and Kutta, step by step and half swing by half swing, and
-/// says how far its turning points go to the left and to the right, and whether it is at rest in the end.
+/// Follows a disturbed motion by the Runge-Kutta method, step by step and half swing by half swing. Returns how
+/// far its turning points go to the left and to the right, and whether it is at rest in the end.
 fn extent(
     system: &Sided,
     bound: f64,
@@ -85,7 +85,7 @@ fn extent(
     while STEP * f64::from(step) < until {
         let mut force = |side: f64| bound * force.at(step, side, random);
         if side == 0.0 {
-            // At rest: the side into which the springs and the disturbance pull, if they overcome friction.
+            // At rest: the side to which the springs and the disturbance pull, if they overcome friction.
             let pull = [1.0, -1.0].into_iter().find(|side| side * (force(*side) - q) > r);
             side = pull.unwrap_or(0.0);
         }
@@ -130,7 +130,7 @@ fn case(d: [f64; 2], d2: [f64; 2], d3: [f64; 2], r: [f64; 2], w: f64) -> (Parame
     (ParameterBox { d, d2, d3, r }, w)
 }
 
-/// One border a cycle, one a separatrix, of boxes and of single systems.
+/// Borders that are a cycle or a separatrix, for boxes and for single systems.
 fn cases() -> [(ParameterBox, f64); 5] {
     [
         case([-0.3; 2], [0.2; 2], [0.5; 2], [0.1; 2], 0.02),
@@ -141,8 +141,8 @@ fn cases() -> [(ParameterBox, f64); 5] {
     ]
 }
 
-/// Starts disturbed motions at a part of the margins, at parameters of the box, and says how many leave the
-/// interior of the border.
+/// Starts disturbed motions at a fraction of the margins, with parameters of the box. Returns how many leave
+/// the interior of the border.
 fn leaving(known: &ParameterBox, w: f64, motions: u32, random: &mut Random) -> u32 {
     let margin = guarantee(known, w, &Limits::PATIENT).unwrap().guaranteed.margin;
     let safe = zones(known, w, 0.0, &Limits::PATIENT).unwrap().safe.unwrap();
@@ -150,7 +150,7 @@ fn leaving(known: &ParameterBox, w: f64, motions: u32, random: &mut Random) -> u
         let border = safe.borders[0].curve(4);
         border.iter().map(|state| sign * state.q).fold(f64::NEG_INFINITY, f64::max)
     };
-    // A separatrix goes to infinity on its way out; where it turns is the end that matters.
+    // A separatrix goes to infinity outwards; the end where it turns is the one that matters.
     let [left, right] = [-turning(-1.0), turning(1.0)];
     let (displacement, impulse) = (margin.displacement.unwrap(), margin.impulse.unwrap());
     let corner = |random: &mut Random, interval: Interval| match random.even() {
@@ -197,8 +197,8 @@ fn where_there_may_be_no_friction_nothing_is_guaranteed_and_no_number_is_below_z
 
 #[test]
 fn a_border_far_out_on_one_side_is_that_of_the_plain_system() {
-    // D2 brakes on one side and drives on the other, and a D3 of nearly nothing closes the way out: the far end
-    // lies where swings have forgotten their starts.
+    // D2 brakes on one side and drives on the other, and a tiny D3 prevents escape: the far end is where swings
+    // have lost memory of their starts.
     let far = [(0.1157, -5e-3), (0.1157, -5e-4), (0.1157, -1e-9), (0.65, -1e-3), (0.36, -2e-4)];
     for (d, d3) in far {
         let plain = Parameters { d, d2: 0.3517, d3, r: 0.22 };
@@ -213,7 +213,7 @@ fn a_border_far_out_on_one_side_is_that_of_the_plain_system() {
             let (sure, one) = (sure.unwrap(), one.unwrap());
             assert!((-1e-9..1e-12).contains(&(sure / one - 1.0)), "{d3}: {sure} {one}");
         }
-        // What is not known exactly only lessens it.
+        // Uncertain parameters only reduce the margin.
         let (wide, w) = case(exact[0], [0.3143, 0.3517], [d3, -d3], [0.28, 0.3], 0.06);
         let found = guarantee(&wide, w, &Limits::PATIENT).unwrap();
         let least = found.guaranteed.margin.displacement.unwrap();
@@ -229,7 +229,7 @@ fn no_disturbance_of_a_hundred_thousand_leads_out_of_the_guaranteed_margin() {
     }
 }
 
-/// A thousand systems of the boxes, none of which loses a kick that is guaranteed.
+/// A thousand systems of the boxes, none of which fails to survive a guaranteed kick.
 #[test]
 fn no_parameters_of_a_box_have_a_smaller_margin() {
     let mut random = Random::new(4);
@@ -256,7 +256,7 @@ fn the_worst_disturbance_leads_out_from_just_beyond() {
     let mut random = Random::new(3);
     for (known, w) in cases() {
         let margin = guarantee(&known, w, &Limits::PATIENT).unwrap().guaranteed.margin;
-        // The disturbance makes up for the friction that the worst system lacks.
+        // The disturbance compensates for the friction that the worst system lacks.
         let worst = Sided::worst(&known, 0.0);
         let (q, v) = (margin.displacement.unwrap(), margin.impulse.unwrap());
         let mut leaves = |part: f64, start: State| {

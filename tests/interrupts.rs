@@ -1,7 +1,7 @@
-//! A computation that was superseded stops at once: it asks often, and stops when told.
+//! A superseded computation stops at once: it polls often, and stops when told to.
 //!
-//! Counted, not timed: between two polls lie at most so many evaluations. An evaluation of the field takes
-//! some twenty nanoseconds, so ten thousand are well below a millisecond.
+//! This is counted, not timed: the number of evaluations between two polls is bounded. An evaluation of the
+//! field takes about twenty nanoseconds, so ten thousand are well below a millisecond.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -15,18 +15,18 @@ use hopfscope::study::cycle::cycles;
 use hopfscope::study::fold::{border, fold};
 use hopfscope::study::harmonic_error::harmonic_balance;
 
-/// Most evaluations between two polls.
+/// Maximum number of evaluations between two polls.
 const BETWEEN: u64 = 10_000;
 
-/// Runs a computation to its end, counting polls, and then again and again, interrupted after ever more
-/// polls: each time it must stop at that poll.
+/// Runs a computation to its end, counting polls, and then repeatedly, interrupted after an increasing number
+/// of polls: each time it must stop at that poll.
 fn check(what: &str, compute: impl Fn(&Limits) -> (Option<Reason>, Option<Cost>)) {
     let polls = AtomicU64::new(0);
     let count = || {
         polls.fetch_add(1, Ordering::Relaxed);
         false
     };
-    // What is not worth an answer here need not be waited for.
+    // Cases too expensive for a test are cut short.
     let limits = Limits { evaluations: 2_000_000, interrupted: &count };
     let (_, cost) = compute(&limits);
     let whole = polls.load(Ordering::Relaxed);
@@ -54,7 +54,7 @@ fn stiff() -> Parameters {
     Parameters { d: -0.1, d2: 0.0, d3: 1e6, r: 0.1 }
 }
 
-/// Ordinary, relaxing, escaping, nearly critical and far too stiff.
+/// Ordinary, relaxing, escaping, nearly critical and far too stiff parameters.
 fn parameters() -> [Parameters; 6] {
     [
         Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 },
@@ -142,7 +142,7 @@ fn basins_stop_however_fine_the_grid() {
         Ok(found) => (None, Some(found.cost)),
         Err(reason) => (Some(reason), None),
     });
-    // Every column of the grid asks.
+    // Every column of the grid polls.
     let polls = AtomicU64::new(0);
     let count = || {
         polls.fetch_add(1, Ordering::Relaxed);

@@ -1,4 +1,4 @@
-//! `hopfscope merge` and `scan --plan`: parts that are the whole, or what they lack.
+//! `hopfscope merge` and `scan --plan`: parts that make up the whole, or what they lack.
 
 mod program;
 
@@ -21,13 +21,13 @@ fn run_in(folder: &Path, line: &str) -> Ran {
     Ran { code, out: text(output.stdout), err: text(output.stderr) }
 }
 
-/// A folder with the scan in one piece, `whole.csv`, and in shards, `parts/1.csv` and so on.
+/// A folder with the scan in one piece, `whole.csv`, and in shards, `parts/1.csv` etc.
 fn folder_with_parts(shards: usize, ending: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("parts")).unwrap();
     assert_eq!(run_in(folder.path(), &format!("{SCAN} --output whole.{ending}")).code, 0);
     for shard in 1..=shards {
-        // Every second one has a line of names; the last is counted from 0.
+        // Every second one has a header line; the last is counted from 0.
         let header = if shard % 2 == 0 { "--header always" } else { "" };
         let own = if shard == shards {
             format!("--shard-index0 {}/{shards}", shard - 1)
@@ -44,7 +44,7 @@ fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).unwrap()
 }
 
-/// The commands at the ends of the lines that name gaps.
+/// The commands at the ends of the lines that report gaps.
 fn commands(ran: &Ran) -> Vec<&str> {
     ran.err.lines().map(|line| line.rsplit_once(": hopfscope ").expect(line).1).collect()
 }
@@ -59,9 +59,9 @@ fn parts_in_any_order_are_the_whole_to_the_last_byte_and_no_file_is_lost() {
         assert_eq!((ran.code, ran.err.as_str(), ran.out.as_str()), (0, "", ""));
         let whole = read(folder, &format!("whole.{ending}"));
         assert!(read(folder, &format!("all.{ending}")) == whole);
-        // A folder stands for the parts in it; the same whole again is not a loss.
+        // A folder stands for the parts in it; writing the same whole again loses nothing.
         assert_eq!(run_in(folder, &format!("merge parts --output all.{ending}")).code, 0);
-        // What a merge has written is a scan in one part.
+        // The output of a merge is itself a scan in one part.
         assert_eq!(run_in(folder, &format!("merge all.{ending} --check")).code, 0);
         let again = run_in(folder, &format!("{SCAN} --output all.{ending} --resume"));
         assert_eq!((again.code, read(folder, &format!("all.{ending}"))), (0, whole));
@@ -78,7 +78,7 @@ fn parts_in_any_order_are_the_whole_to_the_last_byte_and_no_file_is_lost() {
 fn missing_rows_are_named_by_shard_and_the_suggested_commands_compute_just_them() {
     let folder = folder_with_parts(4, "csv");
     let folder = folder.path();
-    // Shards of 15 rows: the first stops after 10, the second has a hole, the third is not there.
+    // Shards of 15 rows: the first stops after 10, the second has a gap, the third is missing.
     let lines = |name: &str| read(folder, name).lines().map(|line| format!("{line}\n")).collect();
     let first: Vec<String> = lines("parts/1.csv");
     fs::write(folder.join("parts/1.csv"), first[..=10].concat() + "-0.5").unwrap();
@@ -107,7 +107,7 @@ fn missing_rows_are_named_by_shard_and_the_suggested_commands_compute_just_them(
     assert!(read(folder, "all.csv") == read(folder, "whole.csv"));
 }
 
-/// Whole rows in all parts.
+/// Number of complete rows in all parts.
 fn count_rows(folder: &Path) -> usize {
     let paths = fs::read_dir(folder.join("parts")).unwrap().map(|entry| entry.unwrap().path());
     let texts = paths
@@ -133,7 +133,7 @@ fn parts_that_do_not_belong_together_are_refused_in_one_line() {
     let old = provenance.replace(env!("CARGO_PKG_VERSION"), "0.0.1");
     fs::write(folder.join("old.csv.provenance"), old).unwrap();
     fs::copy(folder.join("parts/2.csv"), folder.join("alone.csv")).unwrap();
-    // The last digit of the first row is wrong: only to compute it again shows that.
+    // The last digit of the first row is wrong, which only recomputing it reveals.
     let right = read(folder, "parts/2.csv");
     let row = right.lines().nth(1).unwrap();
     let last = row.len() - 2;
@@ -157,7 +157,7 @@ fn parts_that_do_not_belong_together_are_refused_in_one_line() {
         ran.is_refused(names);
         assert!(!folder.join("all.csv").exists(), "{line}");
     }
-    // A file that another version has begun is not continued.
+    // A file begun by another version is not continued.
     let ran =
         run_in(folder, &format!("{SCAN} --shard 2/2 --header always --output old.csv --resume"));
     assert!(ran.code == 2 && ran.err.contains("begun by hopfscope 0.0.1"), "{}", ran.err);
@@ -183,7 +183,7 @@ fn recipe(folder: &Path, engine: &str) -> String {
     ran.out
 }
 
-/// The shell in a folder, with the program on the path.
+/// A shell in a folder, with the program on its path.
 fn shell(folder: &Path, arguments: &[&str]) -> Command {
     let program = Path::new(env!("CARGO_BIN_EXE_hopfscope")).parent().unwrap();
     let path =
@@ -198,7 +198,7 @@ fn the_script_for_slurm_computes_every_shard_and_asks_for_the_merge() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     fs::write(folder.join("job.sh"), recipe(folder, "slurm")).unwrap();
-    // In place of sbatch, a script that keeps what it is asked for.
+    // In place of sbatch, a script that records its arguments.
     fs::write(folder.join("sbatch"), "#!/bin/sh\nprintf '%s\\n' \"$@\" >> asked\n").unwrap();
     assert!(shell(folder, &["-c", "chmod +x sbatch"]).status().unwrap().success());
     assert!(read(folder, "job.sh").contains("#SBATCH --array=1-6\n"));
@@ -262,7 +262,7 @@ fn a_recipe_goes_to_its_file_and_wrong_options_are_refused() {
     }
 }
 
-/// Runs a recipe with an engine of which one job is killed once, in the middle of its shard.
+/// Runs a recipe with an engine, killing one job once in the middle of its shard.
 fn with_a_kill(engine: &str, line: &str) {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
@@ -270,7 +270,7 @@ fn with_a_kill(engine: &str, line: &str) {
     run_in(folder, &format!("{scan} --output whole.csv"));
     let ran = run_in(folder, &format!("{scan} --plan {engine} --shards 40 --output all.csv"));
     fs::write(folder.join("recipe"), ran.out).unwrap();
-    // In place of the program, a script that kills it the first time it computes shard 17.
+    // In place of the program, a script that kills it when it first computes shard 17.
     let program = env!("CARGO_BIN_EXE_hopfscope");
     let script = format!(
         "#!/bin/sh\ncase \"$*\" in *' 17/40 '*) ;; *) exec {program} \"$@\" ;; esac\n\

@@ -10,7 +10,7 @@ use hopfscope::study::Cycle;
 use hopfscope::study::cycle::cycles;
 use serde::Deserialize;
 
-/// A motion of `data/trajectories.json`, followed until tau = 200 or its capture.
+/// A motion of `data/trajectories.json`, followed until tau = 200 or capture.
 #[derive(Deserialize)]
 struct Motion {
     #[serde(flatten)]
@@ -26,7 +26,7 @@ fn motions() -> Vec<Motion> {
 }
 
 impl Motion {
-    /// The motion as computed, with its energy ledger.
+    /// The computed motion, with its energy ledger.
     fn compute(&self, method: Method, tolerance: f64) -> Trajectory {
         let problem = Problem {
             parameters: self.parameters,
@@ -39,7 +39,7 @@ impl Motion {
         trajectory(&problem, Detail { energy: true, ..Detail::default() }, &Limits::PATIENT)
     }
 
-    /// The methods that can follow it.
+    /// The methods that apply to it.
     fn methods(&self) -> Vec<Method> {
         let mut methods = vec![Method::Auto, Method::Taylor, Method::Dop853];
         if self.parameters.is_piecewise_linear() {
@@ -94,7 +94,7 @@ fn outcomes_agree_and_a_capture_is_the_last_arrival() {
 
 #[test]
 fn a_tighter_tolerance_is_a_smaller_error() {
-    // The motion of the benchmark: 63 half swings.
+    // The motion of the benchmark, with 63 half swings.
     let motions = motions();
     let motion = motions.iter().find(|motion| motion.parameters.d3 == 0.05).unwrap();
     for (method, limit) in [(Method::Taylor, 1e-12), (Method::Dop853, 1e-11)] {
@@ -116,8 +116,8 @@ fn the_energy_ledger_closes_to_eleven_digits_of_the_start() {
     }
 }
 
-/// At the same tolerance the explicit pair makes the larger error: one of the motions above starts with
-/// a fraction of the energy that goes through it in 63 half swings, and misses 5e-11 of that fraction.
+/// At the same tolerance the explicit pair has the larger error: one of the motions above starts with a
+/// fraction of the energy that passes through it in 63 half swings, and its balance is off by 5e-11 of that fraction.
 #[test]
 fn the_explicit_pair_closes_it_to_eleven_digits_of_what_went_through() {
     for motion in motions() {

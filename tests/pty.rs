@@ -1,4 +1,4 @@
-//! The explorer in a real terminal: what a user sees, what it costs in bytes, how it ends.
+//! The explorer in a real terminal: what a user sees, how many bytes it writes, how it ends.
 
 mod support;
 
@@ -16,7 +16,7 @@ fn explorer(arguments: &[&str], environment: &[(&str, &str)], size: (u16, u16)) 
     terminal
 }
 
-/// The screen without the line that says what the last key cost, since no two runs take equal times.
+/// The screen without the line on the cost of the last key, since no two runs take equal times.
 fn picture(terminal: &Terminal) -> String {
     let text = terminal.text();
     let rows = text.lines().filter(|row| !row.contains(" ms"));
@@ -91,7 +91,7 @@ fn a_full_picture_and_a_step_are_a_few_bytes() {
     terminal.leave();
 }
 
-/// What stands in every cell, and how it looks.
+/// Content and style of every cell.
 fn cells(terminal: &Terminal) -> Vec<String> {
     let screen = terminal.screen();
     let (rows, columns) = screen.size();
@@ -119,12 +119,12 @@ fn a_changed_cell_costs_at_most_five_bytes_at_every_size() {
     }
 }
 
-/// Processor time used so far, in ticks, and how often any of its threads was woken.
+/// Processor time used so far, in ticks, and how often any of its threads has woken up.
 #[cfg(target_os = "linux")]
 fn activity(terminal: &Terminal) -> (u64, u64) {
     let process = format!("/proc/{}", terminal.process().as_raw_nonzero());
     let stat = std::fs::read_to_string(format!("{process}/stat")).unwrap();
-    // The name, in brackets, may hold blanks; user and system time are fields 14 and 15.
+    // The name, in brackets, may contain blanks; user and system time are fields 14 and 15.
     let fields: Vec<&str> = stat.rsplit(')').next().unwrap().split_whitespace().collect();
     let ticks = fields[11].parse::<u64>().unwrap() + fields[12].parse::<u64>().unwrap();
     let mut wakes = 0;
@@ -174,7 +174,7 @@ fn five_hundred_arrows_at_once_end_where_five_hundred_slow_ones_do() {
     fast.leave();
 }
 
-/// Keys that need an answer, after one that asks for a new one, each as a terminal sends it.
+/// Keys that need an answer, each after a key that requests a new one, as a terminal sends them.
 const HASTY: [(&str, &[&str]); 10] = [
     ("supercritical", &["\x1b[C", "i"]),
     ("supercritical", &["\x1b[C", "o"]),
@@ -188,7 +188,7 @@ const HASTY: [(&str, &[&str]); 10] = [
     ("plain", &["\x1b[C", "\x1b[15~", "i", "o", "d"]),
 ];
 
-/// Silences after which two screens that are still unlike will stay so.
+/// Number of silences after which two screens that still differ will remain different.
 const MOST_SILENCES: usize = 40;
 
 #[test]
@@ -202,7 +202,7 @@ fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one()
         }
         let mut fast = explorer(&[scene], &[], (120, 40));
         fast.types(&keys.concat());
-        // Either may be silent while it computes.
+        // Either may be silent while computing.
         let mut end_alike = || {
             slow.quiet(QUIET);
             fast.quiet(QUIET);
@@ -223,7 +223,7 @@ fn keys_that_need_an_answer_end_on_the_same_screen_in_one_write_and_one_by_one()
 fn the_mouse_starts_a_motion_and_zooms_if_it_is_wanted() {
     let mut terminal = explorer(&["--mouse"], &[], (80, 24));
     let before = picture(&terminal);
-    // A click right of the middle of the phase plane, then the wheel.
+    // A click right of the centre of the phase plane, then the wheel.
     terminal.types("\x1b[<0;45;12M\x1b[<0;45;12m");
     terminal.wait("a start", |terminal| picture(terminal) != before);
     terminal.quiet(QUIET);
@@ -232,7 +232,7 @@ fn the_mouse_starts_a_motion_and_zooms_if_it_is_wanted() {
     terminal.wait("a closer look", |terminal| picture(terminal) != started);
     terminal.types("u");
     terminal.wait_for("undo: q0");
-    // F2 leaves the mouse to the terminal, and turns it on again.
+    // F2 leaves the mouse to the terminal, then takes it again.
     terminal.types("\x1bOQ");
     terminal.wait_for("mouse off");
     terminal.wait("the end of the mouse's reports", |terminal| {
@@ -246,7 +246,7 @@ fn the_mouse_starts_a_motion_and_zooms_if_it_is_wanted() {
     without.leave();
 }
 
-/// The last text that was sent to the clipboard.
+/// The last text sent to the clipboard.
 fn clipboard(terminal: &Terminal) -> String {
     let written = String::from_utf8_lossy(&terminal.written).into_owned();
     let (_, sequence) = written.rsplit_once("\x1b]52;c;").expect("a copy");
@@ -335,12 +335,12 @@ fn it_ends_when_its_terminal_goes_away() {
     terminal.wait_for(TITLE);
     let program = child(&terminal).expect("the shell has started it");
     assert!(std::fs::exists(&program).unwrap());
-    // The end of the shell, which leads the session, takes the terminal away from the program.
+    // The shell leads the session; its end takes the terminal away from the program.
     terminal.signal(Signal::KILL);
     support::poll("the end of the program", || !std::fs::exists(&program).unwrap_or(false));
 }
 
-/// The control sequences in what a program wrote, as the handbook writes them.
+/// The control sequences in the output of a program, in the notation of the handbook.
 fn sequences(written: &[u8]) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     let text = String::from_utf8_lossy(written);
@@ -373,7 +373,7 @@ fn sequences(written: &[u8]) -> BTreeSet<String> {
     found
 }
 
-/// How the handbook writes a sequence, of which this follows the escape character.
+/// The notation of the handbook for a sequence, given the part after the escape character.
 fn written_as(body: &str) -> String {
     let (parameters, last) = body.split_at(body.len() - 1);
     let count = parameters.split(';').count();

@@ -1,4 +1,4 @@
-//! The explorer in every environment: locales, `NO_COLOR`, kinds of terminals, and none at all.
+//! The explorer in every environment: locales, `NO_COLOR`, kinds of terminals, and no terminal.
 
 mod support;
 
@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
 use support::{Answers, PROGRAM, QUIET, TITLE, Terminal};
 
-/// The numbers of all sequences that set colours and attributes.
+/// The parameters of all sequences that set colours and attributes.
 fn attributes(written: &[u8]) -> BTreeSet<u8> {
     let written = String::from_utf8_lossy(written).into_owned();
     let parameters = written.split("\x1b[").skip(1).filter_map(|text| text.split_once('m'));
@@ -16,17 +16,17 @@ fn attributes(written: &[u8]) -> BTreeSet<u8> {
     settings.flat_map(|text| text.split(';')).filter_map(|number| number.parse().ok()).collect()
 }
 
-/// Whether a number sets a colour other than the terminal's own.
+/// Whether a parameter sets a colour other than the terminal's default.
 fn is_colour(number: u8) -> bool {
     matches!(number, 30..=38 | 40..=48 | 90..=97 | 100..=107)
 }
 
-/// What an environment must lead to.
+/// The expected output in an environment.
 struct Expected {
     colours: bool,
-    /// Everything written is ASCII.
+    /// Whether everything written is ASCII.
     ascii: bool,
-    /// Some of these characters are on the screen.
+    /// Characters of which some are on the screen.
     dots: std::ops::RangeInclusive<char>,
 }
 
@@ -55,7 +55,7 @@ fn every_kind_of_terminal_gets_what_it_can_show() {
         let attributes = attributes(&terminal.written);
         let colours = attributes.iter().any(|number| is_colour(*number));
         assert_eq!(colours, expected.colours, "{environment:?}: {attributes:?}");
-        // Without colours too things are told apart: bold, dim, reverse.
+        // Without colours things remain distinguishable: bold, dim, reverse.
         assert!(attributes.iter().any(|number| (1..=9).contains(number)), "{environment:?}");
         assert_eq!(terminal.written.is_ascii(), expected.ascii, "{environment:?}");
         let shown = terminal.text().chars().any(|char| expected.dots.contains(&char));
@@ -64,7 +64,7 @@ fn every_kind_of_terminal_gets_what_it_can_show() {
     }
 }
 
-/// The colour of the heading of the pane in use.
+/// The colour of the heading of the active pane.
 fn heading(terminal: &Terminal) -> vt100::Color {
     terminal.screen().cell(1, 3).expect("the screen has a second row").fgcolor()
 }
@@ -76,7 +76,7 @@ fn the_theme_follows_the_background_that_the_terminal_tells_at_any_time() {
         terminal.written.windows(QUESTION.len()).filter(|bytes| *bytes == QUESTION).count()
     };
     let mut terminal = Terminal::start(&[PROGRAM], &[], (80, 24), Answers::AtOnce);
-    // The picture does not wait for an answer.
+    // The picture does not wait for an answer to the query.
     terminal.wait_for(TITLE);
     terminal.quiet(QUIET);
     assert_eq!((asked(&terminal), heading(&terminal)), (1, vt100::Color::Idx(6)));
@@ -107,7 +107,7 @@ fn a_terminal_on_one_side_only_is_refused_in_one_line() {
     }
 }
 
-/// Runs the program without a terminal; its exit code and what it said.
+/// Runs the program without a terminal; returns its exit code and messages.
 fn without_terminal(arguments: &[&str], term: &str) -> (Option<i32>, String) {
     let output = Command::new(PROGRAM)
         .args(arguments)

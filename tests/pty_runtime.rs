@@ -1,7 +1,7 @@
 //! The loop, the worker and the guard in a real terminal, around a small application that can be told to
 //! misbehave: panics, slow answers of the terminal, signals, job control.
 //!
-//! The application runs in a process of its own, which is this test program started again in a pty.
+//! The application runs in a separate process: this test program, started again in a pty.
 
 mod support;
 
@@ -20,7 +20,7 @@ use ratatui::Frame;
 use rustix::process::Signal;
 use support::{Answers, Terminal};
 
-/// Counts right-arrows and has each count confirmed by the worker.
+/// Counts right arrows and has each count confirmed by the worker.
 #[derive(Default)]
 struct Machinery {
     count: u32,
@@ -30,13 +30,13 @@ struct Machinery {
     told: String,
 }
 
-/// The request that stands for a number.
+/// The request that encodes a number.
 fn request(number: u32) -> Request {
     let parameters = Parameters { d: f64::from(number), d2: 0.0, d3: 0.0, r: 0.0 };
     Request::Cycles(question::cycles::Asked { parameters })
 }
 
-/// The worker: panics at 3.
+/// The worker, which panics at 3.
 fn confirm(request: &Request, _: &Limits, _: &Tell) -> Result<Answer, Reason> {
     let Request::Cycles(question::cycles::Asked { parameters, .. }) = *request else {
         return Err(Reason::OutOfRange);
@@ -100,7 +100,7 @@ impl Application for Machinery {
     }
 }
 
-/// Not a test: what the tests start in a pty.
+/// Not a test: the program that the tests start in a pty.
 #[test]
 #[ignore = "the program that the other tests start"]
 fn machinery() {
@@ -196,7 +196,7 @@ fn while_a_frame_is_under_way_no_other_is_sent() {
     terminal.wait("a frame", |terminal| terminal.frames() > before);
     for _ in 0..15 {
         terminal.types("\x1b[C");
-        // Longer than the least time between frames.
+        // Longer than the minimum time between frames.
         terminal.watch(Duration::from_millis(20));
     }
     assert_eq!(terminal.frames(), before + 1, "frames queue behind a slow terminal");
@@ -229,7 +229,7 @@ fn an_answer_still_under_way_at_the_end_does_not_reach_the_shell() {
     terminal.types("\x1b[C");
     terminal.wait("a request", |terminal| terminal.owed() > before);
     terminal.types("q");
-    // It waits for the answer: the terminal is still taken.
+    // While it waits for the answer, it still holds the terminal.
     terminal.watch(Duration::from_millis(50));
     assert!(terminal.screen().alternate_screen());
     terminal.answer();
@@ -270,7 +270,7 @@ fn a_panic_of_the_interface_restores_the_terminal_and_is_reported() {
     terminal.types("p");
     assert_eq!(terminal.end(), 101);
     terminal.assert_restored();
-    // Reported on the screen that one sees afterwards, not on the one that is gone.
+    // Reported on the screen visible afterwards, not on the alternate screen, which is gone.
     assert!(terminal.text().contains("told to panic"), "{}", terminal.text());
 }
 
@@ -297,7 +297,7 @@ fn a_signal_ends_it_and_the_terminal_is_restored() {
 
 #[test]
 fn without_job_control_nothing_stops_it() {
-    // The program leads its session, as under `ssh -t`: nobody could continue it.
+    // The program leads its session, as under `ssh -t`: nothing could continue it.
     let mut terminal = start(Answers::AtOnce);
     terminal.types("\x1a\x1b[C");
     terminal.wait_for("count 1 confirmed 1");
@@ -318,7 +318,7 @@ fn start_in_shell() -> Terminal {
     terminal
 }
 
-/// Quits the application and then the shell, once that has its terminal back.
+/// Quits the application and then the shell, once it has its terminal back.
 fn leave_shell(mut terminal: Terminal) {
     terminal.types("q");
     terminal.wait("a prompt after the end", |terminal| {

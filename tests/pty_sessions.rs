@@ -1,5 +1,5 @@
-//! Sessions in a real terminal: kept when they are interrupted, offered at the next start, written and
-//! opened, and the first line that a new user sees.
+//! Sessions in a real terminal: kept when interrupted, offered at the next start, written and opened, and the
+//! first line that a new user sees.
 
 mod support;
 
@@ -10,21 +10,21 @@ use std::time::Duration;
 use rustix::process::Signal;
 use support::{Answers, PROGRAM, QUIET, Terminal};
 
-/// The explorer, whose memory is a folder of its own.
+/// The explorer, with its own folder for kept sessions, once its first picture is complete.
 fn explorer(arguments: &[&str], memory: &Path) -> Terminal {
     let mut terminal = begun(arguments, memory);
     terminal.quiet(QUIET);
     terminal
 }
 
-/// The same as soon as there is a picture.
+/// The explorer as soon as it shows any picture.
 fn begun(arguments: &[&str], memory: &Path) -> Terminal {
     let state = memory.to_str().unwrap();
     let environment = [("XDG_STATE_HOME", state), ("XDG_CONFIG_HOME", state)];
     Terminal::explorer(arguments, &environment, (100, 30))
 }
 
-/// The kept sessions in a folder.
+/// The sessions kept in a folder.
 fn kept(memory: &Path) -> Vec<PathBuf> {
     let folder = fs::read_dir(memory.join("hopfscope")).unwrap();
     let paths = folder.map(|entry| entry.unwrap().path());
@@ -116,7 +116,7 @@ fn the_tour_goes_on_by_any_key_but_those_it_names_and_is_left_by_escape() {
     terminal.wait_for("dry friction");
     terminal.types(" ");
     terminal.wait_for("takes a step");
-    // The caption names the key that steps: it does its work, and the tour continues as if it had not.
+    // The caption names the key that steps: the key does its work, and the tour continues regardless.
     terminal.types("\x1b[C");
     terminal.wait_for("-0.35");
     assert!(terminal.text().contains("takes a step"), "the caption stays");
@@ -155,7 +155,7 @@ fn a_key_writes_the_plot_in_use_as_a_figure_and_replaces_none() {
     terminal.leave();
 }
 
-/// The rows of a screen that are not blank, without the line of costs, which are those of the machine.
+/// The nonblank rows of a screen, without the line of costs, which depends on the machine.
 fn screen(text: &str) -> Vec<String> {
     let rows = text.trim_end().lines().map(|row| row.trim_end().to_owned());
     let costs = |row: &String| row.contains(" ms") || row.contains("recomputed ");
@@ -170,7 +170,7 @@ fn rest(terminal: &mut Terminal) {
     terminal.quiet(Duration::from_millis(150));
 }
 
-/// The last screen of a recording, by the command `replay`.
+/// The last screen of a recording, from the command `replay`.
 fn replayed(file: &Path) -> Vec<String> {
     let arguments = ["replay", file.to_str().unwrap()];
     let output = std::process::Command::new(PROGRAM).args(arguments).output().unwrap();
@@ -228,7 +228,7 @@ fn a_recording_survives_any_end_of_the_program_and_replaces_no_other_file() {
     terminal.end();
     let recorded = fs::read_to_string(&file).unwrap();
     assert!(recorded.contains("- 0 . 3 4 5 <enter>"), "{recorded}");
-    // A recording is replaced by the next one, unasked.
+    // A recording is replaced by the next one without asking.
     explorer(&["--record", path], memory.path()).leave();
     assert!(!fs::read_to_string(&file).unwrap().contains("<enter>"));
 }
@@ -237,7 +237,7 @@ fn a_recording_survives_any_end_of_the_program_and_replaces_no_other_file() {
 fn keys_pressed_while_a_file_plays_are_not_mixed_into_it() {
     let memory = tempfile::tempdir().unwrap();
     let file = memory.path().join("slow.keys");
-    // A line is typed, again and again, while the user presses other keys.
+    // A line is typed repeatedly while the user presses other keys.
     let line = ":set<space>r=0.25<enter><right>";
     fs::write(&file, format!("s/asymmetry<enter>{}", line.repeat(10))).unwrap();
     let mut terminal = begun(&["--play", file.to_str().unwrap()], memory.path());

@@ -1,4 +1,4 @@
-//! Every keystroke file of the project plays to its end, at a small and at a large screen.
+//! Every keystroke file of the project plays to its end, on a small and on a large screen.
 
 use hopfscope::runtime::explorer::replay;
 use hopfscope::scene::plain;
@@ -50,7 +50,7 @@ fn every_keystroke_file_of_the_handbook_plays() {
     }
 }
 
-/// What a newcomer reads on the way: a screen of the walk, and words on it, at every size.
+/// What a newcomer reads: a screen along the way and words on it, at every size.
 const READ: [(&str, &[&str]); 8] = [
     ("opened", &["parameters", "phase plane", "grows without bound", "q quit"]),
     ("captured", &["comes to rest at q = ", "survives kicks up to q "]),

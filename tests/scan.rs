@@ -1,4 +1,4 @@
-//! `hopfscope scan`: rows, files that survive a kill, parts that are the whole.
+//! `hopfscope scan`: rows, files that survive a kill, parts that make up the whole.
 
 mod program;
 
@@ -101,19 +101,19 @@ fn a_wrong_scan_is_refused_in_one_line() {
     }
 }
 
-/// A scan of some seconds' work, so that kills meet it at work.
+/// A scan that takes several seconds, so that it is running when it is killed.
 const LONG: &str =
     "--over D=-0.6:-0.1:40 --over D3=0.1:0.5:25 --set D2=0.2 --measure margin,cycles";
 
-/// The same with this file, and more.
+/// The same scan into this file, with further options.
 fn to_file(path: &Path, more: &str) -> Command {
     let mut words = vec!["scan", "--output", path.to_str().unwrap()];
     words.extend(LONG.split_whitespace().chain(more.split_whitespace()));
     command(&words)
 }
 
-/// Starts a scan again and again, and kills it when the file has grown by some rows, until it is done;
-/// says how often it was killed.
+/// Starts a scan repeatedly, killing it whenever the file has grown by some rows, until it is done; returns how
+/// often it was killed.
 fn killed_until_done(path: &Path, more: &str, rows: &mut dyn FnMut() -> usize) -> usize {
     for kills in 0.. {
         let length = || fs::metadata(path).map_or(0, |file| file.len());
@@ -138,7 +138,7 @@ fn killed_until_done(path: &Path, more: &str, rows: &mut dyn FnMut() -> usize) -
     unreachable!("a scan ends")
 }
 
-/// Numbers that jump about, the same in every run.
+/// Irregular numbers, the same in every run.
 fn jumps(seed: u64) -> impl FnMut() -> usize {
     let mut state = seed;
     move || {
@@ -160,7 +160,7 @@ fn a_scan_that_is_killed_and_resumed_is_the_same_to_the_last_byte() {
         let kills = killed_until_done(&path, "", &mut jumps(7));
         assert!(kills >= 3, "killed {kills} times only");
         assert!(fs::read_to_string(&path).unwrap() == whole, "after {kills} kills");
-        // A file may also end anywhere, as when a disk was full.
+        // A file may also end anywhere, e.g. because the disk was full.
         for end in [0, 1, 40, whole.len() / 2, whole.len() - 1] {
             fs::write(&path, &whole[..end]).unwrap();
             assert!(to_file(&path, "--resume").status().unwrap().success());
@@ -211,16 +211,16 @@ fn a_file_of_something_else_is_refused_and_left_alone() {
     let first = whole.lines().nth(1).unwrap();
     let altered = whole.replacen(&first[first.len() - 4..], "999,", 1);
     other(&altered, "line 2 is different when computed again");
-    // With another friction the rows are of other points.
+    // With different friction the rows belong to other points.
     let rougher = scan("--over D=-0.5:-0.1:5 --measure margin --set r=0.2").out;
     other(&rougher, "line 2 is of another point");
-    // The untouched file is complete, and nothing is computed or changed.
+    // The untouched file is complete: nothing is computed or changed.
     fs::write(&path, &whole).unwrap();
     assert_eq!(scan(&format!("{own} {name}")).code, 0);
     assert_eq!(fs::read_to_string(&path).unwrap(), whole);
 }
 
-/// A scan whose first row takes long, as its motion never ends, and whose other rows take no time.
+/// A scan whose first row takes long, because its motion never ends, and whose other rows take no time.
 const HELD_UP: &str =
     "--over D=-0.2:0.6:21 --set D3=0.5 --set D2=0.2 --set q0=2 --measure rest --jobs 2";
 
@@ -239,7 +239,7 @@ fn rows_that_wait_behind_a_slow_one_outlive_a_kill() {
     child.kill().unwrap();
     child.wait().unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap().lines().count(), 1, "only the line of names");
-    // Where a row comes from is seen by a mark; a line without its end is cut, and computed again.
+    // A mark shows where a row comes from; a line without its end is cut and computed again.
     let (journal, last) = (noted(), noted().lines().last().unwrap().to_owned());
     let second = journal.lines().find(|line| line.starts_with("1\t")).unwrap().to_owned();
     assert_ne!(second, last);
@@ -253,7 +253,7 @@ fn rows_that_wait_behind_a_slow_one_outlive_a_kill() {
     let row = |text: &str| text.split_once('\t').unwrap().1.to_owned();
     assert!(found.contains(&row(&marked)), "{found}");
     assert_eq!(found.replace(&row(&marked), &row(&second)), whole);
-    // A journal of another scan says nothing.
+    // The journal of another scan is ignored.
     fs::write(&path, "").unwrap();
     fs::write(&ahead, "Dear diary,\n1\t-0.1,nonsense\n").unwrap();
     let short = line.replace("100000", "1");
@@ -283,7 +283,7 @@ fn an_interrupt_keeps_what_is_done_and_says_so() {
     assert!(text.ends_with('\n') && done < 1000);
 }
 
-/// The one line of the page on scans that begins with these words.
+/// The only line of the page on scans that begins with these words.
 fn page_line(beginning: &str) -> String {
     let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/scans.md")).unwrap();
     let mut lines = page.lines().map(str::trim).filter(|line| line.starts_with(beginning));
@@ -292,7 +292,7 @@ fn page_line(beginning: &str) -> String {
     line
 }
 
-/// A line for the shell in a folder, with the program on the path.
+/// A shell command in a folder, with the program on its path.
 fn shell(line: &str, folder: &Path) -> Command {
     let program = Path::new(env!("CARGO_BIN_EXE_hopfscope")).parent().unwrap();
     let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
@@ -343,10 +343,10 @@ fn a_file_with_content_is_continued_or_replaced_only_on_request() {
     own("").is_refused(&[name, "--force starts over"]);
     // Continuing and starting over exclude each other.
     own("--resume --force").is_refused(&["--force", "--resume"]);
-    // Nor does --force mean anything without a file.
+    // --force is also meaningless without a file.
     assert_eq!(scan("--over D=-0.5:-0.1:3 --measure margin --force").code, 2);
     assert_eq!(fs::read_to_string(&path).unwrap(), whole);
-    // Another file under this name is not a scan to continue with; --force begins one in its place.
+    // A different file under this name is not a scan to be continued; --force begins one in its place.
     fs::write(&path, "mine\n").unwrap();
     own("--resume").is_refused(&[name, "line 1 names other columns"]);
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine\n");

@@ -1,4 +1,4 @@
-//! Each scene keeps what its sentences promise, under the keys that they name.
+//! Each scene fulfils the promises of its texts, under the keys that they name.
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Reason};
@@ -11,10 +11,10 @@ use hopfscope::session::replay::{Action, Player, parse};
 use hopfscope::session::{Msg, Session, Size, run_line, settle, update};
 use hopfscope::study::{Cycle, Edge, Return};
 
-/// A scene with its motion and its cycles computed; diagrams are not looked at here.
+/// A scene with its motion and cycles computed; diagrams are ignored here.
 struct Stage(Session);
 
-/// The answer to a question, by computation.
+/// The computed answer to a request.
 fn computed(request: &Request) -> Msg {
     Msg::answered(request.clone(), Ok(answer(request, &Limits::PATIENT).unwrap()), 0.0)
 }
@@ -126,12 +126,12 @@ fn hopf_without_friction_every_motion_tends_to_the_cycle() {
     assert_eq!(stage.0.problem.parameters.r, 0.0);
     let [cycle] = stage.cycles() else { panic!("one cycle") };
     assert!(cycle.stable);
-    // The explorer looks for no turning points where there is no friction; here they are wanted.
+    // The explorer does not look for turning points without friction; here they are needed.
     assert!(stage.0.trajectory().unwrap().crossings.is_empty());
     let motion = trajectory(&stage.0.problem, Detail::default(), &Limits::PATIENT);
     let last = motion.crossings.last().unwrap().q;
     assert!((last.abs() - cycle.q_max).abs() < 1e-4);
-    // Four times the damping, twice the amplitude.
+    // Four times the damping gives twice the amplitude.
     let smaller = Stage::open("hopf").press("-0.025<enter>").cycles()[0].q_max;
     assert!((cycle.q_max / smaller - 2.0).abs() < 0.01);
     assert!(Stage::open("hopf").press("<right*11>").cycles().is_empty());
@@ -212,17 +212,17 @@ fn energy_friction_pays_for_the_inner_cycle_and_cubic_damping_for_the_outer_one(
         assert!((ledger.residual / ledger.linear).abs() < 1e-12);
     }
     assert!(inner.friction < 10.0 * inner.cubic && outer.cubic < 3.0 * outer.friction);
-    // What the motion has gained is stored: the outer cycle's energy, at some phase of it.
+    // The energy gained by the motion is stored: it is that of the outer cycle, at some phase.
     let motion = stage.0.trajectory().unwrap().ledger.unwrap();
     assert!(motion.end > 5.0 * motion.start && motion.residual.abs() < 1e-9);
     let rows = |stage: &Stage| stage.0.ledger().len();
-    // D2 is one more source in each part.
+    // D2 adds one source in each part.
     let bent = Stage::open("energy").press("<down><right>");
     assert_eq!(rows(&bent), rows(&stage) + 3);
     assert!(Stage::open("energy").press("<right*13>").cycles().is_empty());
 }
 
-/// What a text may say about what is on show, and whether that is so.
+/// A possible statement of a text about the screen, and the check of its truth.
 type Claim = (&'static str, fn(&Stage) -> bool);
 
 const CLAIMS: [Claim; 24] = [
@@ -259,12 +259,12 @@ impl Stage {
         (any(false), any(true))
     }
 
-    /// What borders the basin of the whole model.
+    /// What borders the basin in the whole model.
     fn border(&self) -> Option<&str> {
         self.0.kinds().map(|kinds| kinds.border)
     }
 
-    /// Whether the motion comes to rest, however long it takes: by the whole model where that is drawn.
+    /// Whether the motion eventually comes to rest: by the whole model where that is drawn.
     fn rests_in_the_end(&self) -> bool {
         if let Some(course) = self.0.course() {
             return course.fate == MachineFate::Rest;
@@ -274,7 +274,7 @@ impl Stage {
         matches!(motion.outcome, Outcome::Captured { .. })
     }
 
-    /// The scene after a line, its motion and cycles computed; `None` where the line is refused.
+    /// The scene after a line, with motion and cycles computed; `None` where the line is refused.
     fn at(scene: &str, line: &str) -> Option<Stage> {
         let mut session = Session::new(find(scene).unwrap(), Size { width: 80, height: 24 });
         run_line(&mut session, line).ok()?;
@@ -324,7 +324,7 @@ fn no_text_contradicts_what_is_on_show_anywhere_in_the_ranges_of_its_scene() {
     );
 }
 
-/// How many cycles of the whole model stick to the belt, and how many only slip.
+/// Number of cycles of the whole model that stick to the belt, and of those that only slip.
 fn sticking(stage: &Stage) -> (usize, usize) {
     let cycles = &stage.0.kinds().unwrap().cycles;
     let sticks = cycles.iter().filter(|cycle| cycle.sticks).count();
@@ -345,7 +345,7 @@ fn benchmark_rest_and_stick_slip_are_parted_by_a_cycle_until_the_belt_is_fast() 
     let beyond = Stage::open("benchmark").press(":set<space>belt=1.837<enter>");
     assert_eq!((beyond.0.kinds().unwrap().border, sticking(&beyond)), ("none", (0, 0)));
     assert_eq!(beyond.0.course().unwrap().fate, MachineFate::Rest);
-    // One key, and the expansion is drawn: the question is another one, and so is the answer.
+    // One key switches to the expansion: the question is a different one, and so is the answer.
     let cubic = Stage::open("benchmark").press("|");
     assert!(cubic.0.course().is_none() && !cubic.0.draws_whole());
     assert!(cubic.cycles()[0].q_max > 1.1 * stage.cycles()[0].q_max);

@@ -1,4 +1,4 @@
-//! What a screen costs on the line: the bytes of full frames and of single steps, counted.
+//! The cost of a screen in bytes: full frames and single steps, counted.
 
 use std::cell::RefCell;
 use std::io::{self, Write};
@@ -14,7 +14,7 @@ use hopfscope::terminal::painter::Painter;
 use hopfscope::view::{self, Look};
 use ratatui::Terminal;
 
-/// A terminal that counts.
+/// A terminal that counts bytes.
 #[derive(Clone, Default)]
 struct Line(Rc<RefCell<usize>>);
 
@@ -29,7 +29,7 @@ impl Write for Line {
     }
 }
 
-/// A session on a screen, its questions answered at once.
+/// A session on a screen, with its requests answered at once.
 struct Explorer {
     session: Session,
     terminal: Terminal<Painter<Line>>,
@@ -53,7 +53,7 @@ impl Explorer {
         }
     }
 
-    /// Answers everything, draws, and says how many bytes that took.
+    /// Answers all requests and draws; returns the number of bytes written.
     fn draw(&mut self) -> usize {
         settle(&mut self.session, |_, request| {
             let result = answer(request, &Limits::default()).map_err(NoAnswer::Reason);

@@ -1,8 +1,8 @@
 //! The explorer behind a real SSH connection over a slow line.
 //!
-//! An SSH server on the loopback interface, an SSH client in a pty, and between them a relay that is a
-//! line of 64 kbit/s with 150 ms from here to there and back, and a queue without end, as modems and
-//! mobile networks have. Needs `sshd`, `ssh` and `ssh-keygen`, so it is left out of a plain `cargo test`:
+//! An SSH server on the loopback interface, an SSH client in a pty, and between them a relay that acts like a
+//! line of modems and mobile networks: 64 kbit/s, a round trip of 150 ms, and an unbounded queue. Needs `sshd`,
+//! `ssh` and `ssh-keygen`, so it is left out of a plain `cargo test`:
 //!
 //!     cargo test --test ssh -- --ignored
 
@@ -20,16 +20,16 @@ use std::time::{Duration, Instant};
 use support::{Answers, Terminal};
 use tempfile::TempDir;
 
-/// Bytes that the line takes in a second: 64 kbit.
+/// Bytes per second on the line: 64 kbit/s.
 const BYTES_PER_SECOND: f64 = 8_000.0;
 
-/// Time from one end of the line to the other.
+/// Latency from one end of the line to the other.
 const ONE_WAY: Duration = Duration::from_millis(75);
 
-/// A pause after which the slow line has nothing more to deliver: several times there and back.
+/// A pause after which the slow line has nothing more to deliver: several round trips.
 const QUIET: Duration = Duration::from_millis(800);
 
-/// An SSH server for the user who runs the test, ended when it goes out of scope.
+/// An SSH server for the user who runs the test; it ends when dropped.
 struct Server {
     process: Child,
     files: TempDir,
@@ -43,7 +43,7 @@ impl Drop for Server {
     }
 }
 
-/// Where a program of the system is; `sshd` wants to be called by its full path.
+/// Path of a system program; `sshd` must be called by its full path.
 fn program(name: &str) -> PathBuf {
     let folders =
         ["/usr/sbin", "/usr/bin", "/usr/local/sbin", "/usr/local/bin", "/opt/homebrew/bin"];
@@ -80,7 +80,7 @@ fn server() -> Server {
         "KbdInteractiveAuthentication no\nUseDNS no\nPrintMotd no\nPrintLastLog no".to_owned(),
     ];
     fs::write(file("settings"), settings.join("\n")).unwrap();
-    // A server run by root wants this folder, which the start script of the system makes.
+    // A server run by root needs this folder, which is normally made by the system's start script.
     drop(fs::create_dir_all("/run/sshd"));
     let process = Command::new(program("sshd"))
         .args(["-D", "-e", "-f"])
@@ -93,7 +93,7 @@ fn server() -> Server {
     Server { process, files, address }
 }
 
-/// A slow line to an address: connect here instead.
+/// A slow line to an address; returns the address to connect to instead.
 fn line(to: SocketAddr) -> SocketAddr {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let here = listener.local_addr().unwrap();
@@ -135,7 +135,7 @@ fn deliver(queue: &Receiver<(Instant, Vec<u8>)>, mut to: TcpStream) {
     drop(to.shutdown(Shutdown::Write));
 }
 
-/// The explorer behind the slow line, its first picture complete.
+/// The explorer behind the slow line, with its first picture complete.
 fn explorer(server: &Server, arguments: &str) -> Terminal {
     let near = line(server.address);
     let port = near.port().to_string();
@@ -171,7 +171,7 @@ fn explorer(server: &Server, arguments: &str) -> Terminal {
 #[test]
 #[ignore = "needs sshd; run by .ci/run"]
 fn a_held_key_over_a_slow_line_skips_pictures_and_ends_on_the_right_one() {
-    /// Keys of a key held down for three seconds, at 30 a second.
+    /// Repetitions of a key held down for three seconds, at 30 per second.
     const KEYS: usize = 90;
     let server = server();
     let mut terminal = explorer(&server, "--set D=-0.95 --set D3=0.5");
@@ -183,7 +183,7 @@ fn a_held_key_over_a_slow_line_skips_pictures_and_ends_on_the_right_one() {
     }
     let held = terminal.frames();
     assert!(held > before.0 + 2, "no picture while the key was down");
-    // The last picture of the keys so far may be under way, and one more follows it.
+    // The picture of the keys so far may still be in transit, and one more follows it.
     terminal.wait_for("-0.05");
     terminal.quiet(QUIET);
     let after = terminal.frames() - held;
@@ -210,7 +210,7 @@ fn a_key_is_answered_by_one_picture_over_a_slow_line() {
         let (frames, bytes) = (terminal.frames() - before.0, terminal.written.len() - before.1);
         assert!(frames <= 2 && bytes < 2_600, "{frames} frames, {bytes} bytes for one key");
     }
-    // Escape, alone, is a key although its bytes could begin another over a line that cuts them up.
+    // Escape alone is a key, although over a line that splits sequences its byte could begin another one.
     terminal.types("?");
     terminal.wait_for("Select the row above");
     terminal.types("\x1b");

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Plays keys on a scene, without a terminal; gives back the last screen.
+/// Plays keys on a scene, without a terminal; returns the session and the last screen.
 fn screen(scene: Scene, keys: &str) -> (Session, String) {
     let size = Size { width: 100, height: 30 };
     let session = Session::new(Arc::new(scene), size);
@@ -22,17 +22,17 @@ fn a_played_motion_moves_with_the_time_it_is_told_and_then_stands_still() {
     let (session, start) = screen(figure(), "");
     assert!(session.head().is_none() && !session.is_playing());
     assert!(start.contains("mass on belt") && start.contains("t 0 s  x 1 mm  v 0 m/s"), "{start}");
-    // A period of 4 s: after 2 s of playing half a period has passed, at the left turning point or so.
+    // The period is 4 s: after 2 s of playing, half a period has passed and the motion is near the left turning point.
     let (session, half) = screen(figure(), "<f8> <elapse 1.5> <elapse 0.5>");
     let head = session.head().unwrap();
     assert!(session.is_playing() && (head.tau - std::f64::consts::PI).abs() < 1e-12);
     assert!(head.q < -0.1 && head.v.abs() < 0.01, "{head:?}");
     assert_ne!(start, half);
-    // Held, time does not count; stepped, it continues by a fortieth of a period.
+    // While paused, time does not count; a step advances by a fortieth of a period.
     let (held, _) = screen(figure(), "<f8> <elapse 2> <f8> <elapse 5> <f9> <f9> <f7>");
     let step = std::f64::consts::TAU / 40.0;
     assert!((held.head().unwrap().tau - std::f64::consts::PI - step).abs() < 1e-12);
-    // Captured: it rests where the motion ended, and nothing moves any more.
+    // Captured: the motion rests at its end, and nothing moves any more.
     let (rest, _) = screen(figure(), "<f8> <elapse 600>");
     let motion = rest.trajectory().unwrap();
     let (tau, q) = match motion.outcome {
@@ -41,7 +41,7 @@ fn a_played_motion_moves_with_the_time_it_is_told_and_then_stands_still() {
     };
     assert!(!rest.is_playing());
     assert_eq!((rest.head().unwrap().tau, rest.head().unwrap().q), (tau, q));
-    // Played again, it starts over.
+    // Played again, it restarts.
     let (again, _) = screen(figure(), "<f8> <elapse 600> <f8> <elapse 1>");
     assert!((again.head().unwrap().tau - 0.25 * std::f64::consts::TAU).abs() < 1e-12);
     // In real time a second is omega_0 = 50.
@@ -82,7 +82,7 @@ fn a_machine_is_a_scene_with_physical_values_beside_the_numbers() {
     for words in ["1 N", "1 mm", "2 s", "1.449 mm or 0.1473 N s", "belt"] {
         assert!(text.contains(words), "{words} in {text}");
     }
-    // The line stands where the velocity of the mass is that of the belt.
+    // The line is where the velocity of the mass equals that of the belt.
     let line = |text: &str| text.matches("belt").count();
     let (_, without) = screen(scene.clone(), "<tab> v e <esc>");
     assert!(line(&without) < line(&text));
@@ -90,7 +90,7 @@ fn a_machine_is_a_scene_with_physical_values_beside_the_numbers() {
     let (whole, text) = screen(scene.clone(), "<left*30> o");
     assert!(whole.contact().is_none() && text.contains("tends to stick-slip"), "{text}");
     assert!(text.contains("whole model") && text.contains("cubic expansion: "), "{text}");
-    // Its expansion overtakes the belt, and a motion that does is stopped there.
+    // The expansion overtakes the belt; a motion that does so is stopped there.
     let (wild, text) = screen(scene, "| <left*30> o");
     let (tau, _) = wild.contact().expect("a motion that reaches the belt");
     assert!(

@@ -1,4 +1,4 @@
-//! Guaranteed margins of machines: no machine within the tolerances has a smaller margin, whatever disturbs it.
+//! Guaranteed margins of machines: no machine within the tolerances has a smaller margin, under any disturbance.
 
 use crate::program::{json, run};
 use hopfscope::machine::guarantee::{MachineUncertain, guaranteed};
@@ -26,13 +26,13 @@ fn kicks(portrait: &Portrait) -> (f64, f64) {
     })
 }
 
-/// Parts of -1 .. 1 that fill a cube evenly.
+/// Component of an evenly spread point in a cube, in -1 .. 1.
 fn part(draw: u32, number: usize) -> f64 {
     const STEPS: [f64; 6] = [0.754_877, 0.569_840, 0.430_159, 0.324_717, 0.245_122, 0.185_037];
     2.0 * (0.5 + f64::from(draw) * STEPS[number]).fract() - 1.0
 }
 
-/// Machines and tolerances, as parts of the values, with a disturbance in N.
+/// Machines and tolerances, as fractions of the values, with a disturbance in N.
 fn cases() -> Vec<(Belt, Tolerances)> {
     let case = |name: &str, parts: &[(&str, f64)], disturbance: f64| {
         let belt = machine(name);
@@ -53,7 +53,7 @@ fn no_draw_is_below(draws: u32) {
         let found = guaranteed(&belt, &known).unwrap();
         let found = found.unwrap_or_else(|reason| panic!("{known:?}: {reason}"));
         let nominal = kicks(&portrait(&belt).unwrap());
-        // A guarantee of nothing would be kept, too.
+        // A guarantee of nothing would also hold.
         assert!(found.displacement > 0.3 * nominal.0, "{known:?}: {found:?} of {nominal:?}");
         assert!(found.impulse > 0.3 * nominal.1, "{known:?}: {found:?} of {nominal:?}");
         for draw in 0..draws {
@@ -63,7 +63,7 @@ fn no_draw_is_below(draws: u32) {
                     + part(draw, number) * 0.5 * (interval.upper() - interval.lower());
                 varied.set(&mut drawn, value).unwrap();
             }
-            // The worst disturbance is friction taken away.
+            // The worst disturbance acts like reduced friction.
             drawn.friction -= known.disturbance;
             let (displacement, impulse) = kicks(&portrait(&drawn).unwrap());
             assert!(displacement >= found.displacement * (1.0 - 1e-9), "{known:?}: draw {draw}");
@@ -109,11 +109,11 @@ fn the_command_reports_both_margins_and_the_friction_that_guarantees_one() {
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
     let (one, other) = (&certain["guaranteed"]["displacement"], &alone["margin"]["displacement"]);
     assert!((number(one) / number(other) - 1.0).abs() < 1e-9, "{one} {other}");
-    // Its ends are rounded outwards.
+    // Its bounds are rounded outwards.
     let low = number(&certain["guaranteed"]["tolerances"]["R"][0]);
     assert!(low <= 0.8 && low > 0.8 - 1e-15, "{low}");
     assert!(alone["guaranteed"].is_null());
-    // The R that guarantees 1 mm, taken as the machine's, guarantees 1 mm.
+    // A machine with the R that guarantees 1 mm guarantees 1 mm.
     let designed = json("belt textbook --set R=1+-0.2 --disturbance 0.1 --design 1mm");
     let r = number(&designed["design"]["R"]);
     let check = json(&format!("belt textbook --set R={r}+-0.2 --disturbance 0.1"));

@@ -20,7 +20,7 @@ use program::{json, number, run};
 use ratatui::layout;
 use serde_json::Value;
 
-/// Runs a command line whose words may have blanks in them.
+/// Runs a command line whose words may contain blanks.
 fn belt(words: &[&str]) -> Value {
     let words: Vec<&str> = ["belt"].into_iter().chain(words.iter().copied()).collect();
     let ran = run(&[&words[..], &["--format", "json"]].concat());
@@ -86,7 +86,7 @@ fn the_friction_of_a_design_gives_the_margin_that_was_asked_for() {
     assert_eq!(none["margin"]["displacement"], 0.0);
 }
 
-/// A machine file with Stribeck's law in a folder of its own.
+/// A machine file with a Stribeck law, in a folder of its own.
 fn file(folder: &tempfile::TempDir, quantities: &str, friction: &str) -> String {
     let path = folder.path().join("own.toml");
     fs::write(&path, format!("title = \"Own\"\n{quantities}\n[friction]\n{friction}\n")).unwrap();
@@ -122,7 +122,7 @@ fn a_machine_is_answered_by_the_whole_model_and_by_the_expansion_with_its_error(
     );
     assert!((number(&found["margin"]["displacement"]) / 1.174_982_361_957_011 - 1.0).abs() < 1e-13);
     assert!((number(&found["rest_share"]) - 0.307_126_137_781_600_8).abs() < 1e-12);
-    // The cubic promises 15 % too much, and says so.
+    // The cubic expansion promises 15 % too much, and the report says so.
     let expanded = &found["expansion"]["margin"];
     let error = number(&expanded["error"]["displacement"]);
     assert!((error - (number(&expanded["displacement"]) - 1.174_982_361_957_011)).abs() < 1e-12);
@@ -134,7 +134,7 @@ fn a_machine_is_answered_by_the_whole_model_and_by_the_expansion_with_its_error(
 
 #[test]
 fn no_kick_that_ends_on_the_belt_is_reported_as_survived() {
-    // The cubic knows no border at all; by the law itself a displacement of -4 mm ends in stick-slip.
+    // The cubic expansion has no border at all; by the full law a displacement of -4 mm ends in stick-slip.
     let folder = tempfile::tempdir().unwrap();
     let name = file(
         &folder,
@@ -164,7 +164,7 @@ fn static_friction_is_read_and_laws_that_cannot_be_are_refused() {
     assert!((number(&found["margin"]["impulse"]) - 0.2).abs() < 1e-15);
     let varied = belt(&[&file(&folder, numbers, "constant = { mu = 0.3 }"), "--set", "mu_s=0.5"]);
     assert_eq!(varied["cycles"], found["cycles"]);
-    // The guide holds more at rest than it takes while the mass moves.
+    // At rest the guide holds more friction than while the mass moves.
     let held = belt(&[
         &file(&folder, &format!("{numbers}\nR_static = 0.4"), coulomb),
         "--start",
@@ -196,7 +196,7 @@ fn static_friction_is_read_and_laws_that_cannot_be_are_refused() {
         let name = file(&folder, numbers, friction);
         let ran = run(&["belt", &name]);
         ran.is_refused(&[words]);
-        // What is known within the law is told nevertheless.
+        // What is known within the range of the law is reported nevertheless.
         let known = friction.starts_with("polynomial") || friction.starts_with("table");
         assert_eq!(ran.out.contains("beyond the margin an unstable cycle is crossed"), known);
     }
@@ -210,7 +210,7 @@ fn a_tolerance_is_that_of_the_steps() {
     let error = |tolerance| (margin(&["--tol", tolerance]) / exact - 1.0).abs();
     assert!(error("1e-6") > 1e-11 && error("1e-6") < 1e-4, "{:e}", error("1e-6"));
     assert!(error("1e-15") < 1e-13, "{:e}", error("1e-15"));
-    // A second method, of another kind, finds the same.
+    // A second, different method finds the same.
     for (machine, start) in [
         ("bstab", "x=2,v=0"),
         ("bstab", "x=-1,v=2.5"),
@@ -246,13 +246,13 @@ fn a_mode_is_answered_by_the_same_command() {
     assert!((number(&found["margin"]["displacement"]) / amplitude - 1.0).abs() < 1e-13);
     assert_eq!(found["cycles"].as_array().unwrap().len(), 1);
     assert_eq!(found["motion"]["outcome"]["kind"], "escaped");
-    // Damping that grows with the square of the velocity bounds it.
+    // Damping that grows with the square of the velocity bounds the motion.
     let bounded = text.replace("[-0.05]", "[-0.05, 0, \"0.02 s^2/m^2\"]");
     fs::write(&path, bounded).unwrap();
     let found = belt(&[name]);
     assert_eq!(found["motion"]["outcome"]["kind"], "cycle");
     assert_eq!(found["cycles"].as_array().unwrap().len(), 2);
-    // What has no belt has no speed of one, and no tolerances.
+    // Without a belt there is no belt speed, and there are no tolerances.
     for (option, value, words) in [
         ("--sweep", "v0=1:2:3", "this mode has no v0"),
         ("--branch", "mu_s=0.1:1:3", "this mode has no mu_s"),
@@ -279,7 +279,7 @@ fn the_study_of_the_open_benchmark_is_one_sweep() {
     for (share, expected) in shares.iter().zip([0.428_097_973_459_205_5, 0.558_366_582_309_877_2]) {
         assert!((share - expected).abs() < 1e-12, "{share} {expected}");
     }
-    // Counted from the steady position, which lies at more than 0.5 m, the window is another one.
+    // Counted from the steady position, which is beyond 0.5 m, the window is a different one.
     let half = "--window=0:2,0:2";
     let alone = |more: &[&str]| {
         let asked = [&["bstab", "--set", "v0=1.625", half], more].concat();
@@ -292,7 +292,7 @@ fn the_study_of_the_open_benchmark_is_one_sweep() {
 fn a_share_that_is_not_known_leaves_no_column_out() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("short.toml");
-    // Beyond a slip of 0.4086 m/s friction is not known.
+    // Friction is unknown beyond a slip of 0.4086 m/s.
     let text = "m = 0.415\nc = 1.735\nd1 = 0.25665\nd3 = 0.233634\nF = 0.1876\nR = 0.008091\nv0 = 0.1379\n\
                 friction.polynomial.coefficients = [0.62, -1.11435, -0.98584]\n";
     fs::write(&path, text).unwrap();
@@ -332,8 +332,8 @@ fn a_mode_is_set_swept_followed_and_designed_as_a_belt_is() {
     assert!(
         rows.contains(&format!("\nR for the margin,,{:?},N\n", number(&designed["design"]["R"])))
     );
-    // Damping of third degree bounds the growth; the two cycles fold where friction takes all that is fed, at a
-    // ratio that is larger the more friction there is.
+    // Damping of third degree bounds the growth. The two cycles fold where friction dissipates all the energy
+    // fed in, at a ratio that increases with friction.
     let bounded = text.replace("[-0.05]", "[-0.05, 0, 0.02]");
     fs::write(&path, bounded).unwrap();
     let folds = belt(&[name, "--branch", "ratio0=-0.2:0.05:6", "--against", "R=1:3:3"]);
@@ -349,7 +349,7 @@ fn a_mode_is_set_swept_followed_and_designed_as_a_belt_is() {
         })
         .collect();
     assert!(values[0] > values[1] && values[1] > values[2] && values[0] < 0.0, "{values:?}");
-    // --tol holds along a branch too.
+    // --tol also applies along a branch.
     let coarse = belt(&[name, "--branch", "ratio0=-0.2:0.05:6", "--tol", "1e-6"]);
     let error = (number(&coarse["special"][0]["value"]) - values[2]).abs();
     assert!(error > 0.0 && error < 1e-5, "{error:e}");

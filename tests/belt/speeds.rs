@@ -1,5 +1,5 @@
-//! The view of the cycles over the speed of the belt: every kind of cycle in its own way, and the jumps where a
-//! stable state ends, up and down, as its motions make them.
+//! The view of the cycles over the belt speed: every kind of cycle has its own look, and jumps up and down are
+//! where the motions of the machine leave the end of a stable state.
 
 use hopfscope::flow::Limits;
 use hopfscope::machine::MachineCycle;
@@ -26,7 +26,7 @@ fn specials(belt: &Belt, from: f64, to: f64, count: usize) -> Vec<MachineSpecial
 
 #[test]
 fn rest_and_stick_slip_end_at_different_speeds() {
-    // Up: stick-slip ends, and all comes to rest; down: rest ends, and all comes to stick-slip.
+    // Upwards: stick-slip ends, and everything comes to rest. Downwards: rest ends, and everything goes to stick-slip.
     for (from, to) in [(0.5, 2.0), (2.0, 0.5)] {
         let mut found = specials(&machine("bstab"), from, to, 4);
         found.sort_by(|one, other| one.value.total_cmp(&other.value));
@@ -39,7 +39,7 @@ fn rest_and_stick_slip_end_at_different_speeds() {
         let Some(Jump { from: 0.0, to: Landing::Cycle { x_max } }) = hopf.jumps.down else {
             panic!("{hopf:?}")
         };
-        // Stick-slip of that speed.
+        // The stick-slip cycle at that speed.
         let there = Belt { belt_speed: hopf.value, ..machine("bstab") };
         let cycles = portrait(&there).unwrap().cycles;
         let stuck = cycles.iter().find(|cycle| cycle.sticks).unwrap();
@@ -66,11 +66,11 @@ fn where_friction_at_rest_is_higher_stick_slip_and_slip_change_into_each_other()
         Some(Jump { from, to: Landing::Cycle { x_max } }) => Some((from, x_max)),
         _ => None,
     };
-    // Down: the cycle that slips touches the line, and is carried on to the larger one that sticks.
+    // Downwards: the slipping cycle touches the line, and the motion goes on to the larger cycle that sticks.
     let touch = found.iter().find(|special| special.kind == MachineSpecialKind::Grazing).unwrap();
     let (from, to) = cycle(touch.jumps.down).unwrap();
     assert!(from > 0.0 && to > 1.02 * from, "{touch:?}");
-    // Up: stick-slip ends on a faster belt than that, and falls back to slip where that is there, not to rest.
+    // Upwards: stick-slip ends on a faster belt than that, and jumps down to slip where it exists, not to rest.
     let end =
         found.iter().find(|special| special.kind == MachineSpecialKind::Annihilation).unwrap();
     assert!(end.value > touch.value, "{found:?}");
@@ -82,7 +82,7 @@ fn where_friction_at_rest_is_higher_stick_slip_and_slip_change_into_each_other()
 
 #[test]
 fn a_cycle_that_is_born_at_rest_is_no_jump() {
-    // Viscous friction that grows: the damper of third degree holds a small cycle beyond a Hopf point.
+    // Viscous friction that grows: the damping of third degree sustains a small cycle beyond a Hopf point.
     let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.2] };
     let belt = Belt { law, friction: 0.0, damping: 0.0, ..machine("bstab") };
     let belt = Belt { cubic_damping: 0.3, belt_speed: 1.0, normal_force: 1.0, ..belt };
@@ -92,7 +92,7 @@ fn a_cycle_that_is_born_at_rest_is_no_jump() {
     assert_eq!((hopf.jumps.up, hopf.jumps.down), (None, None));
 }
 
-/// A scene with all its questions answered.
+/// A scene with all its requests answered.
 fn shown(scene: &str) -> Session {
     let mut session = Session::new(find(scene).unwrap(), Size { width: 160, height: 50 });
     settle(&mut session, |_, request| {
@@ -140,7 +140,7 @@ fn the_view_draws_each_kind_its_own_way_and_marks_the_jumps() {
         for kind in kinds {
             assert!(looks.iter().any(|(name, _)| name == kind), "{scene}: {looks:?}");
         }
-        // Told apart without colour: no two kinds of cycle share a line.
+        // Distinguishable without colour: no two kinds of cycle share a line style.
         looks.retain(|(name, _)| name.ends_with("cycle"));
         looks.sort_by(|one, other| one.0.cmp(&other.0));
         looks.dedup();
@@ -153,7 +153,7 @@ fn the_view_draws_each_kind_its_own_way_and_marks_the_jumps() {
 
 #[test]
 fn a_draft_is_quick_and_shows_every_kind_where_the_whole_answer_does() {
-    /// Evaluations that take half of a frame of 16 ms at most.
+    /// Evaluations that take at most half of a frame of 16 ms.
     const HALF_FRAME: u64 = 200_000;
     for scene in ["slow-belt", "benchmark"] {
         let session = Session::new(find(scene).unwrap(), Size { width: 160, height: 50 });
@@ -181,7 +181,7 @@ fn a_draft_is_quick_and_shows_every_kind_where_the_whole_answer_does() {
             }
         }
         assert!(draft.points.len() >= 5 && compared >= draft.points.len(), "{scene}: {compared}");
-        // Near each change the curves are followed to it.
+        // Near each change the curves are followed right up to it.
         for special in &whole.special {
             let near = whole.points.iter().filter(|at| (at.v0 - special.value).abs() < 1e-3);
             assert!(near.count() >= 2, "{scene}: {special:?}");

@@ -1,4 +1,4 @@
-//! What scripts rely on: the documents, their numbers, and exit codes.
+//! What scripts rely on: documents, their numbers, and exit codes.
 
 #[path = "../program/mod.rs"]
 mod program;

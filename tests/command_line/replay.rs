@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::program::{Ran, run};
 
-/// Replays a text with these further arguments.
+/// Replays a text with these additional arguments.
 fn replay(folder: &Path, keys: &str, arguments: &[&str]) -> Ran {
     let file = folder.join("test.keys");
     fs::write(&file, keys).unwrap();

@@ -44,7 +44,7 @@ fn trade_shows_what_each_digit_costs_and_which_methods_never_rest() {
     assert!(rows.iter().all(|row| row["seconds"].as_f64().unwrap() > 0.0));
     assert!(document["reference"].as_str().unwrap().contains("twice the working precision"));
     assert!(document["reference_error"].as_f64().unwrap() < 1e-25);
-    // From (2, 0) at r = 0.5 it rests; without events it never does.
+    // From (2, 0) at r = 0.5 it comes to rest; without events it never does.
     let document = json("trade --set D=-0.1 --set r=0.5 --set q0=2 --until 50");
     for row in document["rows"].as_array().unwrap() {
         let never = row["method"] == "smoothed" || row["method"] == "sign-rk4";
@@ -70,20 +70,20 @@ fn scenes_report_their_cost_and_what_a_step_recomputes() {
         let questions = scene["questions"].as_array().unwrap();
         questions.iter().find(|question| question["question"] == name).cloned().unwrap()
     };
-    // The closed form: one evaluation for each half swing, no integration.
+    // Closed form: one evaluation for each half swing, no integration.
     let motion = json("trajectory --scene plain");
     let swings = motion["events"].as_array().unwrap().len();
     let evaluations = question(plain, "motion")["evaluations"].as_u64().unwrap();
     assert!(evaluations <= swings as u64 + 1, "{evaluations}");
     assert!(number(&question(of("supercritical"), "motion")["evaluations"]) > 100.0);
-    // A step of the start asks for the motion alone and keeps all else.
+    // A step of the start requires only the motion and keeps everything else.
     for scene in scenes {
         let steps = scene["steps"].as_array().unwrap();
         let start = steps.iter().find(|step| step["parameter"] == "q0").unwrap();
         for asked in start["recomputed"].as_array().unwrap() {
             assert!(asked == "motion" || asked == "motions", "{}: {asked}", scene["scene"]);
         }
-        // Only variants with a start of their own keep their motion.
+        // Only variants with their own start keep their motion.
         let held = find(scene["scene"].as_str().unwrap()).unwrap();
         let variants = held.families.iter().flatten();
         let own = variants.filter(|variant| variant.held.contains_key(&Symbol::Q0)).count();
@@ -111,7 +111,7 @@ fn an_answer_in_a_file_says_where_it_comes_from_and_replaces_nothing() {
     assert_eq!(std::fs::read_to_string(&path).unwrap(), plain);
 }
 
-/// Every column that has bounds, in every row that has the number: it lies between them, up to the error of the search.
+/// In every row, each column with bounds: the number lies between them, up to the error of the search.
 #[test]
 fn rows_have_the_bounds_of_their_numbers() {
     for (line, bounded) in [

@@ -1,5 +1,4 @@
-//! How the command line is used: wrong input, help, readers that go away, settings; what commands answer is
-//! in `main.rs`.
+//! Use of the command line: wrong input, help, closed pipes, settings. The answers of the commands are in `main.rs`.
 
 use std::fs;
 use std::io::Read;
@@ -7,7 +6,7 @@ use std::process::Stdio;
 
 use crate::program::{command, run};
 
-/// A wrong command line, and what the complaint about it must name.
+/// A wrong command line, and the words that its error message must contain.
 const WRONG: [(&str, &[&str]); 35] = [
     ("--sett D=1", &["--sett", "did you mean '--set'"]),
     ("nowhere", &["nowhere", "hopfscope scenes", "hopfscope --help"]),
@@ -81,7 +80,7 @@ fn help_and_version_are_answers() {
 
 #[test]
 fn a_closed_pipe_is_not_an_error() {
-    // Some megabytes of rows, of which the reader takes a few bytes.
+    // Several megabytes of rows, of which the reader takes a few bytes.
     let options = ["trajectory", "--set", "D=0", "--set", "r=0", "--until", "200000"];
     let mut child = command(&[&options[..], &["--format", "csv"]].concat())
         .stdout(Stdio::piped())
@@ -112,7 +111,7 @@ fn keys_lists_what_the_settings_file_makes_of_them() {
     let usual = run(&["keys", "--no-config", "--format", "csv"]);
     assert!(usual.out.contains("parameters,step-up,<right> l,"), "{}", usual.out);
     assert_eq!(usual.err, "");
-    // A mistake is one line with its place, wherever settings are read.
+    // A mistake is reported in one line with its place, wherever settings are read.
     std::fs::write(&path, "[keys.parameters]\nstep-up = [\"k\"]\n").unwrap();
     for arguments in [vec!["keys", "--config", file], vec!["--config", file]] {
         run(&arguments).is_refused(&["config.toml:2:12: k already means select-previous"]);
@@ -133,7 +132,7 @@ fn a_certificate_is_checked_by_another_run_and_says_where_it_comes_from() {
     assert!(checked.out.contains("2 limit cycles and no other"), "{}", checked.out);
     let source = fs::read_to_string(format!("{path}.provenance")).unwrap();
     assert!(source.contains("hopfscope cycles --set D=-0.3"), "{source}");
-    // One step less leaves a gap.
+    // With one step removed there is a gap.
     let text = fs::read_to_string(path).unwrap();
     let step = text.lines().nth(5).unwrap();
     fs::write(path, text.replacen(&format!("{step}\n"), "", 1)).unwrap();

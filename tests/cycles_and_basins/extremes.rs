@@ -1,19 +1,19 @@
-//! Motions at the edges of what numbers and the equation allow: every one has a typed answer within a
-//! budget, and where the answer is known in another way, both agree.
+//! Motions at the limits of floating point and of the equation: each has a typed answer within a budget, and
+//! where the answer is also known otherwise, both agree.
 
 use hopfscope::flow::{Limits, Method, Outcome};
 use hopfscope::study::extremes::verdict::{BUDGET, METHODS, TOLERANCE};
 use hopfscope::study::extremes::{Case, MethodAnswer, MethodsVerdict, cases, judge, named};
 use rayon::prelude::*;
 
-/// One step of any method after the budget is spent: a Taylor series, or a step of the implicit method
+/// Cost of one step of any method after the budget is spent: a Taylor series, or a step of the implicit method
 /// with all its attempts.
 const LAST_STEP: u64 = 2_000;
 
-/// Digits of ten that a method of this kind may lose on a motion of sixty time units.
+/// Digits out of ten that a method of this kind may lose on a motion of sixty time units.
 fn allowed_loss(method: Method) -> f64 {
     match method {
-        // Rounding, measured by a tolerance of 1e-10.
+        // Rounding only, measured in units of the tolerance 1e-10.
         Method::Exact => 0.0,
         // Order 5 takes some thousand steps, each with its own error.
         Method::Dopri5 => 3.0,
@@ -84,7 +84,7 @@ fn every_motion_of_the_lattice_is_answered() {
 #[ignore = "long: the lattice at three more tolerances"]
 fn every_motion_of_the_lattice_is_answered_to_any_tolerance() {
     for tolerance in [1e-4, 1e-7, 1e-13] {
-        // At loose tolerances a step of the implicit method says less about its error.
+        // At loose tolerances the error estimate of the implicit method is less reliable.
         check(tolerance, 1.0);
     }
 }

@@ -1,4 +1,4 @@
-//! Every limit cycle and every basin, against brute force and against numbers computed elsewhere.
+//! All limit cycles and basins, against brute force and against numbers computed elsewhere.
 
 #![expect(clippy::cast_precision_loss, reason = "indices of grids are small")]
 
@@ -39,7 +39,7 @@ fn parameter_sets(count: usize) -> Vec<Parameters> {
 }
 
 /// Whether a motion that starts with a clearance from the sticking set, first on one side, then on the other,
-/// comes back with a larger one: each turn computed forward by two half maps.
+/// returns with a larger one; each turn is computed forward by two half maps.
 fn turn_is_larger(parameters: Parameters, sides: [Side; 2], step: f64) -> impl FnMut(f64) -> bool {
     let mut maps = sides.map(|side| HalfMap::new(HalfPlane::new(&parameters, side), step));
     move |clearance: f64| {
@@ -57,8 +57,8 @@ fn turn_is_larger(parameters: Parameters, sides: [Side; 2], step: f64) -> impl F
     }
 }
 
-/// Sign changes of "the next turn is larger" over a dense scan of start clearances: what a search without
-/// any cleverness finds.
+/// Number of sign changes of "the next turn is larger" in a dense scan of starting clearances: the result of a
+/// naive search.
 fn scanned_cycles(parameters: &Parameters, scan: usize) -> usize {
     let mut grows = turn_is_larger(*parameters, [Side::Upper, Side::Lower], 1e-9);
     let (low, high) = (ln(1e-9), ln(60.0));
@@ -81,7 +81,7 @@ fn no_cycle_is_missed_against_a_dense_scan() {
             (count != expected).then_some((parameters, count, expected))
         })
         .collect();
-    // A pair closer than the scan is seen by the search alone.
+    // A pair closer than the scan spacing is found only by the search.
     let missed: Vec<_> = wrong.iter().filter(|(_, count, expected)| count < expected).collect();
     assert!(missed.is_empty(), "{missed:?}");
     let finer = |&(parameters, count, _): &(Parameters, usize, usize)| {
@@ -91,7 +91,7 @@ fn no_cycle_is_missed_against_a_dense_scan() {
     assert!(doubtful.is_empty(), "{doubtful:?}");
 }
 
-/// Where a start ends according to its own motion.
+/// The fate of a start according to its own motion.
 fn brute_fate(parameters: &Parameters, initial: State) -> Fate {
     let problem = Problem {
         parameters: *parameters,
@@ -138,7 +138,7 @@ fn ordered_basins_agree_with_brute_force() {
     });
 }
 
-/// Whether the edge cuts so close by that the end time of brute force cannot decide.
+/// Whether the border passes so close that the end time of brute force cannot decide.
 fn near_a_border(basin: &Basin, start: State) -> bool {
     let fate = basin.fate(start);
     [(1e-3, 0.0), (-1e-3, 0.0), (0.0, 1e-3), (0.0, -1e-3)]
@@ -155,8 +155,8 @@ fn few_starts_of_a_wide_window_come_to_rest_beside_a_large_cycle() {
     assert_eq!(counts, Counts { captured: 358, cycle: 122_522, escaped: 0, undecided: 0 });
 }
 
-/// The general search, with half maps that integrate by series down to sizes of 1e-9, against the closed
-/// form of the piecewise linear cycle.
+/// The general search, with half maps integrated by series down to sizes of 1e-9, against the closed form of
+/// the piecewise linear cycle.
 #[test]
 fn the_general_path_gives_the_piecewise_linear_cycle_to_twelve_digits() {
     let r = 0.5;
@@ -206,10 +206,10 @@ fn folds_lie_where_they_were_computed_elsewhere() {
     let with_d2 = fold(0.2, 0.5, 0.1);
     assert!((with_d2.value - number(&table["with_D2"]["D"])).abs() < 1e-12, "{}", with_d2.value);
     assert!((with_d2.q_max.unwrap() - number(&table["with_D2"]["q_max"])).abs() < 1e-9);
-    // Asymmetric damping moves the fold, which (48) does not know.
+    // Asymmetric damping moves the fold, which (48) ignores.
     let shifted = [0.0, 0.2, 0.5].map(|d2| fold(d2, 0.01, 0.1).value);
     assert!(shifted[0] > shifted[1] && shifted[1] > shifted[2], "{shifted:?}");
-    // On either side of it, motion for motion: below, some turn grows; above, every turn shrinks.
+    // On either side of the fold, by motions: below, some turn grows; above, every turn shrinks.
     for (d2, value) in [(0.2, shifted[1]), (0.5, shifted[2])] {
         let grows = |d: f64| {
             let parameters = Parameters { d, d2, d3: 0.01, r: 0.1 };
@@ -219,7 +219,7 @@ fn folds_lie_where_they_were_computed_elsewhere() {
     }
 }
 
-/// Whether a motion from rest at `q0` comes back to its side further out.
+/// Whether a motion from rest at `q0` returns to its side further out.
 fn turn_grows(parameters: &Parameters, q0: f64) -> bool {
     let problem = Problem {
         parameters: *parameters,
@@ -233,8 +233,7 @@ fn turn_grows(parameters: &Parameters, q0: f64) -> bool {
     motion.crossings.get(1).is_some_and(|crossing| crossing.q > q0)
 }
 
-/// A cycle between a capture and an escape that are less than rounding apart on its left: a turn multiplies
-/// distances by 1e479.
+/// A cycle whose left side separates capture and escape by less than rounding: a turn multiplies distances by 1e479.
 const STEEP: Parameters = Parameters {
     d: 0.292_034_178_266_773_2,
     d2: 0.871_353_162_855_809,
@@ -244,8 +243,8 @@ const STEEP: Parameters = Parameters {
 
 #[test]
 fn every_cycle_lies_between_motions_that_come_closer_and_motions_that_go_further() {
-    /// Part of the clearance by which motions start beside the cycle, and the multipliers that leave a
-    /// difference of such motions larger than their error.
+    /// Relative distance from the cycle at which motions start, and the magnitude of the logarithm of the multiplier
+    /// above which their difference exceeds their error.
     const BESIDE: f64 = 1e-4;
     const CLEAR: f64 = 1e-3;
     let wrong = |parameters: &Parameters| -> Vec<hopfscope::study::Cycle> {
@@ -265,8 +264,8 @@ fn every_cycle_lies_between_motions_that_come_closer_and_motions_that_go_further
     assert!(failed.is_empty(), "{failed:?}");
 }
 
-/// The cycles of the lattice of extremes. Beside each, motions are followed where that is possible: where its
-/// multiplier leaves their difference and where its clearance is a number.
+/// The cycles of the lattice of extremes. Beside each, motions are followed where possible: where the
+/// multiplier keeps their difference significant and the clearance is representable.
 fn check_extreme_cycles(sets: Vec<Parameters>, most_given_up: usize) {
     const BESIDE: f64 = 1e-4;
     let verdicts: Vec<SetVerdict> =
@@ -281,7 +280,7 @@ fn check_extreme_cycles(sets: Vec<Parameters>, most_given_up: usize) {
             && cycle.q_min < cycle.q_max
             && cycle.stable == (cycle.log_multiplier < 0.0));
         if (1e-3..600.0).contains(&cycle.log_multiplier.abs()) && cycle.clearance.is_normal() {
-            // Far below 1 a motion is followed in units in which friction has its digits.
+            // Far below 1, a motion is followed in units in which friction is not subnormal.
             let unit = if cycle.clearance < 1e-250 { 800 } else { 0 };
             let parameters = Parameters { d, d2, d3, r }.times_power(unit);
             let clearance = times_power(cycle.clearance, unit);
@@ -309,13 +308,13 @@ fn cycles_at_the_extremes_are_answered_and_right() {
 #[test]
 #[ignore = "long: all 1,800 sets of the lattice"]
 fn all_cycles_at_the_extremes_are_answered_and_right() {
-    // D2 = 1e6, D3 = -1e-12, r = 1, and abs(D) next to 1 or beyond, gives up.
+    // D2 = 1e6, D3 = -1e-12, r = 1, with abs(D) next to 1 or beyond, gives up.
     check_extreme_cycles(sets(false).collect(), 8);
 }
 
-/// Where D2 and D3 < 0 alone decide, the left turning point is the top of `D2 v^2 - abs(D3) v^3`,
-/// at `4 D2^3/(27 D3^2)`, the largest velocity is `D2/abs(D3)`, and the slow motions take 1/6 and 5/6
-/// of `D2^2/abs(D3)`, the integrals of `dx/v` along `D2 v^2 -+ abs(D3) v^3`.
+/// Where D2 and D3 < 0 alone are decisive, the left turning point is the maximum of `D2 v^2 - abs(D3) v^3`,
+/// `4 D2^3/(27 D3^2)`. The largest velocity is `D2/abs(D3)`, and the slow motions take 1/6 and 5/6 of
+/// `D2^2/abs(D3)`, the integrals of `dx/v` along `D2 v^2 -+ abs(D3) v^3`.
 #[test]
 fn a_relaxation_by_d2_turns_where_its_slow_curve_does() {
     for d in [-0.1, 0.0, 0.5] {
@@ -324,7 +323,7 @@ fn a_relaxation_by_d2_turns_where_its_slow_curve_does() {
             let found = cycles(&parameters, false, &LIMITS).unwrap().cycles;
             let outermost = found.last().unwrap();
             if (d, r) == (-0.1, 1e-12) {
-                // So small a cycle is that of linear damping.
+                // Such a small cycle is that of linear damping.
                 assert!((outermost.q_max / 6.386_823e-12 - 1.0).abs() < 1e-5);
                 continue;
             }
@@ -343,7 +342,7 @@ fn a_fold_and_the_escape_point_end_the_branches_that_lead_to_them() {
     let escape = found.special.iter().find(|special| special.kind == SpecialKind::Escape).unwrap();
     let largest = found.pieces[0].iter().map(|point| point.value).fold(f64::MIN, f64::max);
     assert!(largest < escape.value && escape.value - largest < 1e-3);
-    // Points of a branch are cycles: found again, by the search, at their own parameter.
+    // Points of a branch are cycles: the search finds them again at their own parameter.
     for point in found.pieces[0].iter().step_by(7) {
         let there = Parameters { d: point.value, ..parameters };
         let cycle = &cycles(&there, false, &LIMITS).unwrap().cycles[0];
@@ -353,7 +352,7 @@ fn a_fold_and_the_escape_point_end_the_branches_that_lead_to_them() {
 
 #[test]
 fn the_branch_over_cubic_damping_ends_before_its_cycles_become_uncertain() {
-    // Which cycle passes D3 = 0, if one does; the other one comes from infinity there.
+    // Which cycle passes D3 = 0, if any; the other one comes from infinity there.
     for (d, d2, passes) in [
         (-0.3, 0.0, Some(false)),
         (-0.3, 0.2, Some(false)),

@@ -1,5 +1,5 @@
-//! Cycles, branches and folds where doubles come to their end: next to folds and to escape, at large
-//! multipliers, where a cycle grazes the sticking set. Reference values: `tests/data/cycles_to_digits.csv`, from an
+//! Cycles, branches and folds at the limits of doubles: next to folds and to escape, at large multipliers, and
+//! where a cycle grazes the sticking set. Reference values: `tests/data/cycles_to_digits.csv`, from an
 //! independent program in quadruple precision (Taylor series of order 40, residuals closed to 1e-29).
 
 use hopfscope::flow::Limits;
@@ -22,7 +22,7 @@ fn found(parameters: [f64; 4]) -> Vec<Cycle> {
     answer.unwrap_or_else(|reason| panic!("{parameters:?}: {reason}")).cycles
 }
 
-/// Each number of each cycle is within its own error of the reference, and the error of all covers each.
+/// Each number of each cycle is within its own error estimate of the reference, and the overall error covers each.
 #[test]
 fn errors_are_never_below_the_true_ones() {
     let rows: Vec<Vec<f64>> = include_str!("../data/cycles_to_digits.csv")
@@ -52,7 +52,7 @@ fn errors_are_never_below_the_true_ones() {
                 (near.log_multiplier, log_multiplier, errors.log_multiplier),
                 (near.clearance, clearance, errors.log_clearance * clearance),
             ];
-            // An error that is not a number covers nothing.
+            // An error of NaN covers nothing.
             let covered =
                 checks.iter().all(|(value, truth, error)| (value - truth).abs() <= *error);
             let relative = checks[..5].iter().chain(&checks[6..]);
@@ -64,7 +64,7 @@ fn errors_are_never_below_the_true_ones() {
     assert!(wrong.is_empty(), "{} of {}: {wrong:#?}", wrong.len(), rows.len());
 }
 
-/// With D3 = 0 one cycle repels below `D_c`, and none does above, however near.
+/// With D3 = 0 one cycle repels below `D_c`, and there is none above, however near.
 #[test]
 fn the_cycle_lives_up_to_the_escape_point_and_no_further() {
     for (d2, r) in [(1.0, 1.0), (0.168, 0.185), (0.004_155_840_696_472_669_5, 1.0)] {
@@ -95,7 +95,7 @@ fn cycles_are_two_below_a_fold_and_none_above() {
     }
 }
 
-/// Sets whose search spent its budget, or did not settle.
+/// Parameter sets for which the search once spent its budget or did not converge.
 #[test]
 fn the_search_ends_where_there_is_an_answer() {
     let pair = found([
@@ -120,7 +120,7 @@ fn a_cycle_that_grazes_the_sticking_set_is_told_from_it() {
         assert!(cycle.stable);
         assert!((cycle.clearance / clearance - 1.0).abs() < 1e-9, "{cycle:?}");
         assert!((cycle.period - period).abs() < 1e-7 + cycle.errors.period, "{cycle:?}");
-        // Without D2 the two swings mirror each other.
+        // Without D2 the two swings are mirror images.
         assert!((cycle.q_max + cycle.q_min).abs() <= cycle.errors.q_max + cycle.errors.q_min);
     }
 }
@@ -129,12 +129,12 @@ fn a_cycle_that_grazes_the_sticking_set_is_told_from_it() {
 fn strong_cubic_damping_has_its_fold_too() {
     let found = fold(&set([0.0, 0.0, 10.0, 1.0]), &LIMITS).unwrap().0.unwrap();
     assert!((found.d + 2.742_750).abs() < 5e-7 && found.grazes, "{found:?}");
-    // Scaled: only r^2 D3 matters.
+    // By scaling, only r^2 D3 matters.
     let scaled = fold(&set([0.0, 0.0, 40.0, 0.5]), &LIMITS).unwrap().0.unwrap();
     assert!((scaled.d / found.d - 1.0).abs() < 1e-14, "{scaled:?}");
 }
 
-/// A point that cannot be computed says why, and does not take the others with it.
+/// A point that cannot be computed gives its reason and does not affect the others.
 #[test]
 fn a_border_has_a_row_for_every_value() {
     let found = border(&set([0.0, 0.0, 0.0, 1.0]), Symbol::D3, (0.25, 1e300), 2, &LIMITS).unwrap();
@@ -201,7 +201,7 @@ fn a_branch_over_r_marks_its_escape() {
     assert!((at / -0.5 - 1.0).abs() < 1e-12, "{at}");
 }
 
-/// The cycle grows tenfold within 1e-9 of D, then lives on.
+/// The cycle grows tenfold within 1e-9 of D, and then continues.
 #[test]
 fn a_branch_is_followed_through_an_explosion() {
     let base = [-0.94486, -0.031_239_1, -4.389_05e-5, 16.4024];

@@ -1,5 +1,5 @@
-//! Over the whole range of floating-point numbers: motions and cycles have typed answers, within their
-//! budget, and every number in them is finite.
+//! Over the whole range of floating-point numbers, motions and cycles have typed answers within their budget,
+//! and every number in them is finite.
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, METHODS, Outcome, Problem};
@@ -9,7 +9,7 @@ use hopfscope::study::cycle::cycles;
 use proptest::num::f64::{NEGATIVE, NORMAL, POSITIVE, SUBNORMAL, ZERO};
 use proptest::prelude::*;
 
-/// Any finite number, subnormal ones and both zeros included.
+/// Any finite number, including subnormal ones and both zeros.
 fn any_number() -> impl Strategy<Value = f64> {
     let moderate = prop_oneof![-2.0..2.0, -1e6..1e6];
     prop_oneof![
@@ -40,7 +40,7 @@ proptest! {
         (until, step, epsilon) in (0.0..1e9_f64, 1e-7..1.0_f64, 1e-12..1e6_f64),
         (crossings, energy, samples_per_step) in (any::<bool>(), any::<bool>(), 0..3_usize),
     ) {
-        /// Most evaluations, and what the step may take that begins just below them.
+        /// The budget of evaluations, and the maximum number for a step that begins just below it.
         const BUDGET: (u64, u64) = (4_000, 20_000);
         let problem = Problem {
             parameters,
@@ -92,7 +92,7 @@ proptest! {
             prop_assert!(cycle.v_min <= 0.0 && 0.0 <= cycle.v_max && cycle.period > 0.0, "{cycle:?}");
             prop_assert_eq!(cycle.stable, cycle.log_multiplier < 0.0);
         }
-        // Nested, so one cannot be left by a motion of another.
+        // Nested, since no motion can pass from one cycle to another.
         for pair in found.cycles.windows(2) {
             prop_assert!(pair[0].q_max <= pair[1].q_max && pair[0].q_min >= pair[1].q_min);
             prop_assert!(pair[0].stable != pair[1].stable, "{pair:?}");
@@ -112,7 +112,7 @@ fn the_multiplier_beside_the_largest_cubic_damping_is_a_number() {
     let found = cycles(&parameters, false, &limits).unwrap();
     let [cycle, outer] = &found.cycles[..] else { panic!("{found:?}") };
     assert!(outer.stable && outer.log_multiplier < 0.0, "{outer:?}");
-    // So small a cycle does not know of D3: its multiplier is that of the linear equation, e^(2 x).
+    // Such a small cycle is unaffected by D3: its multiplier is that of the linear equation, e^(2 x).
     let x = -std::f64::consts::PI * parameters.d / parameters.omega().unwrap();
     assert!((cycle.log_multiplier / (2.0 * x) - 1.0).abs() < 1e-6, "{cycle:?}");
 }

@@ -1,4 +1,4 @@
-//! What a cycle costs, and relaxations with damping beyond all bounds.
+//! Cost of a cycle, and relaxations with extreme damping.
 
 use super::*;
 
@@ -17,7 +17,7 @@ fn one_cycle_costs_at_most_forty_half_swings() {
 
 #[test]
 fn a_cycle_is_found_where_two_ways_to_compute_it_are_equally_good() {
-    // At the first guess of one of them the ways of computing it contradict each other.
+    // At the initial guess of one of them the two methods disagree.
     for index in 0..40 {
         let d = -0.2226 + 2e-5 * f64::from(index);
         let parameters = Parameters { d, d2: 0.2, d3: 0.5, r: 0.1 };
@@ -26,8 +26,8 @@ fn a_cycle_is_found_where_two_ways_to_compute_it_are_equally_good() {
     }
 }
 
-/// Without friction and with D3 > 0 the velocity obeys van der Pol's equation with `mu = -2 D`, whose
-/// periods are tabulated; D = -1 and beyond is a node that repels, and its cycle a relaxation.
+/// Without friction and with D3 > 0 the velocity obeys van der Pol's equation with `mu = -2 D`, whose periods
+/// are tabulated. For D <= -1 the centre is a repelling node and the cycle a relaxation.
 #[test]
 fn relaxations_have_the_periods_of_van_der_pol() {
     for (mu, period) in [(1.0, 6.663_29), (2.0, 7.629_87), (5.0, 11.612_23), (10.0, 19.078_37)] {
@@ -40,8 +40,8 @@ fn relaxations_have_the_periods_of_van_der_pol() {
     }
 }
 
-/// Where damping is so strong that a swing is a relaxation: within a budget, and a cycle that repels
-/// around the sticking set has another one around it that attracts where D3 > 0.
+/// Where damping is so strong that a swing is a relaxation, within a budget. A cycle that repels around the
+/// sticking set is surrounded by an attracting one where D3 > 0.
 #[test]
 fn stiff_cycles_are_found_within_a_budget() {
     let limits = Limits { evaluations: 1_000_000, ..Limits::PATIENT };

@@ -16,7 +16,7 @@ pub struct Reference {
     pub multiplier: f64,
 }
 
-/// All of them.
+/// All reference cycles.
 pub fn references() -> Vec<Reference> {
     serde_json::from_str(include_str!("cycles.json")).unwrap()
 }

@@ -1,4 +1,4 @@
-//! What a reader sees: panels, legends, dashes, labels, proportions.
+//! Visible properties of figures: panels, legends, dashes, labels, proportions.
 
 use super::*;
 

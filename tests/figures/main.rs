@@ -1,4 +1,4 @@
-//! Figures: one data set in every form, curves that are right, and polylines that nobody sees as such.
+//! Figures: one data set in every form, correct curves, and polylines that look smooth.
 
 mod looks;
 mod numbers;
@@ -38,7 +38,7 @@ fn scenes() -> impl Iterator<Item = &'static str> {
     library().iter().map(|scene| scene.name.as_str())
 }
 
-/// The curves of a panel, from 0, whose name begins so.
+/// The curves of a panel (counted from 0) whose name begins with `name`.
 fn curves<'a>(figure: &'a Figure, panel: usize, name: &str) -> Vec<&'a FigureCurve> {
     let all = figure.panels[panel].curves.iter();
     let found: Vec<_> = all.filter(|curve| curve.name.starts_with(name)).collect();
@@ -60,7 +60,7 @@ fn every_scene_is_the_same_figure_in_every_form() {
     }
 }
 
-/// Every point of the JSON stands in the CSV, and nothing else does.
+/// Every point of the JSON is in the CSV, and nothing else is.
 fn same_numbers(scene: &str, json: &Value, csv: &str) {
     let value =
         |value: &Value| value.as_f64().map_or_else(String::new, |value| format!("{value:?}"));
@@ -99,8 +99,7 @@ fn same_numbers(scene: &str, json: &Value, csv: &str) {
     }
 }
 
-/// A well-formed SVG with axes, a legend, and lines that are solid where something is stable and dashed
-/// where it is not.
+/// A well-formed SVG with axes, a legend, and lines that are solid for stable and dashed for unstable objects.
 fn vector_picture(figure: &Figure, svg: &str) {
     let scene = &figure.figure;
     let picture = Document::parse(svg).unwrap_or_else(|error| panic!("{scene}: {error}"));
@@ -138,9 +137,9 @@ fn vector_picture(figure: &Figure, svg: &str) {
     no_text_covers_another(scene, &picture);
 }
 
-/// The texts beside points and curves: none covers another.
+/// Texts next to points and curves: none covers another.
 fn no_text_covers_another(scene: &str, picture: &Document) {
-    /// Width of a letter at least, and height of a line, in pixels.
+    /// Minimum width of a letter, and height of a line, in pixels.
     const LETTER: (f64, f64) = (5.0, 11.0);
     let number = |node: &roxmltree::Node, name: &str| -> f64 {
         node.attribute(name).and_then(|text| text.parse().ok()).unwrap()
@@ -173,7 +172,7 @@ fn on_paper(figure: &Figure, panel: usize, curve: &FigureCurve) -> Vec<(f64, f64
     curve.points.iter().map(place).collect()
 }
 
-/// How far a point is from a polyline; the chords around number `near` are looked at first.
+/// The distance of a point from a polyline; the chords around number `near` are tried first.
 fn aside(point: (f64, f64), line: &[(f64, f64)], near: usize) -> f64 {
     let distance = |pair: &[(f64, f64)]| -> f64 {
         let (along, up) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
@@ -188,7 +187,7 @@ fn aside(point: (f64, f64), line: &[(f64, f64)], near: usize) -> f64 {
     if close < FAINT { close } else { least(line) }
 }
 
-/// What nobody sees, in pixels.
+/// Invisible distance, in pixels.
 const FAINT: f64 = 0.05;
 
 #[test]
@@ -214,7 +213,7 @@ fn no_chord_misses_its_curve_by_more_than_a_twentieth_of_a_pixel() {
     }
 }
 
-/// A hundred times closer, on a point of a curve of each kind: the chords are as near as before, because
+/// Magnified a hundredfold around a point of a curve of each kind: the chords are as close as before, because
 /// there are more of them, and only there.
 #[test]
 fn no_chord_misses_its_curve_after_zooming_either() {
@@ -231,7 +230,7 @@ fn no_chord_misses_its_curve_after_zooming_either() {
         let mut session = open();
         complete(&mut session, Fineness::PRINT, &Limits::PATIENT).expect("an answer");
         let whole = Figure::of(&session, [panel]);
-        // A point of the longest curve that is in the window.
+        // A point of the longest curve inside the window.
         let Window { x, y } = whole.panels[0].window;
         let longest = whole.panels[0].curves.iter().max_by_key(|curve| curve.points.len()).unwrap();
         let inside =
@@ -303,7 +302,7 @@ fn files_of_every_form_are_written_and_nothing_is_lost() {
         assert_eq!((ran.code, ran.out.as_str(), ran.err.as_str()), (0, "", ""), "{ending}");
         let content = fs::read(&path).unwrap();
         assert!(content.len() > 1000, "{ending}");
-        // The same once more loses nothing.
+        // Writing the same again loses nothing.
         assert_eq!(run(&["figure", "fig08", "--output", &path]).code, 0);
         let ran = run(&["figure", "fig09", "--output", &path]);
         ran.is_refused(&[&path, "--force"]);
@@ -311,12 +310,12 @@ fn files_of_every_form_are_written_and_nothing_is_lost() {
         assert_eq!(run(&["figure", "fig09", "--output", &path, "--force"]).code, 0);
         assert_ne!(fs::read(&path).unwrap(), content);
     }
-    // A picture of two panels, three dots to a pixel; its beginning says so.
+    // A picture of two panels, three dots per pixel, according to its header.
     let dots = fs::read(name("a.png")).unwrap();
     assert_eq!(dots[..8], *b"\x89PNG\r\n\x1a\n");
     let size = |at: usize| u32::from_be_bytes(dots[at..at + 4].try_into().unwrap());
     assert_eq!((size(16), size(20)), (3 * 920, 3 * 456));
-    // What is printed is what is written.
+    // Printed and written data are equal.
     let printed = run(&["figure", "fig09", "--format", "csv"]);
     let written = fs::read_to_string(name("a.csv")).unwrap();
     let origin =
@@ -345,7 +344,7 @@ fn the_path_of_a_belt_is_that_of_its_machines_at_other_speeds() {
     };
     let (slow, fast) = (0.3 / 32.0, 0.3 * 32.0);
     assert_eq!((path.points[0], path.points[path.points.len() - 1]), (at(slow), at(fast)));
-    // A fast belt feeds nothing: d1 alone is left of D, and the lower coefficient of friction in r.
+    // A fast belt feeds no energy: D contains only d1, and r the lower coefficient of friction.
     assert!((at(fast)[0] - 5.0 / 200.0).abs() < 1e-12 && (at(fast)[1] - 0.05).abs() < 1e-12);
     let speeds: Vec<f64> = figure.panels[0]
         .marks

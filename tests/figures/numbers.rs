@@ -1,4 +1,4 @@
-//! What figures show, against formulas and reference numbers.
+//! The contents of figures, against formulas and reference numbers.
 
 use super::*;
 
@@ -9,7 +9,7 @@ fn reference_folds() -> Vec<(f64, f64)> {
     rows.map(|row| (row["kappa"].as_f64().unwrap(), row["D_F"].as_f64().unwrap())).collect()
 }
 
-/// The extents of the cycle of the piecewise linear oscillator, (32) and (33) as corrected.
+/// The extents of the cycle of the piecewise linear oscillator, from the corrected (32) and (33).
 fn linear_extents(d: f64, r: f64) -> (f64, f64) {
     let omega = (1.0 - d * d).sqrt();
     let x = -PI * d / omega;
@@ -32,7 +32,7 @@ fn extents_of_the_basin_are_those_of_the_formulas() {
                 if curve.parameters["r"] != r {
                     continue;
                 }
-                // Within 1e-3 of -1 the formula as written here loses its digits.
+                // Within 1e-3 of -1 the formula in this form loses its digits.
                 for [d, height] in curve.points.iter().filter(|[d, _]| *d > -0.999) {
                     let (q, v) = linear_extents(*d, r);
                     let expected = if of_velocity { v } else { q };
@@ -48,7 +48,7 @@ fn extents_of_the_basin_are_those_of_the_formulas() {
     for [d, v] in &curves(&drawn, 0, "largest velocity A_v")[0].points[1..] {
         assert!((v / linear_extents(*d, 0.1).1 - 1.0).abs() < 1e-12);
     }
-    // The mark at the present value is not a chord either: A_q at D = -0.4.
+    // The mark at the current value is not on a chord either: A_q at D = -0.4.
     let mark = drawn.panels[0].marks.iter().find(|mark| mark.x == -0.4).unwrap();
     assert!((mark.y / linear_extents(-0.4, 0.1).0 - 1.0).abs() < 1e-9, "{}", mark.y);
 }
@@ -102,7 +102,7 @@ fn harmonic_curves_obey_the_amplitude_equation() {
 
 #[test]
 fn computed_and_harmonic_folds_stand_where_they_are_known_to() {
-    // Over (D, D3) at r = 0.1, (r, D3) at D = -0.2: each point has its kappa = r^2 D3 and its D_F.
+    // Over (D, D3) at r = 0.1 and (r, D3) at D = -0.2, each point has its kappa = r^2 D3 and its D_F.
     let mut known = 0;
     for (scene, d) in [("fig10", None), ("fig11", Some(-0.2))] {
         let drawn = figure(scene, Fineness::PRINT);
@@ -124,7 +124,7 @@ fn computed_and_harmonic_folds_stand_where_they_are_known_to() {
                 known += 1;
             }
         }
-        // At D = -0.2 the fold has one kappa, wherever r and D3 stand.
+        // At D = -0.2 the fold has a single kappa for all r and D3.
         if d.is_some() {
             assert!(points.iter().all(|point| (point.0 / points[0].0 - 1.0).abs() < 1e-9));
         }
@@ -134,7 +134,7 @@ fn computed_and_harmonic_folds_stand_where_they_are_known_to() {
 
 #[test]
 fn amplitudes_are_those_of_the_reference_cycles() {
-    // fig16 and fig10 mark the cycles at the present D: those of r = 0.1 are in the reference.
+    // fig16 and fig10 mark the cycles at the current D; the reference contains those of r = 0.1.
     let document: Value = serde_json::from_str(include_str!("../data/cycles.json")).unwrap();
     let drawn = figure("supercritical", Fineness::PRINT);
     let mut checked = 0;

@@ -1,4 +1,4 @@
-//! Fits of records whose truth is known: made by an independent simulator, or by the program's own motions with
+//! Fits of records with known truth, made by an independent simulator or from the program's own motions with
 //! noise of fixed seeds.
 
 mod noise;
@@ -23,8 +23,8 @@ fn path(name: &str) -> String {
     format!("{}/tests/data/fit/{name}.csv", env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The records with their truth: parameters, the standard errors that the Fisher information allows (for the rows
-/// kept here), and what the motion does.
+/// The records with their truth: parameters, the standard errors that the Fisher information allows (for the
+/// rows kept here), and the behaviour of the motion.
 fn truth() -> serde_json::Map<String, Value> {
     let text =
         fs::read_to_string(format!("{}/tests/data/fit/truth.json", env!("CARGO_MANIFEST_DIR")));
@@ -36,7 +36,7 @@ fn fitted(name: &str) -> Value {
     json(&format!("fit {}{peaks} --draws 40", path(name)))
 }
 
-/// The 95 % interval, open where the data set no bound.
+/// The 95 % interval, infinite where the data set no bound.
 fn interval(number: &Value) -> (f64, f64) {
     (
         number["lower"].as_f64().unwrap_or(f64::NEG_INFINITY),
@@ -71,7 +71,7 @@ fn records_of_an_independent_simulator_are_understood_from_the_file_alone() {
         let separable = found["separable"].as_array().unwrap();
         assert_eq!(separable.is_empty(), name != "d_or_r", "{name}: {separable:?}");
     }
-    // Of 54 intervals of 95 %, 2.7 miss on average; eight or more in one of 200 worlds.
+    // Of 54 intervals of 95 %, 2.7 miss on average; eight or more miss in one of 200 cases.
     assert!(inside >= asked - 7, "{inside} of {asked} intervals hold the truth");
 }
 
@@ -87,7 +87,7 @@ fn parameters_that_cannot_be_separated_are_reported_as_a_known_combination() {
     let (value, error) =
         (combination["value"].as_f64().unwrap(), combination["standard_error"].as_f64().unwrap());
     assert!((value - 0.006_06).abs() < 3.0 * error && error < 3e-4, "{value} +- {error}");
-    // Known together to 3 %, alone not within their own size.
+    // The combination is known to 3 %, each number alone not even to its own size.
     assert!(
         found["parameters"]["D"]["standard_error"].as_f64().unwrap() > 10.0 * value.abs() / 2.0
     );
@@ -107,7 +107,7 @@ fn a_margin_within_the_record_is_found_and_one_beyond_it_is_marked_as_extrapolat
     }
 }
 
-/// A record of the program's own motion with noise.
+/// A record of the program's own motion with added noise.
 #[derive(Clone, Copy)]
 struct Simulated {
     p: Unknowns,
@@ -115,7 +115,7 @@ struct Simulated {
     seconds: f64,
     samples: u32,
     noise: f64,
-    /// Correlation from one sample to the next.
+    /// Correlation between successive samples.
     memory: f64,
 }
 
@@ -147,7 +147,7 @@ impl Simulated {
 /// omega0, offset, D, D2, D3, r, q0, t0: fourteen half swings and a rest.
 const DECAY: Unknowns = [10.0, 0.5, 0.02, 0.005, 0.0005, 0.15, 6.0, 0.3];
 
-/// The same for six seconds, with independent noise.
+/// This decay for six seconds, with independent noise.
 const RELEASED: Simulated = Simulated {
     p: DECAY,
     start: StartKind::Release,
@@ -157,7 +157,7 @@ const RELEASED: Simulated = Simulated {
     memory: 0.0,
 };
 
-/// Fails unless each of these numbers is less than so many standard errors off the truth.
+/// Fails unless each of these numbers is within this many standard errors of the truth.
 fn assert_near<'a>(
     found: &Estimate,
     truth: &Unknowns,
@@ -172,7 +172,7 @@ fn assert_near<'a>(
 
 #[test]
 fn a_first_guess_with_a_wrong_number_of_half_swings_is_corrected() {
-    // Correlated noise and asymmetric damping: the first descent ends with a half swing too many.
+    // Correlated noise and asymmetric damping: the first descent ends with one half swing too many.
     let p = [8.0, -3.0, 0.01, -0.04, 0.001, 0.15, -6.0, 0.7];
     let decay = Simulated { p, seconds: 14.0, samples: 800, memory: 0.6, ..RELEASED };
     for seed in [3, 5, 6] {
@@ -198,7 +198,7 @@ fn a_drift_outside_the_model_is_reported() {
 
 #[test]
 fn ten_thousand_samples_take_at_most_forty_motions_with_derivatives() {
-    // A weakly damped oscillation read by a converter with steps of 0.005.
+    // A weakly damped oscillation, digitised in steps of 0.005.
     let ringing = Simulated {
         p: [31.4, 0.0, 0.0008, 0.0, 2e-5, 0.001, 6.0, 0.5],
         start: StartKind::Moving,
@@ -227,7 +227,7 @@ fn held_numbers_stay_and_only_the_requested_ones_are_reported() {
     assert_eq!(found["held"], serde_json::json!({"D2": 0.0, "D3": 0.0}));
     let both = json(&format!("fit {file} --draws 40"));
     let error = |document: &Value| document["parameters"]["r"]["standard_error"].as_f64().unwrap();
-    // Fewer unknowns, smaller errors: 1.33e-4 against 2.92e-4 for all rows of this record.
+    // With fewer unknowns the errors are smaller: 1.33e-4 against 2.92e-4 for all rows of this record.
     assert!(error(&found) < 0.6 * error(&both));
     let held = json(&format!("fit {file} --set r=0.15 --set D3=0 --draws 40"));
     assert_eq!(held["held"], serde_json::json!({"D3": 0.0, "r": 0.15}));
@@ -283,7 +283,7 @@ fn the_zeros_of_the_damping_over_amplitude_are_the_cycles() {
     let zero = marks.iter().find(|mark| mark["name"] == "unstable cycle").unwrap();
     let off = zero["x"].as_f64().unwrap() / amplitude - 1.0;
     assert!(off.abs() < 1e-3, "{zero} {amplitude}");
-    // The file is not replaced by another one without being told.
+    // An existing file is not replaced without permission.
     let line = format!("fit {} --draws 40 --output {name}", path("d_or_r"));
     let ran = run(&line.split_whitespace().collect::<Vec<_>>());
     assert_eq!(ran.code, 2, "{}", ran.err);
@@ -358,7 +358,7 @@ fn a_fit_is_the_same_in_any_unit() {
 
 #[test]
 fn peaks_continue_at_rest_so_that_intervals_do_not_end_there() {
-    // The last two readings are a swing that has nearly died away.
+    // The last two readings belong to a motion that has nearly died away.
     let decay = [1.0, 0.3, 0.012, 0.004, 0.0004, 0.1, 8.0, 0.0];
     let data = Data::Peaks { t: None, x: vec![0.0; 24], ratio: 1.0 };
     let observation = Observation { data, start: StartKind::Release, linear: false, reach: 1e9 };

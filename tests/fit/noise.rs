@@ -1,8 +1,8 @@
-//! What intervals, noise and left-out samples say of records made from a known truth.
+//! Intervals, noise and left-out samples for records made from a known truth.
 
 use super::*;
 
-/// How many of the estimates hold the truth of each number in their intervals of 95 %.
+/// The number of estimates whose 95 % intervals contain the truth, for each number.
 fn covered(estimates: &[Estimate], p: &Unknowns) -> Vec<usize> {
     let holds = |estimate: &Estimate, place: usize| {
         let interval = estimate.intervals[place];
@@ -34,7 +34,7 @@ fn correlated_noise_is_reported_and_widens_the_errors() {
             "{:?}",
             estimate.whiteness.correlation
         );
-        // (1 + rho)/(1 - rho) = 9 in variance for unknowns that change slowly.
+        // (1 + rho)/(1 - rho) = 9 in variance for slowly varying unknowns.
         let inflation = estimate.covariance.inflation(named("r").unwrap().place);
         assert!((4.0..13.0).contains(&inflation), "{inflation}");
     }
@@ -69,7 +69,7 @@ fn outliers_are_left_out_and_do_not_change_the_fit() {
 
 #[test]
 fn readings_at_rest_of_a_coarse_converter_do_not_count_as_independent() {
-    // Steps of five times the noise: every reading at rest is off by the same part of a step.
+    // Steps of five times the noise: every reading at rest has the same error, a fraction of a step.
     let p = [31.4, 0.0, 0.01, 0.0, 0.0, 0.15, 8.0, 0.35];
     let (r, mut covered) = (named("r").unwrap().place, 0);
     for seed in 1..=8_u64 {
@@ -83,7 +83,7 @@ fn readings_at_rest_of_a_coarse_converter_do_not_count_as_independent() {
         let interval = found.intervals[r];
         covered += usize::from(interval.lower.unwrap() <= p[r] && p[r] <= interval.upper.unwrap());
         assert!(found.alike > 500 && found.outliers() == 0, "{} {}", found.alike, found.outliers());
-        // The bound with one common error of the rest and one of the hold is 1.7 times that of independent errors.
+        // With one common error of the rest and one of the hold, the bound is 1.7 times that for independent errors.
         let error = found.covariance.error(r);
         assert!((3e-4..7e-4).contains(&error), "{error}");
     }
@@ -92,7 +92,7 @@ fn readings_at_rest_of_a_coarse_converter_do_not_count_as_independent() {
 
 #[test]
 fn a_rest_explained_by_two_numbers_of_half_swings_is_reported_with_both() {
-    // Weak friction and much noise: the last turning point may lie on either side of the rim.
+    // Weak friction and strong noise: the last turning point may be on either side of the rim.
     let unclear = Simulated {
         p: [14.0, 0.1, 0.002, 0.0, 0.01, 0.02, 5.0, 0.4],
         start: StartKind::Moving,

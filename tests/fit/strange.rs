@@ -1,4 +1,4 @@
-//! Records that begin in another way, and such as are not motions of this oscillator.
+//! Records that begin differently, or are not motions of this oscillator.
 
 use hopfscope::fit::names::NAMES;
 use hopfscope::fit::observation::StartKind;
@@ -10,7 +10,7 @@ use super::{RELEASED, Simulated, assert_near};
 
 #[test]
 fn a_mass_that_is_struck_where_it_rests_is_fitted_from_the_stroke_on() {
-    // A stroke: at rest for 0.4 s, then under way through the same place.
+    // A stroke: at rest for 0.4 s, then moving through the same position.
     let struck = Simulated {
         p: [16.0, 0.2, 0.015, 0.0, 0.0, 0.1, 0.0, 5.0],
         start: StartKind::Moving,

@@ -4,7 +4,7 @@ use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
-/// How a run ended.
+/// The result of a run.
 #[derive(Debug)]
 pub struct Ran {
     /// Exit code.
@@ -26,13 +26,13 @@ impl Ran {
     }
 }
 
-/// A number of a document.
+/// A number in a document.
 #[allow(dead_code, reason = "not every test program asks for JSON")]
 pub fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
 }
 
-/// The program with these arguments, not yet started.
+/// The command of the program with these arguments, not yet started.
 pub fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_hopfscope"));
     command.args(arguments).stdin(Stdio::null());
@@ -47,7 +47,7 @@ pub fn run(arguments: &[&str]) -> Ran {
     Ran { code, out: text(output.stdout), err: text(output.stderr) }
 }
 
-/// Runs a command line given as words, expects an answer without remarks, and returns it as JSON.
+/// Runs a command line given as words, expects an answer without messages, and returns it as JSON.
 #[allow(dead_code, reason = "not every test program asks for JSON")]
 pub fn json(line: &str) -> Value {
     let mut words: Vec<&str> = line.split_whitespace().collect();

@@ -1,4 +1,4 @@
-//! Certificates of limit cycles: what is written is accepted, and nothing else.
+//! Certificates of limit cycles: those written by the program are accepted, and no others.
 
 use hopfscope::check::motion::Field;
 use hopfscope::check::{Certificate, CertificateStep, StepKind, check};
@@ -38,7 +38,7 @@ fn what_is_written_is_accepted() {
     }
 }
 
-/// The clearance in a certificate holds the reference of thirty digits, whose leading digits these are.
+/// The clearance in a certificate contains the reference of thirty digits, whose leading digits are given here.
 #[test]
 fn the_clearance_holds_the_reference() {
     let accepted = check(&written(-0.2, 0.2, 0.5, 0.1)).unwrap();
@@ -48,7 +48,7 @@ fn the_clearance_holds_the_reference() {
     assert!(high - low < 1e-11);
 }
 
-/// All places of a document at which there is a number, a truth or a word.
+/// Paths of all numbers, booleans and strings in a document.
 fn places(value: &Value, path: &str, found: &mut Vec<String>) {
     match value {
         Value::Object(fields) => {
@@ -65,7 +65,7 @@ fn places(value: &Value, path: &str, found: &mut Vec<String>) {
     }
 }
 
-/// A fence that is none does not bound anything: without it nothing is certain from far out.
+/// An invalid fence bounds nothing: without it nothing is certain from far out.
 #[test]
 fn a_fence_is_verified() {
     let text = written(-0.2, 0.2, 0.5, 0.1);
@@ -82,8 +82,8 @@ fn a_fence_is_verified() {
     }
 }
 
-/// Every field perturbed in turn, by a part in a thousand: refused at its line, unless a bound of the clearance has
-/// become wider and is still true.
+/// Every field is perturbed in turn by one part in a thousand: it is refused at its line, unless a bound of the
+/// clearance has become wider and is still true.
 #[test]
 fn every_field_that_is_changed_is_refused() {
     let text = written(0.3, 0.2, -0.5, 0.1);
@@ -120,7 +120,7 @@ fn every_field_that_is_changed_is_refused() {
     assert!(refused > 40, "{refused}");
 }
 
-/// The line that a refusal names.
+/// The line number in a refusal.
 fn line(refusal: &str) -> usize {
     refusal.strip_prefix("line ").and_then(|it| it.split_once(':')).unwrap().0.parse().unwrap()
 }
@@ -134,7 +134,7 @@ fn a_step_that_is_missing_or_out_of_place_is_refused_with_its_line() {
         steps.remove(gone);
         let text = file(&Certificate { steps, ..whole.clone() }).unwrap();
         let refusal = check(&text).unwrap_err();
-        // The step that now stands there, or the one before it, does not fit. Steps begin in line 5.
+        // Either the step now in this place or the previous one does not fit. Steps begin in line 5.
         let there = gone + 5;
         assert!((there - 1..=there).contains(&line(&refusal)), "without step {gone}: {refusal}");
     }
@@ -152,7 +152,7 @@ fn a_step_that_is_missing_or_out_of_place_is_refused_with_its_line() {
     assert!(check(&text.replace("0.5,0.5", "0.5,null")).is_err());
 }
 
-/// A certificate for intervals of parameters, and none where the number of cycles is open.
+/// A certificate for intervals of parameters, but none where the number of cycles is open.
 #[test]
 fn intervals_of_parameters_are_certified_and_what_is_open_is_not() {
     let mut wide = ParameterBox::from(&Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 });
@@ -163,10 +163,10 @@ fn intervals_of_parameters_are_certified_and_what_is_open_is_not() {
     assert!(certificate(&prove(&wide, &[])).is_err());
 }
 
-/// Pi, between neighbouring doubles.
+/// Pi, bounded by neighbouring doubles.
 const PI: Interval = Interval::new(std::f64::consts::PI, 3.141_592_653_589_793_6);
 
-/// The half swing of a linear spiral in closed form, computed in intervals: end, time, and the integral of its damping.
+/// The half swing of a linear spiral in closed form, computed in intervals: end, time, and integral of the damping.
 #[test]
 fn swings_hold_their_closed_form() {
     for d in [-0.6, -0.2, 0.0, 0.1, 0.5] {
@@ -189,7 +189,7 @@ fn swings_hold_their_closed_form() {
     }
 }
 
-/// A swing from an interval holds that of every start in it, also where motions part.
+/// A swing from an interval contains that of every start in it, also where motions separate.
 #[test]
 fn a_swing_from_an_interval_holds_all_of_them() {
     for coefficients in [[-0.8, 0.3, 0.2], [0.3, -0.5, 0.4], [-0.5, -0.3, 0.3], [0.2, 0.6, -0.1]] {
@@ -204,8 +204,8 @@ fn a_swing_from_an_interval_holds_all_of_them() {
     }
 }
 
-/// The statements of a step are refused where they are wrong by little: the bounds of a clearance that miss it, a
-/// step of a cycle so wide that the map no longer contracts, a theorem next to its condition.
+/// Steps are refused where their statements are slightly wrong: bounds of a clearance that miss it, a cycle
+/// step so wide that the map no longer contracts, a theorem next to its condition.
 #[test]
 fn what_is_nearly_true_is_refused() {
     let whole = check(&written(-0.2, 0.2, 0.5, 0.1)).unwrap();
@@ -221,14 +221,14 @@ fn what_is_nearly_true_is_refused() {
         let why = refused(&|it| it.steps[at].clearance = Some(wrong));
         assert!(why.contains(words), "{why}");
     }
-    // From within the unstable cycle on there are two.
+    // From inside the unstable cycle on there are two cycles.
     let first = whole.steps.iter().position(|step| step.kind == StepKind::Unstable).unwrap();
     let why = refused(&|it| {
         it.steps.drain(first..at);
         it.steps[first].from = it.steps[first - 1].to.unwrap();
     });
     assert!(why.contains("contract") || why.contains("certain"), "{why}");
-    // 32 |D|^3 < 27 r^2 D3 decides.
+    // Decided by 32 |D|^3 < 27 r^2 D3.
     let steps = vec![CertificateStep {
         kind: StepKind::OneWay,
         from: 0.0,
@@ -244,7 +244,7 @@ fn what_is_nearly_true_is_refused() {
     }
 }
 
-/// A fence is one where the damping is steep enough, and its piece holds every motion that falls through it.
+/// A fence is valid where the damping is steep enough, and its piece contains every motion that falls through it.
 #[test]
 fn fences_hold_the_motions_that_pass_them() {
     let coefficients = [-0.5, 12.0, 0.5].map(Interval::point);
@@ -264,12 +264,13 @@ fn fences_hold_the_motions_that_pass_them() {
             other.damping.lower() <= one.damping.upper() && one.end.lower() <= greatest.upper()
         );
     }
-    // Where `4 (a - 3 c v^2) <= f'^3` fails there is none: at a slope of 1.9 for a = 1.9.
+    // Where `4 (a - 3 c v^2) <= f'^3` fails there is no fence: at a slope of 1.9 for a = 1.9.
     let flat = |e: f64| Field::new([1.9, 1.0, 0.0].map(Interval::point), e).greatest();
     assert!(flat(1e-3) == Interval::ALL && flat(0.5).is_finite());
 }
 
-/// From far out all motions fall onto one curve: the end of all starts is that of one of them, and they come closer.
+/// From far out all motions fall onto one curve: the end of all starts equals that of one of them, and motions
+/// converge.
 #[test]
 fn swings_from_far_out_end_together() {
     let field = Field::new([0.2, 25.0, 0.03].map(Interval::point), 0.16);

@@ -1,8 +1,8 @@
-//! Derivatives of the proved map by the parameters.
+//! Derivatives of the proved map with respect to the parameters.
 
 use super::*;
 
-/// Scaling makes `z X_z - b X_b - 2 c X_c = X` for a half swing; without b and c its end is `z exp(-pi D/omega)`.
+/// Scaling implies `z X_z - b X_b - 2 c X_c = X` for a half swing; without b and c its end is `z exp(-pi D/omega)`.
 #[test]
 fn derivatives_by_the_parameters_obey_scaling_and_the_closed_form() {
     let point = Interval::point;
@@ -29,7 +29,7 @@ fn derivatives_by_the_parameters_obey_scaling_and_the_closed_form() {
     }
 }
 
-/// The derivatives of the map, and of its fixed points, against differences of what they are derivatives of.
+/// The derivatives of the map and of its fixed points, against difference quotients.
 #[test]
 fn derivatives_by_the_parameters_are_those_of_the_map_and_of_its_cycles() {
     const STEP: f64 = 1e-4;
@@ -53,7 +53,7 @@ fn derivatives_by_the_parameters_are_those_of_the_map_and_of_its_cycles() {
         let (more, less) = (at(value + STEP), at(value - STEP));
         let quotients = [(more.0 - less.0) / (2.0 * STEP), (more.1 - less.1) / (2.0 * STEP)];
         for (enclosed, quotient) in [slopes[index], of_cycle[index]].into_iter().zip(quotients) {
-            // Its error is a third of a derivative of third order times the square of the step.
+            // The error of the quotient is a sixth of the third derivative times the square of the step.
             assert!((enclosed.middle() / quotient - 1.0).abs() < 1e-4, "{symbol:?} {enclosed}");
             assert!(enclosed.width() < 1e-9 * quotient.abs(), "{symbol:?} {enclosed}");
         }

@@ -27,10 +27,10 @@ use hopfscope::study::escape::escape_point;
 use hopfscope::study::fold::fold;
 use hopfscope::study::proved::proved;
 
-/// A number known to twice the digits of a double, as a sum of two.
+/// A number in twice the precision of a double, as a sum of two doubles.
 type Long = (f64, f64);
 
-/// Whether an interval holds it.
+/// Whether the interval contains the number.
 fn holds(interval: Interval, (high, low): Long) -> bool {
     (high - interval.lower()) + low >= 0.0 && (interval.upper() - high) - low >= 0.0
 }
@@ -39,8 +39,8 @@ fn exactly(d: f64, d2: f64, d3: f64, r: f64) -> ParameterBox {
     ParameterBox::from(&Parameters { d, d2, d3, r })
 }
 
-/// Reference cycles of these doubles: stability, and the first 32 digits of the right and of the negative left turning
-/// point, of the period and of the multiplier, enclosed to 1e-30 by an independent tool.
+/// Reference cycles for these doubles: stability, and the first 32 digits of the right turning point, the
+/// negative of the left one, the period and the multiplier, enclosed to 1e-30 by an independent tool.
 #[rustfmt::skip]
 #[expect(clippy::unreadable_literal, reason = "all digits of a reference")]
 const REFERENCES: [([f64; 4], bool, [Long; 4]); 5] = [
@@ -93,7 +93,7 @@ fn every_reference_cycle_is_proved_and_enclosed_to_twelve_digits() {
     }
 }
 
-/// 0 in one of five cases, else of either sign and between 1e-3 and 1e3.
+/// 0 in one of five cases, otherwise of either sign and between 1e-3 and 1e3.
 fn magnitude(chance: &mut Random) -> f64 {
     let (kind, size) = (chance.even(), pow(10.0, 6.0 * chance.even() - 3.0));
     if kind < 0.2 { 0.0 } else { size.copysign(kind - 0.6) }
@@ -105,7 +105,7 @@ fn any_parameters(chance: &mut Random) -> Parameters {
     Parameters { d, d2, d3, r: pow(10.0, 9.0 * chance.even() - 6.0) }
 }
 
-/// Half swings enclosed, and the same in twice the precision: each enclosure holds its motion.
+/// Each enclosure of a half swing must contain its motion in twice the precision.
 fn check_half_swings(count: usize) {
     let mut chance = Random::new(88_172_645_463_325_252);
     let (mut enclosed, mut unknown, mut wide) = (0, 0, 0);
@@ -155,7 +155,7 @@ fn a_hundred_thousand_half_swings_hold_the_motions_of_twice_the_precision() {
     check_half_swings(100_000);
 }
 
-/// Swings at the ends of the range of doubles are those near 1, scaled.
+/// Swings near the limits of the range of doubles are scaled copies of those near 1.
 #[test]
 fn half_swings_scale_to_the_last_bit() {
     let point = Interval::point;
@@ -178,7 +178,7 @@ fn half_swings_scale_to_the_last_bit() {
     for unit in [-500, -37, 3, 440] {
         assert_eq!(run(unit), run(0), "2^{unit}");
     }
-    // Far below where damping is anything but linear.
+    // So small that only linear damping matters.
     let tiny = Field { a: point(-0.4), b: point(0.3), c: point(0.5) };
     let swing = swing(&tiny, &StartBox::at_rest(point(1e-300)), false).arrived().unwrap();
     let growth = exp(std::f64::consts::PI * 0.2 / 0.96_f64.sqrt());
@@ -207,7 +207,7 @@ fn proofs_of_mirrored_and_of_scaled_parameters_agree() {
     }
 }
 
-/// Random parameters of all signs and sizes: what is proved agrees with the search.
+/// Random parameters of all signs and sizes: what is proved agrees with the search. Returns how many proofs are open.
 fn check_sets(count: usize) -> usize {
     let mut chance = Random::new(0x9e37_79b9_7f4a_7c15);
     let mut open = 0;
@@ -250,7 +250,7 @@ fn theorems_decide_without_a_motion() {
         assert!(proof.is_complete() && proof.cycles.len() == count && proof.swings == 0);
         assert!(proof.cycles.iter().all(|cycle| cycle.enclosure.is_some()));
     }
-    // Of the closed form where its clearance underflows, and where its amplitude is huge.
+    // The closed form where its clearance underflows, and where its amplitude is huge.
     let steep = prove(&exactly(-0.999_999, 0.0, 0.0, 1.0), &[]).cycles[0].enclosure.unwrap();
     assert!(steep.clearance.lower() == 0.0 && steep.clearance.upper() < 1e-300);
     assert!(steep.q_max.contains(1.0) && steep.multiplier.upper() == f64::INFINITY);
@@ -262,7 +262,7 @@ fn theorems_decide_without_a_motion() {
     );
 }
 
-/// What holds for an interval of parameters holds for those in it.
+/// What is proved for an interval of parameters holds for those inside.
 #[test]
 fn intervals_of_parameters_hold_what_is_proved_inside() {
     let wide = ParameterBox {
@@ -285,7 +285,7 @@ fn intervals_of_parameters_hold_what_is_proved_inside() {
             assert!(cycle.v_min.is_within(around.v_min));
         }
     }
-    // Across a fold the number of cycles is not one number.
+    // Across a fold the number of cycles is not constant.
     let across = ParameterBox { d: Interval::new(-0.18, -0.17), ..wide };
     assert!(!prove(&across, &[]).is_complete());
 }
@@ -315,14 +315,14 @@ fn every_reference_fold_is_enclosed_to_twelve_digits() {
             assert!((value.middle() - expected).abs() < 2e-14, "{value} {expected}");
             let q_max = proved.clearance + Interval::point(parameters.r);
             assert!((q_max.middle() - number(with_d2, "q_max")).abs() < 1e-12, "{q_max}");
-            // The same point is a fold in every other parameter.
+            // The same point is a fold with respect to every other parameter.
             let there = ParameterBox { d: value, ..all };
             for (symbol, near) in [(Symbol::R, 0.1), (Symbol::D3, 0.5), (Symbol::D2, 0.2)] {
                 let across = enclose_fold(&there, symbol, near, clearance).unwrap().value;
                 assert!(across.contains(near) && across.width() < 1e-10 * near, "{across}");
             }
         }
-        // Where cycles do not meet there is nothing to enclose.
+        // Where cycles do not merge there is nothing to enclose.
         assert!(enclose_fold(&all, Symbol::D, found.d * 1.1, clearance).is_none());
     }
 }
@@ -346,7 +346,7 @@ fn every_reference_escape_point_is_enclosed() {
         assert!((value.middle() - expected).abs() < 6e-7, "{value} {expected}");
         let slack = 1e-11 * expected.abs();
         assert!(value.lower() - slack <= near && near <= value.upper() + slack, "{value} {near}");
-        // On one side of it there is a cycle, on the other there is none.
+        // On one side of it there is a cycle, on the other none.
         for (d, cycles) in [(value.lower() * 1.001, 1), (value.upper() * 0.999, 0)] {
             let proof = prove(&exactly(d, d2, 0.0, 1.0), &[]);
             assert!(proof.is_complete() && proof.cycles.len() == cycles, "{d} {proof:?}");
@@ -354,7 +354,7 @@ fn every_reference_escape_point_is_enclosed() {
     }
 }
 
-/// Where stiff half swings arrive, computed by an implicit method with a tolerance of 1e-11.
+/// Arrivals of stiff half swings, computed by an implicit method with a tolerance of 1e-11.
 #[test]
 fn stiff_half_swings_arrive_where_an_implicit_method_says() {
     for (d, d2, d3, start, end, within) in [

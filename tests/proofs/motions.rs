@@ -1,5 +1,5 @@
-//! Motions, margins and ranges of parameters enclosed: against references computed elsewhere, and against the plain
-//! computation.
+//! Enclosed motions, margins and ranges of parameters, against references computed elsewhere and against the
+//! plain computation.
 
 use hopfscope::flow::Limits;
 use hopfscope::numerics::Interval;
@@ -37,12 +37,12 @@ fn reference_motions_are_enclosed() {
     let mut captured = 0;
     for one in &references {
         let Reference { parameters, q0, v0, turning_points, .. } = one;
-        // Those that end on a cycle are followed as far as the reference goes.
+        // Motions that end on a cycle are followed as far as the reference goes.
         let last = turning_points.last().map_or(0.0, |turn| turn[0]);
         let until = if one.outcome == "captured" { 1e6 } else { last + 0.1 };
         let found = motion(parameters, *q0, *v0, until);
         for (turn, &[tau, q]) in found.turns.iter().zip(turning_points) {
-            // The references have some 14 digits.
+            // The references have about 14 digits.
             assert!(near(turn.tau, tau, 2e-13 * tau), "{parameters:?}: {} {tau}", turn.tau);
             assert!(near(turn.q, q, 1e-12 * q0.abs().max(1.0)), "{parameters:?}: {} {q}", turn.q);
         }
@@ -55,7 +55,8 @@ fn reference_motions_are_enclosed() {
     assert!(captured > 3, "{captured}");
 }
 
-/// From the closed form: at D = -0.1, r = 0.5 from (2, 0) at rest after three half swings at q = -0.116144440390138.
+/// From the closed form: at D = -0.1, r = 0.5 the motion from (2, 0) is at rest after three half swings at q =
+/// -0.116144440390138.
 #[test]
 fn motions_are_followed_to_rest_to_a_time_and_to_their_escape() {
     let linear = Parameters { d: -0.1, d2: 0.0, d3: 0.0, r: 0.5 };
@@ -77,14 +78,14 @@ fn motions_are_followed_to_rest_to_a_time_and_to_their_escape() {
     let ProvedFate::Escaped { tau } = found.fate else { panic!("{found:?}") };
     assert!(tau.contains(1e-3) || near(tau, 1e-3, 1e-8), "{tau}");
     assert!(tau.width() < 1e-7 * tau.upper(), "{tau}");
-    // A start that rests, one on either side of v = 0, and one that arrives at the end time.
+    // A start at rest, starts on both sides of v = 0, and an arrival at the end time.
     assert!(matches!(motion(&linear, 0.5, 0.0, 1.0).fate, ProvedFate::Captured { .. }));
     let wide = [Interval::point(2.0), Interval::new(-1e-9, 1e-9)];
     let open = follow(&ParameterBox::from(&linear), wide, 1.0);
     assert!(matches!(open.fate, ProvedFate::Open { .. }) && open.turns.is_empty());
 }
 
-/// What is enclosed for an interval of parameters and starts holds for those in it.
+/// What is enclosed for an interval of parameters and starts holds for those inside.
 #[test]
 fn intervals_hold_the_motions_inside() {
     let one = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
@@ -122,8 +123,8 @@ fn margins_hold_their_references() {
     assert!(kicked(&Parameters { d: -0.1, d2: 0.0, d3: 0.5, r: 0.0 }).open.is_some());
 }
 
-/// On random parameters the lower bounds are never above the margins of the plain computation, nor the upper below;
-/// just inside a lower bound the motion comes to rest, just outside of an upper one it does not.
+/// For random parameters the lower bounds are never above the margins of the plain computation, nor the upper
+/// bounds below. Just inside a lower bound the motion comes to rest, just outside an upper one it does not.
 #[test]
 fn margins_are_never_larger_than_the_truth() {
     let mut seed = 0x2545_f491_4f6c_dd1d_u64;
@@ -164,7 +165,7 @@ fn margins_are_never_larger_than_the_truth() {
     assert!(compared > 24 && open <= 6, "{compared} compared, {open} open");
 }
 
-/// The fold at D3 = 0.01, r = 1 lies at D = -0.217412751691 (independent computation, 12 digits).
+/// The fold for D3 = 0.01, r = 1 is at D = -0.217412751691 (independent computation, 12 digits).
 #[test]
 fn a_range_is_decided_and_its_fold_enclosed() {
     let base = ParameterBox::from(&Parameters { d: 0.0, d2: 0.0, d3: 0.01, r: 1.0 });

@@ -1,9 +1,9 @@
 //! A terminal for tests: a real pty with an emulator behind it.
 //!
-//! Everything waits for a condition with a deadline, never for time to pass. The emulator answers
-//! requests for the cursor position as terminals do, unless a test wants it slow or silent.
+//! Everything waits for a condition with a deadline, never for a fixed time. The emulator answers requests for
+//! the cursor position like a terminal, unless a test wants it slow or silent.
 
-// Each test program compiles this file and uses what it needs of it.
+// Each test program compiles this file and uses only a part of it.
 #![allow(dead_code)]
 
 use std::io::{Read, Write};
@@ -15,16 +15,16 @@ use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system}
 use rustix::process::{Pid, Signal, kill_process};
 use rustix::termios::{LocalModes, tcgetattr};
 
-/// How long a condition may take to come true before the test fails.
+/// Time within which a condition must become true.
 const DEADLINE: Duration = Duration::from_secs(30);
 
 /// The program under test.
 pub const PROGRAM: &str = env!("CARGO_BIN_EXE_hopfscope");
 
-/// What the title of the plain scene says.
+/// Text in the title of the plain scene.
 pub const TITLE: &str = "The plain oscillator";
 
-/// As long as this without a byte, a picture is complete: the program sends a frame within 16 ms.
+/// Silence after which a picture is complete: the program sends a frame within 16 ms.
 pub const QUIET: Duration = Duration::from_millis(200);
 
 /// A request for the cursor position.
@@ -35,9 +35,9 @@ const REQUEST: &[u8] = b"\x1b[6n";
 pub enum Answers {
     /// As soon as they are read.
     AtOnce,
-    /// When the test says so.
+    /// When the test asks for it.
     WhenTold,
-    /// Not at all.
+    /// Never.
     Never,
 }
 
@@ -48,15 +48,15 @@ pub struct Terminal {
     child: Box<dyn Child + Send + Sync>,
     output: Receiver<Vec<u8>>,
     screen: vt100::Parser,
-    /// Everything that the program has written.
+    /// All output of the program so far.
     pub written: Vec<u8>,
     /// How the terminal answers.
     pub answers: Answers,
-    /// Requests that the terminal owes an answer.
+    /// Number of requests not answered yet.
     owed: usize,
-    /// How far requests were looked for.
+    /// Length of the output searched for requests.
     searched: usize,
-    /// How far the emulator has read.
+    /// Length of the output passed to the emulator.
     emulated: usize,
 }
 
@@ -78,8 +78,8 @@ fn cells(number: u16) -> NonZero<u16> {
 }
 
 impl Terminal {
-    /// Starts a program in a terminal with nothing else in its environment than what a UTF-8 terminal
-    /// has, and what `environment` adds or overrides; an empty value removes.
+    /// Starts a program in a terminal. The environment has only what a UTF-8 terminal has, and what
+    /// `environment` adds or overrides; an empty value removes a variable.
     pub fn start(
         program: &[&str],
         environment: &[(&str, &str)],
@@ -140,13 +140,13 @@ impl Terminal {
         self.keyboard.flush().unwrap();
     }
 
-    /// Gives the terminal another size.
+    /// Changes the size of the terminal.
     pub fn resize(&mut self, columns: u16, rows: u16) {
         self.screen.screen_mut().set_size(cells(rows), cells(columns));
         self.master.resize(size(columns, rows)).unwrap();
     }
 
-    /// The characters on the screen, with minus signs as on the keyboard.
+    /// The characters on the screen, with minus signs replaced by hyphens.
     pub fn text(&self) -> String {
         self.screen.screen().contents().replace('\u{2212}', "-")
     }
@@ -156,7 +156,7 @@ impl Terminal {
         self.screen.screen()
     }
 
-    /// The id of the program's process.
+    /// The process id of the program.
     pub fn process(&self) -> Pid {
         let id = self.child.process_id().expect("the program was started");
         Pid::from_raw(i32::try_from(id).unwrap()).unwrap()
@@ -167,7 +167,7 @@ impl Terminal {
         kill_process(self.process(), signal).unwrap();
     }
 
-    /// Whether keys are echoed and lines collected, as in a shell.
+    /// Whether the terminal echoes keys and collects lines, as in a shell.
     pub fn is_cooked(&self) -> bool {
         let name = self.master.tty_name().expect("a pty has a name");
         let terminal = std::fs::File::open(name).unwrap();
@@ -175,7 +175,7 @@ impl Terminal {
         modes.contains(LocalModes::ECHO | LocalModes::ICANON)
     }
 
-    /// Takes in what the program has written; `false` when there is no more and will be none.
+    /// Reads what the program has written; `false` if there is no more and will be none.
     fn listen(&mut self, until: Instant) -> bool {
         let time = until.saturating_duration_since(Instant::now());
         match self.output.recv_timeout(time) {
@@ -203,8 +203,8 @@ impl Terminal {
         }
     }
 
-    /// Hands what was written to the emulator, whole characters only: where a read ends within one,
-    /// vte 0.15 loses an ASCII character that follows it.
+    /// Passes the output to the emulator in whole characters: if a read ends inside one, vte 0.15 loses an
+    /// ASCII character that follows.
     fn emulate(&mut self) {
         let new = &self.written[self.emulated..];
         let whole = match std::str::from_utf8(new) {
@@ -219,17 +219,17 @@ impl Terminal {
     pub fn answer(&mut self) {
         let (row, column) = self.screen.screen().cursor_position();
         for _ in 0..std::mem::take(&mut self.owed) {
-            // The program may have ended meanwhile.
+            // The program may have ended in the meantime.
             let _ = write!(self.keyboard, "\x1b[{};{}R", row + 1, column + 1);
         }
     }
 
-    /// Requests for the cursor position that were not answered.
+    /// Number of requests for the cursor position not answered yet.
     pub fn owed(&self) -> usize {
         self.owed
     }
 
-    /// Waits until the condition holds; `what` says what was waited for if it never does.
+    /// Waits until the condition holds; `what` describes it in the failure message.
     pub fn wait(&mut self, what: &str, condition: impl Fn(&Terminal) -> bool) {
         let deadline = Instant::now() + DEADLINE;
         while !condition(self) {
@@ -244,7 +244,7 @@ impl Terminal {
         self.wait(text, |terminal| terminal.text().contains(text));
     }
 
-    /// Bytes that arrive until there are none for this long.
+    /// Number of bytes that arrive until there are none for this long.
     pub fn quiet(&mut self, time: Duration) -> usize {
         let before = self.written.len();
         let mut last = (before, Instant::now());
@@ -256,14 +256,14 @@ impl Terminal {
         self.written.len() - before
     }
 
-    /// Bytes of the next piece of output; 0 if none comes within this time.
+    /// Number of bytes of the next piece of output; 0 if none comes within this time.
     pub fn next(&mut self, time: Duration) -> usize {
         let before = self.written.len();
         self.listen(Instant::now() + time);
         self.written.len() - before
     }
 
-    /// Bytes that arrive within this time.
+    /// Number of bytes that arrive within this time.
     pub fn watch(&mut self, time: Duration) -> usize {
         let before = self.written.len();
         let until = Instant::now() + time;
@@ -271,18 +271,18 @@ impl Terminal {
         self.written.len() - before
     }
 
-    /// How many frames were written.
+    /// Number of frames written.
     pub fn frames(&self) -> usize {
         let begin = b"\x1b[?2026h";
         self.written.windows(begin.len()).filter(|window| *window == begin).count()
     }
 
-    /// Waits for the end of the program, and gives its exit code.
+    /// Waits for the end of the program and returns its exit code.
     pub fn end(&mut self) -> u32 {
         let deadline = Instant::now() + DEADLINE;
         loop {
             if let Some(status) = self.child.try_wait().unwrap() {
-                // What it wrote last may still be on its way.
+                // Its last output may still be in transit.
                 self.quiet(Duration::from_millis(50));
                 return status.exit_code();
             }
@@ -291,14 +291,14 @@ impl Terminal {
         }
     }
 
-    /// Leaves with `q`, and checks what is left behind.
+    /// Leaves with `q`, and checks the state of the terminal.
     pub fn leave(mut self) {
         self.types("q");
         assert_eq!(self.end(), 0);
         self.assert_restored();
     }
 
-    /// Fails unless every mode that the program has turned on is off again.
+    /// Fails unless every mode that the program turned on is off again.
     pub fn assert_restored(&self) {
         let screen = self.screen();
         assert!(!screen.alternate_screen(), "alternate screen left on");
@@ -315,7 +315,7 @@ impl Terminal {
                 _ => {}
             }
         }
-        // The cursor is the one mode that is on in a shell.
+        // The cursor is the only mode that is on in a shell.
         assert_eq!(on.into_iter().collect::<Vec<_>>(), ["25"], "modes that are on");
         assert!(self.is_cooked(), "raw mode left on");
     }

@@ -1,4 +1,4 @@
-//! Machines of which the reference has none: the guide catches what no cycle holds, rest without swings, laws
+//! Machines of kinds not in the reference: the guide captures what no cycle encloses, rest without swings, laws
 //! that end beyond the cycles.
 
 use super::portrait;
@@ -11,7 +11,7 @@ use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
 use hopfscope::scene::machine::file::parse;
 
-/// A clutch whose friction feeds a small swing: without friction at rest an unstable cycle borders rest, from
+/// A clutch whose friction feeds a small swing: without static friction an unstable cycle borders rest, from
 /// -5.4195 mm to 5.4989 mm.
 fn clutch(held: f64) -> Belt {
     let stiffness = 2e5;
@@ -53,19 +53,19 @@ fn a_guide_that_holds_one_turning_point_of_a_cycle_leaves_no_cycle() {
             Ok(MachineFate::Cycle(0)),
             "{x} {v}"
         );
-        // Followed one return, the motion just within comes to rest, the one just beyond continues.
+        // Followed for one return, a motion just inside comes to rest, one just outside continues.
         if v == 0.0 && x > 0.0 {
             let mut flow = Flow::new(&found.model);
             assert!(matches!(flow.returned(x * (1.0 - 1e-9)), Ok(MachineReturn::Rests(_))));
             assert!(matches!(flow.returned(x * (1.0 + 1e-9)), Ok(MachineReturn::Turns(_))));
         }
     }
-    // A guide that holds neither of them leaves the cycle; one that holds both takes it away.
+    // A guide that holds neither turning point leaves the cycle; one that holds both removes it.
     let cycles = |held| portrait(&clutch(held)).cycles.iter().filter(|it| !it.sticks).count();
     assert_eq!([5.4e-3, 5.45e-3, 5.51e-3].map(cycles), [1, 0, 0]);
 }
 
-/// A slow belt whose friction falls so steeply that rest is a node that repels.
+/// A slow belt whose friction falls so steeply that rest is a repelling node.
 fn node(guide_static: f64) -> Belt {
     let friction = 0.011_265_246_624_523_249;
     Belt {
@@ -100,14 +100,15 @@ fn where_no_cycle_repels_the_basin_ends_where_the_guide_just_holds() {
         for size in [margin.displacement.0, margin.displacement.1] {
             assert!((size / held - 1.0).abs() < 1e-15, "{guide_static}: {size} {held}");
         }
-        // Followed in time, the border is where it is said to be.
+        // Motions confirm the place of the border.
         for (sign, kick) in [(1.0, margin.velocity.0), (-1.0, margin.velocity.1)] {
             assert_eq!(found.fate(0.0, sign * kick * (1.0 - 1e-9)), Ok(MachineFate::Rest));
             assert_eq!(found.fate(0.0, sign * kick * (1.0 + 1e-9)), Ok(MachineFate::Cycle(0)));
         }
         assert_eq!(found.fate(held, 0.0), Ok(MachineFate::Rest));
         assert_eq!(found.fate(held * (1.0 + 1e-9), 0.0), Ok(MachineFate::Cycle(0)));
-        // A window within the basin is all of it; one of half its width and height is not.
+        // A window within the basin is entirely captured. Of one that reaches ten times as far as the guide
+        // holds, less than half is.
         let (x, v) = (1e-3 * held, 1e-3 * margin.velocity.0.min(margin.velocity.1));
         assert!((found.rest_share((-x, x), (-v, v)).unwrap() - 1.0).abs() < 1e-12);
         let x = 10.0 * held;
@@ -119,7 +120,7 @@ fn where_no_cycle_repels_the_basin_ends_where_the_guide_just_holds() {
 
 #[test]
 fn where_the_law_ends_it_is_not_said_that_every_kick_is_survived() {
-    // The guide brakes so much that what slips rests at once; the law falls below zero at a slip of 0.4086 m/s.
+    // The guide brakes so strongly that slip ends at once; the law falls below zero at a slip of 0.4086 m/s.
     let text = "m = 0.415\nc = 1.735\nd1 = 0.25665\nd3 = 0.233634\nF = 0.1876\nR = 0.008091\nv0 = 0.1379\n\
                 friction.polynomial.coefficients = [0.62, -1.11435, -0.98584]\n";
     let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
@@ -127,14 +128,14 @@ fn where_the_law_ends_it_is_not_said_that_every_kick_is_survived() {
     assert!(
         matches!(found.stop, Some(Unfollowed::OutsideLaw { .. })) && found.incomplete().is_some()
     );
-    // A kick against the belt is a little faster yet just after it.
+    // A kick against the belt gets slightly faster at first.
     let fastest = 0.408_645_154 - 0.1379;
     assert!((0.9999 * fastest..fastest).contains(&margin.velocity.1), "{margin:?}");
     for (x, v) in [(margin.displacement.0, 0.0), (-margin.displacement.1, 0.0)] {
         assert_eq!(found.fate(0.999 * x, v), Ok(MachineFate::Rest), "{x}");
         assert!(matches!(found.fate(1.001 * x, v), Err(_) | Ok(MachineFate::Unknown(_))), "{x}");
     }
-    // Of a window within what is known all comes to rest; of a larger one it is not known how much.
+    // In a window within the known range everything comes to rest; for a larger one the share is unknown.
     let near = 0.5 * margin.velocity.1;
     assert_eq!(found.rest_share((-0.01, 0.01), (-near, near)), Some(1.0));
     assert_eq!(found.rest_share((-1.0, 1.0), (-1.0, 1.0)), None);
@@ -151,7 +152,7 @@ fn where_motions_take_too_many_steps_the_margin_is_what_was_followed() {
     assert!(found.steps < 100_000, "{} steps", found.steps);
 }
 
-/// A light mass without friction of the guide, whose law is a table that falls by half up to some slip.
+/// A light mass without guide friction, whose law is a table that falls by half up to some slip.
 fn measured(damping: f64, velocity: f64, end: f64) -> Belt {
     let point = |index: i32| {
         let part = f64::from(index) / 40.0;
@@ -173,7 +174,7 @@ fn an_overdamped_mass_rests_after_every_kick_that_the_law_covers() {
     assert!(found.model.damping > 2.0 && found.cycles.is_empty());
     assert!(matches!(found.border, MachineBorder::None) && found.stop.is_some());
     let margin = found.margin.unwrap();
-    // A kick against the belt slips fastest at once.
+    // A kick against the belt slips fastest at the start.
     assert!((margin.velocity.1 - (end - 0.02)).abs() < 1e-12, "{margin:?}");
     for (x, v) in [
         (margin.displacement.0, 0.0),
@@ -188,7 +189,7 @@ fn an_overdamped_mass_rests_after_every_kick_that_the_law_covers() {
 
 #[test]
 fn what_the_belt_releases_is_on_its_cycle_even_where_all_beyond_is_unknown() {
-    // The cycle slips by less than 0.1 m/s, and the law ends there.
+    // The cycle slips by less than 0.1 m/s, where the law ends.
     let long = portrait(&measured(0.5, 0.02, 1.0));
     let cycle = long.cycles.iter().find(|cycle| cycle.sticks).unwrap();
     let end = 0.02 - 1.0001 * cycle.v.0;
@@ -202,7 +203,7 @@ fn what_the_belt_releases_is_on_its_cycle_even_where_all_beyond_is_unknown() {
     assert_eq!(short.fate(cycle.x.1, 0.0), Ok(MachineFate::Cycle(last)));
 }
 
-/// A tool whose cut feeds its mode at small velocities.
+/// A tool whose cut feeds energy into its mode at small velocities.
 fn tool(friction: f64) -> Portrait {
     let damping_ratio = vec![-0.02, 0.002, 0.3];
     let mode = Modal { frequency: 250.0, mass: 4.0, damping_ratio, friction, static_guide: None };
@@ -265,7 +266,7 @@ fn where_motions_run_away_the_search_for_cycles_settles() {
     assert!(found.steps < 4000, "{} steps", found.steps);
 }
 
-/// A mass that a negative damper carries away from a belt with constant friction.
+/// A mass carried away from a belt with constant friction by a negative damper.
 fn carried_off(damping: f64, guide: f64) -> Portrait {
     let text = format!(
         "m = 1\nc = 1\nd1 = {damping:?}\nF = 1\nR = {guide:?}\nv0 = 0.5\nfriction.constant.mu = 0.3"
@@ -286,7 +287,7 @@ fn where_everything_is_carried_off_that_is_the_answer() {
     }
 }
 
-/// A mode that is fed far beyond critical damping at small velocities, and damped at larger ones.
+/// A mode fed far beyond critical damping at small velocities, and damped at larger ones.
 fn relaxing(ratio: f64) -> Portrait {
     let damping_ratio = vec![ratio, 0.0, 2000.0];
     let (frequency, mass, friction, static_guide) = (120.0, 0.2, 0.03, None);
@@ -304,11 +305,11 @@ fn a_mode_far_beyond_critical_damping_has_an_answer() {
         found.cycles
     );
     assert_eq!(found.fate(1e-3, 0.0), Ok(MachineFate::Rest));
-    // Fed as strongly it relaxes to a cycle: it creeps until feeding and damping cancel at the knee, and leaps.
+    // Fed as strongly, it relaxes to a cycle: it creeps until feeding and damping cancel at the knee, and then jumps.
     for ratio in [-5.0_f64, -10.0] {
         let found = relaxing(ratio);
         let cycle = found.cycles.iter().find(|cycle| cycle.stable).unwrap();
-        // Rayleigh: the knee of 2 ratio w - 2 c w^3 lies at a third of the square at which both cancel.
+        // Rayleigh: the knee of 2 ratio w - 2 c w^3 is where w^2 is a third of the value at which both cancel.
         let knee = (-ratio / 2000.0 / 3.0).sqrt();
         let size = cycle.x.1 / (4.0 / 3.0 * -ratio * knee / found.model.omega_0);
         assert!((1.0..1.2).contains(&size), "{ratio}: {size}");
@@ -317,7 +318,7 @@ fn a_mode_far_beyond_critical_damping_has_an_answer() {
 
 #[test]
 fn what_static_friction_alone_holds_survives_no_kick_along_the_belt() {
-    // Rest is a node that repels: nothing that moves upwards from it turns before it comes to the belt.
+    // Rest is a repelling node: no motion that moves upwards from it turns before it reaches the belt.
     let text = "m = 1\nc = 1\nd1 = 0.08\nF = 4.7\nv0 = 0.06\nR_static = 0.05\n\
                 friction.stribeck = { rest = 0.5, kinetic = 0.2, velocity = 0.1 }\n";
     let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);

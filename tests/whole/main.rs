@@ -1,4 +1,4 @@
-//! The whole model of the mass on a belt against machines computed independently (80-bit Taylor series with
+//! The whole model of the mass on a belt, against machines computed independently (80-bit Taylor series with
 //! polynomial events, and DOP853), against closed forms, and against itself.
 
 mod edges;
@@ -37,7 +37,7 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
 }
 
-/// Equal to some digits of the larger one, or of a size below which nothing counts.
+/// Equal up to `relative` of the larger one.
 fn close(one: f64, other: f64, relative: f64) -> bool {
     (one - other).abs() <= relative * one.abs().max(other.abs())
 }
@@ -115,7 +115,7 @@ fn the_share_that_comes_to_rest_is_that_of_the_open_benchmark() {
     for row in data()["rest_share"].as_array().unwrap() {
         let belt = Belt { belt_speed: number(&row[0]), ..machine("bstab-1.5") };
         let found = portrait(&belt);
-        // The window is told in the elongation of the spring.
+        // The window is given in terms of the elongation of the spring.
         let steady = found.model.pull;
         let share = found.rest_share((-2.0 - steady, 2.0 - steady), (0.0, 2.0)).unwrap();
         assert!((share - number(&row[1])).abs() < 1e-12, "{row}: {share}");
@@ -124,7 +124,7 @@ fn the_share_that_comes_to_rest_is_that_of_the_open_benchmark() {
 
 #[test]
 fn the_share_counts_every_piece_of_the_border() {
-    // The border of kind grazing, cut by the window on all sides, against a count of starts.
+    // A border of kind grazing, cut by the window on all sides, against a count of starts.
     for name in ["coulomb-guide", "coulomb-damped", "stribeck-guide-cubic"] {
         let found = portrait(&machine(name));
         let margin = found.margin.unwrap();
@@ -201,7 +201,7 @@ fn a_damped_slip_takes_the_time_of_its_transcendental_equation() {
     assert!(close(cycle.period, 0.652_507_023_097_521_8, 1e-13));
 }
 
-/// To rounding and not bit for bit: the whole model steps in metres and by its own series.
+/// To rounding, not bit for bit: the whole model steps in metres and with its own series.
 #[test]
 fn a_cubic_law_far_from_the_belt_is_the_oscillator_of_the_paper() {
     use hopfscope::flow::Limits;
@@ -210,7 +210,7 @@ fn a_cubic_law_far_from_the_belt_is_the_oscillator_of_the_paper() {
         belt_speed,
         ..linear(-0.2, guide)
     };
-    // However fast the belt is, with constant friction, and without any of the guide.
+    // For any belt speed with constant friction, and also without guide friction.
     let belts = [feeding(0.05, 10.0), feeding(0.0, 10.0), feeding(0.0, 20.0), linear(-0.2, 0.1)];
     for belt in belts.into_iter().chain([machine("clutch-static")]) {
         let found = portrait(&belt);
@@ -318,7 +318,7 @@ fn lengths_scale_by_a_power_of_two_to_the_last_bit() {
     }
 }
 
-/// A machine whose belt is far too fast to be met, with constant friction: the piecewise linear oscillator.
+/// A machine with constant friction whose belt is too fast to be met: the piecewise linear oscillator.
 fn linear(damping: f64, guide: f64) -> Belt {
     let law = FrictionLaw::Constant { mu: 0.5 };
     let (mass, stiffness, normal_force) = (1.0, 1.0, 1.0);
@@ -354,7 +354,7 @@ fn a_cycle_that_repels_beyond_all_digits_is_the_border_of_rest() {
 
 #[test]
 fn a_law_that_ends_far_out_hides_no_margin() {
-    // A polynomial that falls below zero beyond a slip of 1.25 m/s, and the border well within.
+    // A polynomial that falls below zero beyond a slip of 1.25 m/s, with the border well within.
     let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.4] };
     let belt = Belt { law, damping: 0.0, friction: 0.02, ..machine("bstab-1.5") };
     let belt = Belt { belt_speed: 0.8, ..belt };
@@ -366,7 +366,7 @@ fn a_law_that_ends_far_out_hides_no_margin() {
     let expected = cubic.cycles[0].q_max * reduced.units.displacement;
     assert!(close(found.margin.unwrap().displacement.0, expected, 1e-13));
     assert!(matches!(found.fate(3.0, 0.0), Err(_) | Ok(MachineFate::Unknown(_))));
-    // Where all that the law covers comes to rest, the margin is what it covers, and not everything.
+    // Where everything within the range of the law comes to rest, the margin is that range, not infinite.
     let damped = Belt { damping: 0.9, belt_speed: 1.2, ..belt };
     let found = portrait(&damped);
     let margin = found.margin.unwrap();
@@ -384,7 +384,7 @@ fn a_search_for_cycles_that_did_not_settle_says_so() {
     }
 }
 
-/// The special values along a number.
+/// The special points along a number.
 fn special(
     belt: &Belt,
     name: &str,
@@ -410,7 +410,7 @@ fn every_change_of_a_portrait_is_located() {
             assert!((value - expected.1).abs() < 1e-12, "{kind:?}: {value}");
         }
     }
-    // With higher static friction the unstable cycle touches the belt first, and stick-slip outlives it.
+    // With higher static friction the unstable cycle touches the belt first, and stick-slip survives it.
     let held = Belt { static_coefficient: Some(1.1), ..bench.clone() };
     let found = special(&held, "v0", (1.5, 2.0), 4);
     assert!(
@@ -429,7 +429,7 @@ fn every_change_of_a_portrait_is_located() {
         "{found:?}"
     );
     assert_eq!(found[1].0, MachineSpecialKind::Fold);
-    // A machine that the damper feeds: stick-slip overtakes the belt, then only overtakes.
+    // A machine fed by its damper: stick-slip first also overtakes the belt, and then only overtakes.
     let fed = Belt { damping: -0.3, friction: 0.02, belt_speed: 0.6, ..bench };
     let kinds: Vec<MachineSpecialKind> =
         special(&fed, "d1", (-0.5, 0.0), 9).into_iter().map(|(kind, _)| kind).collect();

@@ -1,5 +1,5 @@
-//! The whole model against an integration in twice the working precision that shares nothing with it: fixed
-//! Taylor steps, and switching lines looked for by a dense scan of every step.
+//! The whole model against an independent integration in twice the working precision: fixed Taylor steps, and
+//! switching lines located by a dense scan of every step.
 
 use hopfscope::machine::turn::ContactState;
 use hopfscope::machine::{MachineMotion, Model, Phase};
@@ -10,10 +10,10 @@ use hopfscope::oscillator::belt::FrictionLaw;
 /// Order of the series.
 const ORDER: usize = 26;
 
-/// Length of a step; the last term is then far below the last digit.
+/// Length of a step, for which the last term is far below the last digit.
 const STEP: f64 = 1.0 / 64.0;
 
-/// Places in a step that are looked at.
+/// Number of places examined in a step.
 const SCAN: u32 = 40;
 
 type Series = [Twofold; ORDER + 1];
@@ -28,12 +28,12 @@ fn sum(terms: impl Iterator<Item = Twofold>) -> Twofold {
     terms.fold(ZERO, Twofold::plus)
 }
 
-/// A polynomial at a time.
+/// The value of a polynomial at a time.
 fn at(series: &Series, t: Twofold) -> Twofold {
     series.iter().rev().fold(ZERO, |sum, term| sum.by(t).plus(*term))
 }
 
-/// `exp(x)` by its series at `x/4096`, squared twelve times.
+/// `exp(x)` by its series at `x/4096`, followed by twelve squarings.
 fn exp(x: Twofold) -> Twofold {
     let small = x.times(1.0 / 4096.0);
     let series = (1..=12)
@@ -108,13 +108,13 @@ impl Machine {
                 let order = f64::from(u32::try_from(k - j + 1).unwrap());
                 fall[j].by(ys[k - j + 1].times(order))
             });
-            // The slip falls while the velocity rises, or rises with it.
+            // The slip decreases as the velocity rises, or increases with it.
             fall[k + 1] = sum(products).times(side).over(two(self.velocity)).over(count);
         }
         (xs, ys)
     }
 
-    /// What the mass does at a place, by the forces there.
+    /// The state of contact of the mass at a place, from the forces there.
     fn place(&self, x: Twofold, on_belt: bool) -> ContactState {
         if !on_belt {
             return if x.value().abs() <= self.guide {
@@ -136,7 +136,7 @@ impl Machine {
         }
     }
 
-    /// Where and when the phases of a motion begin, until a time.
+    /// Place and time at which each phase of a motion begins, up to a time.
     fn legs(&self, x: f64, y: f64, until: f64) -> Vec<(ContactState, f64, f64)> {
         let (mut x, mut y, mut t) = (two(x), two(y), ZERO);
         let mut place = match y.value() {
@@ -178,7 +178,7 @@ impl Machine {
         legs
     }
 
-    /// The first line that a step meets after its start, by looking everywhere.
+    /// The first line that a step meets after its start, by a dense scan.
     fn first_line(&self, phase: Phase, ys: &Series) -> Option<(Twofold, f64)> {
         let levels: &[f64] = match phase {
             Phase::Below => &[0.0],

@@ -1,4 +1,4 @@
-//! Random machines: what must hold of every one of them.
+//! Properties of all machines, tested on random ones.
 
 use hopfscope::numerics::random::Random;
 
@@ -101,7 +101,8 @@ fn any_start_ends_where_its_motion_goes() {
 
 #[test]
 fn no_contact_is_too_shallow_to_be_seen() {
-    // Between rest and the belt constant friction leaves a circle: it reaches v0 iff its radius does.
+    // Between rest and the belt, motions under constant friction are circles: one reaches v0 if and only if its
+    // radius does.
     for (guide, speed) in [(0.0, 0.2), (0.2, 0.2), (0.7, 0.05)] {
         let belt = coulomb(guide, speed);
         let model = Model::new(&belt).unwrap();
