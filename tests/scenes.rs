@@ -2,7 +2,7 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Reason};
-use hopfscope::machine::MachineFate;
+use hopfscope::machine::{BorderKind, MachineFate};
 use hopfscope::numerics::elementary::hypot;
 use hopfscope::oscillator::Symbol;
 use hopfscope::question::answer;
@@ -248,8 +248,8 @@ const CLAIMS: [Claim; 24] = [
     ("A cycle sticks to the belt", |stage| sticking(stage).0 > 0),
     ("Once stuck", |stage| sticking(stage).0 > 0),
     ("has reached the belt's line", |stage| sticking(stage).0 > 0),
-    ("Rest is stable too", |stage| stage.border() == Some("cycle")),
-    ("just touches the belt", |stage| stage.border() == Some("grazing")),
+    ("Rest is stable too", |stage| stage.border() == Some(BorderKind::Cycle)),
+    ("just touches the belt", |stage| stage.border() == Some(BorderKind::Grazing)),
 ];
 
 impl Stage {
@@ -260,7 +260,7 @@ impl Stage {
     }
 
     /// What borders the basin in the whole model.
-    fn border(&self) -> Option<&str> {
+    fn border(&self) -> Option<BorderKind> {
         self.0.kinds().map(|kinds| kinds.border)
     }
 
@@ -335,7 +335,7 @@ fn sticking(stage: &Stage) -> (usize, usize) {
 fn benchmark_rest_and_stick_slip_are_parted_by_a_cycle_until_the_belt_is_fast() {
     let stage = Stage::open("benchmark");
     let kinds = stage.0.kinds().unwrap();
-    assert_eq!((kinds.border, sticking(&stage)), ("cycle", (1, 1)));
+    assert_eq!((kinds.border, sticking(&stage)), (BorderKind::Cycle, (1, 1)));
     let [whole, cubic] = kinds.margins.map(|margin| margin.unwrap().displacement.unwrap());
     assert!(cubic > 1.1 * whole, "{cubic} {whole}");
     assert_eq!(stage.0.course().unwrap().fate, MachineFate::Cycle(1));
@@ -343,7 +343,7 @@ fn benchmark_rest_and_stick_slip_are_parted_by_a_cycle_until_the_belt_is_fast() 
     let end = Stage::open("benchmark").press(":set<space>belt=1.836<enter>");
     assert_eq!(sticking(&end), (1, 1));
     let beyond = Stage::open("benchmark").press(":set<space>belt=1.837<enter>");
-    assert_eq!((beyond.0.kinds().unwrap().border, sticking(&beyond)), ("none", (0, 0)));
+    assert_eq!((beyond.0.kinds().unwrap().border, sticking(&beyond)), (BorderKind::None, (0, 0)));
     assert_eq!(beyond.0.course().unwrap().fate, MachineFate::Rest);
     // One key switches to the expansion: the question is a different one, and so is the answer.
     let cubic = Stage::open("benchmark").press("|");
@@ -355,7 +355,7 @@ fn benchmark_rest_and_stick_slip_are_parted_by_a_cycle_until_the_belt_is_fast() 
 fn groan_needs_no_cycle_to_be_parted_from_rest() {
     let stage = Stage::open("groan");
     let kinds = stage.0.kinds().unwrap();
-    assert_eq!((kinds.border, sticking(&stage)), ("grazing", (1, 0)));
+    assert_eq!((kinds.border, sticking(&stage)), (BorderKind::Grazing, (1, 0)));
     assert_eq!(stage.0.course().unwrap().fate, MachineFate::Cycle(0));
     assert_eq!(kinds.margins[1].and_then(|margin| margin.displacement), None);
     assert!(Stage::open("groan").press("i").is_captured());

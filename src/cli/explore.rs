@@ -21,6 +21,7 @@ use crate::session::opening::opening;
 use crate::session::replay::{Instruction, Recorder, Script};
 use crate::session::{Kept, Key, Notice, Session, Size, save};
 use crate::terminal::Environment;
+use crate::words::similar::similar;
 
 /// Opens the explorer.
 #[derive(Debug, Args)]
@@ -183,18 +184,11 @@ fn started() -> String {
 
 /// The error for a first word that is neither a scene nor a command, with names that are similar.
 fn neither_scene_nor_command(name: &str) -> Failure {
-    /// Least similarity of a suggestion (0: nothing in common, 1: equal), and how far it may fall short of the
-    /// best.
-    const ALIKE: (f64, f64) = (0.7, 0.1);
-    let scenes = names().map(|scene| (strsim::jaro(name, scene), scene.to_owned()));
-    let commands = super::command_names().into_iter();
-    let commands =
-        commands.map(|command| (strsim::jaro(name, &command), format!("the command {command}")));
-    let mut rated: Vec<_> = scenes.chain(commands).collect();
-    rated.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let least = (rated[0].0 - ALIKE.1).max(ALIKE.0);
-    let meant = rated.into_iter().take(3).take_while(|(likeness, _)| *likeness >= least);
-    let meant = meant.map(|(_, name)| name).collect::<Vec<_>>().join(" or ");
+    let scenes: Vec<String> = names().map(str::to_owned).collect();
+    let meant = similar(name, scenes.iter().cloned().chain(super::command_names())).into_iter();
+    let told = |found| if scenes.contains(&found) { found } else { format!("the command {found}") };
+    let meant = meant.map(told);
+    let meant = meant.collect::<Vec<_>>().join(" or ");
     let line = format!("there is no scene and no command {name:?}");
     Failure::Usage(if meant.is_empty() {
         format!("{line}; hopfscope scenes lists the scenes, hopfscope --help the commands")

@@ -25,7 +25,7 @@ const WORTHWHILE: f64 = 120.0;
 /// Growth from one implicit step to the next that shows that the step length is still building up.
 const GROWING: f64 = 1.5;
 
-/// Consecutive short implicit steps that may fail to grow, as happens after a rejected step.
+/// Short implicit steps that did not grow, after which the series takes over. A rejected step alone causes one.
 const STALLED: u32 = 3;
 
 /// Length of the first implicit step, as a multiple of the limited step before it.
@@ -60,7 +60,7 @@ pub struct Auto {
     /// Length of the last implicit step in the current run, and whether any step of the run was worthwhile.
     reached: f64,
     worthwhile: bool,
-    /// Consecutive short implicit steps that did not grow.
+    /// Short implicit steps that did not grow since the last worthwhile one.
     stalled: u32,
     /// Consecutive limited steps, and how many it takes to try implicit ones.
     limited: u32,

@@ -74,7 +74,7 @@ pub use ledger::MachineLedger;
 pub use modal::Modal;
 pub use model::{Lines, Model, NoModel, Phase};
 pub use motion::MachineMotion;
-pub use portrait::{MachineBorder, MachineMargin, Portrait};
+pub use portrait::{BorderKind, MachineBorder, MachineMargin, Portrait};
 pub use series::ORDER;
 pub use subject::{Body, Subject};
 pub use tolerance::Tolerances;

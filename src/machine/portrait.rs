@@ -4,6 +4,8 @@
 //! motions go one way, to the next cycle on that side; so one look into each gap settles the fate of every
 //! start, which needs no more than the way to its next right turning point.
 
+use serde::Serialize;
+
 use super::arc::{Flow, Unfollowed};
 use super::curve::{CurvePiece, MachineCurve, Rectangle};
 use super::cycles::MachineCycle;
@@ -28,15 +30,29 @@ pub enum MachineBorder {
     NoBasin,
 }
 
+/// The kind of a [`MachineBorder`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BorderKind {
+    /// An unstable cycle.
+    Cycle,
+    /// An orbit that touches the belt's line or the end of what the guide holds.
+    Grazing,
+    /// Everything comes to rest.
+    None,
+    /// Rest repels.
+    NoBasin,
+}
+
 impl MachineBorder {
-    /// The name of its kind.
+    /// Its kind.
     #[must_use]
-    pub fn kind(&self) -> &'static str {
+    pub fn kind(&self) -> BorderKind {
         match self {
-            MachineBorder::Cycle(..) => "cycle",
-            MachineBorder::Grazing(_) => "grazing",
-            MachineBorder::None => "none",
-            MachineBorder::NoBasin => "no-basin",
+            MachineBorder::Cycle(..) => BorderKind::Cycle,
+            MachineBorder::Grazing(_) => BorderKind::Grazing,
+            MachineBorder::None => BorderKind::None,
+            MachineBorder::NoBasin => BorderKind::NoBasin,
         }
     }
 

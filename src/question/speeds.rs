@@ -11,7 +11,7 @@ use crate::machine::branch::{
 };
 use crate::machine::special::MachineSpecial;
 use crate::machine::varied::Varied;
-use crate::machine::{MachineCycle, ORDER, Subject};
+use crate::machine::{BorderKind, MachineCycle, ORDER, Subject};
 use crate::oscillator::Belt;
 use crate::oscillator::belt::Quantity;
 
@@ -98,8 +98,9 @@ impl Question for Asked {
         let point = |MachineBranchPoint { value, found }: &MachineBranchPoint| {
             let found = found.as_ref().ok()?;
             let (kind, margin) = (found.border.kind(), found.margin);
-            let touching = margin.filter(|_| kind == "grazing").map(|margin| margin.displacement.0);
-            let rests = kind != "no-basin";
+            let touching =
+                margin.filter(|_| kind == BorderKind::Grazing).map(|margin| margin.displacement.0);
+            let rests = kind != BorderKind::NoBasin;
             Some(SpeedPoint { v0: *value, cycles: found.cycles.clone(), touching, rests })
         };
         let steps = found.points.iter().filter_map(|point| point.found.as_ref().ok());

@@ -7,7 +7,9 @@ use crate::machine::curve::{CurvePiece, MachineCurve};
 use crate::machine::motion::{self, MachineMotion};
 use crate::machine::stepped::{SteppedMethod, Traced, traced};
 use crate::machine::turn::ContactState;
-use crate::machine::{Flow, MachineFate, MachineLedger, Model, Phase, Portrait, Unfollowed};
+use crate::machine::{
+    BorderKind, Flow, MachineFate, MachineLedger, Model, Phase, Portrait, Unfollowed,
+};
 use crate::numerics::elementary::ln;
 use crate::oscillator::{Belt, Parameters, State};
 use crate::study::cycle::CycleErrors;
@@ -22,8 +24,8 @@ pub struct Course {
     pub cycles: Vec<crate::machine::MachineCycle>,
     /// Unit of displacement of the drawing, in m.
     pub unit: f64,
-    /// Name of the kind of border of the basin.
-    pub border: &'static str,
+    /// Kind of the border of the basin.
+    pub border: BorderKind,
     /// Whether the border touches the belt's line.
     pub touches: bool,
     /// First and last point of each stretch on which the mass rides on the belt.
@@ -39,8 +41,8 @@ pub struct Kinds {
     pub cycles: Vec<crate::machine::MachineCycle>,
     /// Sources and sinks of the energy over one turn of each cycle, in the units of the paper's oscillator.
     pub works: Vec<MachineLedger>,
-    /// Name of the kind of border of the basin.
-    pub border: &'static str,
+    /// Kind of the border of the basin.
+    pub border: BorderKind,
     /// Whether the border touches the belt's line.
     pub touches: bool,
     /// The kicks that are survived by the whole model and by the cubic expansion, without units; `None` where
@@ -291,9 +293,9 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
         cycles: found.cycles.iter().map(|cycle| scaled(cycle, model, units)).collect(),
         harmonic: Vec::new(),
         edge: match found.border.kind() {
-            "cycle" => Edge::Cycle,
-            "grazing" => Edge::Separatrix,
-            _ => Edge::None,
+            BorderKind::Cycle => Edge::Cycle,
+            BorderKind::Grazing => Edge::Separatrix,
+            BorderKind::None | BorderKind::NoBasin => Edge::None,
         },
         picture: Some(picture),
         cost: cost(found.steps),

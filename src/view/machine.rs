@@ -3,7 +3,7 @@
 
 use super::pane;
 use crate::flow::{Outcome, Trajectory};
-use crate::machine::{MachineCycle, MachineFate};
+use crate::machine::{BorderKind, MachineCycle, MachineFate};
 use crate::scene::Topic;
 use crate::session::Session;
 use crate::study::Margin;
@@ -19,10 +19,10 @@ pub fn outcome(session: &Session, motion: &Trajectory) -> String {
     };
     let units = &running.reduced.units;
     let within = match course.border {
-        "cycle" => " (inside the unstable cycle)",
-        "grazing" if course.touches => " (inside the motion that touches the belt)",
-        "grazing" => " (inside the motion that ends where the guide just holds)",
-        _ => "",
+        BorderKind::Cycle => " (inside the unstable cycle)",
+        BorderKind::Grazing if course.touches => " (inside the motion that touches the belt)",
+        BorderKind::Grazing => " (inside the motion that ends where the guide just holds)",
+        BorderKind::None | BorderKind::NoBasin => "",
     };
     match (course.fate, motion.outcome) {
         (MachineFate::Rest, Outcome::Captured { tau, q }) => {

@@ -13,6 +13,7 @@ use super::paint::symbol;
 use super::pane::{self, Heading};
 use super::prose;
 use crate::flow::Problem;
+use crate::machine::BorderKind;
 use crate::oscillator::Symbol;
 use crate::picture::role::{CycleStyle, Role, cycle_style};
 use crate::scene::Layer;
@@ -318,7 +319,7 @@ fn counted(session: &Session, found: &Cycles, width: usize) -> (String, Role) {
 fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<String> {
     let kinds = session.kinds().filter(|_| session.draws_whole());
     let edge = match found.edge {
-        _ if kinds.is_some_and(|kinds| kinds.border == "no-basin") => "rest repels",
+        _ if kinds.is_some_and(|kinds| kinds.border == BorderKind::NoBasin) => "rest repels",
         Edge::Separatrix if kinds.is_some_and(|kinds| kinds.touches) => "border: touches the belt",
         Edge::Separatrix if kinds.is_some() => "border: where the guide holds",
         Edge::None if kinds.is_some_and(|kinds| kinds.neutral) => "all motions periodic",

@@ -4,7 +4,7 @@
 use super::portrait;
 use hopfscope::machine::return_map::MachineReturn;
 use hopfscope::machine::{
-    Body, Flow, MachineBorder, MachineFate, Modal, Portrait, Subject, Unfollowed,
+    Body, BorderKind, Flow, MachineBorder, MachineFate, Modal, Portrait, Subject, Unfollowed,
 };
 use hopfscope::numerics::elementary::exp;
 use hopfscope::oscillator::Belt;
@@ -212,9 +212,9 @@ fn tool(friction: f64) -> Portrait {
 
 #[test]
 fn however_much_friction_a_mode_has_it_has_an_answer() {
-    let kinds: Vec<_> =
-        [0.0, 1.0, 20.0, 1e2, 1e3, 1e4].map(|force| tool(force).border.kind()).into();
-    assert_eq!(kinds, ["no-basin", "cycle", "cycle", "none", "none", "none"]);
+    use BorderKind::{Cycle, NoBasin, None};
+    let kinds = [0.0, 1.0, 20.0, 1e2, 1e3, 1e4].map(|force| tool(force).border.kind());
+    assert_eq!(kinds, [NoBasin, Cycle, Cycle, None, None, None]);
 }
 
 #[test]

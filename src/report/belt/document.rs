@@ -10,7 +10,7 @@ use crate::machine::guarantee::{GuaranteedKicks, MachineUncertain};
 use crate::machine::motion::{MachineOutcome, MachineState};
 use crate::machine::survey::{Course, CubicExpansion, Second};
 use crate::machine::turn::ContactState;
-use crate::machine::{MachineCycle, MachineFate, MachineLedger, Portrait};
+use crate::machine::{BorderKind, MachineCycle, MachineFate, MachineLedger, Portrait};
 use crate::oscillator::belt::{Derivatives, FrictionLaw, QUANTITIES, Units};
 use crate::oscillator::{Belt, Interval, Parameters};
 use crate::report::json::text;
@@ -195,7 +195,7 @@ impl From<&MachineCycle> for CycleNumbers {
 
 #[derive(Serialize)]
 struct MachineBorderDocument {
-    kind: &'static str,
+    kind: BorderKind,
 }
 
 #[derive(Serialize)]

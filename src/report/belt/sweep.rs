@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::document::{DesignDocument, MachineCost, PortraitDocument};
 use super::{Designed, Head, PLACES, RestShare, margins};
 use crate::machine::varied::Varied;
-use crate::machine::{MachineBorder, Portrait};
+use crate::machine::{BorderKind, MachineBorder, Portrait};
 use crate::report::csv::Sheet;
 use crate::report::json::text;
 use crate::report::table::Table;
@@ -161,7 +161,7 @@ struct BeltSweepRow {
     x_max_inner: Option<f64>,
     x_max_outer: Option<f64>,
     stick_duration: Option<f64>,
-    border: Option<&'static str>,
+    border: Option<BorderKind>,
     neutral: Option<bool>,
     x_margin: Option<f64>,
     impulse_margin: Option<f64>,

@@ -5,7 +5,7 @@
 //! cycles. The end time limits how far a motion is followed, but not what is known of it.
 
 use crate::flow::{Outcome, Sample, Trajectory};
-use crate::machine;
+use crate::machine::{self, BorderKind};
 use crate::numerics::elementary::hypot;
 use crate::oscillator::Parameters;
 use crate::question::whole::Course;
@@ -177,8 +177,8 @@ fn of_course(course: &Course, motion: &Trajectory) -> Option<MotionVerdict> {
         machine::MachineFate::Neutral | machine::MachineFate::Unknown(_) => return None,
     };
     let place = match (course.border, end) {
-        ("cycle", End::Rests) => SideOfBorder::InsideCycle,
-        ("cycle", _) => SideOfBorder::OutsideCycle,
+        (BorderKind::Cycle, End::Rests) => SideOfBorder::InsideCycle,
+        (BorderKind::Cycle, _) => SideOfBorder::OutsideCycle,
         _ => SideOfBorder::Anywhere,
     };
     Some(MotionVerdict { end, place })
@@ -195,7 +195,7 @@ impl Session {
         let whole = self.kinds().filter(|_| self.draws_whole());
         let cycles = |stable: bool| match whole {
             // Only the unstable cycle that borders the basin counts.
-            Some(kinds) if !stable => kinds.border == "cycle",
+            Some(kinds) if !stable => kinds.border == BorderKind::Cycle,
             Some(kinds) => kinds.cycles.iter().any(|cycle| cycle.stable),
             None => {
                 self.cycles().is_some_and(|it| it.cycles.iter().any(|cycle| cycle.stable == stable))
