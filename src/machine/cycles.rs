@@ -13,7 +13,7 @@ use crate::numerics::scaling::{exponent, times_power};
 /// A limit cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MachineCycle {
-    /// Whether it rides on the belt for a while.
+    /// Whether it sticks to the belt for part of the time.
     pub sticks: bool,
     /// Whether it overtakes the belt.
     pub overtakes: bool,
@@ -25,34 +25,34 @@ pub struct MachineCycle {
     pub v: (f64, f64),
     /// Period, in s.
     pub period: f64,
-    /// How long of it the mass rides on the belt, in s.
+    /// Time per period during which the mass rides on the belt, in s.
     pub stick_duration: f64,
-    /// Floquet multiplier; 0 where it sticks, infinite beyond the range of doubles.
+    /// Floquet multiplier; 0 if it sticks, infinite beyond the range of doubles.
     pub multiplier: f64,
-    /// Its logarithm; minus infinity where it sticks.
+    /// Logarithm of the multiplier; minus infinity if it sticks.
     pub log_multiplier: f64,
-    /// Where it begins and ends to ride on the belt, in m.
+    /// Displacements at which the ride on the belt begins and ends, in m.
     pub ride: Option<(f64, f64)>,
 }
 
 impl MachineCycle {
-    /// Whether it is followed backward in time, where it attracts.
+    /// Whether it is followed backward in time, in which direction it attracts.
     #[must_use]
     pub fn is_followed_backward(&self) -> bool {
         !self.stable && !self.sticks && !self.overtakes
     }
 }
 
-/// Extremes of the velocity and times along a motion.
+/// Extremes of the velocity, and durations, along a motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extremes {
     /// Smallest and largest velocity.
     pub y: (f64, f64),
-    /// Time, all in all.
+    /// Total time.
     pub duration: f64,
-    /// Time on the belt.
+    /// Time spent on the belt.
     pub stick: f64,
-    /// The last ride.
+    /// Ends of the last ride.
     pub ride: Option<(f64, f64)>,
 }
 
@@ -77,25 +77,25 @@ impl Watch for Extremes {
 /// The fixed points of the return map, and whether it is the identity somewhere.
 #[derive(Clone, Debug, Default)]
 pub struct FixedPoints {
-    /// Right turning points with the images, by amplitude.
+    /// Right turning points with their images, by amplitude.
     pub points: Vec<(f64, Image)>,
     /// Whether all motions that slip are periodic.
     pub neutral: bool,
-    /// Up to where they were looked for, and what ended the search.
+    /// The point up to which they were sought, and what ended the search.
     pub end: f64,
     /// See [`Self::end`].
     pub stop: Option<Unfollowed>,
     /// Intervals in which the search did not settle.
     pub unresolved: Vec<(f64, f64)>,
-    /// Right turning point up to which the guide catches the mass within a return, where beyond it motions
-    /// grow: the border of rest is then the motion that comes to the end of what the guide holds.
+    /// Right turning point up to which the guide catches the mass within one return, if motions from beyond it
+    /// grow. The border of rest is then the motion that just reaches the end of what the guide holds.
     pub capture: Option<f64>,
 }
 
-/// Logarithm of a multiplier from which on cycles are computed backward in time.
+/// Logarithm of the multiplier from which cycles are computed backward in time.
 const STRONG: f64 = 4.0;
 
-/// Stands for a value that does not exist, because the mass comes to rest or escapes.
+/// Replaces a value that does not exist because the mass comes to rest or escapes.
 const FAR: f64 = 1e3;
 
 impl Flow<'_> {
@@ -117,14 +117,14 @@ impl Flow<'_> {
     /// All fixed points of the return map.
     ///
     /// # Errors
-    /// [`Unfollowed`] where even the motions next to rest cannot be followed.
+    /// [`Unfollowed`] if even the motions next to rest cannot be followed.
     pub fn fixed_points(&mut self, marks: Option<&Landmarks>) -> Result<FixedPoints, Unfollowed> {
         let mut found = FixedPoints::default();
         let touch = marks.and_then(|marks| marks.grazing.right);
         let scale = self.scale(marks);
         let at = |x: f64| ln(x / scale);
         let caught = match self.smallest(scale) {
-            // What comes to rest does so at once, or leaves the law.
+            // Every motion comes to rest at once, or leaves the law.
             Err(stop @ Unfollowed::OutsideLaw { .. }) => {
                 let held = GrowthSample { u: at(self.model.guide_static), f: -FAR, slope: 0.0 };
                 found.stop = Some(stop);
@@ -133,7 +133,7 @@ impl Flow<'_> {
             }
             smallest => smallest?,
         };
-        // By rounding a motion from there may still come to rest.
+        // By rounding, a motion from there may still come to rest.
         let beyond = |x: f64| x * (1.0 + 1e-12);
         let held = self.model.guide_static;
         let mut smallest = caught.max(beyond(held));
@@ -193,7 +193,7 @@ impl Flow<'_> {
             }
         }
         if found.stop.is_none() && self.model.law_ends() {
-            // What comes to ride on the belt is known as far as the law goes.
+            // Motions that come to ride on the belt are known as far as the law reaches.
             let from = if smallest.is_finite() { smallest } else { beyond(held) };
             let last = self.farthest(from.max(found.end), scale, &mut found)?;
             found.end = found.end.max(scale * exp(last.u));
@@ -205,7 +205,7 @@ impl Flow<'_> {
         Ok(found)
     }
 
-    /// A power of two beyond all lengths that the machine singles out, so that nothing depends on their unit.
+    /// A power of two beyond all special lengths of the machine, so that results do not depend on their unit.
     fn scale(&self, marks: Option<&Landmarks>) -> f64 {
         let model = self.model;
         let mut lengths = vec![model.guide_static, model.pull];
@@ -222,14 +222,14 @@ impl Flow<'_> {
         if largest > 0.0 { times_power(1.0, exponent(largest) + 1) } else { 1.0 }
     }
 
-    /// The right turning point below which every motion comes to rest; without friction of the guide, one
+    /// The right turning point below which every motion comes to rest; without friction of the guide, a point
     /// below which the map is linear.
     fn smallest(&mut self, scale: f64) -> Result<f64, Unfollowed> {
-        /// Growth below this is on its way to be lost in rounding.
+        /// Growth below this is about to be lost in rounding.
         const WEAK: f64 = 1e-9;
         let held = self.model.guide_static;
         if held > 0.0 {
-            // What comes to rest there was released by the belt: all that only slips rests before.
+            // A motion that comes to rest there was released by the belt: those that only slip rest before.
             let before = self.preimage(held)?;
             return Ok(before.map_or(f64::INFINITY, |before| before.x.max(held)));
         }
@@ -260,12 +260,12 @@ impl Flow<'_> {
         Ok(zeros.found)
     }
 
-    /// The innermost cycle, where it repels so strongly that a few turns backward lead to it from rest and
-    /// the map itself cannot tell it from what it repels.
+    /// The innermost cycle, if it repels so strongly that a few turns backward lead to it from rest and the map
+    /// itself cannot resolve it.
     fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, Unfollowed> {
-        /// Turns at most.
+        /// Maximum number of turns.
         const TURNS: usize = 8;
-        /// A cycle that repels beyond all digits turns where the guide lets go, to rounding.
+        /// To rounding, a cycle that repels beyond all digits turns where the guide lets go.
         const ROUNDING: f64 = 1e-12;
         let held = self.model.guide_static;
         if held == 0.0 || smallest.is_infinite() {
@@ -273,7 +273,7 @@ impl Flow<'_> {
         }
         let mut x = smallest;
         for _ in 0..TURNS {
-            // A turning point that the guide holds is on no cycle, nor is the balance of a phase.
+            // A turning point that the guide holds is on no cycle; neither is the equilibrium of a phase.
             let moves = |image: &Image| {
                 let left = -image.left >= held * (1.0 - ROUNDING);
                 image.x >= held && left && image.log_slope.is_finite()
@@ -290,7 +290,7 @@ impl Flow<'_> {
         Ok(None)
     }
 
-    /// The fixed point near `x` with its image; where it repels strongly, by the map backward.
+    /// The fixed point near `x` with its image; if it repels strongly, by the inverse map.
     fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, Unfollowed> {
         let MachineReturn::Turns(image) = self.returned(x)? else { return Ok(None) };
         let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
@@ -309,11 +309,11 @@ impl Flow<'_> {
         scale: f64,
         found: &mut FixedPoints,
     ) -> Result<GrowthSample, Unfollowed> {
-        /// How far beyond.
+        /// Factor by which it lies beyond.
         const DOUBLINGS: u32 = 10;
-        /// Doublings after which it counts how motions shrink.
+        /// Doublings after which the shrinking of motions counts.
         const ENOUGH: u32 = 3;
-        /// Where a swing takes more than half of the amplitude, and more the larger it is, dissipation rules.
+        /// If a swing takes more than half of the amplitude, and the more the larger it is, dissipation dominates.
         const CONTRACTS: f64 = -0.7;
         let at = |x: f64| ln(x / scale);
         let mut last = self.growth(at(from), scale)?;
@@ -324,7 +324,7 @@ impl Flow<'_> {
                 Ok(sample) => last = sample,
                 Err(stop) => {
                     found.stop = Some(stop);
-                    // Motions that take too many steps cost too much to look for the first of them.
+                    // Where motions take too many steps, finding the first of them costs too much.
                     let dear = stop == Unfollowed::Steps;
                     return Ok(if dear { last } else { self.edge(last, at(x), scale) });
                 }
@@ -338,14 +338,14 @@ impl Flow<'_> {
         Ok(last)
     }
 
-    /// The last place up to which the map is known, between one where it is and one where it is not.
+    /// The last point up to which the map is known, between one where it is and one where it is not.
     fn edge(&mut self, known: GrowthSample, unknown: f64, unit: f64) -> GrowthSample {
         let mut last = known;
         bisect(known.u, unknown, 40, |u| self.growth(u, unit).map(|sample| last = sample).is_err());
         last
     }
 
-    /// Whether all motions in between are periodic.
+    /// Whether all motions between two samples are periodic.
     fn is_neutral(
         &mut self,
         first: GrowthSample,
@@ -357,10 +357,10 @@ impl Flow<'_> {
         Ok([first, middle, other, last].iter().all(|sample| sample.f.abs() < NOTHING))
     }
 
-    /// Everything about the cycle through a right turning point.
+    /// The description of the cycle through a right turning point.
     ///
     /// # Errors
-    /// [`Unfollowed`], where rounding carries the motion off.
+    /// [`Unfollowed`] if rounding carries the motion away.
     pub fn describe(
         &mut self,
         x: f64,
@@ -387,10 +387,10 @@ impl Flow<'_> {
         })
     }
 
-    /// Follows a motion once around from a right turning point; backward in time where that attracts.
+    /// Follows a motion once around from a right turning point; backward in time if that attracts.
     ///
     /// # Errors
-    /// [`Unfollowed`], where rounding carries the motion off.
+    /// [`Unfollowed`] if rounding carries the motion away.
     pub fn around(
         &mut self,
         x: f64,

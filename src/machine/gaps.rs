@@ -1,5 +1,5 @@
-//! The gaps between the places on the line of right turning points where something changes, and what becomes of
-//! the motions in each.
+//! The gaps between the right turning points at which the return map changes, and the fate of the motions in
+//! each gap.
 
 use super::arc::{Flow, Unfollowed};
 use super::landmarks::Landmarks;
@@ -7,18 +7,18 @@ use super::model::Model;
 use super::return_map::MachineReturn;
 use super::search::NOTHING;
 
-/// What a motion ends as.
+/// The fate of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MachineFate {
-    /// At rest.
+    /// It comes to rest.
     Rest,
-    /// On the cycle of this index, or on it from the start.
+    /// It tends to the cycle with this index, or starts on it.
     Cycle(usize),
-    /// Periodic, one of a family.
+    /// It is periodic, one of a family.
     Neutral,
     /// It grows without bound.
     Escaped,
-    /// It leaves what is known of the machine.
+    /// It leaves the range in which the machine is known.
     Unknown(Unfollowed),
 }
 
@@ -28,20 +28,20 @@ pub(super) struct Gap {
     /// Its upper end.
     pub to: f64,
     pub fate: MachineFate,
-    /// What becomes of a motion that turns at the upper end itself.
+    /// Fate of a motion that turns exactly at the upper end.
     pub end: MachineFate,
 }
 
-/// A place on the line of right turning points where something changes.
+/// A right turning point at which the return map changes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Divide {
     Cycle(usize),
     Jump,
-    /// Up to here the guide catches the mass; motions from beyond grow.
+    /// The last one from which the guide catches the mass; motions from beyond grow.
     Capture,
 }
 
-/// Where the return map jumps: where a touch becomes a ride, and where the mirror band ends.
+/// Jumps of the return map: where a touch becomes a ride, and where the mirror band ends.
 pub(super) fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
     let Some(marks) = landmarks else { return Vec::new() };
     let mut found: Vec<f64> = marks.grazing.right.into_iter().collect();
@@ -52,18 +52,18 @@ pub(super) fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
     found
 }
 
-/// Where motions go in a gap.
+/// The direction of motions in a gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Tendency {
     Outward,
     Inward,
     /// They are periodic.
     Nowhere,
-    /// They go where nothing is known.
+    /// They leave the known range.
     Lost(Unfollowed),
 }
 
-/// Where motions go in each gap.
+/// The direction of motions in each gap.
 pub(super) fn ways(
     flow: &mut Flow,
     marks: &[(f64, Divide)],
@@ -123,7 +123,7 @@ pub(super) fn gaps(
             match mark {
                 None => return stop.map_or(MachineFate::Escaped, MachineFate::Unknown),
                 Some((_, Divide::Cycle(index))) => return MachineFate::Cycle(*index),
-                // Motions go on across a jump; the map rises there, so it never sends them back.
+                // Motions continue across a jump: the map rises there and never sends them back.
                 Some((_, Divide::Jump | Divide::Capture)) => here = next,
             }
         }
@@ -132,7 +132,7 @@ pub(super) fn gaps(
         let (to, mark) = mark.map_or((f64::INFINITY, Divide::Capture), |(x, mark)| (*x, *mark));
         let end = match mark {
             Divide::Cycle(index) => MachineFate::Cycle(index),
-            // What touches the belt sticks to it.
+            // An orbit that touches the belt sticks to it.
             Divide::Jump => fate(gap + 1),
             Divide::Capture => fate(gap),
         };

@@ -1,4 +1,4 @@
-//! The motions that the belt's line singles out: what touches it, what it releases, what overtakes it.
+//! The special motions at the belt's line: those that touch it, are released by it, or overtake it.
 
 use super::arc::{Flow, Unfollowed};
 use super::model::{Lines, Phase};
@@ -6,12 +6,12 @@ use super::return_map::Divergence;
 use super::turn::ContactState;
 use crate::numerics::elementary::ln;
 
-/// The orbit that touches the belt's line, if it went on slipping.
+/// The orbit that touches the belt's line, as if it continued to slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grazing {
     /// Left turning point before the contact.
     pub left: f64,
-    /// Right turning point before that; `None` where no motion comes from one.
+    /// Right turning point before that; `None` if no motion comes from one.
     pub right: Option<f64>,
     /// Right turning point after the contact.
     pub image: f64,
@@ -19,23 +19,24 @@ pub struct Grazing {
     pub log_slope: f64,
 }
 
-/// Where the return map changes its form.
+/// The places at which the return map changes its form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Landmarks {
-    /// Places on the line.
+    /// The places on the belt's line.
     pub lines: Lines,
     /// The orbit that touches the line.
     pub grazing: Grazing,
-    /// Right turning point of what the belt has released; `None` where that comes to rest at once.
+    /// Right turning point after a release from the belt; `None` if the mass then comes to rest at once.
     pub released: Option<f64>,
     /// Left turning point from which the lower end of the stick band is reached.
     pub low_left: f64,
-    /// From here on motions do not end on the band, but overtake the belt; `None` where all do.
+    /// Right turning point beyond which motions overtake the belt instead of ending on the band; `None` if all
+    /// end on it.
     pub beyond: Option<f64>,
 }
 
 impl Flow<'_> {
-    /// The landmarks; `None` without a belt, or without a law for small slips. Fails with [`Unfollowed`] where the
+    /// The landmarks; `None` without a belt, or without a law for small slips. Fails with [`Unfollowed`] if the
     /// friction law ends before they are reached.
     pub fn landmarks(&mut self) -> Result<Option<Landmarks>, Unfollowed> {
         let model = self.model;
@@ -56,7 +57,7 @@ impl Flow<'_> {
         let (guide, speed) = (self.model.guide, self.model.speed);
         let mut divergence = Divergence::default();
         let left = self.left_before(lines.fold, speed, &mut divergence)?;
-        // Overdamped, it comes to rest without another turn.
+        // If overdamped, it comes to rest without another turn.
         let after = match self.arc(Phase::Between, (lines.fold, speed), false, &mut divergence) {
             Ok(end) => end.x,
             Err(Unfollowed::Settled) => -guide,
@@ -77,10 +78,10 @@ impl Flow<'_> {
         Ok(Grazing { left, right, image: after, log_slope })
     }
 
-    /// The right turning point beyond which motions overtake the belt and do not come to ride on it.
+    /// The right turning point beyond which motions overtake the belt instead of riding on it.
     fn beyond(&mut self, lines: &Lines, low_left: f64) -> Result<Option<f64>, Unfollowed> {
         let speed = self.model.speed;
-        // The last motion that comes down on the band, followed back to where it rose above the line.
+        // The last motion that comes down on the band is followed back to where it rose above the line.
         let back = |stop| match stop {
             Unfollowed::Escaped | Unfollowed::Settled | Unfollowed::OutsideLaw { .. } => Ok(None),
             Unfollowed::Steps => Err(Unfollowed::Steps),

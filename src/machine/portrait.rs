@@ -1,8 +1,8 @@
-//! What becomes of every motion: the cycles, the basin of rest with its border and margins.
+//! The fate of every motion: the cycles, and the basin of rest with its border and margins.
 //!
 //! Fixed points and jumps of the return map cut the line of right turning points into gaps. Within a gap all
-//! motions go one way, to the next cycle on that side; so one look into each gap settles the fate of every
-//! start, which needs no more than the way to its next right turning point.
+//! motions go one way, to the next cycle on that side. One evaluation in each gap therefore settles the fate of
+//! all starts; a start itself is followed only to its next right turning point.
 
 use serde::Serialize;
 
@@ -19,9 +19,9 @@ use crate::numerics::root::bisect;
 /// What borders the basin of rest.
 #[derive(Clone, Debug)]
 pub enum MachineBorder {
-    /// The unstable cycle of this index.
+    /// The unstable cycle with this index.
     Cycle(usize, MachineCurve),
-    /// An orbit that touches the belt's line, and a piece of that line; or one that just comes to the end of
+    /// An orbit that touches the belt's line, with a piece of that line; or one that just reaches the end of
     /// what the guide holds.
     Grazing(MachineCurve),
     /// Nothing: everything comes to rest.
@@ -56,15 +56,15 @@ impl MachineBorder {
         }
     }
 
-    /// Whether the border touches the belt's line; where it does not, a cycle or the end of what the guide
-    /// holds borders the basin.
+    /// Whether the border touches the belt's line; otherwise a cycle or the end of what the guide holds borders
+    /// the basin.
     #[must_use]
     pub fn touches(&self) -> bool {
         let line = |piece: &CurvePiece| matches!(piece, CurvePiece::Line { .. });
         matches!(self, MachineBorder::Grazing(curve) if curve.pieces.iter().any(line))
     }
 
-    /// The closed curve, where there is one.
+    /// The closed curve, if there is one.
     #[must_use]
     pub fn curve(&self) -> Option<&MachineCurve> {
         match self {
@@ -74,7 +74,7 @@ impl MachineBorder {
     }
 }
 
-/// Kicks out of the steady position up to which the mass comes back to rest.
+/// The largest kicks out of the steady position after which the mass comes back to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MachineMargin {
     /// Displacements to the right and to the left, in m.
@@ -97,7 +97,7 @@ impl MachineMargin {
     }
 }
 
-/// What a machine does.
+/// All possible motions of a machine.
 #[derive(Clone, Debug)]
 pub struct Portrait {
     /// Its model.
@@ -106,30 +106,30 @@ pub struct Portrait {
     pub cycles: Vec<MachineCycle>,
     /// Whether there is a family of periodic orbits.
     pub neutral: bool,
-    /// The border of the basin of rest; of a neutral family where rest is one of it.
+    /// The border of the basin of rest; of the neutral family, if rest belongs to one.
     pub border: MachineBorder,
-    /// The kicks that are survived; `None` where every one is. Where all motions that the law covers come
-    /// to rest, the kicks that it covers.
+    /// The kicks that are survived; `None` if every kick is. If all motions that the law covers come to rest,
+    /// these are the kicks that it covers.
     pub margin: Option<MachineMargin>,
     /// Where the line of the belt is met.
     pub landmarks: Option<Landmarks>,
-    /// Why motions that turn beyond [`Self::known`] are not known; `None` where all are.
+    /// Why motions that turn beyond [`Self::known`] are unknown; `None` if all are known.
     pub stop: Option<Unfollowed>,
-    /// Right turning point up to which the return map was looked at.
+    /// Right turning point up to which the return map was evaluated.
     pub known: f64,
     /// Intervals of right turning points in which the search for cycles did not settle: pairs of cycles may
     /// hide there.
     pub unresolved: Vec<(f64, f64)>,
-    /// Steps that it took.
+    /// Number of integration steps.
     pub steps: u64,
     gaps: Vec<Gap>,
 }
 
 impl Portrait {
-    /// Computes what a machine does.
+    /// Computes the portrait of a machine.
     ///
     /// # Errors
-    /// [`Unfollowed`] where the motions near rest, or those that the belt releases, cannot be followed.
+    /// [`Unfollowed`] if the motions near rest, or those that the belt releases, cannot be followed.
     pub fn new(model: &Model) -> Result<Self, Unfollowed> {
         let mut flow = Flow::new(model);
         let landmarks = flow.landmarks()?;
@@ -224,11 +224,11 @@ impl Portrait {
         Ok(())
     }
 
-    /// The kicks that come to rest for certain, where motions that slip faster than the law covers are not
-    /// known, or those that could not be followed; motions do not cross, so in each direction these are the kicks up
-    /// to one. Only where the law ends is it sought beyond [`Self::known`].
+    /// The kicks that certainly come to rest, if motions that slip faster than the law covers are unknown, or some
+    /// could not be followed. Motions do not cross, so in each direction these are all kicks up to a largest one. It
+    /// is sought beyond [`Self::known`] only where the law ends.
     fn covered(&self, ends: bool) -> MachineMargin {
-        /// To rounding.
+        /// Halvings down to rounding.
         const HALVINGS: u32 = 60;
         let model = &self.model;
         let rests = |x: f64, y: f64| self.fate(x, y * model.omega_0) == Ok(MachineFate::Rest);
@@ -252,10 +252,10 @@ impl Portrait {
         }
     }
 
-    /// What becomes of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
+    /// The fate of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
     ///
     /// # Errors
-    /// [`Unfollowed`] where it does not get to its next right turning point.
+    /// [`Unfollowed`] if it does not reach its next right turning point.
     pub fn fate(&self, x: f64, v: f64) -> Result<MachineFate, Unfollowed> {
         let y = self.model.scaled_velocity(v);
         let mut flow = Flow::new(&self.model);
@@ -266,7 +266,7 @@ impl Portrait {
             Err(stop) => return Err(stop),
         };
         let Some(mut x) = turn else { return Ok(MachineFate::Rest) };
-        // Far out every swing is looked at: it may leave what is known.
+        // Far out, every swing is checked: it may leave the known range.
         while x > self.known {
             match flow.returned(x) {
                 Ok(MachineReturn::Turns(image)) if image.x < x => x = image.x,
@@ -279,7 +279,7 @@ impl Portrait {
         Ok(self.fate_of_turn(x))
     }
 
-    /// Why this is not the whole answer: the friction law ends before all motions are known.
+    /// Why the portrait is incomplete: the friction law ends before all motions are known.
     #[must_use]
     pub fn incomplete(&self) -> Option<Unfollowed> {
         let outermost = self.gaps.last().map(|gap| gap.fate);
@@ -288,22 +288,23 @@ impl Portrait {
         stop.filter(|_| open || matches!(self.border, MachineBorder::None))
     }
 
-    /// What becomes of a motion that turns on the right at `x`.
+    /// The fate of a motion that turns on the right at `x`.
     fn fate_of_turn(&self, x: f64) -> MachineFate {
         let gap = self.gaps.iter().find(|gap| x <= gap.to).or(self.gaps.last());
         gap.map_or(MachineFate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
     }
 
-    /// The part of a window, in m and m/s, from which the mass comes to rest; `None` where motions from the window
-    /// lead beyond what is known.
+    /// The fraction of a window, in m and m/s, from which the mass comes to rest; `None` if motions from the window
+    /// leave the known range.
     #[must_use]
     pub fn rest_share(&self, x: (f64, f64), v: (f64, f64)) -> Option<f64> {
         let y = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
         let window = Rectangle { x, y };
         match &self.border {
-            // Above v = 0 motions do not cross, and go farther out from the upper end of a vertical edge than
-            // from below. Along a horizontal one dv/dt changes sign once, as the spring is linear: motions that
-            // rise through it fall through it farther right, so the outermost pass a corner. Below v = 0 the same.
+            // Above v = 0, motions do not cross, and those from the upper end of a vertical edge go farther out than
+            // those from below. Along a horizontal edge, dv/dt changes sign once, because the spring is linear:
+            // motions that rise through it fall through it farther right, so the outermost ones pass a corner. The
+            // same holds below v = 0.
             MachineBorder::None => {
                 let rests = |x: f64, v: f64| self.fate(x, v) == Ok(MachineFate::Rest);
                 let all = || [x.0, x.1].iter().all(|x| [v.0, v.1].iter().all(|v| rests(*x, *v)));
@@ -318,10 +319,10 @@ impl Portrait {
 }
 
 impl Flow<'_> {
-    /// The next right turning point of any start; `None` where it comes to rest before.
+    /// The next right turning point of any start; `None` if the mass comes to rest before it.
     ///
     /// # Errors
-    /// [`Unfollowed`] where it does not get there.
+    /// [`Unfollowed`] if it is not reached.
     pub fn to_the_right(&mut self, mut x: f64, mut y: f64) -> Result<Option<f64>, Unfollowed> {
         if y == 0.0 && x > self.model.guide_static {
             return Ok(Some(x));
@@ -342,7 +343,7 @@ impl Flow<'_> {
 }
 
 impl Model {
-    /// A velocity in m/s divided by the natural frequency; that of the belt to the last bit.
+    /// A velocity in m/s divided by the natural frequency; for that of the belt, exactly the speed of the model.
     #[must_use]
     pub fn scaled_velocity(&self, v: f64) -> f64 {
         v / self.omega_0

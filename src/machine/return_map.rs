@@ -1,8 +1,8 @@
 //! The return map: from a right turning point to the next one.
 //!
-//! In the plane it never decreases, because motions may merge but not cross. On one interval it is constant:
-//! all that comes to ride on the belt leaves it at the same place. So at most one cycle sticks to the belt,
-//! with multiplier exactly 0, and the fixed points put everything else in order.
+//! It never decreases, because motions in the plane may merge but not cross. On one interval it is constant: all
+//! motions that come to ride on the belt leave it at the same place. So at most one cycle sticks to the belt, and its
+//! multiplier is exactly 0; the fixed points order everything else.
 
 use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
 use super::model::{Model, Phase};
@@ -27,17 +27,17 @@ impl Watch for Divergence {
 pub struct Image {
     /// The next right turning point.
     pub x: f64,
-    /// The left one between them.
+    /// The left turning point between them.
     pub left: f64,
-    /// Logarithm of the derivative of the map; minus infinity where it is constant.
+    /// Logarithm of the derivative of the map; minus infinity if it is constant there.
     pub log_slope: f64,
-    /// Where the mass began to ride on the belt.
+    /// Displacement at which the mass began to ride on the belt.
     pub sticks_from: Option<f64>,
-    /// Where it left the belt's line upwards.
+    /// Displacement at which it left the belt's line upwards.
     pub overtakes_from: Option<f64>,
 }
 
-/// What becomes of a motion within one return.
+/// The result of following a motion for one return.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MachineReturn {
     /// It turns on the right again.
@@ -48,7 +48,7 @@ pub enum MachineReturn {
 
 impl Flow<'_> {
     /// The next right turning point after the one at `x`, outside of what the guide holds. Fails with
-    /// [`Unfollowed`] where the motion does not turn; a motion that settles at a balance comes to rest instead.
+    /// [`Unfollowed`] if the motion does not turn; a motion that settles at an equilibrium counts as coming to rest.
     pub fn returned(&mut self, x: f64) -> Result<MachineReturn, Unfollowed> {
         let mut divergence = Divergence::default();
         let left = match self.turn(ContactState::Slips(Phase::Below), (x, 0.0), &mut divergence) {
@@ -72,8 +72,8 @@ impl Flow<'_> {
     }
 
     /// The right turning point before the left one at `left`, with the logarithm of (acceleration before the
-    /// arc's end / after its start); `None` where no motion comes from one. Fails with [`Unfollowed`] where the
-    /// friction law ends, or steps do.
+    /// arc's end / after its start); `None` if no motion comes from one. Fails with [`Unfollowed`] where the
+    /// friction law ends or the steps run out.
     pub(super) fn right_before(
         &mut self,
         left: f64,
@@ -88,17 +88,16 @@ impl Flow<'_> {
         }
     }
 
-    /// The map backward from the right turning point `x`, among motions that slip below the belt's speed
-    /// all the way: [`Image::x`] is the turning point before. It contracts where the map itself expands.
-    /// `None` where no such motion leads to `x`. Fails with [`Unfollowed`] where the friction law ends, or steps
-    /// do.
+    /// The inverse map at the right turning point `x`, for motions that always slip below the belt's speed:
+    /// [`Image::x`] is the turning point before. It contracts where the map itself expands. `None` if no such motion
+    /// leads to `x`. Fails with [`Unfollowed`] where the friction law ends or the steps run out.
     pub fn preimage(&mut self, x: f64) -> Result<Option<Image>, Unfollowed> {
         let mut divergence = Divergence::default();
         let (left, entered) = match self.arc(Phase::Between, (x, 0.0), true, &mut divergence) {
             Ok(end) if end.on_belt => return Ok(None),
             Ok(end) => (end.x, end.log_ratio()),
             Err(Unfollowed::Settled) => (-self.model.guide, f64::NEG_INFINITY),
-            // Backward in time damping feeds: from however far away, a motion turns before `x`.
+            // Backward in time, damping adds energy: however far away it comes from, a motion turns before `x`.
             Err(Unfollowed::Escaped) => return Ok(None),
             Err(stop) => return Err(stop),
         };
@@ -113,8 +112,8 @@ impl Flow<'_> {
     }
 
     /// The left turning point from which a motion between rest and the belt's speed reaches `(x, y)`; where
-    /// there is none, the edge of what the guide holds. Fails with [`Unfollowed`] where the friction law ends, or
-    /// steps do.
+    /// there is none, the edge of what the guide holds. Fails with [`Unfollowed`] where the friction law ends or the
+    /// steps run out.
     pub fn left_before(
         &mut self,
         x: f64,

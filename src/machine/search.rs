@@ -1,10 +1,10 @@
-//! All zeros of the growth of a map that never decreases: `f(u) = F(u) - u`, which costs an integration each
-//! time, with its derivative.
+//! All zeros of the growth of a map that never decreases: `f(u) = F(u) - u`. Each value, with its derivative,
+//! costs an integration.
 //!
-//! Where the map carries one end of an interval beyond the other, it has no fixed point between them.
-//! An interval is halved until a cubic through both ends predicts the middle; then a zero shows as a change
-//! of sign, or two of them as an extremum beyond zero. What a cubic predicts to a few percent of its
-//! distance from zero cannot hide a pair of zeros.
+//! If the map carries one end of an interval beyond the other, it has no fixed point between them. An interval is
+//! halved until a cubic through both ends predicts the middle. A zero then shows as a change of sign, and a pair of
+//! zeros as an extremum beyond zero: a function that a cubic predicts to a few percent of its distance from zero
+//! cannot hide a pair.
 
 use super::arc::Unfollowed;
 use crate::numerics::hermite::Hermite;
@@ -13,7 +13,7 @@ use crate::numerics::root::{Bracket, PlaceTolerance, illinois, try_newton};
 /// A value of the function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GrowthSample {
-    /// Where.
+    /// Argument.
     pub u: f64,
     /// The value.
     pub f: f64,
@@ -21,24 +21,24 @@ pub struct GrowthSample {
     pub slope: f64,
 }
 
-/// Halvings of an interval at most.
+/// Maximum number of times that an interval is halved.
 const DEPTH: u32 = 12;
 
-/// Part of the distance from zero to which the cubic must predict the middle.
+/// Error with which the cubic must predict the middle, as a fraction of the distance from zero.
 const PREDICTED: f64 = 0.05;
 
-/// Smaller values count as zero.
+/// Values below this count as zero.
 pub const NOTHING: f64 = 1e-12;
 
-/// Rounding of one evaluation.
+/// Rounding error of one evaluation.
 const ROUNDING: f64 = 1e-14;
 
 /// The result of a search.
 #[derive(Clone, Debug, Default)]
 pub struct Zeros {
-    /// The zeros, in their order.
+    /// The zeros in increasing order.
     pub found: Vec<f64>,
-    /// Intervals in which no cubic predicted the function after all halvings: zeros may be missing there.
+    /// Intervals in which no cubic predicted the function even after all halvings: zeros may be missing there.
     pub unresolved: Vec<(f64, f64)>,
 }
 
@@ -47,7 +47,7 @@ pub fn zeros(
     ends: (GrowthSample, GrowthSample),
     evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Unfollowed>,
 ) -> Result<Zeros, Unfollowed> {
-    /// Intervals to begin with.
+    /// Initial number of intervals.
     const FIRST: i32 = 8;
     let mut found = Zeros::default();
     let mut left = ends.0;
@@ -76,7 +76,7 @@ fn within(
     let foretold = Hermite { values: (left.f, right.f), slopes }.at(0.5);
     let least = left.f.abs().min(right.f.abs()).min(middle.f.abs());
     let error = (foretold - middle.f).abs();
-    // One sign and slopes that all point one way leave no room for zeros, however rough the function.
+    // If all values have one sign and all slopes another, there is no room for zeros, however rough the function.
     let monotone = left.slope * middle.slope > 0.0 && middle.slope * right.slope > 0.0;
     let settled = error <= PREDICTED * least || error <= NOTHING || (monotone && error < 0.5 * h);
     if depth > 0 && !settled {
@@ -97,7 +97,7 @@ fn leaf(
     evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Unfollowed>,
     found: &mut Vec<f64>,
 ) -> Result<(), Unfollowed> {
-    // Where all motions are periodic to rounding no zero can be told.
+    // If all motions are periodic to rounding, zeros cannot be distinguished.
     if left.f.abs() < ROUNDING || right.f.abs() < ROUNDING {
         return Ok(());
     }
@@ -146,7 +146,7 @@ fn extremum(
 ) -> Result<GrowthSample, Unfollowed> {
     const WIDTH: PlaceTolerance = PlaceTolerance::Absolute(1e-9);
     let mut best = if left.f.abs() < right.f.abs() { left } else { right };
-    // What ends the search early stands where an error would.
+    // The result of an early end is passed on in place of an error.
     let slope = |u| {
         let here = evaluate(u).map_err(Err)?;
         if here.f.abs() < best.f.abs() {

@@ -1,12 +1,12 @@
-//! From phase to phase: which one follows at a switching line, and the motion up to its next turning point.
+//! The phase that follows at a switching line, and the motion up to its next turning point.
 //!
-//! Where the inclusion leaves a choice the mass is held: by the belt wherever static friction suffices, by
-//! the guide likewise. An orbit that touches the belt's line tangentially sticks.
+//! Where the inclusion leaves a choice, the mass is held: by the belt wherever static friction suffices, and
+//! likewise by the guide. An orbit that touches the belt's line tangentially sticks.
 
 use super::arc::{ArcEnd, Flow, Unfollowed, Watch};
 use super::model::{Model, Phase};
 
-/// What the mass does at a place of the phase plane.
+/// The state of contact at a point of the phase plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactState {
     Slips(Phase),
@@ -19,28 +19,28 @@ pub enum ContactState {
 /// A turning point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn {
-    /// Displacement there.
+    /// Its displacement.
     pub x: f64,
     /// Whether the mass comes to rest.
     pub rests: bool,
-    /// What the way was like.
+    /// The motion that led there.
     pub way: WayToTurn,
 }
 
-/// The way to a turning point.
+/// Properties of the motion to a turning point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WayToTurn {
-    /// Logarithm of the product of (acceleration in/acceleration out) over the arcs; with the integral of
-    /// the divergence, of the derivative of the map. Minus infinity after sticking.
+    /// Logarithm of the product of (acceleration in/acceleration out) over the arcs; together with the integral of
+    /// the divergence, it is that of the derivative of the map. Minus infinity after sticking.
     pub log_ratio: f64,
-    /// Where the mass began to ride on the belt.
+    /// Displacement at which the mass began to ride on the belt.
     pub sticks_from: Option<f64>,
-    /// Where it left the belt's line upwards.
+    /// Displacement at which it left the belt's line upwards.
     pub overtakes_from: Option<f64>,
 }
 
 impl Model {
-    /// What the mass does at displacement `x` and velocity `y` (divided by the natural frequency).
+    /// The state of contact at displacement `x` and velocity `y` (divided by the natural frequency).
     pub fn place(&self, x: f64, y: f64) -> ContactState {
         if y == 0.0 {
             return if self.rests_at(x) {
@@ -66,15 +66,15 @@ impl Model {
 }
 
 impl Flow<'_> {
-    /// Follows a motion from a place to its next turning point: on the left from `y < 0`, on the right
-    /// otherwise. Fails with [`Unfollowed`] where it does not turn.
+    /// Follows a motion to its next turning point: the left one from `y < 0`, the right one otherwise. Fails with
+    /// [`Unfollowed`] if it does not turn.
     pub fn turn(
         &mut self,
         place: ContactState,
         (mut x, mut y): (f64, f64),
         watch: &mut impl Watch,
     ) -> Result<Turn, Unfollowed> {
-        /// Contacts with the belt's line: three at most, one more by rounding.
+        /// Maximum number of contacts with the belt's line: three, and one more by rounding.
         const CONTACTS: usize = 8;
         let model = self.model;
         let mut way = WayToTurn::default();
@@ -106,7 +106,8 @@ impl Flow<'_> {
         Err(Unfollowed::Steps)
     }
 
-    /// What follows an arc, and where; no motion arrives where its own side pushes away, but by rounding.
+    /// The phase that follows an arc, and its start. Only by rounding does a motion arrive where its own side
+    /// pushes it away.
     pub(super) fn after(&self, phase: Phase, end: &ArcEnd) -> (ContactState, f64) {
         let model = self.model;
         let x = match (end.on_belt, phase, model.lines) {
