@@ -93,8 +93,9 @@ pub fn check(text: &str) -> Result<Certificate, String> {
         format!("line {}: {}", error.line(), why.split(" at line").next().unwrap_or_default())
     })?;
     let at_line = |word: &str, number: usize, why: String| {
-        let mut lines = text.lines().enumerate().filter(|(_, line)| line.contains(word));
-        format!("line {}: {why}", lines.nth(number).map_or(0, |(index, _)| index + 1))
+        // Several steps may share a line.
+        let lines = text.lines().enumerate().filter(|(_, line)| line.contains(word));
+        format!("line {}: {why}", lines.take(number + 1).last().map_or(1, |(index, _)| index + 1))
     };
     let ordered = |[low, high]: Bounds| low <= high && low.is_finite() && high.is_finite();
     let sensible = given.parameters.into_iter().all(ordered) && given.parameters[3][0] >= 0.0;
@@ -152,29 +153,32 @@ impl CertificateStep {
         let gap = format!("it begins at {from:?}, and the step before ends at {at:?}");
         known(from == at, &gap)?;
         known(from < to, "it does not end beyond its beginning")?;
+        let is_cycle = matches!(self.kind, StepKind::Stable | StepKind::Unstable);
+        known(is_cycle || self.clearance.is_none(), "only a cycle has a clearance")?;
         let inverse = matches!(self.kind, StepKind::Below | StepKind::Unstable);
         let map = Map::new(parameters, inverse, self.fences.unwrap_or_default());
         match self.kind {
             StepKind::Within => {
                 // An infinite interval is bounded by the images of all clearances.
                 let of = Interval::new(if to < f64::INFINITY { to } else { 0.0 }, to);
-                known(map.images(of).upper() < from, "images of G may lie beyond `from`")?;
+                known(map.images(of).upper() < from, "images of G may lie beyond `from`")
+                    .map(|()| 0)
             }
             StepKind::Below | StepKind::Above => {
                 let least = map.images(Interval::point(from)).lower();
                 let beyond = least > to || least == f64::INFINITY;
-                known(beyond, "the image of `from` may not lie beyond `to`")?;
+                known(beyond, "the image of `from` may not lie beyond `to`").map(|()| 0)
             }
             StepKind::Stable | StepKind::Unstable => {
-                return self.verify_cycle(&map, [from, to]).map(|()| 1);
+                self.verify_cycle(&map, [from, to]).map(|()| 1)
             }
             _ => {
                 known(from == 0.0 && to == f64::INFINITY, "a theorem is the only step")?;
+                known(self.fences.is_none(), "a theorem needs no fences")?;
                 let cycles = self.kind.theorem(parameters);
-                return cycles.ok_or_else(|| "its conditions are not met".to_owned());
+                cycles.ok_or_else(|| "its conditions are not met".to_owned())
             }
         }
-        known(self.clearance.is_none(), "only a cycle has a clearance").map(|()| 0)
     }
 
     /// Checks that there is exactly one cycle, and that its clearance lies between its bounds.

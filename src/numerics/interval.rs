@@ -147,9 +147,9 @@ impl Interval {
         Interval::outward(self.lower.sqrt(), self.upper.sqrt())
     }
 
-    /// Twice the interval; exact unless it overflows.
+    /// Twice the interval; exact unless it overflows, beyond the largest double.
     pub fn twice(self) -> Self {
-        Interval::new(2.0 * self.lower, 2.0 * self.upper)
+        Interval::new((2.0 * self.lower).min(f64::MAX), (2.0 * self.upper).max(f64::MIN))
     }
 
     /// `exp` of all members.

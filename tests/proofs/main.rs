@@ -3,6 +3,7 @@
 
 mod certificates;
 mod derivatives;
+mod hostile;
 mod motions;
 
 #[path = "../data/mod.rs"]

@@ -115,6 +115,7 @@ fn overflow_and_underflow_stay_outside() {
     let huge = Interval::point(f64::MAX);
     assert_eq!((huge * huge).upper(), f64::INFINITY);
     assert_eq!((huge * huge).lower(), f64::MAX);
+    assert_eq!([huge.twice(), -((-huge).twice())], [Interval::new(f64::MAX, f64::INFINITY); 2]);
     let tiny = Interval::point(f64::MIN_POSITIVE);
     assert!((tiny * tiny).lower() <= 0.0 && (tiny * tiny).upper() > 0.0);
     assert_eq!(tiny.square().lower(), 0.0);
