@@ -11,6 +11,7 @@ use crate::proof::kicks::kicks;
 use crate::proof::{ParameterBox, prove};
 use crate::report::{basin as report, certified};
 use crate::study::basin::{SurveyedBasin, Window};
+use crate::study::proved::agreed;
 
 /// Shows where the starts in a window end, and how large a kick is survived
 #[derive(Debug, Args)]
@@ -38,7 +39,7 @@ impl Arguments {
         let (found, seconds) = self.output.timed("the basin could not be completed", survey)?;
         let enclose = || {
             let proof = prove(&ParameterBox::from(&parameters), &[]);
-            kicks(&proof, [found.margin.displacement, found.margin.impulse])
+            agreed(kicks(&proof, [found.margin.displacement, found.margin.impulse]), &found)
         };
         let certified = self.certify.ask(enclose);
         let lines = certified.as_ref().map(certified::kicks_lines);

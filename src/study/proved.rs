@@ -5,9 +5,12 @@
 
 use std::fmt;
 
-use super::cycle::{Cycle, Cycles};
-use crate::proof::cycles::{Proof, ProvedCycle, prove};
+use super::basin::SurveyedBasin;
+use super::cycle::{Cycle, Cycles, Edge};
+use crate::numerics::Interval;
+use crate::proof::cycles::{Open, Proof, ProvedCycle, prove};
 use crate::proof::field::ParameterBox;
+use crate::proof::kicks::{ProvedEdge, ProvedKicks};
 
 /// The search and the proof say different things: an error of this program.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,15 +45,14 @@ pub fn proved(found: &Cycles) -> Result<Proof, Contradiction> {
 pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
     let contradiction = |what| Err(Contradiction { what });
     for cycle in found {
-        let clearance = cycle.clearance;
-        let open = proof.open.iter().any(|it| (it.lower..=it.upper).contains(&clearance));
-        if matching(proof, cycle).is_none() && !open {
+        let is_open = |open: &Open| is_near(Interval::new(open.lower, open.upper), cycle.clearance);
+        if matching(proof, cycle).is_none() && !proof.open.iter().any(is_open) {
             return contradiction(format!("there is no cycle with q_max = {:?}", cycle.q_max));
         }
     }
     for proved in &proof.cycles {
-        let inside = |cycle: &&Cycle| is_match(proved, cycle);
-        match found.iter().filter(inside).count() {
+        let is_it = |cycle: &&Cycle| matching(proof, cycle) == Some(proved);
+        match found.iter().filter(is_it).count() {
             1 => {}
             0 => {
                 let within = proved.within;
@@ -66,16 +68,40 @@ pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
     Ok(())
 }
 
-/// The proved cycle that a cycle of the search is, if there is one.
-pub fn matching<'a>(proof: &'a Proof, cycle: &Cycle) -> Option<&'a ProvedCycle> {
-    proof.cycles.iter().find(|proved| is_match(proved, cycle))
+/// What is proved about the edge of a basin; nothing where a survey says otherwise.
+#[must_use]
+pub fn agreed(proved: ProvedKicks, found: &SurveyedBasin) -> ProvedKicks {
+    const DIFFERENT: &str = "not proved, because the proof contradicts the numbers above";
+    let edge = match proved.edge {
+        Some(ProvedEdge::None) => Some(Edge::None),
+        Some(ProvedEdge::Cycle) => Some(Edge::Cycle),
+        Some(ProvedEdge::Separatrix) => Some(Edge::Separatrix),
+        None => None,
+    };
+    let pairs =
+        [(proved.displacement, found.margin.displacement), (proved.impulse, found.margin.impulse)];
+    let agree = |(bounds, value): (Option<Interval>, Option<f64>)| {
+        bounds.zip(value).is_none_or(|(bounds, value)| is_near(bounds, value))
+    };
+    if edge.is_none_or(|edge| edge == found.edge) && pairs.into_iter().all(agree) {
+        return proved;
+    }
+    ProvedKicks { edge: None, displacement: None, impulse: None, open: Some(DIFFERENT) }
 }
 
-/// Whether a cycle of the search is a proved one: its clearance is that far off at most that rounding explains.
-fn is_match(proved: &ProvedCycle, cycle: &Cycle) -> bool {
-    /// Relative distance of a number of the search from its enclosure, for rounding of steep and of flat maps.
+/// The proved cycle that a cycle of the search is, if there is one.
+///
+/// Next to a fold two cycles may both be near: one of them attracts, the other repels.
+pub fn matching<'a>(proof: &'a Proof, cycle: &Cycle) -> Option<&'a ProvedCycle> {
+    let place = |proved: &ProvedCycle| proved.enclosure.map_or(proved.within, |it| it.clearance);
+    let mut alike = proof.cycles.iter().filter(|proved| proved.stable == cycle.stable);
+    alike.find(|proved| is_near(place(proved), cycle.clearance))
+}
+
+/// Whether a number of the search is off its enclosure at most by what rounding explains.
+fn is_near(enclosure: Interval, value: f64) -> bool {
+    /// Relative distance, for rounding of steep and of flat maps.
     const ROUNDING: f64 = 1e-6;
-    let near = proved.enclosure.map_or(proved.within, |it| it.clearance);
-    let slack = ROUNDING * cycle.clearance;
-    near.lower() - slack <= cycle.clearance && cycle.clearance <= near.upper() + slack
+    let slack = ROUNDING * value;
+    enclosure.lower() - slack <= value && value <= enclosure.upper() + slack
 }

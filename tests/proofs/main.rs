@@ -1,6 +1,7 @@
 //! Proofs of limit cycles against references of thirty digits, against motions in twice the precision, and
 //! against the search.
 
+mod agreement;
 mod certificates;
 mod derivatives;
 mod hostile;
