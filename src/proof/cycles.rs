@@ -65,10 +65,7 @@ const PARTLY: &str =
 /// Proves the number of cycles and encloses them; `hints` are clearances near which cycles may lie.
 #[must_use]
 pub fn prove(parameters: &ParameterBox, hints: &[f64]) -> Proof {
-    // Near the limits of the range of doubles, r is scaled to about 1: exactly, or as an interval.
-    let unit = if parameters.r.lower() > 0.0 { exponent(parameters.r.middle()) } else { 0 };
-    let unit = if unit.abs() > 300 { unit } else { 0 };
-    let local = parameters.in_units_of(unit);
+    let (local, unit) = in_own_units(parameters);
     let hints: Vec<f64> =
         hints.iter().map(|&hint| scaled(Interval::point(hint), -unit).middle()).collect();
     let mut proof = prove_in_units(&local, &hints);
@@ -84,31 +81,39 @@ pub fn prove(parameters: &ParameterBox, hints: &[f64]) -> Proof {
     proof
 }
 
+/// Whether each cycle attracts, smallest cycle first, or `None` where their number is not proved; and the
+/// integration steps that it took. This costs a part of [`prove`], as no cycle is enclosed.
+pub(crate) fn stabilities(parameters: &ParameterBox) -> (Option<Vec<bool>>, u32) {
+    let (local, _) = in_own_units(parameters);
+    let mut map = ProvedMap::new(&local);
+    let count = counted(theorem(&local), &mut map);
+    let stable = || count.unique.iter().map(|(_, stable)| *stable).collect();
+    (count.open.is_empty().then(stable), map.steps)
+}
+
+/// The parameters in units of `2^k`, and k: near the limits of the range of doubles, r is scaled to about 1,
+/// exactly or as an interval.
+fn in_own_units(parameters: &ParameterBox) -> (ParameterBox, i32) {
+    let unit = if parameters.r.lower() > 0.0 { exponent(parameters.r.middle()) } else { 0 };
+    let unit = if unit.abs() > 300 { unit } else { 0 };
+    (parameters.in_units_of(unit), unit)
+}
+
 fn prove_in_units(parameters: &ParameterBox, hints: &[f64]) -> Proof {
     let theorem = theorem(parameters);
     let mut map = ProvedMap::new(parameters);
     let mut proof =
         Proof { parameters: *parameters, theorem, cycles: Vec::new(), open: Vec::new(), swings: 0 };
-    let known = match theorem {
-        Some(Theorem::OneWay | Theorem::Overdamped) => Count::default(),
-        Some(Theorem::Affine) => {
-            let enclosure = affine_cycle(parameters);
-            let within = Interval::new(0.0, f64::INFINITY);
-            proof.cycles.push(ProvedCycle { within, stable: false, enclosure });
-            return proof;
-        }
-        Some(Theorem::Frictionless) => {
-            let within = Interval::new(0.0, f64::INFINITY);
-            Count { unique: vec![(within, parameters.d.upper() < 0.0)], open: Vec::new() }
-        }
-        None => counted(&mut map),
-    };
+    let known = counted(theorem, &mut map);
     let reason = if parameters.is_point() { CLOSE } else { PARTLY };
     for (within, stable) in known.unique {
         let hint = hints.iter().copied().find(|&hint| within.contains(hint));
         let guess = hint.unwrap_or(if within.is_finite() { within.middle() } else { 1.0 });
-        let enclosure = enclose(&mut map, guess, within, stable)
-            .filter(|it| it.clearance.intersection(within).is_some());
+        let enclosure = match theorem {
+            Some(Theorem::Affine) => affine_cycle(parameters),
+            _ => enclose(&mut map, guess, within, stable),
+        };
+        let enclosure = enclosure.filter(|it| it.clearance.intersection(within).is_some());
         proof.cycles.push(ProvedCycle { within, stable, enclosure });
     }
     for open in known.open {
@@ -119,8 +124,22 @@ fn prove_in_units(parameters: &ParameterBox, hints: &[f64]) -> Proof {
     proof
 }
 
+/// Counts cycles by the theorem, or by the return map.
+fn counted(theorem: Option<Theorem>, map: &mut ProvedMap) -> Count {
+    let one = |stable| {
+        let within = Interval::new(0.0, f64::INFINITY);
+        Count { unique: vec![(within, stable)], open: Vec::new() }
+    };
+    match theorem {
+        Some(Theorem::OneWay | Theorem::Overdamped) => Count::default(),
+        Some(Theorem::Affine) => one(false),
+        Some(Theorem::Frictionless) => one(map.parameters.d.upper() < 0.0),
+        None => searched(map),
+    }
+}
+
 /// Counts cycles by the return map.
-fn counted(map: &mut ProvedMap) -> Count {
+fn searched(map: &mut ProvedMap) -> Count {
     /// Halvings of the whole range before a gap is left open.
     const HALVINGS: u32 = 60;
     let mut count = Count::default();

@@ -1,7 +1,7 @@
 //! A range of a parameter, piece by piece: the number of cycles for every value in a piece, and the values
 //! between which this number changes.
 
-use super::cycles::prove;
+use super::cycles::stabilities;
 use super::field::ParameterBox;
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
@@ -16,12 +16,6 @@ pub struct RangePiece {
     pub cycles: Option<Vec<bool>>,
 }
 
-/// Whether each cycle attracts, for all parameters of the box; `None` where that is not proved.
-pub fn cycles_at(parameters: &ParameterBox) -> Option<Vec<bool>> {
-    let proof = prove(parameters, &[]);
-    proof.is_complete().then(|| proof.cycles.iter().map(|cycle| cycle.stable).collect())
-}
-
 /// A range of a parameter, decided piece by piece.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Range {
@@ -29,6 +23,10 @@ pub struct Range {
     pub pieces: Vec<RangePiece>,
     /// Where the number of cycles changes.
     pub changes: Vec<CountChange>,
+    /// Whether pieces are open because [`MOST_STEPS`] were taken, and might be decided by more.
+    pub exhausted: bool,
+    /// Integration steps taken.
+    pub steps: u32,
 }
 
 /// Values of a parameter between which cycles appear or vanish.
@@ -42,65 +40,90 @@ pub struct CountChange {
     pub above: Vec<bool>,
 }
 
+/// Integration steps after which no part of a range is halved any more: some seconds.
+pub const MOST_STEPS: u32 = 2_000_000;
+
+/// Asks for the cycles at values of a parameter, and counts the steps that this takes.
+struct Inquiry<'a> {
+    base: &'a ParameterBox,
+    symbol: Symbol,
+    steps: u32,
+}
+
+impl Inquiry<'_> {
+    /// Whether each cycle attracts, for all values of an interval; `None` where that is not proved.
+    fn cycles(&mut self, value: Interval) -> Option<Vec<bool>> {
+        let (cycles, steps) = stabilities(&self.base.with(self.symbol, value));
+        self.steps += steps;
+        cycles
+    }
+}
+
 /// Decides a range of values.
 pub fn range(base: &ParameterBox, symbol: Symbol, (low, high): (f64, f64)) -> Range {
     /// Number of initial parts of the range.
     const PARTS: i32 = 16;
     /// Halvings of a part.
     const HALVINGS: u32 = 10;
-    let mut ask = |value: Interval| cycles_at(&base.with(symbol, value));
+    let mut asked = Inquiry { base, symbol, steps: 0 };
     let mut pieces = Vec::new();
     let mut from = low;
     for part in 1..=PARTS {
         let to = low + (high - low) * f64::from(part) / f64::from(PARTS);
         let to = if part == PARTS { high } else { to };
-        split(&mut ask, Interval::new(from, to), HALVINGS, &mut pieces);
+        pieces.push(RangePiece { over: Interval::new(from, to), cycles: None });
         from = to;
     }
+    // The widest parts first: where the work ends, what is open is about as wide everywhere.
+    for halvings in 0..=HALVINGS {
+        for piece in pieces.iter_mut().filter(|piece| piece.cycles.is_none()) {
+            if asked.steps < MOST_STEPS {
+                piece.cycles = asked.cycles(piece.over);
+            }
+        }
+        if halvings < HALVINGS && asked.steps < MOST_STEPS {
+            pieces = pieces.into_iter().flat_map(halves).collect();
+        }
+    }
+    let exhausted = asked.steps >= MOST_STEPS && pieces.iter().any(|it| it.cycles.is_none());
+    pieces.dedup_by(|next, piece| {
+        let alike = next.cycles == piece.cycles;
+        if alike {
+            piece.over = piece.over.hull(next.over);
+        }
+        alike
+    });
     let mut changes = Vec::new();
     for three in pieces.windows(3) {
         let [before, open, after] = three else { continue };
         if let (Some(below), None, Some(above)) = (&before.cycles, &open.cycles, &after.cycles)
             && below != above
         {
-            let between = narrowed(&mut ask, open.over, [below, above]);
+            let between = narrowed(&mut asked, open.over, [below, above]);
             changes.push(CountChange { between, below: below.clone(), above: above.clone() });
         }
     }
-    Range { pieces, changes }
+    Range { pieces, changes, exhausted, steps: asked.steps }
 }
 
-/// Decides an interval of values, or its halves.
-fn split(
-    ask: &mut impl FnMut(Interval) -> Option<Vec<bool>>,
-    over: Interval,
-    halvings: u32,
-    pieces: &mut Vec<RangePiece>,
-) {
-    let middle = over.middle();
-    let cycles = ask(over);
-    if cycles.is_none() && halvings > 0 && middle > over.lower() && middle < over.upper() {
-        split(ask, Interval::new(over.lower(), middle), halvings - 1, pieces);
-        return split(ask, Interval::new(middle, over.upper()), halvings - 1, pieces);
+/// The halves of an open piece; what is decided, or two neighbouring doubles, stays whole.
+fn halves(piece: RangePiece) -> Vec<RangePiece> {
+    let (low, middle, high) = (piece.over.lower(), piece.over.middle(), piece.over.upper());
+    if piece.cycles.is_some() || middle == low || middle == high {
+        return vec![piece];
     }
-    match pieces.last_mut() {
-        Some(last) if last.cycles == cycles => last.over = last.over.hull(over),
-        _ => pieces.push(RangePiece { over, cycles }),
-    }
+    let part = |low, high| RangePiece { over: Interval::new(low, high), cycles: None };
+    vec![part(low, middle), part(middle, high)]
 }
 
 /// Narrows an interval of values over which the cycles change, while both ends remain proved.
-fn narrowed(
-    ask: &mut impl FnMut(Interval) -> Option<Vec<bool>>,
-    over: Interval,
-    [below, above]: [&Vec<bool>; 2],
-) -> Interval {
+fn narrowed(asked: &mut Inquiry, over: Interval, [below, above]: [&Vec<bool>; 2]) -> Interval {
     let (mut low, mut high) = (over.lower(), over.upper());
     while let middle = Interval::new(low, high).middle()
         && middle > low
         && middle < high
     {
-        match ask(Interval::point(middle)) {
+        match asked.cycles(Interval::point(middle)) {
             Some(cycles) if cycles == *below => low = middle,
             Some(cycles) if cycles == *above => high = middle,
             _ => break,
@@ -116,7 +139,8 @@ pub fn change_within(
     at: f64,
     away: f64,
 ) -> Option<CountChange> {
-    let ask = |value: f64| cycles_at(&base.with(symbol, Interval::point(value)));
+    let mut asked = Inquiry { base, symbol, steps: 0 };
+    let mut ask = |value: f64| asked.cycles(Interval::point(value));
     let (low, high) = (at - away * at.abs(), at + away * at.abs());
     let (below, above) = (ask(low)?, ask(high)?);
     let between = Interval::new(low, high);
@@ -128,9 +152,9 @@ pub fn change_within(
 pub fn change_near(base: &ParameterBox, symbol: Symbol, hint: f64) -> Option<CountChange> {
     /// Distances to try, as powers of ten relative to the value.
     const AWAY: std::ops::RangeInclusive<i32> = -12..=-3;
-    let mut ask = |value: Interval| cycles_at(&base.with(symbol, value));
+    let mut asked = Inquiry { base, symbol, steps: 0 };
     let mut found = AWAY.map(|power| powi(10.0, power));
     let found = found.find_map(|away| change_within(base, symbol, hint, away))?;
-    let between = narrowed(&mut ask, found.between, [&found.below, &found.above]);
+    let between = narrowed(&mut asked, found.between, [&found.below, &found.above]);
     Some(CountChange { between, ..found })
 }

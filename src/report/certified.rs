@@ -11,7 +11,7 @@ use crate::oscillator::Symbol;
 use crate::proof::cycles::Proof;
 use crate::proof::kicks::{ProvedEdge, ProvedKicks};
 use crate::proof::motion::{ProvedFate, ProvedMotion};
-use crate::proof::range::{CountChange, Range, RangePiece};
+use crate::proof::range::{CountChange, MOST_STEPS, Range, RangePiece};
 use crate::study::fold::BoundaryPoint;
 use crate::words::number::significant;
 use crate::words::stability;
@@ -214,6 +214,8 @@ pub struct Decided {
     changes: Vec<ChangeRow>,
     open: Vec<IntervalDocument>,
     proved: bool,
+    /// Whether more work might decide what is open.
+    exhausted: bool,
 }
 
 /// The pieces and changes of a range, for documents.
@@ -236,6 +238,7 @@ pub fn decided(range: &Range) -> Decided {
         changes: range.changes.iter().map(change).collect(),
         proved: open.is_empty(),
         open,
+        exhausted: range.exhausted,
     }
 }
 
@@ -254,7 +257,12 @@ pub fn range_table(range: &Range, symbol: Symbol) -> String {
         format!("proved: from {below} to {above} cycles at {name} = {at}\n")
     });
     let changes: String = changes.collect();
-    format!("\nfor every value of {name} in\n{table}{changes}")
+    let exhausted = if range.exhausted {
+        format!("open after {MOST_STEPS} steps: a narrower range may be decided\n")
+    } else {
+        String::new()
+    };
+    format!("\nfor every value of {name} in\n{table}{changes}{exhausted}")
 }
 
 /// A value of a second parameter, and the values of D at which the cycles change there.

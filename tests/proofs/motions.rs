@@ -7,7 +7,7 @@ use hopfscope::numerics::elementary::{exp, powi, sin_cos};
 use hopfscope::oscillator::{Parameters, Symbol};
 use hopfscope::proof::kicks::{ProvedEdge, ProvedKicks, kicks};
 use hopfscope::proof::motion::{ProvedFate, ProvedMotion, follow};
-use hopfscope::proof::range::{change_within, range};
+use hopfscope::proof::range::{MOST_STEPS, change_within, range};
 use hopfscope::proof::{ParameterBox, prove};
 use hopfscope::study::basin::basin;
 use serde::Deserialize;
@@ -184,4 +184,22 @@ fn a_range_is_decided_and_its_fold_enclosed() {
     }
     let open = found.pieces.iter().filter(|piece| piece.cycles.is_none());
     assert!(open.map(|piece| piece.over.width()).sum::<f64>() < 1e-6);
+}
+
+/// Nothing narrows what is open where both half maps are stiff, and a proof takes some ten thousand steps there.
+#[test]
+fn the_work_for_a_range_is_limited_and_the_answer_says_so() {
+    let known = Parameters { d: 5.5, d2: 0.0, d3: -1.8e-6, r: 23.0 };
+    let found = range(&ParameterBox::from(&known), Symbol::D2, (-0.0485, 0.0065));
+    assert!(
+        found.exhausted && found.pieces.iter().any(|piece| piece.cycles.is_none()),
+        "{found:?}"
+    );
+    assert!(found.steps < MOST_STEPS + MOST_STEPS / 20, "{}", found.steps);
+    let ends = (found.pieces[0].over.lower(), found.pieces.last().unwrap().over.upper());
+    assert_eq!(ends, (-0.0485, 0.0065));
+    // Where the number of cycles is proved up to its changes, the work was enough.
+    let known = Parameters { d: 0.0, d2: 0.0, d3: 0.5, r: 0.1 };
+    let found = range(&ParameterBox::from(&known), Symbol::D, (-0.5, 0.0));
+    assert!(!found.exhausted && found.changes.len() == 1, "{found:?}");
 }
