@@ -39,11 +39,18 @@ pub fn enclose_fold(
     /// rounding dominates.
     const HALVINGS: u32 = 6;
     const MORE: usize = 3;
+    /// Integration steps after which nothing more is asked: some tenths of a second.
+    const MOST_STEPS: u32 = 250_000;
     let place = |at: Interval| parameters.with(symbol, at);
+    let mut steps = 0;
     WIDTHS.into_iter().zip((HALVINGS..).step_by(MORE)).find_map(|(width, halvings)| {
         let gap = Interval::new(clearance * (1.0 - width), clearance * (1.0 + width));
-        let value =
-            bracket(near, |at| inside(&place(Interval::point(at)), gap, clearance, halvings))?;
+        let value = bracket(near, |at| {
+            let mut map = ProvedMap::new(&place(Interval::point(at)));
+            let found = (steps < MOST_STEPS).then(|| inside(&mut map, gap, clearance, halvings))?;
+            steps += map.steps;
+            found
+        })?;
         let around = place(value);
         sides(&mut ProvedMap::new(&around), gap)?;
         Some(Fold { value, clearance: touching(&around, gap) })
@@ -57,17 +64,16 @@ fn sides(map: &mut ProvedMap, gap: Interval) -> Option<Sign> {
 }
 
 /// Whether a gap contains two cycles, one on either side of `near`, or none; `None` if neither is certain.
-fn inside(parameters: &ParameterBox, gap: Interval, near: f64, halvings: u32) -> Option<bool> {
-    if !(parameters.r.lower() >= 0.0) {
+fn inside(map: &mut ProvedMap, gap: Interval, near: f64, halvings: u32) -> Option<bool> {
+    if !(map.parameters.r.lower() >= 0.0) {
         return None;
     }
-    let mut map = ProvedMap::new(parameters);
-    let sign = sides(&mut map, gap)?;
-    if sign_at(&mut map, near).is_some_and(|middle| middle != sign) {
+    let sign = sides(map, gap)?;
+    if sign_at(map, near).is_some_and(|middle| middle != sign) {
         return Some(true);
     }
     let mut count = Count::default();
-    count.decide(&mut map, (gap.lower(), sign), (gap.upper(), sign), halvings);
+    count.decide(map, (gap.lower(), sign), (gap.upper(), sign), halvings);
     (count.open.is_empty() && count.unique.is_empty()).then_some(false)
 }
 

@@ -43,16 +43,31 @@ pub struct CountChange {
 /// Integration steps after which no part of a range is halved any more: some seconds.
 pub const MOST_STEPS: u32 = 2_000_000;
 
-/// Asks for the cycles at values of a parameter, and counts the steps that this takes.
+/// The same for a single change.
+const MOST_FOR_CHANGE: u32 = MOST_STEPS / 8;
+
+/// Asks for the cycles at values of a parameter until the steps that this takes are too many.
 struct Inquiry<'a> {
     base: &'a ParameterBox,
     symbol: Symbol,
     steps: u32,
+    most: u32,
 }
 
-impl Inquiry<'_> {
+impl<'a> Inquiry<'a> {
+    fn new(base: &'a ParameterBox, symbol: Symbol, most: u32) -> Self {
+        Inquiry { base, symbol, steps: 0, most }
+    }
+
+    fn is_exhausted(&self) -> bool {
+        self.steps >= self.most
+    }
+
     /// Whether each cycle attracts, for all values of an interval; `None` where that is not proved.
     fn cycles(&mut self, value: Interval) -> Option<Vec<bool>> {
+        if self.is_exhausted() {
+            return None;
+        }
         let (cycles, steps) = stabilities(&self.base.with(self.symbol, value));
         self.steps += steps;
         cycles
@@ -65,7 +80,7 @@ pub fn range(base: &ParameterBox, symbol: Symbol, (low, high): (f64, f64)) -> Ra
     const PARTS: i32 = 16;
     /// Halvings of a part.
     const HALVINGS: u32 = 10;
-    let mut asked = Inquiry { base, symbol, steps: 0 };
+    let mut asked = Inquiry::new(base, symbol, MOST_STEPS);
     let mut pieces = Vec::new();
     let mut from = low;
     for part in 1..=PARTS {
@@ -77,15 +92,13 @@ pub fn range(base: &ParameterBox, symbol: Symbol, (low, high): (f64, f64)) -> Ra
     // The widest parts first: where the work ends, what is open is about as wide everywhere.
     for halvings in 0..=HALVINGS {
         for piece in pieces.iter_mut().filter(|piece| piece.cycles.is_none()) {
-            if asked.steps < MOST_STEPS {
-                piece.cycles = asked.cycles(piece.over);
-            }
+            piece.cycles = asked.cycles(piece.over);
         }
-        if halvings < HALVINGS && asked.steps < MOST_STEPS {
+        if halvings < HALVINGS && !asked.is_exhausted() {
             pieces = pieces.into_iter().flat_map(halves).collect();
         }
     }
-    let exhausted = asked.steps >= MOST_STEPS && pieces.iter().any(|it| it.cycles.is_none());
+    let exhausted = asked.is_exhausted() && pieces.iter().any(|it| it.cycles.is_none());
     pieces.dedup_by(|next, piece| {
         let alike = next.cycles == piece.cycles;
         if alike {
@@ -99,7 +112,9 @@ pub fn range(base: &ParameterBox, symbol: Symbol, (low, high): (f64, f64)) -> Ra
         if let (Some(below), None, Some(above)) = (&before.cycles, &open.cycles, &after.cycles)
             && below != above
         {
-            let between = narrowed(&mut asked, open.over, [below, above]);
+            let mut near = Inquiry::new(base, symbol, MOST_FOR_CHANGE);
+            let between = narrowed(&mut near, open.over, [below, above]);
+            asked.steps += near.steps;
             changes.push(CountChange { between, below: below.clone(), above: above.clone() });
         }
     }
@@ -139,7 +154,7 @@ pub fn change_within(
     at: f64,
     away: f64,
 ) -> Option<CountChange> {
-    let mut asked = Inquiry { base, symbol, steps: 0 };
+    let mut asked = Inquiry::new(base, symbol, MOST_FOR_CHANGE);
     let mut ask = |value: f64| asked.cycles(Interval::point(value));
     let (low, high) = (at - away * at.abs(), at + away * at.abs());
     let (below, above) = (ask(low)?, ask(high)?);
@@ -152,7 +167,7 @@ pub fn change_within(
 pub fn change_near(base: &ParameterBox, symbol: Symbol, hint: f64) -> Option<CountChange> {
     /// Distances to try, as powers of ten relative to the value.
     const AWAY: std::ops::RangeInclusive<i32> = -12..=-3;
-    let mut asked = Inquiry { base, symbol, steps: 0 };
+    let mut asked = Inquiry::new(base, symbol, MOST_FOR_CHANGE);
     let mut found = AWAY.map(|power| powi(10.0, power));
     let found = found.find_map(|away| change_within(base, symbol, hint, away))?;
     let between = narrowed(&mut asked, found.between, [&found.below, &found.above]);
