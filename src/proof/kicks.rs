@@ -64,12 +64,13 @@ pub fn kicks(proof: &Proof, hints: [Option<f64>; 2]) -> ProvedKicks {
         };
     }
     let r = parameters.r;
-    let (edge, clearances) = match innermost(proof) {
-        Some(cycle) if cycle.stable => return open(ATTRACTS),
-        Some(cycle) if let Some(it) = cycle.enclosure => {
-            (Some(ProvedEdge::Cycle), [it.clearance, -it.q_min - r])
-        }
-        _ => {
+    let innermost = innermost(proof);
+    if innermost.is_some_and(|cycle| cycle.stable) {
+        return open(ATTRACTS);
+    }
+    let (edge, clearances) = match innermost.and_then(|cycle| cycle.enclosure) {
+        Some(it) => (Some(ProvedEdge::Cycle), [it.clearance, -it.q_min - r]),
+        None => {
             let guess = hints[0].map(|hint| hint - r.middle());
             let sides = [0, 1].map(|side| {
                 let mut known = Interval::new(0.0, f64::INFINITY);

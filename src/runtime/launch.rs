@@ -91,14 +91,15 @@ pub fn launch(
     if let (Err(why), Ok(LoopEnd::Quit | LoopEnd::Ended { .. })) = (kept, &ended) {
         eprintln!("hopfscope: the session is not kept: {why}");
     }
-    let code = match ended? {
-        // A listening thread has panicked; without it, there is no point in continuing.
-        LoopEnd::Closed if let Some(note) = notes.take() => return Err(io::Error::other(note)),
-        LoopEnd::Ended { signal } => exit_code(signal).into(),
-        LoopEnd::Closed => exit_code(HANG_UP).into(),
-        _ => ExitCode::SUCCESS,
-    };
-    Ok(code)
+    match ended? {
+        LoopEnd::Ended { signal } => Ok(exit_code(signal).into()),
+        LoopEnd::Closed => match notes.take() {
+            // A listening thread has panicked; without it, there is no point in continuing.
+            Some(note) => Err(io::Error::other(note)),
+            None => Ok(exit_code(HANG_UP).into()),
+        },
+        _ => Ok(ExitCode::SUCCESS),
+    }
 }
 
 /// Saves the session that was interrupted or left, if anything would be lost. Fails with one line that says why

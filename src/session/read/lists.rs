@@ -22,7 +22,8 @@ impl Session {
     /// The scenes that the picker lists, in groups.
     pub fn scene_rows(&self, list: &List) -> Vec<&'static Arc<Scene>> {
         let found = library().iter().filter(|scene| {
-            list.matches(&[&scene.name, scene.also.as_deref().unwrap_or_default(), &scene.title])
+            let also = scene.also.as_deref().unwrap_or_default();
+            list.matches(&[scene.name.as_str(), also, &scene.title])
         });
         let mut rows: Vec<_> = found.collect();
         let names = |scene: &Scene| [scene.name.clone(), scene.also.clone().unwrap_or_default()];
