@@ -8,7 +8,7 @@ pub struct Provenance {
     /// Name of the program.
     pub program: String,
     pub version: String,
-    /// The revision of its source, if `HOPFSCOPE_REVISION` was set when it was built.
+    /// The revision of its source, where the build knew it: from git, or from `HOPFSCOPE_REVISION`.
     pub revision: Option<String>,
     /// The command line, quoted for a POSIX shell.
     pub command: String,

@@ -1,0 +1,47 @@
+//! Tells the program which revision of its source it is built from, in `HOPFSCOPE_REVISION`.
+//!
+//! Asked again only when what is compiled changes: a commit alone does not build the program anew.
+
+use std::path::Path;
+use std::process::Command;
+
+/// What the program is compiled from.
+const SOURCES: [&str; 5] = ["assets", "build.rs", "Cargo.lock", "Cargo.toml", "src"];
+
+fn main() {
+    println!("cargo::rerun-if-env-changed=HOPFSCOPE_REVISION");
+    // Cargo takes a file that is missing for one that has changed.
+    for source in SOURCES.iter().filter(|source| Path::new(source).exists()) {
+        println!("cargo::rerun-if-changed={source}");
+    }
+    if std::env::var_os("HOPFSCOPE_REVISION").is_none() {
+        if let Some(revision) = revision() {
+            println!("cargo::rustc-env=HOPFSCOPE_REVISION={revision}");
+        }
+    }
+}
+
+/// The commit, with `-dirty` appended if the sources differ from it; `None` without git, or in an unpacked package.
+fn revision() -> Option<String> {
+    // A package may lie unpacked in the repository of something else.
+    if !git(&["rev-parse", "--show-prefix"])?.is_empty() {
+        return None;
+    }
+    let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
+    if git(&[&["status", "--porcelain", "--"], &SOURCES[..]].concat())?.is_empty() {
+        return Some(commit);
+    }
+    // What is published should name a commit; tests should not wait for a build because of one.
+    let log = git(&["rev-parse", "--git-path", "logs/HEAD"])?;
+    if std::env::var("PROFILE").is_ok_and(|it| it == "release") && Path::new(&log).exists() {
+        println!("cargo::rerun-if-changed={log}");
+    }
+    Some(commit + "-dirty")
+}
+
+/// What git prints; `None` if it is missing or fails.
+fn git(arguments: &[&str]) -> Option<String> {
+    let output = Command::new("git").args(arguments).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    output.status.success().then(|| text.trim().to_owned())
+}
