@@ -11,6 +11,9 @@ use super::Cli;
 use super::failure::Failure;
 use super::output::{print, write};
 
+/// Date of the manual pages, that of the version.
+const DATE: &str = "2026-11-23";
+
 /// Prints shell completions
 #[derive(Debug, Args)]
 pub struct Completions {
@@ -49,12 +52,41 @@ impl Manual {
         for command in std::iter::once(program.clone()).chain(commands) {
             // `hopfscope cycles` becomes the page `hopfscope-cycles`.
             let name = command.get_display_name().unwrap_or(command.get_name()).to_owned();
-            let page = Man::new(command.name(name));
+            let page = Man::new(command.name(&name)).title(name.to_uppercase()).date(DATE);
+            let page = page.source(concat!("hopfscope ", env!("CARGO_PKG_VERSION")));
             let mut text = Vec::new();
             page.render(&mut text)
                 .map_err(|error| Failure::Unanswered(format!("no manual: {error}")))?;
-            write(&self.folder.join(page.get_filename()), &text, self.force)?;
+            let text = tidied(&String::from_utf8_lossy(&text));
+            write(&self.folder.join(page.get_filename()), text.as_bytes(), self.force)?;
         }
         Ok(())
     }
+}
+
+/// A manual page as `mandoc -Tlint` wants it: in short lines, and with one request for each space between them.
+fn tidied(page: &str) -> String {
+    const WIDTH: usize = 79;
+    let page = page.replace("\n.br\n\n.br\n", "\n.sp\n").replace("\n\n", "\n.sp\n");
+    let mut out = String::new();
+    let mut is_tag = false;
+    for line in page.lines() {
+        // A tag is the line after `.TP`; broken, its rest would be the text that it stands beside.
+        let whole = is_tag || line.starts_with(['.', '\'', ' ']);
+        is_tag = line == ".TP";
+        let mut column = 0;
+        for word in line.trim_end().split(' ') {
+            if column > WIDTH - word.len().min(WIDTH) && !whole {
+                // At the start of a line a point begins a request.
+                out += if word.starts_with('.') { "\n\\&" } else { "\n" };
+                column = 0;
+            } else if column > 0 {
+                out.push(' ');
+            }
+            out += word;
+            column += 1 + word.len();
+        }
+        out.push('\n');
+    }
+    out
 }
