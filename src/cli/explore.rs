@@ -73,6 +73,7 @@ impl Explore {
         let mut session = Session::new(scene, Size { width: 80, height: 24 });
         session.look = self.looks.wishes(&config);
         session.keymap = Arc::new(config.keymap);
+        session.notice = session.unlikely_number().map(|text| Notice { error: false, text });
         let last = self.last.then(last).transpose()?;
         if let Some(path) = self.open.as_ref().or(last.as_ref()) {
             open(&mut session, path)?;

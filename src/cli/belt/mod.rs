@@ -34,6 +34,7 @@ use crate::scene::machine::file::parse;
 use crate::scene::machine::library::{TEXTBOOK, find, machines};
 use crate::scene::machine::mode::{self, Mode, is_mode};
 use crate::scene::machine::unit::Toleranced;
+use crate::scene::machine::unlikely::unlikely;
 use crate::scene::usual::TOLERANCE;
 use crate::scene::{Machine, ScaledMachine, Scene};
 use crate::study::design::Kick;
@@ -216,7 +217,11 @@ impl Arguments {
                     .to_owned())
             }
         };
-        checked.map_err(Failure::Usage).map(|()| case)
+        checked.map_err(Failure::Usage)?;
+        if let Some(line) = unlikely(&case.subject.body, case.start) {
+            eprintln!("hopfscope: warning: {line}");
+        }
+        Ok(case)
     }
 
     /// The method that computes the motion a second time, if one is asked for.

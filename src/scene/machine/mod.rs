@@ -6,6 +6,7 @@ pub mod mode;
 pub mod path;
 pub mod table;
 pub mod unit;
+pub mod unlikely;
 
 mod description;
 mod running;

@@ -1,7 +1,7 @@
 //! Numbers with units, as engineers write them: `2 kg`, `800 N/m`, `15 mm`, `40 N s^3/m^3`.
 //!
-//! A unit is a product and quotient of grams, metres, seconds, newtons, minutes and hours with the usual
-//! prefixes. It may contain `^` and parentheses; a blank, `*` or `·` means a product. `N/m s`, which can be
+//! A unit is a product and quotient of grams, metres, seconds, newtons and hertz with the usual prefixes, and of
+//! minutes, hours and kilograms-force. It may contain `^` and parentheses; a blank, `*` or `·` means a product. `N/m s`, which can be
 //! read in two ways, is refused. A number without a unit is in SI units.
 
 use crate::numerics::elementary::powi;
@@ -34,12 +34,15 @@ impl Measured {
 }
 
 /// Units without prefixes: name, value in SI units, dimension, and whether the unit takes prefixes.
-const UNITS: [(&str, f64, Dimension, bool); 7] = [
+const UNITS: [(&str, f64, Dimension, bool); 9] = [
     ("g", 1e-3, Dimension::new(1, 0, 0), true),
     ("m", 1.0, Dimension::LENGTH, true),
     ("s", 1.0, Dimension::TIME, true),
     ("N", 1.0, Dimension::FORCE, true),
     ("Ns", 1.0, Dimension::IMPULSE, true),
+    ("Hz", 1.0, Dimension::new(0, 0, -1), true),
+    // The weight of a kilogram under standard gravity.
+    ("kgf", 9.806_65, Dimension::FORCE, false),
     ("min", 60.0, Dimension::TIME, false),
     ("h", 3600.0, Dimension::TIME, false),
 ];
@@ -164,7 +167,7 @@ struct UnitReader<'a> {
 impl UnitReader<'_> {
     fn wrong(&self) -> String {
         format!(
-            "{:?} is not a unit; units are made of g, m, s, N, min, h with prefixes, such as N s/m",
+            "{:?} is not a unit; units are made of g, m, s, N, Hz with prefixes, and of min, h, kgf, such as N s/m",
             self.text
         )
     }
@@ -289,6 +292,11 @@ mod tests {
             ("2 ms", 0.002, Dimension::TIME),
             ("2 m s", 2.0, Dimension::new(0, 1, 1)),
             ("5 1/s", 5.0, Dimension::new(0, 0, -1)),
+            ("5 Hz", 5.0, Dimension::new(0, 0, -1)),
+            ("5 kHz", 5e3, Dimension::new(0, 0, -1)),
+            ("5 mHz", 5e-3, Dimension::new(0, 0, -1)),
+            ("2 kgf", 19.6133, Dimension::FORCE),
+            ("2 kgf/mm", 19613.3, stiffness),
             ("7 \u{b5}m", 7e-6, Dimension::LENGTH),
             ("7 um", 7e-6, Dimension::LENGTH),
         ] {
@@ -312,6 +320,8 @@ mod tests {
             "2 m^",
             "2 m^99",
             "2 mmin",
+            "2 kkgf",
+            "2 rad/s",
             "1e999 m",
             "nan m",
             "inf",

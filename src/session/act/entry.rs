@@ -6,6 +6,7 @@ use crate::oscillator::belt::{Dimension, Quantity};
 use crate::oscillator::{Interval, ParameterBox, Symbol};
 use crate::scene::machine::file::value_of;
 use crate::scene::machine::unit::{measured, toleranced};
+use crate::session::act::notice::warn_of_units;
 use crate::session::act::parameters::put;
 use crate::session::effect::Effect;
 use crate::session::message::key::Key;
@@ -46,6 +47,7 @@ pub fn accept(session: &mut Session) -> Vec<Effect> {
         Ok(setup) => {
             session.overlay = None;
             put(session, &setup);
+            return warn_of_units(session);
         }
         Err(why) => {
             if let Some(Overlay::Entry(entry)) = &mut session.overlay {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::scene::machine::file::parse;
 use crate::scene::machine::mode::{NO_BELT, is_mode};
 use crate::scene::{Recording, ScaledMachine};
-use crate::session::act::notice::{inform, refuse, with_keys};
+use crate::session::act::notice::{inform, refuse, warn_of_units, with_keys};
 use crate::session::act::values::letter;
 use crate::session::act::{history, macros, measurement, prompt};
 use crate::session::effect::{Done, Effect};
@@ -173,7 +173,7 @@ fn open_machine(
     let machine = found.map_err(|error| error.to_string())?;
     let scaled = ScaledMachine::new(machine).map_err(|error| format!("{file}: {error}"))?;
     history::open_scene(session, Arc::new(scaled.scene()));
-    Ok(Vec::new())
+    Ok(warn_of_units(session))
 }
 
 /// Continues the interrupted session, or lists the sessions if there are several.

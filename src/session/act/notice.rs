@@ -21,3 +21,8 @@ pub(in crate::session) fn refuse(session: &mut Session, text: impl Into<String>)
     session.notice = Some(Notice { error: true, text: text.into() });
     Vec::new()
 }
+
+/// Shows what is unlikely about the numbers of the machine that was just read or typed.
+pub(in crate::session) fn warn_of_units(session: &mut Session) -> Vec<Effect> {
+    session.unlikely_number().map_or_else(Vec::new, |line| inform(session, line))
+}

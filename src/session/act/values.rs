@@ -7,7 +7,7 @@ use crate::scene::{
     ABSCISSAE, Axes, LAYERS, Layer, ORDINATES, Ordinate, ScaledMachine, Span, Unit, VIEWS, View,
     Window, find,
 };
-use crate::session::act::notice::inform;
+use crate::session::act::notice::{inform, warn_of_units};
 use crate::session::act::{
     axes as axis, entry, focus, general, history, macros, marks, parameters, screen_setup,
 };
@@ -56,14 +56,14 @@ pub fn set(session: &mut Session, rest: &str) -> Done {
         setup = entry::read(session, &setup, row_named(session, name)?, &value)?;
     }
     parameters::put(session, &setup);
-    Ok(Vec::new())
+    Ok(warn_of_units(session))
 }
 
 pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
     let row = row_named(session, row)?;
     let setup = entry::read(session, &session.setup(), row, value)?;
     parameters::put(session, &setup);
-    Ok(Vec::new())
+    Ok(warn_of_units(session))
 }
 
 pub fn scene(session: &mut Session, name: &str) -> Done {

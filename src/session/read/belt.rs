@@ -5,10 +5,12 @@
 //! parameters then belong to no belt speed until a speed is set again.
 
 use crate::flow::Problem;
+use crate::machine::Body;
 use crate::oscillator::belt::Quantity;
 use crate::oscillator::{Belt, Parameters, State, Symbol};
 use crate::question::Whole;
 use crate::question::whole::{Course, Kinds};
+use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Answer, Layer, Machine, Running, Setting, Topic};
 use crate::session::state::doubt::{Doubt, symbol_of};
 use crate::session::state::session::Session;
@@ -27,6 +29,13 @@ impl Session {
         let machine = self.rebuilt.as_deref().unwrap_or(&scaled.machine);
         let present = self.setting.and_then(|it| Running::at(machine, it.speed).ok());
         Some(present.unwrap_or_else(|| scaled.running()))
+    }
+
+    /// One line about a number of the machine that is unlikely in its unit; `None` if there is none.
+    pub fn unlikely_number(&self) -> Option<String> {
+        let Running { machine, speed, .. } = self.running()?;
+        let belt = Belt { belt_speed: speed, ..machine.belt.clone() };
+        unlikely(&Body::Belt(Box::new(belt)), (machine.displacement, machine.velocity))
     }
 
     /// Whether the parameters on show are those of the machine at the speed of its belt; `None` without a
