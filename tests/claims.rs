@@ -27,13 +27,15 @@ fn about(equation: &str, words: &str) -> &'static Finding {
 
 #[test]
 fn every_claim_is_decided_by_numbers() {
-    assert!(ALL.len() > 100);
+    let mut told = std::collections::BTreeSet::new();
     for one in ALL.iter() {
         let name = format!("{} {}", one.claim.equation, one.claim.statement);
         let finding = one.finding.as_ref().unwrap_or_else(|reason| panic!("{name}: {reason}"));
         assert!(finding.computed.value.is_finite() && finding.computed.error >= 0.0, "{name}");
         assert!(finding.bound() >= 0.0 && finding.difference().unwrap().is_finite(), "{name}");
-        assert!(finding.cases > 0, "{name}");
+        assert!((1..).contains(&finding.cases) && finding.held <= finding.cases, "{name}");
+        // A claim stands once, with what it is compared with.
+        assert!(told.insert(one.claim.statement) && !one.claim.basis.is_empty(), "{name}");
         assert_eq!(finding.paper.is_none(), one.claim.section == UNSAID, "{name}");
         // Computed numbers are known well enough to decide: to six digits, or as a count.
         assert!(finding.computed.error <= 1e-5 * finding.computed.value.abs().max(1e-5), "{name}");
@@ -72,12 +74,8 @@ fn false_statements_are_found_false() {
     for (equation, words) in [
         ("5", "periodic solution"),
         ("5.1", "trapped"),
-        ("(39)", "strong"),
         ("Fig. 9", "between"),
-        ("(51)", "D = -0.4"),
-        ("(51)", "D = -0.7"),
-        ("Fig. 12a", "approaches"),
-        ("(48)", "D2 = 0.5"),
+        ("(51)", "amplitude of the cycle"),
         ("6.4", "with D2 as without"),
     ] {
         let finding = about(equation, words);
@@ -93,7 +91,7 @@ fn general_statements_fail_in_some_cases() {
         ("Fig. 10", "D3 < 0", "D = -1, D3 = -0.1, r = 0.1"),
         ("Fig. 10", "D3 = 0", "D = -1, r = 0.1"),
         ("6.4", "for all values of D", "D = -1"),
-        ("6.4", "general topology", "D = -0.07, D2 = 0.2, r = 0.5"),
+        ("6.4, Fig. 13", "merely distorts", "D = -0.07, D2 = 0.2, r = 0.5"),
     ] {
         let finding = about(equation, words);
         assert_eq!(finding.verdict(), Verdict::InPart, "{equation}: {finding:?}");
@@ -101,11 +99,39 @@ fn general_statements_fail_in_some_cases() {
     }
 }
 
+/// At D = -0.3 alone (52) would pass, 9.2 % off: next to the fold it is off by 45 %.
 #[test]
-fn at_the_parameters_of_fig_13_d2_merely_distorts() {
-    for (words, d) in [("small", "D = -0.7"), ("large", "D = -0.2")] {
-        let finding = about("Fig. 13", words);
-        assert_eq!((finding.verdict(), finding.cases), (Verdict::Agrees, 1), "{d}: {finding:?}");
+fn approximations_are_judged_over_a_range() {
+    for (equation, words, held, off) in [
+        ("(39)", "frequency", 4, 1.294),
+        ("(41)", "size of the basin", 4, 0.295),
+        ("(42)", "unstable", 4, 0.294),
+        ("(48)", "does not depend", 1, 0.1347),
+        ("(51)", "small amplitude", 2, 0.294),
+        ("(52)", "large amplitude", 2, 0.446),
+    ] {
+        let finding = about(equation, words);
+        assert_eq!((finding.verdict(), finding.held), (Verdict::InPart, held), "{finding:?}");
+        assert!((finding.miss() - off).abs() < 2e-3, "{equation}: {finding:?}");
+    }
+}
+
+/// The paper draws them as curves of its own equation, and as such they are right.
+#[test]
+fn the_figures_of_amplitudes_are_compared_with_the_equation_that_they_show() {
+    for (equation, words, basis) in [
+        ("Fig. 12a", "A_1 and A_2", "(42)"),
+        ("Fig. 12b", "A_1 as D", "(42)"),
+        ("Fig. 14", "shifts", "(40, 42)"),
+        ("(51)", "exact solution", "(42)"),
+        ("(51)", "amplitude of the cycle", "cycle"),
+    ] {
+        let verdict = about(equation, words).verdict();
+        assert_eq!(verdict == Verdict::False, basis == "cycle", "{equation}: {verdict:?}");
+        let stands = |claim: &&hopfscope::study::claims::Claim| {
+            claim.equation == equation && claim.statement.contains(words)
+        };
+        assert_eq!(claims().find(stands).unwrap().basis, basis);
     }
 }
 
@@ -146,9 +172,8 @@ fn numbers_computed_elsewhere_are_found_again() {
         let found = about(equation, words).computed.value;
         assert!((found - expected).abs() < digits, "{equation} {words}: {found}");
     };
-    close("(51)", "D = -0.7", 0.109_641, 1e-6);
-    close("(48)", "D2 = 0.2", -0.047_785_9, 1e-7);
-    close("(48)", "D2 = 0.5", -0.054_101_4, 1e-7);
+    close("(51)", "amplitude of the cycle", 0.100_305, 1e-6);
+    close("(48)", "does not depend", -0.054_101_4, 1e-7);
     close("D_c", "worst", -0.776_232, 1e-6);
     close("(30)", "-0.999", 6.539_33e-31, 1e-36);
     let within = |equation, words, most: f64| match about(equation, words).verdict() {
@@ -162,7 +187,7 @@ fn numbers_computed_elsewhere_are_found_again() {
 #[test]
 fn what_proofs_reach_carries_a_mark_and_no_mark_contradicts_a_verdict() {
     let marked = ALL.iter().filter(|one| one.finding.as_ref().unwrap().mark.is_some()).count();
-    assert!(marked >= 70, "{marked} claims are marked");
+    assert!(3 * marked >= 2 * ALL.len(), "{marked} claims are marked");
     for one in ALL.iter() {
         let finding = one.finding.as_ref().unwrap();
         let (mark, name) = (finding.mark, one.claim.statement);
@@ -184,8 +209,7 @@ fn what_proofs_reach_carries_a_mark_and_no_mark_contradicts_a_verdict() {
         ("(24)", "D2 acts", Certainty::Refuted),
         ("(30)", "-0.999", Certainty::Enclosed),
         ("(48)", "D2 = 0:", Certainty::Proved),
-        ("(48)", "D2 = 0.2", Certainty::Proved),
-        ("(48)", "D2 = 0.5", Certainty::Refuted),
+        ("(48)", "does not depend", Certainty::Refuted),
         ("Fig. 9", "between", Certainty::Refuted),
         ("Fig. 9", "below both", Certainty::Proved),
         ("Fig. 10", "D3 > 0", Certainty::Refuted),

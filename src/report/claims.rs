@@ -15,9 +15,11 @@ struct ClaimRow<'a> {
     equation: &'a str,
     section: &'a str,
     claim: &'a str,
+    basis: &'a str,
     at: Option<&'a str>,
     sense: Option<&'static str>,
     cases: Option<usize>,
+    held: Option<usize>,
     paper: Option<f64>,
     corrected: Option<f64>,
     computed: Option<f64>,
@@ -67,9 +69,11 @@ fn row(examined: &Examined) -> ClaimRow<'_> {
         equation: claim.equation,
         section: claim.section,
         claim: claim.statement,
+        basis: claim.basis,
         at: finding.map(|finding| finding.place.as_str()).filter(|place| !place.is_empty()),
         sense: finding.map(|finding| sense(finding.sense)),
         cases: finding.map(|finding| finding.cases),
+        held: finding.map(|finding| finding.held),
         paper: finding.and_then(|finding| finding.paper),
         corrected: finding.and_then(|finding| finding.corrected),
         computed: finding.map(|finding| finding.computed.value),
@@ -100,13 +104,16 @@ pub fn csv(examined: &[Examined]) -> String {
 
 /// A table with the numbers first and the claim last, as its length varies.
 pub fn table(examined: &[Examined], seconds: f64) -> String {
-    let titles = ["where", "verdict", "proof", "paper", "corrected", "computed", "claim"];
+    let titles =
+        ["where", "basis", "sense", "verdict", "proof", "paper", "corrected", "computed", "claim"];
     let rows = examined.iter().map(|examined| {
         let number =
             |value: Option<f64>| value.map_or("-".to_owned(), |value| significant(value, 6));
         let finding = examined.finding.as_ref().ok();
         [
             examined.claim.equation.to_owned(),
+            examined.claim.basis.to_owned(),
+            finding.map_or("-".to_owned(), |finding| claim::sense(finding.sense)),
             claim::verdict(examined),
             mark(finding),
             number(finding.and_then(|finding| finding.paper)),
@@ -118,13 +125,15 @@ pub fn table(examined: &[Examined], seconds: f64) -> String {
     let rows: Vec<_> = std::iter::once(titles.map(str::to_owned)).chain(rows).collect();
     let width =
         |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let widths = [0, 1, 2, 3, 4, 5].map(width);
+    let widths: [usize; 8] = std::array::from_fn(width);
     let mut out = String::new();
-    for [place, verdict, proof, paper, corrected, computed, claim] in &rows {
-        let [a, b, c, d, e, f] = widths;
-        out += &format!(
-            "{place:a$}  {verdict:b$}  {proof:c$}  {paper:>d$}  {corrected:>e$}  {computed:>f$}  {claim}\n"
-        );
+    for row in &rows {
+        for (column, (cell, width)) in row.iter().zip(widths).enumerate() {
+            // Words to the left, numbers to the right.
+            out +=
+                &if column < 5 { format!("{cell:width$}  ") } else { format!("{cell:>width$}  ") };
+        }
+        out += &format!("{}\n", row[8]);
     }
     out + &format!("\n{}, {}\n", claim::summary(examined), duration(seconds))
 }

@@ -88,7 +88,14 @@ fn about(claim: &Claim, examined: Option<&Examined>, look: &Look) -> Vec<Line<'s
                 error.map(|error| format!("known to {}", significant(error, 1))),
             ];
             lines.push(text(parts.into_iter().flatten().collect::<Vec<_>>().join(", ")));
-            lines.push(Line::styled(finding.place.clone(), look.style(Role::Quiet)));
+            let judged = [
+                &format!("compared with: {}", claim.basis),
+                &claim::sense(finding.sense),
+                &finding.place,
+            ];
+            let judged = judged.into_iter().filter(|text| !text.is_empty());
+            let judged: Vec<&str> = judged.map(String::as_str).collect();
+            lines.push(Line::styled(judged.join("; "), look.style(Role::Quiet)));
         }
     }
     if let Some(scene) = claim.scene {

@@ -1,7 +1,7 @@
 //! The verdicts on the claims of the paper.
 
 use super::number::significant;
-use crate::study::claims::{Certainty, Examined, Finding, Sense, Verdict};
+use crate::study::claims::{Certainty, Examined, Finding, POOR, Sense, Verdict};
 
 /// The name of the verdict if no number could be computed.
 const UNKNOWN: &str = "unknown";
@@ -14,7 +14,7 @@ pub fn name(examined: &Examined) -> &'static str {
 pub fn verdict(examined: &Examined) -> String {
     let percent = |part: f64| format!("{} %", significant(100.0 * part, 2));
     let Ok(finding) = &examined.finding else { return UNKNOWN.to_owned() };
-    let counts = || format!("{} of {}", finding.computed.value, finding.cases);
+    let counts = || format!("{} of {}", finding.held, finding.cases);
     match finding.verdict() {
         Verdict::Agrees if finding.paper.is_none() => "holds".to_owned(),
         Verdict::Agrees => "agrees".to_owned(),
@@ -24,10 +24,22 @@ pub fn verdict(examined: &Examined) -> String {
         Verdict::Approximates { within } => format!("within {}", percent(within)),
         Verdict::Corrected { within: None } => "corrected: holds".to_owned(),
         Verdict::Corrected { within: Some(within) } => format!("corrected: {}", percent(within)),
-        Verdict::InPart => format!("in {}", counts()),
+        Verdict::InPart if finding.sense == Sense::Always => format!("in {}", counts()),
+        Verdict::InPart => format!("in {}: {} off", counts(), percent(finding.miss())),
         Verdict::False if finding.sense == Sense::Always => format!("false: {}", counts()),
         Verdict::False if finding.computed.value == 0.0 => "false".to_owned(),
         Verdict::False => format!("false: {} off", percent(finding.miss())),
+    }
+}
+
+/// What is claimed about the paper's number and the computed one, and the bound within which that is judged.
+pub fn sense(sense: Sense) -> String {
+    match sense {
+        Sense::Equal => "equal".to_owned(),
+        Sense::Near => format!("within {} %", significant(100.0 * POOR, 2)),
+        Sense::AtMost => "at most".to_owned(),
+        Sense::Tends { .. } => "approaches".to_owned(),
+        Sense::Always => "in all cases".to_owned(),
     }
 }
 

@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 
 use super::certain::BoundedCycle;
-use super::harmonic::largest_amplitude;
+use super::harmonic::{NO_AMPLITUDE, largest_amplitude};
 use super::measure::{
     Known, amplitude, beside_proof, cycles, largest, last_cycle, of_cycle, oscillator, place,
     smallest,
 };
 use super::{Claim, Finding};
-use crate::closed_form::harmonic::{self, amplitudes};
+use crate::closed_form::harmonic::{self, Harmonic, amplitudes};
 use crate::flow::{Limits, Reason};
 use crate::numerics::elementary::{cbrt, powi};
 use crate::oscillator::Parameters;
@@ -21,29 +21,34 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "(42)",
         section: "6.2",
-        statement: "the stationary amplitudes are those of the cycles: the unstable one",
+        statement: "the stationary amplitudes are those of the cycles: the unstable one, over D = -0.9 .. -0.18",
+        basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            let cycle = smallest(&TWO_CYCLES, limits)?;
-            let formula = amplitudes(&TWO_CYCLES)[0].amplitude;
-            Ok(Finding::near(formula, amplitude(&cycle)).at(place(&TWO_CYCLES)))
+            over_branch(|parameters| {
+                let cycle = smallest(parameters, limits)?;
+                Ok(Finding::near(amplitudes(parameters)[0].amplitude, amplitude(&cycle)))
+            })
         },
     },
     Claim {
         equation: "(42)",
         section: "6.2",
-        statement: "the stationary amplitudes are those of the cycles: the stable one",
+        statement: "the stationary amplitudes are those of the cycles: the stable one, over D = -0.9 .. -0.18",
+        basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            let cycle = largest(&TWO_CYCLES, limits)?;
-            let formula = largest_amplitude(&TWO_CYCLES)?;
-            Ok(Finding::near(formula, amplitude(&cycle)).at(place(&TWO_CYCLES)))
+            over_branch(|parameters| {
+                let cycle = largest(parameters, limits)?;
+                Ok(Finding::near(largest_amplitude(parameters)?, amplitude(&cycle)))
+            })
         },
     },
     Claim {
         equation: "(43, 47)",
         section: "6.2.1",
         statement: "discriminant of (42): (47) is (43) written out",
+        basis: "(43)",
         scene: Some("fig10"),
         check: |_| {
             Finding::worst(dampings().map(|(d, d3)| {
@@ -63,6 +68,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(44-46)",
         section: "6.2.1",
         statement: "its sign tells the number of real roots of (42): three or one",
+        basis: "(42)",
         scene: Some("fig10"),
         check: |_| {
             let cases = dampings().map(|(d, d3)| {
@@ -78,6 +84,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 10",
         section: "6.2.1",
         statement: "for D3 > 0 there are two cycles for D < D_F and none for D > D_F, by (48)",
+        basis: "cycle",
         scene: Some("fig10"),
         check: |limits| {
             // Up to strong friction, and next to the border, where it matters: r^2 D3 = 1e-3 .. 0.25.
@@ -97,6 +104,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 10",
         section: "6.2.1",
         statement: "for D3 < 0 there is one cycle for all D",
+        basis: "cycle",
         scene: Some("fig10"),
         check: |limits| {
             const DAMPINGS: [f64; 9] = [-1.0, -0.99, -0.75, -0.2, -0.02, 0.0, 0.2, 0.75, 1.0];
@@ -110,6 +118,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 10",
         section: "6.2.1",
         statement: "for D3 = 0 there is one cycle for D <= 0, and none for D > 0",
+        basis: "cycle",
         scene: Some("fig10"),
         check: |limits| {
             let dampings = [-1.0, -0.9, -0.5, -0.1, -1e-3, 0.0, 0.1, 0.5];
@@ -122,6 +131,7 @@ pub const CLAIMS: &[Claim] = &[
         section: "6.2.1",
         statement: "fold at D_F = -(1/2) cbrt((9/pi)^2 r^2 D3), for D2 = 0: the worst of r^2 D3 = 1e-4 .. \
                     0.25",
+        basis: "cycle",
         scene: Some("fig11"),
         check: |limits| {
             Finding::worst(
@@ -132,21 +142,16 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "(48)",
         section: "6.2.1",
-        statement: "the fold does not depend on D2: with D2 = 0.2",
+        statement: "the fold does not depend on D2: over D2 = 0.2 .. 0.5",
+        basis: "cycle",
         scene: Some("asymmetry"),
-        check: |limits| fold_against(limits, 0.2, 0.01, 0.1),
-    },
-    Claim {
-        equation: "(48)",
-        section: "6.2.1",
-        statement: "the fold does not depend on D2: with D2 = 0.5",
-        scene: Some("asymmetry"),
-        check: |limits| fold_against(limits, 0.5, 0.01, 0.1),
+        check: |limits| Finding::worst([0.2, 0.5].map(|d2| fold_against(limits, d2, 0.01, 0.1))),
     },
     Claim {
         equation: "Fig. 11",
         section: "6.2.1",
         statement: "beyond (48) the rest attracts from everywhere, below it the basin is finite, whatever D2",
+        basis: "cycle",
         scene: Some("fig11"),
         check: |limits| {
             let mut cases = Vec::new();
@@ -165,24 +170,28 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "(49)",
         section: "6.2.1",
-        statement: "amplitude at the fold, A_F = cbrt(8 r/(3 pi D3)): its half extent",
+        statement: "amplitude at the fold, A_F = cbrt(8 r/(3 pi D3)): its half extent, over r^2 D3 = 1e-4 .. 0.25",
+        basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            let parameters = oscillator(0.0, 0.0, 0.5, 0.1);
-            let found = found_fold(&parameters, limits)?;
-            let formula = cbrt(8.0 * parameters.r / (3.0 * PI * parameters.d3));
-            // Next to a fold an amplitude is known to the root of what D is.
-            let computed = Known::relative(found.q_max, 1e-7);
-            Ok(Finding::near(formula, computed).at("D3 = 0.5, r = 0.1"))
+            Finding::worst([1e-4, 1e-3, 0.01, 0.05, 0.1, 0.25].map(|d3| {
+                let parameters = oscillator(0.0, 0.0, d3, 1.0);
+                let found = found_fold(&parameters, limits)?;
+                let formula = cbrt(8.0 * parameters.r / (3.0 * PI * parameters.d3));
+                // Next to a fold an amplitude is known to the root of what D is.
+                let computed = Known::relative(found.q_max, 1e-7);
+                Ok(Finding::near(formula, computed).at(format!("D3 = {d3}, r = 1")))
+            }))
         },
     },
     Claim {
         equation: "(50)",
         section: "6.2.1",
-        statement: "for D3 < 0 the cycle at D = 0 has the amplitude A_Z = cbrt(-16 r/(3 pi D3))",
+        statement: "for D3 < 0 the cycle at D = 0 has the amplitude A_Z = cbrt(-16 r/(3 pi D3)): over r^2 D3 = -0.25 .. -1e-4",
+        basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            Finding::worst([-0.01, -0.1, -0.5].map(|d3| {
+            Finding::worst([-0.01, -0.1, -1.0, -10.0, -25.0].map(|d3| {
                 let parameters = oscillator(0.0, 0.0, d3, 0.1);
                 let cycle = smallest(&parameters, limits)?;
                 let formula = cbrt(-16.0 * parameters.r / (3.0 * PI * d3));
@@ -194,6 +203,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(51)",
         section: "6.2.1",
         statement: "A_1 = -2 r/(pi D) is the exact solution of (42) for D3 = 0",
+        basis: "(42)",
         scene: Some("fig09"),
         check: |_| {
             Finding::worst([-0.9, -0.4, -0.01].map(|d| {
@@ -207,32 +217,36 @@ pub const CLAIMS: &[Claim] = &[
     },
     Claim {
         equation: "(51)",
-        section: "6.2.1",
-        statement: "for D3 = 0 that is the exact amplitude for any D: of the cycle at D = -0.4",
+        section: "6.2.2",
+        statement: "for D3 = 0 that is the exact amplitude of the cycle, over D = -0.9 .. -0.01",
+        basis: "cycle",
         scene: Some("fig09"),
-        check: |limits| exact_amplitude(limits, -0.4),
+        check: |limits| {
+            Finding::worst([-0.9, -0.7, -0.4, -0.1, -0.01].map(|d| {
+                let parameters = oscillator(d, 0.0, 0.0, 0.1);
+                let cycle = smallest(&parameters, limits)?;
+                let computed = of_cycle(&cycle, cycle.q_max, |it| it.q_max);
+                Ok(Finding::equal(small(&parameters), computed).at(place(&parameters)))
+            }))
+        },
     },
     Claim {
         equation: "(51)",
         section: "6.2.1",
-        statement: "for D3 = 0 that is the exact amplitude for any D: of the cycle at D = -0.7",
-        scene: Some("fig09"),
-        check: |limits| exact_amplitude(limits, -0.7),
-    },
-    Claim {
-        equation: "(51)",
-        section: "6.2.1",
-        statement: "A_1 approximates the small amplitude where D3 acts",
+        statement: "A_1 approximates the small amplitude where D3 acts, over D = -0.9 .. -0.18",
+        basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            let cycle = smallest(&TWO_CYCLES, limits)?;
-            Ok(Finding::near(small(&TWO_CYCLES), amplitude(&cycle)).at(place(&TWO_CYCLES)))
+            over_branch(|parameters| {
+                Ok(Finding::near(small(parameters), amplitude(&smallest(parameters, limits)?)))
+            })
         },
     },
     Claim {
         equation: "after (51)",
         section: "6.2.1",
         statement: "A_1 is about -0.6 r/D",
+        basis: "(51)",
         scene: Some("fig12"),
         check: |_| {
             let parameters = oscillator(-1.0, 0.0, 0.0, 1.0);
@@ -243,6 +257,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "before (52)",
         section: "6.2.1",
         statement: "(42) divided by 2 D reads 2 r/(pi D) + A + 8 D3/(3 D) A^3 = 0: the last two terms",
+        basis: "(42)",
         scene: Some("fig12"),
         check: |_| {
             let Parameters { d, d3, r, .. } = TWO_CYCLES;
@@ -256,34 +271,33 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "(52)",
         section: "6.2.1",
-        statement: "A_2 = sqrt(-8 D/(3 D3)) approximates the large amplitude",
+        statement: "A_2 = sqrt(-8 D/(3 D3)) approximates the large amplitude, over D = -0.9 .. -0.18",
+        basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            let cycle = largest(&TWO_CYCLES, limits)?;
-            let Parameters { d, d3, .. } = TWO_CYCLES;
-            let formula = (-8.0 * d / (3.0 * d3)).sqrt();
-            Ok(Finding::near(formula, amplitude(&cycle)).at(place(&TWO_CYCLES)))
+            over_branch(|parameters| {
+                Ok(Finding::near(large(parameters), amplitude(&largest(parameters, limits)?)))
+            })
         },
     },
     Claim {
         equation: "Fig. 12a",
         section: "6.2.2",
-        statement: "as D goes to -1 the lower branch approaches A_1: the cycle",
+        statement: "for D3 > 0 the solutions of (42) approach A_1 and A_2 as D goes to -1",
+        basis: "(42)",
         scene: Some("fig12"),
-        check: |limits| {
-            let at = |d: f64| {
-                let parameters = Parameters { d, ..TWO_CYCLES };
-                let cycle = smallest(&parameters, limits)?;
-                Ok((small(&parameters), amplitude(&cycle)))
-            };
-            let end = Parameters { d: -0.95, ..TWO_CYCLES };
-            Ok(Finding::tends(at(-0.5)?, at(-0.95)?).at(place(&end)))
+        check: |_| {
+            Finding::worst([
+                approached(0.5, -1.0, <[_]>::first, small),
+                approached(0.5, -1.0, <[_]>::last, large),
+            ])
         },
     },
     Claim {
         equation: "Fig. 12a",
         section: "6.2.2",
         statement: "for D3 > 0 the lower branch is unstable and the upper one stable",
+        basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
             let mut cases = Vec::new();
@@ -302,6 +316,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 12b",
         section: "6.2.2",
         statement: "for D3 < 0 all cycles are unstable",
+        basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
             let mut cases = Vec::new();
@@ -317,24 +332,14 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "Fig. 12b",
         section: "6.2.2",
-        statement: "for D3 < 0, D < 0 the amplitude is approximately A_1",
+        statement: "for D3 < 0 the solution of (42) approaches A_1 as D goes to -1, and A_2 as it goes to 1",
+        basis: "(42)",
         scene: Some("fig12"),
-        check: |limits| {
-            let parameters = oscillator(-0.4, 0.0, -0.5, 0.1);
-            let cycle = smallest(&parameters, limits)?;
-            Ok(Finding::near(small(&parameters), amplitude(&cycle)).at(place(&parameters)))
-        },
-    },
-    Claim {
-        equation: "Fig. 12b",
-        section: "6.2.2",
-        statement: "for D3 < 0, D > 0 the amplitude is approximately A_2",
-        scene: Some("fig12"),
-        check: |limits| {
-            let parameters = oscillator(0.4, 0.0, -0.5, 0.1);
-            let cycle = smallest(&parameters, limits)?;
-            let formula = (-8.0 * parameters.d / (3.0 * parameters.d3)).sqrt();
-            Ok(Finding::near(formula, amplitude(&cycle)).at(place(&parameters)))
+        check: |_| {
+            Finding::worst([
+                approached(-0.5, -1.0, <[_]>::first, small),
+                approached(-0.5, 1.0, <[_]>::first, large),
+            ])
         },
     },
 ];
@@ -401,10 +406,34 @@ fn small(parameters: &Parameters) -> f64 {
     -2.0 * parameters.r / (PI * parameters.d)
 }
 
-/// (51) against the extent of the piecewise linear cycle.
-fn exact_amplitude(limits: &Limits, d: f64) -> Result<Finding, Reason> {
-    let parameters = oscillator(d, 0.0, 0.0, 0.1);
-    let cycle = smallest(&parameters, limits)?;
-    let computed = of_cycle(&cycle, cycle.q_max, |it| it.q_max);
-    Ok(Finding::equal(small(&parameters), computed).at(place(&parameters)))
+/// (52).
+fn large(parameters: &Parameters) -> f64 {
+    (-8.0 * parameters.d / (3.0 * parameters.d3)).sqrt()
+}
+
+/// A comparison along both cycles, from strong damping to next to the fold.
+fn over_branch(
+    compare: impl Fn(&Parameters) -> Result<Finding, Reason>,
+) -> Result<Finding, Reason> {
+    Finding::worst([-0.9, -0.7, -0.5, -0.3, -0.2, -0.18].map(|d| {
+        let parameters = Parameters { d, ..TWO_CYCLES };
+        Ok(compare(&parameters)?.at(place(&parameters)))
+    }))
+}
+
+/// How a solution of (42) approaches a formula as abs(D) grows to 1.
+fn approached(
+    d3: f64,
+    direction: f64,
+    of: fn(&[Harmonic]) -> Option<&Harmonic>,
+    formula: fn(&Parameters) -> f64,
+) -> Result<Finding, Reason> {
+    let at = |size: f64| {
+        let parameters = oscillator(direction * size, 0.0, d3, 0.1);
+        let solutions = amplitudes(&parameters);
+        let root = of(&solutions).ok_or(NO_AMPLITUDE)?.amplitude;
+        Ok((formula(&parameters), Known::relative(root, 1e-14)))
+    };
+    let near = oscillator(direction * 0.95, 0.0, d3, 0.1);
+    Ok(Finding::tends(at(0.3)?, at(0.95)?).at(place(&near)))
 }

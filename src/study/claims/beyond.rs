@@ -26,6 +26,7 @@ pub const CLAIMS: &[Claim] = &[
         section: UNSAID,
         statement: "below this speed of the belt the stable cycle overtakes it, and the mass sticks: where the \
                     amplitude of one harmonic is v0/(omega_0 x_0)",
+        basis: "cycle",
         scene: Some("belt-speed"),
         check: belt::contact,
     },
@@ -34,6 +35,7 @@ pub const CLAIMS: &[Claim] = &[
         section: UNSAID,
         statement: "mu = (a - r)/(a + r) (b - r)/(b + r) exp(- integral of 2 D + 2 D2 v + 3 D3 v^2): slope of \
                     the return map",
+        basis: "motion",
         scene: Some("supercritical"),
         check: |limits| {
             let parameters = oscillator(-0.3, 0.2, 0.5, 0.1);
@@ -60,6 +62,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "multiplier",
         section: UNSAID,
         statement: "for D2 = D3 = 0 it is e^(-2 pi D/omega)",
+        basis: "motion",
         scene: Some("linear"),
         check: |limits| {
             let parameters = oscillator(-0.4, 0.0, 0.0, 0.1);
@@ -75,6 +78,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "h",
         section: UNSAID,
         statement: "h = (v^2/2 + q/(2 D2) - 1/(4 D2^2)) e^(2 D2 q) is conserved where only D2 acts",
+        basis: "motion",
         scene: None,
         check: |limits| {
             let parameters = oscillator(0.0, 0.4, 0.0, 0.0);
@@ -93,6 +97,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "h",
         section: UNSAID,
         statement: "so no motion comes back to where it was for D >= 0, D3 >= 0, whatever D2",
+        basis: "motion",
         scene: Some("asymmetry"),
         check: |limits| {
             let mut cases = Vec::new();
@@ -114,22 +119,27 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "escape",
         section: UNSAID,
-        statement: "with D3 = 0 motions beyond the parabola v^2 = 1/(2 D2^2) - q/D2 escape: impulse that is \
+        statement: "with D3 = 0 motions beyond the parabola v^2 = 1/(2 D2^2) - q/D2 escape, as D and r go to 0: impulse that is \
                     not survived",
+        basis: "border",
         scene: Some("escape"),
         check: |limits| {
-            let parameters = oscillator(-1e-4, 0.5, 0.0, 1e-3);
-            let margin = basin(&parameters, 10.0, limits)?.margin();
-            let lost = Reason::NoConvergence { sought: "the separatrix", change: f64::NAN };
-            let computed = Known::relative(margin.impulse.ok_or(lost)?, 1e-12);
-            let formula = (0.5 / (parameters.d2 * parameters.d2)).sqrt();
-            Ok(Finding::near(formula, computed).at(place(&parameters)))
+            let impulse = |part: f64| {
+                let parameters = oscillator(-1e-3 * part, 0.5, 0.0, 1e-2 * part);
+                let margin = basin(&parameters, 10.0, limits)?.margin();
+                let lost = Reason::NoConvergence { sought: "the separatrix", change: f64::NAN };
+                let formula = (0.5 / (parameters.d2 * parameters.d2)).sqrt();
+                Ok((formula, Known::relative(margin.impulse.ok_or(lost)?, 1e-12)))
+            };
+            let finding = Finding::tends(impulse(1.0)?, impulse(0.01)?);
+            Ok(finding.at("D = -1e-5, D2 = 0.5, r = 1e-4"))
         },
     },
     Claim {
         equation: "escape",
         section: UNSAID,
         statement: "with D3 < 0 every motion outside the unstable cycle escapes in finite time",
+        basis: "motion",
         scene: Some("subcritical"),
         check: |limits| {
             let mut cases = Vec::new();
@@ -154,6 +164,7 @@ pub const CLAIMS: &[Claim] = &[
         section: UNSAID,
         statement: "with D3 = 0 the cycle goes to infinity at D_c = -sqrt(2/pi) r abs(D2): the worst of \
                     r D2 = 0.02 .. 1",
+        basis: "cycle",
         scene: Some("escape"),
         check: |limits| {
             Finding::worst([0.02, 0.05, 0.1, 0.25, 0.5, 1.0].map(|d2| {
@@ -169,6 +180,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "D_c",
         section: UNSAID,
         statement: "there is one cycle below D_c and none above",
+        basis: "cycle",
         scene: Some("escape"),
         check: |limits| {
             let mut cases = Vec::new();
@@ -187,6 +199,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "D_c",
         section: UNSAID,
         statement: "on the way there its left turning point goes to infinity: 1/abs(q_min)",
+        basis: "cycle",
         scene: Some("escape"),
         check: |limits| {
             let end = end_of_cycle(&oscillator(0.0, 0.5, 0.0, 0.1), limits)?;

@@ -11,7 +11,7 @@ use super::{Claim, Finding, UNSAID};
 use crate::closed_form::harmonic::{Harmonic, amplitudes, mean as harmonic_mean};
 use crate::flow::{Limits, Reason};
 use crate::numerics::Interval;
-use crate::numerics::elementary::sin;
+use crate::numerics::elementary::{powi, sin};
 use crate::numerics::interval::PI as PI_BOUNDS;
 use crate::oscillator::Parameters;
 use crate::study::harmonic_error::harmonic_balance;
@@ -21,6 +21,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(34)",
         section: "5.2",
         statement: "periodic solutions are approximated by Fourier series: the amplitude by 31 harmonics",
+        basis: "cycle",
         scene: Some("linear"),
         check: |limits| {
             let parameters = oscillator(-0.7, 0.0, 0.0, 0.1);
@@ -33,6 +34,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "(36)",
         section: "5.2",
         statement: "the second derivative of A cos(psi) at psi = 0 contains - A eta^2 sin(psi)",
+        basis: "A cos(psi)",
         scene: None,
         check: |_| {
             // Central differences of the velocity - A eta sin(eta tau), two of them.
@@ -50,21 +52,16 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "(39)",
         section: "5.2",
-        statement: "cycles have the frequency 1: where damping is weak",
+        statement: "cycles have the frequency 1: over D = -0.9 .. -0.01",
+        basis: "cycle",
         scene: Some("fig09"),
-        check: |limits| frequency(limits, -0.1),
-    },
-    Claim {
-        equation: "(39)",
-        section: "5.2",
-        statement: "cycles have the frequency 1: where damping is strong",
-        scene: Some("fig09"),
-        check: |limits| frequency(limits, -0.7),
+        check: |limits| over_dampings(limits, frequency),
     },
     Claim {
         equation: "5.2",
         section: "5.2",
         statement: "cycles of small amplitude tend to be harmonic (Fig. 7), v_max equal to q_max: D = -0.999",
+        basis: "cycle",
         scene: Some("linear"),
         check: |limits| {
             let parameters = oscillator(-0.999, 0.0, 0.0, 1.0);
@@ -80,50 +77,58 @@ pub const CLAIMS: &[Claim] = &[
     Claim {
         equation: "(40)",
         section: "5.2",
-        statement: "mean displacement A0 = -(D2/2) A^2 of a cycle: the stable one",
+        statement: "mean displacement A0 = -(D2/2) A^2 of a cycle: the stable one, over D = -0.4 .. -0.02",
+        basis: "cycle",
         scene: Some("fig14"),
         check: |limits| {
-            let parameters = oscillator(-0.1, 0.2, 0.2, 0.01);
-            let cycle = largest(&parameters, limits)?;
-            let formula = harmonic_mean(parameters.d2, largest_amplitude(&parameters)?);
-            let computed = mean(&parameters, &cycle, limits)?;
-            Ok(Finding::near(formula, computed).at(place(&parameters)))
+            Finding::worst([-0.4, -0.2, -0.1, -0.05, -0.02].map(|d| {
+                let parameters = oscillator(d, 0.2, 0.2, 1e-3);
+                let cycle = largest(&parameters, limits)?;
+                let formula = harmonic_mean(parameters.d2, largest_amplitude(&parameters)?);
+                let computed = mean(&parameters, &cycle, limits)?;
+                Ok(Finding::near(formula, computed).at(place(&parameters)))
+            }))
         },
     },
     Claim {
         equation: "(41)",
         section: "5.2",
-        statement: "A' = -4 r/pi - 2 D A - (3/4) D3 A^3: change of the amplitude in a turn",
+        statement: "A' = -4 r/pi - 2 D A - (3/4) D3 A^3: change of the amplitude in a turn, over A = 0.5 .. 2",
+        basis: "motion",
         scene: Some("fig09"),
         check: |limits| {
-            let parameters = oscillator(-1e-3, 0.0, 2e-3, 1e-3);
-            let [left, _] = half_swing(&parameters, at_rest(1.0), limits)?;
-            let [right, _] = half_swing(&parameters, at_rest(left.value), limits)?;
-            let turns = enclosed(&parameters, at_rest(1.0), 10.0).turns;
-            let bounds = turns.get(1).map(|turn| turn.q - Interval::point(1.0));
-            let computed = Known::new(right.value - 1.0, right.error + left.error).within(bounds);
-            let Parameters { d, d3, r, .. } = parameters;
-            let printed = -4.0 * r / PI - 2.0 * d - 0.75 * d3;
-            let finding = Finding::near(TAU * printed, computed).corrected(PI * printed);
-            Ok(finding.at(format!("{}, A = 1", place(&parameters))))
+            Finding::worst([0.5, 1.0, 2.0].map(|size| {
+                let parameters = oscillator(-1e-3, 0.0, 2e-3, 1e-3);
+                let [left, _] = half_swing(&parameters, at_rest(size), limits)?;
+                let [right, _] = half_swing(&parameters, at_rest(left.value), limits)?;
+                let turns = enclosed(&parameters, at_rest(size), 10.0).turns;
+                let bounds = turns.get(1).map(|turn| turn.q - Interval::point(size));
+                let computed =
+                    Known::new(right.value - size, right.error + left.error).within(bounds);
+                let Parameters { d, d3, r, .. } = parameters;
+                let printed = -4.0 * r / PI - 2.0 * d * size - 0.75 * d3 * powi(size, 3);
+                let finding = Finding::near(TAU * printed, computed).corrected(PI * printed);
+                Ok(finding.at(format!("{}, A = {size}", place(&parameters))))
+            }))
         },
     },
     Claim {
         equation: "(41)",
         section: "6.1",
-        statement: "the amplitude A of (41) may be used for the size of the basin: of large cycles",
+        statement: "the amplitude A of (41) may be used for the size of the basin: over D = -0.9 .. -0.01",
+        basis: "cycle",
         scene: Some("fig09"),
         check: |limits| {
-            let parameters = oscillator(-0.1, 0.0, 0.0, 0.1);
-            let computed = amplitude(&smallest(&parameters, limits)?);
-            let formula = largest_amplitude(&parameters)?;
-            Ok(Finding::near(formula, computed).at(place(&parameters)))
+            over_dampings(limits, |parameters, cycle| {
+                Ok(Finding::near(largest_amplitude(parameters)?, amplitude(cycle)))
+            })
         },
     },
     Claim {
         equation: "Fig. 8",
         section: "6.1",
         statement: "as D goes to -1 the extent A_q shrinks to that of the sticking set",
+        basis: "cycle",
         scene: Some("fig08"),
         check: |limits| {
             let extent = |d: f64| {
@@ -137,6 +142,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 9",
         section: "6.1",
         statement: "as D goes to 0 the extents A_q and A_v tend to the same value",
+        basis: "cycle",
         scene: Some("fig09"),
         check: |limits| {
             let extents = |d: f64| {
@@ -150,6 +156,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 9",
         section: "6.1",
         statement: "the harmonic amplitude A lies between A_q and A_v",
+        basis: "cycle",
         scene: Some("fig09"),
         check: |limits| harmonic_against_extents(limits, |a, low, high| low <= a && a <= high),
     },
@@ -157,6 +164,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 9",
         section: UNSAID,
         statement: "the harmonic amplitude A lies below both A_q and A_v",
+        basis: "cycle",
         scene: Some("fig09"),
         check: |limits| harmonic_against_extents(limits, |a, low, _| a < low),
     },
@@ -164,6 +172,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "Fig. 8",
         section: UNSAID,
         statement: "as D goes to -1 the extent A_v shrinks to 2 r/e, less than the sticking set",
+        basis: "cycle",
         scene: Some("fig08"),
         check: |limits| {
             let extent = |d: f64| {
@@ -184,19 +193,32 @@ fn by_harmonics(parameters: &Parameters, number: usize, limits: &Limits) -> Resu
     cycle.map(crate::closed_form::harmonics::HarmonicCycle::amplitude).ok_or(lost)
 }
 
+/// (42) has no solution where it should.
+pub(super) const NO_AMPLITUDE: Reason =
+    Reason::NoConvergence { sought: "a stationary amplitude", change: f64::NAN };
+
 /// The largest stationary amplitude of (42).
 pub(super) fn largest_amplitude(parameters: &Parameters) -> Result<f64, Reason> {
-    let lost = Reason::NoConvergence { sought: "a stationary amplitude", change: f64::NAN };
     let last = amplitudes(parameters).last().map(|harmonic: &Harmonic| harmonic.amplitude);
-    last.ok_or(lost)
+    last.ok_or(NO_AMPLITUDE)
 }
 
-/// Frequency 1 against that of the piecewise linear cycle.
-fn frequency(limits: &Limits, d: f64) -> Result<Finding, Reason> {
-    let parameters = oscillator(d, 0.0, 0.0, 0.1);
-    let cycle = smallest(&parameters, limits)?;
-    let computed = of_cycle(&cycle, TAU / cycle.period, |it| PI_BOUNDS.twice() / it.period);
-    Ok(Finding::near(1.0, computed).at(place(&parameters)))
+/// A number of the piecewise linear cycle, at some dampings.
+fn over_dampings(
+    limits: &Limits,
+    compare: impl Fn(&Parameters, &BoundedCycle) -> Result<Finding, Reason>,
+) -> Result<Finding, Reason> {
+    Finding::worst([-0.9, -0.7, -0.4, -0.2, -0.1, -0.01].map(|d| {
+        let parameters = oscillator(d, 0.0, 0.0, 0.1);
+        let cycle = smallest(&parameters, limits)?;
+        Ok(compare(&parameters, &cycle)?.at(place(&parameters)))
+    }))
+}
+
+/// Frequency 1 against that of a cycle.
+fn frequency(_: &Parameters, cycle: &BoundedCycle) -> Result<Finding, Reason> {
+    let computed = of_cycle(cycle, TAU / cycle.period, |it| PI_BOUNDS.twice() / it.period);
+    Ok(Finding::near(1.0, computed))
 }
 
 /// Whether the harmonic amplitude lies where `holds` says, given the smaller and the larger extent.

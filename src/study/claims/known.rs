@@ -8,7 +8,7 @@ use crate::numerics::Interval;
 
 /// An approximation that is off by more than this does not count as one. More would let
 /// a fold that D2 moves by an eighth pass as one that D2 does not move.
-pub(super) const POOR: f64 = 0.1;
+pub const POOR: f64 = 0.1;
 
 /// What is claimed about the two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

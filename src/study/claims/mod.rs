@@ -21,7 +21,7 @@ mod summary;
 mod verdict;
 
 pub use certain::Certainty;
-pub use known::Sense;
+pub use known::{POOR, Sense};
 pub use verdict::{Finding, Verdict};
 
 use crate::flow::{Limits, Reason};
@@ -35,6 +35,9 @@ pub struct Claim {
     pub section: &'static str,
     /// What it says.
     pub statement: &'static str,
+    /// What its numbers are compared with: an equation of the paper by its number, or what is computed without
+    /// any, such as the true `cycle`, a `motion`, the `border` of the basin, the friction `law` itself.
+    pub basis: &'static str,
     /// A scene that shows it.
     pub scene: Option<&'static str>,
     /// Evaluates the formula and computes the same thing otherwise.

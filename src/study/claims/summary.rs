@@ -15,6 +15,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "after Fig. 17",
         section: "6.4",
         statement: "what viscous damping dissipates goes as the square of the amplitude: exponent",
+        basis: "motion",
         scene: None,
         check: |limits| {
             let [_, linear, _] = exponents(limits)?;
@@ -25,6 +26,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "after Fig. 17",
         section: "6.4",
         statement: "what Coulomb friction dissipates is proportional to the amplitude: exponent",
+        basis: "motion",
         scene: None,
         check: |limits| {
             let [_, _, friction] = exponents(limits)?;
@@ -36,6 +38,7 @@ pub const CLAIMS: &[Claim] = &[
         section: "7",
         statement: "friction mainly affects small amplitudes: that of the stable cycle tends to what it is for \
                     r = 0 as it grows",
+        basis: "cycle",
         scene: Some("supercritical"),
         check: |limits| {
             let at = |d: f64| {
@@ -50,6 +53,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "7",
         section: "7",
         statement: "as r goes to 0 the scenario of the smooth system returns: amplitude of the stable cycle",
+        basis: "cycle",
         scene: Some("supercritical"),
         check: |limits| {
             let parameters = oscillator(-0.3, 0.0, 0.5, 1e-3);
@@ -65,6 +69,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "7",
         section: "7",
         statement: "for D > 0 the basin is finite or infinite, as nonlinear damping has it: D3 decides",
+        basis: "border",
         scene: Some("subcritical"),
         check: |limits| {
             let mut cases = Vec::new();
@@ -82,6 +87,7 @@ pub const CLAIMS: &[Claim] = &[
         equation: "6.2.2",
         section: "6.2.2",
         statement: "for small D < 0 very little friction stabilises the rest: size of the basin over r",
+        basis: "cycle",
         scene: Some("marginal"),
         check: |limits| {
             let size = |d: f64| {

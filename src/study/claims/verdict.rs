@@ -23,6 +23,8 @@ pub struct Finding {
     pub computed: Known,
     /// How many cases this one, the worst, was chosen from.
     pub cases: usize,
+    /// In how many of these it holds as printed.
+    pub held: usize,
     /// What is certain, of all cases.
     pub mark: Option<Certainty>,
 }
@@ -42,7 +44,7 @@ pub enum Verdict {
         /// Relative difference of the corrected form, where that is an approximation.
         within: Option<f64>,
     },
-    /// It holds in some cases.
+    /// It holds in some cases, or over a part of its range.
     InPart,
     /// It does not hold.
     False,
@@ -57,7 +59,8 @@ impl Finding {
     fn new(sense: Sense, paper: f64, computed: Known) -> Self {
         let mark = Certainty::of(sense, paper, &computed);
         let (place, paper, corrected) = (String::new(), Some(paper), None);
-        Finding { sense, place, paper, corrected, computed, cases: 1, mark }
+        let finding = Finding { sense, place, paper, corrected, computed, cases: 1, held: 0, mark };
+        Finding { held: usize::from(paper.is_some_and(|value| finding.holds(value))), ..finding }
     }
 
     /// A formula and what it should approximate.
@@ -92,11 +95,11 @@ impl Finding {
             }
         }
         let computed = Known::exact(f64::from(holds));
-        let cases = all as usize;
+        let (cases, held) = (all as usize, holds as usize);
         let mark =
             if refuted { Some(Certainty::Refuted) } else { certain.then_some(Certainty::Proved) };
         let mark = mark.filter(|_| all > 0);
-        Finding { place, cases, mark, ..Self::new(Sense::Always, f64::from(all), computed) }
+        Finding { place, cases, held, mark, ..Self::new(Sense::Always, f64::from(all), computed) }
     }
 
     /// The same, but the paper is silent: its formula is one of ours.
@@ -114,19 +117,23 @@ impl Finding {
         Finding { place: place.to_string(), ..self }
     }
 
-    /// Of several findings about one claim, the one that misses most. Fails with the first error among them.
+    /// Of several findings about one claim, the one that misses most; first of all one that the corrected formula
+    /// misses too. Fails with the first error among them.
     pub fn worst<E>(findings: impl IntoIterator<Item = Result<Self, E>>) -> Result<Self, E> {
         let mut worst = Self::always::<bool>([]);
-        let (mut cases, mut mark) = (0, Some(Certainty::Proved));
+        let (mut cases, mut held, mut mark) = (0, 0, Some(Certainty::Proved));
         for finding in findings {
             let finding = finding?;
             cases += 1;
+            held += finding.held;
             mark = Certainty::and(mark, finding.mark);
-            if cases == 1 || finding.strain() > worst.strain() {
+            let order =
+                |it: &Self| (it.corrected.is_some_and(|value| !it.holds(value)), it.strain());
+            if cases == 1 || order(&finding) > order(&worst) {
                 worst = finding;
             }
         }
-        Ok(Finding { cases, mark, ..worst })
+        Ok(Finding { cases, held, mark, ..worst })
     }
 
     /// The paper's number minus the computed one; the corrected one's where the paper is silent.
@@ -183,23 +190,24 @@ impl Finding {
     /// The difference between the paper's number and the computed one is compared with
     /// [`Finding::bound`]: the known error for an equation (with the rounding of the formula), a tenth
     /// for an approximation, the difference further away for a limit. What fails is corrected if the
-    /// corrected formula passes the same comparison; a statement about cases holds in part if it holds in
-    /// any.
+    /// corrected formula passes the same comparison in all cases; a statement about cases or an approximation holds
+    /// in part if it holds in any.
     pub fn verdict(&self) -> Verdict {
         let approximate = matches!(self.sense, Sense::Near | Sense::Tends { .. });
-        match (self.paper.or(self.corrected), self.corrected) {
-            (Some(value), _) if self.holds(value) => {
+        let counts = matches!(self.sense, Sense::Near | Sense::Always);
+        match self.corrected {
+            _ if self.held == self.cases => {
                 if approximate && self.miss() > ROUNDING {
                     Verdict::Approximates { within: self.miss() }
                 } else {
                     Verdict::Agrees
                 }
             }
-            (_, Some(corrected)) if self.paper.is_some() && self.holds(corrected) => {
+            Some(corrected) if self.paper.is_some() && self.holds(corrected) => {
                 let within = self.part(corrected - self.computed.value);
                 Verdict::Corrected { within: approximate.then_some(within) }
             }
-            _ if self.sense == Sense::Always && self.computed.value > 0.0 => Verdict::InPart,
+            _ if counts && self.held > 0 => Verdict::InPart,
             _ => Verdict::False,
         }
     }
@@ -315,6 +323,26 @@ mod tests {
         assert_eq!(holds([true, false, true]).verdict(), Verdict::InPart);
         assert_eq!(holds([true, false, false]).place, "first fails at 1");
         assert_eq!(holds([false; 3]).verdict(), Verdict::False);
+    }
+
+    #[test]
+    fn an_approximation_over_a_range_may_hold_in_a_part_of_it() {
+        let over = |papers: [f64; 3]| {
+            let near = papers.map(|paper| Ok::<_, ()>(Finding::near(paper, known(1.0))));
+            Finding::worst(near).unwrap()
+        };
+        assert!(matches!(over([1.0, 1.09, 0.95]).verdict(), Verdict::Approximates { .. }));
+        let part = over([1.3, 1.05, 0.8]);
+        assert_eq!((part.verdict(), part.held, part.cases), (Verdict::InPart, 1, 3));
+        assert_eq!(part.paper, Some(1.3));
+        assert_eq!(over([1.3, 1.2, 0.8]).verdict(), Verdict::False);
+        // A correction that fails anywhere is none.
+        let mended = |corrected: [f64; 2]| {
+            let of = |value| Ok::<_, ()>(Finding::near(-3.0, known(1.0)).corrected(value));
+            Finding::worst(corrected.map(of)).unwrap().verdict()
+        };
+        assert!(matches!(mended([1.0, 1.05]), Verdict::Corrected { .. }));
+        assert_eq!(mended([1.0, 1.2]), Verdict::False);
     }
 
     #[test]
