@@ -88,7 +88,7 @@ impl Varied {
             Varied::StaticGuide => "N",
             Varied::Law(row) => LAW_NUMBERS[row].2,
             Varied::Coefficient(power) | Varied::Ratio(power) => COEFFICIENT_UNITS[power],
-            Varied::Frequency => "1/s",
+            Varied::Frequency => "Hz",
             Varied::ModalMass => "kg",
         }
     }

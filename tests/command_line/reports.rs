@@ -111,6 +111,32 @@ fn an_answer_in_a_file_says_where_it_comes_from_and_replaces_nothing() {
     assert_eq!(std::fs::read_to_string(&path).unwrap(), plain);
 }
 
+/// In a clone: a commit of the repository, perhaps with changes. In an unpacked package there is none.
+#[test]
+fn a_build_knows_the_revision_that_git_knows() {
+    let git = |words: &[&str]| {
+        let folder = env!("CARGO_MANIFEST_DIR");
+        std::process::Command::new("git").args(["-C", folder]).args(words).output().ok()
+    };
+    let top = git(&["rev-parse", "--show-prefix"]).filter(|it| it.status.success());
+    let is_clone = top.is_some_and(|it| it.stdout.trim_ascii().is_empty());
+    let revision = &json("cycles")["provenance"]["revision"];
+    assert_eq!(revision.is_string(), is_clone, "{revision}");
+    if let Some(revision) = revision.as_str() {
+        let commit = revision.strip_suffix("-dirty").unwrap_or(revision);
+        assert!(git(&["cat-file", "-e", commit]).unwrap().status.success(), "{revision}");
+    }
+}
+
+#[test]
+fn a_stiffness_without_the_unit_that_was_meant_brings_a_warning() {
+    let warned = run(&["belt", "textbook", "--set", "c=5"]);
+    assert_eq!(warned.code, 0);
+    assert_eq!(warned.err.lines().count(), 1, "{}", warned.err);
+    assert!(warned.err.contains("x0 = 5.5 m, the spring's deflection"), "{}", warned.err);
+    assert_eq!(run(&["belt", "textbook"]).err, "");
+}
+
 /// In every row, each column with bounds: the number lies between them, up to the error of the search.
 #[test]
 fn rows_have_the_bounds_of_their_numbers() {

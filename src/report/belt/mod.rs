@@ -203,7 +203,7 @@ fn numbers_of_mode(mode: &Modal) -> Vec<(String, String)> {
     let Modal { frequency, mass, damping_ratio, friction, static_guide } = mode;
     let named = |name: &str, value, unit| (name.to_owned(), with_unit(value, 12, unit));
     let one = [
-        named("frequency", *frequency, "1/s"),
+        named("frequency", *frequency, "Hz"),
         named("modal_mass", *mass, "kg"),
         named("R", *friction, "N"),
     ];

@@ -59,10 +59,10 @@ pub fn parse(name: &str, file: &str, text: &str) -> Result<Mode, Misread> {
 }
 
 fn mode(name: &str, read: &ModeFile) -> Result<Mode, Complaint> {
-    /// Allowed frequencies, in 1/s.
+    /// Allowed frequencies, in Hz.
     const FREQUENCIES: (f64, f64) = (1e-9, 1e12);
     let rate = Dimension::new(0, 0, -1);
-    let frequency = number("frequency", Some(&read.frequency), rate, "1/s", FREQUENCIES, 1.0)?;
+    let frequency = number("frequency", Some(&read.frequency), rate, "Hz", FREQUENCIES, 1.0)?;
     let mass = quantity_as("modal_mass", Quantity::Mass, &read.modal_mass)?;
     let damping_ratio = polynomial("damping_ratio", read.damping_ratio.get_ref())?;
     let guide = |given| quantity_as("R", Quantity::Friction, given);

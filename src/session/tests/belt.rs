@@ -215,6 +215,13 @@ fn a_machine_opens_from_its_file_and_the_table_beside_it() {
         assert!(!trial.notice().contains('\n'));
         assert_eq!(trial.session.running().unwrap().machine.name, "slideway");
     }
+    // What is unlikely is read, and told, also where it is typed.
+    read(&mut trial, "b.toml", Ok(text("textbook.toml").replace("5 N/mm", "5")));
+    assert!(trial.notice().starts_with("x0 = 5.5 m"), "{}", trial.notice());
+    trial.press(":set<space>c=5000<enter>");
+    assert!(!trial.notice().contains("x0"), "{}", trial.notice());
+    trial.press(":set<space>c=5<enter>");
+    assert!(trial.notice().starts_with("x0 = 5.5 m"), "{}", trial.notice());
 }
 
 #[test]
