@@ -14,10 +14,10 @@ fn main() {
     for source in SOURCES.iter().filter(|source| Path::new(source).exists()) {
         println!("cargo::rerun-if-changed={source}");
     }
-    if std::env::var_os("HOPFSCOPE_REVISION").is_none() {
-        if let Some(revision) = revision() {
-            println!("cargo::rustc-env=HOPFSCOPE_REVISION={revision}");
-        }
+    if std::env::var_os("HOPFSCOPE_REVISION").is_none()
+        && let Some(revision) = revision()
+    {
+        println!("cargo::rustc-env=HOPFSCOPE_REVISION={revision}");
     }
 }
 
@@ -39,9 +39,9 @@ fn revision() -> Option<String> {
     Some(commit + "-dirty")
 }
 
-/// What git prints; `None` if it is missing or fails.
+/// What git prints; `None` if it is missing or fails. It takes no lock that a command of the user may want.
 fn git(arguments: &[&str]) -> Option<String> {
-    let output = Command::new("git").args(arguments).output().ok()?;
+    let output = Command::new("git").arg("--no-optional-locks").args(arguments).output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;
     output.status.success().then(|| text.trim().to_owned())
 }

@@ -61,6 +61,13 @@ fn every_answer_shown_is_the_one_that_is_given() {
     assert!(shown_answers > 1);
 }
 
+#[test]
+fn the_oldest_rust_is_the_one_that_cargo_asks_for() {
+    let readme = pages().into_iter().find(|(name, _)| name == "README.md").unwrap().1;
+    let promised = format!("With Rust {} or newer", env!("CARGO_PKG_RUST_VERSION"));
+    assert!(readme.contains(&promised), "README.md lacks {promised:?}");
+}
+
 /// The names of the commands in the help text.
 fn commands() -> BTreeSet<String> {
     let help = run(&["--help"]).out;
