@@ -68,21 +68,20 @@ pub fn kicks(proof: &Proof, hints: [Option<f64>; 2]) -> ProvedKicks {
     if innermost.is_some_and(|cycle| cycle.stable) {
         return open(ATTRACTS);
     }
-    let (edge, clearances) = match innermost.and_then(|cycle| cycle.enclosure) {
-        Some(it) => (Some(ProvedEdge::Cycle), [it.clearance, -it.q_min - r]),
-        None => {
-            let guess = hints[0].map(|hint| hint - r.middle());
-            let sides = [0, 1].map(|side| {
-                let mut known = Interval::new(0.0, f64::INFINITY);
-                threshold(guess, |clearance| at_rest(&mut map, side, clearance, &mut known))
-            });
-            let [Some(right), Some(left)] = sides else { return open(NO_EDGE) };
-            if right.upper().min(left.upper()) == f64::INFINITY {
-                return open(NO_EDGE);
-            }
-            let none = proof.is_complete() && proof.cycles.is_empty();
-            (none.then_some(ProvedEdge::Separatrix), [right, left])
+    let (edge, clearances) = if let Some(it) = innermost.and_then(|cycle| cycle.enclosure) {
+        (Some(ProvedEdge::Cycle), [it.clearance, -it.q_min - r])
+    } else {
+        let guess = hints[0].map(|hint| hint - r.middle());
+        let sides = [0, 1].map(|side| {
+            let mut known = Interval::new(0.0, f64::INFINITY);
+            threshold(guess, |clearance| at_rest(&mut map, side, clearance, &mut known))
+        });
+        let [Some(right), Some(left)] = sides else { return open(NO_EDGE) };
+        if right.upper().min(left.upper()) == f64::INFINITY {
+            return open(NO_EDGE);
         }
+        let none = proof.is_complete() && proof.cycles.is_empty();
+        (none.then_some(ProvedEdge::Separatrix), [right, left])
     };
     let displacement = smaller(clearances[0] + r, clearances[1] + r);
     let [below, above] =

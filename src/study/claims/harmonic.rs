@@ -14,6 +14,7 @@ use crate::numerics::Interval;
 use crate::numerics::elementary::{powi, sin};
 use crate::numerics::interval::PI as PI_BOUNDS;
 use crate::oscillator::Parameters;
+use crate::proof::Enclosure;
 use crate::study::harmonic_error::harmonic_balance;
 
 pub const CLAIMS: &[Claim] = &[
@@ -55,7 +56,12 @@ pub const CLAIMS: &[Claim] = &[
         statement: "cycles have the frequency 1: over D = -0.9 .. -0.01",
         basis: "cycle",
         scene: Some("fig09"),
-        check: |limits| over_dampings(limits, frequency),
+        check: |limits| {
+            over_dampings(limits, |_, cycle| {
+                let bounds = |it: &Enclosure| PI_BOUNDS.twice() / it.period;
+                Ok(Finding::near(1.0, of_cycle(cycle, TAU / cycle.period, bounds)))
+            })
+        },
     },
     Claim {
         equation: "5.2",
@@ -213,12 +219,6 @@ fn over_dampings(
         let cycle = smallest(&parameters, limits)?;
         Ok(compare(&parameters, &cycle)?.at(place(&parameters)))
     }))
-}
-
-/// Frequency 1 against that of a cycle.
-fn frequency(_: &Parameters, cycle: &BoundedCycle) -> Result<Finding, Reason> {
-    let computed = of_cycle(cycle, TAU / cycle.period, |it| PI_BOUNDS.twice() / it.period);
-    Ok(Finding::near(1.0, computed))
 }
 
 /// Whether the harmonic amplitude lies where `holds` says, given the smaller and the larger extent.
