@@ -9,6 +9,7 @@ use std::process::{Command, Stdio};
 use hopfscope::flow::Limits;
 use hopfscope::oscillator::Parameters;
 use hopfscope::study::cycle::cycles;
+use hopfscope::words::provenance::Checksum;
 use program::{Ran, command, run};
 use serde_json::Value;
 
@@ -220,6 +221,39 @@ fn a_file_of_something_else_is_refused_and_left_alone() {
     assert_eq!(fs::read_to_string(&path).unwrap(), whole);
 }
 
+#[test]
+fn an_altered_row_is_refused_and_one_without_a_checksum_computed_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, beside] = ["rows.csv", "rows.csv.provenance"].map(|name| folder.path().join(name));
+    let line = format!("--over D=-0.5:-0.1:9 --measure margin --output {}", path.display());
+    let resume = || scan(&format!("{line} --resume"));
+    assert_eq!(scan(&line).code, 0);
+    let [whole, provenance] = [&path, &beside].map(|file| fs::read_to_string(file).unwrap());
+    let rows: Vec<&str> = whole.split_inclusive('\n').collect();
+    // A digit in the middle of a row in the middle.
+    let digit = rows[5].rfind('1').unwrap();
+    let altered =
+        whole.replace(rows[5], &format!("{}2{}", &rows[5][..digit], &rows[5][digit + 1..]));
+    fs::write(&path, &altered).unwrap();
+    resume().is_refused(&["rows.csv: altered", "first 9 rows"]);
+    assert_eq!(fs::read_to_string(&path).unwrap(), altered, "left alone");
+    // Killed between a row and its checksum: the rows up to the checksum stay, the others are computed.
+    let all = rows[1..].iter().fold(Checksum::NONE, |sum, row| sum.and(row.as_bytes()));
+    let four = rows[1..5].iter().fold(Checksum::NONE, |sum, row| sum.and(row.as_bytes()));
+    assert!(provenance.contains(&all.to_string()), "{provenance}");
+    fs::write(&beside, provenance.replace(&all.to_string(), &four.to_string())).unwrap();
+    let resumed = resume();
+    assert_eq!((resumed.code, resumed.err.as_str()), (0, ""));
+    assert_eq!(fs::read_to_string(&path).unwrap(), whole);
+    assert!(fs::read_to_string(&beside).unwrap().contains(&all.to_string()));
+    // Where nothing can be known, that is said.
+    fs::remove_file(&beside).unwrap();
+    fs::write(&path, &altered).unwrap();
+    let resumed = resume();
+    assert_eq!((resumed.code, resumed.err.lines().count()), (0, 1), "{}", resumed.err);
+    assert!(resumed.err.contains("no checksum says whether 7 rows"), "{}", resumed.err);
+}
+
 /// A scan whose first row takes long, because its motion never ends, and whose other rows take no time.
 const HELD_UP: &str =
     "--over D=-0.2:0.6:21 --set D3=0.5 --set D2=0.2 --set q0=2 --measure rest --jobs 2";
@@ -239,20 +273,29 @@ fn rows_that_wait_behind_a_slow_one_outlive_a_kill() {
     child.kill().unwrap();
     child.wait().unwrap();
     assert_eq!(fs::read_to_string(&path).unwrap().lines().count(), 1, "only the line of names");
-    // A mark shows where a row comes from; a line without its end is cut and computed again.
+    // A mark with its checksum shows where a row comes from; an altered row, and a line without its end, are
+    // computed again.
     let (journal, last) = (noted(), noted().lines().last().unwrap().to_owned());
-    let second = journal.lines().find(|line| line.starts_with("1\t")).unwrap().to_owned();
-    assert_ne!(second, last);
-    let marked = format!("{},from the journal", second.trim_end_matches(','));
+    let line_of = |index: &str| {
+        let line = journal.lines().find(|line| line.starts_with(index)).unwrap().to_owned();
+        assert_ne!(line, last);
+        line
+    };
+    let (second, third) = (line_of("1\t"), line_of("2\t"));
+    let row = |line: &str| line.splitn(3, '\t').nth(2).unwrap().to_owned();
+    let marked = format!("{},from the journal", row(&second).trim_end_matches(','));
+    let checksum = Checksum::NONE.and(format!("{marked}\n").as_bytes());
     let cut = journal.len() - last.len() / 2;
-    fs::write(&ahead, journal[..cut].replace(&second, &marked)).unwrap();
+    let altered = journal[..cut]
+        .replace(&second, &format!("1\t{checksum}\t{marked}"))
+        .replace(&third, &format!("{},altered", third.trim_end_matches(',')));
+    fs::write(&ahead, altered).unwrap();
     let resumed = command(&words().chain(["--resume"]).collect::<Vec<_>>()).status().unwrap();
     assert!(resumed.success() && !ahead.exists());
     let found = fs::read_to_string(&path).unwrap();
     let whole = scan(&format!("{HELD_UP} --until 100000")).out;
-    let row = |text: &str| text.split_once('\t').unwrap().1.to_owned();
-    assert!(found.contains(&row(&marked)), "{found}");
-    assert_eq!(found.replace(&row(&marked), &row(&second)), whole);
+    assert!(found.contains(&marked), "{found}");
+    assert_eq!(found.replace(&marked, &row(&second)), whole);
     // The journal of another scan is ignored.
     fs::write(&path, "").unwrap();
     fs::write(&ahead, "Dear diary,\n1\t-0.1,nonsense\n").unwrap();

@@ -4,6 +4,7 @@ use std::fmt;
 use std::io;
 use std::process::ExitCode;
 
+use crate::runtime::standard::tell;
 use crate::scene::misread::printable;
 
 /// Why a command has no answer.
@@ -21,14 +22,27 @@ impl Failure {
         Failure::Usage(first_paragraphs(&error.render().to_string()))
     }
 
-    /// A file that cannot be read or written.
+    /// A file that cannot be read.
     pub fn file(path: &std::path::Path, error: &io::Error) -> Self {
         Failure::Usage(format!("{}: {error}", path.display()))
     }
 
+    /// A file that cannot be written: wrong input if no file can have this path.
+    pub fn unwritten(path: &std::path::Path, error: &io::Error) -> Self {
+        let line = format!("{} not written: {error}", path.display());
+        match error.kind() {
+            io::ErrorKind::NotFound
+            | io::ErrorKind::AlreadyExists
+            | io::ErrorKind::NotADirectory
+            | io::ErrorKind::IsADirectory
+            | io::ErrorKind::InvalidFilename => Failure::Usage(line),
+            _ => Failure::Unanswered(line),
+        }
+    }
+
     /// Prints the line to standard error.
     pub fn report(&self) -> ExitCode {
-        eprintln!("hopfscope: {self}");
+        tell(self);
         match self {
             Failure::Usage(_) => ExitCode::from(2),
             Failure::Unanswered(_) => ExitCode::FAILURE,

@@ -9,6 +9,7 @@ use super::output::{Format, print};
 use super::wrapped::on_terminal;
 use crate::report::table::Table;
 use crate::report::{csv, json};
+use crate::runtime::standard::tell;
 use crate::session::commands;
 use crate::session::state::context::{ContextSpec, contexts};
 
@@ -68,7 +69,7 @@ impl Arguments {
         })?;
         if let (Some(path), Format::Table) = (self.settings.path(), self.format) {
             let there = if path.exists() { "" } else { " (not there)" };
-            eprintln!("hopfscope: settings file: {}{there}", path.display());
+            tell(format!("settings file: {}{there}", path.display()));
         }
         Ok(())
     }

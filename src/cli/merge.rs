@@ -1,7 +1,6 @@
 //! `hopfscope merge`: joins the parts of a scan if none is missing.
 
-use std::fs::{self, File};
-use std::io::{self, BufRead, BufReader, BufWriter, Write};
+use std::io::{self, BufWriter, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -9,14 +8,16 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::failure::Failure;
-use super::output::{holds_something, without};
+use super::output::{unwritten, without};
 use super::part::Shard;
 use super::scan::{ScanCommand, ScanRequest};
 use crate::flow::Limits;
 use crate::report::scan::RowForm;
 use crate::runtime::merging::{Conflict, Part, merge};
+use crate::runtime::new_file::{NewFile, Readers};
 use crate::runtime::provenance_file;
-use crate::words::provenance::Provenance;
+use crate::runtime::standard::tell;
+use crate::words::provenance::{Checksum, Provenance};
 
 /// Merges the parts of a scan, or lists the rows that are missing and how to compute them
 #[derive(Debug, Args)]
@@ -64,12 +65,23 @@ impl Arguments {
         let parts: Vec<Part> = sources.iter().map(PartSource::part).collect();
         let ScanRequest { scan, form, .. } = &first.asked;
         let recheck = self.check.then_some(&Limits::PATIENT);
-        let mut output = self.output.as_deref().map(GrowingFile::begin).transpose()?;
-        let mut write = |line: &[u8]| output.as_mut().map_or(Ok(()), |output| output.write(line));
+        let begun = |path: &PathBuf| {
+            let file = NewFile::begin(path, Readers::Usual);
+            file.map(BufWriter::new).map_err(|error| Failure::unwritten(path, &error))
+        };
+        let mut output = self.output.as_ref().map(begun).transpose()?;
+        // The first line is the heading.
+        let mut checksum: Option<Checksum> = None;
+        let mut write = |line: &[u8]| {
+            checksum = Some(checksum.map_or(Checksum::NONE, |checksum| checksum.and(line)));
+            output.as_mut().map_or(Ok(()), |output| output.write_all(line))
+        };
         let missing =
-            merge(scan, *form, &parts, recheck, &mut write).map_err(|conflict| match conflict {
-                Conflict::Output(_) => Failure::Unanswered(conflict.to_string()),
-                _ => Failure::Usage(conflict.to_string()),
+            merge(scan, *form, &parts, recheck, &mut write).map_err(|conflict| {
+                match (&conflict, &self.output) {
+                    (Conflict::Output(error), Some(path)) => Failure::unwritten(path, error),
+                    _ => Failure::Usage(conflict.to_string()),
+                }
             })?;
         if !missing.is_empty() {
             for gap in &missing {
@@ -81,10 +93,15 @@ impl Arguments {
             let error = io::Error::from(io::ErrorKind::NotFound);
             return Err(Failure::file(path, &error));
         }
-        if let Some(output) = output {
-            let arguments = without(&first.arguments, &OWN);
-            let command = command(arguments, *form, output.path);
-            output.end(self.force, &Provenance { command, ..first.provenance.clone() })?;
+        if let (Some(output), Some(path)) = (output, &self.output) {
+            let written = output.into_inner().map_err(io::IntoInnerError::into_error);
+            written
+                .and_then(|file| file.end(self.force))
+                .map_err(|error| unwritten(path, &error, "--force replaces it"))?;
+            let command = command(without(&first.arguments, &OWN), *form, path);
+            let provenance = Provenance { command, checksum, ..first.provenance.clone() };
+            provenance_file::write(path, &provenance)
+                .map_err(|error| Failure::unwritten(path, &error))?;
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -99,6 +116,8 @@ impl Arguments {
                 for file in files {
                     sources.push(PartSource::read(file)?);
                 }
+            } else if path.exists() && !path.is_file() {
+                return Err(Failure::Usage(format!("{}: not a file", path.display())));
             } else if path.exists() {
                 sources.push(PartSource::read(path.clone())?);
             } else {
@@ -138,7 +157,8 @@ impl PartSource {
 
     fn part(&self) -> Part {
         let ScanRequest { points, headed, .. } = &self.asked;
-        Part { path: self.path.clone(), points: points.clone(), headed: *headed }
+        let (path, checksum) = (self.path.clone(), self.provenance.checksum);
+        Part { path, points: points.clone(), headed: *headed, checksum }
     }
 
     /// Refuses a part of another scan or from another version.
@@ -173,7 +193,7 @@ fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[PartSource]) 
         if !piece.is_empty() {
             let (first, last) = (piece.start + 1, piece.end);
             let command = command_for(&piece, missing, sources);
-            eprintln!("hopfscope: {name}rows {first} to {last} are missing: {command}");
+            tell(format!("{name}rows {first} to {last} are missing: {command}"));
         }
     }
 }
@@ -211,74 +231,4 @@ fn command(mut arguments: Vec<String>, form: RowForm, path: &Path) -> String {
     }
     arguments.extend(["--output".to_owned(), path.to_string_lossy().into_owned()]);
     Provenance::of(&arguments).command
-}
-
-/// A file that gets its name only when it is complete.
-struct GrowingFile<'a> {
-    path: &'a Path,
-    /// The temporary file; the file itself if that is a device or a pipe.
-    growing: PathBuf,
-    file: BufWriter<File>,
-}
-
-impl<'a> GrowingFile<'a> {
-    fn begin(path: &'a Path) -> Result<Self, Failure> {
-        let (growing, file) = if fs::metadata(path).is_ok_and(|file| !file.is_file()) {
-            (path.to_owned(), File::create(path))
-        } else {
-            let mut name = path.as_os_str().to_owned();
-            name.push(format!(".{}", std::process::id()));
-            let growing = PathBuf::from(name);
-            let file = File::create_new(&growing);
-            (growing, file)
-        };
-        let file = file.map_err(|error| Failure::file(path, &error))?;
-        Ok(GrowingFile { path, growing, file: BufWriter::new(file) })
-    }
-
-    fn write(&mut self, line: &[u8]) -> io::Result<()> {
-        self.file.write_all(line)
-    }
-
-    /// Gives the file its name, unless a file with other content has it.
-    fn end(mut self, force: bool, provenance: &Provenance) -> Result<(), Failure> {
-        let name = self.path.display();
-        let unwritten = |error| Failure::Unanswered(format!("{name} not written: {error}"));
-        self.file.flush().map_err(unwritten)?;
-        if self.growing != self.path {
-            if !force && holds_something(self.path) && !self.is_there().map_err(unwritten)? {
-                let line = format!("{name} holds something else; --force replaces it");
-                return Err(Failure::Usage(line));
-            }
-            fs::rename(&self.growing, self.path).map_err(unwritten)?;
-        }
-        provenance_file::write(self.path, provenance).map_err(unwritten)
-    }
-
-    /// Whether the existing file has the same content.
-    fn is_there(&self) -> io::Result<bool> {
-        let [mut old, mut new] =
-            [File::open(self.path)?, File::open(&self.growing)?].map(BufReader::new);
-        loop {
-            let (one, other) = (old.fill_buf()?, new.fill_buf()?);
-            let length = one.len().min(other.len());
-            if one[..length] != other[..length] {
-                return Ok(false);
-            }
-            if length == 0 {
-                return Ok(one.is_empty() && other.is_empty());
-            }
-            old.consume(length);
-            new.consume(length);
-        }
-    }
-}
-
-/// Removes an incomplete file.
-impl Drop for GrowingFile<'_> {
-    fn drop(&mut self) {
-        if self.growing != self.path {
-            drop(fs::remove_file(&self.growing));
-        }
-    }
 }

@@ -2,7 +2,7 @@
 //!
 //! `hopfscope [SCENE]` opens the explorer; every other command answers one question without a terminal
 //! and ends. What a command prints to standard output is its answer and nothing else; notes and errors
-//! go to standard error, one line each. Exit codes: 0 answered, 1 could not be computed, 2 bad input.
+//! go to standard error, one line each. Exit codes: 0 answered, 1 could not be computed or written, 2 bad input.
 
 mod basin;
 mod belt;
@@ -42,8 +42,11 @@ mod wrapped;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::{Parser, Subcommand};
+use signal_hook::consts::SIGXFSZ;
+use signal_hook::flag;
 
 use failure::Failure;
 
@@ -152,6 +155,8 @@ fn settings_last(mut words: Vec<OsString>) -> Vec<OsString> {
 
 /// Parses the command line of this process, runs one command and returns its exit code.
 pub fn main() -> ExitCode {
+    // At the limit of its size the write of a file fails; it does not end the program.
+    drop(flag::register(SIGXFSZ, Arc::default()));
     let result = match Cli::try_parse_from(settings_last(std::env::args_os().collect())) {
         Ok(Cli { command: Some(command), .. }) => command.run(),
         Ok(Cli { command: None, explore }) => explore.run(),

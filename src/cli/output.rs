@@ -1,6 +1,6 @@
 //! The options for printing an answer, and the printing.
 
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -9,7 +9,8 @@ use super::failure::Failure;
 use super::timing::timed;
 use super::wrapped::on_terminal;
 use crate::flow::Reason;
-use crate::runtime::provenance_file;
+use crate::runtime::new_file::{self, Readers};
+use crate::runtime::{provenance_file, standard};
 
 /// How an answer is printed.
 #[derive(Clone, Debug, Args)]
@@ -53,12 +54,9 @@ impl Output {
     /// file.
     pub fn print(&self, answer: &str) -> Result<(), Failure> {
         let Some(path) = &self.write else { return print(&sourced(self.format, answer)) };
-        let content = sourced(self.format, answer).into_bytes();
-        if holds_something(path) && std::fs::read(path).ok().as_ref() != Some(&content) {
-            let line = format!("{} holds something else; --write replaces nothing", path.display());
-            return Err(Failure::Usage(line));
-        }
-        write(path, &content, true)?;
+        let content = sourced(self.format, answer);
+        let written = new_file::write(path, content.as_bytes(), Readers::Usual, false);
+        written.map_err(|error| unwritten(path, &error, "--write replaces nothing"))?;
         if self.format == Format::Json {
             return Ok(());
         }
@@ -69,7 +67,7 @@ impl Output {
 /// Writes the provenance of a file beside it.
 pub fn write_source(path: &Path) -> Result<(), Failure> {
     provenance_file::write(path, &provenance_file::of_process())
-        .map_err(|error| Failure::file(path, &error))
+        .map_err(|error| Failure::unwritten(&provenance_file::beside(path), &error))
 }
 
 /// The answer; with its provenance if it is a JSON document.
@@ -108,8 +106,7 @@ pub enum Format {
 
 /// Prints an answer. A closed pipe is not an error: its reader has seen enough.
 pub fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match standard::print(text) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(Failure::Unanswered(format!("cannot write to standard output: {error}")))
         }
@@ -119,12 +116,16 @@ pub fn print(text: &str) -> Result<(), Failure> {
 
 /// Writes a whole file. Fails without `force` if the file has other content.
 pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
-    if !force && holds_something(path) && std::fs::read(path).ok().as_deref() != Some(content) {
-        let name = path.display();
-        return Err(Failure::Usage(format!("{name} holds something else; --force replaces it")));
+    new_file::write(path, content, Readers::Usual, force)
+        .map_err(|error| unwritten(path, &error, "--force replaces it"))
+}
+
+/// A file that cannot be written; `how` says how it can be replaced if it holds something else.
+pub fn unwritten(path: &Path, error: &io::Error, how: &str) -> Failure {
+    if error.kind() == io::ErrorKind::AlreadyExists {
+        return Failure::Usage(format!("{} holds something else; {how}", path.display()));
     }
-    std::fs::write(path, content)
-        .map_err(|error| Failure::Unanswered(format!("{} not written: {error}", path.display())))
+    Failure::unwritten(path, error)
 }
 
 /// A command line without these options, each given with whether it takes a value.

@@ -10,6 +10,7 @@ use super::input;
 use super::look::Looks;
 use super::output::print;
 use super::start::StartOptions;
+use crate::runtime::new_file::{self, Readers};
 use crate::runtime::{bounded, replay};
 use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
@@ -111,11 +112,12 @@ fn write(
     (format, paper): (ScreenFormat, Paper),
     screens: &[(String, Buffer)],
 ) -> Result<(), Failure> {
-    std::fs::create_dir_all(directory).map_err(|error| Failure::file(directory, &error))?;
+    std::fs::create_dir_all(directory).map_err(|error| Failure::unwritten(directory, &error))?;
     for (name, screen) in screens {
         let path = directory.join(format!("{name}.{}", format.extension()));
-        std::fs::write(&path, format.write(screen, paper))
-            .map_err(|error| Failure::file(&path, &error))?;
+        let content = format.write(screen, paper);
+        new_file::write(&path, content.as_bytes(), Readers::Usual, true)
+            .map_err(|error| Failure::unwritten(&path, &error))?;
     }
     Ok(())
 }

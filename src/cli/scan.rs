@@ -1,6 +1,6 @@
 //! `hopfscope scan`: the same measures at every point of a line or grid of parameters.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, IsTerminal};
 use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -25,6 +25,7 @@ use crate::runtime::provenance_file;
 use crate::runtime::scan_file::{LineRefusal, ScanFile};
 use crate::runtime::scanning::{Processors, Taker, rows};
 use crate::runtime::signals::exit_code;
+use crate::runtime::standard::{self, tell};
 use crate::study::basin::Window;
 use crate::study::kicks::RandomKick;
 use crate::study::measure::{Conditions, MEASURES, Measure};
@@ -144,10 +145,7 @@ impl Sink {
 
     fn add(&mut self, scan: &Scan, index: usize, row: &ScanRow) -> io::Result<()> {
         match self {
-            Sink::Standard(form) => {
-                io::stdout().write_all(form.line(scan, index, row).as_bytes())?;
-                io::stdout().flush()
-            }
+            Sink::Standard(form) => standard::print(&form.line(scan, index, row)),
             Sink::File(file) => file.add(scan, index, row),
         }
     }
@@ -305,16 +303,27 @@ impl ScanCommand {
             return Err(Failure::Usage(line));
         }
         let limits = Limits { interrupted, ..Limits::PATIENT };
+        let points = points.clone();
         let opened = if self.resume {
-            ScanFile::resume(path, scan, form, headed, points.clone(), &limits)
+            ScanFile::resume(path, scan, form, headed, points, provenance, &limits)
         } else {
-            ScanFile::create(path, scan, form, headed, points.clone()).map(|file| (file, 0))
+            ScanFile::create(path, scan, form, headed, points, provenance).map(|file| (file, 0))
         };
         let (file, done) = opened.map_err(|refusal| match refusal {
-            LineRefusal::Io(error) => Failure::file(path, &error),
+            LineRefusal::Io(error) => match error.kind() {
+                io::ErrorKind::InvalidData | io::ErrorKind::InvalidInput => {
+                    Failure::file(path, &error)
+                }
+                _ => Failure::unwritten(path, &error),
+            },
             other => Failure::Usage(format!("{name}: {other}")),
         })?;
-        provenance_file::write(path, &provenance).map_err(|error| Failure::file(path, &error))?;
+        if file.unchecked > 0 {
+            let rows = file.unchecked;
+            tell(format!(
+                "note: {name}: no checksum says whether {rows} rows are as they were written"
+            ));
+        }
         Ok((Sink::File(file), done))
     }
 
@@ -332,12 +341,12 @@ impl ScanCommand {
     fn report(&self, tally: &Tally, signal: Option<i32>) -> ExitCode {
         let Some(signal) = signal else {
             if tally.given_up > 0 {
-                eprintln!("hopfscope: note: {tally}; the last column says why");
+                tell(format!("note: {tally}; the last column says why"));
             }
             return ExitCode::SUCCESS;
         };
         let again = if self.output.is_some() { "; --resume continues" } else { "" };
-        eprintln!("hopfscope: stopped: {tally}{again}");
+        tell(format!("stopped: {tally}{again}"));
         exit_code(signal).into()
     }
 }

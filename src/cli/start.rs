@@ -10,6 +10,7 @@ use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
 use crate::flow::quality::TOLERANCE_RANGE;
 use crate::flow::{METHODS, Method, Problem};
 use crate::oscillator::{Interval, PARAMETERS, ParameterBox, Symbol};
+use crate::runtime::standard::tell;
 use crate::scene::Scene;
 use crate::scene::library::{PLAIN, find};
 
@@ -123,9 +124,7 @@ impl StartOptions {
     /// Notes on standard error that studies of cycles ignore `--method`, if that option was given.
     pub fn note_own_method(&self) {
         if self.method.is_some() {
-            eprintln!(
-                "hopfscope: note: cycles are always followed by one method; --method is ignored"
-            );
+            tell("note: cycles are always followed by one method; --method is ignored");
         }
     }
 }

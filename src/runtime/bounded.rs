@@ -1,29 +1,57 @@
 //! Files that are read up to a maximum length, because a device or a pipe could be endless.
 
-use std::fs::File;
-use std::io::{self, Read};
+use std::fs::OpenOptions;
+use std::io::{self, ErrorKind, IsTerminal, Read};
+use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
 use std::path::Path;
+
+use rustix::fs::OFlags;
+
+use super::new_file::block;
 
 /// Longest file that is read, in bytes.
 const LONGEST: u64 = 64 << 20;
 
-/// The content of a file. Fails if the file cannot be read or is too long.
+/// The content of a file or a pipe. Fails if it cannot be read or is too long, if nothing writes to the pipe,
+/// and for a terminal: it would wait there for an end that the user does not know about.
 pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
+    let flags = i32::try_from(flags.bits()).unwrap_or(0);
+    let mut file = OpenOptions::new().read(true).custom_flags(flags).open(path)?;
+    let kind = file.metadata()?;
+    if file.is_terminal() {
+        return Err(refused("a terminal, not a file"));
+    }
     let mut held = Vec::new();
-    File::open(path)?.take(LONGEST + 1).read_to_end(&mut held)?;
-    if held.len() as u64 > LONGEST {
+    if kind.file_type().is_fifo() {
+        // A pipe without a writer is at its end; one whose writer is not ready yet would block.
+        let mut first = [0; 1 << 12];
+        match file.read(&mut first) {
+            Ok(0) => return Err(refused("nothing is written to this pipe")),
+            Ok(length) => held.extend_from_slice(&first[..length]),
+            Err(why) if why.kind() == ErrorKind::WouldBlock => {}
+            Err(why) => return Err(why),
+        }
+    }
+    block(&file)?;
+    if kind.len() <= LONGEST {
+        (&file).take(LONGEST + 1 - held.len() as u64).read_to_end(&mut held)?;
+    }
+    if held.len() as u64 > LONGEST || kind.len() > LONGEST {
         let line = format!("longer than {} MB, the most that is read", LONGEST >> 20);
-        return Err(io::Error::new(io::ErrorKind::FileTooLarge, line));
+        return Err(io::Error::new(ErrorKind::FileTooLarge, line));
     }
     Ok(held)
 }
 
 /// The content of a file as text. Fails like [`bytes`], and if the file is not UTF-8.
 pub fn text(path: &Path) -> io::Result<String> {
-    String::from_utf8(bytes(path)?).map_err(|_| {
-        let line = "not a text: it holds bytes that are not UTF-8";
-        io::Error::new(io::ErrorKind::InvalidData, line)
-    })
+    String::from_utf8(bytes(path)?)
+        .map_err(|_| refused("not a text: it holds bytes that are not UTF-8"))
+}
+
+fn refused(line: &str) -> io::Error {
+    io::Error::new(ErrorKind::InvalidData, line)
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use crossterm::Command;
 use crossterm::clipboard::CopyToClipboard;
 
 use super::bounded;
+use super::new_file::{self, Readers};
 use crate::fit::record::decoded;
 use crate::session::Notice;
 
@@ -34,31 +35,39 @@ impl Files {
         match &self.copies {
             None => Notice { error: false, text: sent },
             Some(path) => {
-                let Notice { error, text } = Files::write(path, text, true);
+                let Notice { error, text } = Files::write(path, text, true, Readers::Owner);
                 Notice { error, text: format!("{sent}; {text}") }
             }
         }
     }
 
-    /// Whether a file may be written. Fails with one line if it exists and is not to be replaced.
+    /// Whether a file may be written. Fails with one line if it exists and is not to be replaced, or is not a
+    /// regular file.
     pub fn admit(path: &Path, replace: bool) -> Result<(), String> {
         let path = at_home(path);
-        if replace || !path.exists() {
-            return Ok(());
-        }
         let name = path.display();
-        Err(format!("{name} is there already; ! behind the command replaces it"))
+        match std::fs::metadata(&path) {
+            Ok(found) if !found.is_file() => Err(format!("{name} is not a file")),
+            Ok(_) if !replace => {
+                Err(format!("{name} is there already; ! behind the command replaces it"))
+            }
+            _ => Ok(()),
+        }
     }
 
-    /// Writes a file, and reports the result. In any case, the file is complete or unchanged; an existing file
-    /// is replaced only on demand.
-    pub fn write(path: &Path, content: impl AsRef<[u8]>, replace: bool) -> Notice {
+    /// Writes a file, and reports the result; an existing file is replaced only on demand.
+    pub fn write(
+        path: &Path,
+        content: impl AsRef<[u8]>,
+        replace: bool,
+        readers: Readers,
+    ) -> Notice {
         if let Err(text) = Files::admit(path, replace) {
             return Notice { error: true, text };
         }
         let path = at_home(path);
         let name = path.display();
-        match write_whole(&path, content.as_ref()) {
+        match new_file::write(&path, content.as_ref(), readers, true) {
             Ok(()) => Notice { error: false, text: format!("written to {name}") },
             Err(why) => Notice { error: true, text: format!("{name} not written: {why}") },
         }
@@ -89,18 +98,6 @@ pub(super) fn at_home(path: &Path) -> PathBuf {
     }
 }
 
-/// Writes a temporary file in the same folder, then renames it.
-fn write_whole(path: &Path, content: &[u8]) -> std::io::Result<()> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let name = path.file_name().ok_or(std::io::ErrorKind::InvalidFilename)?;
-    let mut beside = std::ffi::OsString::from(".");
-    beside.push(name);
-    beside.push(format!(".{}.new", std::process::id()));
-    let beside = folder.unwrap_or(Path::new(".")).join(beside);
-    let written = std::fs::write(&beside, content).and_then(|()| std::fs::rename(&beside, path));
-    written.inspect_err(|_| drop(std::fs::remove_file(&beside)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,7 +116,7 @@ mod tests {
     #[test]
     fn a_file_that_cannot_be_written_is_told_by_name() {
         let folder = tempfile::tempdir().unwrap();
-        let notice = Files::write(&folder.path().join("no/such/folder"), "", true);
+        let notice = Files::write(&folder.path().join("no/such/folder"), "", true, Readers::Owner);
         assert!(notice.error && notice.text.contains("no/such/folder"), "{notice:?}");
     }
 
@@ -127,13 +124,16 @@ mod tests {
     fn a_file_that_is_there_is_replaced_only_on_demand_and_nothing_else_is_left() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("session.toml");
-        assert!(!Files::write(&path, "one", false).error);
-        let notice = Files::write(&path, "two", false);
+        let write = |text, replace| Files::write(&path, text, replace, Readers::Owner);
+        assert!(!write("one", false).error);
+        let notice = write("two", false);
         assert!(notice.error && notice.text.contains("is there already"), "{notice:?}");
         assert_eq!(Files::read(&path).unwrap(), "one");
-        assert!(!Files::write(&path, "two", true).error);
+        assert!(!write("two", true).error);
         assert_eq!(Files::read(&path).unwrap(), "two");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        let device = Files::write(Path::new("/dev/null"), "two", true, Readers::Owner);
+        assert!(device.error && device.text == "/dev/null is not a file", "{device:?}");
     }
 
     #[test]

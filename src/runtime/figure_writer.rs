@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
 
 use super::effects::Files;
+use super::new_file::Readers;
 use super::panics::{self, Notes};
 use crate::flow::Limits;
 use crate::session::{Msg, Notice};
@@ -65,7 +66,7 @@ impl FigureWriter {
                 _ if stopped() => {
                     Notice { error: false, text: format!("{name} not written: stopped") }
                 }
-                Ok(Ok(content)) => Files::write(&path, &content, replace),
+                Ok(Ok(content)) => Files::write(&path, &content, replace, Readers::Usual),
                 Ok(Err(text)) => Notice { error: true, text },
                 Err(panic) => {
                     let why = notes.take().unwrap_or_else(|| panics::message(&*panic));

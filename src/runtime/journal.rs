@@ -2,8 +2,9 @@
 //!
 //! The file of a scan holds its rows in their order, so a slow row holds up those behind it. Rows that are
 //! ready early are noted here at once, so that a killed process loses only the rows that it was computing. The
-//! first line names the columns; each further line has the number of a point, a tab, and its row. A journal
-//! that holds anything else is ignored. Nothing is lost by that, because all rows can be computed again.
+//! first line names the columns; each further line has the number of a point, a tab, the checksum of its row, a
+//! tab, and the row. A line that holds anything else is ignored. Nothing is lost by that, because all rows can be
+//! computed again.
 
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -15,6 +16,7 @@ use std::path::{Path, PathBuf};
 use super::lines::{FileLine, Lines};
 use crate::report::scan::RowForm;
 use crate::study::scan::Scan;
+use crate::words::provenance::Checksum;
 
 /// Appended to the name of the file of rows.
 const ENDING: &str = ".ahead";
@@ -72,7 +74,8 @@ impl Journal {
                 file
             }
         };
-        let line = format!("{index}\t{row}");
+        let checksum = Checksum::NONE.and(row.as_bytes());
+        let line = format!("{index}\t{checksum}\t{row}");
         self.bytes += line.len() as u64;
         file.write_all(line.as_bytes())
     }
@@ -116,9 +119,12 @@ fn rows(
     let Ok(true) = lines.heading(&heading(scan, form)) else { return (found, 0) };
     while let Ok(FileLine::Whole(line)) = lines.next(usize::MAX) {
         found.extend(String::from_utf8(line).ok().and_then(|line| {
-            let (index, row) = line.split_once('\t')?;
+            let (index, line) = line.split_once('\t')?;
+            let (checksum, row) = line.split_once('\t')?;
             let index = index.parse().ok().filter(|index| points.contains(index))?;
-            row.starts_with(&form.beginning(scan, index)).then(|| (index, row.to_owned()))
+            let is_own = row.starts_with(&form.beginning(scan, index))
+                && Checksum::NONE.and(row.as_bytes()).to_string() == checksum;
+            is_own.then(|| (index, row.to_owned()))
         }));
     }
     (found, lines.bytes())

@@ -13,9 +13,11 @@ use rustix::io::Errno;
 use super::application::Application;
 use super::effects::Files;
 use super::event::{Event, LoopEnd};
+use super::new_file::Readers;
 use super::pump::Pump;
 use super::record::RecordingFile;
 use super::signals::{self, exit_code};
+use super::standard::tell;
 use super::worker::Tell;
 use super::workers::Workers;
 use super::{input, panics};
@@ -89,7 +91,7 @@ pub fn launch(
     }
     guard.leave();
     if let (Err(why), Ok(LoopEnd::Quit | LoopEnd::Ended { .. })) = (kept, &ended) {
-        eprintln!("hopfscope: the session is not kept: {why}");
+        tell(format!("the session is not kept: {why}"));
     }
     match ended? {
         LoopEnd::Ended { signal } => Ok(exit_code(signal).into()),
@@ -112,7 +114,7 @@ fn keep<M: Application, W: io::Write>(
     let text = catch_unwind(AssertUnwindSafe(|| pump.running().what_to_keep())).ok().flatten();
     let Some(text) = text else { return Ok(()) };
     let path = path.ok_or("there is no folder for it; XDG_STATE_HOME names one")?;
-    let written = Files::write(path, &text, true);
+    let written = Files::write(path, &text, true, Readers::Owner);
     if written.error { Err(written.text) } else { Ok(()) }
 }
 

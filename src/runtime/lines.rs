@@ -17,6 +17,11 @@ pub enum LineRefusal {
         /// What is wrong with it.
         why: &'static str,
     },
+    /// Its rows have another checksum than those that were written.
+    Altered {
+        /// Number of the rows with a checksum.
+        rows: usize,
+    },
     /// The check was interrupted.
     Interrupted,
 }
@@ -35,10 +40,19 @@ impl fmt::Display for LineRefusal {
             LineRefusal::Foreign { line, why } => {
                 write!(out, "not a part of this scan: line {line} {why}")
             }
+            LineRefusal::Altered { rows } => {
+                write!(
+                    out,
+                    "altered: the checksum of its first {rows} rows is another in .provenance"
+                )
+            }
             LineRefusal::Interrupted => write!(out, "interrupted"),
         }
     }
 }
+
+/// Longest line that is read, in bytes: a row has no more than some thousand.
+const LONGEST: u64 = 1 << 20;
 
 /// The lines of a file, with their numbers.
 pub(super) struct Lines<R> {
@@ -77,12 +91,16 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    /// The next line; a line longer than `most` bytes is cut there.
+    /// The next line; a line longer than `most` bytes is cut there. Fails if it is longer than any row.
     pub(super) fn next(&mut self, most: usize) -> io::Result<FileLine> {
         let mut line = Vec::new();
-        let most = u64::try_from(most).unwrap_or(u64::MAX);
+        let most = u64::try_from(most).unwrap_or(u64::MAX).min(LONGEST);
         (&mut self.reader).take(most).read_until(b'\n', &mut line)?;
         self.number += 1;
+        if line.len() as u64 == LONGEST {
+            let told = format!("line {} is longer than {} MB", self.number, LONGEST >> 20);
+            return Err(io::Error::new(io::ErrorKind::InvalidData, told));
+        }
         if line.last() == Some(&b'\n') {
             self.bytes += line.len() as u64;
             Ok(FileLine::Whole(line))

@@ -15,6 +15,7 @@ use super::scan_file::compare;
 use crate::flow::Limits;
 use crate::report::scan::RowForm;
 use crate::study::scan::Scan;
+use crate::words::provenance::Checksum;
 
 /// A file with some of the rows of a scan.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,6 +24,8 @@ pub struct Part {
     pub points: Range<usize>,
     /// Whether its rows are preceded by a line of column names.
     pub headed: bool,
+    /// The checksum of its rows, if it is known.
+    pub checksum: Option<Checksum>,
 }
 
 /// Why parts cannot be merged.
@@ -113,6 +116,8 @@ struct MergeTask<'a> {
 struct Reader<'a> {
     part: &'a Part,
     lines: Lines<File>,
+    /// The checksum of the rows read so far.
+    checksum: Checksum,
     /// The point of this row.
     index: usize,
     line: Vec<u8>,
@@ -125,7 +130,8 @@ impl<'a> Reader<'a> {
         if part.headed && !lines.heading(&task.form.heading(task.scan))? {
             return Ok(None);
         }
-        let mut reader = Reader { part, lines, index: part.points.start, line: Vec::new() };
+        let (index, checksum) = (part.points.start, Checksum::NONE);
+        let mut reader = Reader { part, lines, checksum, index, line: Vec::new() };
         let any = reader.read(task, part.points.start)?;
         if any {
             reader.compare(task, reader.lines.number())?;
@@ -151,6 +157,11 @@ impl<'a> Reader<'a> {
         let Some(index) = (from..self.part.points.end).find(is_of) else {
             return Err(self.lines.foreign("is of no point that is left"));
         };
+        self.checksum = self.checksum.and(&line);
+        let known = self.part.checksum.filter(|known| known.rows == self.checksum.rows);
+        if known.is_some_and(|known| known != self.checksum) {
+            return Err(LineRefusal::Altered { rows: self.checksum.rows });
+        }
         (self.index, self.line) = (index, line);
         Ok(true)
     }

@@ -17,6 +17,7 @@ mod journal;
 pub mod launch;
 mod lines;
 pub mod merging;
+pub mod new_file;
 pub mod panics;
 pub mod picture;
 pub mod print;
@@ -27,6 +28,7 @@ pub mod record;
 pub mod scan_file;
 pub mod scanning;
 pub mod signals;
+pub mod standard;
 pub mod worker;
 pub mod workers;
 

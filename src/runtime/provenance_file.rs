@@ -3,11 +3,14 @@
 //! The file of rows itself stays as other programs expect it, with nothing before the line of column names.
 
 use std::ffi::OsString;
-use std::fs;
+use std::fs::{self, File, OpenOptions};
 use std::io;
+use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
-use crate::words::provenance::Provenance;
+use super::bounded;
+use super::new_file::{self, Readers};
+use crate::words::provenance::{Checksum, Provenance};
 
 /// Appended to the name of the file of rows.
 const ENDING: &str = ".provenance";
@@ -30,15 +33,44 @@ pub fn beside(path: &Path) -> PathBuf {
 
 /// Writes the provenance of a file, unless it is a device or a pipe. Fails if it cannot be written.
 pub fn write(path: &Path, provenance: &Provenance) -> io::Result<()> {
-    if !fs::metadata(path)?.is_file() {
+    if !new_file::is_regular(path) {
         return Ok(());
     }
-    fs::write(beside(path), serde_json::to_string_pretty(provenance)? + "\n")
+    let text = serde_json::to_string_pretty(provenance)? + "\n";
+    new_file::write(&beside(path), text.as_bytes(), Readers::Usual, true)
+}
+
+/// The checksum in the provenance of a file that grows, renewed with each row: whenever the process is killed, it
+/// is that of all rows but perhaps the last.
+#[derive(Debug)]
+pub struct RunningChecksum {
+    file: File,
+    /// Offset of the checksum in bytes.
+    at: u64,
+    pub checksum: Checksum,
+}
+
+impl RunningChecksum {
+    /// Writes the provenance of a file whose rows have this checksum. Fails if it cannot be written.
+    pub fn begin(path: &Path, provenance: Provenance, checksum: Checksum) -> io::Result<Self> {
+        let provenance = Provenance { checksum: Some(checksum), ..provenance };
+        write(path, &provenance)?;
+        let path = beside(path);
+        let at = fs::read_to_string(&path)?.rfind(&checksum.to_string());
+        let at = at.ok_or(io::ErrorKind::InvalidData)? as u64;
+        Ok(RunningChecksum { file: OpenOptions::new().write(true).open(path)?, at, checksum })
+    }
+
+    /// Counts a row that has been written. Fails if its checksum cannot be.
+    pub fn count(&mut self, row: &[u8]) -> io::Result<()> {
+        self.checksum = self.checksum.and(row);
+        self.file.write_all_at(self.checksum.to_string().as_bytes(), self.at)
+    }
 }
 
 /// Reads the provenance of a file. Fails if there is none, or it cannot be read or understood.
 pub fn read(path: &Path) -> io::Result<Provenance> {
-    Ok(serde_json::from_slice(&fs::read(beside(path))?)?)
+    Ok(serde_json::from_slice(&bounded::bytes(&beside(path))?)?)
 }
 
 /// The files in a folder that have a file of provenance, sorted by name. Fails if the folder cannot be read.

@@ -17,6 +17,7 @@ use ratatui::layout::Size;
 use super::application::{Application, EffectOutcome, Host};
 use super::effects::Files;
 use super::event::{Event, LoopEnd};
+use super::new_file::Readers;
 use super::record::RecordingFile;
 use super::workers::Workers;
 use super::{picture, scan_file};
@@ -262,7 +263,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
         let mut recorder = self.recorder.clone();
         recorder.forget(if self.playing.is_none() { forget } else { 0 });
-        Files::write(path, recorder.text(&self.started), true)
+        Files::write(path, recorder.text(&self.started), true, Readers::Owner)
     }
 
     /// When to draw; `None` if the screen is up to date and nothing moves.
@@ -341,7 +342,9 @@ impl<M: Application, W: Write> Host for Pump<M, W> {
                 self.copy(&view::screen::text(&picture))?
             }
             Effect::SaveScan { path, scan, rows } => scan_file::save(&path, &scan, &rows),
-            Effect::Write { path, text, replace } => Files::write(&path, &text, replace),
+            Effect::Write { path, text, replace } => {
+                Files::write(&path, &text, replace, Readers::Owner)
+            }
             Effect::Record { path, forget, replace } => self.write_record(&path, forget, replace),
         };
         Ok(EffectOutcome::Told(Msg::Told(notice)))

@@ -6,6 +6,7 @@ use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
 use super::effects::at_home;
+use super::new_file::{self, Readers};
 use crate::session::replay::{HEADER, Recorder, comment, heading, lines};
 
 /// The file of a recording.
@@ -31,10 +32,9 @@ impl RecordingFile {
         RecordingFile::admit(path, replace, "--force replaces it")?;
         let path = &at_home(path);
         let told = |why: io::Error| format!("{}: {why}", path.display());
-        let open = OpenOptions::new().create(true).truncate(true).write(true).open(path);
-        let file = open.map_err(told)?;
         let comment = comment(&heading(started));
-        file.write_all_at(comment.as_bytes(), 0).map_err(told)?;
+        new_file::write(path, comment.as_bytes(), Readers::Owner, true).map_err(told)?;
+        let file = OpenOptions::new().write(true).open(path).map_err(told)?;
         let heading = comment.len() as u64;
         let mut record = RecordingFile { path: path.to_owned(), file, lines: Vec::new(), heading };
         record.keep(recorder)?;

@@ -12,6 +12,60 @@ pub struct Provenance {
     pub revision: Option<String>,
     /// The command line, quoted for a POSIX shell.
     pub command: String,
+    /// For a file of rows, the checksum of those that were written.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub checksum: Option<Checksum>,
+}
+
+/// A checksum of the first rows of a file, which shows that one of them was altered. It guards against mishaps,
+/// not against forgery.
+///
+/// As text it always has the same length, so that it can be renewed in place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
+pub struct Checksum {
+    /// Number of rows.
+    pub rows: usize,
+    /// The 64-bit FNV-1a hash of their bytes, line ends included.
+    hash: u64,
+}
+
+impl Checksum {
+    /// The checksum of no row: the offset basis of FNV-1a.
+    pub const NONE: Checksum = Checksum { rows: 0, hash: 0xcbf2_9ce4_8422_2325 };
+
+    /// The checksum of these rows and one more.
+    pub fn and(self, row: &[u8]) -> Checksum {
+        /// The prime of FNV-1a.
+        const PRIME: u64 = 0x0100_0000_01b3;
+        let hash = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(PRIME);
+        Checksum { rows: self.rows + 1, hash: row.iter().fold(self.hash, hash) }
+    }
+}
+
+impl std::fmt::Display for Checksum {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "{:016x} of {:020} rows", self.hash, self.rows)
+    }
+}
+
+impl From<Checksum> for String {
+    fn from(checksum: Checksum) -> String {
+        checksum.to_string()
+    }
+}
+
+impl TryFrom<String> for Checksum {
+    type Error = &'static str;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        let parts = text.strip_suffix(" rows").and_then(|text| text.split_once(" of "));
+        let read = parts.and_then(|(hash, rows)| {
+            let hash = u64::from_str_radix(hash, 16).ok()?;
+            Some(Checksum { rows: rows.parse().ok()?, hash })
+        });
+        read.ok_or("not a checksum")
+    }
 }
 
 impl Provenance {
@@ -23,6 +77,7 @@ impl Provenance {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             revision: option_env!("HOPFSCOPE_REVISION").map(str::to_owned),
             command: format!("{program} {}", quoted(arguments)),
+            checksum: None,
         }
     }
 
@@ -120,6 +175,19 @@ mod tests {
             assert_eq!(plain.to_string() + "\n", document);
         }
         assert_eq!(own.within("[1]\n"), "[1]\n");
+    }
+
+    #[test]
+    fn a_checksum_is_that_of_fnv_1a_and_reads_back() {
+        // Test vectors of the authors of FNV, www.isthe.com/chongo/tech/comp/fnv.
+        for (text, hash) in [("a", 0xaf63_dc4c_8601_ec8c), ("foobar", 0x8594_4171_f739_67e8)] {
+            let checksum = Checksum::NONE.and(text.as_bytes());
+            assert_eq!(checksum, Checksum { rows: 1, hash });
+            assert_eq!(Checksum::try_from(checksum.to_string()), Ok(checksum));
+        }
+        let apart = Checksum::NONE.and(b"foo").and(b"bar");
+        assert_eq!(apart, Checksum { rows: 2, ..Checksum::NONE.and(b"foobar") });
+        assert_eq!(apart.to_string().len(), Checksum::NONE.to_string().len());
     }
 
     proptest! {

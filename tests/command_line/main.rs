@@ -1,5 +1,6 @@
 //! What scripts rely on: documents, their numbers, and exit codes.
 
+mod files;
 #[path = "../program/mod.rs"]
 mod program;
 mod replay;

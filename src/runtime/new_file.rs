@@ -1,0 +1,245 @@
+//! The one way in which a file gets new content: written beside the old file, synced, then renamed over it. So
+//! the file is at any moment complete, as it was or as it is to be, also on a full disk.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufRead, BufReader, ErrorKind, Read, Write};
+use std::os::unix::fs::{FileTypeExt, MetadataExt, OpenOptionsExt, PermissionsExt, fchown};
+use std::path::{Path, PathBuf};
+
+use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
+
+/// Maximum number of symbolic links that are followed one after the other, as in the system.
+const LINKS: usize = 40;
+
+/// Who may read a file that was not there before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Readers {
+    /// Whoever the user's umask allows.
+    Usual,
+    /// The user alone.
+    Owner,
+}
+
+/// Content on its way into a file. Dropped before [`NewFile::end`], it leaves the file as it was.
+#[derive(Debug)]
+pub struct NewFile {
+    /// The file that is replaced, behind all symbolic links.
+    path: PathBuf,
+    /// The temporary file; `None` for a device or a pipe, which is written to directly.
+    beside: Option<PathBuf>,
+    file: File,
+}
+
+impl NewFile {
+    /// Begins to replace a file, or to write to a device or pipe. Fails if the file or its folder may not be
+    /// written, or nobody reads from the pipe.
+    pub fn begin(path: &Path, readers: Readers) -> io::Result<NewFile> {
+        let path = behind_links(path)?;
+        let old = match fs::metadata(&path) {
+            Ok(old) => Some(old),
+            Err(why) if why.kind() == ErrorKind::NotFound => None,
+            Err(why) => return Err(why),
+        };
+        if !is_regular(&path) {
+            return Ok(NewFile { file: device(&path)?, path, beside: None });
+        }
+        if old.is_some() {
+            // The folder alone does not decide: a file that may not be written is not replaced either.
+            OpenOptions::new().write(true).open(&path)?;
+        }
+        let mode = if old.is_none() && readers == Readers::Usual { 0o666 } else { 0o600 };
+        let (beside, file) = temporary(&path, mode)?;
+        let this = NewFile { path, beside: Some(beside), file };
+        if let Some(old) = old {
+            // Only the superuser can give a file away; otherwise it becomes the user's.
+            drop(fchown(&this.file, Some(old.uid()), Some(old.gid())));
+            this.file.set_permissions(PermissionsExt::from_mode(old.mode() & 0o7777))?;
+        }
+        Ok(this)
+    }
+
+    /// Gives the content its name. Fails with [`ErrorKind::AlreadyExists`] if the file holds something else and
+    /// may not be replaced.
+    pub fn end(mut self, replace: bool) -> io::Result<()> {
+        let Some(beside) = &self.beside else { return self.file.flush() };
+        if !replace && !is_free(&self.path, beside)? {
+            return Err(ErrorKind::AlreadyExists.into());
+        }
+        self.file.sync_all()?;
+        fs::rename(beside, &self.path)?;
+        self.beside = None;
+        // The file is complete under either name; a folder that cannot be synced is no error.
+        drop(File::open(folder(&self.path)).and_then(|folder| folder.sync_all()));
+        Ok(())
+    }
+}
+
+impl Write for NewFile {
+    fn write(&mut self, content: &[u8]) -> io::Result<usize> {
+        self.file.write(content)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Drop for NewFile {
+    fn drop(&mut self) {
+        if let Some(beside) = &self.beside {
+            drop(fs::remove_file(beside));
+        }
+    }
+}
+
+/// Writes a whole file; see [`NewFile::begin`] and [`NewFile::end`].
+pub fn write(path: &Path, content: &[u8], readers: Readers, replace: bool) -> io::Result<()> {
+    let mut file = NewFile::begin(path, readers)?;
+    file.write_all(content)?;
+    file.end(replace)
+}
+
+/// Opens a device or a pipe for writing, without waiting for a reader of the pipe.
+pub(super) fn device(path: &Path) -> io::Result<File> {
+    let nonblocking = i32::try_from(OFlags::NONBLOCK.bits()).unwrap_or(0);
+    let file = OpenOptions::new().append(true).custom_flags(nonblocking).open(path);
+    let file = file.map_err(|why| {
+        let is_pipe = fs::metadata(path).is_ok_and(|file| file.file_type().is_fifo());
+        let unread = || io::Error::new(why.kind(), "nobody reads from this pipe");
+        if is_pipe && why.kind() != ErrorKind::PermissionDenied { unread() } else { why }
+    })?;
+    block(&file)?;
+    Ok(file)
+}
+
+/// Makes a file wait in reads and writes.
+pub(super) fn block(file: &File) -> io::Result<()> {
+    Ok(fcntl_setfl(file, fcntl_getfl(file)? - OFlags::NONBLOCK)?)
+}
+
+/// The path at the end of symbolic links, whether there is a file or not.
+fn behind_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..LINKS {
+        match fs::read_link(&path) {
+            Ok(next) if !is_open(&path) => path = folder(&path).join(next),
+            _ => return Ok(path),
+        }
+    }
+    Err(io::Error::other("too many symbolic links"))
+}
+
+/// Whether a path is that of a regular file or of one that is not there yet, and not of a device or a pipe.
+pub fn is_regular(path: &Path) -> bool {
+    let is_device = |path: &Path| fs::metadata(path).is_ok_and(|found| !found.is_file());
+    behind_links(path).is_ok_and(|path| !is_open(&path) && !is_device(&path))
+}
+
+/// Whether a path stands for what a process has open, as /dev/stdout does: that need not have a name, and is
+/// written to where it is.
+fn is_open(path: &Path) -> bool {
+    path.starts_with("/proc") || path.starts_with("/dev/fd")
+}
+
+fn folder(path: &Path) -> &Path {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
+}
+
+/// Creates a file beside this one, under a name that is free and short enough.
+fn temporary(path: &Path, mode: u32) -> io::Result<(PathBuf, File)> {
+    if path.file_name().is_none() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    let mut number = 0;
+    loop {
+        let name = format!(".hopfscope.{}.{number}.new", std::process::id());
+        let beside = folder(path).join(name);
+        match OpenOptions::new().write(true).create_new(true).mode(mode).open(&beside) {
+            Ok(file) => return Ok((beside, file)),
+            Err(why) if why.kind() == ErrorKind::AlreadyExists => number += 1,
+            Err(why) => return Err(why),
+        }
+    }
+}
+
+/// Whether nothing is lost when the new content takes this path: the file is missing, empty, or holds the same.
+/// No more of it is read than there is new content.
+fn is_free(path: &Path, beside: &Path) -> io::Result<bool> {
+    let old = match fs::metadata(path) {
+        Ok(old) if old.len() > 0 => old,
+        Ok(_) => return Ok(true),
+        Err(why) if why.kind() == ErrorKind::NotFound => return Ok(true),
+        Err(why) => return Err(why),
+    };
+    if old.len() != fs::metadata(beside)?.len() {
+        return Ok(false);
+    }
+    let old = BufReader::new(File::open(path)?.take(old.len()));
+    is_same(old, BufReader::new(File::open(beside)?))
+}
+
+fn is_same(mut old: impl BufRead, mut new: impl BufRead) -> io::Result<bool> {
+    loop {
+        let (one, other) = (old.fill_buf()?, new.fill_buf()?);
+        let length = one.len().min(other.len());
+        if one[..length] != other[..length] {
+            return Ok(false);
+        }
+        if length == 0 {
+            return Ok(one.is_empty() && other.is_empty());
+        }
+        old.consume(length);
+        new.consume(length);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::os::unix::fs::symlink;
+
+    use super::*;
+
+    fn mode(path: &Path) -> u32 {
+        fs::metadata(path).unwrap().mode() & 0o777
+    }
+
+    #[test]
+    fn a_file_keeps_its_mode_and_a_link_stays_a_link() {
+        let folder = tempfile::tempdir().unwrap();
+        let [file, link] = ["file", "link"].map(|name| folder.path().join(name));
+        write(&file, b"one", Readers::Owner, false).unwrap();
+        assert_eq!(mode(&file), 0o600);
+        fs::set_permissions(&file, PermissionsExt::from_mode(0o644)).unwrap();
+        symlink("file", &link).unwrap();
+        write(&link, b"two", Readers::Owner, true).unwrap();
+        assert_eq!((fs::read(&file).unwrap(), mode(&file)), (b"two".to_vec(), 0o644));
+        assert_eq!(fs::read_link(&link).unwrap(), Path::new("file"));
+        // A link to nothing leads to a new file.
+        fs::remove_file(&file).unwrap();
+        write(&link, b"three", Readers::Owner, false).unwrap();
+        assert_eq!((fs::read(&file).unwrap(), mode(&file)), (b"three".to_vec(), 0o600));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+        fs::remove_file(&file).unwrap();
+        symlink("link", &file).unwrap();
+        assert!(write(&link, b"", Readers::Usual, true).is_err(), "a circle of links");
+    }
+
+    #[test]
+    fn what_is_dropped_or_not_free_leaves_the_file_as_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        write(&path, b"old", Readers::Usual, false).unwrap();
+        NewFile::begin(&path, Readers::Usual).unwrap().write_all(b"new").unwrap();
+        let refused = write(&path, b"new", Readers::Usual, false).unwrap_err();
+        assert_eq!(refused.kind(), ErrorKind::AlreadyExists);
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        write(&path, b"old", Readers::Usual, false).unwrap();
+        write(&path, b"new", Readers::Usual, true).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        write(Path::new("/dev/null"), b"new", Readers::Usual, false).unwrap();
+        assert!(write(Path::new("/dev/full"), b"new", Readers::Usual, false).is_err());
+        assert!(write(folder.path(), b"new", Readers::Usual, true).is_err());
+    }
+}
