@@ -47,6 +47,9 @@ pub struct Explore {
     /// Plays a keystroke file first, then hands over to the keyboard
     #[arg(long, value_name = "FILE")]
     play: Option<PathBuf>,
+    /// Lets the keystroke files that are played write files
+    #[arg(long)]
+    allow_write: bool,
     /// Records the keys that are pressed in a keystroke file
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
@@ -80,7 +83,8 @@ impl Explore {
             let text = format!("opened {}", path.display());
             session.notice = Some(Notice { error: false, text });
         }
-        go(session, &play, self.record.as_deref().map(|path| (path, self.force)))
+        let record = self.record.as_deref().map(|path| (path, self.force));
+        go(session, &play, record, self.allow_write)
     }
 }
 
@@ -109,11 +113,13 @@ pub fn open(session: &mut Session, path: &Path) -> Result<(), Failure> {
 }
 
 /// Runs the explorer until it is left. `play` holds the steps that are played first; `record` is the file to
-/// record to, and whether it may replace a file that is not a recording.
+/// record to, and whether it may replace a file that is not a recording. Keystroke files write files only if they
+/// may.
 pub fn go(
     mut session: Session,
     play: &[Instruction],
     record: Option<(&Path, bool)>,
+    may_play_write: bool,
 ) -> Result<ExitCode, Failure> {
     let environment = Environment::of_process();
     environment.admit().map_err(|refusal| Failure::Usage(refusal.to_string()))?;
@@ -131,7 +137,7 @@ pub fn go(
         let welcome = welcome(&session, memory).map(|text| Notice { error: false, text });
         session.notice = welcome.or(session.notice);
     }
-    let files = Files { copies: memory.as_ref().map(Memory::copies) };
+    let files = Files { copies: memory.as_ref().map(Memory::copies), may_play_write };
     let mouse = session.look.mouse;
     let keep = memory.as_ref().map(Memory::keep);
     let last = memory.as_ref().map(Memory::last);

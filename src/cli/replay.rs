@@ -10,8 +10,10 @@ use super::input;
 use super::look::Looks;
 use super::output::print;
 use super::start::StartOptions;
+use crate::runtime::explorer::answer;
+use crate::runtime::headless::play;
 use crate::runtime::new_file::{self, Readers};
-use crate::runtime::{bounded, replay};
+use crate::runtime::{Explorer, bounded};
 use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
 use crate::session::settings::Theme;
@@ -34,6 +36,9 @@ pub struct Arguments {
     /// Format of these screens
     #[arg(long, value_enum, default_value_t = ScreenFormat::Text, value_name = "FORMAT")]
     screen_format: ScreenFormat,
+    /// Lets the file write files, as its commands ask for
+    #[arg(long)]
+    allow_write: bool,
     #[command(flatten)]
     start: StartOptions,
     #[command(flatten)]
@@ -74,18 +79,21 @@ impl Arguments {
         session.look = self.looks.wishes(&Config::default());
         let theme = session.look.theme;
         let size = ratatui::layout::Size { width, height };
-        let played = replay(session, anywhere(), script, size)
-            .map_err(|error| Failure::Unanswered(format!("no thread to compute in: {error}")))?;
+        let played =
+            play(Explorer::new(session, anywhere()), answer, script, size, self.allow_write)
+                .map_err(|error| {
+                    Failure::Unanswered(format!("no thread to compute in: {error}"))
+                })?;
         if let Some(directory) = &self.screens {
             let light = theme == Theme::Light;
             let paper = if light { Paper::LIGHT } else { Paper::DARK };
             write(directory, (self.screen_format, paper), &played.kept)?;
         }
         print(&screen::text(&played.screen))?;
-        match played.unmet {
-            Some(unmet) => Err(Failure::Unanswered(format!("{}: {unmet}", self.file.display()))),
-            None => Ok(()),
-        }
+        let why = played.unmet.map(|unmet| unmet.to_string()).or(played.unwritten);
+        why.map_or(Ok(()), |why| {
+            Err(Failure::Unanswered(format!("{}: {why}", self.file.display())))
+        })
     }
 }
 

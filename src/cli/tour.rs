@@ -28,6 +28,6 @@ impl Arguments {
         let mut session = Session::new(plain(), Size { width: 80, height: 24 });
         session.look = self.looks.wishes(&config);
         session.keymap = Arc::new(config.keymap);
-        go(session, &[Instruction::Run("tour".to_owned())], None)
+        go(session, &[Instruction::Run("tour".to_owned())], None, false)
     }
 }

@@ -15,6 +15,8 @@ use crate::session::Notice;
 pub struct Files {
     /// The file with the last copy; `None` if copies are not saved.
     pub copies: Option<PathBuf>,
+    /// Whether a keystroke file that is played may write files.
+    pub may_play_write: bool,
 }
 
 impl Files {
@@ -106,7 +108,7 @@ mod tests {
     fn a_copy_is_also_in_a_file() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("copy.txt");
-        let files = Files { copies: Some(path.clone()) };
+        let files = Files { copies: Some(path.clone()), ..Files::default() };
         let notice = files.copy("q = 1");
         assert!(!notice.error && notice.text.contains("copy.txt"), "{notice:?}");
         assert_eq!(std::fs::read_to_string(path).unwrap(), "q = 1");

@@ -154,7 +154,7 @@ pub fn explore(
 }
 
 /// Plays a keystroke file on a session without a terminal. See [`headless::play`] for the result;
-/// [`crate::view::screen::text`] converts its pictures to text. Fails if the system provides no thread for the
+/// [`crate::view::screen::text`] converts its pictures to text. No files are written. Fails if the system provides no thread for the
 /// worker.
 pub fn replay(
     session: Session,
@@ -162,5 +162,5 @@ pub fn replay(
     script: Script,
     size: Size,
 ) -> io::Result<Played<Explorer>> {
-    headless::play(Explorer::new(session, environment), answer, script, size)
+    headless::play(Explorer::new(session, environment), answer, script, size, false)
 }

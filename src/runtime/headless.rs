@@ -12,10 +12,11 @@ use ratatui::layout::Size;
 use super::application::{Application, EffectOutcome, Host};
 use super::effects::Files;
 use super::event::LoopEnd;
+use super::new_file::Readers;
 use super::panics::Notes;
-use super::picture;
 use super::worker::Tell;
 use super::workers::Workers;
+use super::{picture, scan_file};
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
 use crate::session::replay::{Action, Player, Script, Unmet};
@@ -33,22 +34,26 @@ pub struct Played<M> {
     pub kept: Vec<(String, Buffer)>,
     /// The first expectation that was not met; playing ended there.
     pub unmet: Option<Unmet>,
+    /// Why the first file that was to be written was not.
+    pub unwritten: Option<String>,
 }
 
 /// Plays a file on an application at this size, until the file ends, an expectation is not met, or the
 /// application quits.
 ///
-/// Effects outside the program are not carried out: a replay writes no files and copies nothing. It does read
-/// the files that the session asks for. Fails if the system provides no thread for the worker.
+/// Effects outside the program are not carried out: a replay copies nothing, and writes files only if it may. It
+/// does read the files that the session asks for. Fails if the system provides no thread for the worker.
 pub fn play<M: Application>(
     application: M,
     answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
     script: Script,
     mut size: Size,
+    may_write: bool,
 ) -> io::Result<Played<M>> {
     let (send, messages) = unbounded();
     let mut workers = Workers::start(answer, Notes::default(), move |msg| drop(send.send(msg)))?;
-    let mut replay = Replay { application, player: Player::new(script) };
+    let player = Player::new(script);
+    let mut replay = Replay { application, player, may_write, unmet: None, unwritten: None };
     let mut kept = Vec::new();
     let mut given = Some(Msg::Resize { width: size.width, height: size.height });
     let unmet = loop {
@@ -58,10 +63,15 @@ pub fn play<M: Application>(
             }
             workers.arrived(&msg);
             if replay.give(msg)?.is_some() {
-                break None;
+                break replay.unmet.take();
             }
         }
-        let Replay { application, player } = &mut replay;
+        // Answers are taken first, as in the explorer; otherwise those of asynchronous keys would pile up.
+        given = messages.try_recv().ok();
+        if given.is_some() {
+            continue;
+        }
+        let Replay { application, player, .. } = &mut replay;
         workers.ask(application.wants());
         let screen = || view::screen::text(&picture::of(application, size));
         let next = if application.is_waiting() {
@@ -79,13 +89,54 @@ pub fn play<M: Application>(
         }
     };
     let screen = picture::of(&replay.application, size);
-    Ok(Played { application: replay.application, screen, kept, unmet })
+    let Replay { application, unwritten, .. } = replay;
+    Ok(Played { application, screen, kept, unmet, unwritten })
 }
 
 /// An application and the player of the file.
 struct Replay<M> {
     application: M,
     player: Player,
+    may_write: bool,
+    unmet: Option<Unmet>,
+    unwritten: Option<String>,
+}
+
+impl<M: Application> Replay<M> {
+    /// Carries out an effect that writes a file, if it may, and reports the result.
+    fn written(&mut self, effect: Effect) -> Msg {
+        let is_figure = matches!(effect, Effect::Figure { .. });
+        let refusal = unasked(&effect).filter(|_| !self.may_write);
+        let notice = refusal.unwrap_or_else(|| self.write(effect));
+        if notice.error {
+            self.unwritten.get_or_insert(notice.text.clone());
+        }
+        if is_figure { Msg::Written(notice) } else { Msg::Told(notice) }
+    }
+
+    fn write(&self, effect: Effect) -> Notice {
+        match effect {
+            Effect::Write { path, text, replace } => {
+                Files::write(&path, text, replace, Readers::Owner)
+            }
+            Effect::SaveScan { path, scan, rows } => scan_file::save(&path, &scan, &rows),
+            Effect::Figure { path, plot, replace } => {
+                let drawn = self.application.figure(&path, plot);
+                match drawn.and_then(|work| work(&Limits::PATIENT)) {
+                    Ok(content) => Files::write(&path, content, replace, Readers::Usual),
+                    Err(text) => Notice { error: true, text },
+                }
+            }
+            _ => Notice { error: true, text: "a replay records nothing".to_owned() },
+        }
+    }
+}
+
+/// The refusal of an effect that writes a file, when a keystroke file asks for it.
+pub(super) fn unasked(effect: &Effect) -> Option<Notice> {
+    let path = effect.writes()?.display();
+    let text = format!("{path} not written: a keystroke file writes only with --allow-write");
+    Some(Notice { error: true, text })
 }
 
 impl<M: Application> Host for Replay<M> {
@@ -105,23 +156,25 @@ impl<M: Application> Host for Replay<M> {
                 EffectOutcome::Told(Msg::Read { path, purpose, result })
             }
             Effect::Play(script) | Effect::PlayRegister(script) => {
-                self.player.interject(script);
-                EffectOutcome::Done
+                match self.player.interject(script) {
+                    Ok(()) => EffectOutcome::Done,
+                    Err(unmet) => {
+                        self.unmet = Some(unmet);
+                        EffectOutcome::Stop(LoopEnd::Quit)
+                    }
+                }
             }
-            Effect::Figure { path, .. } => {
-                let text = format!("{} not written: a replay writes no files", path.display());
-                EffectOutcome::Told(Msg::Written(Notice { error: false, text }))
-            }
+            Effect::Figure { .. }
+            | Effect::SaveScan { .. }
+            | Effect::Record { .. }
+            | Effect::Write { .. } => EffectOutcome::Told(self.written(effect)),
             Effect::Suspend
             | Effect::Repaint
             | Effect::Copy(_)
             | Effect::CopyScreen
             | Effect::Mouse(_)
-            | Effect::SaveScan { .. }
-            | Effect::Record { .. }
             | Effect::StopWriting
-            | Effect::PutAside(_)
-            | Effect::Write { .. } => EffectOutcome::Done,
+            | Effect::PutAside(_) => EffectOutcome::Done,
         })
     }
 }
@@ -143,7 +196,7 @@ mod tests {
         let size = crate::session::Size { width: SIZE.width, height: SIZE.height };
         let session = Session::new(find(PLAIN).unwrap(), size);
         let explorer = Explorer::new(session, Environment::default());
-        play(explorer, answer, parse(file).unwrap(), SIZE).unwrap()
+        play(explorer, answer, parse(file).unwrap(), SIZE, false).unwrap()
     }
 
     fn text(picture: &Buffer) -> String {

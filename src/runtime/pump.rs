@@ -314,6 +314,9 @@ impl<M: Application, W: Write> Host for Pump<M, W> {
     }
 
     fn carry_out(&mut self, effect: Effect) -> io::Result<EffectOutcome> {
+        if let Some(refusal) = self.refusal(&effect) {
+            return Ok(EffectOutcome::Told(refusal));
+        }
         let notice = match effect {
             Effect::Quit => return Ok(EffectOutcome::Stop(LoopEnd::Quit)),
             Effect::Suspend => return Ok(EffectOutcome::Stop(LoopEnd::Suspend)),

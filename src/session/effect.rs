@@ -1,6 +1,6 @@
 //! Effects: what a session asks of the outer rings.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::session::message::Purpose;
 use crate::session::replay::script::Script;
@@ -60,9 +60,22 @@ pub enum Effect {
     /// Write the rows of a scan to a file, in the form given by its extension; a file of another scan is left
     /// alone. The outcome comes back as a notice.
     SaveScan {
-        path: std::path::PathBuf,
+        path: PathBuf,
         scan: std::sync::Arc<crate::study::scan::Scan>,
         /// Its rows, beginning with the first point.
         rows: Vec<crate::study::scan::ScanRow>,
     },
+}
+
+impl Effect {
+    /// The file that it writes, if it writes one.
+    pub fn writes(&self) -> Option<&Path> {
+        match self {
+            Effect::Write { path, .. }
+            | Effect::Record { path, .. }
+            | Effect::Figure { path, .. }
+            | Effect::SaveScan { path, .. } => Some(path),
+            _ => None,
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::io::Write;
+use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -175,6 +176,73 @@ fn what_never_ends_is_refused_in_one_line() {
     child.stdin.take().unwrap().write_all(machine.as_bytes()).unwrap();
     let output = child.wait_with_output().unwrap();
     assert_eq!(String::from_utf8(output.stderr).unwrap(), piped);
+}
+
+/// Runs a keystroke file of this text in a folder.
+fn replay(folder: &Path, keys: &str, more: &str) -> Ran {
+    fs::write(folder.join("test.keys"), keys).unwrap();
+    shell(folder, ":", &format!("replay test.keys {more}"), "")
+}
+
+#[test]
+fn a_keystroke_file_writes_only_what_it_is_allowed_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for (run, file) in [
+        ("write a.toml", "a.toml"),
+        ("figure a.svg", "a.svg"),
+        ("write-macro a b.keys", "b.keys"),
+        ("scan D=-0.3:-0.1:3 margin\"> <wait> <run \"save-scan a.csv", "a.csv"),
+    ] {
+        let keys = format!("&a<right*2>& <run \"{run}\"> <wait>");
+        let refused = replay(folder, &keys, "");
+        assert_eq!((refused.code, refused.err.lines().count()), (1, 1), "{run}: {}", refused.err);
+        assert!(refused.err.contains(file) && refused.err.contains("--allow-write"), "{run}");
+        assert!(refused.out.contains("not written"), "the last screen says so: {}", refused.out);
+        assert_eq!(names(folder), ["test.keys"], "{run}");
+        let written = replay(folder, &keys, "--allow-write");
+        assert_eq!((written.code, written.err.as_str()), (0, ""), "{run}");
+        let mode = fs::metadata(folder.join(file)).unwrap().permissions().mode() & 0o777;
+        assert!(mode == 0o600 || !["a.toml", "b.keys"].contains(&file), "{run}: {mode:o}");
+        for name in names(folder) {
+            fs::remove_file(folder.join(name)).unwrap();
+        }
+    }
+    for path in ["/dev/null", ".", "no/such/folder"] {
+        let ran = replay(folder, &format!("<run \"write! {path}\">"), "--allow-write");
+        assert_eq!((ran.code, ran.err.lines().count()), (1, 1), "{path}: {}", ran.err);
+    }
+}
+
+#[test]
+fn a_keystroke_file_presses_no_more_keys_than_it_may() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let many = replay(folder, "<right*60000>\n  <left*40000> <left>\n", "");
+    assert_eq!(many.out, "");
+    many.is_refused(&["line 2, column 16", "more than 100000 keys"]);
+    let pictures = replay(folder, &"<screen a>\n".repeat(1001), "--size 20x5");
+    assert_eq!((pictures.code, pictures.err.lines().count()), (1, 1), "{}", pictures.err);
+    assert!(
+        pictures.err.contains("line 1001, column 1: more than 1000 screens"),
+        "{}",
+        pictures.err
+    );
+    // Registers that play each other, and a file that plays itself and more.
+    fs::write(folder.join("a.keys"), "@b@b").unwrap();
+    fs::write(folder.join("b.keys"), "@a@a").unwrap();
+    fs::write(folder.join("c.keys"), "<run \"play c.keys\"> <async> <right*90>").unwrap();
+    for (keys, place) in [
+        (
+            "<run \"read-macro a a.keys\"> <run \"read-macro b b.keys\">\n<right> @a",
+            "line 2, column 10",
+        ),
+        ("<right> <run \"play c.keys\">", "line 1, column 9"),
+    ] {
+        let ran = replay(folder, keys, "");
+        assert_eq!((ran.code, ran.err.lines().count()), (1, 1), "{keys}: {}", ran.err);
+        assert!(ran.err.contains(place) && ran.err.contains("100000 keys"), "{keys}: {}", ran.err);
+    }
 }
 
 #[test]

@@ -31,6 +31,8 @@ pub(super) struct Playing {
     /// Whether anything besides its own steps was given to the session, such as the passing of time.
     pub(super) timed: bool,
     pub(super) pause: Pause,
+    /// Why the first file that it asked for was not written.
+    pub(super) unwritten: Option<String>,
 }
 
 impl Playing {
@@ -45,6 +47,7 @@ impl Playing {
             given: Recorder::default(),
             timed: false,
             pause: Pause::Not,
+            unwritten: None,
         }
     }
 

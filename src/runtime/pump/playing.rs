@@ -10,9 +10,10 @@ use std::path::Path;
 use super::play::{Pause, Playing};
 use super::{Application, EffectOutcome, Files, Pump, picture};
 use crate::runtime::event::{Event, LoopEnd};
+use crate::runtime::headless::unasked;
 use crate::session::read::waiting::forgets;
 use crate::session::replay::{Action, Script};
-use crate::session::{Code, Key, Msg, Notice};
+use crate::session::{Code, Effect, Key, Msg, Notice};
 use crate::view;
 
 /// Keys that go back to the previous caption, including those of a presenter's remote control.
@@ -119,11 +120,18 @@ impl<M: Application, W: Write> Pump<M, W> {
             return Ok(EffectOutcome::Done);
         };
         playing.given.forget(asked);
-        if playing.player.interject(script) {
-            return Ok(EffectOutcome::Done);
-        }
-        let stop = self.played(true, "replay stopped: it plays itself".to_owned(), false)?;
+        let Err(unmet) = playing.player.interject(script) else { return Ok(EffectOutcome::Done) };
+        let stop = self.played(true, format!("replay stopped: {unmet}"), false)?;
         Ok(stop.map_or(EffectOutcome::Done, EffectOutcome::Stop))
+    }
+
+    /// The refusal of an effect that writes a file, if a file that may not do so is played.
+    pub(super) fn refusal(&mut self, effect: &Effect) -> Option<Msg> {
+        let playing = self.playing.as_mut().filter(|playing| !playing.register)?;
+        let notice = unasked(effect).filter(|_| !self.files.may_play_write)?;
+        playing.unwritten.get_or_insert(notice.text.clone());
+        let is_figure = matches!(effect, Effect::Figure { .. });
+        Some(if is_figure { Msg::Written(notice) } else { Msg::Told(notice) })
     }
 
     /// Takes the next step of a replay, if the screen shows everything before it.
@@ -159,7 +167,10 @@ impl<M: Application, W: Write> Pump<M, W> {
                     }
                     Ok(stop)
                 }
-                Ok(Action::Done) => self.played(false, "replay done".to_owned(), true),
+                Ok(Action::Done) => match playing.unwritten.take() {
+                    Some(why) => self.played(true, format!("replay done, but {why}"), true),
+                    None => self.played(false, "replay done".to_owned(), true),
+                },
                 Err(unmet) => self.played(true, format!("replay stopped: {unmet}"), false),
             };
         }

@@ -191,6 +191,26 @@ fn a_replay_types_its_keys_and_says_how_it_ended() {
     assert!(stopped.starts_with("1 replay stopped: line 1, column 9"), "{stopped}");
 }
 
+#[test]
+fn a_replay_goes_on_without_a_file_that_it_may_not_write_and_says_so_at_the_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.toml");
+    for may_play_write in [false, true] {
+        let Bench { mut pump, events, written } = bench();
+        let (path, text) = (path.clone(), "text".to_owned());
+        pump.application.asks = Some(Effect::Write { path, text, replace: false });
+        pump.files.may_play_write = may_play_write;
+        let mut pump = pump.playing(Some(replay::parse("<enter> <right>").unwrap()));
+        let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
+        while !written.recv().unwrap().contains("done") {}
+        events.send(key("q")).unwrap();
+        let (_, pump) = running.join().unwrap();
+        let refused = pump.application.notice.contains("--allow-write");
+        assert_eq!((pump.application.count, refused), (1, !may_play_write));
+        assert_eq!(folder.path().join("a.toml").exists(), may_play_write);
+    }
+}
+
 /// By the order of events: two keys are answered on the screen before the figure is finished.
 #[test]
 fn keys_are_answered_while_a_figure_is_written() {

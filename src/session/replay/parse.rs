@@ -7,7 +7,7 @@ use crate::oscillator::PARAMETERS;
 use crate::scene::misread::printable;
 use crate::session::message::key::{self, Code, Key};
 use crate::session::message::pointer::Gesture;
-use crate::session::replay::script::{Instruction, LONGEST, Located, Script};
+use crate::session::replay::script::{self, Instruction, LONGEST, Located, Script, too_long};
 use crate::words::similar::most_similar;
 
 /// Why a text is not a keystroke file.
@@ -62,7 +62,7 @@ const DIRECTIVES: [(&str, Reading); 14] = [
 
 /// Reads a whole keystroke file. Fails with [`BadScript`], which has the place of the first mistake.
 pub fn parse(text: &str) -> Result<Script, BadScript> {
-    let mut steps = Vec::new();
+    let (mut steps, mut whole) = (Vec::new(), 0);
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         let mut rest = line;
         while let Some(first) = rest.chars().next() {
@@ -79,6 +79,10 @@ pub fn parse(text: &str) -> Result<Script, BadScript> {
             }
             let line = index + 1;
             let step = step(token).map_err(|message| BadScript { line, column, message })?;
+            whole += step.length();
+            if whole > script::MOST {
+                return Err(BadScript { line, column, message: too_long() });
+            }
             steps.push(Located { line, column, step });
         }
     }

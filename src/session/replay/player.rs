@@ -5,7 +5,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::session::message::Msg;
-use crate::session::replay::script::{Instruction, Located, Script};
+use crate::session::replay::script::{Instruction, Located, MOST, Script, too_long};
 
 /// The next action.
 #[derive(Clone, Debug)]
@@ -19,21 +19,21 @@ pub enum Action {
     Done,
 }
 
-/// An expectation that the screen does not meet.
+/// The place where a replay ends early, and why: the screen does not show an expected text, or there are too many
+/// keys.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unmet {
-    /// Line of the expectation, from 1.
+    /// Line of the step, from 1; of keys from another file or a register, that of the step that plays them.
     pub line: usize,
     /// Column, from 1.
     pub column: usize,
-    /// The expected text, which no row of the screen contains.
-    pub text: String,
+    pub why: String,
 }
 
 impl fmt::Display for Unmet {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { line, column, text } = self;
-        write!(out, "line {line}, column {column}: the screen does not show {text:?}")
+        let Self { line, column, why } = self;
+        write!(out, "line {line}, column {column}: {why}")
     }
 }
 
@@ -45,19 +45,23 @@ impl std::error::Error for Unmet {}
 /// `<async>`, it waits for that before each step, so that each key finds the picture that its author saw.
 #[derive(Clone, Debug)]
 pub struct Player {
-    /// The remaining steps, each with the nesting depth of its file.
-    steps: VecDeque<(Located, u32)>,
-    /// Nesting depth of the last step.
-    depth: u32,
+    /// The remaining steps, each with whether it is from another file or a register.
+    steps: VecDeque<(Located, bool)>,
+    /// Line and column of the last step that is not.
+    place: (usize, usize),
+    /// Number of steps given so far and of those that remain, presses of a key one by one.
+    length: u64,
     asynchronous: bool,
+    /// Number of pictures kept so far.
+    pictures: usize,
     /// The files that the script embeds, by name.
     files: BTreeMap<PathBuf, String>,
     /// Number of captions shown so far, and number of all captions.
     captions: (usize, usize),
 }
 
-/// Maximum nesting depth of files: beyond it, a file is assumed to play itself.
-const DEEPEST: u32 = 1000;
+/// Maximum number of pictures that are kept: one of a large screen has a million cells.
+const PICTURES: usize = 1000;
 
 /// Number of captions in a file.
 fn captions(script: &Script) -> usize {
@@ -67,23 +71,25 @@ fn captions(script: &Script) -> usize {
 impl Player {
     /// Plays a file from its beginning.
     pub fn new(script: Script) -> Self {
-        let captions = (0, captions(&script));
-        let steps = script.steps.into_iter().map(|step| (step, 0)).collect();
-        Player { steps, depth: 0, asynchronous: false, files: BTreeMap::new(), captions }
+        let (captions, length) = ((0, captions(&script)), script.length());
+        let steps = script.steps.into_iter().map(|step| (step, false)).collect();
+        let (asynchronous, files) = (false, BTreeMap::new());
+        Player { steps, place: (1, 1), length, asynchronous, pictures: 0, files, captions }
     }
 
-    /// Inserts another file before the rest of this one. Refuses one that is nested too deeply, because it
-    /// plays itself without end; returns whether the file is played.
-    pub fn interject(&mut self, script: Script) -> bool {
-        let depth = self.depth + 1;
-        if depth > DEEPEST {
-            return false;
+    /// Inserts another file before the rest of this one. Fails with [`Unmet`] if both together have more steps
+    /// than [`MOST`], as those of a file that plays itself.
+    pub fn interject(&mut self, script: Script) -> Result<(), Unmet> {
+        self.length += script.length();
+        if self.length > MOST {
+            let (line, column) = self.place;
+            return Err(Unmet { line, column, why: too_long() });
         }
         self.captions.1 += captions(&script);
         for step in script.steps.into_iter().rev() {
-            self.steps.push_front((step, depth));
+            self.steps.push_front((step, true));
         }
-        true
+        Ok(())
     }
 
     /// Number of captions shown so far.
@@ -101,20 +107,31 @@ impl Player {
     /// text; the player is then after that step.
     pub fn next(&mut self, idle: bool, screen: impl Fn() -> String) -> Result<Action, Unmet> {
         loop {
-            let Some((Located { line, column, step }, depth)) = self.steps.front().cloned() else {
+            let Some((Located { line, column, step }, inserted)) = self.steps.front().cloned()
+            else {
                 return Ok(if idle { Action::Done } else { Action::Wait });
             };
             if !idle && (!self.asynchronous || step == Instruction::Wait) {
                 return Ok(Action::Wait);
             }
             self.advance();
-            self.depth = depth;
+            if !inserted {
+                self.place = (line, column);
+            }
             match step {
                 Instruction::Async => self.asynchronous = true,
                 Instruction::File { name, text } => drop(self.files.insert(name.into(), text)),
-                Instruction::Screen(name) => return Ok(Action::Keep(name)),
+                Instruction::Screen(name) if self.pictures < PICTURES => {
+                    self.pictures += 1;
+                    return Ok(Action::Keep(name));
+                }
+                Instruction::Screen(_) => {
+                    let why = format!("more than {PICTURES} screens, the most that are kept");
+                    return Err(Unmet { line, column, why });
+                }
                 Instruction::Expect(text) if !screen().contains(&text) => {
-                    return Err(Unmet { line, column, text });
+                    let why = format!("the screen does not show {text:?}");
+                    return Err(Unmet { line, column, why });
                 }
                 Instruction::Say(text) => {
                     self.captions.0 += 1;
@@ -193,19 +210,32 @@ mod tests {
             other => format!("{other:?}"),
         };
         let mut keys = vec![next(&mut player)];
-        assert!(player.interject(parse("x<y*2>").unwrap()));
+        player.interject(parse("x<y*2>").unwrap()).unwrap();
         keys.extend((0..5).map(|_| next(&mut player)));
         assert_eq!(keys, ["a", "x", "y", "y", "b", "Done"]);
     }
 
     #[test]
-    fn a_file_that_plays_itself_comes_to_an_end() {
-        let mut player = Player::new(parse("a").unwrap());
-        let mut played = 0;
-        while let Action::Give(_) = player.next(true, String::new).unwrap() {
-            player.interject(parse("a").unwrap());
-            played += 1;
+    fn a_file_that_plays_itself_comes_to_an_end_at_its_own_step() {
+        for (file, itself) in
+            [("\n b a", "\n\nb a"), ("\n b a<x*9>", "b a<x*9>"), ("\n b a", "a a")]
+        {
+            let mut player = Player::new(parse(file).unwrap());
+            let mut given = 0;
+            let unmet = loop {
+                let Action::Give(message) = player.next(true, String::new).unwrap() else {
+                    panic!("ended after {given}")
+                };
+                given += 1;
+                if !matches!(message, Msg::Key(key) if key == "a".parse().unwrap()) {
+                    continue;
+                }
+                if let Err(unmet) = player.interject(parse(itself).unwrap()) {
+                    break unmet;
+                }
+            };
+            assert_eq!((unmet.line, unmet.column, unmet.why), (2, 4, too_long()));
+            assert!(given <= MOST && player.steps.len() as u64 <= MOST, "{given}");
         }
-        assert_eq!(played, DEEPEST + 1);
     }
 }

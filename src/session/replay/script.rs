@@ -8,6 +8,17 @@ use crate::session::message::pointer::Pointed;
 /// Longest time in a single step, in s.
 pub const LONGEST: f64 = 3600.0;
 
+/// Maximum number of steps that are run, presses of a key one by one: those of a file, and those of the files and
+/// registers that it plays. The quickest take a tenth of a millisecond each.
+pub const MOST: u64 = 100_000;
+
+/// Why a file with more steps is not run.
+pub(super) fn too_long() -> String {
+    format!(
+        "with what is played here there are more than {MOST} keys, the most that a file may press"
+    )
+}
+
 /// One instruction of a keystroke file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Instruction {
@@ -67,6 +78,11 @@ impl Instruction {
         })
     }
 
+    /// Number of times that it is done.
+    pub(super) fn length(&self) -> u64 {
+        if let Instruction::Key { count, .. } = self { u64::from(*count) } else { 1 }
+    }
+
     /// The message that a step gives to a session; for a key, that of one press.
     pub fn message(&self) -> Option<Msg> {
         Some(match self {
@@ -114,6 +130,11 @@ impl Script {
         };
         let once: Vec<Located> = steps.iter().enumerate().map(located).collect();
         Script { steps: (0..times).flat_map(|_| once.iter().cloned()).collect() }
+    }
+
+    /// Number of steps, presses of a key one by one.
+    pub fn length(&self) -> u64 {
+        self.steps.iter().map(|located| located.step.length()).sum()
     }
 
     /// Number of messages that count as input of the user.

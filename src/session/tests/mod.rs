@@ -102,7 +102,7 @@ impl Trial {
             self.give(message);
             for effect in &self.effects[before..] {
                 if let Effect::Play(script) | Effect::PlayRegister(script) = effect {
-                    player.interject(script.clone());
+                    player.interject(script.clone()).unwrap();
                 }
             }
             self.reads(before, Some(&player));

@@ -40,7 +40,7 @@ fn type_ahead(trial: &mut Trial, keys: &str) -> Vec<String> {
         }
         for effect in &trial.effects[before..] {
             if let Effect::Play(script) | Effect::PlayRegister(script) = effect {
-                player.interject(script.clone());
+                player.interject(script.clone()).unwrap();
             }
         }
     }
