@@ -40,6 +40,9 @@
 //!   pump drains messages, gives the worker what the session wants, and draws when something changed;
 //!   the worker's newest wants win.
 
+#![forbid(unsafe_code)]
+// They panic where nobody reads; `runtime::standard` does not.
+#![cfg_attr(not(test), warn(clippy::print_stdout, clippy::print_stderr))]
 #![cfg_attr(
     not(feature = "explorer"),
     allow(

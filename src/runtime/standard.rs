@@ -4,11 +4,19 @@ use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, Write};
 use std::os::fd::AsFd;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether standard output was closed when the process began. The runtime of the language has put /dev/null in
+/// its place before `main`, so only the program itself can know.
+pub static CLOSED: AtomicBool = AtomicBool::new(false);
 
 /// Prints a part of the answer at once. Fails if it cannot be written.
 pub fn print(text: &str) -> io::Result<()> {
     if text.is_empty() {
         return Ok(());
+    }
+    if CLOSED.load(Ordering::Relaxed) {
+        return Err(io::Error::other("it is closed"));
     }
     // Not by `io::Stdout`, which takes one that is not open for writing for success.
     File::from(io::stdout().as_fd().try_clone_to_owned()?).write_all(text.as_bytes())

@@ -107,7 +107,7 @@ fn an_answer_that_cannot_be_printed_is_a_failure() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     for line in ["cycles", "--help", "scan --over D=-0.3:-0.1:3 --measure margin", "scenes"] {
-        for closed in ["1</dev/null", ">/dev/full"] {
+        for closed in [">&-", "1</dev/null", ">/dev/full"] {
             let ran = shell(folder, ":", line, closed);
             assert_eq!((ran.code, ran.err.lines().count()), (1, 1), "{line} {closed}: {}", ran.err);
         }
@@ -116,6 +116,7 @@ fn an_answer_that_cannot_be_printed_is_a_failure() {
             assert_eq!(shell(folder, ":", line, null).code, 0, "{line} {null}");
         }
     }
+    assert_eq!(shell(folder, ":", "cycles --write answer.txt", ">&-").code, 0);
 }
 
 /// Every command that reads a file of the user's, at the place of `FILE`.
