@@ -57,10 +57,11 @@ impl ScanFile {
                 // Another scan that is writing to it keeps it.
                 drop(opened(path)?);
             }
+            // Before the old rows go: where there is no room for this, there is none for rows.
+            let checksum = RunningChecksum::begin(path, provenance, Checksum::NONE)?;
             new_file::write(path, heading.as_bytes(), Readers::Usual, true)?;
             let mut file = opened(path)?;
             file.seek(SeekFrom::End(0))?;
-            let checksum = RunningChecksum::begin(path, provenance, Checksum::NONE)?;
             (file, Some(Journal::new(path)), Some(checksum))
         } else {
             let mut file = new_file::device(path)?;

@@ -33,12 +33,13 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 /// Every command that writes a file, here over an old one.
-const WRITERS: [&str; 9] = [
+const WRITERS: [&str; 10] = [
     "figure fig17 --output old.svg --force",
     "cycles --set D=-0.3 --set D3=0.5 --certificate old.svg --force",
     "fit record.csv --output old.svg --force",
     "man . --force",
     "scan --over D=-0.3:-0.1:3 --measure margin --output old.svg --force",
+    "scan --over D=-0.3:-0.1:3 --measure margin --format json --output old.svg --force",
     "scan --over D=-0.3:-0.1:3 --measure margin --plan slurm --shards 2 --output old.svg --force",
     "merge part.csv --output old.svg --force",
     "replay screen.keys --screens .",
