@@ -6,7 +6,9 @@ use std::fmt::Write;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 use roxmltree::{Document, Node};
-use ttf_parser::{Face, GlyphId, OutlineBuilder};
+use skrifa::instance::{LocationRef, Size};
+use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::{FontRef, GlyphId, MetadataProvider};
 
 /// Dots of a PNG along a pixel of the vector picture, which is a 96th of an inch: 288 to the inch.
 const SCALE: f32 = 3.0;
@@ -37,13 +39,13 @@ fn failed(why: impl std::fmt::Display) -> String {
 /// The SVG with its texts as paths, so that painting it takes no fonts.
 fn outlined(svg: &str) -> Result<String, String> {
     let document = Document::parse(svg).map_err(failed)?;
-    let [upright, slanted] = FONTS.map(|font| Face::parse(font, 0));
+    let [upright, slanted] = FONTS.map(FontRef::new);
     let (upright, slanted) = (upright.map_err(failed)?, slanted.map_err(failed)?);
     let mut out = String::with_capacity(2 * svg.len());
     let mut copied = 0;
     for text in document.descendants().filter(|node| node.has_tag_name("text")) {
         let italic = text.attribute("font-style") == Some("italic");
-        let outline = Outline::of(&text, if italic { &slanted } else { &upright });
+        let outline = Outline::of(&text, if italic { &slanted } else { &upright })?;
         out.push_str(&svg[copied..text.range().start]);
         let _ = write!(out, "<path d=\"{}\"", outline.path);
         for painted in text.attributes().filter(|it| !SETTING.contains(&it.name())) {
@@ -60,46 +62,48 @@ fn outlined(svg: &str) -> Result<String, String> {
 struct Outline {
     path: String,
     /// Where the next letter stands.
-    pen: [f32; 2],
-    /// From the units of the font to those of the picture.
-    scale: f32,
+    at: [f32; 2],
 }
 
 impl Outline {
-    /// The outline of a text element.
-    fn of(text: &Node, face: &Face) -> Outline {
+    /// The outline of a text element. Fails with one line if the font is damaged.
+    fn of(text: &Node, font: &FontRef) -> Result<Outline, String> {
         let number = |name| text.attribute(name).and_then(|it| it.parse().ok()).unwrap_or(0.0);
         let size = text.ancestors().find_map(|node| node.attribute("font-size")?.parse().ok());
-        let scale = size.unwrap_or(12.0) / f32::from(face.units_per_em());
+        let (size, whole) = (Size::new(size.unwrap_or(12.0)), LocationRef::default());
+        let (places, metrics) = (font.charmap(), font.glyph_metrics(size, whole));
         let letters = text.text().unwrap_or_default().chars();
         let glyphs: Vec<GlyphId> =
-            letters.map(|letter| face.glyph_index(letter).unwrap_or_default()).collect();
-        let steps = |glyph: &GlyphId| f32::from(face.glyph_hor_advance(*glyph).unwrap_or(0));
-        let width = scale * glyphs.iter().map(steps).sum::<f32>();
+            letters.map(|letter| places.map(letter).unwrap_or_default()).collect();
+        let step = |glyph: &GlyphId| metrics.advance_width(*glyph).unwrap_or(0.0);
+        let width: f32 = glyphs.iter().map(step).sum();
         let before = match text.attribute("text-anchor") {
             Some("middle") => width / 2.0,
             Some("end") => width,
             _ => 0.0,
         };
-        let pen = [number("x") - before, number("y")];
-        let mut outline = Outline { path: String::new(), pen, scale };
+        let at = [number("x") - before, number("y")];
+        let mut outline = Outline { path: String::new(), at };
+        let outlines = font.outline_glyphs();
         for glyph in glyphs {
-            face.outline_glyph(glyph, &mut outline);
-            outline.pen[0] += scale * steps(&glyph);
+            if let Some(shape) = outlines.get(glyph) {
+                shape.draw(DrawSettings::unhinted(size, whole), &mut outline).map_err(failed)?;
+            }
+            outline.at[0] += step(&glyph);
         }
-        outline
+        Ok(outline)
     }
 
     fn push(&mut self, command: char, points: &[(f32, f32)]) {
         self.path.push(command);
-        let ([left, base], scale) = (self.pen, self.scale);
+        let [left, base] = self.at;
         for (x, y) in points {
-            let _ = write!(self.path, "{:.3} {:.3} ", left + scale * x, base - scale * y);
+            let _ = write!(self.path, "{:.3} {:.3} ", left + x, base - y);
         }
     }
 }
 
-impl OutlineBuilder for Outline {
+impl OutlinePen for Outline {
     fn move_to(&mut self, x: f32, y: f32) {
         self.push('M', &[(x, y)]);
     }
