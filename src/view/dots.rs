@@ -2,7 +2,8 @@
 //!
 //! Each cell shows one thing in one colour, which keeps the stream of bytes short: a symbol hides
 //! curves, curves (solid or dashed, also in the gaps of their dashes) hide guides (with dots), and guides
-//! hide texture. Where curves share a cell the dots of both are shown in the colour of the later one. Coordinates
+//! hide texture. Where curves share a cell the dots of both are shown in the colour of the later one; a thick
+//! line, which stands for an area, leaves the colour to the curve. Coordinates
 //! count dots from the top left corner; lines are clipped in floating point before they become dots, and what is not
 //! finite is not drawn.
 
@@ -88,10 +89,14 @@ impl Dots {
     /// Draws a polyline; a point that is not finite interrupts it.
     pub fn stroke(&mut self, points: impl IntoIterator<Item = DotPoint>, pen: Pen) {
         if pen.dash == Dash::Thick && self.glyphs != Glyphs::Ascii {
-            // At an edge both of its dots stand inside.
-            let height = self.size().1;
+            // Both of its dots stand in the cell that the line is in, as a mark on it does.
+            let (height, down) = (self.size().1, f64::from(self.glyphs.dots().1));
             let inside = |y: f64| {
-                if (0.0..=height).contains(&y) { y.min(height - 1.0).max(0.5) } else { y }
+                if !(0.0..=height).contains(&y) {
+                    return y;
+                }
+                let top = (y.min(height - 1.0) / down).floor() * down;
+                y.clamp(top + 0.5, top + down - 1.0)
             };
             let points: Vec<DotPoint> = points.into_iter().map(|(x, y)| (x, inside(y))).collect();
             for offset in [-0.5, 0.5] {
@@ -175,6 +180,9 @@ impl Dots {
         *content = match *content {
             CellContent::Symbol(..) => return,
             CellContent::Ink(..) if guide => return,
+            CellContent::Ink(bits, own) if bits != 0 && (!on || dash == Dash::Thick) => {
+                CellContent::Ink(bits | bit, own)
+            }
             CellContent::Ink(bits, _) => CellContent::Ink(bits | bit, role),
             CellContent::Guide(bits, _) if guide && on => CellContent::Guide(bits | bit, role),
             CellContent::Empty | CellContent::Texture(..) if guide && on => {

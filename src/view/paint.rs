@@ -7,7 +7,8 @@ use super::look::{Look, Symbols};
 use super::pane::Heading;
 use super::plot::{Canvas, Names};
 use crate::picture::items::{Caption, Item, Marks, Pattern, Picture};
-use crate::picture::role::Mark;
+use crate::picture::role::{Dash, Mark};
+use crate::scene::Point;
 
 /// Plots at least this wide have the long form of captions.
 const WIDE: u16 = 36;
@@ -45,8 +46,19 @@ pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, bu
     }
     let labelled = plot.inner().width >= LABELLED;
     let named = |name: &&Caption| labelled || !name.long.is_empty();
-    plot.names(&names.into_iter().filter(named).collect::<Vec<_>>());
+    let curves: Vec<&[Point]> = items.iter().filter_map(followed).collect();
+    plot.names(&names.into_iter().filter(named).collect::<Vec<_>>(), &curves);
     plot.finish(buffer);
+}
+
+/// The points of a curve that a name beside it could be taken for.
+fn followed<'a>(item: &'a Item) -> Option<&'a [Point]> {
+    match item {
+        Item::Curve(line, points) if matches!(line.dash, Dash::Solid | Dash::Dashed) => {
+            Some(points)
+        }
+        _ => None,
+    }
 }
 
 fn put(plot: &mut Canvas, item: &Item, look: &Look) {

@@ -107,6 +107,26 @@ fn a_later_stroke_takes_the_colour_of_a_shared_cell() {
 }
 
 #[test]
+fn a_curve_and_an_area_in_one_cell_have_the_colour_of_the_curve() {
+    let look = Look::new(settings::Wishes::default());
+    let area = Pen { role: Role::Sticking, dash: Dash::Thick };
+    let curve = Pen { role: Role::Unstable, dash: Dash::Dashed };
+    for pens in [[area, curve], [curve, area]] {
+        let mut dots = Dots::new(Rect::new(0, 0, 6, 1), Glyphs::Braille);
+        for pen in pens {
+            let y = if pen.dash == Dash::Thick { 2.5 } else { 1.5 };
+            dots.stroke([(0.0, y), (11.9, y)], pen);
+        }
+        let mut buffer = Buffer::empty(dots.area);
+        dots.paint(&mut buffer, &look);
+        // Dashes of four dots and gaps of two: the third and the sixth cell have the area alone.
+        let colours: Vec<Color> = buffer.content.iter().map(|cell| cell.fg).collect();
+        let (red, yellow) = (Color::Red, Color::Yellow);
+        assert_eq!(colours, [red, red, yellow, red, red, yellow], "{pens:?}");
+    }
+}
+
+#[test]
 fn a_line_from_far_out_enters_where_it_should() {
     let mut dots = Dots::new(Rect::new(0, 0, 4, 4), Glyphs::Ascii);
     dots.stroke([(-1e300, -1e300), (1e300, 1e300)], SOLID);
@@ -130,6 +150,26 @@ proptest! {
             }
             prop_assert!(near.iter().all(|point| dots.cell_at(*point).is_none_or(|(column, row)| column < width && row < height)));
             painted(&dots);
+        }
+    }
+
+    #[test]
+    fn a_thick_line_covers_the_dots_of_a_thin_one_and_stays_in_its_cells(y in 0.0..=40.0_f64) {
+        for glyphs in [Glyphs::Braille, Glyphs::Octant, Glyphs::Block] {
+            let bits = |dash| {
+                let mut dots = Dots::new(Rect::new(0, 0, 1, 10), glyphs);
+                let (width, height) = dots.size();
+                let y = y / 40.0 * height;
+                dots.stroke([(0.0, y), (width, y)], Pen { role: Role::Stable, dash });
+                dots.cells.iter().map(|cell| match cell {
+                    CellContent::Ink(bits, _) => *bits,
+                    _ => 0,
+                }).collect::<Vec<u8>>()
+            };
+            let (thin, thick) = (bits(Dash::Solid), bits(Dash::Thick));
+            prop_assert!(thin.iter().zip(&thick).all(|(thin, thick)| thin & thick == *thin), "{:?} {:?}", thin, thick);
+            let inked = |bits: &[u8]| bits.iter().filter(|bits| **bits != 0).count();
+            prop_assert_eq!((inked(&thin), inked(&thick)), (1, 1), "{:?} {:?}", thin, thick);
         }
     }
 

@@ -9,7 +9,7 @@
 use ratatui::layout::{Position, Rect};
 
 use crate::picture::ticks::{Scale, Tick, Ticks};
-use crate::scene::{Point, Span, Window};
+use crate::scene::{Point, Span, View, Window};
 use crate::session::Session;
 use crate::words::number::resolved;
 
@@ -53,9 +53,24 @@ impl Geometry {
     }
 }
 
-/// The part of the world that a plot shows in `area`: its window, and more where units are to be as long
-/// across as up.
+/// The part of the world that a plot shows in `area`: its window, moved by up to half a row so that the line
+/// y = 0 runs through the middle of its cells, as the marks on it do; and more where units are to be as
+/// long across as up.
 pub fn shown(area: Rect, session: &Session, index: usize, scales: [Scale; 2]) -> Window {
+    let window = widened(area, session, index, scales);
+    let (rows, y) = (f64::from(rows(area)), window.y);
+    let zero = y.fraction(0.0) * rows;
+    let has_zero = ![View::EnergyLedger, View::Trade, View::Belt, View::Scan]
+        .contains(&session.plots[index].view);
+    // What is drawn at the edge of the picture stays there.
+    if has_zero && (1.0..=rows - 1.0).contains(&zero) {
+        let by = (zero - zero.floor() - 0.5) / rows;
+        return Window { y: y.shifted(by), ..window };
+    }
+    window
+}
+
+fn widened(area: Rect, session: &Session, index: usize, scales: [Scale; 2]) -> Window {
     let window = session.plots[index].window;
     if !session.has_equal_units(index) {
         return window;
@@ -101,9 +116,17 @@ pub fn point_at(
     })
 }
 
+/// Where a fraction of an axis lies among this many dots or cells. Curves, marks and ticks at the border of two of
+/// them all lie in the second, whatever the last digit of the fraction is.
+pub(super) fn along(fraction: f64, count: f64) -> f64 {
+    const ROUNDING: f64 = 1e-9;
+    let place = fraction * count + ROUNDING;
+    if (place - count).abs() <= 2.0 * ROUNDING { count } else { place }
+}
+
 /// The cell in which a fraction of the axis lies.
 pub(super) fn column(fraction: f64, cells: u16) -> u16 {
-    ((fraction * f64::from(cells)) as u16).min(cells.saturating_sub(1))
+    (along(fraction, cells.into()) as u16).min(cells.saturating_sub(1))
 }
 
 /// Where the label of a tick begins, so that it is centred below its tick and inside the axis.

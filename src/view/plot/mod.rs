@@ -16,7 +16,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier};
 
-use geometry::{Geometry, centred, column};
+use geometry::{Geometry, along, centred, column};
 pub use geometry::{point_at, rows, shown};
 
 use super::dots::{Covering, Dots, Pen};
@@ -59,12 +59,15 @@ impl<'a> Canvas<'a> {
         look: &'a Look,
         buffer: &mut Buffer,
     ) -> Self {
+        let has_marks = names.marks.is_some();
         let Geometry { inner, roomy, rightward, mut upward } =
             Geometry::of(area, window, names.scales, names.marks);
         let (x, y) = (named(names.x, &rightward), named(names.y, &upward));
         let axes = if names.y.is_empty() {
-            // Heights without meaning have no scale.
-            upward.ticks.clear();
+            if !has_marks {
+                // Heights without meaning have no scale.
+                upward.ticks.clear();
+            }
             x
         } else {
             format!("{y} over {x}")
@@ -143,7 +146,7 @@ impl<'a> Canvas<'a> {
     fn place(&self, point: Point) -> (f64, f64) {
         let (width, height) = self.dots.size();
         let Window { x, y } = self.window;
-        (x.fraction(point.x) * width, (1.0 - y.fraction(point.y)) * height)
+        (along(x.fraction(point.x), width), along(1.0 - y.fraction(point.y), height))
     }
 
     /// The world at the middle of a cell.
@@ -207,3 +210,6 @@ fn named(name: &str, ticks: &Ticks) -> String {
         },
     }
 }
+
+#[cfg(test)]
+mod tests;

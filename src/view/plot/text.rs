@@ -14,49 +14,78 @@ use crate::words::number::significant;
 const FREE: [Covering; 2] = [Covering::Texture, Covering::Guide];
 
 /// Distance from other curves, in rows, from which on a name cannot be taken for theirs.
-const CLEAR: i32 = 6;
+const CLEAR: i32 = 3;
 
-/// Distance from other curves, in rows, below which a name is rather left out.
-const NEAR: i32 = 2;
+/// Distance from other curves, in rows, below which a name touches them.
+const NEAR: i32 = 1;
+
+/// How far a text that begins in a cell is from some others, in rows; a column is half as wide as a row is high.
+fn far_from(others: &[(i32, i32)], (column, row): (u16, u16), text: &str) -> i32 {
+    let (first, row) = (i32::from(column), i32::from(row));
+    let last = first + i32::try_from(text.chars().count()).unwrap_or(i32::MAX) - 1;
+    let distance = |(x, y): &(i32, i32)| {
+        // Beside each other, one free column is no distance.
+        let aside = (first - x).max(x - last).max(1) - 1;
+        (row - y).abs().max(aside / 2)
+    };
+    others.iter().map(distance).min().unwrap_or(i32::MAX)
+}
 
 impl Canvas<'_> {
-    /// Writes names beside their curves, each where the others are far away.
-    pub fn names(&mut self, names: &[&Caption]) {
-        let cells = |name: &&Caption| {
-            let points = std::iter::once(&name.at).chain(&name.or_at);
-            points.filter_map(|point| self.cell(*point)).collect::<Vec<_>>()
-        };
-        let all: Vec<_> = names.iter().map(cells).collect();
-        for (name, own) in names.iter().zip(&all) {
-            let others = names.iter().zip(&all).filter(|(other, _)| other.short != name.short);
-            let others: Vec<_> = others.flat_map(|(_, cells)| cells).collect();
-            // A column is half as wide as a row is high.
-            let distance = |(x, y): &(i32, i32)| {
-                let far = others.iter().map(|(a, b)| (y - b).abs().max((x - a).abs() / 2));
-                far.min().unwrap_or(CLEAR).min(CLEAR)
-            };
-            let mut places = own.clone();
-            places.sort_by_key(|cell| -distance(cell));
-            let clear: Vec<_> =
-                places.iter().copied().filter(|cell| distance(cell) >= CLEAR / 2).collect();
-            // Where the whole curve runs along others, any place is as good.
-            let farthest = places.first().map_or(0, distance).min(NEAR);
-            let near: Vec<_> =
-                places.into_iter().filter(|cell| distance(cell) >= farthest).collect();
+    /// Writes names beside their curves, each where the other `curves` are farther away than its own.
+    pub fn names(&mut self, names: &[&Caption], curves: &[&[Point]]) {
+        let cells: Vec<_> = curves.iter().map(|curve| self.cells_of(curve)).collect();
+        for name in names {
+            let points = || std::iter::once(&name.at).chain(&name.or_at);
+            let own: Vec<_> = points().filter_map(|point| self.cell(*point)).collect();
+            let is_other = |curve: &[Point]| !points().any(|point| curve.contains(point));
+            let others = curves.iter().zip(&cells).filter(|(curve, _)| is_other(curve));
+            let others: Vec<_> = others.flat_map(|(_, cells)| cells).copied().collect();
             let tries = [
-                (&clear, Covering::Texture),
-                (&clear, Covering::Guide),
-                (&near, Covering::Texture),
-                (&clear, Covering::Curve),
-                (&near, Covering::Curve),
+                (Covering::Texture, CLEAR),
+                (Covering::Guide, CLEAR),
+                (Covering::Texture, NEAR),
+                (Covering::Curve, NEAR),
+                // Where the whole curve runs along others, any place is as good.
+                (Covering::Curve, 0),
             ];
             // What a figure tells in its legend hides no curve.
             let mut tries = tries.into_iter().take(if name.long.is_empty() { 3 } else { 5 });
-            let found = tries.find_map(|(cells, over)| self.free(cells, &name.short, over));
+            let found = tries.find_map(|(over, far)| {
+                let clearance = |place| far_from(&others, place, &name.short).min(CLEAR);
+                let is_own = |place| clearance(place) > far_from(&own, place, &name.short);
+                let all = self.places(&own, &name.short, over);
+                let far = all.filter(|at| far == 0 || (clearance(*at) >= far && is_own(*at)));
+                far.reduce(|best, next| if clearance(next) > clearance(best) { next } else { best })
+            });
             if let Some((column, row)) = found {
                 self.letters(column, row, &name.short, name.role);
             }
         }
+    }
+
+    /// The cells that a curve runs through.
+    fn cells_of(&self, curve: &[Point]) -> Vec<(i32, i32)> {
+        /// A chord from far outside is followed in so many places only.
+        const MOST: f64 = 1000.0;
+        let mut cells = Vec::new();
+        for pair in curve.windows(2) {
+            let [(x0, y0), (x1, y1)] = [pair[0], pair[1]].map(|point| self.place(point));
+            let parts = (x1 - x0).abs().max((y1 - y0).abs()).min(MOST).ceil();
+            let mut part = 0.0;
+            while part <= parts {
+                let share = part / parts.max(1.0);
+                let at = (x0 + share * (x1 - x0), y0 + share * (y1 - y0));
+                if let Some((column, row)) = self.dots.cell_at(at) {
+                    let cell = (i32::from(column), i32::from(row));
+                    if cells.last() != Some(&cell) {
+                        cells.push(cell);
+                    }
+                }
+                part += 2.0;
+            }
+        }
+        cells
     }
 
     fn cell(&self, point: Point) -> Option<(i32, i32)> {
@@ -74,16 +103,21 @@ impl Canvas<'_> {
             .iter()
             .flat_map(|text| FREE.map(|over| (over, text)))
             .chain(texts.last().map(|text| (Covering::Curve, text)));
-        let found =
-            candidates.find_map(|(over, text)| Some((self.free(&cells, text, over)?, text)));
+        let found = candidates
+            .find_map(|(over, text)| Some((self.places(&cells, text, over).next()?, text)));
         if let Some(((column, row), text)) = found {
             self.letters(column, row, text, role);
         }
     }
 
-    /// Where a text can begin beside one of some cells, hiding no more than this.
-    fn free(&self, cells: &[(i32, i32)], text: &str, over: Covering) -> Option<(u16, u16)> {
-        let length = i32::try_from(text.chars().count()).ok()?;
+    /// Where a text can begin beside one of some cells, hiding no more than this, the best first.
+    fn places(
+        &self,
+        cells: &[(i32, i32)],
+        text: &str,
+        over: Covering,
+    ) -> impl Iterator<Item = (u16, u16)> {
+        let length = i32::try_from(text.chars().count()).unwrap_or(i32::MAX);
         let (width, height) = (i32::from(self.inner.width), i32::from(self.inner.height));
         let middle = -length / 2;
         let beside = [
@@ -100,8 +134,8 @@ impl Canvas<'_> {
         ];
         let cell =
             |column: i32, row: i32| Some((u16::try_from(column).ok()?, u16::try_from(row).ok()?));
-        let no_symbol = |(x, y)| self.dots.covering(x, y) != Covering::Symbol;
-        let fits = |((x, y), own): &((i32, i32), (i32, i32))| {
+        let no_symbol = move |(x, y)| self.dots.covering(x, y) != Covering::Symbol;
+        let fits = move |((x, y), own): &((i32, i32), (i32, i32))| {
             // Two texts never run together; the mark of its own point a text may touch where it hides curves.
             let may_touch = |at: &(i32, i32)| over == Covering::Curve && at == own;
             let apart = [(x - 1, *y), (x + length, *y)].into_iter().filter(|at| !may_touch(at));
@@ -112,11 +146,9 @@ impl Canvas<'_> {
                 && apart.into_iter().all(no_symbol)
                 && within.into_iter().all(|(x, y)| self.dots.covering(x, y) <= over)
         };
-        let places = cells
-            .iter()
-            .flat_map(|own| beside.iter().map(move |(x, y)| ((own.0 + x, own.1 + y), *own)));
-        let ((column, row), _) = places.into_iter().find(fits)?;
-        cell(column, row)
+        let places =
+            cells.iter().flat_map(move |own| beside.map(|(x, y)| ((own.0 + x, own.1 + y), *own)));
+        places.filter(fits).filter_map(move |((column, row), _)| cell(column, row))
     }
 
     /// Writes a text from the left end of the row in which a height lies.
