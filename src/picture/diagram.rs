@@ -2,8 +2,8 @@
 //!
 //! Computed branches are solid where the cycle is stable and dashed where it is not; the first-order
 //! harmonic answer is dotted beside them. Rest belongs to every diagram (`equilibria`). A dotted upright stands at
-//! the present value of the parameter, and the cycles there are marked. A point of the branch that is held has a
-//! cross.
+//! the present value of the parameter, and the cycles there are marked. Beside the branch of the present values
+//! those of others are paler, without marks. A point of the branch that is held has a cross.
 
 use super::equilibria::{self, at};
 use super::items::{LineStyle, Picture, Text, VariantTag};
@@ -35,20 +35,20 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     let shows = |layer| session.layers.contains(&layer);
     let current = session.value(abscissa);
     let all = session.shown(index);
-    let found: Vec<ComputedBranch> = session
+    let has_present = all.iter().any(|one| one.present);
+    let mut found: Vec<ComputedBranch> = session
         .branches(index)
         .into_iter()
         .filter_map(|(variant, branch)| {
             let height = session.height(index, variant);
             let Shown { label, present, .. } = all.get(variant)?.clone();
-            Some(ComputedBranch {
-                variant: VariantTag { index: variant, label },
-                branch,
-                height,
-                present,
-            })
+            let variant = VariantTag { index: variant, label };
+            let beside = has_present && !present;
+            Some(ComputedBranch { variant, branch, height, present, beside })
         })
         .collect();
+    // The present one over the others.
+    found.sort_by_key(|found| !found.beside);
 
     picture.upright(LineStyle::guide(), 0.0);
     if window.y.from() < 0.0 && window.y.to() > 0.0 {
@@ -59,7 +59,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         for (variant, shown) in variants(&all) {
             let height = diagram.axes.height(shown.problem.parameters.r);
             // Beside branches of other values the formulas stand for the present one alone.
-            if !shown.present && all.iter().any(|one| one.present) {
+            if !shown.present && has_present {
                 continue;
             }
             if shows(Layer::Asymptotes) {
@@ -71,15 +71,6 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
             }
         }
     }
-    if shows(Layer::Branch) {
-        for found in &found {
-            for piece in &found.branch.pieces {
-                branch(picture, piece, found);
-            }
-        }
-    }
-    // Over the branches, which come near it and must not take its cells.
-    let has_present = all.iter().any(|one| one.present);
     let rest = |shown: &Shown| match (shown.present || all.len() == 1, has_present) {
         (true, _) => (equilibria::REST, Dash::Thick),
         (false, true) => ("rest at other values", Dash::Solid),
@@ -91,6 +82,13 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     }
     if shows(Layer::Branch) {
         for found in &found {
+            for piece in &found.branch.pieces {
+                branch(picture, piece, found);
+            }
+        }
+    }
+    if shows(Layer::Branch) {
+        for found in found.iter().filter(|found| !found.beside) {
             for piece in &found.branch.pieces {
                 here(picture, piece, found.height, current);
             }
@@ -105,7 +103,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     }
     if shows(Layer::Special) {
         let mut named: Vec<&Special> = Vec::new();
-        for ComputedBranch { branch, height, .. } in &found {
+        for ComputedBranch { branch, height, .. } in found.iter().rev() {
             for special in &branch.special {
                 // Several variants may have one in common.
                 if !named.contains(&special) {
@@ -124,6 +122,8 @@ struct ComputedBranch<'a> {
     height: Height,
     /// Whether it is that of the present values.
     present: bool,
+    /// Whether it stands beside that.
+    beside: bool,
 }
 
 /// Where the point that is held stands in a diagram: in every one over its parameter. A cycle that has
@@ -219,7 +219,7 @@ fn largest_amplitude(diagram: &session::Plot, height: Height, found: &[ComputedB
 /// Adds a piece, run by run of equal stability; neighbouring runs meet at the fold between them. One of
 /// several branches has its label where it is highest in the window.
 fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) {
-    let ComputedBranch { variant, branch: Branch { special, .. }, height, present } = found;
+    let ComputedBranch { variant, branch: Branch { special, .. }, height, present, beside } = found;
     let place =
         |point: &BranchPoint| Point { x: point.value, y: height.of(point.value, &point.cycle) };
     let mut start = None;
@@ -229,7 +229,14 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) 
         let end =
             next.map(|next| fold_between(last, next, special, *height).unwrap_or(place(next)));
         let CycleStyle { role, dash, name, .. } = cycle_style(first.cycle.stable);
-        let line = LineStyle::new(name, role, dash).of(variant);
+        let line = if *beside {
+            let pale = if first.cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
+            // Its values stand beside it.
+            LineStyle::new(format!("{name} at other values"), pale, dash).captioned()
+        } else {
+            LineStyle::new(name, role, dash)
+        };
+        let line = line.of(variant);
         if *present {
             let points: Vec<Point> = run.iter().map(place).collect();
             picture.label_curve(&points, stability(first.cycle.stable), role);
@@ -239,7 +246,8 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) 
         start = end.filter(|end| next.is_none_or(|next| *end != place(next)));
     }
     let points: Vec<Point> = piece.iter().map(place).collect();
-    picture.name_curve(&points, &variant.label, Role::Special);
+    let role = if *beside { Role::Quiet } else { Role::Special };
+    picture.name_curve(&points, &variant.label, role);
 }
 
 /// Where the fold between two neighbours stands.
