@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::content::{Area, Figure, FigureCurve};
+use crate::picture::map::{Map, MapCell};
 use crate::report::csv::Sheet;
 use crate::report::json::text;
 
@@ -11,15 +12,26 @@ pub fn json(figure: &Figure) -> String {
     text(figure)
 }
 
-/// What it was computed with in lines that begin with `#`, then one row for each point of each curve,
-/// area and mark.
+/// What it was computed with in lines that begin with `#`, then one row for each cell of a map, and each point of
+/// each curve, area and mark.
 pub fn csv(figure: &Figure) -> String {
     let mut out = String::new();
     for remark in remarks(figure) {
         out += &format!("# {remark}\n");
     }
-    let mut sheet = Sheet::like(&PointRow::default(), &[]);
+    // Only a map has values.
+    let map = figure.panels.iter().any(|panel| panel.map.is_some());
+    let value = map.then_some(MapCell::Number(0.0));
+    let mut sheet = Sheet::like(&PointRow { value, ..PointRow::default() }, &[]);
     for (panel, shown) in (1..).zip(&figure.panels) {
+        if let Some(Map { name, x, y, values, .. }) = &shown.map {
+            for (x, column) in x.iter().zip(values) {
+                for (y, value) in y.iter().zip(column) {
+                    let row = PointRow { kind: "map", number: 1, name, ..PointRow::default() };
+                    sheet.row(&PointRow { panel, x: *x, y: *y, value: Some(*value), ..row });
+                }
+            }
+        }
         let mut add = |row: PointRow, points: &[[f64; 2]]| {
             for [x, y] in points {
                 sheet.row(&PointRow { panel, x: *x, y: *y, ..row });
@@ -47,7 +59,7 @@ pub fn csv(figure: &Figure) -> String {
     out + &sheet.into_text()
 }
 
-/// A point of a curve, of the edge of an area, or a mark.
+/// A cell of a map, a point of a curve, of the edge of an area, or a mark.
 #[derive(Clone, Copy, Default, Serialize)]
 struct PointRow<'a> {
     panel: u32,
@@ -58,6 +70,8 @@ struct PointRow<'a> {
     style: &'static str,
     x: f64,
     y: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value: Option<MapCell>,
 }
 
 /// What a figure was computed with, a line each.

@@ -40,7 +40,7 @@ pub(super) fn dashes(style: &str) -> &'static str {
 pub(super) fn shading(role: Role) -> (&'static str, f64) {
     match role {
         Role::Danger | Role::Safe | Role::Field => (ink(role).1, 0.12),
-        Role::Sticking => (ink(role).1, 0.18),
+        Role::Sticking | Role::Failure => (ink(role).1, 0.18),
         _ => ("#dbe7f3", 0.75),
     }
 }

@@ -14,6 +14,7 @@ mod filled;
 mod fit;
 mod ink;
 mod layout;
+mod map;
 mod panel;
 #[cfg(feature = "png")]
 mod png;

@@ -32,6 +32,7 @@ impl Panel {
             curves: Vec::new(),
             areas: Vec::new(),
             marks: Vec::new(),
+            map: picture.map.clone(),
             window: *window,
             captions: Vec::new(),
             guides: Vec::new(),

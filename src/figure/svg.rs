@@ -7,10 +7,12 @@ use super::content::{Area, Figure, MarkedPoint, Panel};
 use super::data::remarks;
 use super::ink::{dashes, escaped, ink, shading};
 use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT};
+use super::map;
 use super::region::loops;
-use crate::numerics::count::whole;
+use crate::numerics::count::{real, whole};
 use crate::numerics::elementary::hypot;
 use crate::picture::items::passes;
+use crate::picture::map::Map;
 use crate::picture::role::{self, Role};
 use crate::picture::ticks::Ticks;
 use crate::scene::Point;
@@ -22,8 +24,10 @@ pub fn svg(figure: &Figure) -> String {
     let below = HEAD + height * f64::from(layout::rows(panels));
     let entries = legend(figure);
     let across = whole(((width - 2.0 * MARGIN.1) / ENTRY.0).floor().max(1.0));
-    let lines = u32::try_from(entries.len().div_ceil(across)).unwrap_or(0);
-    let height = below + f64::from(lines) * ENTRY.1 + 12.0;
+    let lines = real(entries.len().div_ceil(across));
+    let maps = || figure.panels.iter().filter_map(|panel| panel.map.as_ref());
+    let legend_height = lines * ENTRY.1;
+    let height = below + legend_height + real(maps().count()) * map::SCALE + 12.0;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\" font-family=\"Helvetica, Arial, sans-serif\" \
@@ -44,6 +48,10 @@ pub fn svg(figure: &Figure) -> String {
         let y = below + place(number / across) * ENTRY.1 + 8.0;
         sample(&mut out, entry, (x, y));
     }
+    for (number, shown) in maps().enumerate() {
+        let y = below + legend_height + real(number) * map::SCALE;
+        map::scale(&mut out, shown, (MARGIN.0, y));
+    }
     out + "</svg>\n"
 }
 
@@ -57,6 +65,9 @@ fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
          height=\"{height}\"/></clipPath>\n<g clip-path=\"url(#{clip})\" fill=\"none\" \
          stroke-linejoin=\"round\">\n"
     );
+    if let Some(shown) = &panel.map {
+        map::draw(out, shown, frame);
+    }
     // Parts of the same area are one path: between two paths a hair of paper would show.
     for same in panel.areas.chunk_by(|one, other| (&one.name, one.pen) == (&other.name, other.pen))
     {
@@ -263,9 +274,11 @@ fn legend(figure: &Figure) -> Vec<FigureLegendEntry<'_>> {
             let points: Vec<Point> = curve.points.iter().copied().map(Point::from).collect();
             passes(&points, panel.window)
         });
-        let lines = seen.map(|curve| (&curve.kind, curve.pen, Some(curve.style)));
-        let areas = panel.areas.iter().map(|area| (&area.kind, area.pen, None));
-        for (name, role, style) in lines.chain(areas) {
+        let lines = seen.map(|curve| (curve.kind.as_str(), curve.pen, Some(curve.style)));
+        let areas = panel.areas.iter().map(|area| (area.kind.as_str(), area.pen, None));
+        let words = panel.map.iter().flat_map(Map::words);
+        let words = words.map(|word| (word, map::role(word), None));
+        for (name, role, style) in lines.chain(areas).chain(words) {
             let entry = FigureLegendEntry { name, role, style };
             if !entries.contains(&entry) {
                 entries.push(entry);

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::fmt;
 
+use super::map::Map;
 use super::reading::reading;
 use super::role::{Dash, Mark, Role};
 use super::ticks::Scale;
@@ -182,6 +183,8 @@ pub struct Picture<'a> {
     pub cursor: Option<Point>,
     /// What the cursor reads.
     pub reading: Option<String>,
+    /// What is behind all items, where the plot is a map.
+    pub map: Option<Map>,
     /// From back to front.
     pub items: Vec<Item<'a>>,
 }
@@ -264,6 +267,7 @@ impl<'a> Picture<'a> {
             varied: Vec::new(),
             cursor: None,
             reading: None,
+            map: None,
             items: Vec::new(),
         }
     }

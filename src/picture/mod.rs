@@ -16,6 +16,7 @@ pub mod fit;
 pub mod items;
 mod kicks;
 pub mod legend;
+pub mod map;
 mod phase_plane;
 mod reading;
 mod regimes;

@@ -1,17 +1,13 @@
-//! A scan over one parameter, as a curve. A map of shades over two is drawn by the screen alone.
+//! A scan: a curve over one parameter, or a map over two.
 
 use super::items::{LineStyle, Picture};
+use super::map::{Map, measured};
 use super::role::{Dash, Role};
 use super::ticks::Scale;
 use crate::scene::Point;
 use crate::session::Session;
 use crate::session::scan::Scanned;
 use crate::study::scan::{Spacing, Sweep};
-
-/// The name of what is plotted.
-pub fn measured(scanned: &Scanned) -> &'static str {
-    scanned.scan.measured().get(scanned.column).copied().unwrap_or_default()
-}
 
 /// The names of both axes.
 pub fn names(scanned: &Scanned) -> (&'static str, &'static str) {
@@ -32,13 +28,16 @@ pub fn scales(scanned: &Scanned) -> [Scale; 2] {
     })
 }
 
-/// The curve over one parameter as data; a map of shades is for the screen, and its rows for files.
+/// The curve over one parameter, or the map over two.
 pub fn draw(picture: &mut Picture, session: &Session) {
     let Some(scanned) = &session.scanned else { return };
     let (x, y) = names(scanned);
     picture.axes(x, y);
     picture.varied = scanned.scan.over().iter().map(|sweep| sweep.symbol).collect();
-    if !scanned.is_grid() {
+    picture.map = Map::of(scanned);
+    if let Some(Map { name, .. }) = picture.map.clone() {
+        picture.add_to_title(&name);
+    } else {
         let line = LineStyle::new(y, Role::Trajectory, Dash::Solid);
         let points = 0..scanned.rows.len();
         picture.curve(line, points.map(|index| scanned.place(index).unwrap_or(Point::NOWHERE)));

@@ -1,8 +1,8 @@
 //! A scan: a curve over one parameter, a map of shades over two, or the table of its rows.
 //!
-//! Rows appear as they are computed. The title says how far the scan is. Of the two lines below the plot the
+//! Rows appear as they are computed. The title says how far the scan is. Of the three lines below the plot the
 //! first says the values at the selected point, the second what the shades, or the numbers that
-//! stand for words, mean.
+//! stand for words, mean, and the third what it means that there is no number.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -13,8 +13,9 @@ use super::pane::{self, Heading};
 use super::plot::{Canvas, Names};
 use super::scan_map;
 use super::scan_table;
+use crate::picture::map::{Danger, measured, nothing};
 use crate::picture::role::{Dash, Role};
-use crate::picture::scan::{measured, names, scales};
+use crate::picture::scan::{names, scales};
 use crate::scene::{Point, View};
 use crate::session::keymap::Keymap;
 use crate::session::scan::{Progress, Scanned, WORDS};
@@ -27,7 +28,7 @@ use crate::words::number::{remaining, significant};
 const DIGITS: [usize; 5] = [8, 6, 5, 4, 3];
 
 /// Lines below the plot.
-const BELOW: u16 = 2;
+const BELOW: u16 = 3;
 
 /// The part of a pane that the plot itself takes.
 pub fn body(area: Rect) -> Rect {
@@ -68,7 +69,10 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     let reading =
         if running && !whole { format!(" {}", progress(scanned)) } else { reading(scanned, width) };
     let reading = Line::styled(reading, look.style(Role::Cursor));
-    for (row, line) in (area.height.saturating_sub(BELOW)..area.height).zip([reading, legend]) {
+    let without = scan_map::without_numbers(scanned, width);
+    let without = Line::styled(without, look.style(Role::Quiet));
+    let lines = [reading, legend, without];
+    for (row, line) in (area.height.saturating_sub(BELOW)..area.height).zip(lines) {
         pane::line(area, row, line, look, buffer);
     }
 }
@@ -106,7 +110,7 @@ fn reading(scanned: &Scanned, width: usize) -> String {
     let found = |digits: usize| match (&row.reason, row.values.get(scanned.column)) {
         (Some(reason), _) => format!("- {reason}"),
         (None, Some(Value::Number(value))) => significant(*value, digits),
-        (None, Some(value)) => rounded(*value),
+        (None, Some(value)) => nothing(scanned, scanned.at).map_or(rounded(*value), str::to_owned),
         (None, None) => String::new(),
     };
     let text = |digits: &usize| {
@@ -143,8 +147,12 @@ fn meaning(scanned: &Scanned, width: usize) -> String {
         return pane::fitting([format!(" {name}: {meanings}"), format!(" {meanings}")], width);
     }
     let Some((low, high)) = scanned.range() else { return format!(" {name}") };
+    let ends = Danger::of(scanned).map_or([""; 2], |scale| scale.ends());
+    let [lowest, highest] =
+        ends.map(|end| if end.is_empty() { String::new() } else { format!(" ({end})") });
     let range = |digits: &usize| {
-        format!(" {name} {} .. {}", significant(low, *digits), significant(high, *digits))
+        let [low, high] = [low, high].map(|value| significant(value, *digits));
+        format!(" {name} {low}{lowest} .. {high}{highest}")
     };
     pane::fitting(DIGITS[3..].iter().map(range), width)
 }

@@ -10,17 +10,13 @@ use super::look::Look;
 use super::pane;
 use super::plot::Canvas;
 use crate::numerics::count::{real, whole};
-use crate::numerics::elementary::{ln, pow};
+use crate::picture::map::{Danger, Dangerous, measured, nothing};
 use crate::picture::role::Role;
-use crate::picture::scan::measured;
 use crate::scene::Point;
 use crate::session::scan::{Scanned, WORDS};
 use crate::session::settings::Glyphs;
 use crate::study::scan::Sweep;
 use crate::words::number::significant;
-
-/// Columns of measures of which the small values are the dangerous ones; of all others the large are.
-const SMALL_IS_DANGEROUS: [&str; 4] = ["displacement", "impulse", "captured_part", "area"];
 
 /// Shades from the weakest to the strongest, and the letters that do without colour.
 const SHADES: &str = "\u{b7}\u{2591}\u{2592}\u{2593}\u{2588}";
@@ -30,55 +26,37 @@ const LETTERS: &str = ".-+*#";
 const OF_WORDS: [(char, Option<f64>); 4] =
     [('.', Some(0.0)), ('o', Some(0.5)), ('^', Some(1.0)), ('?', None)];
 
-/// Where there is a row but no number.
+/// Where there is a row but no number, and where it could not be computed.
 const NOTHING: char = '-';
+const UNKNOWN: char = '?';
 
-/// Ratio of the largest to the smallest value from which on shades are parts of a logarithm.
-const SPREAD: f64 = 30.0;
-
-/// The shades of a map and the values between which each stands, from the smallest value up.
+/// The shades of a map, from the smallest value up.
 struct Ramp {
     shades: Vec<char>,
-    low: f64,
-    high: f64,
-    logarithmic: bool,
-    /// Whether the small values are the dangerous ones.
-    reversed: bool,
+    scale: Danger,
 }
 
 impl Ramp {
     fn of(scanned: &Scanned, look: &Look) -> Option<Self> {
-        let (low, high) = scanned.range()?;
+        let scale = Danger::of(scanned)?;
         let plain = look.glyphs == Glyphs::Ascii;
         let mut shades: Vec<char> = if plain { LETTERS } else { SHADES }.chars().collect();
-        let reversed = SMALL_IS_DANGEROUS.contains(&measured(scanned));
-        if reversed {
+        if scale.dangerous == Some(Dangerous::Small) {
             shades.reverse();
         }
-        let logarithmic = low > 0.0 && high / low >= SPREAD;
-        Some(Ramp { shades, low, high, logarithmic, reversed })
+        Some(Ramp { shades, scale })
     }
 
     /// The shade of a value, and how dangerous it is.
     fn shade(&self, value: f64) -> (char, f64) {
-        let part = if self.logarithmic {
-            ln(value / self.low) / ln(self.high / self.low)
-        } else {
-            (value - self.low) / (self.high - self.low)
-        };
-        let last = self.shades.len() - 1;
-        let step = if part.is_finite() { whole(part * real(self.shades.len())) } else { 0 };
-        (self.shades[step.min(last)], if self.reversed { 1.0 - part } else { part })
+        let part = self.scale.part(value);
+        let step = whole(part * real(self.shades.len())).min(self.shades.len() - 1);
+        (self.shades[step], self.scale.strength(part))
     }
 
     /// The value at which a shade begins.
     fn begin(&self, step: usize) -> f64 {
-        let part = real(step) / real(self.shades.len());
-        if self.logarithmic {
-            self.low * pow(self.high / self.low, part)
-        } else {
-            self.low + (self.high - self.low) * part
-        }
+        self.scale.at(real(step) / real(self.shades.len()))
     }
 }
 
@@ -86,6 +64,7 @@ impl Ramp {
 pub fn draw(plot: &Canvas, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
     let words = scanned.plots_words();
     let ramp = Ramp::of(scanned, look);
+    let quiet = look.style(Role::Quiet);
     let shade = |value: f64| match &ramp {
         _ if words => {
             let (letter, danger) = OF_WORDS[(whole(value)).min(OF_WORDS.len() - 1)];
@@ -95,9 +74,8 @@ pub fn draw(plot: &Canvas, scanned: &Scanned, look: &Look, buffer: &mut Buffer) 
             let (shade, danger) = ramp.shade(value);
             (shade, look.danger(danger))
         }
-        None => (NOTHING, look.style(Role::Quiet)),
+        None => (NOTHING, quiet),
     };
-    let nothing = (NOTHING, look.style(Role::Quiet));
     let over = scanned.scan.over();
     // Of more than two parameters the others stay at their first values.
     let stride: usize = over[2..].iter().map(|sweep| sweep.count).product();
@@ -108,10 +86,9 @@ pub fn draw(plot: &Canvas, scanned: &Scanned, look: &Look, buffer: &mut Buffer) 
             let (across, upward) = (nearest(&over[0], x), nearest(&over[1], y));
             let (Some(across), Some(upward)) = (across, upward) else { continue };
             let index = (across * over[1].count + upward) * stride;
-            if index >= scanned.rows.len() {
-                continue;
-            }
-            let (symbol, style) = scanned.height(index).map_or(nothing, shade);
+            let Some(found) = scanned.rows.get(index) else { continue };
+            let none = if found.reason.is_some() { UNKNOWN } else { NOTHING };
+            let (symbol, style) = scanned.height(index).map_or((none, quiet), shade);
             buffer[(inner.x + column, inner.y + row)].set_char(symbol).set_style(style);
         }
     }
@@ -125,38 +102,55 @@ fn of_word(danger: Option<f64>, look: &Look) -> Style {
     }
 }
 
-/// What the shades mean, whole in `width` columns: with the value at which each begins, else with the
-/// smallest and the largest alone.
+/// What the signs of a map mean where there is no number; of a curve, its gaps.
+pub fn without_numbers(scanned: &Scanned, width: usize) -> String {
+    let mut meanings: Vec<&str> = Vec::new();
+    for meaning in (0..scanned.rows.len()).filter_map(|index| nothing(scanned, index)) {
+        if !meanings.contains(&meaning) {
+            meanings.push(meaning);
+        }
+    }
+    let sign = |meaning: &&str| match *meaning {
+        _ if !scanned.is_grid() => format!("gap: {meaning}"),
+        "gave up" => format!("{UNKNOWN} {meaning}"),
+        _ => format!("{NOTHING} {meaning}"),
+    };
+    let signs = || meanings.iter().map(sign);
+    let texts = [signs().collect::<Vec<_>>().join("  "), signs().take(1).collect()];
+    pane::fitting(texts.map(|text| format!(" {text}")), width)
+}
+
+/// What the shades mean, whole in `width` columns: which end is the dangerous one, with the value at which each
+/// begins, else with the smallest and the largest alone.
 pub fn legend(scanned: &Scanned, width: usize, look: &Look) -> Line<'static> {
     let name = measured(scanned);
-    let none = if (0..scanned.rows.len()).any(|index| scanned.height(index).is_none()) {
-        format!("  {NOTHING} none")
-    } else {
-        String::new()
-    };
+    let ramp = Ramp::of(scanned, look).filter(|_| !scanned.plots_words());
     let texts: Vec<String> = if scanned.plots_words() {
         let words =
             OF_WORDS.iter().zip(WORDS).map(|((symbol, _), word)| format!("{symbol} {word}"));
         let words = words.collect::<Vec<_>>().join("  ");
-        vec![format!(" {name} {words}{none}"), format!(" {words}")]
-    } else if let Some(ramp) = Ramp::of(scanned, look) {
+        vec![format!(" {name} {words}"), format!(" {words}")]
+    } else if let Some(ramp) = &ramp {
         let begins = |(step, shade): (usize, &char)| {
             format!("{} {shade} ", significant(ramp.begin(step), 3))
         };
         let all: String = ramp.shades.iter().enumerate().map(begins).collect();
-        let [low, high] = [ramp.low, ramp.high].map(|value| significant(value, 4));
+        let Danger { low, high, .. } = ramp.scale;
+        let [low, high] = [low, high].map(|value| significant(value, 4));
         let bare: String = ramp.shades.iter().collect();
+        let [lowest, highest] = ramp.scale.ends().map(|end| format!(" {end} "));
+        let (from, to) = (lowest.trim_start(), highest.trim_end());
         vec![
-            format!(" {name} {all}{high}{none}"),
-            format!(" {name} {low} {bare} {high}{none}"),
-            format!(" {low} {bare} {high}{none}"),
+            format!(" {name} {from}{all}{high}{to}"),
+            format!(" {name} {from}{low} {bare} {high}{to}"),
+            format!(" {from}{low} {bare} {high}{to}"),
+            format!(" {from}{bare}{to}"),
             format!(" {low} {bare} {high}"),
         ]
     } else {
-        vec![format!(" {name}{none}")]
+        vec![format!(" {name}")]
     };
     let text = pane::fitting(texts, width);
-    let ramp = Ramp::of(scanned, look).filter(|_| !scanned.plots_words());
     let style = |letter: char| {
         let quiet = look.style(Role::Quiet);
         let Some(ramp) = &ramp else {
@@ -187,17 +181,4 @@ fn nearest(sweep: &Sweep, place: f64) -> Option<usize> {
     let steps = (place - from) / (to - from) * real(last);
     let index = (steps >= -0.5 && steps.is_finite()).then_some(whole(steps + 0.5));
     index.filter(|index| *index <= last)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::study::measure::MEASURES;
-
-    #[test]
-    fn what_is_dangerous_when_small_is_measured() {
-        for name in SMALL_IS_DANGEROUS {
-            assert!(MEASURES.iter().any(|row| row.columns.contains(&name)), "{name}");
-        }
-    }
 }

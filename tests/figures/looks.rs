@@ -98,3 +98,65 @@ fn a_circle_looks_like_one_in_every_phase_plane() {
     assert!((units(false) - 1.0).abs() < 1e-12);
     assert!((units(true) - 1.0).abs() > 0.1, "the scene's window fills the panel");
 }
+
+/// A map of margins in every form: its cells, what those without a number are, and the scale.
+#[test]
+fn the_map_of_a_scan_has_its_cells_and_its_scale_in_every_form() {
+    let mut session = Session::new(find("regimes").unwrap(), Size { width: 120, height: 40 });
+    for letter in ":scan D=-0.9:0:10 D3=-0.5:1:7 margin".chars() {
+        let key = if letter == ' ' { "<space>".to_owned() } else { letter.to_string() };
+        update(&mut session, Msg::Key(key.parse().unwrap()));
+    }
+    update(&mut session, Msg::Key("<enter>".parse().unwrap()));
+    complete(&mut session, Fineness::SCREEN, &Limits::PATIENT).unwrap();
+    let drawn = Figure::of(&session, [0]);
+    let json: Value = serde_json::from_str(&text(&drawn, FileForm::Json)).unwrap();
+    let map = &json["panels"][0]["map"];
+    assert_eq!(map["name"], "displacement [x0]");
+    assert_eq!(map["scale"]["dangerous"], "small");
+    let columns = map["values"].as_array().unwrap();
+    let cells: Vec<&Value> = columns.iter().flat_map(|column| column.as_array().unwrap()).collect();
+    assert_eq!((columns.len(), cells.len()), (10, 70));
+    // D = -0.9, D3 = -0.5: hardly more than r is survived. D = 0, D3 = 1: everything is.
+    let smallest = cells[0].as_f64().unwrap();
+    assert!((smallest - 0.100_301_996_083).abs() < 1e-11, "{smallest}");
+    assert_eq!(cells[69], "every kick survived");
+
+    let csv = text(&drawn, FileForm::Csv);
+    let rows: Vec<&str> = csv.lines().filter(|line| line.starts_with("1,map,")).collect();
+    assert_eq!(rows.len(), 70);
+    assert!(
+        rows[0].starts_with("1,map,1,displacement [x0],,,-0.9,-0.5,0.1003019960833"),
+        "{}",
+        rows[0]
+    );
+    assert!(rows[69].ends_with(",0.0,1.0,every kick survived"), "{}", rows[69]);
+    assert!(
+        csv.lines().any(|line| line.ends_with(",x,y,value")),
+        "{}",
+        csv.lines().nth(8).unwrap()
+    );
+
+    let svg = text(&drawn, FileForm::Svg);
+    let picture = Document::parse(&svg).unwrap();
+    let texts: Vec<&str> = picture.descendants().filter_map(|node| node.text()).collect();
+    for words in ["D", "D3", "displacement [x0]", "every kick survived", "0.1003 (dangerous)"] {
+        assert!(texts.contains(&words), "{words}: {texts:?}");
+    }
+    assert!(texts.iter().any(|text| text.ends_with(" (safe)")), "{texts:?}");
+    // Strong colours are dark, and the darkest is that of the smallest margin.
+    let brightness = |color: &str| {
+        let part = |at: usize| u32::from_str_radix(&color[at..at + 2], 16).unwrap();
+        part(1) + part(3) + part(5)
+    };
+    let fills: Vec<u32> = picture
+        .descendants()
+        .filter(|node| node.attribute("fill-opacity") == Some("1"))
+        .map(|node| brightness(node.attribute("fill").unwrap()))
+        .collect();
+    assert!(fills.len() > 10 && fills.iter().all(|fill| *fill >= fills[0]), "{fills:?}");
+    assert!(fills.iter().any(|fill| *fill > 2 * fills[0]), "{fills:?}");
+
+    let png = file(&drawn, FileForm::Png).unwrap();
+    assert!(png.starts_with(b"\x89PNG") && png.len() > 10_000, "{}", png.len());
+}

@@ -16,7 +16,7 @@ use hopfscope::question::Fineness;
 use hopfscope::runtime::print::{self, complete};
 use hopfscope::scene::library::{find, library, names};
 use hopfscope::scene::{Point, Span, Window};
-use hopfscope::session::{Framing, Session, Size};
+use hopfscope::session::{Framing, Msg, Session, Size, update};
 use program::run;
 use roxmltree::Document;
 use serde_json::Value;

@@ -1,0 +1,210 @@
+//! A map of a scan over two parameters: its cells, its scale, and what it means that a cell has no number.
+
+use serde::Serialize;
+
+use crate::numerics::elementary::{ln, pow};
+use crate::session::scan::Scanned;
+use crate::study::measure::Value;
+use crate::study::scan::Sweep;
+
+/// Which values of a measure are the dangerous ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Dangerous {
+    Small,
+    Large,
+}
+
+/// Columns of measures that say how dangerous a place is; all others are shaded by size.
+const DANGEROUS: [(Dangerous, &[&str]); 2] = [
+    (
+        Dangerous::Small,
+        &[
+            "displacement",
+            "impulse",
+            "guaranteed_displacement",
+            "guaranteed_impulse",
+            "captured_part",
+            "rested_part",
+            "area",
+            "circle_radius",
+            "kicks_mean",
+        ],
+    ),
+    (Dangerous::Large, &["lost_part", "kicks_lost"]),
+];
+
+/// Columns without a number where every kick is survived.
+const OF_KICKS: [&str; 5] =
+    ["displacement", "impulse", "guaranteed_displacement", "guaranteed_impulse", "circle_radius"];
+
+/// Ratio of the largest to the smallest value from which on shades are parts of a logarithm.
+const SPREAD: f64 = 10.0;
+
+/// The name of what is plotted.
+pub fn measured(scanned: &Scanned) -> &'static str {
+    scanned.scan.measured().get(scanned.column).copied().unwrap_or_default()
+}
+
+/// What is plotted, with the unit of a length, a velocity or a time.
+pub fn with_unit(scanned: &Scanned) -> String {
+    let name = measured(scanned);
+    let is = |ends: &[&str]| ends.iter().any(|end| name.ends_with(end) || name.starts_with(end));
+    let unit = match name {
+        "area" => "omega_0 x0^2",
+        "circle_radius" | "rest_q" => "x0",
+        _ if is(&["displacement", "q_min_", "q_max_", "q_max"]) => "x0",
+        _ if is(&["impulse", "v_min_", "v_max_"]) => "omega_0 x0",
+        _ if is(&["period_", "_tau", "settling_"]) => "1/omega_0",
+        _ => return name.to_owned(),
+    };
+    format!("{name} [{unit}]")
+}
+
+/// What it means that there is no number at a point; `None` where there is one.
+pub fn nothing(scanned: &Scanned, index: usize) -> Option<&'static str> {
+    let row = scanned.rows.get(index)?;
+    match (scanned.height(index), &row.reason) {
+        (Some(_), _) => None,
+        (None, Some(_)) => Some("gave up"),
+        (None, None) if OF_KICKS.contains(&measured(scanned)) => Some("every kick survived"),
+        (None, None) => Some("none"),
+    }
+}
+
+/// The scale of a map: how dangerous a value is.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Danger {
+    pub low: f64,
+    pub high: f64,
+    /// Whether equal steps are equal ratios.
+    pub logarithmic: bool,
+    /// `None` where the measure says nothing of danger.
+    pub dangerous: Option<Dangerous>,
+}
+
+impl Danger {
+    /// The scale of what is plotted; `None` without a number.
+    pub fn of(scanned: &Scanned) -> Option<Self> {
+        let (low, high) = scanned.range()?;
+        let name = measured(scanned);
+        let row = DANGEROUS.iter().find(|(_, columns)| columns.contains(&name));
+        let logarithmic = low > 0.0 && high / low >= SPREAD;
+        Some(Danger { low, high, logarithmic, dangerous: row.map(|(which, _)| *which) })
+    }
+
+    /// How far a value is on the way from the lowest to the highest, from 0 to 1.
+    pub fn part(&self, value: f64) -> f64 {
+        let part = if self.logarithmic {
+            ln(value / self.low) / ln(self.high / self.low)
+        } else {
+            (value - self.low) / (self.high - self.low)
+        };
+        if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    /// The value this far on the way.
+    pub fn at(&self, part: f64) -> f64 {
+        if self.logarithmic {
+            self.low * pow(self.high / self.low, part)
+        } else {
+            self.low + (self.high - self.low) * part
+        }
+    }
+
+    /// How strong a place this far on the way is: the stronger the more dangerous.
+    pub fn strength(&self, part: f64) -> f64 {
+        if self.dangerous == Some(Dangerous::Small) { 1.0 - part } else { part }
+    }
+
+    /// What the lowest and the highest value are.
+    pub fn ends(&self) -> [&'static str; 2] {
+        match self.dangerous {
+            Some(Dangerous::Small) => ["dangerous", "safe"],
+            Some(Dangerous::Large) => ["safe", "dangerous"],
+            None => ["", ""],
+        }
+    }
+}
+
+/// A map over two parameters: cells around the points of a grid.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Map {
+    /// What is measured, with its unit.
+    pub name: String,
+    /// The scale of the numbers; `None` where there are words.
+    pub scale: Option<Danger>,
+    /// The places of the columns of cells, on an axis that may be logarithmic.
+    pub x: Vec<f64>,
+    /// The places of the rows.
+    pub y: Vec<f64>,
+    /// What was measured in each column, from below; as much as is known.
+    pub values: Vec<Vec<MapCell>>,
+}
+
+/// A number, or what it means that there is none.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum MapCell {
+    Number(f64),
+    Word(&'static str),
+}
+
+impl Map {
+    /// The map of a scan; of more than two parameters the others stay at their first values.
+    pub fn of(scanned: &Scanned) -> Option<Self> {
+        let [across, upward, rest @ ..] = scanned.scan.over() else { return None };
+        let stride: usize = rest.iter().map(|sweep| sweep.count).product();
+        let places = |sweep: &Sweep| -> Vec<f64> {
+            (0..sweep.count).map(|index| Scanned::coordinate(sweep, index)).collect()
+        };
+        let words = scanned.plots_words();
+        let cell = |index: usize| match (nothing(scanned, index), scanned.height(index)) {
+            (None, Some(value)) if !words => MapCell::Number(value),
+            (None, _) => MapCell::Word(word(scanned, index)),
+            (Some(none), _) => MapCell::Word(none),
+        };
+        let cells: Vec<MapCell> = (0..scanned.rows.len()).step_by(stride).map(cell).collect();
+        Some(Map {
+            name: with_unit(scanned),
+            scale: Danger::of(scanned).filter(|_| !words),
+            x: places(across),
+            y: places(upward),
+            values: cells.chunks(upward.count).map(<[_]>::to_vec).collect(),
+        })
+    }
+
+    /// The words that stand for cells, each once.
+    pub fn words(&self) -> Vec<&'static str> {
+        let mut words = Vec::new();
+        for cell in self.values.iter().flatten() {
+            if let MapCell::Word(word) = cell
+                && !words.contains(word)
+            {
+                words.push(*word);
+            }
+        }
+        words
+    }
+}
+
+fn word(scanned: &Scanned, index: usize) -> &'static str {
+    match scanned.rows[index].values.get(scanned.column) {
+        Some(Value::Word(word)) => word,
+        _ => "none",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::measure::MEASURES;
+
+    #[test]
+    fn what_is_dangerous_is_measured() {
+        let named = DANGEROUS.iter().flat_map(|(_, columns)| columns.iter()).chain(&OF_KICKS);
+        for name in named {
+            assert!(MEASURES.iter().any(|row| row.columns.contains(name)), "{name}");
+        }
+    }
+}
