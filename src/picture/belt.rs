@@ -15,7 +15,7 @@ use crate::words::quantity::with_unit;
 const BELT: (f64, f64) = (0.12, 0.26);
 
 /// Heights of the mass, which lies on the belt.
-const MASS: (f64, f64) = (BELT.1, 0.88);
+const MASS: (f64, f64) = (BELT.1, 0.86);
 
 /// Height of the axis of the spring.
 const SPRING: f64 = 0.74;
@@ -47,6 +47,9 @@ const GAP: f64 = 1.0 / 8.0;
 
 /// Length of the arrow of the belt's friction at rest, as a fraction of the window.
 const ARROW: f64 = 0.16;
+
+/// Its greatest length, whatever the friction.
+const LONGEST: f64 = 0.5;
 
 pub fn draw(picture: &mut Picture, session: &Session) {
     picture.axes("q", "");
@@ -101,22 +104,24 @@ fn machine(picture: &mut Picture, session: &Session, moment: &Sample) {
         let below = Point { x: ride[0].q.max(across.from()), y: 0.5 * (BELT.0 + BELT.1) };
         picture.caption(below, "sticks", Role::Current);
     }
-    arrow(picture, session, right, width, moment.v);
+    arrow(picture, session, moment);
 }
 
-/// The pull of the belt on the mass, whose right side is at `from`.
-fn arrow(picture: &mut Picture, session: &Session, from: f64, width: f64, v: f64) {
+/// The pull of the belt on the mass: an arrow above it, moved and shortened where it would leave the window.
+fn arrow(picture: &mut Picture, session: &Session, moment: &Sample) {
     let Some(running) = session.running() else { return };
-    let Some(pull) = running.pull(v) else { return };
-    let y = MASS.0 + HALF;
-    let tip = from + pull * ARROW * width;
-    let barb = tip - (0.15 * ARROW * width).copysign(pull);
-    let points = [(from, y), (tip, y), (barb, y + 0.5 * HALF), (tip, y), (barb, y - 0.5 * HALF)];
+    let Some(pull) = running.pull(moment.v) else { return };
+    let (across, y) = (picture.window.x, MASS.1 + HALF);
+    let longest = LONGEST * across.width();
+    let way = (pull * ARROW * across.width()).clamp(-longest, longest);
+    let edge = 0.5 * (across.width() - way.abs());
+    let middle = moment.q.clamp(across.center() - edge, across.center() + edge);
+    let (tail, tip) = (middle - 0.5 * way, middle + 0.5 * way);
+    let barb = tip - (0.15 * ARROW * across.width()).copysign(way);
+    let points = [(tail, y), (tip, y), (barb, y + 0.5 * HALF), (tip, y), (barb, y - 0.5 * HALF)];
     picture.curve(part("friction of the belt", Role::Special), points.map(Point::from));
     let text = with_unit(pull * running.reduced.units.force, 3, "N");
-    // Above the mass, where it covers nothing even at the edge of the window.
-    let above = Point { x: from - 0.5 * WIDTH * width, y: MASS.1 + HALF };
-    picture.caption(above, text, Role::Special);
+    picture.caption(Point { x: tail, y }, text, Role::Special);
 }
 
 /// A part of the machine, which anybody recognizes without a legend.

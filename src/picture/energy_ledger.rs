@@ -10,10 +10,13 @@ use crate::session::Session;
 use crate::session::ledger::{LedgerLine, Owner};
 use crate::words::number::significant;
 
+/// The name of the horizontal axis; lines have names of their own.
+pub const AXIS: &str = "part of the largest work";
+
 /// The ledger in a figure: a bar for each work, with its name and number.
 pub fn draw(picture: &mut Picture, session: &Session) {
     let lines = session.ledger();
-    picture.axes("part of the largest work", "");
+    picture.axes(AXIS, "");
     picture.window.y = Span::new(middle(lines.len()), 0.0).unwrap_or(Span::known(-1.0, 0.0));
     picture.upright(LineStyle::guide(), 0.0);
     for (line, entry) in lines.iter().enumerate() {

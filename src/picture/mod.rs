@@ -60,7 +60,7 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
     match view {
         View::Phase => phase_plane::draw(&mut picture, session, index),
         View::Diagram => diagram::draw(&mut picture, session, index),
-        View::TimeSeries => time_series::draw(&mut picture, session),
+        View::TimeSeries => time_series::draw(&mut picture, session, index),
         View::EnergyLedger => energy_ledger::draw(&mut picture, session),
         View::ReturnMap => return_map::draw(&mut picture, session, index),
         View::Regimes => regimes::draw(&mut picture, session, index),

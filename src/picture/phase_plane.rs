@@ -9,7 +9,7 @@ use super::construction;
 use super::items::{Item, LineStyle, Picture, VariantTag, ellipse};
 use super::kicks;
 use super::role::{CycleStyle, Dash, Mark, Role, cycle_style};
-use super::units;
+use super::units::{self, said};
 use crate::closed_form::lyapunov;
 use crate::flow::{Outcome, Problem, Trajectory};
 use crate::machine;
@@ -28,9 +28,10 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         let model = if session.draws_whole() { "whole model" } else { "cubic expansion" };
         picture.add_to_title(model);
     }
-    picture.reading = picture.cursor.map(|at| {
-        let physical = units::reading(session, at, picture.window);
-        physical.unwrap_or_else(|| picture.coordinates(at))
+    let [across, upward] = units::scales(session, index).unwrap_or_default();
+    picture.reading = picture.cursor.map(|Point { x, y }| {
+        let window = picture.window;
+        format!("{} {}", said(across, "q", x, window.x), said(upward, "v", y, window.y))
     });
     let shows = |layer| session.layers.contains(&layer);
     let shown = session.shown(index);

@@ -37,11 +37,11 @@ const KINDS: [CycleKind; 5] = [
 ];
 
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
-    picture.axes("v0 m/s", "x_max m");
+    picture.axes("v0 [m/s]", "x_max [m]");
     picture.add_to_title("whole model");
     picture.reading = picture.cursor.map(|at| {
         let (speed, x) = reading(at, picture.window);
-        format!("v0 {speed} x_max {x}")
+        format!("v0 {speed} m/s x_max {x} m")
     });
     if let Some(running) = session.running() {
         picture.upright(

@@ -5,15 +5,15 @@
 
 use super::items::{Item, LineStyle, Marks, Picture};
 use super::phase_plane::{motion, number_curve};
-use super::reading::CELLS;
 use super::role::{Dash, Mark, Role};
+use super::ticks::Scale;
+use super::units::{self, said};
 use crate::flow::{Outcome, Sample, Trajectory};
 use crate::oscillator::State;
 use crate::oscillator::energy::energy;
 use crate::scene::{Layer, Point};
 use crate::session::Session;
 use crate::session::motion::friction_force;
-use crate::words::number::resolved;
 
 /// A quantity over time: its layer, its letter, its name, how it is drawn, and how it is read from a
 /// state.
@@ -25,19 +25,25 @@ const QUANTITIES: [Quantity; 3] = [
     (Layer::Position, "q", "displacement q", Role::Trajectory, Dash::Solid, |state| state.q),
 ];
 
-pub fn draw(picture: &mut Picture, session: &Session) {
+pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     let window = picture.window;
+    let [time, upward] = units::scales(session, index).unwrap_or_default();
+    // A displacement in metres has its own letter.
+    let physical = |text: &'static str| match (upward, text) {
+        (Scale::Times { .. }, "q") => "x",
+        (Scale::Times { .. }, "displacement q") => "displacement x",
+        _ => text,
+    };
     let shows = |layer| session.layers.contains(&layer);
     let shown = || QUANTITIES.iter().rev().filter(|(layer, ..)| shows(*layer));
     let friction = shows(Layer::Friction).then_some("f");
     let letters: Vec<&str> = shown().map(|(_, letter, ..)| *letter).chain(friction).collect();
     picture.axes("tau", letters.join(" "));
     picture.reading = picture.cursor.map(|Point { x: tau, .. }| {
-        let time = format!("tau {}", resolved(tau, window.x.width() / CELLS));
-        let value = |value: f64| resolved(value, window.y.width() / CELLS);
+        let time = said(time, "tau", tau, window.x);
         let Some(state) = session.state_at(tau) else { return time };
         shown().fold(time, |line, (_, letter, .., read)| {
-            format!("{line} {letter} {}", value(read(state)))
+            format!("{line} {}", said(upward, letter, read(state), window.y))
         })
     });
     picture.level(LineStyle::guide(), 0.0);
@@ -57,7 +63,7 @@ pub fn draw(picture: &mut Picture, session: &Session) {
                     picture.caption(*first, text, line.role);
                 }
                 number_curve(picture, number, &points, line.role);
-                let name = format!("{name}, {}", line.name);
+                let name = format!("{}, {}", physical(name), line.name);
                 picture
                     .curve(LineStyle::new(name, line.role, dash).briefly("other motions"), points);
             }
@@ -80,13 +86,13 @@ pub fn draw(picture: &mut Picture, session: &Session) {
             if shows(layer) {
                 let points = curve(motion, end, read);
                 number_curve(picture, session.number(0), &points, role);
-                let line = LineStyle::new(name, role, dash);
+                let line = LineStyle::new(physical(name), role, dash);
                 // The same motion as in the phase plane, drawn in the same way.
                 let line = if layer == Layer::Position { line.briefly("motion") } else { line };
                 picture.curve(line, points);
                 let first = motion.samples.first();
                 let first = first.map(|sample| at(sample, read));
-                label(picture, first, letter, role);
+                label(picture, first, physical(letter), role);
             }
         }
         for ride in session.course().iter().flat_map(|motion| &motion.rides) {

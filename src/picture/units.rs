@@ -3,36 +3,29 @@
 use super::reading::CELLS;
 use super::ticks::Scale;
 use crate::oscillator::belt::Units as Physical;
-use crate::scene::{Layer, Point, Span, View, Window};
+use crate::scene::{Layer, Span, View, Window};
 use crate::session::Session;
 use crate::words::number::resolved;
 
 /// Names of an axis with the units that it can have, the largest first, and how many of them are one in SI units.
-type AxisUnits = [(&'static str, &'static str, f64); 3];
+type AxisUnits = [(&'static str, f64); 3];
 
-const LENGTHS: AxisUnits = [("x [m]", "m", 1.0), ("x [mm]", "mm", 1e3), ("x [um]", "um", 1e6)];
+const LENGTHS: AxisUnits = [("x [m]", 1.0), ("x [mm]", 1e3), ("x [um]", 1e6)];
 
-const VELOCITIES: AxisUnits =
-    [("v [m/s]", "m/s", 1.0), ("v [mm/s]", "mm/s", 1e3), ("v [um/s]", "um/s", 1e6)];
+const VELOCITIES: AxisUnits = [("v [m/s]", 1.0), ("v [mm/s]", 1e3), ("v [um/s]", 1e6)];
 
-const TIMES: AxisUnits = [("t [s]", "s", 1.0), ("t [ms]", "ms", 1e3), ("t [us]", "us", 1e6)];
+const TIMES: AxisUnits = [("t [s]", 1.0), ("t [ms]", 1e3), ("t [us]", 1e6)];
 
 /// The units of the machine or the record in which a session shows its axes.
 fn shown(session: &Session) -> Option<Physical> {
     session.units().filter(|_| !session.look.dimensionless)
 }
 
-/// The largest unit of which the axis reaches one, when 1 on it is so much in SI units.
-fn chosen(units: &AxisUnits, one: f64, span: Span) -> (&'static str, &'static str, f64) {
-    let far = one * span.from().abs().max(span.to().abs());
-    let (name, unit, per_si) =
-        *units.iter().find(|(.., per_si)| far * per_si >= 1.0).unwrap_or(&units[2]);
-    (name, unit, one * per_si)
-}
-
+/// The scale in the largest unit of which the axis reaches one, when 1 on it is so much in SI units.
 fn scale(units: &AxisUnits, one: f64, span: Span) -> Scale {
-    let (name, _, factor) = chosen(units, one, span);
-    Scale::Times { factor, name }
+    let far = one * span.from().abs().max(span.to().abs());
+    let (name, per_si) = *units.iter().find(|(_, per_si)| far * per_si >= 1.0).unwrap_or(&units[2]);
+    Scale::Times { factor: one * per_si, name }
 }
 
 /// The axes of the plot with this index in the units of the machine; `None` where there is none, or where the plot
@@ -56,16 +49,13 @@ pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
     })
 }
 
-/// A place of the phase plane in the units of the machine, to the digits that can be told apart.
-pub fn reading(session: &Session, at: Point, window: Window) -> Option<String> {
-    let units = shown(session)?;
-    let text = |table: &AxisUnits, one: f64, value: f64, span: Span| {
-        let (_, unit, factor) = chosen(table, one, span);
-        format!("{} {unit}", resolved(factor * value, factor * span.width() / CELLS))
+/// A number along an axis under its name there, or under `name` where the axis has no other unit, to the digits that
+/// can be told apart.
+pub fn said(scale: Scale, name: &str, value: f64, span: Span) -> String {
+    let Scale::Times { factor, name } = scale else {
+        return format!("{name} {}", resolved(value, span.width() / CELLS));
     };
-    Some(format!(
-        "x {} v {}",
-        text(&LENGTHS, units.displacement, at.x, window.x),
-        text(&VELOCITIES, units.velocity, at.y, window.y)
-    ))
+    let (symbol, unit) = name.split_once(' ').unwrap_or((name, ""));
+    let unit = unit.trim_matches(['[', ']']);
+    format!("{symbol} {} {unit}", resolved(factor * value, factor * span.width() / CELLS))
 }

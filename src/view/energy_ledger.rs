@@ -12,7 +12,7 @@ use super::paint::symbol;
 use super::pane::Heading;
 use super::plot::{Canvas, Names, rows};
 use crate::numerics::count::real;
-use crate::picture::energy_ledger::{middle, reading};
+use crate::picture::energy_ledger::{AXIS, middle, reading};
 use crate::picture::role::{CycleStyle, Dash, Role, cycle_style};
 use crate::picture::ticks::{Tick, Ticks};
 use crate::scene::{Point, Span, View, Window};
@@ -30,8 +30,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     let (window, marks) = marks(area, session, window);
     let title = View::EnergyLedger.spec().title;
     let scales = Default::default();
-    let names =
-        Names { title, x: "fraction of the largest", y: "work", scales, marks: Some(marks) };
+    let names = Names { title, x: AXIS, y: "", scales, marks: Some(marks) };
     let mut heading = Heading::of(session, Pane::Plot(index));
     heading.reading = cursor.map(|cursor| {
         lines

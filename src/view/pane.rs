@@ -81,8 +81,9 @@ fn mark(session: &Session, plot: usize) -> Option<&'static str> {
     worst.max().flatten()
 }
 
-/// Writes a title line into the first row of `area`: the title, then what fits of `names`, and the
-/// marks at the right.
+/// Writes a title line into the first row of `area`: what fits of the title, `names`, and the marks at the right.
+/// `names` are those of the axes and stand there as long as they fit whole; of the title held values matter more
+/// than the view.
 pub fn title(
     area: Rect,
     title: &str,
@@ -105,20 +106,18 @@ pub fn title(
     let right = fitted(right, width, look);
     let room = width.saturating_sub(right.width());
     let whole = |text: &str| pointer.chars().count() + text.chars().count() <= room;
-    let both = whole(&format!("{title}  {names}")) && !names.is_empty();
-    // Where there is no room for both, held values matter more than the view, and the axes more than a short
-    // title: two plots of a view differ in them.
-    let held = title.split_once(", ").map_or(title, |(_, held)| held);
-    let names_first = heading.reading.is_none() && names.len() > title.len();
-    let order = if names_first { [names, title, held] } else { [title, held, names] };
-    let shown = order.into_iter().find(|text| whole(text) && !text.is_empty());
+    let (view, held) = title.split_once(", ").unwrap_or((title, title));
+    let beside = [title, held, view].into_iter().find(|text| whole(&format!("{text}  {names}")));
     // Beside a reading, a title of which only a few letters fit is left out.
     let stump = heading.reading.is_some() && 2 * room < title.chars().count();
     let otherwise = if stump { "" } else { title };
-    let shown = shown.filter(|_| !both).unwrap_or(otherwise);
-    let mut left = vec![look.span(format!("{pointer}{shown}"), role)];
-    if both {
+    let alone = || [names, title, held].into_iter().find(|text| whole(text) && !text.is_empty());
+    let mut left = Vec::new();
+    if let Some(text) = beside.filter(|_| !names.is_empty()) {
+        left.push(look.span(format!("{pointer}{text}"), role));
         left.push(look.span(format!("  {names}"), Role::Quiet));
+    } else {
+        left.push(look.span(format!("{pointer}{}", alone().unwrap_or(otherwise)), role));
     }
     let left = fitted(left.into(), room, look);
     both_ends(area, 0, left, right, look, buffer);

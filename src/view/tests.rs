@@ -1,5 +1,6 @@
 //! Screens of hand-made answers: pictures kept as text, and facts that hold for every picture.
 
+mod axes;
 mod by_hand;
 mod cut;
 mod legends;

@@ -187,6 +187,48 @@ fn a_map_labels_decades_and_is_the_stronger_the_more_dangerous_in_one_hue() {
 }
 
 #[test]
+fn a_map_says_which_end_is_dangerous_and_what_has_no_number() {
+    let mut session = map();
+    let screen = text(&draw(&session, braille()));
+    let legend = screen.lines().find(|line| line.contains("dangerous ")).unwrap();
+    let place = |word: &str| legend.find(word).unwrap_or_else(|| panic!("{word}: {legend}"));
+    assert!(
+        place("dangerous") < place("\u{2588}") && place("\u{2591}") < place("safe"),
+        "{legend}"
+    );
+    assert!(screen.contains("- every kick survived  ? gave up"), "{screen}");
+    assert!(!screen.contains("none"), "{screen}");
+    // A point without a number is read in the same words.
+    session.scanned.as_mut().unwrap().at = 3;
+    let screen = text(&draw(&session, braille()));
+    assert!(screen.contains("displacement every kick survived"), "{screen}");
+}
+
+#[test]
+fn beside_the_present_branch_others_are_paler_and_have_no_marks() {
+    let session = computed("supercritical");
+    let picture = picture::of(&session, 1);
+    let mut marked: Vec<Point> = Vec::new();
+    for item in &picture.items {
+        match item {
+            Item::Marks(marks) if marks.role == Role::Current => marked.extend(&marks.at),
+            Item::Curve(line, _) if line.name.contains("stable cycle") => {
+                let label = line.variant.as_ref().map_or("", |variant| &variant.label);
+                let present = label == "r = 0.1";
+                assert_eq!(matches!(line.role, Role::Stable | Role::Unstable), present, "{label}");
+                assert_eq!(line.name.ends_with("at other values"), !present, "{label}");
+            }
+            _ => {}
+        }
+    }
+    let found = session.cycles().unwrap();
+    assert_eq!(marked.len(), found.cycles.len());
+    for cycle in &found.cycles {
+        assert!(marked.iter().any(|at| (at.y - cycle.q_max).abs() < 1e-6), "{marked:?}");
+    }
+}
+
+#[test]
 fn what_is_drawn_in_red_and_green_is_a_cycle_or_the_edge_of_a_basin() {
     let names = ["stable", "cycle", "border of the basin", "rest", "fixed point", "stick-slip"];
     let mut looked = 0;
