@@ -166,7 +166,7 @@ fn a_map_labels_decades_and_is_the_stronger_the_more_dangerous_in_one_hue() {
     let scanned = session.scanned.as_ref().unwrap();
     let (low, high) = scanned.range().unwrap();
     let legend =
-        screen.lines().rfind(|line| line.contains("displacement ") && line.contains('\u{2588}'));
+        screen.lines().rfind(|line| line.contains("dangerous ") && line.contains('\u{2588}'));
     let legend = legend.unwrap_or_else(|| panic!("{screen}"));
     for value in [low, high] {
         let three = crate::words::number::significant(value, 3);
