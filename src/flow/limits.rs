@@ -48,6 +48,11 @@ pub enum Reason {
         /// The longest step that is stable there.
         stable: f64,
     },
+    /// The motion has more half swings than are kept.
+    HalfSwings {
+        /// How many are.
+        most: usize,
+    },
     /// A number left the floating-point range.
     OutOfRange,
     /// The method does not apply to these parameters.
@@ -76,6 +81,9 @@ impl fmt::Display for Reason {
             }
             Reason::StepTooLong { step, stable } => {
                 write!(out, "step {step:.1e} is unstable here; at most {stable:.1e} would do")
+            }
+            Reason::HalfSwings { most } => {
+                write!(out, "the motion has more than {most} half swings; ask for a shorter time")
             }
             Reason::OutOfRange => write!(out, "left the range of floating-point numbers"),
             Reason::NotApplicable { needs } => write!(out, "the method needs {needs}"),

@@ -14,6 +14,9 @@ use crate::numerics::sum::Sum;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{HalfPlane, Ledger, Side, State};
 
+/// Half swings of a motion whose ends are kept: what is written of these takes some hundred megabytes.
+const MOST_CROSSINGS: usize = 2_000_000;
+
 /// A motion in progress.
 pub struct MotionRun {
     pub(super) detail: Detail,
@@ -95,6 +98,12 @@ impl MotionRun {
         self.found
     }
 
+    /// The outcome of a motion of which no more can be kept.
+    pub(super) fn full(&self) -> Option<Outcome> {
+        let (tau, reason) = (self.time.value(), Reason::HalfSwings { most: MOST_CROSSINGS });
+        (self.found.crossings.len() >= MOST_CROSSINGS).then_some(Outcome::GaveUp { tau, reason })
+    }
+
     /// Without friction: one smooth motion on both sides of `v = 0`.
     fn glide<S: Stepper>(&mut self, stepper: &mut S, limits: &Limits) -> Outcome {
         let Problem { parameters, initial, until, .. } = self.found.problem;
@@ -128,6 +137,9 @@ impl MotionRun {
             let remaining = self.time.until(until);
             if remaining <= 0.0 {
                 return Outcome::Moving { tau: until, q: last.q, v: last.v };
+            }
+            if let Some(full) = self.full() {
+                return full;
             }
             let field = HalfPlane::new(&parameters, side);
             let stop = ComingToRest::of(&field, point).filter(|stop| stop.duration < remaining);

@@ -53,6 +53,9 @@ impl MotionRun {
                 Ok(step) => {
                     self.book_step(stepper, &field, point, &step);
                     point = step.end;
+                    if let Some(full) = self.full() {
+                        break full;
+                    }
                 }
             }
         };

@@ -200,6 +200,22 @@ fn start() -> impl Strategy<Value = (f64, f64)> {
     (-3.0..3.0, prop_oneof![Just(0.0), -3.0..3.0])
 }
 
+#[test]
+fn a_motion_without_end_gives_up_where_its_half_swings_fill_the_memory() {
+    let problem = Problem { until: 1e9, ..problem([0.0; 4], (3.0, 0.0), Method::Auto) };
+    let motion = trajectory(&problem, Detail::default(), &Limits::PATIENT);
+    let Outcome::GaveUp { tau, reason: Reason::HalfSwings { most } } = motion.outcome else {
+        panic!("{:?}", motion.outcome)
+    };
+    assert_eq!(motion.crossings.len(), most);
+    let expected = std::f64::consts::PI * crate::numerics::count::real(most);
+    assert!((tau / expected - 1.0).abs() < 1e-12, "{tau}");
+    // Nothing happens at v = 0 without friction: where these are not asked for, it is followed to the end.
+    let detail = Detail { crossings: false, ..Detail::default() };
+    let glided = trajectory(&problem, detail, &Limits::PATIENT);
+    assert!(matches!(glided.outcome, Outcome::Moving { tau: 1e9, .. }), "{:?}", glided.outcome);
+}
+
 proptest! {
     #[test]
     fn scaling_by_a_power_of_two_changes_no_bit(
