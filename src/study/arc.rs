@@ -5,7 +5,7 @@
 //! comparison with the graph at its q. The graph is kept as the polynomials of the
 //! integration steps and evaluated to rounding by Newton's method in time.
 
-use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
+use super::half_map::{HalfMap, HalfSwing, Length, NoEnd, linear_below};
 use crate::flow::auto::LastStep;
 use crate::flow::exact::Exact;
 use crate::flow::step::{Powers, Stepper};
@@ -88,7 +88,9 @@ impl Arc {
             Direction::Forward => (forward, clearance),
             Direction::Backward => (forward.reversed(), clearance.plus(2.0 * parameters.r)),
         };
-        let detail = DETAIL * (clearance.value + parameters.r);
+        // Where friction is many times the natural scale, the motion is not linear yet at that size.
+        let detail =
+            (DETAIL * (clearance.value + parameters.r)).min(linear_below(&field, TOLERANCE));
         let mut map = HalfMap::integrating_above(detail, field, TOLERANCE);
         let mut pieces: Vec<ArcStep> = Vec::new();
         let limits =

@@ -11,7 +11,7 @@ use super::half_map::Length;
 use super::polish::{VAGUE, is_exact, polish};
 use super::precise_closing::{FINER, PreciseEquation};
 use super::search::{Bracket, Node, search};
-use super::weak::{is_one_way, weak_closing};
+use super::weak::{has_cycle, is_one_way, weak_closing};
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Limits, Reason};
 use crate::numerics::elementary::ln;
@@ -92,15 +92,19 @@ fn searched(
         return Ok(Vec::new());
     }
     let sought = "a limit cycle";
-    let Some(low) = lower_end(equation, limits)? else { return Ok(Vec::new()) };
+    let low = lower_end(equation, limits)?;
     equation.want_fastest(true);
-    let brackets = brackets(equation, low, most, known, limits)?;
+    let brackets = match low {
+        Some(low) => brackets(equation, low, most, known, limits)?,
+        None => Vec::new(),
+    };
     let mut found = Vec::new();
     for bracket in brackets {
         let closing = polish(equation, bracket, limits)?;
         // Where the second swing would have to start at the very end of the sticking set, nothing closes.
         if closing.duration.is_finite() && found.len() < most {
-            if !closing.log_multiplier(&equation.parameters).is_finite() {
+            let log_multiplier = closing.log_multiplier(&equation.parameters);
+            if !log_multiplier.is_finite() || loses_square(&closing, &equation.parameters) {
                 return Err(Reason::OutOfRange);
             }
             if closing.uncertainty > VAGUE && is_exact(equation) {
@@ -108,6 +112,9 @@ fn searched(
             }
             found.push(closing);
         }
+    }
+    if known.is_empty() && found.is_empty() && has_cycle(&equation.parameters) {
+        return Err(Reason::OutOfRange);
     }
     // Between two cycles that both attract, or both repel, lies another one.
     let stable = |closing: &Closing| closing.log_multiplier(&equation.parameters) < 0.0;
@@ -117,6 +124,15 @@ fn searched(
         return Err(Reason::NoConvergence { sought, change });
     }
     Ok(found)
+}
+
+/// Whether cubic damping matters to the multiplier of a cycle the square of whose speed is too small a number.
+fn loses_square(closing: &Closing, parameters: &Parameters) -> bool {
+    /// Smaller ones have less than seven digits left.
+    const LEAST: f64 = 1e-315;
+    let Parameters { d, d3, .. } = *parameters;
+    let speed = closing.fastest[0].max(closing.fastest[1]);
+    closing.square < LEAST && d3.abs() * speed * speed > f64::EPSILON * d.abs()
 }
 
 /// The residual of the mixed route, with a sign that can be relied on.

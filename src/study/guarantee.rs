@@ -22,6 +22,7 @@ use super::cycle::Edge;
 use super::half_map::{HalfMap, Length};
 use super::margin::Margin;
 use super::search::Bracket;
+use super::weak::has_cycle;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::root::{PlaceTolerance, illinois};
@@ -119,7 +120,9 @@ impl Sided {
             let cycle = LinearCycle::new(self.upper.d, self.upper.r).ok();
             return Ok(cycle.map(|cycle| (Closing::from(&cycle), NOISE)));
         }
-        let Some(bracket) = innermost_bracket(equation, limits)? else { return Ok(None) };
+        let Some(bracket) = innermost_bracket(equation, limits)? else {
+            return if has_cycle(&self.upper) { Err(Reason::OutOfRange) } else { Ok(None) };
+        };
         let (inside, error) = refine(equation, bracket, limits)?;
         let mut closing = equation.at(Route::Mixed, inside, limits)?;
         if !closing.node.value().is_finite() {

@@ -28,8 +28,14 @@ const LINEAR_BELOW: f64 = 1e-5;
 /// The least tolerance that counts there: rounding.
 const ROUNDING: f64 = 1e-16;
 
-/// A half swing longer than this is taken to never arrive; slow ones of 1e24 do (D2 = 1e6, D3 = 1e-12).
-const LONGEST: f64 = 1e100;
+/// A half swing longer than this is taken to never arrive; slow ones of 1e100 do (D3 = 1 from 1e150).
+const LONGEST: f64 = 1e300;
+
+/// The size below which the damping is linear for steps within the relative `tolerance`.
+pub fn linear_below(field: &HalfPlane, tolerance: f64) -> f64 {
+    let natural = (1.0 / field.d2.abs()).min(1.0 / field.d3.abs().sqrt());
+    LINEAR_BELOW * tolerance.max(ROUNDING) * natural
+}
 
 /// A positive length with its logarithm, which exists even where the length underflows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,9 +122,7 @@ pub struct HalfMap {
 impl HalfMap {
     /// The map of this field, each step within the relative `tolerance`.
     pub fn new(field: HalfPlane, tolerance: f64) -> Self {
-        let natural = (1.0 / field.d2.abs()).min(1.0 / field.d3.abs().sqrt());
-        let linear_below = LINEAR_BELOW * tolerance.max(ROUNDING) * natural;
-        Self::integrating_above(linear_below, field, tolerance)
+        Self::integrating_above(linear_below(&field, tolerance), field, tolerance)
     }
 
     /// The same map, integrated step by step wherever the state is larger than `linear_below`.

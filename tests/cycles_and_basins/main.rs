@@ -3,6 +3,7 @@
 #![expect(clippy::cast_precision_loss, reason = "indices of grids are small")]
 
 mod extremes;
+mod kicks_at_extremes;
 mod precision;
 mod properties;
 mod stiff;
