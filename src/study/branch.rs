@@ -25,7 +25,7 @@ use serde::Serialize;
 
 use super::closing::{Equation, Route, first_side};
 use super::closings::{STEP, other_closings};
-use super::continuation::{CurvePlace, CurvePoint, CycleCurve, covers, passes};
+use super::continuation::{CurvePlace, CurvePoint, CycleCurve, covers, is_beside, passes};
 use super::cycle::Cycle;
 use super::escape::{escape_point, escape_product};
 use super::polish::polish_near;
@@ -128,7 +128,7 @@ const NEAREST: f64 = 1e-4;
 /// Relative error of a clearance that is good enough, in units of the tolerance.
 const POLISHED: f64 = 1e5;
 
-/// Relative error of a clearance at which a cycle on its way to infinity is followed no further.
+/// Relative error of a clearance at which a cycle on its way to infinity is followed no further, nor shown.
 const VAGUE: f64 = 1e-3;
 
 /// Folds closer than this fraction of the range are one.
@@ -199,7 +199,7 @@ impl Tracer<'_> {
             }
         }
         for points in &curves {
-            self.keep(points)?;
+            self.keep(points, (from, to))?;
         }
         self.zero_crossings(&curves, from, to)
     }
@@ -257,13 +257,24 @@ impl Tracer<'_> {
             && !(from..=to).contains(&outside.p)
         {
             points.pop();
-            let border = if outside.p > to { to } else { from };
-            let fraction = (border - inside.p) / (outside.p - inside.p);
-            let u = inside.u + fraction * (outside.u - inside.u);
-            let route = inside.route();
-            points.extend(self.curve.at_parameter(border, u, route)?);
+            points.extend(self.crossing(&inside, &outside, (from, to))?);
         }
         Ok(points)
+    }
+
+    /// The cycle between a point inside the range and one outside, at the border of the range.
+    fn crossing(
+        &mut self,
+        inside: &CurvePoint,
+        outside: &CurvePoint,
+        (from, to): (f64, f64),
+    ) -> Result<Option<CurvePoint>, Reason> {
+        let border = if outside.p > to { to } else { from };
+        let fraction = (border - inside.p) / (outside.p - inside.p);
+        let u = inside.u + fraction * (outside.u - inside.u);
+        let found = self.curve.at_parameter(border, u, inside.route())?;
+        let scale = self.curve.scale;
+        Ok(found.filter(|it| is_beside([inside, outside], (it.u, it.p), scale)))
     }
 
     /// Smallest and largest `ln c0` followed: beyond, a curve counts as gone to nothing or to infinity.
@@ -328,23 +339,40 @@ impl Tracer<'_> {
         Ok(())
     }
 
-    /// Spreads points over a curve and describes each; notes its folds.
-    fn keep(&mut self, points: &[CurvePoint]) -> Result<(), Reason> {
+    /// Spreads points over the parts of a curve within the range and describes each; notes the folds.
+    fn keep(&mut self, points: &[CurvePoint], range: (f64, f64)) -> Result<(), Reason> {
+        let mut part: Vec<CurvePoint> = points.first().copied().into_iter().collect();
         for pair in points.windows(2) {
             let [one, other] = pair else { continue };
-            if (one.log_multiplier > 0.0) != (other.log_multiplier > 0.0)
-                && let Some(fold) = self.curve.fold_between(one, other)?
-            {
-                // Next to a fold the multiplier may cross 1 back and forth by rounding.
-                let near = |it: &Special| {
-                    it.kind == SpecialKind::Fold
-                        && (it.value - fold.p).abs() <= SAME * self.curve.scale
-                };
-                if !self.found.special.iter().any(near) {
-                    self.note(SpecialKind::Fold, &fold);
+            let turns = (one.log_multiplier > 0.0) != (other.log_multiplier > 0.0);
+            let fold = if turns { self.curve.fold_between(one, other)? } else { None };
+            match fold {
+                Some(fold) if !(range.0..=range.1).contains(&fold.p) => {
+                    // Between both points the curve leaves the range and comes back.
+                    part.extend(self.crossing(one, &fold, range)?);
+                    self.keep_part(&std::mem::take(&mut part))?;
+                    part.extend(self.crossing(other, &fold, range)?);
                 }
+                Some(fold) => self.note_fold(&fold),
+                None => {}
             }
+            part.push(*other);
         }
+        self.keep_part(&part)
+    }
+
+    /// Notes a fold, once: next to it the multiplier may cross 1 back and forth by rounding.
+    fn note_fold(&mut self, fold: &CurvePoint) {
+        let near = |it: &Special| {
+            it.kind == SpecialKind::Fold && (it.value - fold.p).abs() <= SAME * self.curve.scale
+        };
+        if !self.found.special.iter().any(near) {
+            self.note(SpecialKind::Fold, fold);
+        }
+    }
+
+    /// Spreads points over a part of a curve and describes each.
+    fn keep_part(&mut self, points: &[CurvePoint]) -> Result<(), Reason> {
         let mut piece = Vec::new();
         if let Points::Even(count) = self.points {
             for place in self.curve.spread(points, count.max(2))? {
@@ -354,8 +382,8 @@ impl Tracer<'_> {
                 }
             }
         } else {
-            let described = |at: &CurvePoint| BranchPoint { value: at.p, cycle: self.describe(at) };
-            piece.extend(points.iter().map(described));
+            let clear = points.iter().filter(|at| at.closing.uncertainty <= VAGUE);
+            piece.extend(clear.map(|at| BranchPoint { value: at.p, cycle: self.describe(at) }));
         }
         if !piece.is_empty() {
             self.found.pieces.push(piece);
@@ -440,7 +468,12 @@ fn linear_branch(r: f64, from: f64, to: f64, points: Points) -> Option<Vec<Branc
     };
     let point = |index: usize| {
         let fraction = real(index) / real(count - 1);
-        let d = if index == 0 { from } else { from * pow(to / from, fraction) };
+        // Both ends to the last bit.
+        let d = match index {
+            0 => from,
+            _ if index + 1 == count => to,
+            _ => from * pow(to / from, fraction),
+        };
         let cycle = LinearCycle::new(d, r).ok()?;
         Some(BranchPoint { value: d, cycle: Cycle::from(&cycle) })
     };

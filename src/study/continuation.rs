@@ -10,7 +10,7 @@ mod point;
 mod spread;
 
 use point::UNIT_OF_U;
-pub use point::{CurvePoint, Tangent, covers, passes};
+pub use point::{CurvePoint, Tangent, covers, is_beside, passes};
 pub use spread::CurvePlace;
 
 use super::closed_pair::Closing;

@@ -2,6 +2,7 @@
 
 #![expect(clippy::cast_precision_loss, reason = "indices of grids are small")]
 
+mod branches;
 mod extremes;
 mod kicks_at_extremes;
 mod precision;

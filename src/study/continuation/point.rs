@@ -62,6 +62,19 @@ impl Tangent {
     }
 }
 
+/// Whether a place `(u, p)` of a curve can be one between two neighbouring points: beside the chord, and no further from
+/// it than a bend of the curve allows.
+pub fn is_beside([one, other]: [&CurvePoint; 2], (u, p): (f64, f64), scale: f64) -> bool {
+    /// Distance from the chord, as a part of it, and what counts as nothing along it.
+    const BULGE: f64 = 0.5;
+    const SLACK: f64 = 1e-9;
+    let chord = Tangent::between(one, other, scale);
+    let length = hypot((other.u - one.u) / UNIT_OF_U, (other.p - one.p) / scale);
+    let (u, p) = ((u - one.u) / UNIT_OF_U, (p - one.p) / scale);
+    let (along, across) = (u * chord.u + p * chord.p, u * chord.p - p * chord.u);
+    (-SLACK..=length + SLACK).contains(&along) && across.abs() <= BULGE * length + SLACK
+}
+
 /// Whether a curve that is a graph over the amplitude goes through that of a point.
 pub fn covers(curve: &[CurvePoint], point: &CurvePoint) -> bool {
     let beyond = |it: &CurvePoint| it.u > point.u;

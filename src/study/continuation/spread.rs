@@ -4,7 +4,7 @@
 //! distances: they are interpolated between those that were followed. Next to a fold there may be no cycle at
 //! an interpolated parameter, so that those are corrected to the curve.
 
-use super::{CurvePoint, CycleCurve, Tangent};
+use super::{CurvePoint, CycleCurve, Tangent, is_beside};
 use crate::flow::Reason;
 use crate::numerics::count::real;
 use crate::study::closing::Route;
@@ -54,37 +54,44 @@ impl CycleCurve<'_> {
             let base = after.saturating_sub(window / 2).min(points.len() - window);
             let pair = [&points[after - 1], &points[after]];
             let smooth = interpolate(&points[base..base + window], &arc[base..base + window], s);
-            if let Some(place) = between_steep(pair, smooth) {
+            let fraction = (s - arc[after - 1]) / (arc[after] - arc[after - 1]);
+            // A polynomial through points at uneven distances may lead anywhere; the chord does not.
+            let beside = is_beside(pair, smooth, self.scale);
+            if beside && let Some(place) = between_steep(pair, smooth) {
                 spread.push(place);
                 continue;
             }
-            let fraction = (s - arc[after - 1]) / (arc[after] - arc[after - 1]);
-            spread.extend(self.corrected(pair, smooth, fraction)?);
+            let mut found = if beside { self.corrected(pair, smooth)? } else { None };
+            if found.is_none() {
+                found = self.corrected(pair, on_chord(pair, fraction))?;
+            }
+            spread.extend(found);
         }
         spread.push(CurvePlace::from(last));
         Ok(spread)
     }
 
-    /// The cycle next to an interpolated place, else next to the same part of the chord.
+    /// The cycle of the curve next to an interpolated place.
     fn corrected(
         &mut self,
-        [one, other]: [&CurvePoint; 2],
-        smooth: (f64, f64),
-        fraction: f64,
+        pair: [&CurvePoint; 2],
+        near: (f64, f64),
     ) -> Result<Option<CurvePlace>, Reason> {
+        let [one, other] = pair;
         let tangent = Tangent::between(one, other, self.scale);
         let growth = [0, 1].map(|i| 0.5 * (one.closing.growth[i] + other.closing.growth[i]));
         let route = Route::steadiest(growth);
         self.probe_within((other.p - one.p).abs() / self.scale);
-        let mut found = self.correct(smooth, tangent, route)?;
-        if found.is_none() {
-            // A polynomial may pass beyond where there are cycles; the chord of a bend does not.
-            let between = |from: f64, to: f64| from + fraction * (to - from);
-            let straight = (between(one.u, other.u), between(one.p, other.p));
-            found = self.correct(straight, tangent, route)?;
-        }
+        let found = self.correct(near, tangent, route)?;
+        let found = found.filter(|it| is_beside(pair, (it.u, it.p), self.scale));
         Ok(found.as_ref().map(CurvePlace::from))
     }
+}
+
+/// The place at this part of the chord of two points.
+fn on_chord([one, other]: [&CurvePoint; 2], fraction: f64) -> (f64, f64) {
+    let between = |from: f64, to: f64| from + fraction * (to - from);
+    (between(one.u, other.u), between(one.p, other.p))
 }
 
 /// An interpolated place where the curve is a graph over the parameter: between two points that are not
