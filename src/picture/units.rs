@@ -17,7 +17,7 @@ const VELOCITIES: AxisUnits = [("v [m/s]", 1.0), ("v [mm/s]", 1e3), ("v [um/s]",
 const TIMES: AxisUnits = [("t [s]", 1.0), ("t [ms]", 1e3), ("t [us]", 1e6)];
 
 /// The units of the machine or the record in which a session shows its axes.
-fn shown(session: &Session) -> Option<Physical> {
+pub fn shown(session: &Session) -> Option<Physical> {
     session.units().filter(|_| !session.look.dimensionless)
 }
 

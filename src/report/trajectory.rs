@@ -10,7 +10,7 @@ use crate::flow::{Crossing, Method, Outcome, Trajectory};
 use crate::numerics::Interval;
 use crate::oscillator::{Ledger, Parameters, State};
 use crate::proof::motion::ProvedMotion;
-use crate::words::motion::sentence;
+use crate::words::motion::{Writing, sentence};
 use crate::words::number::{duration, exact, significant};
 
 #[derive(Serialize)]
@@ -103,7 +103,7 @@ pub fn table(motion: &Trajectory, seconds: f64) -> String {
             ("q", &|(_, crossing)| number(crossing.q)),
         ],
     );
-    let mut out = format!("{}\n{}\n\n", question(problem), sentence(motion));
+    let mut out = format!("{}\n{}\n\n", question(problem), sentence(motion, Writing::default()));
     if !turns.is_empty() {
         out += &format!("{turns}\n");
     }

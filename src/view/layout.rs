@@ -20,7 +20,7 @@ pub(super) const DESIGNED: u16 = 20;
 
 /// Columns of the parameter pane, by the columns of the screen: with names and values, with all
 /// steps, with meanings.
-const COLUMNS: [(u16, u16); 3] = [(150, 52), (110, 34), (0, 25)];
+const COLUMNS: [(u16, u16); 3] = [(150, 56), (110, 34), (0, 25)];
 
 /// Rows of a screen whose legend has two rows.
 const TALL: u16 = 24;

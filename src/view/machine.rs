@@ -34,7 +34,7 @@ pub fn outcome(session: &Session, motion: &Trajectory) -> String {
         (MachineFate::Cycle(index), _) => course.cycles.get(index).map_or_else(String::new, onto),
         (MachineFate::Neutral, _) => "is periodic, one of a family".to_owned(),
         (MachineFate::Escaped, _) => "grows without bound".to_owned(),
-        (MachineFate::Unknown(stop), _) => format!("is not known: {stop}"),
+        (MachineFate::Unknown(stop), _) => format!("ends in a way that is not known: {stop}"),
     }
 }
 

@@ -15,7 +15,9 @@ use super::prose;
 use crate::flow::Problem;
 use crate::machine::BorderKind;
 use crate::oscillator::Symbol;
+use crate::oscillator::belt::Units;
 use crate::picture::role::{CycleStyle, Role, cycle_style};
+use crate::picture::units;
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
 use crate::study::belt::PhysicalMargin;
@@ -29,8 +31,11 @@ use crate::words::quantity::with_unit;
 /// Columns up to the end of the values.
 const VALUES: usize = 17;
 
-/// Columns of a step, with the blanks before it.
-const STEP: usize = 8;
+/// Columns of a step where they stand below each other.
+const STEP: usize = 10;
+
+/// Digits of a number that follows from others, on a machine or from a record.
+const FOLLOWING: usize = 5;
 
 /// Columns from which on what numbers mean stands beside their steps.
 const WITH_MEANINGS: u16 = 50;
@@ -39,11 +44,11 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let heading = Heading::of(session, Pane::Parameters);
     let of = session.number(0).map_or_else(String::new, |number| format!("of motion {number}"));
     pane::title(area, "parameters", &of, &heading, look, buffer);
-    let wide = usize::from(area.width) > VALUES + STEP;
+    let wide = usize::from(area.width) >= VALUES + STEP;
     let mut y = 1;
     for row in session.rows() {
         let selected = row == session.selected;
-        let step = (selected || wide).then(|| step(session, row, look)).flatten();
+        let step = (selected || wide).then(|| step(session, row)).flatten();
         let line = row_line(session, row, step, area.width, look);
         pane::line(area, y, line, look, buffer);
         y += 1;
@@ -102,8 +107,10 @@ fn row_line(
     let pointer = if selected { look.symbols().pointer } else { " " };
     let role = if selected { Role::Selected } else { Role::Text };
     let name = row.name_in(&session.problem);
-    // Two blanks before the value and two behind it.
-    let room = VALUES - name.len() - 3;
+    let tail = tail(session, row, step, width, look);
+    // Two blanks before the value and, where there is room, two behind it.
+    let end = VALUES.min(usize::from(width).saturating_sub(tail.chars().count()));
+    let room = (VALUES - 3).min(end.saturating_sub(3)).saturating_sub(name.len());
     let sign = look.symbols().plus_minus;
     let text = |setup: &Setup| value(session, setup, row, room, sign);
     let (value, of_scene) = (text(&session.setup()), text(&Setup::of_scene(&session.scene)));
@@ -111,7 +118,7 @@ fn row_line(
     // Numbers changed by hand are those of no belt speed: its row is out of use until it is set again.
     let off = matches!(row, Row::Quantity(_)) && session.is_on_the_belt() == Some(false);
     let value = if off { format!("({value})") } else { value };
-    let gap = VALUES.saturating_sub(name.len() + value.chars().count() + 1).max(1);
+    let gap = end.saturating_sub(name.len() + value.chars().count() + 1).max(1);
     let style = look.style(role);
     let value_style = if off && !selected {
         look.style(Role::Quiet)
@@ -120,16 +127,19 @@ fn row_line(
     } else {
         style
     };
-    let mut line = vec![
+    vec![
         Span::styled(format!("{pointer}{name}{:gap$}", ""), style),
         Span::styled(value, value_style),
-    ];
-    let step = step.unwrap_or_default();
-    // Two numbers after a sign of either would not be told apart.
-    let half = matches!(row, Row::Parameter(symbol) if session.doubt.half_width(symbol) > 0.0);
-    // On a narrow pane the error of a fitted number would be taken for its step.
+        look.span(tail, Role::Quiet),
+    ]
+}
+
+/// What stands behind a value: its step, and what the number means.
+fn tail(session: &Session, row: Row, step: Option<String>, width: u16, look: &Look) -> String {
+    let selected = row == session.selected;
+    // On a narrow pane the error of a fitted number matters more than its step.
     let recorded = session.scene.recording.is_some() && width < WITH_MEANINGS;
-    let step = if (half && !selected) || recorded { String::new() } else { step };
+    let step = step.filter(|_| !recorded).unwrap_or_default();
     let room = usize::from(width).saturating_sub(VALUES);
     let fits = |text: &String| text.chars().count() + 2 <= room;
     let physical = physical(session, row).map(|(name, value)| format!("{name} {value}"));
@@ -139,17 +149,16 @@ fn row_line(
         let first = told.iter().position(fits);
         first.map(|at| told.swap_remove(at)).or_else(|| told.pop())
     });
-    let meaning = physical.clone().unwrap_or_else(|| meaning(&session.problem, row).to_owned());
+    if width >= WITH_MEANINGS {
+        let meaning = physical.unwrap_or_else(|| meaning(&session.problem, row).to_owned());
+        return format!("  {step:<STEP$}  {meaning}");
+    }
     // On a narrow pane what the number means on the machine stands in place of the step, of which the
     // selected row alone needs to speak.
-    let text = if width >= WITH_MEANINGS {
-        format!("{step:<STEP$}  {meaning}")
-    } else {
-        let physical = physical.filter(|text| (!selected || recorded) && fits(text));
-        physical.map_or(step, |physical| format!("  {physical}"))
-    };
-    line.push(look.span(text, Role::Quiet));
-    line
+    let text = physical.filter(|text| (!selected || recorded) && fits(text)).unwrap_or(step);
+    // Where there is no room behind the values, the selected one moves to the left.
+    let blanks = if fits(&text) { 2 } else { 1 };
+    if text.is_empty() { text } else { format!("{:blanks$}{text}", "") }
 }
 
 /// What a row means on the machine: the quantity and its value.
@@ -195,26 +204,36 @@ fn value(session: &Session, setup: &Setup, row: Row, width: usize, sign: &str) -
             let value = symbol.get(&problem.parameters, &problem.initial);
             let half = doubt.half_width(symbol);
             if half == 0.0 {
-                return exact(value, width);
+                return number(session, value, width);
             }
-            let half = format!(" {sign}{}", exact(half, width / 2 - 1));
-            exact(value, width.saturating_sub(half.chars().count())) + &half
+            let half =
+                format!(" {sign}{}", number(session, half, width.div_ceil(2).saturating_sub(1)));
+            number(session, value, width.saturating_sub(half.chars().count())) + &half
         }
-        Row::Disturbance => exact(doubt.disturbance, width),
-        Row::Until => exact(problem.until, width),
+        Row::Disturbance => number(session, doubt.disturbance, width),
+        Row::Until => number(session, problem.until, width),
         Row::Method => problem.method.to_string(),
         Row::Tolerance => exact(problem.setting(), width),
     }
 }
 
 /// The step of a row; of the dial the name of its stop.
-fn step(session: &Session, row: Row, look: &Look) -> Option<String> {
+fn step(session: &Session, row: Row) -> Option<String> {
     if row == Row::Tolerance {
-        return session.problem.quality().map(|quality| format!("  {}", quality.name));
+        return session.problem.quality().map(|quality| quality.name.to_owned());
     }
-    let step = session.steps.of(row)?;
-    let sign = look.symbols().plus_minus;
-    Some(format!("  {sign}{}", exact(step.value(), STEP - 2 - sign.chars().count())))
+    Some(format!("step {}", exact(session.steps.of(row)?.value(), STEP - "step ".len())))
+}
+
+/// A number in this many columns, exact if that is possible. Where numbers have units, one that is not was
+/// computed from typed ones, and a few digits say as much.
+fn number(session: &Session, value: f64, width: usize) -> String {
+    let text = exact(value, width);
+    if session.units().is_none() || text.parse() == Ok(value) {
+        return text;
+    }
+    let mut rounded = (1..=FOLLOWING).rev().map(|digits| significant(value, digits));
+    rounded.find(|text| text.len() <= width).unwrap_or(text)
 }
 
 fn meaning(problem: &Problem, row: Row) -> &'static str {
@@ -240,19 +259,38 @@ fn folded(session: &Session) -> Option<String> {
 }
 
 /// A column of the table of cycles: heading, width, and what stands in it.
-type CycleColumn = (&'static str, usize, fn(&Cycle) -> String);
+type CycleColumn = (&'static str, usize, Box<dyn Fn(&Cycle) -> String>);
 
-/// The columns, of which as many are shown as fit.
-const CYCLE_COLUMNS: [CycleColumn; 5] = [
-    ("q_max", 10, |cycle| significant(cycle.q_max, 5)),
-    ("period", 8, |cycle| significant(cycle.period, 4)),
-    ("v_max", 9, |cycle| significant(cycle.v_max, 5)),
-    ("multiplier", 12, |cycle| match cycle.multiplier {
+/// The columns, of which as many are shown as fit; lengths, times and speeds in the units of a machine.
+fn cycle_columns(units: Option<Units>) -> [CycleColumn; 5] {
+    type Number = fn(&Cycle) -> f64;
+    let with = move |one: f64, unit, number: Number| -> Box<dyn Fn(&Cycle) -> String> {
+        Box::new(move |cycle| with_unit(number(cycle) * one, 4, unit))
+    };
+    let own = |digits, number: Number| -> Box<dyn Fn(&Cycle) -> String> {
+        Box::new(move |cycle| significant(number(cycle), digits))
+    };
+    let (q_max, period, v_max): (Number, Number, Number) =
+        (|cycle| cycle.q_max, |cycle| cycle.period, |cycle| cycle.v_max);
+    let [size, period, speed] = match units {
+        None => [
+            ("q_max", 10, own(5, q_max)),
+            ("period", 8, own(4, period)),
+            ("v_max", 9, own(5, v_max)),
+        ],
+        Some(units) => [
+            ("x_max", 11, with(units.displacement, "m", q_max)),
+            ("period", 9, with(units.time, "s", period)),
+            ("v_max", 11, with(units.velocity, "m/s", v_max)),
+        ],
+    };
+    let multiplier = |cycle: &Cycle| match cycle.multiplier {
         Some(multiplier) => significant(multiplier, 4),
         None => format!("e^{}", significant(cycle.log_multiplier, 4)),
-    }),
-    ("error", 8, |cycle| significant(cycle.error, 1)),
-];
+    };
+    let multiplier = ("multiplier", 12, Box::new(multiplier) as Box<_>);
+    [size, period, speed, multiplier, ("error", 8, own(1, |cycle| cycle.error))]
+}
 
 /// What the cycles are, in numbers, and what borders the basin; returns the rows that it took.
 fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u16 {
@@ -260,11 +298,12 @@ fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u1
     const SYMBOL: usize = 3;
     let Some(found) = session.cycles() else { return 0 };
     let mut used = SYMBOL;
-    let fits = |(_, width, _): &&CycleColumn| {
+    let fits = |(_, width, _): &CycleColumn| {
         used += width;
         used <= usize::from(area.width)
     };
-    let columns: Vec<&CycleColumn> = CYCLE_COLUMNS.iter().take_while(fits).collect();
+    let units = units::shown(session);
+    let columns: Vec<CycleColumn> = cycle_columns(units).into_iter().take_while(fits).collect();
     let cells = |text: &dyn Fn(&CycleColumn) -> String| -> String {
         columns
             .iter()
@@ -341,12 +380,14 @@ fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<St
     // Where there is a second status line, it says what kicks are survived.
     let low = session.size.height < DESIGNED;
     let mut lines = vec![edge.to_owned()];
-    lines.extend(kicks.filter(|_| low));
+    // In the units of a machine they stand below.
+    let physical = units::shown(session).is_some();
+    lines.extend(kicks.filter(|_| low && !physical));
     lines.extend(spread(session, look));
     lines.extend(on_the_machine(session, found, width));
     lines.extend(certain::line(session, width));
     lines.extend(share(found).filter(|_| low));
-    lines.extend(area(found));
+    lines.extend(area(found).filter(|_| !physical));
     lines
 }
 

@@ -13,13 +13,13 @@ use super::walk;
 use crate::flow::trajectory::choice;
 use crate::flow::{Outcome, Trajectory};
 use crate::picture::role::Role;
+use crate::picture::units;
 use crate::scene::{Answer, Layer, Topic};
 use crate::session::Session;
 use crate::session::fate::{End, MotionVerdict, SideOfBorder};
 use crate::study::Edge;
-use crate::words::motion::{sentence, swings};
+use crate::words::motion::{Writing, sentence, swings};
 use crate::words::number::{count, duration, significant};
-use crate::words::quantity::with_unit;
 
 /// Draws the title line: what the scene is, and its name.
 pub fn title(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
@@ -46,6 +46,11 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let busy = match session.writing.as_ref().and_then(|path| path.file_name()) {
         Some(name) => format!("{busy}writing {} ", name.display()),
         None => busy.to_owned(),
+    };
+    let busy = match session.keymap.key_of("play-motion").filter(|_| session.is_playing()) {
+        Some(key) => format!("{busy}playing, {} holds ", keys::name(key, look)),
+        None if session.is_playing() => format!("{busy}playing "),
+        None => busy,
     };
     let busy = match &session.macros.recording {
         Some((register, _)) => format!("{busy}recording {register} "),
@@ -79,8 +84,8 @@ fn shorter(session: &Session, mut text: String, room: usize) -> String {
     if let Some(swings) = session.trajectory().map(swings).filter(|_| too_long(&text)) {
         text = text.replacen(&swings, "", 1);
     }
-    let size =
-        text.split_once(", q_max ").and_then(|(head, rest)| Some((head, rest.split_once(" (")?)));
+    let size = [", q_max ", ", x_max "].into_iter().find_map(|size| text.split_once(size));
+    let size = size.and_then(|(head, rest)| Some((head, rest.split_once(" (")?)));
     match size {
         Some((head, (_, why))) if too_long(&text) => format!("{head} ({why}"),
         _ => text,
@@ -147,7 +152,12 @@ fn outcome(session: &Session) -> (String, Role) {
         Some(found) if session.course().is_some() => (machine::outcome(session, found), Role::Text),
         Some(found) => alarm(session).unwrap_or_else(|| {
             let fate = session.fate();
-            (fate.map_or_else(|| sentence(found), |fate| verdict(&fate, found)), Role::Text)
+            let writing = Writing(units::shown(session));
+            let text = match fate {
+                Some(fate) => verdict(&fate, found, writing),
+                None => sentence(found, writing),
+            };
+            (text, Role::Text)
         }),
     }
 }
@@ -180,13 +190,9 @@ fn held_motions(session: &Session) -> Option<String> {
 /// What stands in place of the outcome where the mass would overtake its belt earlier.
 fn alarm(session: &Session) -> Option<(String, Role)> {
     let (tau, q) = session.contact()?;
-    let units = session.running()?.reduced.units;
-    let text = format!(
-        "sticks to the belt at tau = {} ({}), q = {}: the model ends there",
-        significant(tau, 3),
-        with_unit(tau * units.time, 3, "s"),
-        significant(q, 3)
-    );
+    let writing = Writing(units::shown(session));
+    let (time, place) = (writing.time(tau, 3), writing.position(q, 3));
+    let text = format!("sticks to the belt at {time}, {place}: the model ends there");
     Some((text, Role::Warning))
 }
 
@@ -202,7 +208,7 @@ fn symbol(session: &Session, look: &Look) -> String {
 }
 
 /// What becomes of a motion and why, in a sentence.
-fn verdict(fate: &MotionVerdict, motion: &Trajectory) -> String {
+fn verdict(fate: &MotionVerdict, motion: &Trajectory, writing: Writing) -> String {
     let why = match fate.place {
         SideOfBorder::InsideCycle => " (inside the unstable cycle)",
         SideOfBorder::OutsideCycle => " (outside the unstable cycle)",
@@ -210,27 +216,28 @@ fn verdict(fate: &MotionVerdict, motion: &Trajectory) -> String {
         SideOfBorder::OutsideSeparatrix => " (outside the separatrix)",
         SideOfBorder::Anywhere => "",
     };
-    let three = |value| significant(value, 3);
     let end = match (fate.end, motion.outcome) {
         (End::OnTheEdge { distance }, _) => {
             let distance = significant(distance, 1);
             return format!("on the unstable cycle to {distance}: decided by rounding");
         }
         (End::Rests, Outcome::Captured { .. }) if motion.crossings.is_empty() => {
-            return sentence(motion);
+            return sentence(motion, writing);
         }
         (End::Rests, Outcome::Captured { q, .. }) => {
-            format!("comes to rest at q = {}{}", three(q), swings(motion))
+            format!("comes to rest at {}{}", writing.position(q, 3), swings(motion))
         }
-        (End::Rests, _) => format!("comes to rest, after tau = {}", three(motion.problem.until)),
+        (End::Rests, _) => {
+            format!("comes to rest, after {}", writing.time(motion.problem.until, 3))
+        }
         (End::Onto { q_max, grows: true }, _) => {
-            format!("grows onto the stable cycle, q_max {}", significant(q_max, 4))
+            format!("grows onto the stable cycle, {}", writing.amplitude(q_max, 4))
         }
         (End::Onto { q_max, .. }, _) => {
-            format!("falls onto the stable cycle, q_max {}", significant(q_max, 4))
+            format!("falls onto the stable cycle, {}", writing.amplitude(q_max, 4))
         }
         (End::Grows, Outcome::Escaped { tau }) => {
-            format!("escapes at tau = {}{}", significant(tau, 4), swings(motion))
+            format!("escapes at {}{}", writing.time(tau, 4), swings(motion))
         }
         (End::Grows, _) => "grows without bound".to_owned(),
         (End::Decays, _) => "decays towards the equilibrium".to_owned(),

@@ -1,27 +1,68 @@
 //! How motions end.
 
 use super::number::significant;
+use super::quantity::with_unit;
 use crate::flow::{Outcome, Trajectory};
+use crate::oscillator::belt::Units;
+
+/// How the quantities of a motion are written: as numbers of the oscillator, or in the units of a machine.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Writing(pub Option<Units>);
+
+impl Writing {
+    /// `q = 0.027`, or `x = 0.147 mm`.
+    pub fn position(self, q: f64, digits: usize) -> String {
+        self.text(["q = ", "x = "], q, digits, |units| (units.displacement, "m"))
+    }
+
+    /// `q_max 0.65`, or `x_max 3.57 mm`.
+    pub fn amplitude(self, q_max: f64, digits: usize) -> String {
+        self.text(["q_max ", "x_max "], q_max, digits, |units| (units.displacement, "m"))
+    }
+
+    fn velocity(self, v: f64, digits: usize) -> String {
+        self.text(["v = "; 2], v, digits, |units| (units.velocity, "m/s"))
+    }
+
+    /// `tau = 9.47`, or `t = 0.189 s`.
+    pub fn time(self, tau: f64, digits: usize) -> String {
+        self.text(["tau = ", "t = "], tau, digits, |units| (units.time, "s"))
+    }
+
+    fn text(
+        self,
+        [own, physical]: [&str; 2],
+        value: f64,
+        digits: usize,
+        unit: fn(&Units) -> (f64, &'static str),
+    ) -> String {
+        match self.0.as_ref().map(unit) {
+            None => format!("{own}{}", significant(value, digits)),
+            Some((one, name)) => format!("{physical}{}", with_unit(value * one, digits, name)),
+        }
+    }
+}
 
 /// How a motion ended, in a sentence.
-pub fn sentence(motion: &Trajectory) -> String {
+pub fn sentence(motion: &Trajectory, writing: Writing) -> String {
     let swings = swings(motion);
-    let three = |value| significant(value, 3);
+    let (place, time) = (|q| writing.position(q, 3), |tau| writing.time(tau, 3));
     match motion.outcome {
         Outcome::Captured { q, .. } if motion.crossings.is_empty() => {
-            format!("at rest at q = {} from the start", three(q))
+            format!("at rest at {} from the start", place(q))
         }
         Outcome::Captured { tau, q } => {
-            format!("comes to rest at q = {}{swings}, tau = {}", three(q), three(tau))
+            format!("comes to rest at {}{swings}, {}", place(q), time(tau))
         }
         Outcome::Moving { tau, q, v } => {
-            format!("moving at tau = {}{swings}: q = {}, v = {}", three(tau), three(q), three(v))
+            let velocity = writing.velocity(v, 3);
+            format!("moving at {}{swings}: {}, {velocity}", time(tau), place(q))
         }
         Outcome::Escaped { tau } => {
-            format!("escapes at tau = {}{swings}", significant(tau, 4))
+            format!("escapes at {}{swings}", writing.time(tau, 4))
         }
         Outcome::GaveUp { tau, reason } => {
-            format!("gave up at tau = {}{swings}: {reason}", three(tau))
+            format!("gave up at {}{swings}: {reason}", time(tau))
         }
     }
 }
