@@ -203,6 +203,21 @@ impl fmt::Debug for Picture<'_> {
 }
 
 impl Item<'_> {
+    /// Whether it is drawn in this window and says more than the axes and the present values.
+    fn draws(&self, window: Window) -> bool {
+        let told = |role: Role| !matches!(role, Role::Axis | Role::Current | Role::Quiet);
+        match self {
+            // What the parts of a texture are is written on them.
+            Item::Upright(..) | Item::Texture(_) => false,
+            Item::Arrows(..) => true,
+            Item::Marks(marks) => {
+                told(marks.role) && marks.at.iter().any(|at| window.contains(*at))
+            }
+            Item::Caption(caption) => told(caption.role) && window.contains(caption.at),
+            item => item.seen(window).is_some_and(|line| told(line.role)),
+        }
+    }
+
     /// The line of a curve, an area or a bar that has a name and is seen in this window.
     pub fn seen(&self, window: Window) -> Option<&LineStyle> {
         let (line, seen) = match self {
@@ -250,6 +265,11 @@ fn is_met(value: &Function, window: Window) -> bool {
 }
 
 impl<'a> Picture<'a> {
+    /// Whether anything is drawn besides axes and present values.
+    pub fn draws(&self) -> bool {
+        self.items.iter().any(|item| item.draws(self.window))
+    }
+
     pub fn new(
         title: impl Into<Text>,
         x: impl Into<Text>,

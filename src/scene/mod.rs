@@ -20,5 +20,5 @@ pub use misread::Misread;
 pub use ordinate::{ABSCISSAE, Height, ORDINATES, Ordinate, Unit};
 pub use plot_setup::{ARRANGEMENTS, Arrangement, Axes, MOST_PLOTS, PlotSetup};
 pub use scene::{Scene, Variant};
-pub use views::{LAYERS, Layer, LayerSpec, VIEWS, View, ViewSpec, letters};
+pub use views::{LAYERS, Layer, LayerSpec, Needs, VIEWS, View, ViewSpec, letters};
 pub use window::{Point, Span, Window, rectangle};

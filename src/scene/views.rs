@@ -34,6 +34,28 @@ pub enum View {
     Scan,
 }
 
+/// What there must be for a view to show anything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    /// Nothing but the oscillator, which is always there.
+    Oscillator,
+    Machine,
+    Record,
+    Scan,
+}
+
+impl Needs {
+    /// How to get it, in a sentence in which keys are named by their commands; empty where it is always there.
+    pub fn sentence(self) -> &'static str {
+        match self {
+            Needs::Oscillator => "",
+            Needs::Machine => "needs a machine: {prompt}belt clutch opens one",
+            Needs::Record => "needs a recorded motion: {prompt}fit FILE opens one",
+            Needs::Scan => "needs a scan: {scan-form} asks over what",
+        }
+    }
+}
+
 /// One row of [`VIEWS`].
 #[derive(Clone, Copy, Debug)]
 pub struct ViewSpec {
@@ -48,6 +70,9 @@ pub struct ViewSpec {
     pub window: Window,
     /// Explanation in a few words.
     pub meaning: &'static str,
+    pub needs: Needs,
+    /// What it says where it has all that it needs and nothing lies in its window, as [`Needs::sentence`].
+    pub nothing: &'static str,
 }
 
 const fn view(
@@ -55,8 +80,10 @@ const fn view(
     [name, title, heading]: [&'static str; 3],
     [x, y]: [Span; 2],
     meaning: &'static str,
+    needs: Needs,
+    nothing: &'static str,
 ) -> ViewSpec {
-    ViewSpec { view, name, title, heading, window: Window { x, y }, meaning }
+    ViewSpec { view, name, title, heading, window: Window { x, y }, meaning, needs, nothing }
 }
 
 const fn span(from: f64, to: f64) -> Span {
@@ -67,35 +94,50 @@ const fn span(from: f64, to: f64) -> Span {
 #[rustfmt::skip]
 pub const VIEWS: [ViewSpec; 15] = [
     view(View::Phase, ["phase", "phase plane", "Phase plane"], [span(-2.0, 2.0), span(-2.0, 2.0)],
-        "velocity over position: where motions go and where they rest"),
+        "velocity over position: where motions go and where they rest", Needs::Oscillator,
+        "no motion, cycle or rest in this window: {fit-window} fits it"),
     view(View::Diagram, ["diagram", "bifurcation", "Bifurcation diagram"], [span(-0.9, 0.1), span(0.0, 2.0)],
-        "a property of the limit cycles over a parameter"),
+        "a property of the limit cycles over a parameter", Needs::Oscillator,
+        "no cycle or rest in this window: {fit-window} fits it, {next-abscissa} takes another parameter"),
     view(View::TimeSeries, ["time-series", "time series", "Time series"], [span(0.0, 60.0), span(-2.0, 2.0)],
-        "displacement, velocity, friction, energy over time"),
+        "displacement, velocity, friction, energy over time", Needs::Oscillator,
+        "nothing moves in this window: {fit-window} fits it"),
     view(View::EnergyLedger, ["energy-ledger", "energy", "Energy ledger"], [span(-1.1, 1.1), span(0.0, 10.0)],
-        "what feeds cycles and motion, and what brakes them"),
+        "what feeds cycles and motion, and what brakes them", Needs::Oscillator,
+        "no work to account for: {start-outside} starts a motion, {layers} shows the works of more"),
     view(View::ReturnMap, ["return-map", "return map", "Return map"], [span(0.0, 2.0), span(0.0, 2.0)],
-        "the next turning point over a turning point"),
+        "the next turning point over a turning point", Needs::Oscillator,
+        "no swing turns in this window: {fit-window} fits it"),
     view(View::Regimes, ["regimes", "regimes", "Chart of regimes"], [span(-0.9, 0.1), span(-1.0, 1.0)],
-        "what becomes of kicks, over two parameters"),
+        "what becomes of kicks, over two parameters", Needs::Oscillator,
+        "outside the range of its parameters: {home} leads back"),
     view(View::Trade, ["trade", "trade", "Trade of error for cost"], [span(1.0, 6.0), span(-17.0, 1.0)],
-        "error over cost: what accuracy costs, by every method"),
+        "error over cost: what accuracy costs, by every method", Needs::Oscillator,
+        "no method has an error that could be measured here: {start-outside} starts another motion"),
     view(View::Belt, ["belt", "mass on belt", "Mass on its belt"], [span(-2.0, 2.0), span(0.0, 1.0)],
-        "the machine, moving with the motion"),
+        "the machine, moving with the motion", Needs::Oscillator,
+        "the machine lies outside this window: {fit-window} fits it"),
     view(View::EnergyRate, ["energy-rate", "energy rate", "Rate of the energy"], [span(-2.0, 2.0), span(-2.0, 2.0)],
-        "V' over velocity: what damping feeds and friction takes"),
+        "V' over velocity: what damping feeds and friction takes", Needs::Oscillator,
+        "V' lies outside this window: {fit-window} fits it"),
     view(View::Eigenvalues, ["eigenvalues", "eigenvalues", "Eigenvalues"], [span(-1.5, 1.5), span(-1.5, 1.5)],
-        "of the rest without friction, in the complex plane"),
+        "of the rest without friction, in the complex plane", Needs::Oscillator,
+        "the eigenvalues lie outside this window: {fit-window} fits it"),
     view(View::Speeds, ["speeds", "belt speeds", "Cycles over the belt's speed"], [span(0.01, 1.0), span(0.0, 1.0)],
-        "cycles of the machine over the speed of its belt"),
+        "cycles of the machine over the speed of its belt", Needs::Machine,
+        "no cycle or rest at these speeds: {home} leads back"),
     view(View::Damping, ["damping", "damping", "Damping over amplitude"], [span(0.0, 1.0), span(-1.0, 1.0)],
-        "loss of amplitude of a recorded motion, and its zeros"),
+        "loss of amplitude of a recorded motion, and its zeros", Needs::Record,
+        "no decrement in this window: {fit-window} fits it"),
     view(View::Residuals, ["residuals", "residuals", "Residuals of a fit"], [span(0.0, 1.0), span(-1.0, 1.0)],
-        "what was measured less what was fitted, over time"),
+        "what was measured less what was fitted, over time", Needs::Record,
+        "peaks alone leave no residuals: they need a record of all samples"),
     view(View::Spread, ["margin", "margin", "Distribution of the margin"], [span(0.0, 1.0), span(0.0, 1.0)],
-        "how sure the margin is that a record leaves"),
+        "how sure the margin is that a record leaves", Needs::Record,
+        "no draw leaves a margin: by all of them every kick is survived"),
     view(View::Scan, ["scan", "scan", "Scan"], [span(0.0, 1.0), span(0.0, 1.0)],
-        "what was measured at each point of a line or grid"),
+        "what was measured at each point of a line or grid", Needs::Scan,
+        "no point lies in this window: {fit-window} fits it"),
 ];
 
 impl View {

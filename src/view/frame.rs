@@ -10,7 +10,8 @@ use super::paint::paint;
 use super::pane::{self, Heading};
 use super::plot::shown;
 use super::{
-    caption, energy_ledger, footer, legend, lists, parameters, scan, scan_form, signs, status,
+    caption, energy_ledger, footer, keys, legend, lists, parameters, prose, scan, scan_form, signs,
+    status,
 };
 use crate::picture::role::Role;
 use crate::picture::{self, items::Picture};
@@ -77,6 +78,14 @@ fn plot(
     look: &Look,
     buffer: &mut Buffer,
 ) {
+    let draws = match session.plots[index].view {
+        View::EnergyLedger => !session.ledger().is_empty(),
+        View::Scan => session.scanned.is_some(),
+        _ => picture.draws(),
+    };
+    if let Some(text) = session.nothing(index).filter(|_| !draws) {
+        return nothing(area, &text, (&picture, session, index), look, buffer);
+    }
     match session.plots[index].view {
         // Its lines are whole rows of the screen.
         View::EnergyLedger => energy_ledger::draw(area, session, index, look, buffer),
@@ -87,6 +96,24 @@ fn plot(
             paint(area, picture, heading, look, buffer);
         }
     }
+}
+
+/// What a plot says in place of empty axes.
+fn nothing(
+    area: Rect,
+    text: &str,
+    (picture, session, index): (&Picture, &Session, usize),
+    look: &Look,
+    buffer: &mut Buffer,
+) {
+    let heading = Heading::of(session, Pane::Plot(index));
+    pane::title(area, &picture.title, "", &heading, look, buffer);
+    let text = keys::sentence(text, &session.keymap, look);
+    let line = vec![look.span(text, Role::Text).into()];
+    let width = area.width.saturating_sub(2);
+    let rows = prose::rows(&line, width).min(area.height.saturating_sub(1));
+    let y = area.y + 1 + (area.height.saturating_sub(1) - rows) / 2;
+    prose::write(Rect { x: area.x + 1, y, width, height: rows }, line, look, buffer);
 }
 
 /// What a screen too small for everything else shows.

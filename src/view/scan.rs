@@ -17,7 +17,6 @@ use crate::picture::map::{Danger, measured, nothing};
 use crate::picture::role::{Dash, Role};
 use crate::picture::scan::{names, scales};
 use crate::scene::{Point, View};
-use crate::session::keymap::Keymap;
 use crate::session::scan::{Progress, Scanned, WORDS};
 use crate::session::{Pane, Session};
 use crate::study::measure::Value;
@@ -37,9 +36,7 @@ pub fn body(area: Rect) -> Rect {
 
 pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
     let heading = Heading::of(session, Pane::Plot(index));
-    let Some(scanned) = &session.scanned else {
-        return empty(area, &session.keymap, &heading, look, buffer);
-    };
+    let Some(scanned) = &session.scanned else { return };
     let title = format!("{} {}", View::Scan.spec().title, progress(scanned));
     if scanned.table {
         pane::title(area, &title, "", &heading, look, buffer);
@@ -75,15 +72,6 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     for (row, line) in (area.height.saturating_sub(BELOW)..area.height).zip(lines) {
         pane::line(area, row, line, look, buffer);
     }
-}
-
-/// What stands where there is no scan.
-fn empty(area: Rect, keymap: &Keymap, heading: &Heading, look: &Look, buffer: &mut Buffer) {
-    pane::title(area, View::Scan.spec().title, "", heading, look, buffer);
-    let key =
-        keymap.key_of("scan-form").map(|key| super::keys::name(key, look)).unwrap_or_default();
-    let text = format!(" no scan yet; {key} asks what to scan over and what to measure");
-    pane::line(area, 2, look.span(text, Role::Quiet), look, buffer);
 }
 
 /// How far a scan is: `120 of 400, 3 s left`.

@@ -6,7 +6,7 @@ use crate::scene::{find, letters};
 use crate::session::act::general::toggle;
 use crate::session::act::history::open_scene;
 use crate::session::act::notice::{inform, refuse};
-use crate::session::act::screen_setup::show;
+use crate::session::act::screen_setup::show_from_list;
 use crate::session::effect::Effect;
 use crate::session::message::key::Key;
 use crate::session::state::overlay::{List, Listed, Overlay};
@@ -152,7 +152,7 @@ pub fn choose(session: &mut Session) -> Vec<Effect> {
         Some(Overlay::List(Listed::Views, list)) => {
             if let Some(row) = session.view_rows(list).get(list.selected) {
                 session.overlay = None;
-                return show(session, row.view);
+                return show_from_list(session, row.view);
             }
         }
         Some(Overlay::List(Listed::Paper, list)) => {

@@ -1,5 +1,6 @@
 //! The palette: everything that has a name, run where it applies.
 
+use crate::session::act::screen_setup::show_from_list;
 use crate::session::act::{lists, prompt};
 use crate::session::effect::Effect;
 use crate::session::read::palette::PaletteRow;
@@ -29,7 +30,9 @@ pub fn choose(session: &mut Session) -> Option<Chosen> {
             prompt::open_with(session, format!("{} ", line.name));
         }
         PaletteRow::Scene(scene) => return Some(Chosen::Line(format!("scene {}", scene.name))),
-        PaletteRow::View(view) => return Some(Chosen::Line(format!("view {}", view.name))),
+        PaletteRow::View(row) => {
+            show_from_list(session, row.view);
+        }
         PaletteRow::Layer(layer) => return Some(Chosen::Line(format!("layer {}", layer.name))),
         PaletteRow::Machine(machine) => {
             return Some(Chosen::Line(format!("belt {}", machine.name)));

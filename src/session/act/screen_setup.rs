@@ -3,7 +3,7 @@
 
 use crate::scene::{ARRANGEMENTS, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
 use crate::session::act::focus::focus_on;
-use crate::session::act::notice::{inform, refuse};
+use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::effect::Effect;
 use crate::session::state::history::{Before, ScreenSetup};
 use crate::session::state::plot::{Pane, Plot};
@@ -73,11 +73,28 @@ pub fn show(session: &mut Session, view: View) -> Vec<Effect> {
     inform(session, format!("{}: {}", spec.title, spec.meaning))
 }
 
-/// Changes the plot in use to the next view of the list, cycling.
+/// Changes the view of the plot in use, unless the new one could show nothing: of a list, one knows that only
+/// afterwards.
+pub fn show_from_list(session: &mut Session, view: View) -> Vec<Effect> {
+    match session.lacks(view) {
+        Some(lacks) => {
+            let text = format!("{} {}", view.spec().title, with_keys(session, lacks));
+            refuse(session, text)
+        }
+        None => show(session, view),
+    }
+}
+
+/// Changes the plot in use to the next view of the list that can show anything, cycling.
 pub fn next_view(session: &mut Session, by: isize) -> Vec<Effect> {
-    let at = session.plots[session.plot].view as usize;
-    let next = at.checked_add_signed(by).unwrap_or(VIEWS.len() - 1) % VIEWS.len();
-    show(session, VIEWS[next].view)
+    let can: Vec<View> =
+        VIEWS.iter().map(|row| row.view).filter(|view| session.lacks(*view).is_none()).collect();
+    let present = session.plots[session.plot].view;
+    let before = can.iter().filter(|view| **view < present).count();
+    // From a view that is not among them, the next one is the first behind it.
+    let from = if can.get(before) == Some(&present) || by < 0 { by } else { by - 1 };
+    let next = before.checked_add_signed(from).unwrap_or(can.len() - 1) % can.len();
+    show(session, can[next])
 }
 
 /// Adds a plot beside the one in use: with the first view that is not on show, otherwise with the same view.
@@ -86,7 +103,9 @@ pub fn add(session: &mut Session) -> Vec<Effect> {
         return refuse(session, format!("there are {MOST_PLOTS} plots already; no more fit"));
     }
     let index = session.plot;
-    let absent = |view: &View| session.plots.iter().all(|plot| plot.view != *view);
+    let absent = |view: &View| {
+        session.lacks(*view).is_none() && session.plots.iter().all(|plot| plot.view != *view)
+    };
     let view = VIEWS.iter().map(|row| row.view).find(absent);
     let plot_setup = match view {
         Some(view) => plot_setup(session, session.plots.len(), view),
@@ -106,7 +125,7 @@ pub fn add(session: &mut Session) -> Vec<Effect> {
 /// Removes the plot in use.
 pub fn remove(session: &mut Session) -> Vec<Effect> {
     if session.plots.len() < 2 {
-        return refuse(session, "the last plot stays");
+        return refuse(session, "the last plot cannot be removed");
     }
     record(session);
     let removed = session.plots.remove(session.plot);

@@ -1,6 +1,6 @@
 //! The content of the plots, and which of them are on show.
 
-use crate::scene::{Layer, PlotSetup, View};
+use crate::scene::{Layer, Needs, PlotSetup, View};
 use crate::session::state::history::ScreenSetup;
 use crate::session::state::plot::{Framing, Pane, Plot};
 use crate::session::state::session::Session;
@@ -45,6 +45,38 @@ impl Session {
     pub fn shows_in(&self, layer: Layer, plot: usize) -> bool {
         let view = layer.spec().view;
         self.layers.contains(&layer) && self.plots.get(plot).is_some_and(|plot| plot.view == view)
+    }
+
+    /// What a view lacks to show anything and which key gives it, by the names of commands; `None` where it
+    /// lacks nothing.
+    pub fn lacks(&self, view: View) -> Option<&'static str> {
+        let needs = view.spec().needs;
+        let there = match needs {
+            Needs::Oscillator => true,
+            Needs::Machine => self.scene.machine.is_some(),
+            Needs::Record => self.scene.recording.is_some(),
+            Needs::Scan => self.scanned.is_some(),
+        };
+        (!there).then(|| needs.sentence())
+    }
+
+    /// What is said in place of a picture in which nothing is drawn; `None` while it may still come.
+    pub fn nothing(&self, index: usize) -> Option<String> {
+        let view = self.plots[index].view;
+        if let Some(lacks) = self.lacks(view) {
+            return Some(lacks.to_owned());
+        }
+        let asked = self.asked_by(index);
+        if let Some(why) = asked.iter().find_map(|request| self.answers.failure(request)) {
+            return Some(format!("no answer: {why}; {{retry}} tries again"));
+        }
+        if asked.iter().any(|request| self.is_open(request)) {
+            return None;
+        }
+        let shows = |layer: &Layer| self.shows_in(*layer, index);
+        let on = view == View::Scan || self.layers.iter().any(shows);
+        let text = if on { view.spec().nothing } else { "no layer is on: {layers} lists them" };
+        Some(text.to_owned())
     }
 
     /// Why a layer that is on draws nothing, if the reason lies in the axes of every diagram on show or in a

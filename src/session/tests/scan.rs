@@ -194,7 +194,7 @@ fn a_key_saves_what_is_there() {
 #[test]
 fn keys_for_a_scan_that_is_not_there_say_so_and_do_nothing() {
     let mut trial = Trial::open("plain");
-    trial.press("V <end> <enter>");
+    trial.press(":view<space>scan<enter>");
     assert!(trial.session.focuses_scan(), "{:?}", trial.session.focus);
     for key in ["<right>", "<up>", "<enter>", "Y", "t", "P", "S", "<esc>"] {
         trial.press(key);

@@ -42,7 +42,7 @@ fn plots_are_added_removed_moved_and_each_change_is_undone() {
 fn there_are_one_to_four_plots() {
     Trial::alone("supercritical").goes(&[
         ("W W W", "plots 4 | notice there are 4 plots already; no more fit"),
-        ("Q Q Q Q", "plots 1 | notice the last plot stays"),
+        ("Q Q Q Q", "plots 1 | notice the last plot cannot be removed"),
     ]);
 }
 
@@ -95,4 +95,33 @@ fn the_hidden_plots_of_an_enlarged_one_ask_nothing() {
     assert_eq!(trial.session.on_show().len(), 1);
     trial.press("W");
     assert!(!trial.session.enlarged, "what is added is seen");
+}
+
+#[test]
+fn no_list_puts_a_view_that_can_show_nothing_in_place_of_a_plot() {
+    let mut trial = Trial::alone("supercritical");
+    let opened = trial.session.plots.clone();
+    trial.goes(&[
+        ("V/damping<enter>", "notice damping needs a recorded motion: :fit FILE opens one"),
+        ("V/speeds<enter>", "notice belt speeds needs a machine: :belt clutch opens one"),
+        ("<space>residuals<enter>", "notice residuals needs a recorded motion: .."),
+        ("V/margin<enter>", "notice margin needs a recorded motion: .."),
+        ("V/scan<enter>", "notice scan needs a scan: % asks over what"),
+    ]);
+    assert_eq!((&trial.session.plots, trial.session.history.depth()), (&opened, (0, 0)));
+    for key in [";", ",", "W"] {
+        for _ in 0..20 {
+            trial.press(key);
+            let shown = trial.session.plots.iter().map(|plot| plot.view);
+            assert!(shown.into_iter().all(|view| trial.session.lacks(view).is_none()), "{key}");
+        }
+    }
+    // What is typed by its name is done.
+    trial.goes(&[(":view<space>damping<enter>", "notice damping: ..")]);
+    assert_eq!(
+        trial.session.lacks(View::Damping),
+        trial.session.nothing(trial.session.plot).as_deref()
+    );
+    // A machine gives what the speeds of its belt need.
+    trial.goes(&[(":belt<space>clutch<enter><tab>V/speeds<enter>", "notice belt speeds: ..")]);
 }
