@@ -6,7 +6,7 @@ use super::csv;
 use super::json;
 use crate::oscillator::{Parameters, State};
 use crate::scene::Scene;
-use crate::scene::said::{Condition, said};
+use crate::scene::said::said_by;
 use crate::session::Keymap;
 
 #[derive(Serialize)]
@@ -29,14 +29,13 @@ struct SceneRow<'a> {
 
 pub fn json<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
     let keymap = Keymap::default();
-    // The texts as the scene opens; conditions that need a computation are taken not to hold.
-    let here = |one| matches!(one, Condition::Here | Condition::Path | Condition::Opened);
-    let sentence = |text: &str| keymap.fill(&said(text, here), |key| key.to_string());
+    let sentence =
+        |scene: &Scene, text: &str| keymap.fill(&said_by(scene, text), |key| key.to_string());
     let document = |scene: &'a Scene, name: &'a str| SceneDocument {
         name,
         title: &scene.title,
-        look: sentence(&scene.look),
-        press: sentence(&scene.press),
+        look: sentence(scene, &scene.look),
+        press: sentence(scene, &scene.press),
         parameters: &scene.problem.parameters,
         initial: &scene.problem.initial,
         until: scene.problem.until,

@@ -172,7 +172,7 @@ mod tests {
             let scene = parse(name, name, text).unwrap_or_else(|error| panic!("{error}"));
             assert!(!scene.layers.is_empty(), "{name} shows nothing");
             for (what, text) in [("look", &scene.look), ("press", &scene.press)] {
-                for sentence in [true, false].map(|holds| said::said(text, |_| holds)) {
+                for sentence in [said::said(text, |_| true), said::said_by(&scene, text)] {
                     assert!(sentence.ends_with('.') && sentence.len() > 20, "{name}: {what}");
                     assert!(!sentence.contains('['), "{name}: {what} has an unknown condition");
                     assert!(

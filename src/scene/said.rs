@@ -1,10 +1,15 @@
 //! Texts of a scene, reduced to the parts that hold for what is on show.
 //!
 //! A text has parts in brackets, `[two grows: The swings grow onto the outer cycle.]`. Such a part holds if all
-//! the conditions before its colon hold. Text outside of brackets always holds.
+//! the conditions before its colon hold. A condition is one of [`CONDITIONS`], a comparison such as `D<0`, or the
+//! name of a layer, which must be on show. Text outside of brackets always holds.
+
+use super::scene::Scene;
+use super::views::Layer;
+use crate::oscillator::Symbol;
 
 /// A condition of a part of a text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Condition {
     /// The numbers are those that the scene opens with.
     Here,
@@ -26,6 +31,42 @@ pub enum Condition {
     Grows,
     /// A cycle of the whole model sticks to the belt.
     Sticks,
+    /// A number of the motion on show compares so with this one.
+    Compares(Symbol, Relation, f64),
+    /// The layer is on, in a plot on show.
+    Shows(Layer),
+}
+
+/// How two numbers compare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    AtMost,
+    AtLeast,
+    Less,
+    Greater,
+    Equal,
+}
+
+/// The relations by their signs; one that begins with another stands before it.
+const RELATIONS: [(&str, Relation); 5] = [
+    ("<=", Relation::AtMost),
+    (">=", Relation::AtLeast),
+    ("<", Relation::Less),
+    (">", Relation::Greater),
+    ("=", Relation::Equal),
+];
+
+impl Relation {
+    #[expect(clippy::float_cmp, reason = "a text speaks of exactly this value")]
+    pub fn holds(self, value: f64, other: f64) -> bool {
+        match self {
+            Relation::AtMost => value <= other,
+            Relation::AtLeast => value >= other,
+            Relation::Less => value < other,
+            Relation::Greater => value > other,
+            Relation::Equal => value == other,
+        }
+    }
 }
 
 /// The conditions by their names in scene files; `two` means a cycle of each kind.
@@ -71,11 +112,35 @@ pub fn said(text: &str, holds: impl Fn(Condition) -> bool) -> String {
     out
 }
 
+/// A text as its scene opens; what must be computed is taken not to hold.
+pub fn said_by(scene: &Scene, text: &str) -> String {
+    said(text, |condition| match condition {
+        Condition::Here | Condition::Path | Condition::Opened => true,
+        Condition::Shows(layer) => scene.layers.contains(&layer),
+        Condition::Compares(symbol, relation, number) => {
+            let problem = &scene.problem;
+            relation.holds(symbol.get(&problem.parameters, &problem.initial), number)
+        }
+        _ => false,
+    })
+}
+
 /// The conditions with these names; `None` if a name is unknown.
 fn conditions(names: &str) -> Option<Vec<Condition>> {
-    let known = |name: &str| CONDITIONS.iter().find(|row| row.0 == name).map(|row| row.1);
+    let known = |name: &str| {
+        let row = CONDITIONS.iter().find(|row| row.0 == name).map(|row| row.1.to_vec());
+        row.or_else(|| Some(vec![comparison(name)?]))
+            .or_else(|| Some(vec![Condition::Shows(Layer::named(name)?)]))
+    };
     let found: Option<Vec<_>> = names.split_whitespace().map(known).collect();
     Some(found?.concat()).filter(|conditions| !conditions.is_empty())
+}
+
+/// A comparison such as `D<0`.
+fn comparison(text: &str) -> Option<Condition> {
+    let split = |(sign, relation)| Some((text.split_once(sign)?, relation));
+    let ((name, number), relation) = RELATIONS.into_iter().find_map(split)?;
+    Some(Condition::Compares(Symbol::named(name)?, relation, number.parse().ok()?))
 }
 
 #[cfg(test)]
@@ -92,6 +157,16 @@ mod tests {
         let all = [Condition::Unstable, Condition::Stable, Condition::Grows];
         assert_eq!(with(&all), "Always. It grows. End [0, 1] [x: y].");
         assert_eq!(said("[safe: Gone.] Left.", |_| false), "Left.");
+        let text = "[D<0: Fed.] [D>=0 D3=0.5: Not fed.] [bands: Dotted.] [E<0: none] [D<x: none]";
+        let at = |d: f64| {
+            said(text, |condition| match condition {
+                Condition::Compares(Symbol::D3, ..) => true,
+                Condition::Compares(_, relation, number) => relation.holds(d, number),
+                condition => condition == Condition::Shows(Layer::Bands),
+            })
+        };
+        assert_eq!(at(-0.1), "Fed. Dotted. [E<0: none] [D<x: none]");
+        assert_eq!(at(0.0), "Not fed. Dotted. [E<0: none] [D<x: none]");
         assert_eq!(said("All rest[unstable: , but some]. [safe: Yes.]", |_| false), "All rest.");
     }
 }

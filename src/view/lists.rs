@@ -15,7 +15,7 @@ use super::paper;
 use super::prose;
 use crate::picture::role::Role;
 use crate::scene::library::Group;
-use crate::scene::said::said;
+use crate::scene::said::said_by;
 use crate::scene::{Layer, letters};
 use crate::session::read::palette::PaletteRow;
 use crate::session::{List, Listed, Overlay, Session};
@@ -191,10 +191,9 @@ fn scenes(session: &Session, list: &List, look: &Look) -> ListContent {
     }
     if let Some(scene) = found.get(list.selected) {
         let quiet = look.style(Role::Quiet);
-        // Nothing is known yet of a scene that is not open.
-        let always = |text: &str| said(text, |_| false);
-        let text =
-            |text: &str| Line::styled(keys::sentence(&always(text), &session.keymap, look), quiet);
+        let text = |text: &str| {
+            Line::styled(keys::sentence(&said_by(scene, text), &session.keymap, look), quiet)
+        };
         content.about = vec![text(&scene.look), Line::default(), text(&scene.press)];
     }
     content
@@ -225,7 +224,13 @@ fn views(session: &Session, list: &List, look: &Look) -> ListContent {
         let shown = session.plots.iter().any(|plot| plot.view == spec.view);
         let on = if shown { "[x]" } else { "[ ]" };
         let title = format!("{on} {:<14}", spec.title);
-        content.row([look.span(title, Role::Key), look.span(spec.meaning, Role::Text)]);
+        let lacks =
+            session.lacks(spec.view).map(|text| keys::sentence(text, &session.keymap, look));
+        let (text, role) = match lacks {
+            Some(lacks) => (lacks, Role::Quiet),
+            None => (spec.meaning.to_owned(), Role::Text),
+        };
+        content.row([look.span(title, Role::Key), look.span(text, role)]);
     }
     content
 }

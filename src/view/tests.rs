@@ -5,6 +5,7 @@ mod by_hand;
 mod cut;
 mod legends;
 mod pictures;
+mod texts;
 
 use super::frame::render;
 use super::layout::layout;
@@ -184,7 +185,7 @@ fn the_scene_picker_shows_every_scene_and_what_the_selected_one_is_about() {
     assert!(
         ["Lessons", "Figures of the paper", "Machines"].iter().all(|group| screen.contains(group))
     );
-    let always = crate::scene::said::said(&session.scene.look, |_| false);
+    let always = crate::scene::said::said_by(&session.scene, &session.scene.look);
     let first: Vec<&str> = always.split_whitespace().take(4).collect();
     assert!(screen.contains(&first.join(" ")), "{screen}");
 }

@@ -223,6 +223,10 @@ impl Session {
             Condition::Sticks => {
                 whole.is_some_and(|kinds| kinds.cycles.iter().any(|cycle| cycle.sticks))
             }
+            Condition::Compares(symbol, relation, number) => {
+                relation.holds(self.value(symbol), number)
+            }
+            Condition::Shows(layer) => self.shows(layer),
             Condition::Rests => matches!(end(), Some(End::Rests)),
             Condition::Grows => matches!(end(), Some(End::Grows | End::Onto { grows: true, .. })),
         }
