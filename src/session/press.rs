@@ -134,15 +134,16 @@ fn missing(session: &Session, place: Context) -> String {
     match place.view() {
         Some(view) => {
             let spec = view.spec();
+            let heading = spec.heading.to_lowercase();
             with_keys(
                 session,
-                &format!("needs the {}: {{views}} or :view {} shows it", spec.title, spec.name),
+                &format!("needs the {heading}: {{views}} or :view {} shows it", spec.name),
             )
         }
         None if place == Context::Walk => {
             with_keys(session, "needs a branch: {walk} on a diagram takes hold of one")
         }
-        None => format!("works only there: {}", place.title().to_lowercase()),
+        None => format!("works only {}", place.title().to_lowercase()),
     }
 }
 

@@ -26,7 +26,7 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
     if matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_) | Msg::Run(_)) {
         // While a press waits, the only press that arrives here is one that cancels it.
         if session.waiting.take().is_some() && waiting::forgets(&message) {
-            inform(session, "no longer waited for");
+            inform(session, "the waiting key is dropped");
             macros::end(session);
             return Vec::new();
         }

@@ -141,7 +141,7 @@ fn take(
         Purpose::Register(name) => {
             let steps = script()?.steps.into_iter().map(|located| located.step).collect();
             session.macros.registers.insert(name, steps);
-            inform(session, format!("register {name} has the keys of {}", path.display()));
+            inform(session, format!("register {name} now holds the keys of {}", path.display()));
         }
     }
     Ok(Vec::new())

@@ -48,7 +48,10 @@ pub fn harmonics(session: &mut Session, more: bool) -> Vec<Effect> {
             session.harmonics = *next;
             inform(session, format!("harmonic balance with N = {next}"))
         }
-        None => refuse(session, format!("the number of harmonics ends at {now}")),
+        None => {
+            let way = if more { "more" } else { "fewer" };
+            refuse(session, format!("{now} harmonics: there are no {way}"))
+        }
     }
 }
 

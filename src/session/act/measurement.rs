@@ -71,7 +71,10 @@ fn said(words: &str) -> Result<Said, String> {
 
 fn unknown(word: &str) -> String {
     let numbers = NAMES.map(|row| row.name).join(", ");
-    format!("behind the file may stand {}, or a value of {numbers}, not {word:?}", WORDS.join(", "))
+    format!(
+        "after the file name stands {}, or a value of {numbers}, not {word:?}",
+        WORDS.join(", ")
+    )
 }
 
 fn loss(text: &str) -> Result<LossName, String> {

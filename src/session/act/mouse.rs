@@ -15,7 +15,7 @@ const NOTCH: isize = 3;
 pub fn toggle(session: &mut Session) -> Vec<Effect> {
     session.look.mouse = !session.look.mouse;
     let text = if session.look.mouse {
-        "mouse on: a click starts or points, the wheel zooms; text is selected with shift"
+        "mouse on: click to start or point, turn the wheel to zoom, hold shift to select text"
     } else {
         "mouse off: the terminal selects text"
     };

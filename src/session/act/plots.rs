@@ -213,7 +213,7 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
         _ => return Vec::new(),
     };
     let Some(initial @ State { q, v }) = initial else {
-        return refuse(session, "there is no motion to be taken here");
+        return refuse(session, "there is no motion to start from here");
     };
     // The phase plane shows motions beside each other; from another view, the other motions may be out of
     // sight.

@@ -38,7 +38,7 @@ pub(in crate::session) fn start(session: &mut Session, initial: State) {
 /// Removes the newest motion; the previous one becomes the present one.
 pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
     let Some(initial) = session.others.all().last().copied() else {
-        return refuse(session, "only one motion is on show; it stays");
+        return refuse(session, "the only motion cannot be removed");
     };
     let problem = Problem { initial, ..session.problem };
     put(session, &Setup { problem, others: session.others.without(initial), ..session.setup() });
@@ -52,7 +52,7 @@ pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
 /// Removes all motions but the newest.
 pub fn drop_others(session: &mut Session) -> Vec<Effect> {
     if !put(session, &Setup { others: Starts::default(), ..session.setup() }) {
-        refuse(session, "only one motion is on show; it stays");
+        refuse(session, "the only motion cannot be removed");
     }
     Vec::new()
 }

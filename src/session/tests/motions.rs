@@ -48,7 +48,7 @@ fn enter_in_the_phase_plane_adds_a_motion_and_of_too_many_the_oldest_gives_way()
     trial.press("c");
     assert_eq!((trial.session.problems().len(), trial.session.number(0)), (1, None));
     trial.press("d");
-    assert_eq!(trial.notice(), "only one motion is on show; it stays");
+    assert_eq!(trial.notice(), "the only motion cannot be removed");
 }
 
 #[test]
