@@ -90,12 +90,11 @@ pub fn spread(session: &Session, look: &Look) -> Vec<String> {
     };
     let held = session.doubt.holds_any();
     let rise = held.then(|| format!("held: chi^2 +{}", significant(*rise, 3)));
-    let margin = match spread.lower {
-        None => "95 %: every kick".to_owned(),
-        Some(_) => {
-            let name = if scale.is_some() { "x" } else { "q" };
-            format!("95 %: {name} {}", between(end(spread.lower), &end(spread.upper)))
-        }
+    let name = if scale.is_some() { "x" } else { "q" };
+    let margin = if spread.lower.is_none() {
+        "95 %: every kick".to_owned()
+    } else {
+        format!("95 %: {name} {}", between(end(spread.lower), &end(spread.upper)))
     };
     let frequency = estimate.free[OMEGA0].then_some(frequency);
     // What matters most first: a low pane has no room for what follows.

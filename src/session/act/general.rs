@@ -43,16 +43,12 @@ pub fn harmonics(session: &mut Session, more: bool) -> Vec<Effect> {
         ladder.iter().rev().find(|count| **count < now)
     };
     session.layers.insert(Layer::Balance);
-    match next {
-        Some(next) => {
-            session.harmonics = *next;
-            inform(session, format!("harmonic balance with N = {next}"))
-        }
-        None => {
-            let way = if more { "more" } else { "fewer" };
-            refuse(session, format!("{now} harmonics: there are no {way}"))
-        }
+    if let Some(next) = next {
+        session.harmonics = *next;
+        return inform(session, format!("harmonic balance with N = {next}"));
     }
+    let way = if more { "more" } else { "fewer" };
+    refuse(session, format!("{now} harmonics: there are no {way}"))
 }
 
 /// Shows or hides the caption of the scene: what there is to see, and what to press.

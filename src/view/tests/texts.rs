@@ -96,7 +96,7 @@ fn a_typed_number_stands_as_it_was_typed_and_one_that_follows_has_few_digits() {
 fn every_view_draws_something_or_says_what_it_needs() {
     let axes = Look::new(braille());
     let quiet = [Role::Axis, Role::Current, Role::Quiet].map(|role| axes.style(role).fg);
-    let kinds: [(&str, Session); 8] = [
+    let kinds: Vec<(&str, Session)> = vec![
         ("plain", settled("plain", 80, 24, "")),
         ("without damping and friction", {
             let mut session = settled("plain", 80, 24, "");
@@ -128,7 +128,7 @@ fn every_view_draws_something_or_says_what_it_needs() {
                 let area = Rect { y: area.y + 1, height: area.height - 1, ..area };
                 let buffer = draw(&session, braille());
                 let cells = || area.positions().map(|at| &buffer[at]);
-                let letters: String = cells().map(|cell| cell.symbol()).collect();
+                let letters: String = cells().map(ratatui::buffer::Cell::symbol).collect();
                 let words =
                     |text: &str| text.split_whitespace().take(3).collect::<Vec<_>>().join(" ");
                 let drawn = cells().filter(|cell| {
