@@ -7,6 +7,7 @@ use hopfscope::numerics::random::Random;
 use hopfscope::oscillator::{Interval, ParameterBox, Parameters, State};
 use hopfscope::study::basin::basin;
 use hopfscope::study::guarantee::{Sided, guarantee, zones};
+use hopfscope::study::{Edge, Margin};
 
 fn between(random: &mut Random, interval: Interval) -> f64 {
     let (low, high) = (interval.lower(), interval.upper());
@@ -121,7 +122,8 @@ fn extent(
             return (f64::NEG_INFINITY, f64::INFINITY, false);
         }
     }
-    (low, high, side == 0.0)
+    // A motion may also just turn there, but then farther out.
+    (low, high, side == 0.0 && q.abs() <= r + bound)
 }
 
 /// A box of parameters and a disturbance.
@@ -143,32 +145,41 @@ fn cases() -> [(ParameterBox, f64); 5] {
 
 /// Starts disturbed motions at a fraction of the margins, with parameters of the box. Returns how many leave
 /// the interior of the border.
-fn leaving(known: &ParameterBox, w: f64, motions: u32, random: &mut Random) -> u32 {
+fn leaving(known: &ParameterBox, w: f64, motions: usize, random: &mut Random) -> u32 {
     let margin = guarantee(known, w, &Limits::PATIENT).unwrap().guaranteed.margin;
-    let safe = zones(known, w, 0.0, &Limits::PATIENT).unwrap().safe.unwrap();
-    let turning = |sign: f64| {
-        let border = safe.borders[0].curve(4);
-        border.iter().map(|state| sign * state.q).fold(f64::NEG_INFINITY, f64::max)
-    };
-    // A separatrix goes to infinity outwards; the end where it turns is the one that matters.
-    let [left, right] = [-turning(-1.0), turning(1.0)];
+    // Values of r, each with the extent of the interior of the border that holds for it.
+    let frictions = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| {
+        let r = known.r.lower() + part * (known.r.upper() - known.r.lower());
+        let known = ParameterBox { r: Interval::new(r, r), ..*known };
+        let safe = zones(&known, w, 0.0, &Limits::PATIENT).unwrap().safe.unwrap();
+        let turning = |sign: f64| {
+            let border = safe.borders[0].curve(4);
+            border.iter().map(|state| sign * state.q).fold(f64::NEG_INFINITY, f64::max)
+        };
+        // A separatrix goes to infinity outwards; the end where it turns is the one that matters.
+        (r, -turning(-1.0), turning(1.0))
+    });
     let (displacement, impulse) = (margin.displacement.unwrap(), margin.impulse.unwrap());
+    let (shift, push) = (margin.from_rest.displacement.unwrap(), margin.from_rest.impulse.unwrap());
     let corner = |random: &mut Random, interval: Interval| match random.even() {
         part if part < 0.3 => interval.lower(),
         part if part < 0.6 => interval.upper(),
         _ => between(random, interval),
     };
     let mut left_behind = 0;
-    for _ in 0..motions {
-        let ParameterBox { d, d2, d3, r } = *known;
-        let [d, d2, d3, r] = [d, d2, d3, r].map(|interval| corner(random, interval));
+    for &(r, left, right) in frictions.iter().cycle().take(motions) {
+        let ParameterBox { d, d2, d3, .. } = *known;
+        let [d, d2, d3] = [d, d2, d3].map(|interval| corner(random, interval));
         let parameters = Parameters { d, d2, d3, r };
         let system = Sided { upper: parameters, lower: parameters };
         let sign = if random.even() < 0.5 { 1.0 } else { -1.0 };
-        let start = if random.even() < 0.5 {
-            State { q: 0.999 * sign * displacement, v: 0.0 }
-        } else {
-            State { q: 0.0, v: 0.999 * sign * impulse }
+        // Where friction and the disturbance hold the mass.
+        let rest = (2.0 * random.even() - 1.0).signum() * random.even().sqrt() * (r + w);
+        let start = match random.even() {
+            part if part < 0.25 => State { q: 0.999 * sign * displacement, v: 0.0 },
+            part if part < 0.5 => State { q: 0.0, v: 0.999 * sign * impulse },
+            part if part < 0.75 => State { q: rest + 0.999 * sign * shift, v: 0.0 },
+            _ => State { q: rest, v: 0.999 * sign * push },
         };
         let force = Force::any(random);
         let (low, high, _) = extent(&system, w, force, start, 30.0, random);
@@ -192,7 +203,7 @@ fn the_margin_known_from_elsewhere() {
 fn where_there_may_be_no_friction_nothing_is_guaranteed_and_no_number_is_below_zero() {
     let (known, w) = case([-0.1; 2], [0.0; 2], [0.0; 2], [0.0, 0.1], 0.0);
     let margin = guarantee(&known, w, &Limits::PATIENT).unwrap().guaranteed.margin;
-    assert_eq!((margin.displacement, margin.impulse), (Some(0.0), Some(0.0)));
+    assert_eq!(margin, Margin::ZERO);
 }
 
 #[test]
@@ -209,6 +220,8 @@ fn a_border_far_out_on_one_side_is_that_of_the_plain_system() {
         for (sure, one) in [
             (found.guaranteed.margin.displacement, margin.displacement),
             (found.guaranteed.margin.impulse, margin.impulse),
+            (found.guaranteed.margin.from_rest.displacement, margin.from_rest.displacement),
+            (found.guaranteed.margin.from_rest.impulse, margin.from_rest.impulse),
         ] {
             let (sure, one) = (sure.unwrap(), one.unwrap());
             assert!((-1e-9..1e-12).contains(&(sure / one - 1.0)), "{d3}: {sure} {one}");
@@ -236,15 +249,18 @@ fn no_parameters_of_a_box_have_a_smaller_margin() {
     let mut looked = 0;
     for (known, _) in cases() {
         let guaranteed = guarantee(&known, 0.0, &Limits::PATIENT).unwrap().guaranteed.margin;
-        let (q, v) = (guaranteed.displacement.unwrap(), guaranteed.impulse.unwrap());
+        let kicks = |Margin { displacement, impulse, from_rest }: Margin| {
+            [displacement, impulse, from_rest.displacement, from_rest.impulse]
+                .map(|size| size.unwrap_or(f64::INFINITY))
+        };
+        let least = kicks(guaranteed);
         let ParameterBox { d, d2, d3, r } = known;
         for _ in 0..200 {
             let [d, d2, d3, r] = [d, d2, d3, r].map(|interval| between(&mut random, interval));
             let parameters = Parameters { d, d2, d3, r };
-            let own = basin(&parameters, 0.0, &Limits::PATIENT).unwrap().margin();
-            let within = own.displacement.is_none_or(|own| own >= q)
-                && own.impulse.is_none_or(|own| own >= v);
-            assert!(within, "{parameters:?}: {own:?} within {q}, {v}");
+            let own = kicks(basin(&parameters, 0.0, &Limits::PATIENT).unwrap().margin());
+            let within = own.iter().zip(least).all(|(own, least)| *own >= least);
+            assert!(within, "{parameters:?}: {own:?} within {least:?}");
             looked += 1;
         }
     }
@@ -259,14 +275,68 @@ fn the_worst_disturbance_leads_out_from_just_beyond() {
         // The disturbance compensates for the friction that the worst system lacks.
         let worst = Sided::worst(&known, 0.0);
         let (q, v) = (margin.displacement.unwrap(), margin.impulse.unwrap());
-        let mut leaves = |part: f64, start: State| {
-            let start = State { q: part * start.q, v: part * start.v };
+        let mut leaves_from = |rest: f64, part: f64, kick: State| {
+            let start = State { q: rest + part * kick.q, v: part * kick.v };
             !extent(&worst, w, Force::Along, start, 200.0, &mut random).2
         };
+        let (shift, push) =
+            (margin.from_rest.displacement.unwrap(), margin.from_rest.impulse.unwrap());
+        let rest = known.r.lower() + w;
+        let mut lost = [0; 2];
+        for sign in [-1.0, 1.0] {
+            for kick in [State { q: sign * shift, v: 0.0 }, State { q: 0.0, v: sign * push }] {
+                for from in [-rest, rest] {
+                    assert!(!leaves_from(from, 0.999, kick), "{known:?}, w = {w}: {kick:?}");
+                    lost[usize::from(kick.q == 0.0)] += u8::from(leaves_from(from, 1.001, kick));
+                }
+            }
+        }
+        assert!(lost.iter().all(|count| *count > 0), "{known:?}, w = {w}: {lost:?}");
+        let mut leaves = |part: f64, kick: State| leaves_from(0.0, part, kick);
         let kicks = [(q, 0.0), (0.0, v)].map(|(q, v)| [State { q, v }, State { q: -q, v: -v }]);
         for [kick, mirrored] in kicks {
             assert!(!leaves(0.999, kick) && !leaves(0.999, mirrored), "{known:?}, w = {w}");
             assert!(leaves(1.001, kick) || leaves(1.001, mirrored), "{known:?}, w = {w}: {kick:?}");
+        }
+    }
+}
+
+/// For random systems, undisturbed: every kick just below the smallest one is survived from wherever the mass rests,
+/// and just above it one is lost from an end of the sticking set.
+#[test]
+fn no_rest_position_has_a_smaller_margin_and_one_attains_it() {
+    let mut random = Random::new(7);
+    let (mut looked, mut drawn) = (0, 0);
+    while looked < 1000 {
+        drawn += 1;
+        assert!(drawn < 4000, "{looked} of {drawn} systems have a border");
+        let mut roll = |low: f64, high: f64| low + (high - low) * random.even();
+        let d3 = if roll(0.0, 1.0) < 0.5 { roll(-0.5, 0.5) } else { 0.0 };
+        let parameters =
+            Parameters { d: roll(-0.7, 0.2), d2: roll(-0.6, 0.6), d3, r: roll(0.05, 0.4) };
+        let found = basin(&parameters, 0.0, &Limits::PATIENT).unwrap();
+        let from_rest = found.margin().from_rest;
+        let Some((shift, push)) = from_rest.displacement.zip(from_rest.impulse) else {
+            assert_eq!(found.edge, Edge::None, "{parameters:?}");
+            continue;
+        };
+        looked += 1;
+        let system = Sided { upper: parameters, lower: parameters };
+        let mut rests = |rest: f64, part: f64, kick: State| {
+            let start = State { q: rest + part * kick.q, v: part * kick.v };
+            extent(&system, 0.0, Force::Along, start, 400.0, &mut random).2
+        };
+        for pair in [State { q: shift, v: 0.0 }, State { q: 0.0, v: push }] {
+            let mut lost = 0;
+            for sign in [-1.0, 1.0] {
+                let kick = State { q: sign * pair.q, v: sign * pair.v };
+                for part in [-1.0, -0.4, 0.1, 0.7, 1.0] {
+                    let rest = part * parameters.r;
+                    assert!(rests(rest, 0.995, kick), "{parameters:?}: {kick:?} from {rest}");
+                    lost += usize::from(f64::abs(part) == 1.0 && !rests(rest, 1.005, kick));
+                }
+            }
+            assert!(lost > 0, "{parameters:?}: beyond {pair:?} nothing is lost");
         }
     }
 }

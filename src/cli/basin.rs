@@ -39,7 +39,9 @@ impl Arguments {
         let (found, seconds) = self.output.timed("the basin could not be completed", survey)?;
         let enclose = || {
             let proof = prove(&ParameterBox::from(&parameters), &[]);
-            agreed(kicks(&proof, [found.margin.displacement, found.margin.impulse]), &found)
+            let margin = &found.margin;
+            let hints = [margin.displacement, margin.impulse, margin.from_rest.impulse];
+            agreed(kicks(&proof, hints), &found)
         };
         let certified = self.certify.ask(enclose);
         let lines = certified.as_ref().map(certified::kicks_lines);

@@ -4,21 +4,13 @@
 //! inwards wherever the mass moves, so that the basin of rest grows with it.
 
 use super::guarantee::guaranteed;
-use super::portrait::{MachineBorder, Portrait};
+use super::portrait::MachineBorder;
 use super::subject::{Body, Subject};
 use super::survey::Trouble;
 use super::tolerance::Tolerances;
 use crate::flow::Reason;
 use crate::numerics::elementary::ln;
 use crate::study::design::{Kick, Needed, least_friction};
-
-/// The size of a margin of this kind, in m or N s; infinite where every kick is survived.
-fn margin(portrait: &Portrait, kick: Kick) -> f64 {
-    portrait.margin.map_or(f64::INFINITY, |margin| match kick {
-        Kick::Displacement => margin.least_displacement(),
-        Kick::Impulse => portrait.model.mass * margin.least_velocity(),
-    })
-}
 
 /// The logarithm of the guaranteed margin of this kind, as a fraction of `wanted`.
 fn guaranteed_excess(
@@ -29,10 +21,7 @@ fn guaranteed_excess(
 ) -> Result<f64, Trouble> {
     // Only belts have tolerances.
     let Body::Belt(belt) = &subject.body else { return Ok(f64::MIN) };
-    let found = guaranteed(belt, known)?.map_or(0.0, |kicks| match kick {
-        Kick::Displacement => kicks.displacement,
-        Kick::Impulse => kicks.impulse,
-    });
+    let found = guaranteed(belt, known)?.map_or(0.0, |margin| kick.margin(&margin));
     Ok(ln(found / wanted).max(f64::MIN))
 }
 
@@ -61,7 +50,7 @@ pub fn friction_for(
         let found = machine.portrait()?;
         Ok(match found.border {
             MachineBorder::NoBasin => f64::MIN,
-            _ => ln(margin(&found, kick) / wanted).max(f64::MIN),
+            _ => ln(kick.margin(&found.least_kicks()) / wanted).max(f64::MIN),
         })
     };
     if !known.is_none() {

@@ -16,15 +16,7 @@ use super::survey::{Trouble, portrait};
 use super::tolerance::{Corners, MOST, Tolerances, TooMany};
 use crate::numerics::root::try_bisect;
 use crate::oscillator::Belt;
-
-/// Kicks that are survived for certain; infinite where every one is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GuaranteedKicks {
-    /// Displacement, in m.
-    pub displacement: f64,
-    /// Impulse, in N s.
-    pub impulse: f64,
-}
+use crate::study::Margin;
 
 /// Why no kick is survived for certain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,7 +68,7 @@ impl fmt::Display for MachineUncertain {
 pub fn guaranteed(
     belt: &Belt,
     known: &Tolerances,
-) -> Result<Result<GuaranteedKicks, MachineUncertain>, Trouble> {
+) -> Result<Result<Margin, MachineUncertain>, Trouble> {
     Ok(worst(belt, known)?.map(|(corners, portrait)| kicks(&corners, &portrait)))
 }
 
@@ -108,13 +100,11 @@ pub fn best(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Trouble
     known.best(belt).map(|best| portrait(&best)).transpose()
 }
 
-/// The kicks within the basin of a machine that bounds those of all others.
-pub fn kicks(corners: &Corners, portrait: &Portrait) -> GuaranteedKicks {
-    let infinite = GuaranteedKicks { displacement: f64::INFINITY, impulse: f64::INFINITY };
-    portrait.margin.map_or(infinite, |margin| GuaranteedKicks {
-        displacement: margin.least_displacement(),
-        impulse: margin.least_velocity() / portrait.model.omega_0 * corners.lightest(),
-    })
+/// The kicks within the basin of a machine that bounds those of all others, in m and N s.
+pub fn kicks(corners: &Corners, portrait: &Portrait) -> Margin {
+    let lightest = corners.lightest() / portrait.model.omega_0;
+    let margin = portrait.margin_within(corners.farthest_rest);
+    margin.map_or(Margin::ENDLESS, |margin| margin.least(lightest))
 }
 
 /// A portrait whose basin of rest is bordered by a cycle of slip.

@@ -15,6 +15,7 @@ use super::model::{Model, Phase};
 use super::return_map::MachineReturn;
 use super::turn::ContactState;
 use crate::numerics::root::bisect;
+use crate::study::margin::{Margin, RestMargin};
 
 /// What borders the basin of rest.
 #[derive(Clone, Debug)]
@@ -81,9 +82,34 @@ pub struct MachineMargin {
     pub displacement: (f64, f64),
     /// Velocities with and against the belt, in m/s.
     pub velocity: (f64, f64),
+    /// Change of position, in m, from where the mass rests nearest to the border.
+    pub rest_displacement: f64,
+    /// Velocity, in m/s, from where the mass can rest and the smallest one is lost.
+    pub rest_velocity: f64,
 }
 
 impl MachineMargin {
+    /// No kick is survived.
+    const ZERO: MachineMargin = MachineMargin {
+        displacement: (0.0, 0.0),
+        velocity: (0.0, 0.0),
+        rest_displacement: 0.0,
+        rest_velocity: 0.0,
+    };
+
+    /// The smallest kicks of a mass in kg that are not survived, in m and N s.
+    #[must_use]
+    pub fn least(&self, mass: f64) -> Margin {
+        Margin {
+            displacement: Some(self.least_displacement()),
+            impulse: Some(mass * self.least_velocity()),
+            from_rest: RestMargin {
+                displacement: Some(self.rest_displacement),
+                impulse: Some(mass * self.rest_velocity),
+            },
+        }
+    }
+
     /// The smaller displacement, in m.
     #[must_use]
     pub fn least_displacement(&self) -> f64 {
@@ -185,15 +211,15 @@ impl Portrait {
         }
         if first.fate != inner {
             self.border = MachineBorder::NoBasin;
-            self.margin = Some(MachineMargin { displacement: (0.0, 0.0), velocity: (0.0, 0.0) });
+            self.margin = Some(MachineMargin::ZERO);
             return Ok(());
         }
         let last = self.gaps.iter().take_while(|gap| gap.fate == inner).count();
         let Some((x, mark)) = marks.get(last - 1).filter(|_| last < self.gaps.len()) else {
-            let ends = model.law_ends();
-            if ends || matches!(self.stop, Some(Unfollowed::OutsideLaw { .. } | Unfollowed::Steps))
-            {
-                self.margin = Some(self.covered(ends));
+            let stops =
+                matches!(self.stop, Some(Unfollowed::OutsideLaw { .. } | Unfollowed::Steps));
+            if stops || model.law_ends() {
+                self.margin = Some(self.covered(model.guide_static));
             }
             return Ok(());
         };
@@ -216,18 +242,54 @@ impl Portrait {
                 left
             }
         };
-        let (up, down) = curve.velocities_at(0.0, model.speed);
-        // A border that does not pass there begins at the steady position itself, a node that repels.
-        let speed = |y: Option<f64>| y.map_or(0.0, |y| (y * model.omega_0).abs());
-        self.margin =
-            Some(MachineMargin { displacement: (*x, -left), velocity: (speed(up), speed(down)) });
+        let mut margin = MachineMargin { displacement: (*x, -left), ..MachineMargin::ZERO };
+        margin.velocity = self.velocities_lost(&curve, 0.0);
+        self.margin = Some(margin);
+        self.margin = self.margin_within(model.guide_static);
         Ok(())
     }
 
+    /// The smallest kicks that are not survived, in m and N s.
+    #[must_use]
+    pub fn least_kicks(&self) -> Margin {
+        self.margin.map_or(Margin::ENDLESS, |margin| margin.least(self.model.mass))
+    }
+
+    /// The velocities with and against the belt, in m/s, at which a motion from rest at a displacement meets the
+    /// border.
+    fn velocities_lost(&self, border: &MachineCurve, x: f64) -> (f64, f64) {
+        let (up, down) = border.velocities_at(x, self.model.speed);
+        // A border that does not pass there begins at a node that repels, or the mass rests outside of it.
+        let speed = |y: Option<f64>| y.map_or(0.0, |y| (y * self.model.omega_0).abs());
+        (speed(up), speed(down))
+    }
+
+    /// The margin if the mass may rest up to a `farthest` place on either side, in m.
+    ///
+    /// Above `v = 0` the border has no minimum of its speed between its ends, below it likewise
+    /// ([`crate::study::margin`]), so over the places of rest it is lowest at one of the ends.
+    #[must_use]
+    pub fn margin_within(&self, farthest: f64) -> Option<MachineMargin> {
+        let margin = self.margin?;
+        let border = match &self.border {
+            MachineBorder::Cycle(_, curve) | MachineBorder::Grazing(curve) => curve,
+            MachineBorder::NoBasin => return Some(margin),
+            MachineBorder::None => return Some(self.covered(farthest)),
+        };
+        let gap = (margin.least_displacement() - farthest).max(0.0);
+        let ends = [farthest, -farthest].map(|x| self.velocities_lost(border, x));
+        let lowest = ends.iter().map(|(up, down)| up.min(*down)).fold(f64::INFINITY, f64::min);
+        Some(MachineMargin {
+            rest_displacement: gap,
+            rest_velocity: if gap > 0.0 { lowest } else { 0.0 },
+            ..margin
+        })
+    }
+
     /// The kicks that certainly come to rest, if motions that slip faster than the law covers are unknown, or some
-    /// could not be followed. Motions do not cross, so in each direction these are all kicks up to a largest one. It
-    /// is sought beyond [`Self::known`] only where the law ends.
-    fn covered(&self, ends: bool) -> MachineMargin {
+    /// could not be followed; `farthest` as for [`Self::margin_within`]. Motions do not cross, so in each direction
+    /// these are all kicks up to a largest one. It is sought beyond [`Self::known`] only where the law ends.
+    fn covered(&self, farthest: f64) -> MachineMargin {
         /// Halvings down to rounding.
         const HALVINGS: u32 = 60;
         let model = &self.model;
@@ -235,20 +297,26 @@ impl Portrait {
         let most = |far: f64, rests: &dyn Fn(f64) -> bool| {
             if rests(far) { far } else { bisect(0.0, far, HALVINGS, |kick| !rests(kick)).0 }
         };
-        let (x, y) = if ends {
+        let (x, y) = if model.law_ends() {
             (4.0 * self.known, 4.0 * self.known.max(-model.least_velocity()))
         } else {
             (self.known, self.known)
         };
+        let shifts = |from: f64| {
+            let right = most(self.known, &|kick| rests(from + kick, 0.0));
+            (right, most(x, &|kick| rests(-from - kick, 0.0)))
+        };
+        let pushes = |from: f64| {
+            let with = most(y, &|kick| rests(from, kick)) * model.omega_0;
+            (with, most(y, &|kick| rests(from, -kick)) * model.omega_0)
+        };
+        let [(right, left), (one, other), (third, last)] =
+            [shifts(farthest), pushes(farthest), pushes(-farthest)];
         MachineMargin {
-            displacement: (
-                most(self.known, &|kick| rests(kick, 0.0)),
-                most(x, &|kick| rests(-kick, 0.0)),
-            ),
-            velocity: (
-                most(y, &|kick| rests(0.0, kick)) * model.omega_0,
-                most(y, &|kick| rests(0.0, -kick)) * model.omega_0,
-            ),
+            displacement: shifts(0.0),
+            velocity: pushes(0.0),
+            rest_displacement: right.min(left),
+            rest_velocity: one.min(other).min(third).min(last),
         }
     }
 

@@ -104,6 +104,10 @@ pub struct Corners {
     pub at_rest: f64,
     /// The largest stiffness, in N/m.
     pub stiffest: f64,
+    /// How far out one of the machines may rest before a kick, in m: pushed there by the disturbance, and held by
+    /// the largest static friction; by the smallest if it is that of the moving mass, because the gap to the border
+    /// only grows with friction.
+    pub farthest_rest: f64,
 }
 
 /// More numbers than can be uncertain together.
@@ -144,7 +148,12 @@ impl Corners {
             if known.disturbance > 0.0 { left.next_down() } else { left }
         };
         let (moving, at_rest) = (belts[0].friction, belts[0].static_guide);
-        let models = belts.iter().map(Model::new).collect::<Result<_, _>>()?;
+        let models: Vec<Model> = belts.iter().map(Model::new).collect::<Result<_, _>>()?;
+        let held = models.iter().map(|model| model.guide_static).fold(0.0, f64::max);
+        let holds = known.interval(Varied::StaticGuide, belt);
+        let more = holds.map_or(0.0, |holds| holds.upper() - holds.lower()) + known.disturbance;
+        let softest = belts.iter().map(|belt| belt.stiffness).fold(f64::INFINITY, f64::min);
+        let farthest_rest = if more > 0.0 { (held + more / softest).next_up() } else { held };
         Ok(Ok(Corners {
             models,
             belts,
@@ -152,6 +161,7 @@ impl Corners {
             friction: left(moving),
             at_rest: left(at_rest.unwrap_or(moving)),
             stiffest,
+            farthest_rest,
         }))
     }
 

@@ -3,7 +3,8 @@
 //! By lemma 8, the starts at rest on one side that are captured are those nearer to the sticking set than some
 //! clearance; it is that of the innermost cycle if this cycle repels. Where there is no cycle, the clearance
 //! lies between one from which motions certainly come to rest and one from which they certainly do not. An
-//! impulse is captured if the half swing that it starts ends nearer than this.
+//! impulse is captured if the half swing that it starts ends nearer than this. A push is weakest where the edge is
+//! lowest, which over the rest positions is at an end of the sticking set.
 
 use super::cycles::{Proof, ProvedCycle};
 use super::field::ParameterBox;
@@ -26,7 +27,7 @@ pub enum ProvedEdge {
 
 /// The smallest kicks that are not captured: kicks below the lower bound come to rest, kicks above the upper
 /// bound do not.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ProvedKicks {
     /// What borders the basin, where that is proved.
     pub edge: Option<ProvedEdge>,
@@ -34,6 +35,10 @@ pub struct ProvedKicks {
     pub displacement: Option<Interval>,
     /// Smallest impulse at `q = 0`; `None` likewise.
     pub impulse: Option<Interval>,
+    /// Smallest change of position out of any rest position in `-r .. r`; `None` likewise.
+    pub rest_displacement: Option<Interval>,
+    /// Smallest impulse at any of them; `None` likewise.
+    pub rest_impulse: Option<Interval>,
     /// Why part of the answer is open.
     pub open: Option<&'static str>,
 }
@@ -46,22 +51,16 @@ const ATTRACTS: &str = "the innermost cycle attracts";
 const TURNS: usize = 300;
 
 /// Bounds of the kicks. `proof` is about the cycles for the same parameters; `hints` are approximate values of
-/// the displacement and the impulse.
-pub fn kicks(proof: &Proof, hints: [Option<f64>; 2]) -> ProvedKicks {
+/// the displacement, of the impulse at `q = 0`, and of the smallest one at a rest position.
+pub fn kicks(proof: &Proof, hints: [Option<f64>; 3]) -> ProvedKicks {
     let parameters = &proof.parameters;
-    let open =
-        |reason| ProvedKicks { edge: None, displacement: None, impulse: None, open: Some(reason) };
+    let open = |reason| ProvedKicks { open: Some(reason), ..ProvedKicks::default() };
     if !(parameters.r.lower() > 0.0) {
         return open(NO_FRICTION);
     }
     let mut map = ProvedMap::new(parameters);
     if proof.is_complete() && proof.cycles.is_empty() && is_bounded(&mut map, proof) {
-        return ProvedKicks {
-            edge: Some(ProvedEdge::None),
-            displacement: None,
-            impulse: None,
-            open: None,
-        };
+        return ProvedKicks { edge: Some(ProvedEdge::None), ..ProvedKicks::default() };
     }
     let r = parameters.r;
     let innermost = innermost(proof);
@@ -83,12 +82,23 @@ pub fn kicks(proof: &Proof, hints: [Option<f64>; 2]) -> ProvedKicks {
         let none = proof.is_complete() && proof.cycles.is_empty();
         (none.then_some(ProvedEdge::Separatrix), [right, left])
     };
-    let displacement = smaller(clearances[0] + r, clearances[1] + r);
-    let [below, above] =
-        [0, 1].map(|half| threshold(hints[1], |speed| pushed(&mut map, half, speed, clearances)));
-    let impulse = below.zip(above).map(|(below, above)| smaller(below, above));
-    let open = impulse.is_none().then_some(NO_EDGE);
-    ProvedKicks { edge, displacement: Some(displacement), impulse, open }
+    let mut at = |x: Interval, hint| {
+        let [one, other] = [0, 1]
+            .map(|half| threshold(hint, |speed| pushed(&mut map, half, x, speed, clearances)));
+        one.zip(other).map(|(one, other)| smaller(one, other))
+    };
+    let impulse = at(r, hints[1]);
+    // Over the rest positions the edge is lowest at an end (lemma 23).
+    let ends = [Interval::point(0.0), r + r].map(|x| at(x, hints[2]));
+    let rest_impulse = ends[0].zip(ends[1]).map(|(one, other)| smaller(one, other));
+    ProvedKicks {
+        edge,
+        displacement: Some(smaller(clearances[0] + r, clearances[1] + r)),
+        impulse,
+        rest_displacement: Some(smaller(clearances[0], clearances[1])),
+        rest_impulse,
+        open: (impulse.is_none() || rest_impulse.is_none()).then_some(NO_EDGE),
+    }
 }
 
 /// What certainly borders the basin.
@@ -166,11 +176,18 @@ fn at_rest(map: &mut ProvedMap, half: usize, from: f64, known: &mut Interval) ->
     None
 }
 
-/// Whether an impulse at `q = 0` is captured, where that is certain; `edge` holds the clearances of the edge on
-/// the right and on the left.
-fn pushed(map: &mut ProvedMap, half: usize, speed: f64, edge: [Interval; 2]) -> Option<bool> {
+/// Whether an impulse at a rest position is captured, where that is certain; `x` is the distance from that end of
+/// the sticking set from which the half swing leads away, `edge` holds the clearances of the edge on the right and on
+/// the left.
+fn pushed(
+    map: &mut ProvedMap,
+    half: usize,
+    x: Interval,
+    speed: f64,
+    edge: [Interval; 2],
+) -> Option<bool> {
     let field = *map.halves[half].field(Direction::Forward);
-    let start = StartBox { x: map.parameters.r, v: Interval::point(speed) };
+    let start = StartBox { x, v: Interval::point(speed) };
     let passage = swing(&field, &start, false);
     let Passage::Arrives(swing) = passage else {
         return (passage == Passage::Never).then_some(false);

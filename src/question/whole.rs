@@ -252,21 +252,13 @@ pub fn found(belt: &Belt) -> Result<Portrait, Reason> {
 
 /// The kicks that a machine survives, without units; `None` where it survives every kick.
 pub fn margin(found: &Portrait) -> Option<Margin> {
-    let units = DrawingUnits::of(&found.model);
-    found.margin.map(|margin| Margin {
-        displacement: Some(margin.least_displacement() / units.x),
-        impulse: Some(margin.least_velocity() / units.v),
-    })
+    found.margin.map(|_| margin_of(&found.model, &found.least_kicks()))
 }
 
-/// Kicks given in m and N s, converted to numbers without units; infinite means that every kick is survived.
-pub fn margin_of(model: &Model, displacement: f64, impulse: f64) -> Margin {
+/// A margin given in m and N s, converted to numbers without units.
+pub fn margin_of(model: &Model, margin: &Margin) -> Margin {
     let units = DrawingUnits::of(model);
-    let finite = |value: f64| Some(value).filter(|it| it.is_finite());
-    Margin {
-        displacement: finite(displacement / units.x),
-        impulse: finite(impulse / (model.mass * units.v)),
-    }
+    margin.map(|x| x / units.x, |impulse| impulse / (model.mass * units.v))
 }
 
 fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycles, Reason> {
@@ -279,7 +271,7 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
         curves.push(places(&curve, model, points));
     }
     let edge = found.border.curve().map(|curve| places(curve, model, points));
-    let margin = margin(found).unwrap_or(Margin { displacement: None, impulse: None });
+    let margin = margin(found).unwrap_or(Margin::ENDLESS);
     let picture = cycle::BasinPicture {
         curves,
         works: Vec::new(),

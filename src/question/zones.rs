@@ -99,17 +99,14 @@ pub fn of_machine(belt: &Belt, known: &Tolerances, points: u16) -> Result<Zones,
         Some(curve) => Extent::Within(whole::places(curve, &nominal.model, points)),
         None => Extent::Everything,
     };
-    let margin =
-        |displacement: f64, impulse: f64| whole::margin_of(&nominal.model, displacement, impulse);
     let (safe, guaranteed) = match worst(belt, known).map_err(trouble)? {
         Err(why) => (Extent::Nothing, Err(why.to_string())),
         Ok((corners, portrait)) => {
             let least = kicks(&corners, &portrait);
-            (drawn(&portrait), Ok(margin(least.displacement, least.impulse)))
+            (drawn(&portrait), Ok(whole::margin_of(&nominal.model, &least)))
         }
     };
     let hopeful = best(belt, known).map_err(trouble)?.as_ref().map_or(Extent::Everything, drawn);
-    let none = Margin { displacement: None, impulse: None };
-    let nominal = whole::margin(&nominal).unwrap_or(none);
+    let nominal = whole::margin(&nominal).unwrap_or(Margin::ENDLESS);
     Ok(Zones { safe, hopeful, nominal, guaranteed, cost: Cost::default() })
 }

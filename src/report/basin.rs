@@ -77,8 +77,15 @@ pub fn table(found: &SurveyedBasin, seconds: f64) -> String {
         counts.row(vec![fate.to_owned(), count.to_string()]);
     }
     let mut kicks = Table::new(&["smallest kick that is not captured", "size"]);
-    kicks.row(vec!["displacement".to_owned(), rounded(found.margin.displacement, PLACES)]);
-    kicks.row(vec!["impulse".to_owned(), rounded(found.margin.impulse, PLACES)]);
+    let Margin { displacement, impulse, from_rest } = found.margin;
+    for (kick, size) in [
+        ("displacement from the worst rest position", from_rest.displacement),
+        ("impulse at the worst rest position", from_rest.impulse),
+        ("displacement from q = 0", displacement),
+        ("impulse at q = 0", impulse),
+    ] {
+        kicks.row(vec![kick.to_owned(), rounded(size, PLACES)]);
+    }
     out += &format!("{counts}\n{kicks}\n");
     out += &format!("area of the basin: {}\n", rounded(found.area, PLACES));
     if let Some(share) = found.lyapunov_share {

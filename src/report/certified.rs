@@ -115,6 +115,8 @@ pub struct Survived {
     edge: Option<&'static str>,
     displacement: Option<IntervalDocument>,
     impulse: Option<IntervalDocument>,
+    from_rest_displacement: Option<IntervalDocument>,
+    from_rest_impulse: Option<IntervalDocument>,
     proved: bool,
     open: Option<&'static str>,
 }
@@ -132,6 +134,8 @@ pub fn survived(kicks: &ProvedKicks) -> Survived {
         edge: kicks.edge.map(name),
         displacement: kicks.displacement.map(IntervalDocument::from),
         impulse: kicks.impulse.map(IntervalDocument::from),
+        from_rest_displacement: kicks.rest_displacement.map(IntervalDocument::from),
+        from_rest_impulse: kicks.rest_impulse.map(IntervalDocument::from),
         proved: kicks.open.is_none() && kicks.edge.is_some(),
         open: kicks.open.or_else(|| kicks.edge.is_none().then_some("what borders the basin")),
     }
@@ -148,7 +152,12 @@ pub fn kicks_lines(kicks: &ProvedKicks) -> String {
             format!("proved: smallest {what} that is not captured {}\n", certain(it, PLACES))
         })
     };
-    let kicked = [("displacement", kicks.displacement), ("impulse", kicks.impulse)];
+    let kicked = [
+        ("displacement from the worst rest position", kicks.rest_displacement),
+        ("impulse at the worst rest position", kicks.rest_impulse),
+        ("displacement from q = 0", kicks.displacement),
+        ("impulse at q = 0", kicks.impulse),
+    ];
     let lines: String = kicked.into_iter().filter_map(line).collect();
     edge + &lines + &kicks.open.map(|why| format!("open: {why}\n")).unwrap_or_default()
 }
@@ -157,7 +166,15 @@ impl Survived {
     /// An example with all columns, for the heading.
     pub fn like() -> Self {
         let all = Some(IntervalDocument::from(Interval::ALL));
-        Survived { edge: None, displacement: all, impulse: all, proved: false, open: None }
+        Survived {
+            edge: None,
+            displacement: all,
+            impulse: all,
+            from_rest_displacement: all,
+            from_rest_impulse: all,
+            proved: false,
+            open: None,
+        }
     }
 }
 

@@ -14,8 +14,8 @@ pub struct Sheet {
 
 impl Sheet {
     /// A sheet without rows, with a column for each field of rows like `row`. A field that is a record or a
-    /// list has no column, except [`CERTIFIED`]: each of its fields has one column, or two if it is a pair of
-    /// bounds.
+    /// list has no column, except [`FROM_REST`], whose fields have columns with its name before theirs, and
+    /// [`CERTIFIED`]: each of its fields has one column, or two if it is a pair of bounds.
     ///
     /// `called` renames columns: `(field, name)`.
     pub fn like(row: &impl Serialize, called: &[(&str, &str)]) -> Self {
@@ -58,11 +58,17 @@ pub fn sheet<R: Serialize>(like: &impl Serialize, rows: impl IntoIterator<Item =
     sheet.into_text()
 }
 
+/// The field of a row that holds the smallest kicks out of rest.
+const FROM_REST: &str = "from_rest";
+
 /// The field of a row that holds what is proved about it.
 const CERTIFIED: &str = "certified";
 
 fn fields(row: &impl Serialize) -> Map<String, Value> {
     let Ok(Value::Object(mut fields)) = serde_json::to_value(row) else { return Map::new() };
+    if let Some(Value::Object(kicks)) = fields.remove(FROM_REST) {
+        fields.extend(kicks.into_iter().map(|(name, size)| (format!("{FROM_REST}_{name}"), size)));
+    }
     if let Some(Value::Object(certified)) = fields.remove(CERTIFIED) {
         for (name, value) in certified {
             let bounds = match value {

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::csv;
 use super::json::{CountedCost, text};
+use super::table::Table;
 use crate::oscillator::{Interval, ParameterBox, Symbol};
 use crate::study::Margin;
 use crate::study::guarantee::{Guarantee, Guaranteed};
@@ -48,29 +49,33 @@ pub fn csv(found: &Guarantee) -> String {
 /// Factor that keeps a number written with 12 digits from being rounded up.
 const BELOW: f64 = 1.0 - 5e-12;
 
-/// As sentences; guaranteed numbers are not rounded up.
+/// As a table; guaranteed numbers are not rounded up.
 pub fn table(found: &Guarantee, seconds: f64) -> String {
     let ParameterBox { d, d2, d3, r } = found.known;
     let names = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R].map(|symbol| symbol.spec().name);
     let parameters = names.iter().zip([d, d2, d3, r]).map(|(name, value)| interval(name, value));
     let parameters = parameters.collect::<Vec<_>>().join(", ");
-    let margin = |Margin { displacement, impulse }: Margin, part| match (displacement, impulse) {
-        (None, None) => "every kick is survived".to_owned(),
-        _ => [("displacement", displacement), ("impulse", impulse)]
-            .map(|(name, value)| {
-                let value = value.map_or("any".to_owned(), |value| significant(part * value, 12));
-                format!("{name} {value}")
-            })
-            .join(", "),
+    let mut table = Table::new(&["smallest kick that is not survived", "displacement", "impulse"]);
+    let mut rows = |name: &str, Margin { displacement, impulse, from_rest }: Margin| {
+        let size = |value: Option<f64>| value.map_or("none".to_owned(), |it| significant(it, 12));
+        let mut row = |from: &str, [displacement, impulse]: [Option<f64>; 2]| {
+            table.row(vec![format!("{name}, from {from}"), size(displacement), size(impulse)]);
+        };
+        row("any rest position", [from_rest.displacement, from_rest.impulse]);
+        row("q = 0", [displacement, impulse]);
     };
-    let guaranteed = match found.guaranteed.reason {
-        Some(reason) => format!("nothing: {reason}"),
-        None => margin(found.guaranteed.margin, BELOW),
+    rows("nominal", found.nominal);
+    let below = |size: f64| BELOW * size;
+    let nothing = match found.guaranteed.reason {
+        Some(reason) => format!("nothing is guaranteed: {reason}\n"),
+        None => {
+            rows("guaranteed", found.guaranteed.margin.map(below, below));
+            String::new()
+        }
     };
     format!(
-        "{parameters}; disturbance {}\n\nnominal     {}\nguaranteed  {guaranteed}\n\n{} evaluations, {}\n",
+        "{parameters}; disturbance {}\n\n{table}{nothing}\n{} evaluations, {}\n",
         significant(found.disturbance, 12),
-        margin(found.nominal, 1.0),
         found.cost.evaluations,
         duration(seconds)
     )

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::margin::Margin;
+use super::margin::{Margin, RestMargin};
 use crate::flow::Trajectory;
 use crate::numerics::hermite::Hermite;
 use crate::numerics::root::{TO_ROUNDING, bisect};
@@ -15,19 +15,23 @@ use crate::oscillator::{HalfPlane, Parameters, Side, State};
 pub struct PhysicalMargin {
     /// Smallest displacement from the static one, in m, from which the mass does not come to rest.
     pub displacement: Option<f64>,
-    /// Smallest impulse, in N s, after which it does not.
+    /// Smallest impulse there, in N s, after which it does not.
     pub impulse: Option<f64>,
     /// The velocity that this impulse gives, in m/s.
     pub velocity: Option<f64>,
+    /// The smallest kicks, in m and N s, if the mass rests where they do most.
+    pub from_rest: RestMargin,
 }
 
 impl PhysicalMargin {
     /// A margin in these units.
     pub fn new(margin: &Margin, units: &Units) -> Self {
+        let physical = margin.map(|size| size * units.displacement, |size| size * units.impulse);
         PhysicalMargin {
-            displacement: margin.displacement.map(|size| size * units.displacement),
-            impulse: margin.impulse.map(|size| size * units.impulse),
+            displacement: physical.displacement,
+            impulse: physical.impulse,
             velocity: margin.impulse.map(|size| size * units.velocity),
+            from_rest: physical.from_rest,
         }
     }
 }

@@ -249,7 +249,7 @@ mod tests {
 
     #[test]
     fn without_friction_a_repelling_rest_has_no_margin() {
-        let none = Margin { displacement: Some(0.0), impulse: Some(0.0) };
+        let none = Margin::ZERO;
         for (d, d2, d3) in [(-0.1, 0.0, 0.4), (-0.1, 0.0, 0.0), (-0.1, 0.3, 0.0), (0.0, 0.0, -1.0)]
         {
             assert_eq!(margin(d, d2, d3, 0.0), none, "{d} {d2} {d3}");

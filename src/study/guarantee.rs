@@ -20,7 +20,7 @@ use super::closing::{Equation, Route};
 use super::closings::{STEP, innermost_bracket};
 use super::cycle::Edge;
 use super::half_map::{HalfMap, Length};
-use super::margin::Margin;
+use super::margin::{Margin, RestMargin};
 use super::search::Bracket;
 use super::weak::has_cycle;
 use crate::closed_form::piecewise_linear::LinearCycle;
@@ -308,8 +308,7 @@ pub fn guaranteed(
     limits: &Limits,
 ) -> Result<(Guaranteed, Cost), Reason> {
     if let Some(reason) = uncertain(known, disturbance) {
-        let margin = Margin { displacement: None, impulse: None };
-        return Ok((Guaranteed { margin, reason: Some(reason) }, Cost::default()));
+        return Ok((Guaranteed { margin: Margin::ENDLESS, reason: Some(reason) }, Cost::default()));
     }
     let worst = Sided::worst(known, disturbance);
     let (basin, error) = worst.basin(0.0, limits)?;
@@ -319,13 +318,34 @@ pub fn guaranteed(
             change: error,
         });
     }
-    let r = worst.upper.r;
-    let Margin { displacement, impulse } = basin.margin();
-    // Of a displacement only the clearance is in error; an impulse comes of an arc from that clearance.
-    let shrunk = |length: f64| (length * (1.0 - error)).next_down().max(0.0);
-    let displacement = displacement.map(|q| (r + shrunk(q - r)).next_down().max(r.min(q)));
-    let margin = Margin { displacement, impulse: impulse.map(shrunk) };
+    let margin = rounded_down(&basin, farthest_rest(known, disturbance), error);
     Ok((Guaranteed { margin, reason: None }, basin.cost))
+}
+
+/// How far out a mass may rest before the kick: at the smallest friction, because the gap to the border only grows
+/// with it, and on the side to which the disturbance pushes.
+fn farthest_rest(known: &ParameterBox, disturbance: f64) -> f64 {
+    let r = known.r.lower();
+    if disturbance > 0.0 { (r + disturbance).next_up() } else { r }
+}
+
+/// The margin of a basin whose border has clearances with this relative error, rounded down.
+fn rounded_down(basin: &Basin, farthest: f64, error: f64) -> Margin {
+    let r = basin.parameters.r;
+    let Margin { displacement, impulse, from_rest } = basin.margin_within(farthest);
+    // Of a displacement only the clearance is in error; an impulse comes of an arc from that clearance.
+    let shrunk = |length: f64, error: f64| (length * (1.0 - error)).next_down().max(0.0);
+    // What is left of the clearance beyond the farthest rest has all of its error.
+    let left = from_rest.displacement.unwrap_or(f64::INFINITY);
+    let beyond = error * (1.0 + (farthest - r) / left).min(1.0 / error);
+    Margin {
+        displacement: displacement.map(|q| (r + shrunk(q - r, error)).next_down().max(r.min(q))),
+        impulse: impulse.map(|impulse| shrunk(impulse, error)),
+        from_rest: RestMargin {
+            displacement: from_rest.displacement.map(|gap| shrunk(gap, beyond)),
+            impulse: from_rest.impulse.map(|impulse| shrunk(impulse, beyond)),
+        },
+    }
 }
 
 /// The starts that are safe for certain, and those that are lost for certain.

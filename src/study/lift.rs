@@ -4,7 +4,7 @@
 //! by, and differences of them are noise. Motions scale (equation 4), and scaling by a power of two is
 //! exact, so the same cycles are found where numbers have all their digits, and brought back.
 
-use super::limit_cycle::{BasinPicture, Cycle, CycleErrors, Cycles, Margin};
+use super::limit_cycle::{BasinPicture, Cycle, CycleErrors, Cycles};
 use crate::closed_form::harmonic::Harmonic;
 use crate::numerics::scaling::{exponent, times_power};
 use crate::oscillator::{Ledger, Parameters, State};
@@ -84,10 +84,7 @@ impl BasinPicture {
             curves: self.curves.into_iter().map(curve).collect(),
             works: self.works.into_iter().map(works).collect(),
             edge: curve(self.edge),
-            margin: Margin {
-                displacement: self.margin.displacement.map(length),
-                impulse: self.margin.impulse.map(length),
-            },
+            margin: self.margin.map(length, length),
             area: self.area.map(square),
             lyapunov_share: self.lyapunov_share,
         }

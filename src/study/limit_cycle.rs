@@ -113,12 +113,54 @@ pub struct Cycles {
 }
 
 /// The margins; `None` where every kick is survived.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Margin {
     /// Smallest `abs(q)` at `v = 0` that is not captured.
     pub displacement: Option<f64>,
-    /// Smallest `abs(v)` at the point of rest that is not captured.
+    /// Smallest `abs(v)` at `q = 0` that is not captured.
     pub impulse: Option<f64>,
+    /// The smallest kicks out of rest that are not captured.
+    pub from_rest: RestMargin,
+}
+
+/// The smallest kicks that are not captured if the mass rests where they do most, anywhere in `-r .. r`; `None`
+/// where every kick is survived.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct RestMargin {
+    /// Change of position.
+    pub displacement: Option<f64>,
+    /// Velocity.
+    pub impulse: Option<f64>,
+}
+
+impl Margin {
+    /// Every kick is survived.
+    pub const ENDLESS: Margin = Margin {
+        displacement: None,
+        impulse: None,
+        from_rest: RestMargin { displacement: None, impulse: None },
+    };
+
+    /// The margin with functions of its displacements and of its impulses in their place: in other units, or
+    /// rounded.
+    #[must_use]
+    pub fn map(&self, displacement: impl Fn(f64) -> f64, impulse: impl Fn(f64) -> f64) -> Margin {
+        Margin {
+            displacement: self.displacement.map(&displacement),
+            impulse: self.impulse.map(&impulse),
+            from_rest: RestMargin {
+                displacement: self.from_rest.displacement.map(displacement),
+                impulse: self.from_rest.impulse.map(impulse),
+            },
+        }
+    }
+
+    /// No kick is survived.
+    pub const ZERO: Margin = Margin {
+        displacement: Some(0.0),
+        impulse: Some(0.0),
+        from_rest: RestMargin { displacement: Some(0.0), impulse: Some(0.0) },
+    };
 }
 
 impl From<&LinearCycle> for Cycle {

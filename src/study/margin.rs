@@ -1,7 +1,12 @@
 //! How large a kick the sticking set survives.
 //!
-//! The smallest displacement at rest, and the smallest impulse from a point of rest, that does not come
-//! back to the sticking set: where the edge of its basin meets `v = 0`, and its height above the point.
+//! The smallest displacement at rest, and the smallest impulse, that does not come back to the sticking set: where
+//! the edge of its basin meets `v = 0`, and its height above the point where the mass rests.
+//!
+//! From the worst rest position these are the gap between the edge and the sticking set on `v = 0`, and the height
+//! of the edge above an end of the set: the upper half of the edge is a graph `v(q)` with slope `a/v`, and where it is
+//! level (`a = 0`) its second derivative is `-1/v`, because the spring's force falls with q. So it has no minimum
+//! between its ends, and over a segment it is lowest at an end; the lower half likewise.
 //!
 //! ```
 //! use hopfscope::flow::Limits;
@@ -20,46 +25,53 @@
 use super::arc::Arc;
 use super::basin::{Basin, Fate};
 use super::limit_cycle::Edge;
-pub use super::limit_cycle::Margin;
+pub use super::limit_cycle::{Margin, RestMargin};
 use crate::closed_form::lyapunov;
 use crate::numerics::elementary::hypot;
 use crate::numerics::root::maximum;
 use crate::oscillator::{Parameters, State};
 
 impl Basin {
-    /// The margins, with impulses given at the point of rest `q`.
+    /// The margins.
     #[must_use]
-    pub fn margin_from(&self, q: f64) -> Margin {
+    pub fn margin(&self) -> Margin {
+        self.margin_within(self.parameters.r)
+    }
+
+    /// The margins if the mass may rest up to a `farthest` place on either side, which is r or beyond.
+    #[must_use]
+    pub fn margin_within(&self, farthest: f64) -> Margin {
         let Parameters { d, d3, r, .. } = self.parameters;
         if r == 0.0 && !(d > 0.0 || (d == 0.0 && d3 > 0.0)) {
             // Neither friction nor damping: nothing comes to rest, however small the kick.
-            return Margin { displacement: Some(0.0), impulse: Some(0.0) };
+            return Margin::ZERO;
         }
         let edge = match self.edge {
             Edge::None => None,
             Edge::Cycle | Edge::Separatrix => self.borders.first(),
         };
-        let Some(edge) = edge else { return Margin { displacement: None, impulse: None } };
-        let turning = [&edge.upper, &edge.lower].into_iter().filter_map(Arc::clearance);
-        let turning = turning.map(|clearance| r + clearance.value);
-        let impulses = edge.span_at(q).map(|(low, high)| high.min(-low));
+        let Some(edge) = edge else { return Margin::ENDLESS };
+        let clearances = [&edge.upper, &edge.lower].into_iter().filter_map(Arc::clearance);
+        let clearance = clearances.map(|clearance| clearance.value).reduce(f64::min);
+        let gap = clearance.map(|clearance| (clearance - (farthest - r)).max(0.0));
+        let impulse = |q: f64| edge.span_at(q).map_or(0.0, |(low, high)| high.min(-low));
+        let finite = |impulse: f64| Some(impulse).filter(|impulse| impulse.is_finite());
+        let least = impulse(farthest).min(impulse(-farthest));
         Margin {
-            displacement: turning.reduce(f64::min),
-            impulse: impulses.filter(|impulse| impulse.is_finite()),
+            displacement: clearance.map(|clearance| r + clearance),
+            impulse: finite(impulse(0.0)),
+            from_rest: RestMargin {
+                displacement: gap,
+                impulse: if gap == Some(0.0) { gap } else { finite(least) },
+            },
         }
-    }
-
-    /// The margins from the origin.
-    #[must_use]
-    pub fn margin(&self) -> Margin {
-        self.margin_from(0.0)
     }
 
     /// Radius of the disk that Lyapunov's method proves to be captured (equation 24), as a fraction of the
     /// true margin: how conservative it is.
     #[must_use]
     pub fn lyapunov_share(&self) -> Option<f64> {
-        let Margin { displacement, impulse } = self.margin();
+        let Margin { displacement, impulse, .. } = self.margin();
         let margin = displacement?.min(impulse?);
         lyapunov::radius(&self.parameters).map(|radius| radius / margin)
     }

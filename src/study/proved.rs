@@ -78,15 +78,20 @@ pub fn agreed(proved: ProvedKicks, found: &SurveyedBasin) -> ProvedKicks {
         Some(ProvedEdge::Separatrix) => Some(Edge::Separatrix),
         None => None,
     };
-    let pairs =
-        [(proved.displacement, found.margin.displacement), (proved.impulse, found.margin.impulse)];
+    let (margin, from_rest) = (&found.margin, &found.margin.from_rest);
+    let pairs = [
+        (proved.displacement, margin.displacement),
+        (proved.impulse, margin.impulse),
+        (proved.rest_displacement, from_rest.displacement),
+        (proved.rest_impulse, from_rest.impulse),
+    ];
     let agree = |(bounds, value): (Option<Interval>, Option<f64>)| {
         bounds.zip(value).is_none_or(|(bounds, value)| is_near(bounds, value))
     };
     if edge.is_none_or(|edge| edge == found.edge) && pairs.into_iter().all(agree) {
         return proved;
     }
-    ProvedKicks { edge: None, displacement: None, impulse: None, open: Some(DIFFERENT) }
+    ProvedKicks { open: Some(DIFFERENT), ..ProvedKicks::default() }
 }
 
 /// The proved cycle that a cycle of the search is, if there is one.

@@ -55,7 +55,7 @@ pub fn margin(session: &Session, width: usize) -> Option<String> {
     let (kinds, running) = session.kinds().filter(|_| fresh).zip(session.running())?;
     let units = &running.reduced.units;
     let said = |margin: &Option<Margin>| match margin {
-        Some(Margin { displacement: Some(q), impulse: Some(v) }) if *q > 0.0 => format!(
+        Some(Margin { displacement: Some(q), impulse: Some(v), .. }) if *q > 0.0 => format!(
             "survives kicks up to {} or {}",
             with_unit(q * units.displacement, PLACES, "m"),
             with_unit(v * units.impulse, PLACES, "N s")

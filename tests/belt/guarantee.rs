@@ -1,12 +1,13 @@
 //! Guaranteed margins of machines: no machine within the tolerances has a smaller margin, under any disturbance.
 
 use crate::program::{json, run};
+use hopfscope::machine::Tolerances;
 use hopfscope::machine::guarantee::{MachineUncertain, guaranteed};
 use hopfscope::machine::survey::portrait;
 use hopfscope::machine::varied::Varied;
-use hopfscope::machine::{Portrait, Tolerances};
 use hopfscope::oscillator::Belt;
 use hopfscope::scene::machine::library::find;
+use hopfscope::study::Margin;
 
 fn machine(name: &str) -> Belt {
     find(name).unwrap().belt.clone()
@@ -20,10 +21,12 @@ fn tolerances(parts: &[(&str, f64)], belt: &Belt, disturbance: f64) -> Tolerance
     Tolerances { half_widths: parts.iter().map(half).collect(), disturbance }
 }
 
-fn kicks(portrait: &Portrait) -> (f64, f64) {
-    portrait.margin.map_or((f64::INFINITY, f64::INFINITY), |margin| {
-        (margin.least_displacement(), portrait.model.mass * margin.least_velocity())
-    })
+/// Displacement and impulse from the steady position, then from the worst rest position; infinite where every kick
+/// is survived.
+fn kicks(margin: &Margin) -> [f64; 4] {
+    let Margin { displacement, impulse, from_rest } = margin;
+    [*displacement, *impulse, from_rest.displacement, from_rest.impulse]
+        .map(|size| size.unwrap_or(f64::INFINITY))
 }
 
 /// Component of an evenly spread point in a cube, in -1 .. 1.
@@ -52,10 +55,10 @@ fn no_draw_is_below(draws: u32) {
     for (belt, known) in cases() {
         let found = guaranteed(&belt, &known).unwrap();
         let found = found.unwrap_or_else(|reason| panic!("{known:?}: {reason}"));
-        let nominal = kicks(&portrait(&belt).unwrap());
+        let (found, nominal) = (kicks(&found), kicks(&portrait(&belt).unwrap().least_kicks()));
         // A guarantee of nothing would also hold.
-        assert!(found.displacement > 0.3 * nominal.0, "{known:?}: {found:?} of {nominal:?}");
-        assert!(found.impulse > 0.3 * nominal.1, "{known:?}: {found:?} of {nominal:?}");
+        let says = found.iter().zip(nominal).all(|(found, nominal)| *found > 0.3 * nominal);
+        assert!(says, "{known:?}: {found:?} of {nominal:?}");
         for draw in 0..draws {
             let mut drawn = belt.clone();
             for (number, (varied, interval)) in known.intervals(&belt).into_iter().enumerate() {
@@ -65,9 +68,11 @@ fn no_draw_is_below(draws: u32) {
             }
             // The worst disturbance acts like reduced friction.
             drawn.friction -= known.disturbance;
-            let (displacement, impulse) = kicks(&portrait(&drawn).unwrap());
-            assert!(displacement >= found.displacement * (1.0 - 1e-9), "{known:?}: draw {draw}");
-            assert!(impulse >= found.impulse * (1.0 - 1e-9), "{known:?}: draw {draw}");
+            let mut own = kicks(&portrait(&drawn).unwrap().least_kicks());
+            // Before the kick it may have pushed the other way.
+            own[2] -= 2.0 * known.disturbance / drawn.stiffness;
+            let kept = own.iter().zip(found).all(|(own, found)| *own >= found * (1.0 - 1e-9));
+            assert!(kept, "{known:?}: draw {draw}: {own:?} below {found:?}");
         }
     }
 }
@@ -90,9 +95,16 @@ fn tolerances_of_friction_and_damping_and_a_disturbance_are_those_of_one_machine
     let found = guaranteed(&belt, &known).unwrap().unwrap();
     let friction = 0.8 * belt.friction - 0.1;
     let worst = Belt { friction, damping: 0.9 * belt.damping, ..belt.clone() };
-    let (displacement, impulse) = kicks(&portrait(&worst).unwrap());
-    assert!((found.displacement / displacement - 1.0).abs() < 1e-12);
-    assert!((found.impulse / impulse - 1.0).abs() < 1e-12);
+    let portrait = portrait(&worst).unwrap();
+    let [displacement, impulse, shift, push] = kicks(&found);
+    let [exact, exact_impulse, ..] = kicks(&portrait.least_kicks());
+    assert!((displacement / exact - 1.0).abs() < 1e-12);
+    assert!((impulse / exact_impulse - 1.0).abs() < 1e-12);
+    // The mass rests where friction and the disturbance hold it together.
+    let farthest = (0.8 * belt.friction + 0.1) / belt.stiffness;
+    let from_rest = portrait.margin_within(farthest).unwrap();
+    assert!((shift / (exact - farthest) - 1.0).abs() < 1e-12);
+    assert!((push / (belt.mass * from_rest.rest_velocity) - 1.0).abs() < 1e-12);
     let refused = guaranteed(&belt, &tolerances(&[], &belt, belt.friction)).unwrap();
     assert!(matches!(refused, Err(MachineUncertain::Disturbance { .. })), "{refused:?}");
 }
@@ -101,7 +113,7 @@ fn tolerances_of_friction_and_damping_and_a_disturbance_are_those_of_one_machine
 fn the_command_reports_both_margins_and_the_friction_that_guarantees_one() {
     let line = ["belt", "textbook", "--set", "R=1 N +- 0.2 N", "--disturbance", "0.1 N"];
     let told = run(&line).out;
-    for words in ["nominal     displacement", "guaranteed  displacement", "R in 0.8 N .. 1.2 N"] {
+    for words in ["nominal     from rest", "guaranteed  from rest", "R in 0.8 N .. 1.2 N"] {
         assert!(told.contains(words), "{words}: {told}");
     }
     let alone = json("belt textbook --set R=0.7");

@@ -100,7 +100,7 @@ fn intervals_hold_the_motions_inside() {
 }
 
 fn kicked(parameters: &Parameters) -> ProvedKicks {
-    kicks(&prove(&ParameterBox::from(parameters), &[]), [None; 2])
+    kicks(&prove(&ParameterBox::from(parameters), &[]), [None; 3])
 }
 
 /// Margins of the piecewise linear oscillator in closed form, and of reference cycles.
@@ -143,11 +143,15 @@ fn margins_are_never_larger_than_the_truth() {
             Parameters { d: roll(-0.8, 0.1), d2: roll(-0.5, 0.5), d3, r: roll(0.05, 0.5) };
         let margin = basin(&parameters, 10.0, &Limits::PATIENT).unwrap().margin();
         let proof = prove(&ParameterBox::from(&parameters), &[]);
-        let found = kicks(&proof, [margin.displacement, margin.impulse]);
+        let from_rest = margin.from_rest;
+        let found = kicks(&proof, [margin.displacement, margin.impulse, from_rest.impulse]);
         open += usize::from(found.open.is_some());
-        for (plain, bounds) in
-            [(margin.displacement, found.displacement), (margin.impulse, found.impulse)]
-        {
+        for (plain, bounds) in [
+            (margin.displacement, found.displacement),
+            (margin.impulse, found.impulse),
+            (from_rest.displacement, found.rest_displacement),
+            (from_rest.impulse, found.rest_impulse),
+        ] {
             let Some(bounds) = bounds else { continue };
             let plain = plain.unwrap_or_else(|| panic!("{parameters:?}: no margin, {bounds}"));
             compared += 1;

@@ -153,3 +153,45 @@ fn what_comes_to_ride_on_the_belt_leaves_it_as_one() {
     }
     assert!(merged > 60, "{merged}");
 }
+
+#[test]
+fn any_kick_below_the_smallest_one_is_survived_from_wherever_the_mass_rests() {
+    let mut chance = Random::new(0x2545_f491_4f6c_dd1d);
+    let mut looked = 0;
+    for _ in 0..160 {
+        let mut belt = any_machine(&mut chance);
+        belt.static_guide = (chance.even() < 0.3).then_some(1.2 * belt.friction);
+        let Ok(model) = Model::new(&belt) else { continue };
+        let Ok(found) = Portrait::new(&model) else { continue };
+        let held = model.guide_static;
+        let Some(margin) = found.margin.filter(|_| held > 0.0 && found.stop.is_none()) else {
+            continue;
+        };
+        let (shift, push) = (margin.rest_displacement, margin.rest_velocity);
+        let rests = |from: f64, x: f64, v: f64| {
+            MachineMotion::new(&model, from + x, v, 2000.0).outcome == MachineOutcome::Rests
+        };
+        let mut lost = [0; 2];
+        for sign in [-1.0, 1.0] {
+            for part in [-1.0, -0.3, 0.0, 0.6, 1.0] {
+                let from = part * held;
+                let inside = [(sign * shift, 0.0), (0.0, sign * push)];
+                let outside = [
+                    (sign * (shift + 0.01 * held), 0.0),
+                    (0.0, sign * (1.01 * push + 1e-3 * held)),
+                ];
+                for (kind, ((x, v), (x_out, v_out))) in inside.into_iter().zip(outside).enumerate()
+                {
+                    assert!(
+                        rests(from, 0.99 * x, 0.99 * v),
+                        "{belt:?}: {x} m, {v} m/s from {from}"
+                    );
+                    lost[kind] += usize::from(!rests(from, x_out, v_out));
+                }
+            }
+        }
+        assert!(lost.iter().all(|count| *count > 0), "{belt:?}: {margin:?} {lost:?}");
+        looked += 1;
+    }
+    assert!(looked >= 20, "{looked}");
+}

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::expansion::Expansion;
-use super::{Designed, MachineAnswer, OnBelt, RestShare, finite, margins};
-use crate::machine::guarantee::{GuaranteedKicks, MachineUncertain};
+use super::{Designed, MachineAnswer, OnBelt, RestShare};
+use crate::machine::guarantee::MachineUncertain;
 use crate::machine::motion::{MachineOutcome, MachineState};
 use crate::machine::survey::{Course, CubicExpansion, Second};
 use crate::machine::turn::ContactState;
@@ -14,6 +14,7 @@ use crate::machine::{BorderKind, MachineCycle, MachineFate, MachineLedger, Portr
 use crate::oscillator::belt::{Derivatives, FrictionLaw, QUANTITIES, Units};
 use crate::oscillator::{Belt, Interval, Parameters};
 use crate::report::json::text;
+use crate::study::Margin;
 use crate::study::design::{Kick, Needed};
 
 #[derive(Serialize)]
@@ -66,10 +67,9 @@ impl<'a> BeltDocument<'a> {
 /// The kicks that are survived for certain, with what they allow for.
 #[derive(Serialize)]
 struct MachineGuaranteeDocument {
-    /// In m; null if every kick is survived or nothing is certain.
-    displacement: Option<f64>,
-    /// In N s.
-    impulse: Option<f64>,
+    /// In m and N s; null if every kick is survived or nothing is certain.
+    #[serde(flatten)]
+    margin: Margin,
     /// Why nothing is certain.
     reason: Option<String>,
     /// In N.
@@ -79,11 +79,9 @@ struct MachineGuaranteeDocument {
 }
 
 impl MachineGuaranteeDocument {
-    fn new(belt: &OnBelt, certain: &Result<GuaranteedKicks, MachineUncertain>) -> Self {
-        let kicks = certain.ok();
+    fn new(belt: &OnBelt, certain: &Result<Margin, MachineUncertain>) -> Self {
         MachineGuaranteeDocument {
-            displacement: kicks.and_then(|kicks| finite(kicks.displacement)),
-            impulse: kicks.and_then(|kicks| finite(kicks.impulse)),
+            margin: certain.unwrap_or(Margin::ENDLESS),
             reason: certain.err().map(|reason| reason.to_string()),
             disturbance: belt.tolerances.disturbance,
             tolerances: belt
@@ -200,8 +198,9 @@ struct MachineBorderDocument {
 
 #[derive(Serialize)]
 struct Margins {
-    displacement: Option<f64>,
-    impulse: Option<f64>,
+    /// The smallest kicks that are lost, in m and N s.
+    #[serde(flatten)]
+    least: Margin,
     /// To the right and to the left, in m.
     displacements: Option<(f64, f64)>,
     /// With and against the belt, in m/s.
@@ -210,15 +209,13 @@ struct Margins {
 
 impl PortraitDocument {
     pub(super) fn new(portrait: &Portrait) -> Self {
-        let [displacement, impulse] = margins(portrait);
         let margin = portrait.margin;
         PortraitDocument {
             cycles: portrait.cycles.iter().map(MachineCycleDocument::new).collect(),
             neutral: portrait.neutral,
             border: MachineBorderDocument { kind: portrait.border.kind() },
             margin: Margins {
-                displacement,
-                impulse,
+                least: portrait.least_kicks(),
                 displacements: margin.map(|margin| margin.displacement),
                 velocities: margin.map(|margin| margin.velocity),
             },

@@ -3,7 +3,6 @@
 
 use serde::Serialize;
 
-use super::margins;
 use crate::machine::survey::CubicExpansion;
 use crate::machine::{MachineCycle, Portrait};
 use crate::oscillator::Parameters;
@@ -84,7 +83,7 @@ impl<'a> Expansion<'a> {
         };
         let margin = found.picture.as_ref().map(|picture| {
             let physical = PhysicalMargin::new(&picture.margin, &expansion.reduced.units);
-            let [displacement, impulse] = margins(portrait);
+            let Margin { displacement, impulse, .. } = portrait.least_kicks();
             let excess = |own: Option<f64>, whole: Option<f64>| Some(own? - whole?);
             let error = MarginError {
                 displacement: excess(physical.displacement, displacement),

@@ -15,12 +15,13 @@ pub use table::{csv, table};
 
 use serde::Serialize;
 
-use crate::machine::guarantee::{GuaranteedKicks, MachineUncertain};
+use crate::machine::guarantee::MachineUncertain;
 use crate::machine::survey::{Course, CubicExpansion};
 use crate::machine::varied::Varied;
-use crate::machine::{Body, Modal, Portrait, Tolerances};
+use crate::machine::{Body, Modal, Tolerances};
 use crate::oscillator::belt::QUANTITIES;
 use crate::oscillator::{Belt, Interval};
+use crate::study::Margin;
 use crate::study::design::{Kick, Needed};
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
@@ -89,7 +90,7 @@ pub struct OnBelt<'a> {
     pub expansion: CubicExpansion,
     pub tolerances: &'a Tolerances,
     /// The kicks that are survived for certain, or why none is; `None` if not asked for.
-    pub certain: Option<Result<GuaranteedKicks, MachineUncertain>>,
+    pub certain: Option<Result<Margin, MachineUncertain>>,
 }
 
 impl OnBelt<'_> {
@@ -97,11 +98,6 @@ impl OnBelt<'_> {
     fn uncertain(&self) -> Vec<(Varied, Interval)> {
         self.tolerances.intervals(&self.expansion.belt)
     }
-}
-
-/// `None` unless the value is finite.
-fn finite(value: f64) -> Option<f64> {
-    Some(value).filter(|value| value.is_finite())
 }
 
 /// The friction needed for a margin.
@@ -147,16 +143,6 @@ impl<'a> Head<'a> {
 
 /// Significant digits of a physical quantity in text.
 const PLACES: usize = 5;
-
-/// The margins in displacement (m) and impulse (N s); `None` if every kick is survived.
-fn margins(portrait: &Portrait) -> [Option<f64>; 2] {
-    let impulse = |velocity: f64| portrait.model.mass * velocity;
-    let margin = portrait.margin;
-    [
-        margin.map(|margin| margin.least_displacement()),
-        margin.map(|margin| impulse(margin.least_velocity())),
-    ]
-}
 
 impl Designed {
     /// The friction needed, in N; `None` if any suffices.

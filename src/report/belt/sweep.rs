@@ -3,12 +3,13 @@
 use serde::Serialize;
 
 use super::document::{DesignDocument, MachineCost, PortraitDocument};
-use super::{Designed, Head, PLACES, RestShare, margins};
+use super::{Designed, Head, PLACES, RestShare};
 use crate::machine::varied::Varied;
 use crate::machine::{BorderKind, MachineBorder, Portrait};
 use crate::report::csv::Sheet;
 use crate::report::json::text;
 use crate::report::table::Table;
+use crate::study::margin::{Margin, RestMargin};
 use crate::words::number::duration;
 use crate::words::quantity::with_unit;
 
@@ -104,7 +105,8 @@ fn regime(found: &Portrait) -> String {
 pub fn table(sweep: &MachineSweep) -> String {
     let (name, unit) = (sweep.varied.name(), sweep.varied.unit());
     let designs = sweep.points.iter().any(|point| point.design.is_some());
-    let mut titles = vec![name, "margin", "impulse", "cycles up to", "on the belt", "regime"];
+    let mut titles =
+        vec![name, "shift from rest", "impulse from rest", "cycles up to", "on the belt", "regime"];
     let shares = sweep.points.iter().any(|point| !point.rest_share.is_not_asked());
     if shares {
         titles.push("rest share");
@@ -120,7 +122,7 @@ pub fn table(sweep: &MachineSweep) -> String {
         let mut cells = vec![with_unit(point.value, PLACES, unit)];
         match &point.found {
             Ok(found) => {
-                let [displacement, impulse] = margins(found);
+                let RestMargin { displacement, impulse } = found.least_kicks().from_rest;
                 let sizes = found.cycles.iter().map(|cycle| with_unit(cycle.x.1, PLACES, "m"));
                 let rides = found.cycles.iter().find(|cycle| cycle.sticks);
                 let ride = rides.map(|cycle| with_unit(cycle.stick_duration, PLACES, "s"));
@@ -165,6 +167,7 @@ struct BeltSweepRow {
     neutral: Option<bool>,
     x_margin: Option<f64>,
     impulse_margin: Option<f64>,
+    from_rest: RestMargin,
     rest_share: Option<f64>,
     #[serde(rename = "R_needed")]
     needed: Option<f64>,
@@ -180,7 +183,8 @@ pub fn csv(sweep: &MachineSweep) -> String {
             continue;
         };
         let all = &found.cycles;
-        let [x_margin, impulse_margin] = margins(found);
+        let Margin { displacement: x_margin, impulse: impulse_margin, from_rest } =
+            found.least_kicks();
         sheet.row(&BeltSweepRow {
             value,
             cycles: Some(all.len()),
@@ -191,6 +195,7 @@ pub fn csv(sweep: &MachineSweep) -> String {
             neutral: Some(found.neutral),
             x_margin,
             impulse_margin,
+            from_rest,
             rest_share: point.rest_share.known(),
             needed: point.design.as_ref().and_then(Designed::force),
         });

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::document::kind;
 use super::expansion::Expansion;
-use super::{MachineAnswer, OnBelt, PLACES, finite, margins};
-use crate::machine::guarantee::{GuaranteedKicks, MachineUncertain};
+use super::{MachineAnswer, OnBelt, PLACES};
+use crate::machine::guarantee::MachineUncertain;
 use crate::machine::motion::{MachineOutcome, MachineState};
 use crate::machine::stepped::Stepped;
 use crate::machine::survey::{Course, CubicExpansion, Second};
@@ -15,6 +15,7 @@ use crate::oscillator::Interval;
 use crate::oscillator::belt::{Derivatives, FrictionLaw};
 use crate::report::csv;
 use crate::report::table::{Table, rounded};
+use crate::study::Margin;
 use crate::words::number::{duration, significant};
 use crate::words::quantity::with_unit;
 use crate::words::stability;
@@ -35,7 +36,7 @@ fn rows(
     portrait: &Portrait,
 ) -> Vec<QuantityRow> {
     let (parameters, units) = (&reduced.parameters, &reduced.units);
-    let [displacement, impulse] = margins(portrait);
+    let Margin { displacement, impulse, from_rest } = portrait.least_kicks();
     let pure = |what, value| QuantityRow { what, dimensionless: Some(value), physical: None };
     let scaled = |what, value: Option<f64>, scale: f64, unit| QuantityRow {
         what,
@@ -53,6 +54,8 @@ fn rows(
         scaled("unit of time", Some(units.time), units.time, "s"),
         scaled("rests within +-", Some(held), units.displacement, "m"),
         scaled("sticks to the belt at", Some(belt.belt_speed), units.velocity, "m/s"),
+        scaled("from rest: displacement", from_rest.displacement, units.displacement, "m"),
+        scaled("from rest: impulse", from_rest.impulse, units.impulse, "N s"),
         scaled("margin: displacement", displacement, units.displacement, "m"),
         scaled("margin: impulse", impulse, units.impulse, "N s"),
         scaled("margin: velocity", velocity, units.velocity, "m/s"),
@@ -91,12 +94,17 @@ pub fn table(answer: &MachineAnswer) -> String {
 
 /// The kicks that are survived, in two lines.
 fn survived(portrait: &Portrait) -> String {
-    let [displacement, impulse] = margins(portrait);
+    let Margin { displacement, impulse, from_rest } = portrait.least_kicks();
     let all = |value: Option<f64>, unit| {
         value.map_or_else(|| "every one".to_owned(), |value| with_unit(value, PLACES, unit))
     };
     format!(
-        "\nsurvives displacements up to: {}\nsurvives impulses up to: {}\n",
+        "\nfrom any rest position, survives displacements up to: {}\n\
+         from any rest position, survives impulses up to: {}\n\
+         from the steady position, survives displacements up to: {}\n\
+         from the steady position, survives impulses up to: {}\n",
+        all(from_rest.displacement, "m"),
+        all(from_rest.impulse, "N s"),
         all(displacement, "m"),
         all(impulse, "N s")
     )
@@ -161,7 +169,7 @@ fn border(portrait: &Portrait) -> &'static str {
 fn guaranteed(
     belt: &OnBelt,
     portrait: &Portrait,
-    certain: &Result<GuaranteedKicks, MachineUncertain>,
+    certain: &Result<Margin, MachineUncertain>,
 ) -> String {
     let unit = |varied: Varied, value| with_unit(value, 12, varied.unit());
     let number = |(varied, interval): (Varied, Interval)| {
@@ -182,15 +190,19 @@ fn guaranteed(
         format!("displacement {}, impulse {}", size(displacement, "m"), size(impulse, "N s"))
     };
     // Guaranteed numbers must not be rounded up.
-    let below = |value: f64| finite(value * (1.0 - 5e-5));
-    let [displacement, impulse] = margins(portrait);
+    let below = |value: f64| value * (1.0 - 5e-5);
+    let lines = |margin: Margin| {
+        let Margin { displacement, impulse, from_rest } = margin;
+        let rest = both(from_rest.displacement, from_rest.impulse);
+        format!("from rest {rest}\n            from x = 0 {}", both(displacement, impulse))
+    };
     let certain = match certain {
-        Ok(kicks) => both(below(kicks.displacement), below(kicks.impulse)),
+        Ok(margin) => lines(margin.map(below, below)),
         Err(reason) => format!("nothing: {reason}"),
     };
     format!(
         "nominal     {}\nguaranteed  {certain}\n            for {}\n",
-        both(displacement, impulse),
+        lines(portrait.least_kicks()),
         known.join(", ")
     )
 }
@@ -317,11 +329,11 @@ pub fn csv(answer: &MachineAnswer) -> String {
             put(what, dimensionless, value, unit.unwrap_or_default());
         }
         if let Some(certain) = certain {
-            let kicks = certain.ok();
-            let value =
-                |pick: fn(&GuaranteedKicks) -> f64| kicks.as_ref().map(pick).and_then(finite);
-            put("guaranteed: displacement", None, value(|it| it.displacement), "m");
-            put("guaranteed: impulse", None, value(|it| it.impulse), "N s");
+            let Margin { displacement, impulse, from_rest } = certain.unwrap_or(Margin::ENDLESS);
+            put("guaranteed from rest: displacement", None, from_rest.displacement, "m");
+            put("guaranteed from rest: impulse", None, from_rest.impulse, "N s");
+            put("guaranteed: displacement", None, displacement, "m");
+            put("guaranteed: impulse", None, impulse, "N s");
         }
     }
     for (index, cycle) in portrait.cycles.iter().enumerate() {

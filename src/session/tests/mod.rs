@@ -209,7 +209,8 @@ fn trade(cost: Cost) -> Trade {
 
 /// Made-up zones: a nominal margin, and half of it as the guaranteed one.
 fn zones() -> Zones {
-    let margin = |part: f64| Margin { displacement: Some(part), impulse: Some(part) };
+    let margin =
+        |part: f64| Margin { displacement: Some(part), impulse: Some(part), ..Margin::ENDLESS };
     Zones {
         safe: Extent::Within(Vec::new()),
         hopeful: Extent::Everything,
@@ -254,7 +255,7 @@ pub fn by_hand(request: &Request) -> Answer {
                     curves: Vec::new(),
                     works: vec![Ledger { linear: 1.0, friction: -1.0, ..Ledger::default() }; 2],
                     edge: Vec::new(),
-                    margin: Margin { displacement: None, impulse: None },
+                    margin: Margin::ENDLESS,
                     area: None,
                     lyapunov_share: None,
                 }),

@@ -160,7 +160,7 @@ fn a_separatrix_has_two_sides_too() {
         found.parameters.d2 = d2;
         found.edge = Edge::Separatrix;
         found.cycles.clear();
-        let margin = Margin { displacement: Some(1.1), impulse: Some(1.4) };
+        let margin = Margin { displacement: Some(1.1), impulse: Some(1.4), ..Margin::ENDLESS };
         let (curves, edge) = (Vec::new(), Vec::new());
         found.picture = Some(BasinPicture {
             curves,

@@ -302,7 +302,7 @@ pub(super) fn least_kick(parameters: &Parameters, limits: &Limits) -> Result<Kno
 /// The distance of the border is at most that of two of its points, where these are enclosed.
 fn at_most(parameters: &Parameters, margin: &Margin) -> Option<Interval> {
     let proof = prove(&ParameterBox::from(parameters), &[]);
-    let found = kicks(&proof, [margin.displacement, margin.impulse]);
+    let found = kicks(&proof, [margin.displacement, margin.impulse, None]);
     let nearer = found.displacement?.upper().min(found.impulse?.upper());
     Some(Interval::new(f64::NEG_INFINITY, nearer))
 }

@@ -163,8 +163,13 @@ impl ScanPoint {
             Measure::Multipliers => self.each_cycle(|cycle| {
                 [cycle.period.into(), cycle.multiplier.into(), cycle.log_multiplier.into()]
             }),
-            Measure::Margin => kicks_survived(self.edge.as_ref().map(Basin::margin)),
-            Measure::Guaranteed => kicks_survived(self.guaranteed),
+            Measure::Margin => from_centre(self.edge.as_ref().map(Basin::margin)),
+            Measure::FromRest => {
+                let margin = self.edge.as_ref().map(|edge| edge.margin().from_rest);
+                let kicks = margin.map(|kicks| [kicks.displacement, kicks.impulse]);
+                kicks.unwrap_or_default().map(Value::from).to_vec()
+            }
+            Measure::Guaranteed => from_centre(self.guaranteed),
             Measure::Stability => {
                 part(self.edge.as_ref().map(|basin| basin.captured_share(&conditions.window)))
             }
@@ -227,7 +232,7 @@ impl ScanPoint {
     }
 }
 
-fn kicks_survived(margin: Option<Margin>) -> Vec<Value> {
+fn from_centre(margin: Option<Margin>) -> Vec<Value> {
     let displacement = margin.and_then(|margin| margin.displacement);
     vec![displacement.into(), margin.and_then(|margin| margin.impulse).into()]
 }

@@ -18,6 +18,8 @@ pub enum Measure {
     Multipliers,
     /// The kicks that the sticking set survives.
     Margin,
+    /// The kicks that are survived wherever the mass rests.
+    FromRest,
     /// The fraction of a window that is captured.
     Stability,
     /// The area of the basin.
@@ -117,7 +119,7 @@ pub struct MeasureSpec {
 pub(super) const CYCLES: usize = 2;
 
 /// Every measure, in the order in which they are listed.
-pub const MEASURES: [MeasureSpec; 16] = [
+pub const MEASURES: [MeasureSpec; 17] = [
     MeasureSpec {
         measure: Measure::Outcome,
         name: "outcome",
@@ -161,6 +163,13 @@ pub const MEASURES: [MeasureSpec; 16] = [
         name: "margin",
         meaning: "smallest displacement at rest, and smallest impulse at q = 0, not captured",
         columns: &["displacement", "impulse"],
+        needs: MeasureNeed::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::FromRest,
+        name: "from-rest",
+        meaning: "smallest change of position, and smallest impulse, not captured, from the worst rest position",
+        columns: &["from_rest_displacement", "from_rest_impulse"],
         needs: MeasureNeed::Edge,
     },
     MeasureSpec {

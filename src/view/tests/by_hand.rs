@@ -93,8 +93,12 @@ pub(super) fn by_hand(request: &Request) -> Answer {
         Request::Zones(_) | Request::MachineZones(_) => Answer::Zones(Zones {
             safe: Extent::Within(circle(0.4)),
             hopeful: Extent::Within(circle(0.6)),
-            nominal: Margin { displacement: Some(0.5), impulse: Some(0.5) },
-            guaranteed: Ok(Margin { displacement: Some(0.4), impulse: Some(0.4) }),
+            nominal: Margin { displacement: Some(0.5), impulse: Some(0.5), ..Margin::ENDLESS },
+            guaranteed: Ok(Margin {
+                displacement: Some(0.4),
+                impulse: Some(0.4),
+                ..Margin::ENDLESS
+            }),
             cost: Cost { evaluations: 400, steps: 20, rejected: 0 },
         }),
         Request::Capture(_) => Answer::Capture(Borders {
@@ -130,7 +134,7 @@ pub(super) fn by_hand(request: &Request) -> Answer {
 }
 
 pub(super) fn picture(edge: Vec<State>, curves: Vec<Vec<State>>) -> BasinPicture {
-    let margin = Margin { displacement: Some(0.5), impulse: Some(0.5) };
+    let margin = Margin { displacement: Some(0.5), impulse: Some(0.5), ..Margin::ENDLESS };
     let ledger = Ledger {
         start: 0.72,
         end: 0.72,
