@@ -86,7 +86,7 @@ fn a_wrong_scan_is_refused_in_one_line() {
     for (line, expected) in [
         ("--over D=-1:0:3", "--measure"),
         ("--measure margin", "--over"),
-        ("--over D=-1:0:3 --measure margins", "margin, stability"),
+        ("--over D=-1:0:3 --measure margins", "margin, from-rest"),
         ("--over x=-1:0:3 --measure margin", "D, D2, D3, r, q0, v0"),
         ("--over D=-1:0 --measure margin", "NAME=FROM:TO:COUNT"),
         ("--over q0=-1:0:3 --measure margin", "margin does not depend on q0"),

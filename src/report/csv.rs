@@ -65,9 +65,16 @@ const FROM_REST: &str = "from_rest";
 const CERTIFIED: &str = "certified";
 
 fn fields(row: &impl Serialize) -> Map<String, Value> {
-    let Ok(Value::Object(mut fields)) = serde_json::to_value(row) else { return Map::new() };
-    if let Some(Value::Object(kicks)) = fields.remove(FROM_REST) {
-        fields.extend(kicks.into_iter().map(|(name, size)| (format!("{FROM_REST}_{name}"), size)));
+    let Ok(Value::Object(told)) = serde_json::to_value(row) else { return Map::new() };
+    let mut fields = Map::new();
+    for (name, value) in told {
+        match value {
+            Value::Object(kicks) if name == FROM_REST => {
+                let kicks = kicks.into_iter();
+                fields.extend(kicks.map(|(kick, size)| (format!("{name}_{kick}"), size)));
+            }
+            value => drop(fields.insert(name, value)),
+        }
     }
     if let Some(Value::Object(certified)) = fields.remove(CERTIFIED) {
         for (name, value) in certified {

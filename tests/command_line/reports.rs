@@ -144,7 +144,7 @@ fn rows_have_the_bounds_of_their_numbers() {
         ("cycles --set D=-0.2 --set D2=0.2 --set D3=0.5 --set r=0.1", 14),
         ("cycles --set D=-0.2 --set D2=0.2 --set D3=0.5 --set r=0.1+-0.0001", 0),
         ("trajectory --set D=-0.1 --set r=0.5 --set q0=2 --until 50 --certify", 14),
-        ("basin --set D=-0.2 --set D2=0.2 --set D3=0.5 --set r=0.1 --grid 3x3 --certify", 2),
+        ("basin --set D=-0.2 --set D2=0.2 --set D3=0.5 --set r=0.1 --grid 3x3 --certify", 4),
         ("branch --set D3=0.5 --set r=0.1 --over D=-0.5:-0.4:5 --certify", 0),
         ("border --over D3=0.5:1:2 --set D2=0.2 --certify", 2),
     ] {

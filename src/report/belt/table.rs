@@ -194,7 +194,7 @@ fn guaranteed(
     let lines = |margin: Margin| {
         let Margin { displacement, impulse, from_rest } = margin;
         let rest = both(from_rest.displacement, from_rest.impulse);
-        format!("from rest {rest}\n            from x = 0 {}", both(displacement, impulse))
+        format!("from rest   {rest}\n            from x = 0  {}", both(displacement, impulse))
     };
     let certain = match certain {
         Ok(margin) => lines(margin.map(below, below)),

@@ -68,7 +68,7 @@ fn the_form_starts_a_scan_with_keys_alone_and_shows_it() {
         trial.press("<down>");
         field(&mut trial, text);
     }
-    trial.press("<up*3> <left*2> <S-tab*5> <right>");
+    trial.press("<up*3> <left*2> <S-tab*5> <right*2>");
     assert_eq!(trial.press("<enter>"), [Topic::Scan]);
     let session = &trial.session;
     assert!(session.overlay.is_none() && session.focuses_scan());
