@@ -63,7 +63,7 @@ fn a_proof_that_contradicts_the_basin_found_is_not_shown() {
     let window = Window { q: (-1.0, 1.0), v: (-1.0, 1.0) };
     let survey = |parameters| SurveyedBasin::of(&parameters, &window, (2, 2), &Limits::PATIENT);
     let kicks =
-        |parameters: Parameters| kicks(&prove(&ParameterBox::from(&parameters), &[]), [None; 2]);
+        |parameters: Parameters| kicks(&prove(&ParameterBox::from(&parameters), &[]), [None; 3]);
     let [cycle, none] = [-0.2, 0.2].map(all);
     for (parameters, edge) in [(cycle, ProvedEdge::Cycle), (none, ProvedEdge::None)] {
         let shown = agreed(kicks(parameters), &survey(parameters).unwrap());

@@ -7,8 +7,6 @@ use super::pictures::computed;
 use super::{braille, draw, settled};
 use crate::flow::Limits;
 use crate::oscillator::Symbol;
-use crate::picture;
-use crate::picture::items::Item;
 use crate::picture::role::Role;
 use crate::question::answer;
 use crate::scene::library::library;
@@ -195,34 +193,6 @@ fn a_machine_is_told_of_in_the_units_of_its_axes() {
         }
     }
     assert_eq!(with_units(&recorded()), (true, true));
-}
-
-#[test]
-fn the_arrow_of_the_belts_friction_lies_within_the_window() {
-    let mut arrows = 0;
-    for scene in library().iter().filter(|scene| scene.machine.is_some()) {
-        let mut session = settled(&scene.name, 120, 40, "");
-        let Some(plot) = session.plots.iter().position(|plot| plot.view == View::Belt) else {
-            continue;
-        };
-        for part in [-0.98, -0.5, 0.0, 0.7, 0.98] {
-            session.problem.initial.q = part * session.plots[plot].window.x.to();
-            settle(&mut session);
-            let window = session.plots[plot].window.x;
-            for item in &picture::of(&session, plot).items {
-                let Item::Curve(line, points) = item else { continue };
-                if line.name == "friction of the belt" {
-                    assert!(
-                        points.iter().all(|at| window.contains(at.x)),
-                        "{}: {part}",
-                        scene.name
-                    );
-                    arrows += 1;
-                }
-            }
-        }
-    }
-    assert!(arrows > 10, "{arrows}");
 }
 
 /// Words of the texts of scenes, and when they are true.
