@@ -128,8 +128,12 @@ const NEAREST: f64 = 1e-4;
 /// Relative error of a clearance that is good enough, in units of the tolerance.
 const POLISHED: f64 = 1e5;
 
-/// Relative error of a clearance at which a cycle on its way to infinity is followed no further, nor shown.
+/// Relative error of a clearance at which a cycle on its way to infinity is followed no further.
 const VAGUE: f64 = 1e-3;
+
+/// Relative error of a clearance beyond which a point that was followed is not shown: a picture of the branch could
+/// tell.
+const SHOWN: f64 = 1e-2;
 
 /// Folds closer than this fraction of the range are one.
 const SAME: f64 = 1e-9;
@@ -382,7 +386,7 @@ impl Tracer<'_> {
                 }
             }
         } else {
-            let clear = points.iter().filter(|at| at.closing.uncertainty <= VAGUE);
+            let clear = points.iter().filter(|at| at.closing.uncertainty <= SHOWN);
             piece.extend(clear.map(|at| BranchPoint { value: at.p, cycle: self.describe(at) }));
         }
         if !piece.is_empty() {

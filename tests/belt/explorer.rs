@@ -21,7 +21,7 @@ fn figure() -> Scene {
 fn a_played_motion_moves_with_the_time_it_is_told_and_then_stands_still() {
     let (session, start) = screen(figure(), "");
     assert!(session.head().is_none() && !session.is_playing());
-    assert!(start.contains("mass on belt") && start.contains("t 0 s  x 1 mm  v 0 m/s"), "{start}");
+    assert!(start.contains("t 0 s  x 1 mm  v 0 m/s"), "{start}");
     // The period is 4 s: after 2 s of playing, half a period has passed and the motion is near the left turning point.
     let (session, half) = screen(figure(), "<f8> <elapse 1.5> <elapse 0.5>");
     let head = session.head().unwrap();
@@ -94,7 +94,7 @@ fn a_machine_is_a_scene_with_physical_values_beside_the_numbers() {
     let (wild, text) = screen(scene, "| <left*30> o");
     let (tau, _) = wild.contact().expect("a motion that reaches the belt");
     assert!(
-        text.contains("sticks to the belt at tau = ") && text.contains("! stable cycle > belt"),
+        text.contains("sticks to the belt at t = ") && text.contains("! stable cycle > belt"),
         "{text}"
     );
     let (end, _) = screen((*wild.scene).clone(), "| <left*30> o <f8> <elapse 3600>");
