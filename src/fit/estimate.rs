@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use super::levenberg_marquardt::Runs;
+use super::levenberg_marquardt::{Optimum, Runs, Task};
 use super::names::{Choice, NAMES, NameSpec};
 use super::noise::Noise;
 use super::observation::{Data, OMEGA0, R, StartKind, UNKNOWNS, Unknowns};
 use super::problem::LeastSquares;
-use super::profile::{Profile, ProfileInterval};
+use super::profile::{Left, Profile, ProfileInterval};
 use super::question::Unfit;
 use super::residuals::{Whiteness, whiteness};
 use super::search::Minima;
@@ -117,7 +117,32 @@ pub fn judged(
     found: &Minima,
     runs: &mut Runs,
 ) -> Result<Estimate, Unfit> {
+    /// Number of times that a profile may come upon a lower minimum.
+    const LOWER: usize = 4;
     let problem = &LeastSquares { used, ..*problem };
+    let mut found = found.clone();
+    for _ in 0..LOWER {
+        match assessed(problem, used, &found, runs)? {
+            (estimate, None) => return Ok(estimate),
+            (_, Some(lower)) => {
+                let observation = problem.observation(found.start);
+                let task = problem.task(&observation);
+                let mut optima = vec![*lower];
+                optima.extend(found.valleys.into_iter().map(|valley| valley.optimum));
+                found.valleys = problem.valleys(&task, optima, runs)?;
+            }
+        }
+    }
+    Ok(assessed(problem, used, &found, runs)?.0)
+}
+
+/// The estimate, and a lower minimum if a profile comes upon one; its interval is then open.
+fn assessed(
+    problem: &LeastSquares,
+    used: &[bool],
+    found: &Minima,
+    runs: &mut Runs,
+) -> Result<(Estimate, Option<Box<Optimum>>), Unfit> {
     let observation = problem.observation(found.start);
     let task = problem.task(&observation);
     let best = &found.valleys[0].optimum;
@@ -161,29 +186,37 @@ pub fn judged(
         })
         .collect();
     let mut intervals = [ProfileInterval::default(); UNKNOWNS];
-    for (valley, rival) in found.valleys.iter().zip(&rivals) {
-        if rival.delta_chi2 >= 4.0 {
-            continue;
-        }
-        let Some(covariance) = Covariance::at(&task, &valley.optimum, &whiteness.autocorrelation)
-        else {
-            continue;
-        };
-        let profile = Profile { task: &task, optimum: &valley.optimum, covariance: &covariance };
-        for (place, interval) in intervals.iter_mut().enumerate() {
-            if !problem.free[place] {
-                continue;
-            }
+    let mut lower = None;
+    for (number, valley) in found.valleys.iter().enumerate() {
+        let optimum = &valley.optimum;
+        let memory = &whiteness.autocorrelation;
+        let Some(covariance) = Covariance::at(&task, optimum, memory) else { continue };
+        let task = Task { within: Some(optimum.seen.region), ..task };
+        let profile = Profile { task: &task, optimum, covariance: &covariance, least: best.cost };
+        for place in task.columns() {
             // If the model leaves something out there is no likelihood, and a profile would be meaningless.
             let one = if whiteness.systematic {
-                profile.straight(place)
+                Ok(Some(profile.straight(place)).filter(|_| number == 0))
             } else {
-                profile.interval(place, runs)?
+                profile.interval(place, runs)
             };
-            *interval = if rival.delta_chi2 == 0.0 { one } else { interval.joined(one) };
+            let one = match one {
+                Ok(one) => one,
+                Err(Left::Interrupted) => return Err(Unfit::Interrupted),
+                Err(Left::Lower(optimum)) => {
+                    lower = Some(optimum);
+                    Some(ProfileInterval::default())
+                }
+            };
+            let interval = &mut intervals[place];
+            *interval = match one {
+                Some(one) if number == 0 => one,
+                Some(one) => interval.joined(one),
+                None => *interval,
+            };
         }
     }
-    Ok(Estimate {
+    let estimate = Estimate {
         choice: Choice::default(),
         data: problem.data.clone(),
         start: found.start,
@@ -205,5 +238,6 @@ pub fn judged(
         alike: 0,
         motions: (runs.with_derivatives, runs.plain),
         reach: problem.reach,
-    })
+    };
+    Ok((estimate, lower))
 }

@@ -9,7 +9,7 @@ use super::search::Beginning;
 use super::spectrum::dominant_frequency;
 use super::turning_points::{Extreme, smoothed, turning_points, without_jumps};
 use crate::numerics::count::real;
-use crate::numerics::elementary::{powi, sin_cos};
+use crate::numerics::elementary::{ln, powi, sin_cos};
 
 /// First guesses, and the turning points from which they were made.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +27,8 @@ pub struct Guess {
 /// Makes first guesses from a record; `None` if fewer than three turning points, including a hold and a rest, can
 /// be distinguished from noise.
 pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
+    /// Periods by which the release may be earlier or later.
+    const PERIODS: [f64; 7] = [0.0, -0.2, 0.2, -1.0, 1.0, -2.0, 2.0];
     let cleaned = if noise.has_outliers { without_jumps(x) } else { x.to_vec() };
     let (low, high) = cleaned
         .iter()
@@ -36,7 +38,10 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
     // Two rounds, since the extremes give a better period.
     for _ in 0..2 {
         let averaged = samples_within(t, period / 12.0).sqrt();
-        let hysteresis = (6.0 * noise.deviation / averaged).max(0.02 * (high - low));
+        // The range that smoothed noise covers grows with its number of independent values.
+        let chances = (real(t.len()) / samples_within(t, period / 12.0)).max(2.0);
+        let covered = 1.5 + 2.0 * (2.0 * ln(chances)).sqrt();
+        let hysteresis = (covered * noise.deviation / averaged).max(0.02 * (high - low));
         extremes = turning_points(t, &cleaned, period, hysteresis);
         period = period_of(&extremes).unwrap_or(period);
     }
@@ -44,41 +49,66 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
     let first = *extremes.first()?;
     let begins = begins(t, &cleaned, noise, first, period);
     let begin = first.t - 0.5 * period;
-    let hold = median(cleaned[..t.partition_point(|&t| t < begin).max(1)].to_vec());
+    let level_before =
+        |begin: f64| median(cleaned[..t.partition_point(|&t| t < begin).max(1)].to_vec());
+    let hold = level_before(begin);
     let struck = Some(hold).filter(|_| begins == Begins::Held);
     let struck = struck.and_then(|hold| struck_at(t, &cleaned, noise, hold, &extremes));
-    if begins == Begins::Held {
-        extremes.insert(0, Extreme { t: begin, x: hold });
-    }
     let tail =
         (6.0 * noise.deviation / samples_within(t, period / 12.0).sqrt()).max(0.02 * (high - low));
-    extremes.extend(rest(t, &cleaned, &extremes, period, tail));
-    let regressions = regressions(&extremes);
-    let guess = |start: StartKind, averaged: &Averaged| {
+    let mut with_rest = extremes.clone();
+    with_rest.extend(rest(t, &cleaned, &extremes, period, tail));
+    let unknowns = |averaged: &Averaged, q0: f64, last: f64| {
         let mut p: Unknowns = [0.0; 8];
         (p[OMEGA0], p[OFFSET]) = (2.0 * PI / period, averaged.offset);
         (p[D], p[D2], p[D3], p[R]) = (averaged.d, averaged.d2, averaged.d3, averaged.r);
-        (p[Q0], p[LAST]) = match start {
-            StartKind::Release => (hold - averaged.offset, begin),
-            StartKind::Moving => first_state(t, &cleaned, &p, period)?,
-        };
-        Some(p)
+        (p[Q0], p[LAST]) = (q0, last);
+        p
     };
-    let beginning = |start: StartKind, certain: bool| Beginning {
+    let moving = || {
+        let guess = |averaged: &Averaged| {
+            let (q0, v0) = first_state(t, &cleaned, &unknowns(averaged, 0.0, 0.0), period)?;
+            Some(unknowns(averaged, q0, v0))
+        };
+        regressions(&with_rest).iter().filter_map(guess).collect()
+    };
+    // The first turning points may be noise of the hold, or those of a growth too small to be seen: the release
+    // may have been earlier or later.
+    let released = || {
+        let begins = PERIODS.map(|periods| begin + periods * period);
+        let guesses = begins.into_iter().filter(|begin| t[0] < *begin && *begin < t[t.len() - 1]);
+        let at = |begin: f64| {
+            let hold = level_before(begin);
+            let swings = with_rest.iter().filter(|extreme| extreme.t > begin + 0.25 * period);
+            let swings: Vec<Extreme> =
+                std::iter::once(Extreme { t: begin, x: hold }).chain(swings.copied()).collect();
+            let found = regressions(&swings);
+            found.iter().map(|it| unknowns(it, hold - it.offset, begin)).collect::<Vec<_>>()
+        };
+        guesses.flat_map(at).collect()
+    };
+    let beginning = |start: StartKind, certain: bool, guesses: Vec<Unknowns>| Beginning {
         start,
         certain,
-        guesses: regressions.iter().filter_map(|averaged| guess(start, averaged)).collect(),
+        guesses,
     };
     let beginnings = match begins {
-        Begins::Held => {
-            vec![beginning(StartKind::Release, true), beginning(StartKind::Moving, false)]
-        }
-        Begins::Unclear => {
-            vec![beginning(StartKind::Moving, false), beginning(StartKind::Release, false)]
-        }
-        Begins::Moving => vec![beginning(StartKind::Moving, true)],
+        Begins::Held => vec![
+            beginning(StartKind::Release, true, released()),
+            beginning(StartKind::Moving, false, moving()),
+        ],
+        Begins::Unclear => vec![
+            beginning(StartKind::Moving, false, moving()),
+            beginning(StartKind::Release, false, released()),
+        ],
+        Begins::Moving => vec![beginning(StartKind::Moving, true, moving())],
     };
-    (!regressions.is_empty()).then_some(Guess { beginnings, extremes, struck, again })
+    if begins == Begins::Held {
+        with_rest.insert(0, Extreme { t: begin, x: hold });
+    }
+    let extremes = with_rest;
+    let is_guessed = beginnings.iter().any(|beginning| !beginning.guesses.is_empty());
+    is_guessed.then_some(Guess { beginnings, extremes, struck, again })
 }
 
 /// Average number of samples in a stretch of time, at least one.

@@ -3,13 +3,13 @@
 //! Each set of gradients is factored once; every damping that is tried costs another factorization of at most
 //! 17 rows. The damping is scaled by the largest column norms so far (More, *The Levenberg-Marquardt
 //! algorithm*, 1978); its size follows the ratio of actual to predicted reduction (Nielsen, 1999). A trial
-//! point whose motion escapes is a rejected step. If a step would make friction negative, it is recomputed with
-//! friction set to zero.
+//! point whose motion escapes is a rejected step. A step that would make friction negative, or leave the region to
+//! which a descent is confined, is recomputed along that border.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::loss::Loss;
-use super::observation::{Observation, R, Residual, Seen, UNKNOWNS, Unknowns};
+use super::observation::{Bound, Observation, R, Region, Residual, Seen, UNKNOWNS, Unknowns};
 use super::triangle::triangle;
 use crate::numerics::count::real;
 use crate::numerics::elementary::powi;
@@ -77,6 +77,8 @@ pub struct Task<'a> {
     pub used: &'a [bool],
     /// Only this many residuals, from the first on, count.
     pub horizon: usize,
+    /// The region that a descent must not leave, if it is confined to one.
+    pub within: Option<Region>,
 }
 
 /// Maximum number of iterations.
@@ -143,6 +145,43 @@ impl Task<'_> {
         })
     }
 
+    /// Whether a descent may come here.
+    fn permits(&self, seen: &Seen) -> bool {
+        self.within.is_none_or(|region| region == seen.region)
+    }
+
+    /// What a step must not violate: friction is not negative, and the rims around the region are not crossed. A
+    /// step goes only a part of the way to a rim.
+    fn bounds(&self, p: &Unknowns, seen: &Seen) -> Vec<Bound> {
+        const PART: f64 = 0.9;
+        let mut bounds = Vec::new();
+        if self.free[R] {
+            let mut by = [0.0; UNKNOWNS];
+            by[R] = 1.0;
+            bounds.push((p[R], by));
+        }
+        if self.within.is_some() {
+            let rims = seen.clearances(p, self.observation.start).into_iter();
+            bounds.extend(rims.map(|(value, by)| (PART * value, by)));
+        }
+        bounds
+    }
+
+    /// The point that the linear model predicts after one of the unknowns has moved by an amount: the others follow
+    /// so that the loss remains as small as possible, and all remain within bounds.
+    pub fn moved(&self, from: &Optimum, unknown: usize, by: f64) -> Option<Unknowns> {
+        let columns = self.columns();
+        let factor = self.factor(&from.seen, &columns);
+        let norms: Vec<f64> =
+            (0..columns.len()).map(|column| factor.column(column).norm()).collect();
+        let step = Step { factor: &factor, norms: &norms, damping: 1e-12, columns: &columns };
+        let (step, _) = step.within(&self.bounds(&from.p, &from.seen), Some((unknown, by)))?;
+        let mut p: Unknowns = std::array::from_fn(|place| from.p[place] + step[place]);
+        p[unknown] = from.p[unknown] + by;
+        p[R] = p[R].max(0.0);
+        Some(p)
+    }
+
     /// Iterates from a first guess.
     ///
     /// # Errors
@@ -169,6 +208,9 @@ impl Task<'_> {
     ) -> Result<Optimum, NoFit> {
         let mut p = guess;
         let mut seen = self.look(&p, true, runs)?;
+        if !self.permits(&seen) {
+            return Err(NoFit::Lost);
+        }
         let mut cost = self.cost(&seen);
         let columns = self.columns();
         let mut norms = vec![0.0_f64; columns.len()];
@@ -179,17 +221,18 @@ impl Task<'_> {
                 *norm = norm.max(factor.column(column).norm());
             }
             let taken = loop {
-                let Some((step, predicted)) = damped_step(&factor, &norms, damping, &p, &columns)
-                else {
-                    break None;
-                };
+                let bounds = self.bounds(&p, &seen);
+                let step = Step { factor: &factor, norms: &norms, damping, columns: &columns };
+                let Some((step, predicted)) = step.within(&bounds, None) else { break None };
                 if predicted <= enough * cost {
                     break None;
                 }
                 let trial: Unknowns = std::array::from_fn(|place| p[place] + step[place]);
                 let found = match self.look(&trial, false, runs) {
                     Err(NoFit::Interrupted) => return Err(NoFit::Interrupted),
-                    other => other.ok().map(|seen| self.cost(&seen)),
+                    other => {
+                        other.ok().filter(|seen| self.permits(seen)).map(|seen| self.cost(&seen))
+                    }
                 };
                 let gain = found.map_or(-1.0, |found| (cost - found) / predicted);
                 if let Some(found) = found.filter(|found| *found < cost) {
@@ -216,54 +259,92 @@ impl Task<'_> {
     }
 }
 
-/// The damped step, and the reduction of the loss predicted by the linear model.
-fn damped_step(
-    factor: &DMatrix<f64>,
-    norms: &[f64],
+/// A damped step from a point.
+struct Step<'a> {
+    /// The triangular factor of the gradients, with the residuals as its last column.
+    factor: &'a DMatrix<f64>,
+    /// The scales of the unknowns.
+    norms: &'a [f64],
     damping: f64,
-    p: &Unknowns,
-    columns: &[usize],
-) -> Option<(Unknowns, f64)> {
-    let width = columns.len();
-    let friction = columns.iter().position(|&column| column == R);
-    let mut held: Option<f64> = None;
-    loop {
-        let mut system = DMatrix::zeros(2 * width + 1, width);
-        let mut target = DVector::zeros(2 * width + 1);
-        system.rows_mut(0, width + 1).copy_from(&factor.columns(0, width));
-        target.rows_mut(0, width + 1).copy_from(&factor.column(width));
-        for (column, norm) in norms.iter().enumerate() {
-            let norm = if *norm > 0.0 { *norm } else { 1.0 };
-            system[(width + 1 + column, column)] = damping.sqrt() * norm;
+    columns: &'a [usize],
+}
+
+impl Step<'_> {
+    /// The step that violates no bound, and the reduction of the loss predicted by the linear model; with one
+    /// of the unknowns moved by a given amount, if `moved` says so.
+    fn within(&self, bounds: &[Bound], moved: Option<(usize, f64)>) -> Option<(Unknowns, f64)> {
+        let unit = |place: usize| {
+            let mut by = [0.0; UNKNOWNS];
+            by[place] = 1.0;
+            by
+        };
+        let mut fixed: Vec<Bound> =
+            moved.into_iter().map(|(place, by)| (-by, unit(place))).collect();
+        loop {
+            let step = self.solved(&fixed)?;
+            let short = |(value, by): &Bound| -> f64 {
+                let size: f64 = by.iter().zip(&step).map(|(by, step)| (by * step).abs()).sum();
+                let change: f64 = by.iter().zip(&step).map(|(by, step)| by * step).sum();
+                if change + value < -1e-9 * size {
+                    (change + value) / (size + value.abs())
+                } else {
+                    0.0
+                }
+            };
+            let free = bounds.iter().filter(|bound| !fixed.contains(bound));
+            let worst = free.min_by(|one, other| short(one).total_cmp(&short(other)));
+            match worst.filter(|bound| short(bound) < 0.0 && fixed.len() < self.columns.len()) {
+                Some(bound) => fixed.push(*bound),
+                None => {
+                    let along = self.columns.iter().map(|&column| step[column]);
+                    let along = DVector::from_iterator(self.columns.len(), along);
+                    let width = self.columns.len();
+                    let (gradients, residuals) =
+                        (self.factor.columns(0, width), self.factor.column(width));
+                    let left = gradients * along - residuals;
+                    return Some((step, residuals.norm_squared() - left.norm_squared()));
+                }
+            }
         }
-        if let (Some(friction), Some(change)) = (friction, held) {
-            let column = system.column(friction).into_owned();
-            target -= column * change;
-            system.column_mut(friction).fill(0.0);
-            system[(width + 1 + friction, friction)] = 1.0;
-            target[width + 1 + friction] = 0.0;
+    }
+
+    /// The step on which these bounds become zero, by rows of overwhelming weight.
+    fn solved(&self, fixed: &[Bound]) -> Option<Unknowns> {
+        const OVERWHELMING: f64 = 1e7;
+        let width = self.columns.len();
+        let rows = 2 * width + 1 + fixed.len();
+        let mut system = DMatrix::zeros(rows, width);
+        let mut target = DVector::zeros(rows);
+        let scale = |column: usize| Some(self.norms[column]).filter(|it| *it > 0.0).unwrap_or(1.0);
+        for (row, (value, by)) in fixed.iter().enumerate() {
+            let sizes = self.columns.iter().enumerate().map(|(i, &c)| by[c].abs() / scale(i));
+            let weight = OVERWHELMING / sizes.fold(f64::MIN_POSITIVE, f64::max);
+            for (column, &place) in self.columns.iter().enumerate() {
+                system[(row, column)] = weight * by[place];
+            }
+            target[row] = -weight * value;
+        }
+        let below = fixed.len();
+        system.view_mut((below, 0), (width + 1, width)).copy_from(&self.factor.columns(0, width));
+        target.rows_mut(below, width + 1).copy_from(&self.factor.column(width));
+        for column in 0..width {
+            system[(below + width + 1 + column, column)] = self.damping.sqrt() * scale(column);
         }
         let qr = system.qr();
-        let mut solution = qr.r().solve_upper_triangular(&(qr.q().transpose() * target))?;
-        if let (Some(friction), Some(change)) = (friction, held) {
-            solution[friction] = change;
-        }
-        if !solution.iter().all(|value| value.is_finite()) {
-            return None;
-        }
-        if let Some(friction) = friction
-            && held.is_none()
-            && p[R] + solution[friction] < 0.0
-        {
-            held = Some(-p[R]);
-            continue;
-        }
-        let left = factor.columns(0, width) * &solution - factor.column(width);
-        let predicted = factor.column(width).norm_squared() - left.norm_squared();
+        let solution = qr.r().solve_upper_triangular(&(qr.q().transpose() * target))?;
         let mut step = [0.0; UNKNOWNS];
-        for (&column, value) in columns.iter().zip(solution.iter()) {
+        for (&column, value) in self.columns.iter().zip(solution.iter()) {
             step[column] = *value;
         }
-        return Some((step, predicted));
+        // Friction that is set to zero is exactly zero.
+        for (value, _) in fixed.iter().filter(|(_, by)| is_friction(by)) {
+            step[R] = -value;
+        }
+        step.iter().all(|value| value.is_finite()).then_some(step)
     }
+}
+
+/// Whether a bound is that of friction alone.
+fn is_friction(by: &Unknowns) -> bool {
+    by[R] == 1.0 && by.iter().filter(|by| **by != 0.0).count() == 1
 }

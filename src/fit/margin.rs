@@ -67,9 +67,9 @@ pub struct Margins {
     /// The parameters drawn.
     #[serde(serialize_with = "number")]
     pub draws: Vec<Parameters>,
-    /// The effective number of draws, if they were weighted by their likelihood.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub effective: Option<f64>,
+    /// The number of independent draws that would carry as much information.
+    #[serde(skip)]
+    pub effective: f64,
     /// Number of motions computed for the weights.
     #[serde(skip)]
     pub motions: u64,

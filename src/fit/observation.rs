@@ -106,6 +106,35 @@ pub struct Seen {
     pub turns: Vec<FittedTurn>,
     /// Whether the motion comes to rest within the record.
     pub rests: bool,
+    /// Where in the space of the unknowns this is.
+    pub region: Region,
+}
+
+/// A part of the space of the unknowns: the number of half swings after which the mass rests within the record, or
+/// `None` if it moves until the end. The residuals are smooth within a region; where a turning point crosses the
+/// rim of the sticking set they have a kink.
+pub type Region = Option<usize>;
+
+/// A condition that keeps a step within a region or range: its value, which must not become negative, and its
+/// derivatives.
+pub type Bound = (f64, Unknowns);
+
+impl Seen {
+    /// The distances of the last turning points from the rims that bound the region.
+    pub fn clearances(&self, p: &Unknowns, start: StartKind) -> Vec<Bound> {
+        let last = self.turns.iter().rev().take(if self.region.is_some() { 2 } else { 1 });
+        let bound = |(index, turn): (usize, &FittedTurn)| {
+            // A mass that rests has turned within the sticking set, and before that outside it.
+            let side = if self.region.is_some() && index == 0 { -1.0 } else { 1.0 };
+            let mut by = unknowns(&turn.q_by).map(|by| side * turn.q.signum() * by);
+            by[R] -= side;
+            if start == StartKind::Moving {
+                by[LAST] = side * turn.q.signum() * turn.q_by[5];
+            }
+            (side * (turn.q.abs() - p[R]), by)
+        };
+        last.enumerate().map(bound).collect()
+    }
 }
 
 /// The parameters of the motion among the unknowns.
@@ -169,7 +198,8 @@ impl Observation {
             by[LAST] = if moving { point.by[5] } else { -p[OMEGA0] * point.v };
             residuals.push(Residual { value: x[held + index] - p[OFFSET] - point.q, by });
         })?;
-        Ok(Seen { residuals, turns: followed.turns, rests: followed.rests })
+        let region = followed.rests.then_some(followed.turns.len());
+        Ok(Seen { residuals, turns: followed.turns, rests: followed.rests, region })
     }
 }
 
@@ -218,5 +248,8 @@ fn peaks(
         by[LAST] = 1.0 / ratio;
         residuals.push(Residual { value: (t - p[LAST] - turn.tau / p[OMEGA0]) / ratio, by });
     }
-    Ok(Seen { residuals, turns: followed.turns, rests: followed.rests })
+    // What follows the last peak is not seen.
+    let rests = followed.rests && followed.turns.len() + 1 < x.len();
+    let region = rests.then_some(followed.turns.len());
+    Ok(Seen { residuals, turns: followed.turns, rests: followed.rests, region })
 }

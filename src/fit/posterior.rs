@@ -1,98 +1,103 @@
 //! Draws of the parameters from their distribution given a record.
 //!
-//! If the loss is quadratic, the draws are normal. Otherwise all unknowns are drawn from the normal
-//! distribution, weighted by the ratio of the likelihood `exp(-delta chi^2/2)` to the density of the draw, and
-//! resampled by these weights. With negative friction ruled out, this gives the posterior for a uniform prior.
+//! If the loss is quadratic, the draws are normal. Otherwise the record is given other errors, as large as its own,
+//! and the motion is sought whose residuals have these along the gradients of the estimate: where the loss is
+//! quadratic this is a normal draw, and where it is not, the draw follows its valley. What remains between the
+//! density of these draws and the likelihood is a weight near one (Bardsley, Solonen, Haario and Laine,
+//! *Randomize-then-optimize*, 2014). With negative friction ruled out, this gives the posterior for a uniform prior.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::estimate::Estimate;
-use super::levenberg_marquardt::Runs;
-use super::observation::{D, D2, D3, R, UNKNOWNS, Unknowns, parameters};
+use super::levenberg_marquardt::{NoFit, Runs, Task};
+use super::observation::{D, D2, D3, R, Seen, Unknowns, parameters};
 use super::refit::Refit;
+use super::uncertainty::chi_squared;
 use crate::flow::{Limits, Reason};
 use crate::numerics::count::real;
-use crate::numerics::elementary::{exp, ln, pow, powi};
+use crate::numerics::elementary::{exp, ln, pow};
 use crate::oscillator::Parameters;
 
 /// Parameters drawn, all of equal weight.
 pub struct Drawn {
     /// The parameters.
     pub draws: Vec<Parameters>,
-    /// If they were weighted: the number of independent draws that would carry as much information.
-    pub effective: Option<f64>,
+    /// The number of independent draws that would carry as much information.
+    pub effective: f64,
     /// Number of motions computed for the weights.
     pub motions: u64,
 }
 
-/// Number of weighted draws for each one that is kept.
-const SPARE: usize = 4;
-
-/// With fewer effective draws than this fraction of those wanted, the normal distribution is too far from the
-/// likelihood for weighting, and unweighted normal draws are used.
-const FEWEST: f64 = 0.1;
+/// Fewest effective draws on which a quantile of 2.5 % may rest: ten of them lie beyond it.
+pub const FEWEST: f64 = 400.0;
 
 /// Draws from the distribution of an estimate. Fails with [`Reason::Interrupted`].
 pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn, Reason> {
-    let places: Vec<usize> =
-        [D, D2, D3, R].into_iter().filter(|&place| estimate.free[place]).collect();
+    /// Draws of each round, and the maximum number of rounds.
+    const ROUND: usize = 150;
+    const ROUNDS: usize = 14;
+    let free = |place: &usize| estimate.free[*place];
+    let quadratic =
+        [D, D2, D3, R].iter().filter(|it| free(it)).all(|&it| estimate.intervals[it].quadratic);
+    let refit = Refit::without(estimate, &[]);
+    let interrupted = || Err(Reason::Interrupted);
+    let Ok(frame) = Frame::of(&refit, &mut Runs::new(limits.interrupted)) else {
+        return interrupted();
+    };
+    if quadratic || estimate.whiteness.systematic {
+        // Negative friction is physically impossible and counts as zero.
+        let draw = |index: usize| {
+            let mut p = frame.straight(&estimate.p, &(-frame.errors(index)));
+            p[R] = p[R].max(0.0);
+            parameters(&p)
+        };
+        let effective = real(draws);
+        return Ok(Drawn { draws: (0..draws).map(draw).collect(), effective, motions: 0 });
+    }
+    let mut points: Vec<(Unknowns, f64)> = Vec::new();
     let mut motions = 0;
-    if !places.iter().all(|&place| estimate.intervals[place].quadratic) {
-        let normal = Normal::of(estimate, estimate.covariance.columns.clone());
-        let points: Vec<Unknowns> = (0..SPARE * draws).map(|index| normal.point(index)).collect();
-        let weights = weights(estimate, &normal, &points, limits)?;
-        motions = weights.len() as u64;
-        let (sum, squares) = weights
-            .iter()
-            .fold((0.0, 0.0), |(sum, squares), weight| (sum + weight, squares + weight * weight));
-        let effective = sum * sum / squares;
-        if effective >= FEWEST * real(draws) {
-            let draws = resampled(&points, &weights, draws);
-            return Ok(Drawn { draws, effective: Some(effective), motions });
+    for round in 0..ROUNDS {
+        let found: Vec<(Vec<(Unknowns, f64)>, u64)> = (round * ROUND..(round + 1) * ROUND)
+            .into_par_iter()
+            .map(|index| frame.draws(&frame.errors(index), limits))
+            .collect();
+        if (limits.interrupted)() {
+            return interrupted();
+        }
+        for (found, computed) in found {
+            points.extend(found);
+            motions += computed;
+        }
+        if effective(&weights(&points)) >= FEWEST.max(real(draws)) {
+            break;
         }
     }
-    let normal = Normal::of(estimate, places);
-    // Negative friction is physically impossible and counts as zero.
-    let draw = |index: usize| {
-        let mut p = normal.point(index);
-        p[R] = p[R].max(0.0);
-        parameters(&p)
-    };
-    Ok(Drawn { draws: (0..draws).map(draw).collect(), effective: None, motions })
+    let weights = weights(&points);
+    let draws = resampled(&points, &weights, draws);
+    Ok(Drawn { draws, effective: effective(&weights), motions })
 }
 
-/// The ratio of the likelihood to the density at each point, up to a common factor.
-fn weights(
-    estimate: &Estimate,
-    normal: &Normal,
-    points: &[Unknowns],
-    limits: &Limits,
-) -> Result<Vec<f64>, Reason> {
-    let refit = Refit::without(estimate, &[]);
-    let runs = || Runs::new(limits.interrupted);
-    let least = refit.cost(&estimate.p, &mut runs());
-    let (Ok(least), Ok(unit)) = (least, refit.unit(&mut runs())) else {
-        return Err(Reason::Interrupted);
-    };
-    let weight = |p: &Unknowns| {
-        // A motion that escapes cannot be the recorded one.
-        let cost = refit.cost(p, &mut runs()).unwrap_or(f64::INFINITY);
-        let likelihood = exp(-0.5 * (cost - least) / unit);
-        let weight = if p[R] >= 0.0 { likelihood / normal.density(p) } else { 0.0 };
-        if weight.is_finite() { weight } else { 0.0 }
-    };
-    let weights: Vec<f64> = points.par_iter().map(weight).collect();
-    if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(weights) }
+/// Weights from their logarithms.
+fn weights(points: &[(Unknowns, f64)]) -> Vec<f64> {
+    let largest = points.iter().map(|it| it.1).fold(f64::NEG_INFINITY, f64::max);
+    points.iter().map(|it| exp(it.1 - largest)).collect()
+}
+
+/// The number of equal weights that would carry as much information.
+fn effective(weights: &[f64]) -> f64 {
+    let (sum, squares) =
+        weights.iter().fold((0.0, 0.0), |(sum, squares), it| (sum + it, squares + it * it));
+    if squares > 0.0 { sum * sum / squares } else { 0.0 }
 }
 
 /// Resamples points by weight, at even steps through the sum of the weights.
-fn resampled(points: &[Unknowns], weights: &[f64], draws: usize) -> Vec<Parameters> {
+fn resampled(points: &[(Unknowns, f64)], weights: &[f64], draws: usize) -> Vec<Parameters> {
     let sum: f64 = weights.iter().sum();
     let step = sum / real(draws);
     let mut found = Vec::with_capacity(draws);
     let (mut passed, mut next) = (0.0, 0.5 * step);
-    for (point, weight) in points.iter().zip(weights) {
+    for ((point, _), weight) in points.iter().zip(weights) {
         passed += weight;
         while next < passed && found.len() < draws {
             found.push(parameters(point));
@@ -102,70 +107,164 @@ fn resampled(points: &[Unknowns], weights: &[f64], draws: usize) -> Vec<Paramete
     found
 }
 
-/// The normal distribution of the unknowns; a mixture if there are several minima.
-struct Normal {
+/// The residuals of all motions as seen along the gradients of the estimate.
+struct Frame<'a> {
+    task: Task<'a>,
+    estimate: &'a Estimate,
     columns: Vec<usize>,
-    scale: Vec<f64>,
-    /// Principal directions in scaled unknowns, and the standard deviation along each.
-    directions: DMatrix<f64>,
-    deviations: Vec<f64>,
-    /// Minima with their weights, which add up to one.
-    centers: Vec<(f64, Unknowns)>,
+    /// Orthonormal directions, a row for each residual that counts.
+    along: Vec<DVector<f64>>,
+    /// The triangular factor of the gradients of the estimate.
+    upper: DMatrix<f64>,
+    /// The root of the covariance of errors along the directions.
+    root: DMatrix<f64>,
+    /// The residuals of the estimate along the directions; zero unless a bound holds it.
+    center: DVector<f64>,
+    /// Loss per unit of chi-squared.
+    unit: f64,
 }
 
-impl Normal {
-    fn of(estimate: &Estimate, columns: Vec<usize>) -> Self {
-        let scale: Vec<f64> =
-            columns.iter().map(|&place| estimate.covariance.error(place)).collect();
-        let scaled = DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
-            estimate.covariance.of(columns[i], columns[j]) / (scale[i] * scale[j])
-        });
-        // If every number is held, there is a single point.
-        let (directions, values) = if columns.is_empty() {
-            (scaled, Vec::new())
-        } else {
-            let eigen = scaled.symmetric_eigen();
-            (eigen.eigenvectors, eigen.eigenvalues.iter().copied().collect())
+impl<'a> Frame<'a> {
+    fn of(refit: &'a Refit<'a>, runs: &mut Runs) -> Result<Self, NoFit> {
+        let estimate = refit.estimate;
+        let task = refit.task();
+        let columns = estimate.covariance.columns.clone();
+        let width = columns.len();
+        let seen = task.look(&estimate.p, true, runs)?;
+        let upper = task.factor(&seen, &columns).view((0, 0), (width, width)).into_owned();
+        let lower = upper.transpose();
+        let row = |by: &Unknowns| {
+            let row = DVector::from_iterator(width, columns.iter().map(|&column| by[column]));
+            lower.solve_lower_triangular(&row).unwrap_or_else(|| DVector::zeros(width))
         };
-        let mut centers: Vec<(f64, Unknowns)> =
-            estimate.contenders().map(|it| (exp(-0.5 * it.delta_chi2), it.p)).collect();
-        let sum: f64 = centers.iter().map(|(weight, _)| weight).sum();
-        for (weight, _) in &mut centers {
-            *weight /= sum;
-        }
-        let deviations = values.into_iter().map(|value: f64| value.max(0.0).sqrt()).collect();
-        Normal { columns, scale, directions, deviations, centers }
+        let along = task.used_residuals(&seen).iter().map(|it| row(&it.by)).collect();
+        // The covariance of the estimate is U^-1 C U^-T for errors with the covariance C along the directions.
+        let errors = &upper * &estimate.covariance.matrix * &lower;
+        let root = errors.cholesky().map_or_else(|| DMatrix::zeros(width, width), |it| it.l());
+        let mut frame = Frame {
+            task,
+            estimate,
+            columns,
+            along,
+            upper,
+            root,
+            center: DVector::zeros(width),
+            unit: refit.unit(runs)?,
+        };
+        frame.center = frame.seen_along(&seen).0;
+        Ok(frame)
     }
 
-    /// Draw number `index`.
-    fn point(&self, index: usize) -> Unknowns {
+    /// Errors along the directions, the `index`th of evenly spread ones.
+    fn errors(&self, index: usize) -> DVector<f64> {
         let width = self.columns.len();
         let even = evenly(index, width + 1);
-        let along = |i: usize, _| self.deviations[i] * normal_at(even[i]);
-        let step = &self.directions * DVector::from_fn(width, along);
-        let mut left = even[width];
-        let chosen = self.centers.iter().find(|(weight, _)| {
-            left -= weight;
-            left < 0.0
-        });
-        let mut p = chosen.or(self.centers.last()).map_or([0.0; UNKNOWNS], |(_, p)| *p);
-        for (i, &place) in self.columns.iter().enumerate() {
-            p[place] += self.scale[i] * step[i];
+        let normal = DVector::from_fn(width, |i, _| normal_at(even[i]));
+        // The size of the noise is itself known only from its residuals.
+        let freedom = self.estimate.covariance.independent(R);
+        let wider = (freedom / chi_squared(freedom, normal_at(even[width]))).sqrt();
+        &self.root * normal * wider
+    }
+
+    /// The point to which the linear model leads from the estimate for a change of what is seen.
+    fn straight(&self, p: &Unknowns, change: &DVector<f64>) -> Unknowns {
+        let step = self.upper.solve_upper_triangular(change);
+        self.stepped(p, &step.unwrap_or_else(|| DVector::zeros(self.columns.len())))
+    }
+
+    fn stepped(&self, p: &Unknowns, step: &DVector<f64>) -> Unknowns {
+        let mut p = *p;
+        for (&column, step) in self.columns.iter().zip(step.iter()) {
+            p[column] += step;
         }
         p
     }
 
-    /// The density at a point, up to a common factor.
-    fn density(&self, p: &Unknowns) -> f64 {
-        let about = |center: &Unknowns| {
-            let step = DVector::from_fn(self.columns.len(), |i, _| {
-                (p[self.columns[i]] - center[self.columns[i]]) / self.scale[i]
-            });
-            let along = self.directions.tr_mul(&step);
-            let squares = along.iter().zip(&self.deviations).map(|(it, one)| powi(it / one, 2));
-            exp(-0.5 * squares.sum::<f64>())
+    /// The residuals along the directions, and the derivatives of the motion along them.
+    fn seen_along(&self, seen: &Seen) -> (DVector<f64>, DMatrix<f64>) {
+        let width = self.columns.len();
+        let (mut values, mut by) = (DVector::zeros(width), DMatrix::zeros(width, width));
+        for (along, residual) in self.along.iter().zip(self.task.used_residuals(seen)) {
+            values.axpy(residual.value, along, 1.0);
+            for (j, &column) in self.columns.iter().enumerate() {
+                by.column_mut(j).axpy(residual.by[column], along, 1.0);
+            }
+        }
+        (values, by)
+    }
+
+    /// The motions whose residuals have these errors, each with the logarithm of its weight, and the number of
+    /// motions computed. There may be one near every minimum.
+    fn draws(&self, errors: &DVector<f64>, limits: &Limits) -> (Vec<(Unknowns, f64)>, u64) {
+        let mut runs = Runs::new(limits.interrupted);
+        let mut found: Vec<(Unknowns, f64)> = Vec::new();
+        let estimate = self.estimate;
+        for rival in estimate.contenders() {
+            let Some((p, weight)) = self.draw(&rival.p, errors, &mut runs) else { continue };
+            let near = |other: &Unknowns| {
+                let apart = |&column: &usize| {
+                    (p[column] - other[column]).abs() < 0.01 * estimate.covariance.error(column)
+                };
+                self.columns.iter().all(apart)
+            };
+            if !found.iter().any(|(other, _)| near(other)) {
+                found.push((p, weight));
+            }
+        }
+        (found, runs.with_derivatives)
+    }
+
+    /// One of them, by Newton's method; `None` if it would have negative friction, or none is found.
+    fn draw(
+        &self,
+        from: &Unknowns,
+        errors: &DVector<f64>,
+        runs: &mut Runs,
+    ) -> Option<(Unknowns, f64)> {
+        const ROUNDS: usize = 14;
+        /// How far the residuals may be from the errors, squared, in units of the noise.
+        const NEAR: f64 = 1e-4;
+        let mut at = if *from == self.estimate.p {
+            self.straight(from, &(&self.center - errors))
+        } else {
+            *from
         };
-        self.centers.iter().map(|(weight, center)| weight * about(center)).sum()
+        let mut before: Option<(Unknowns, DVector<f64>, f64)> = None;
+        for _ in 0..ROUNDS {
+            let negative = at[R] < 0.0;
+            at[R] = at[R].max(0.0);
+            let seen = self.task.look(&at, true, runs).ok();
+            let state = seen.map(|seen| {
+                let (values, by) = self.seen_along(&seen);
+                ((&values - errors).norm_squared() / self.unit, values, by, self.task.cost(&seen))
+            });
+            match (state, &before) {
+                (Some((off, values, by, cost)), last)
+                    if last.as_ref().is_none_or(|it| off < it.2) =>
+                {
+                    let lu = by.lu();
+                    if off < NEAR {
+                        let bent = (cost - values.norm_squared()) / self.unit;
+                        let size = lu.u().diagonal().iter().map(|it| ln(it.abs())).sum::<f64>();
+                        return Some((at, -0.5 * bent - size));
+                    }
+                    if negative && at[R] == 0.0 && last.as_ref().is_some_and(|it| it.0[R] == 0.0) {
+                        return None;
+                    }
+                    let step = lu.solve(&(values - errors))?;
+                    before = Some((at, step.clone(), off));
+                    at = self.stepped(&at, &step);
+                }
+                // Too far: half the step.
+                (_, Some(_)) => {
+                    let (last, step, _) = before.as_mut()?;
+                    *step *= 0.4;
+                    at = self.stepped(last, step);
+                }
+                (_, None) => at = std::array::from_fn(|i: usize| 0.5 * (at[i] + from[i])),
+            }
+        }
+        None
     }
 }
 
@@ -195,7 +294,6 @@ fn normal_at(probability: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::elementary::powi;
 
     #[test]
     fn draws_are_normal_and_independent() {

@@ -54,7 +54,7 @@ impl LeastSquares<'_> {
     /// The task of minimizing the loss.
     pub fn task<'a>(&'a self, observation: &'a Observation) -> Task<'a> {
         let LeastSquares { free, loss, used, .. } = *self;
-        Task { observation, free, loss, used, horizon: usize::MAX }
+        Task { observation, free, loss, used, horizon: usize::MAX, within: None }
     }
 
     /// Whether the residuals look like noise.

@@ -37,73 +37,108 @@ impl ProfileInterval {
 const QUADRATIC: f64 = 0.2;
 
 /// Maximum number of refits for one end.
-const REFITS: usize = 8;
+const REFITS: usize = 16;
 
 /// Distance beyond which no bound is sought, in half widths of the interval by the standard error.
 const FARTHEST: f64 = 60.0;
 
-/// The profile of one unknown about a minimum.
+/// The profile of one unknown in the region of a minimum.
 pub struct Profile<'a> {
-    /// The fit.
+    /// The fit, confined to the region.
     pub task: &'a Task<'a>,
     /// The minimum.
     pub optimum: &'a Optimum,
     /// Its covariance.
     pub covariance: &'a Covariance,
+    /// The loss of the lowest minimum of all regions.
+    pub least: f64,
+}
+
+/// Why a profile was left.
+#[derive(Debug)]
+pub enum Left {
+    /// The computation was interrupted.
+    Interrupted,
+    /// A refit came to a lower loss than the minimum, which was none.
+    Lower(Box<Optimum>),
+}
+
+/// The best point for a value of the unknown.
+struct Refitted {
+    /// Distance from the minimum.
+    step: f64,
+    /// Rise of the loss above the least, as a fraction of that at the end of the interval.
+    risen: f64,
+    optimum: Optimum,
 }
 
 impl Profile<'_> {
-    /// The interval of an unknown. Fails with [`NoFit::Interrupted`].
-    pub fn interval(&self, unknown: usize, runs: &mut Runs) -> Result<ProfileInterval, NoFit> {
-        let z = deviation_of_95_percent(self.covariance.independent(unknown));
-        let reach = z * self.covariance.error(unknown);
+    /// The interval of an unknown; `None` if the loss is too high everywhere in this region.
+    ///
+    /// # Errors
+    /// [`Left`] says why there is none.
+    pub fn interval(
+        &self,
+        unknown: usize,
+        runs: &mut Runs,
+    ) -> Result<Option<ProfileInterval>, Left> {
+        let z = self.deviations(unknown);
         let white = self.covariance.inflation(unknown);
         let variance = self.task.variance(&self.optimum.seen, self.covariance.freedom);
         let rise = z * z * white * variance;
+        let left = 1.0 - (self.optimum.cost - self.least) / rise;
+        if left <= 0.0 {
+            return Ok(None);
+        }
+        let reach = left.sqrt() * z * self.covariance.error(unknown);
         let mut ends = [None; 2];
         let mut quadratic = true;
         for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
-            let straight = self.shifted(&self.optimum.p, unknown, sign * reach);
-            // Friction cannot be negative: r ends at 0, and unknowns that depend on r have a kink there.
-            let crosses = straight[R] < 0.0 && self.task.free[R];
-            if !crosses && self.rises_by(&straight, rise, runs)? {
-                *end = Some(straight[unknown]);
+            if self.rises_by(unknown, sign * reach, left * rise, runs)? {
+                *end = Some(self.optimum.p[unknown] + sign * reach);
                 continue;
             }
             quadratic = false;
             *end = self.sought(unknown, sign, reach, rise, runs)?;
         }
-        Ok(ProfileInterval { lower: ends[0], upper: ends[1], quadratic })
+        Ok(Some(ProfileInterval { lower: ends[0], upper: ends[1], quadratic }))
+    }
+
+    /// Half the width of a 95 % interval in standard errors.
+    fn deviations(&self, unknown: usize) -> f64 {
+        deviation_of_95_percent(self.covariance.independent(unknown))
     }
 
     /// The interval by the standard error alone, without a profile.
     pub fn straight(&self, unknown: usize) -> ProfileInterval {
-        let z = deviation_of_95_percent(self.covariance.independent(unknown));
-        let (center, reach) = (self.optimum.p[unknown], z * self.covariance.error(unknown));
+        let center = self.optimum.p[unknown];
+        let reach = self.deviations(unknown) * self.covariance.error(unknown);
         let least = if unknown == R { 0.0 } else { f64::NEG_INFINITY };
         let lower = Some((center - reach).max(least));
         ProfileInterval { lower, upper: Some(center + reach), quadratic: true }
     }
 
-    fn shifted(&self, from: &Unknowns, unknown: usize, by: f64) -> Unknowns {
+    /// Whether the loss rises as a quadratic one would, if the unknown is moved and all others follow freely.
+    fn rises_by(&self, unknown: usize, by: f64, rise: f64, runs: &mut Runs) -> Result<bool, Left> {
         let along = self.covariance.along(unknown);
-        std::array::from_fn(|place| from[place] + by * along[place])
-    }
-
-    /// Whether the loss at `p` has risen as a quadratic one would have.
-    fn rises_by(&self, p: &Unknowns, rise: f64, runs: &mut Runs) -> Result<bool, NoFit> {
-        match self.task.look(p, false, runs) {
+        let p: Unknowns = std::array::from_fn(|place| self.optimum.p[place] + by * along[place]);
+        // Friction cannot be negative: r ends at 0, and unknowns that depend on r have a kink there.
+        if p[R] < 0.0 && self.task.free[R] {
+            return Ok(false);
+        }
+        match self.task.look(&p, false, runs) {
             Ok(seen) => {
                 let risen = self.task.cost(&seen) - self.optimum.cost;
-                Ok((risen / rise - 1.0).abs() <= QUADRATIC)
+                let same = seen.region == self.optimum.seen.region;
+                Ok(same && (risen / rise - 1.0).abs() <= QUADRATIC)
             }
-            Err(NoFit::Interrupted) => Err(NoFit::Interrupted),
+            Err(NoFit::Interrupted) => Err(Left::Interrupted),
             Err(NoFit::Lost) => Ok(false),
         }
     }
 
-    /// The end on one side, by refits: a secant method on the square root of the rise, which is linear for a
-    /// quadratic loss.
+    /// The end on one side, by refits that start from each other: further out until the loss has risen enough,
+    /// then between the two closest points. `None` if the end is not found.
     fn sought(
         &self,
         unknown: usize,
@@ -111,50 +146,72 @@ impl Profile<'_> {
         reach: f64,
         rise: f64,
         runs: &mut Runs,
-    ) -> Result<Option<f64>, NoFit> {
+    ) -> Result<Option<f64>, Left> {
+        /// Accuracy of the rise at an end, and the smallest at which an end may be taken.
+        const EXACT: f64 = 0.03;
+        const NEARLY: f64 = 0.8;
         let center = self.optimum.p[unknown];
-        let farthest = if unknown == R && sign < 0.0 { center } else { FARTHEST * reach };
+        let is_least = unknown == R && sign < 0.0;
+        let farthest = if is_least { center } else { FARTHEST * reach };
         if farthest <= 0.0 {
             return Ok(Some(center));
         }
-        let mut task = *self.task;
-        task.free[unknown] = false;
-        let (mut inside, mut outside): ((f64, f64), Option<(f64, f64)>) = ((0.0, 0.0), None);
-        let mut warm = self.optimum.p;
+        let risen = (self.optimum.cost - self.least) / rise;
+        let mut inside = Refitted { step: 0.0, risen, optimum: self.optimum.clone() };
+        let mut outside: Option<(f64, f64)> = None;
         let mut step = reach.min(farthest);
         for _ in 0..REFITS {
-            let mut guess = self.shifted(&warm, unknown, center + sign * step - warm[unknown]);
-            guess[unknown] = center + sign * step;
-            guess[R] = guess[R].max(0.0);
-            let risen = match task.solve_roughly(guess, runs) {
-                Ok(found) => {
-                    warm = found.p;
-                    ((found.cost - self.optimum.cost).max(0.0) / rise).sqrt()
-                }
-                Err(NoFit::Interrupted) => return Err(NoFit::Interrupted),
-                Err(NoFit::Lost) => f64::INFINITY,
-            };
-            if (risen - 1.0).abs() <= 0.02 {
+            let found = self.refitted(unknown, center + sign * step, &inside, rise, runs)?;
+            let risen = found.as_ref().map_or(f64::INFINITY, |found| found.risen);
+            if (risen - 1.0).abs() <= EXACT {
                 return Ok(Some(center + sign * step));
             }
-            if risen < 1.0 {
-                if step >= farthest {
-                    return Ok((unknown == R && sign < 0.0).then_some(0.0));
-                }
-                inside = (step, risen);
-            } else {
-                outside = Some((step, risen));
+            match found.filter(|found| found.risen < 1.0) {
+                Some(_) if step >= farthest => return Ok(is_least.then_some(0.0)),
+                Some(found) => inside = Refitted { step, ..found },
+                None => outside = Some((step, risen)),
             }
+            let root = |risen: f64| risen.sqrt();
             step = match outside {
-                None => (step * (1.1 / risen.max(0.2))).max(1.2 * step).min(farthest),
+                None => (step * (1.1 / root(inside.risen).max(0.2))).max(1.2 * step).min(farthest),
                 Some((far, high)) if high.is_finite() => {
-                    let part = (1.0 - inside.1) / (high - inside.1);
-                    inside.0 + part.clamp(0.1, 0.9) * (far - inside.0)
+                    let part = (1.0 - root(inside.risen)) / (root(high) - root(inside.risen));
+                    inside.step + part.clamp(0.1, 0.9) * (far - inside.step)
                 }
-                Some((far, _)) => 0.5 * (inside.0 + far),
+                Some((far, _)) => 0.5 * (inside.step + far),
             };
         }
-        Ok(outside.map(|_| center + sign * step))
+        Ok(outside
+            .filter(|(_, high)| high.is_finite() && inside.risen > NEARLY)
+            .map(|(far, _)| center + sign * far))
+    }
+
+    /// The best point with the unknown at a value; `None` if no descent from a known point leads there.
+    fn refitted(
+        &self,
+        unknown: usize,
+        value: f64,
+        from: &Refitted,
+        rise: f64,
+        runs: &mut Runs,
+    ) -> Result<Option<Refitted>, Left> {
+        /// Fall of the loss, as a fraction of the rise at the end, that shows that the minimum was none.
+        const LOWER: f64 = 0.02;
+        let by = value - from.optimum.p[unknown];
+        let Some(guess) = self.task.moved(&from.optimum, unknown, by) else { return Ok(None) };
+        let mut held = *self.task;
+        held.free[unknown] = false;
+        match held.solve_roughly(guess, runs) {
+            Ok(optimum) if optimum.cost < self.optimum.cost - LOWER * rise => {
+                Err(Left::Lower(Box::new(optimum)))
+            }
+            Ok(optimum) => {
+                let risen = (optimum.cost - self.least).max(0.0) / rise;
+                Ok(Some(Refitted { step: 0.0, risen, optimum }))
+            }
+            Err(NoFit::Interrupted) => Err(Left::Interrupted),
+            Err(NoFit::Lost) => Ok(None),
+        }
     }
 }
 

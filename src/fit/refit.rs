@@ -34,13 +34,15 @@ impl<'a> Refit<'a> {
         Refit { estimate, observation, free }
     }
 
-    fn task(&self) -> Task<'_> {
+    /// The least-squares task.
+    pub fn task(&self) -> Task<'_> {
         Task {
             observation: &self.observation,
             free: self.free,
             loss: Loss::Linear,
             used: &self.estimate.used,
             horizon: usize::MAX,
+            within: None,
         }
     }
 

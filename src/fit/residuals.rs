@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use super::uncertainty::chi_squared;
 use crate::numerics::count::{real, whole};
-use crate::numerics::elementary::{ln, powi};
+use crate::numerics::elementary::ln;
 
 /// Correlation of the residuals.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -114,13 +115,6 @@ pub fn autocorrelations(residuals: &[f64], lags: &[usize]) -> Vec<f64> {
         residuals.iter().zip(shifted).map(|(one, other)| one * other).sum::<f64>()
     };
     lags.iter().map(|&lag| if power > 0.0 { at(lag) / power } else { 0.0 }).collect()
-}
-
-/// The value that a chi-squared variable exceeds with the same probability as a normal one exceeds `z` (Wilson and
-/// Hilferty).
-fn chi_squared(freedom: f64, z: f64) -> f64 {
-    let part = 2.0 / (9.0 * freedom);
-    freedom * powi(1.0 - part + z * part.sqrt(), 3)
 }
 
 /// The autocorrelation of the autoregressive noise that fits best, by the Levinson-Durbin recursion with the order

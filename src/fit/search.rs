@@ -137,11 +137,11 @@ impl LeastSquares<'_> {
         let observation = self.observation(found.start);
         let task = self.task(&observation);
         for valley in &mut found.valleys {
-            valley.optimum = task.solve(valley.optimum.p, runs)?;
+            let within = Task { within: Some(valley.optimum.seen.region), ..task };
+            valley.optimum = within.solve(valley.optimum.p, runs)?;
             valley.half_swings = valley.optimum.seen.turns.len();
         }
         found.valleys.sort_by(by_cost);
-        found.valleys.dedup_by_key(|valley| valley.half_swings);
         Ok(())
     }
 

@@ -220,6 +220,13 @@ pub fn left_over(task: &Task, optimum: &Optimum, noise: &[f64], lags: usize) -> 
     (1..=lags).map(|lag| at(lag) / power).collect()
 }
 
+/// The value that a chi-squared variable exceeds with the same probability as a normal one exceeds `z` (Wilson and
+/// Hilferty).
+pub fn chi_squared(freedom: f64, z: f64) -> f64 {
+    let part = 2.0 / (9.0 * freedom);
+    freedom * powi(1.0 - part + z * part.sqrt(), 3)
+}
+
 /// The deviation within which a variable with Student's distribution lies with a probability of 95 % (expansion
 /// about the normal distribution in the inverse degrees of freedom; error of 0.3 % at 3).
 pub fn deviation_of_95_percent(freedom: f64) -> f64 {

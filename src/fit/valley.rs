@@ -7,7 +7,7 @@
 use std::cmp::Ordering;
 
 use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task, interrupted};
-use super::observation::{D2, D3, Data, R, UNKNOWNS, Unknowns};
+use super::observation::{D2, D3, Data, R, Region, UNKNOWNS, Unknowns};
 use super::problem::{LeastSquares, Verdict};
 use crate::numerics::count::real;
 
@@ -34,11 +34,12 @@ impl LeastSquares<'_> {
                     && way_of_friction(task, optimum).is_none_or(|way| way.error > LOOSE * r))
     }
 
-    /// These minima, and those for neighbouring numbers of half swings, the lowest first.
+    /// These minima, and those of neighbouring regions, the lowest first.
     ///
-    /// Descents start from points around the lowest known minimum: with one half swing more and one less, and
-    /// from the closest points to the record along a change of r that the other unknowns follow. This is
-    /// repeated until no lower minimum is found. Fails with [`NoFit::Interrupted`].
+    /// Descents start from points around each minimum that noise may have made the lowest: beyond the rims around
+    /// its region, and from the closest points to the record along a change of r that the other unknowns follow.
+    /// Each descent is confined to the region in which it starts, so that what is best there is found even if
+    /// it lies on a rim. This is repeated until no other minimum is found. Fails with [`NoFit::Interrupted`].
     pub fn valleys(
         &self,
         task: &Task,
@@ -47,31 +48,42 @@ impl LeastSquares<'_> {
     ) -> Result<Vec<Valley>, NoFit> {
         /// Maximum number of minima around which others are searched for.
         const MOST: usize = 8;
+        /// Rise of chi-squared up to which a minimum may be the right one.
+        const NEAR: f64 = 8.0;
         let mut valleys = Vec::new();
         for optimum in optima {
-            keep(&mut valleys, optimum);
+            let within = Task { within: Some(optimum.seen.region), ..*task };
+            let found = interrupted(within.solve(optimum.p, runs))?;
+            keep(&mut valleys, found.unwrap_or(optimum));
         }
         valleys.sort_by(by_cost);
-        if !self.free[R] || !matches!(self.data, Data::Samples { .. }) {
-            return Ok(valleys);
-        }
-        let mut asked = Vec::new();
-        while asked.len() < MOST && !asked.contains(&valleys[0].half_swings) {
-            asked.push(valleys[0].half_swings);
-            let from = valleys[0].optimum.clone();
-            let Some(way) = way_of_friction(task, &from) else { break };
-            if !from.seen.rests || from.p[R] == 0.0 {
-                break;
+        let mut asked: Vec<Region> = Vec::new();
+        while self.free[R] && asked.len() < MOST {
+            let least = valleys[0].optimum.cost;
+            let limit = least * (1.0 + NEAR / real(self.data.residuals().max(1)));
+            let next = valleys.iter().find(|valley| {
+                valley.optimum.cost <= limit && !asked.contains(&valley.optimum.seen.region)
+            });
+            let Some(from) = next.map(|valley| valley.optimum.clone()) else { break };
+            let is_lowest = from.cost == least;
+            asked.push(from.seen.region);
+            let Some(way) = way_of_friction(task, &from) else { continue };
+            if from.p[R] == 0.0 {
+                continue;
             }
             let verdict = self.verdict(&from);
             let mut guesses = beyond_the_rim(&from, &way, verdict);
-            guesses.extend(if verdict == Verdict::Noise {
-                along_the_valley(task, &from, &way, &valleys, runs)?
-            } else {
-                through_the_valley(task, &from, FINE, &valleys, runs)?
-            });
+            if is_lowest && from.seen.rests && !self.data.has_peaks() {
+                guesses.extend(if verdict == Verdict::Noise {
+                    along_the_valley(task, &from, &way, &valleys, runs)?
+                } else {
+                    through_the_valley(task, &from, FINE, &valleys, runs)?
+                });
+            }
             for guess in guesses {
-                let Ok(found) = interrupted(task.solve(guess, runs))? else { continue };
+                let Ok(seen) = interrupted(task.look(&guess, false, runs))? else { continue };
+                let within = Task { within: Some(seen.region), ..*task };
+                let Ok(found) = interrupted(within.solve(guess, runs))? else { continue };
                 keep(&mut valleys, found);
             }
             valleys.sort_by(by_cost);
@@ -80,12 +92,13 @@ impl LeastSquares<'_> {
     }
 }
 
-/// Adds a minimum, if it is the lowest for its number of half swings.
-fn keep(valleys: &mut Vec<Valley>, optimum: Optimum) {
+/// Adds a minimum, if it is the lowest of its region.
+pub fn keep(valleys: &mut Vec<Valley>, optimum: Optimum) {
     let half_swings = optimum.seen.turns.len();
-    match valleys.iter_mut().find(|valley| valley.half_swings == half_swings) {
+    let region = optimum.seen.region;
+    match valleys.iter_mut().find(|valley| valley.optimum.seen.region == region) {
         Some(known) if known.optimum.cost <= optimum.cost => {}
-        Some(known) => known.optimum = optimum,
+        Some(known) => *known = Valley { half_swings, optimum },
         None => valleys.push(Valley { half_swings, optimum }),
     }
 }
