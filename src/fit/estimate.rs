@@ -6,7 +6,7 @@ use super::levenberg_marquardt::{Optimum, Runs, Task};
 use super::names::{Choice, NAMES, NameSpec};
 use super::noise::Noise;
 use super::observation::{Data, OMEGA0, R, StartKind, UNKNOWNS, Unknowns};
-use super::problem::LeastSquares;
+use super::problem::{HIDDEN, LeastSquares};
 use super::profile::{Left, Profile, ProfileInterval};
 use super::question::Unfit;
 use super::residuals::{Whiteness, whiteness};
@@ -104,9 +104,6 @@ impl Estimate {
     }
 }
 
-/// Residuals this many times the noise of the record cannot be noise, however it was filtered.
-const ALIEN: f64 = 10.0;
-
 /// Assesses a minimum: noise, covariance, intervals, rivals.
 ///
 /// # Errors
@@ -172,7 +169,7 @@ fn assessed(
         let covariance = covariance(&whiteness).ok_or(Unfit::Blind)?;
         (whiteness, covariance)
     };
-    whiteness.systematic |= problem.noise > 0.0 && covariance.deviation > ALIEN * problem.noise;
+    whiteness.systematic |= problem.noise > 0.0 && covariance.deviation > HIDDEN * problem.noise;
     whiteness.white &= !whiteness.systematic;
     // With correlated noise, larger differences of the loss occur by chance.
     let unit = task.variance(&best.seen, covariance.freedom) * covariance.inflation(R);

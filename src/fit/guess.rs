@@ -101,7 +101,10 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
             beginning(StartKind::Moving, false, moving()),
             beginning(StartKind::Release, false, released()),
         ],
-        Begins::Moving => vec![beginning(StartKind::Moving, true, moving())],
+        Begins::Moving => vec![
+            beginning(StartKind::Moving, true, moving()),
+            beginning(StartKind::Release, false, released()),
+        ],
     };
     if begins == Begins::Held {
         with_rest.insert(0, Extreme { t: begin, x: hold });

@@ -35,9 +35,25 @@ pub enum Verdict {
     Unexplained,
 }
 
-/// Residuals up to this many times the noise may still be noise, since second differences underestimate filtered
-/// noise.
-const HIDDEN: f64 = 4.0;
+/// Residuals up to this many times the noise of neighbouring differences may still be noise, since these underestimate
+/// filtered noise.
+pub const HIDDEN: f64 = 3.0;
+
+/// Number of standard deviations beyond which a residual does not belong to the motion. Chance exceeds it 7 times
+/// in a million.
+pub const IMPOSSIBLE: f64 = 4.5;
+
+/// So many samples in a row that do not belong to the motion are no outliers: then the motion is wrong.
+pub const RUN: usize = 5;
+
+/// The length of the longest run of `true`.
+pub fn longest_run(flags: impl Iterator<Item = bool>) -> usize {
+    let (longest, _) = flags.fold((0, 0), |(longest, run), flag| {
+        let run = if flag { run + 1 } else { 0 };
+        (longest.max(run), run)
+    });
+    longest
+}
 
 impl LeastSquares<'_> {
     /// The record and the model of its start.
@@ -69,7 +85,9 @@ impl LeastSquares<'_> {
             .collect();
         let rate = real(t.len()) / (t[t.len() - 1] - t[0]);
         let found = whiteness(&within, rate * std::f64::consts::TAU / optimum.p[OMEGA0]);
-        if found.systematic || !self.is_small(deviation) {
+        let is_far = |value: &f64| value.abs() > IMPOSSIBLE * deviation;
+        let runs_off = longest_run(self.residuals(optimum).map(|value| is_far(&value))) >= RUN;
+        if found.systematic || runs_off || !self.is_small(deviation) {
             Verdict::Unexplained
         } else if found.white {
             Verdict::Noise

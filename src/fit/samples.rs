@@ -6,7 +6,7 @@ use super::levenberg_marquardt::{NoFit, Runs};
 use super::loss::Loss;
 use super::noise::{Noise, robust_deviation, within_scale};
 use super::observation::{Data, LAST, OMEGA0, StartKind};
-use super::problem::LeastSquares;
+use super::problem::{IMPOSSIBLE, LeastSquares};
 use super::question::{LossName, Question, Unfit, placed, reach};
 use super::record::Record;
 use super::search::Minima;
@@ -175,9 +175,8 @@ fn refined(
 }
 
 /// The size beyond which a residual does not belong to the motion: a multiple of the standard deviation of the
-/// residuals within it. Chance exceeds it 7 times in a million.
+/// residuals within it.
 fn limit_of(residuals: &[f64]) -> f64 {
-    const IMPOSSIBLE: f64 = 4.5;
     const ROUNDS: usize = 5;
     let mut limit = IMPOSSIBLE * robust_deviation(residuals.iter().copied());
     for _ in 0..ROUNDS {

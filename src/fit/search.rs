@@ -2,10 +2,11 @@
 
 use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task, interrupted};
 use super::loss::Loss;
-use super::observation::{D2, D3, Data, LAST, OMEGA0, R, StartKind, Unknowns};
+use super::observation::{D2, D3, Data, LAST, OMEGA0, Q0, R, StartKind, Unknowns};
 use super::problem::LeastSquares;
 use super::valley::{Valley, WIDE, by_cost, through_the_valley};
 use crate::numerics::count::real;
+use crate::numerics::elementary::pow;
 
 /// A way in which a record may begin, with guesses of the unknowns.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,9 +79,12 @@ impl LeastSquares<'_> {
             starts = ranked.into_iter().map(|(_, start)| start).collect();
             starts.truncate(1);
         }
-        let (start, optimum) = best.ok_or(failure)?;
+        let (start, mut optimum) = best.ok_or(failure)?;
         let observation = self.observation(start);
         let task = self.task(&observation);
+        if start == StartKind::Release && !self.explains(&optimum) {
+            optimum = self.released_elsewhere(&task, optimum, runs)?;
+        }
         let mut optima = vec![optimum];
         if self.may_be_elsewhere(&task, &optima[0]) {
             let alike = guesses.iter().filter(|beginning| beginning.start == start);
@@ -90,6 +94,31 @@ impl LeastSquares<'_> {
         }
         let valleys = self.valleys(&task, optima, runs)?;
         Ok(Minima { start, valleys })
+    }
+
+    /// The lowest minimum if the same motion was released some periods earlier or later.
+    fn released_elsewhere(
+        &self,
+        task: &Task,
+        mut best: Optimum,
+        runs: &mut Runs,
+    ) -> Result<Optimum, NoFit> {
+        const ROUNDS: usize = 3;
+        for _ in 0..ROUNDS {
+            let from = best.clone();
+            for periods in [-2, -1, 1, 2] {
+                let Some(guess) = released_after(&from, periods) else { continue };
+                if let Ok(found) = interrupted(task.solve(guess, runs))?
+                    && found.cost < best.cost
+                {
+                    best = found;
+                }
+            }
+            if best.cost == from.cost || self.explains(&best) {
+                break;
+            }
+        }
+        Ok(best)
     }
 
     /// The minima reached from those without D2 and D3, which have fewer valleys if noise leaves room for many.
@@ -179,6 +208,16 @@ impl LeastSquares<'_> {
         }
         Ok(starts)
     }
+}
+
+/// The unknowns of nearly the same motion, released some periods later or, by the ratio of its first swings, earlier.
+fn released_after(from: &Optimum, periods: i32) -> Option<Unknowns> {
+    let turn = from.seen.turns.get(2 * periods.unsigned_abs() as usize - 1)?;
+    let (ratio, sign) = (turn.q / from.p[Q0], f64::from(periods.signum()));
+    let mut p = from.p;
+    p[Q0] *= pow(ratio.abs(), sign);
+    p[LAST] += sign * turn.tau / p[OMEGA0];
+    Some(p)
 }
 
 /// A way of descent from a guess to a minimum.
