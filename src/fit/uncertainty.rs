@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::levenberg_marquardt::{Optimum, Task};
 use super::observation::{Data, Residual, UNKNOWNS, Unknowns};
 use crate::numerics::count::real;
-use crate::numerics::elementary::powi;
+use crate::numerics::elementary::{cos, pow, powi, sin};
 
 /// The covariance of the free unknowns about a minimum.
 #[derive(Clone, Debug)]
@@ -22,8 +22,8 @@ pub struct Covariance {
     pub freedom: f64,
     /// The noise absorbed by the unknowns, in residuals.
     absorbed: f64,
-    /// Number of kinds of residuals, whose variances are estimated separately.
-    kinds: f64,
+    /// For each column, the degrees of freedom of its variance if all residuals are independent.
+    freedoms: Vec<f64>,
 }
 
 impl Covariance {
@@ -67,10 +67,9 @@ impl Covariance {
             (sum + weight * value * value, influence + powi(weight * value, 2))
         });
         let variance = influence / freedom;
-        // The errors of displacements and of times of peaks are each estimated from their own residuals only.
-        let kinds = match &task.observation.data {
-            Data::Peaks { t: Some(_), .. } => 2.0,
-            _ => 1.0,
+        let freedoms = match &task.observation.data {
+            Data::Peaks { t: Some(_), x, .. } => of_two_kinds(&rows, x.len(), &bread),
+            _ => vec![freedom; width],
         };
         Some(Covariance {
             columns,
@@ -79,7 +78,7 @@ impl Covariance {
             deviation: (sum / freedom).sqrt(),
             freedom,
             absorbed,
-            kinds,
+            freedoms,
         })
     }
 
@@ -125,7 +124,7 @@ impl Covariance {
     pub fn independent(&self, unknown: usize) -> f64 {
         let inflation = self.inflation(unknown);
         let repeated = if inflation == 1.0 { 1.0 } else { 1.0 + 2.0 * inflation.max(1.0) };
-        self.freedom / (self.kinds * repeated)
+        self.place(unknown).map_or(self.freedom, |at| self.freedoms[at]) / repeated
     }
 
     /// The changes of all unknowns for a unit change of one of them, with the loss kept as small as possible.
@@ -138,6 +137,31 @@ impl Covariance {
         }
         along
     }
+}
+
+/// The degrees of freedom of each unknown's variance if the first `count` residuals and the others are of two kinds,
+/// displacements and times of peaks, the errors of which are estimated separately (Welch and Satterthwaite).
+fn of_two_kinds(rows: &[Vec<f64>], count: usize, bread: &DMatrix<f64>) -> Vec<f64> {
+    let width = bread.nrows();
+    // For each kind: its degrees of freedom, and the variance of each unknown that is due to it.
+    let mut kinds = [(0.0, vec![0.0; width]), (0.0, vec![0.0; width])];
+    for (index, row) in rows.iter().enumerate() {
+        let (freedom, variances) = &mut kinds[usize::from(index >= count)];
+        let row = DVector::from_column_slice(row);
+        let influence = bread * &row;
+        *freedom += 1.0 - influence.dot(&row);
+        for (variance, influence) in variances.iter_mut().zip(influence.iter()) {
+            *variance += influence * influence;
+        }
+    }
+    let of = |unknown: usize| {
+        let parts = kinds.iter().map(|(freedom, variances)| (freedom, variances[unknown]));
+        let (sum, spread) = parts.fold((0.0, 0.0), |(sum, spread), (freedom, variance)| {
+            (sum + variance, spread + variance * variance / freedom.max(f64::MIN_POSITIVE))
+        });
+        sum * sum / spread
+    };
+    (0..width).map(of).collect()
 }
 
 /// The sum of the outer products of all pairs of rows, weighted by their correlation.
@@ -227,13 +251,54 @@ pub fn chi_squared(freedom: f64, z: f64) -> f64 {
     freedom * powi(1.0 - part + z * part.sqrt(), 3)
 }
 
-/// The deviation within which a variable with Student's distribution lies with a probability of 95 % (expansion
-/// about the normal distribution in the inverse degrees of freedom; error of 0.3 % at 3).
+/// The deviation within which a variable with Student's distribution lies with a probability of 95 %: for few degrees
+/// of freedom `n` by the integral of `cos^(n-1)` over the angle whose tangent is the deviation over `sqrt(n)`, else by
+/// the expansion about the normal distribution in `1/n` (error below 1e-5).
 pub fn deviation_of_95_percent(freedom: f64) -> f64 {
+    const FEW: f64 = 12.0;
+    const PANELS: u32 = 4000;
+    let n = freedom.max(1.0);
+    if n < FEW {
+        let width = std::f64::consts::FRAC_PI_2 / f64::from(PANELS);
+        let angle = |panel: u32| width * (f64::from(panel) + 0.5);
+        let density: Vec<f64> = (0..PANELS).map(|panel| pow(cos(angle(panel)), n - 1.0)).collect();
+        let mut left = 0.95 * density.iter().sum::<f64>();
+        let mut reached = 0.0;
+        for part in density {
+            reached += width * (left / part).min(1.0);
+            left -= part;
+            if left <= 0.0 {
+                break;
+            }
+        }
+        return n.sqrt() * sin(reached) / cos(reached);
+    }
     let z: f64 = 1.959_963_984_540_054;
     let (z3, z5, z7) = (powi(z, 3), powi(z, 5), powi(z, 7));
-    let n = freedom.max(2.0);
     z + (z3 + z) / (4.0 * n)
         + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * n * n)
         + (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * n * n * n)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn students_quantiles_are_those_of_tables() {
+        for (freedom, value) in [
+            (1.0, 12.706),
+            (2.0, 4.303),
+            (3.0, 3.182),
+            (5.0, 2.571),
+            (10.0, 2.228),
+            (11.9, 2.181),
+            (12.0, 2.179),
+            (30.0, 2.042),
+            (1e9, 1.960),
+        ] {
+            let found = deviation_of_95_percent(freedom);
+            assert!((found / value - 1.0).abs() < 1e-3, "{freedom}: {found}");
+        }
+    }
 }
