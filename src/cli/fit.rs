@@ -26,6 +26,7 @@ use crate::oscillator::belt::Dimension;
 use crate::report::fit as forms;
 use crate::runtime::{bounded, provenance_file};
 use crate::scene::machine::unit::measured;
+use crate::words::fit::broken;
 
 /// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
 #[derive(Debug, Args)]
@@ -140,7 +141,9 @@ impl Arguments {
             Format::Table => forms::table(&fitted),
             Format::Json => forms::json(&fitted),
             Format::Csv => forms::csv(&fitted),
-        })
+        })?;
+        let failure = |line| Err(Failure::Unanswered(format!("{}: {line}", fitted.name)));
+        broken(&fitted).map_or(Ok(()), failure)
     }
 
     fn fitted(&self) -> Result<Fitted, Failure> {

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::drift::Drift;
 use super::levenberg_marquardt::{Optimum, Runs, Task};
 use super::names::{Choice, NAMES, NameSpec};
 use super::noise::Noise;
@@ -72,6 +73,10 @@ pub struct Estimate {
     pub motions: (u64, u64),
     /// Displacement beyond which a motion counts as escaped.
     pub reach: f64,
+    /// A drift of the zero beside the motion.
+    pub drift: Drift,
+    /// How far a fit of a record simulated from this estimate comes off it, in standard errors; `None` if not tested.
+    pub repeated: Option<f64>,
 }
 
 impl Estimate {
@@ -182,14 +187,55 @@ fn assessed(
             p: valley.optimum.p,
         })
         .collect();
+    let (intervals, lower) = intervals(&task, found, &whiteness, runs)?;
+    let estimate = Estimate {
+        choice: Choice::default(),
+        data: problem.data.clone(),
+        start: found.start,
+        p,
+        free: problem.free,
+        covariance,
+        intervals,
+        residuals: best.seen.residuals.iter().map(|it| it.value).collect(),
+        used: used.to_vec(),
+        half_swings: best.seen.turns.len(),
+        rests: best.seen.rests,
+        rivals,
+        whiteness,
+        extremes: Vec::new(),
+        noise: Noise::default(),
+        saturated: 0,
+        after: 0,
+        before: 0,
+        alike: 0,
+        motions: (runs.with_derivatives, runs.plain),
+        reach: problem.reach,
+        drift: Drift::of(&task, best),
+        repeated: None,
+    };
+    Ok((estimate, lower))
+}
+
+/// The intervals of all unknowns, the union of those of all regions; and a lower minimum if a profile comes upon one.
+fn intervals(
+    task: &Task,
+    found: &Minima,
+    whiteness: &Whiteness,
+    runs: &mut Runs,
+) -> Result<([ProfileInterval; UNKNOWNS], Option<Box<Optimum>>), Unfit> {
     let mut intervals = [ProfileInterval::default(); UNKNOWNS];
     let mut lower = None;
     for (number, valley) in found.valleys.iter().enumerate() {
         let optimum = &valley.optimum;
         let memory = &whiteness.autocorrelation;
-        let Some(covariance) = Covariance::at(&task, optimum, memory) else { continue };
-        let task = Task { within: Some(optimum.seen.region), ..task };
-        let profile = Profile { task: &task, optimum, covariance: &covariance, least: best.cost };
+        let Some(covariance) = Covariance::at(task, optimum, memory) else { continue };
+        let task = Task { within: Some(optimum.seen.region), ..*task };
+        let profile = Profile {
+            task: &task,
+            optimum,
+            covariance: &covariance,
+            least: found.valleys[0].optimum.cost,
+        };
         for place in task.columns() {
             // If the model leaves something out there is no likelihood, and a profile would be meaningless.
             let one = if whiteness.systematic {
@@ -213,28 +259,5 @@ fn assessed(
             };
         }
     }
-    let estimate = Estimate {
-        choice: Choice::default(),
-        data: problem.data.clone(),
-        start: found.start,
-        p,
-        free: problem.free,
-        covariance,
-        intervals,
-        residuals: best.seen.residuals.iter().map(|it| it.value).collect(),
-        used: used.to_vec(),
-        half_swings: best.seen.turns.len(),
-        rests: best.seen.rests,
-        rivals,
-        whiteness,
-        extremes: Vec::new(),
-        noise: Noise::default(),
-        saturated: 0,
-        after: 0,
-        before: 0,
-        alike: 0,
-        motions: (runs.with_derivatives, runs.plain),
-        reach: problem.reach,
-    };
-    Ok((estimate, lower))
+    Ok((intervals, lower))
 }

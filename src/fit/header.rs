@@ -11,6 +11,22 @@ pub const TIME_UNITS: [(&str, f64); 7] = [
     ("sec", 1.0),
 ];
 
+/// Units of quantities that are no displacements.
+const OTHERS: [(&str, &[&str]); 5] = [
+    ("velocity", &["m/s", "mm/s", "um/s", "cm/s", "in/s"]),
+    ("acceleration", &["m/s^2", "m/s2", "m/s\u{b2}", "mm/s^2", "mm/s2", "mm/s\u{b2}", "g"]),
+    ("force", &["N", "mN", "kN", "lbf"]),
+    ("voltage", &["V", "mV", "uV"]),
+    ("current", &["A", "mA"]),
+];
+
+/// The quantity that a unit belongs to, if it is known not to be a length.
+pub fn other_dimension(unit: &str) -> Option<&'static str> {
+    let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u");
+    let found = OTHERS.iter().find(|(_, units)| units.contains(&plain.as_str()));
+    found.map(|(quantity, _)| *quantity)
+}
+
 /// Parts of the names of time columns, in lower case.
 const TIMES: [&str; 5] = ["time", "zeit", "temps", "tiempo", "seconds"];
 

@@ -10,8 +10,10 @@ use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
 use super::estimate::Estimate;
-use super::observation::parameters;
+use super::names::NAMES;
+use super::observation::{D2, D3, R, parameters};
 use super::posterior::{Drawn, drawn};
+use super::refit::following;
 use crate::flow::{Limits, Reason};
 use crate::numerics::count::{real, whole};
 use crate::oscillator::Parameters;
@@ -61,6 +63,10 @@ pub struct Margins {
     pub fold: Spread,
     /// Whether the median displacement lies outside the amplitudes measured.
     pub extrapolated: bool,
+    /// The smallest displacement not survived with D2 or D3 at an end of its interval and all other numbers following:
+    /// the name, its value, and the displacement.
+    #[serde(skip)]
+    pub allowed: Option<(&'static str, f64, f64)>,
     /// The smallest displacement not captured for every draw, in ascending order; infinite if all are survived.
     #[serde(skip)]
     pub displacements: Vec<f64>,
@@ -112,12 +118,31 @@ pub fn margins(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Mar
         cycle: spread(&sorted(|answer| answer.cycle)),
         fold: spread(&sorted(|answer| answer.fold)),
         extrapolated: displacement.median.is_none_or(|at| at > largest || at < smallest),
+        allowed: allowed(estimate, ask),
         failed: draws - known.len(),
         displacements,
         draws: drawn,
         effective,
         motions,
     })
+}
+
+/// What D2 and D3 that the record does not exclude would allow.
+fn allowed(
+    estimate: &Estimate,
+    ask: impl Fn(&Parameters) -> Result<MarginOfDraw, Reason>,
+) -> Option<(&'static str, f64, f64)> {
+    let rows = NAMES.iter().filter(|row| [D2, D3].contains(&row.place));
+    let ends = rows.flat_map(|row| {
+        let interval = estimate.intervals[row.place];
+        [interval.lower, interval.upper].into_iter().flatten().map(move |end| (row, end))
+    });
+    let lost = ends.filter_map(|(row, end)| {
+        let mut p = following(estimate, &[(row.place, end)]);
+        p[R] = p[R].max(0.0);
+        Some((row.name, end, ask(&parameters(&p)).ok()?.margin.displacement?))
+    });
+    lost.min_by(|one, other| one.2.total_cmp(&other.2))
 }
 
 /// The margin, the smallest stable cycle and the fold for one set of parameters.

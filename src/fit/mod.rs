@@ -6,7 +6,8 @@
 //! loss, and [`search`] finds the right [`valley`] for it. [`samples`] and [`peaks`] combine these steps.
 //! [`mod@estimate`] assesses the result: covariance, also for correlated noise ([`uncertainty`], [`residuals`]);
 //! intervals where the loss is not quadratic ([`profile`]); numbers of which only combinations are known
-//! ([`separable`]); and the resulting uncertainty of the margin ([`margin`]).
+//! ([`separable`]); and the resulting uncertainty of the margin ([`margin`]). What all of this rests on is tested by the
+//! record itself ([`conditions`]).
 //!
 //! Nothing here reads or writes files: text goes in, estimates come out.
 //!
@@ -34,9 +35,13 @@
 
 pub(crate) mod cells;
 pub(crate) mod clock;
+#[doc(hidden)]
+pub mod conditions;
 pub(crate) mod contour;
 pub(crate) mod curves;
 pub(crate) mod decrements;
+#[doc(hidden)]
+pub mod drift;
 #[doc(hidden)]
 pub mod estimate;
 pub(crate) mod fitted;
@@ -105,6 +110,12 @@ pub fn estimate(
     let mut runs = Runs::new(&stops);
     let fit = if question.peaks { peaks::peaks } else { samples::samples };
     match fit(record, question, &mut runs) {
+        // What is known to be wrong need not be tested again.
+        Ok(found) if !found.whiteness.systematic && motions.get() <= MOST_MOTIONS => {
+            let mut runs = Runs::new(interrupted);
+            let repeated = Some(conditions::repeated(&found, question, &mut runs)?);
+            Ok(Estimate { repeated, ..found })
+        }
         Err(Unfit::Interrupted) if motions.get() > MOST_MOTIONS => {
             Err(Unfit::GaveUp { motions: MOST_MOTIONS, closest: runs.closest })
         }

@@ -122,6 +122,9 @@ fn told_by_two(x: &[f64]) -> Option<[f64; 3]> {
 pub fn within_scale(x: &[f64], noise: &Noise) -> Vec<bool> {
     /// Distance that is clear of the limit, in standard deviations of the noise.
     const CLEAR: f64 = 6.0;
+    /// Distance of the mean of so many samples on each side within which chance may reach the limit.
+    const CLOSE: f64 = 3.0;
+    const AROUND: usize = 2;
     let (low, high) = x
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)));
@@ -129,6 +132,11 @@ pub fn within_scale(x: &[f64], noise: &Noise) -> Vec<bool> {
     for limit in [low, high] {
         if is_saturated(x, limit, high - low, noise) {
             let clear = CLEAR * noise.deviation;
+            // Where the motion turns just before the limit, chance decides whether a sample reaches it.
+            for (within, around) in within[AROUND..].iter_mut().zip(x.windows(2 * AROUND + 1)) {
+                let mean = around.iter().sum::<f64>() / real(around.len());
+                *within &= (mean - limit).abs() > CLOSE * noise.deviation;
+            }
             let near: Vec<bool> = x.iter().map(|x| (x - limit).abs() <= clear).collect();
             let order: Vec<usize> = (0..x.len()).collect();
             for pass in [order.clone(), order.into_iter().rev().collect()] {
@@ -155,6 +163,15 @@ fn is_saturated(x: &[f64], limit: f64, range: f64, noise: &Noise) -> bool {
         return false;
     }
     let inner = if noise.is_audible { x } else { &x[from..to] };
+    // A converter much finer than the noise hardly ever reads the same twice in a row, except at full scale.
+    let is_flat = inner.windows(2).any(|two| two[0] == two[1] && two[0] == limit);
+    let (low, high) =
+        inner.iter().fold((limit, limit), |(low, high), x| (low.min(*x), high.max(*x)));
+    let is_inner = |x: f64| x != low && x != high;
+    let is_fine = !inner.windows(2).any(|two| two[0] == two[1] && is_inner(two[0]));
+    if is_fine && is_flat {
+        return true;
+    }
     let at = inner.iter().filter(|x| **x == limit).count();
     let steps = inner.iter().map(|x| (x - limit).abs()).filter(|step| *step > 0.0);
     let step = steps.fold(f64::INFINITY, f64::min);

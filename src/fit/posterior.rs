@@ -34,9 +34,11 @@ pub const FEWEST: f64 = 400.0;
 
 /// Draws from the distribution of an estimate. Fails with [`Reason::Interrupted`].
 pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn, Reason> {
-    /// Draws of each round, and the maximum number of rounds.
+    /// Draws of each round, the maximum number of rounds, and that of residuals computed, after which the effective
+    /// number is left as it is.
     const ROUND: usize = 150;
-    const ROUNDS: usize = 14;
+    const ROUNDS: usize = 40;
+    const MOST: f64 = 1e7;
     let free = |place: &usize| estimate.free[*place];
     let quadratic =
         [D, D2, D3, R].iter().filter(|it| free(it)).all(|&it| estimate.intervals[it].quadratic);
@@ -69,7 +71,8 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
             points.extend(found);
             motions += computed;
         }
-        if effective(&weights(&points)) >= FEWEST.max(real(draws)) {
+        let spent = real(usize::try_from(motions).unwrap_or(usize::MAX)) * real(frame.along.len());
+        if effective(&weights(&points)) >= FEWEST.max(real(draws)) || spent > MOST {
             break;
         }
     }
@@ -140,7 +143,9 @@ impl<'a> Frame<'a> {
         let along = task.used_residuals(&seen).iter().map(|it| row(&it.by)).collect();
         // The covariance of the estimate is U^-1 C U^-T for errors with the covariance C along the directions.
         let errors = &upper * &estimate.covariance.matrix * &lower;
-        let root = errors.cholesky().map_or_else(|| DMatrix::zeros(width, width), |it| it.l());
+        let root = errors.cholesky().map(|it| it.l());
+        let unit = refit.unit(runs)?;
+        let root = root.unwrap_or_else(|| unit.sqrt() * DMatrix::identity(width, width));
         let mut frame = Frame {
             task,
             estimate,
@@ -149,7 +154,7 @@ impl<'a> Frame<'a> {
             upper,
             root,
             center: DVector::zeros(width),
-            unit: refit.unit(runs)?,
+            unit,
         };
         frame.center = frame.seen_along(&seen).0;
         Ok(frame)
@@ -222,6 +227,8 @@ impl<'a> Frame<'a> {
         runs: &mut Runs,
     ) -> Option<(Unknowns, f64)> {
         const ROUNDS: usize = 14;
+        /// So many points with negative friction show that there is none without.
+        const NEGATIVE: usize = 3;
         /// How far the residuals may be from the errors, squared, in units of the noise.
         const NEAR: f64 = 1e-4;
         let mut at = if *from == self.estimate.p {
@@ -230,8 +237,12 @@ impl<'a> Frame<'a> {
             *from
         };
         let mut before: Option<(Unknowns, DVector<f64>, f64)> = None;
+        let mut negative = 0;
         for _ in 0..ROUNDS {
-            let negative = at[R] < 0.0;
+            negative += usize::from(at[R] < 0.0);
+            if negative == NEGATIVE {
+                return None;
+            }
             at[R] = at[R].max(0.0);
             let seen = self.task.look(&at, true, runs).ok();
             let state = seen.map(|seen| {
@@ -247,9 +258,6 @@ impl<'a> Frame<'a> {
                         let bent = (cost - values.norm_squared()) / self.unit;
                         let size = lu.u().diagonal().iter().map(|it| ln(it.abs())).sum::<f64>();
                         return Some((at, -0.5 * bent - size));
-                    }
-                    if negative && at[R] == 0.0 && last.as_ref().is_some_and(|it| it.0[R] == 0.0) {
-                        return None;
                     }
                     let step = lu.solve(&(values - errors))?;
                     before = Some((at, step.clone(), off));

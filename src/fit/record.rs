@@ -143,7 +143,18 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
             ),
         })?,
     };
-    let mut record = Record { unit: header.unit(chosen.displacement), ..Record::default() };
+    let unit = header.unit(chosen.displacement);
+    if let Some(other) = unit.as_deref().and_then(header::other_dimension) {
+        return Err(BadRecord {
+            line: lines[first.saturating_sub(1)].number,
+            column: chosen.displacement + 1,
+            problem: format!(
+                "{:?} is a unit of {other}; expected displacements in a unit of length",
+                unit.unwrap_or_default()
+            ),
+        });
+    }
+    let mut record = Record { unit, ..Record::default() };
     let mut rows: Vec<(f64, f64)> = Vec::new();
     for index in first..=last {
         let cell = |column: usize| -> Result<Cell, BadRecord> {
@@ -336,6 +347,8 @@ mod tests {
             ("t,x\n0,1\n1,abc\n2,3\n", "line 3, column 2: \"abc\" is not a number"),
             ("t,x\n0,1\n1\n2,3\n", "line 3, column 2: 1 of at least 2 cells"),
             ("t [frames],x\n0,1\n1,2\n", "line 1, column 1: times in \"frames\"; allowed are s, "),
+            ("t [s],v [mm/s]\n0,1\n1,2\n", "line 1, column 2: \"mm/s\" is a unit of velocity"),
+            ("t [s],force [N]\n0,1\n1,2\n", "line 1, column 2: \"N\" is a unit of force"),
             ("1\n2\n", "line 1: one column only"),
             ("", "the file holds no rows"),
             ("hello\nworld\n", "line 1, column 1: no row of numbers"),

@@ -106,7 +106,7 @@ pub fn held(
 }
 
 /// All unknowns as predicted by the linear model, after some have been set to new values.
-fn following(estimate: &Estimate, numbers: &[(usize, f64)]) -> Unknowns {
+pub fn following(estimate: &Estimate, numbers: &[(usize, f64)]) -> Unknowns {
     let Covariance { columns, white, .. } = &estimate.covariance;
     let at = |place: usize| columns.iter().position(|column| *column == place);
     let white = |one, other| at(one).zip(at(other)).map_or(0.0, |place| white[place]);

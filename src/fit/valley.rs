@@ -6,9 +6,12 @@
 
 use std::cmp::Ordering;
 
+use nalgebra::DVector;
+
 use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task, interrupted};
-use super::observation::{D2, D3, Data, R, Region, UNKNOWNS, Unknowns};
+use super::observation::{Bound, D2, D3, Data, R, Region, UNKNOWNS, Unknowns};
 use super::problem::{LeastSquares, Verdict};
+use super::uncertainty::Covariance;
 use crate::numerics::count::real;
 
 /// A local minimum with its number of half swings.
@@ -72,7 +75,7 @@ impl LeastSquares<'_> {
                 continue;
             }
             let verdict = self.verdict(&from);
-            let mut guesses = beyond_the_rim(&from, &way, verdict);
+            let mut guesses = beyond_the_rim(task, &from, verdict, runs)?;
             if is_lowest && from.seen.rests && !self.data.has_peaks() {
                 guesses.extend(if verdict == Verdict::Noise {
                     along_the_valley(task, &from, &way, &valleys, runs)?
@@ -108,33 +111,52 @@ pub fn by_cost(one: &Valley, other: &Valley) -> Ordering {
     one.optimum.cost.total_cmp(&other.optimum.cost)
 }
 
-/// Points beyond the rim of the sticking set, with one half swing less or one more.
+/// Points just beyond each rim that bounds the region of a minimum, where the loss is smallest by the linear model.
 ///
-/// They lie along the valley of r, where all other unknowns follow r by the linear model. If the residuals are
-/// white and the linear model puts the rim far outside the noise, the point is left out.
-fn beyond_the_rim(optimum: &Optimum, way: &WayOfFriction, verdict: Verdict) -> Vec<Unknowns> {
-    /// Distance beyond the rim: this fraction of the way to it, plus this many standard errors of r.
+/// If the residuals are white and the linear model puts a rim far outside the noise, its point is left out.
+fn beyond_the_rim(
+    task: &Task,
+    optimum: &Optimum,
+    verdict: Verdict,
+    runs: &mut Runs,
+) -> Result<Vec<Unknowns>, NoFit> {
+    /// How much further to go while a point still lies in the same region.
+    const FURTHER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
+    /// Distance beyond the rim: this fraction of the way to it, plus this many standard errors.
     const BEYOND: f64 = 0.1;
     const ERRORS: f64 = 0.5;
-    /// Largest distance of the rim, in standard errors of r.
+    /// Largest distance of a rim, in its standard errors.
     const FAR: f64 = 30.0;
-    let r = optimum.p[R];
-    let turns = &optimum.seen.turns;
-    let last = turns.iter().rev().take(2);
-    let mut guesses = Vec::new();
-    for turn in last {
-        // The derivative of the clearance of this turn along the valley: by D .. q0, then r itself.
-        let change: f64 =
-            turn.q_by[..5].iter().zip(&way.along[2..7]).map(|(by, along)| by * along).sum();
-        let slope = change * turn.q.signum() - 1.0;
-        let step = -(turn.q.abs() - r) / slope;
-        if step.is_finite() && (verdict != Verdict::Noise || step.abs() <= FAR * way.error) {
-            let step = step + (BEYOND * step.abs() + ERRORS * way.error).copysign(step);
-            guesses.push(way.moved(optimum, step));
+    let Some(covariance) = Covariance::at(task, optimum, &[]) else { return Ok(Vec::new()) };
+    let point = |(value, by): Bound| {
+        let columns = &covariance.columns;
+        let by = DVector::from_iterator(columns.len(), columns.iter().map(|&column| by[column]));
+        let lean = &covariance.white * &by;
+        let variance = by.dot(&lean);
+        let error = variance.sqrt();
+        let step = (value * (1.0 + BEYOND) + ERRORS * error) / variance;
+        let mut p = optimum.p;
+        for (&column, lean) in columns.iter().zip(lean.iter()) {
+            p[column] -= step * lean;
+        }
+        let is_near = verdict != Verdict::Noise || value <= FAR * error;
+        Some(p).filter(|p| is_near && p[R] > 0.0 && p.iter().all(|value| value.is_finite()))
+    };
+    let rims = optimum.seen.clearances(&optimum.p, task.observation.start);
+    let mut found = Vec::new();
+    for beyond in rims.into_iter().filter_map(point) {
+        for further in FURTHER {
+            let p: Unknowns = std::array::from_fn(|place| {
+                optimum.p[place] + further * (beyond[place] - optimum.p[place])
+            });
+            let Ok(seen) = interrupted(task.look(&p, false, runs))? else { break };
+            if p[R] > 0.0 && seen.region != optimum.seen.region {
+                found.push(p);
+                break;
+            }
         }
     }
-    guesses.retain(|p| p[R] > 0.0);
-    guesses
+    Ok(found)
 }
 
 /// The points along the valley of r that are closest to the record: one for each number of half swings, if it is

@@ -1,6 +1,7 @@
 //! Remarks on a fit, in sentences: what was left out, what cannot be determined, whether the model holds.
 
 use crate::fit::Fitted;
+use crate::fit::conditions::conditions;
 use crate::fit::names::NAMES;
 use crate::fit::observation::R;
 use crate::fit::separable::{Combination, combinations};
@@ -14,6 +15,18 @@ pub fn sentences(fitted: &Fitted) -> Vec<String> {
     all.push(residuals(fitted));
     all.push(margin(fitted));
     all
+}
+
+/// The conditions of the answer that do not hold, in one line.
+pub fn broken(fitted: &Fitted) -> Option<String> {
+    let all = conditions(&fitted.estimate, &fitted.margins);
+    let failing: Vec<String> = all
+        .iter()
+        .filter(|it| !it.holds)
+        .map(|it| format!("{} ({})", it.name, it.detail))
+        .collect();
+    (!failing.is_empty())
+        .then(|| format!("not to be relied on, because a test fails: {}", failing.join("; ")))
 }
 
 /// `12 samples` or `1 sample`.
@@ -141,7 +154,18 @@ fn margin(fitted: &Fitted) -> String {
     let range = range.trim_end();
     match margins.displacement.median {
         None => format!(
-            "every kick is survived in {share} % of what the record allows; amplitudes were {range}"
+            "every kick is survived in {share} % of what the record allows; amplitudes were {range}, beyond them this is \
+             extrapolated by the model: {}",
+            match margins.allowed {
+                Some((name, value, at)) => format!(
+                    "with {name} = {}, which the record does not exclude, a displacement of {} is not survived, \
+                     {} times the largest amplitude",
+                    significant(value, 2),
+                    significant(at, 3),
+                    significant(at / high, 2)
+                ),
+                None => "no D2 or D3 within its interval changes that".to_owned(),
+            }
         ),
         Some(_) if margins.extrapolated => {
             format!(

@@ -1,9 +1,11 @@
 //! Fits of records with known truth, made by an independent simulator or from the program's own motions with
 //! noise of fixed seeds.
 
+mod kinds;
 mod noise;
 #[path = "../program/mod.rs"]
 mod program;
+mod simulator;
 mod strange;
 
 use std::fs;

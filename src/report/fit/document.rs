@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::fit::Fitted;
+use crate::fit::conditions::{Condition, conditions};
 use crate::fit::estimate::Rival;
 use crate::fit::margin::{Margins, Spread};
 use crate::fit::names::NAMES;
@@ -46,6 +47,12 @@ struct FitCost {
     seconds: f64,
 }
 
+/// The draws on which the margin rests.
+#[derive(Serialize)]
+struct Draws {
+    effective: f64,
+}
+
 #[derive(Serialize)]
 struct FitDocument<'a> {
     file: &'a str,
@@ -69,6 +76,8 @@ struct FitDocument<'a> {
     margin: &'a Margins,
     #[serde(skip_serializing_if = "Option::is_none")]
     physical: Option<Physical>,
+    conditions: Vec<Condition>,
+    draws: Draws,
     sentences: Vec<String>,
     cost: FitCost,
 }
@@ -112,6 +121,8 @@ pub fn json(fitted: &Fitted) -> String {
         residuals: &estimate.whiteness,
         margin: margins,
         physical: physical(fitted),
+        conditions: conditions(estimate, margins),
+        draws: Draws { effective: margins.effective },
         sentences: sentences(fitted),
         cost: FitCost { with_derivatives, without, seconds: fitted.seconds },
     })

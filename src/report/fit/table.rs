@@ -6,13 +6,14 @@ use crate::fit::names::{NAMES, NameSpec};
 use crate::fit::observation::{Data, LAST, Q0, StartKind};
 use crate::fit::physical::{kicks, rows};
 use crate::report::table::Table;
-use crate::words::fit::sentences;
+use crate::words::fit::{broken, sentences};
 use crate::words::number::{duration, resolved, significant};
 
 /// The whole answer of a fit.
 pub fn table(fitted: &Fitted) -> String {
     let estimate = &fitted.estimate;
-    let mut out = format!("{}: {}\n\n", fitted.name, subject(fitted));
+    let broken = broken(fitted).map(|line| line + "\n").unwrap_or_default();
+    let mut out = format!("{broken}{}: {}\n\n", fitted.name, subject(fitted));
     let mut numbers = Table::new(&["number", "value", "error", "from", "to", "unit"]);
     for row in &NAMES {
         if !estimate.free[row.place] || !estimate.choice.is_wanted(row) {
@@ -146,5 +147,8 @@ fn margins(fitted: &Fitted) -> String {
     }
     row("stable cycle, right turning point", &margins.cycle, 1.0, fitted.unit());
     row("D of the fold, above which all is survived", &margins.fold, 1.0, "");
-    format!("{table}95 % lie from .. to; none: the share of the draws without\n\n")
+    format!(
+        "{table}95 % lie from .. to, by {} effective draws; none: the share of the draws without\n\n",
+        significant(margins.effective, 3)
+    )
 }

@@ -1,0 +1,145 @@
+//! The conditions on which the answer of a fit rests, each tested by the record itself.
+
+use serde::Serialize;
+
+use super::estimate::Estimate;
+use super::levenberg_marquardt::Runs;
+use super::margin::Margins;
+use super::observation::{Data, UNKNOWNS};
+use super::peaks::peaks;
+use super::posterior::FEWEST;
+use super::problem::{HIDDEN, IMPOSSIBLE, RUN, longest_run};
+use super::question::{Question, Unfit};
+use super::record::Record;
+use super::samples::samples;
+use crate::numerics::count::real;
+use crate::numerics::random::Random;
+
+/// A condition on which an answer rests.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Condition {
+    /// What is tested.
+    pub name: &'static str,
+    /// Whether it holds.
+    pub holds: bool,
+    /// What was found.
+    pub detail: String,
+}
+
+/// Fewest degrees of freedom from which the size of the noise is known to a factor of two.
+const FREEDOM: f64 = 3.0;
+
+/// All conditions of an answer.
+pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
+    let state = |name, holds, detail| Condition { name, holds, detail };
+    let whiteness = &estimate.whiteness;
+    let kind = match (whiteness.systematic, whiteness.white) {
+        (true, _) => "they swing with the motion: the model leaves something out",
+        (_, true) => "white",
+        _ => "correlated as filtered noise is",
+    };
+    let ratio = estimate.covariance.deviation / estimate.noise.deviation;
+    let run = longest_run(estimate.used.iter().zip(&estimate.residuals).map(|(used, residual)| {
+        !used && residual.abs() > IMPOSSIBLE * estimate.covariance.deviation
+    }));
+    let freedom = estimate
+        .wanted()
+        .map(|row| estimate.covariance.independent(row.place))
+        .fold(f64::INFINITY, f64::min);
+    let enough = FEWEST.min(real(margins.draws.len()));
+    let mut all = vec![
+        state("residuals", !whiteness.systematic, kind.to_owned()),
+        state(
+            "outliers",
+            run < RUN,
+            format!("{} left out, at most {run} in a row", estimate.outliers()),
+        ),
+        state("freedom", freedom >= FREEDOM, format!("{freedom:.1} degrees of freedom")),
+        state(
+            "draws",
+            margins.effective >= enough,
+            format!("{:.0} effective draws", margins.effective),
+        ),
+    ];
+    let drift = estimate.drift;
+    if drift.is_seen() {
+        let detail = format!("the zero drifts by {:.2e} over the record", drift.change);
+        all.push(state("zero", false, detail));
+    } else {
+        all.push(state("zero", true, "no drift is seen".to_owned()));
+    }
+    if estimate.noise.deviation > 0.0 {
+        let detail = format!("{ratio:.2} times the noise of neighbouring differences");
+        all.insert(1, state("noise", ratio <= HIDDEN, detail));
+    }
+    if let Some(off) = estimate.repeated {
+        let detail = if off.is_finite() {
+            format!("a motion simulated from the answer is fitted within {off:.1} standard errors")
+        } else {
+            "a motion simulated from the answer cannot be fitted".to_owned()
+        };
+        all.push(state("repetition", off <= IMPOSSIBLE, detail));
+    }
+    all
+}
+
+/// How far a fit of a record simulated from an estimate comes off it, in standard errors by the intervals of the
+/// estimate; infinite if there is no such fit.
+///
+/// The noise is that of the estimate: drawn anew if it is white, else the residuals half a record away.
+///
+/// # Errors
+/// [`Unfit::Interrupted`].
+pub fn repeated(estimate: &Estimate, question: &Question, runs: &mut Runs) -> Result<f64, Unfit> {
+    let record = simulated(estimate);
+    let fit = if question.peaks { peaks } else { samples };
+    let again = match fit(&record, question, runs) {
+        Ok(again) => again,
+        Err(Unfit::Interrupted) => return Err(Unfit::Interrupted),
+        Err(_) => return Ok(f64::INFINITY),
+    };
+    let off = |place: usize| {
+        let (from, to) = (estimate.p[place], again.p[place]);
+        let interval = estimate.intervals[place];
+        let end = if to < from { interval.lower } else { interval.upper };
+        // Half an interval of 95 % is 1.96 standard errors.
+        end.map_or(0.0, |end| 1.96 * (to - from).abs() / (end - from).abs())
+    };
+    let largest = (0..UNKNOWNS)
+        .filter(|&place| estimate.wanted().any(|row| row.place == place))
+        .map(off)
+        .filter(|off| off.is_finite())
+        .fold(0.0, f64::max);
+    Ok(largest)
+}
+
+/// A record of the fitted motion with other noise of the same kind.
+fn simulated(estimate: &Estimate) -> Record {
+    let mut chance = Random::new(1);
+    let residuals = &estimate.residuals;
+    let half = residuals.len() / 2;
+    let deviation = estimate.covariance.deviation;
+    let mut noise = |index: usize| {
+        if estimate.whiteness.white {
+            deviation * chance.normal()
+        } else {
+            -residuals[(index + half) % residuals.len()]
+        }
+    };
+    let fitted =
+        |measured: &[f64], from: usize, scale: f64, noise: &mut dyn FnMut(usize) -> f64| {
+            let value = |(index, value): (usize, &f64)| {
+                value + scale * (noise(from + index) - residuals[from + index])
+            };
+            measured.iter().enumerate().map(value).collect::<Vec<f64>>()
+        };
+    let (t, x) = match &estimate.data {
+        Data::Samples { t, x } => (Some(t.clone()), fitted(x, 0, 1.0, &mut noise)),
+        Data::Peaks { t, x, ratio } => {
+            let displacements = fitted(x, 0, 1.0, &mut noise);
+            let times = t.as_ref().map(|t| fitted(t, x.len(), *ratio, &mut noise));
+            (times, displacements)
+        }
+    };
+    Record { t, x, ..Record::default() }
+}
