@@ -167,12 +167,14 @@ enum Begins {
 /// more than the noise, the mass was held. The scatter is checked because a growing motion begins small and looks
 /// like a hold.
 fn begins(t: &[f64], x: &[f64], noise: &Noise, first: Extreme, period: f64) -> Begins {
+    /// Fewest samples that show a hold.
+    const FEWEST: usize = 5;
     let natural = (first.t - t[0]) / period;
     let begin = &x[..t.partition_point(|&time| time < first.t - 0.55 * period)];
     let level = median(begin.to_vec());
     let spread = robust_deviation(begin.iter().map(|x| x - level));
     match natural {
-        0.6.. if spread <= 2.0 * noise.deviation => Begins::Held,
+        0.6.. if spread <= 2.0 * noise.deviation && begin.len() >= FEWEST => Begins::Held,
         0.4.. => Begins::Unclear,
         _ => Begins::Moving,
     }

@@ -181,9 +181,10 @@ impl Profile<'_> {
                 Some((far, _)) => 0.5 * (inside.step + far),
             };
         }
-        Ok(outside
-            .filter(|(_, high)| high.is_finite() && inside.risen > NEARLY)
-            .map(|(far, _)| center + sign * far))
+        // Friction is at least zero in any case.
+        let open = is_least.then_some(0.0);
+        let near = outside.filter(|(_, high)| high.is_finite() && inside.risen > NEARLY);
+        Ok(near.map_or(open, |(far, _)| Some(center + sign * far)))
     }
 
     /// The best point with the unknown at a value; `None` if no descent from a known point leads there.

@@ -73,11 +73,10 @@ impl LeastSquares<'_> {
             if best.as_ref().is_some_and(|(_, best)| tired || self.explains(best)) {
                 break;
             }
-            // Only the beginning that came closest is tried in the next round.
+            // The beginning that came closest is tried first in the next round.
             let mut ranked: Vec<_> = costs.into_iter().zip(starts).collect();
             ranked.sort_by(|one, other| one.0.total_cmp(&other.0));
             starts = ranked.into_iter().map(|(_, start)| start).collect();
-            starts.truncate(1);
         }
         let (start, mut optimum) = best.ok_or(failure)?;
         let observation = self.observation(start);

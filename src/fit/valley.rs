@@ -126,7 +126,7 @@ fn beyond_the_rim(
     const BEYOND: f64 = 0.1;
     const ERRORS: f64 = 0.5;
     /// Largest distance of a rim, in its standard errors.
-    const FAR: f64 = 30.0;
+    const FAR: f64 = 100.0;
     let Some(covariance) = Covariance::at(task, optimum, &[]) else { return Ok(Vec::new()) };
     let point = |(value, by): Bound| {
         let columns = &covariance.columns;
