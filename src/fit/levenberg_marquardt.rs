@@ -293,18 +293,19 @@ impl Step<'_> {
             };
             let free = bounds.iter().filter(|bound| !fixed.contains(bound));
             let worst = free.min_by(|one, other| short(one).total_cmp(&short(other)));
-            match worst.filter(|bound| short(bound) < 0.0 && fixed.len() < self.columns.len()) {
-                Some(bound) => fixed.push(*bound),
-                None => {
-                    let along = self.columns.iter().map(|&column| step[column]);
-                    let along = DVector::from_iterator(self.columns.len(), along);
-                    let width = self.columns.len();
-                    let (gradients, residuals) =
-                        (self.factor.columns(0, width), self.factor.column(width));
-                    let left = gradients * along - residuals;
-                    return Some((step, residuals.norm_squared() - left.norm_squared()));
-                }
+            if let Some(bound) = worst
+                && short(bound) < 0.0
+                && fixed.len() < self.columns.len()
+            {
+                fixed.push(*bound);
+                continue;
             }
+            let width = self.columns.len();
+            let along = self.columns.iter().map(|&column| step[column]);
+            let gradients = self.factor.columns(0, width);
+            let residuals = self.factor.column(width);
+            let left = gradients * DVector::from_iterator(width, along) - residuals;
+            return Some((step, residuals.norm_squared() - left.norm_squared()));
         }
     }
 
