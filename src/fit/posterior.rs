@@ -302,6 +302,7 @@ fn normal_at(probability: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::elementary::powi;
 
     #[test]
     fn draws_are_normal_and_independent() {

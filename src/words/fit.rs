@@ -8,7 +8,8 @@ use crate::fit::separable::{Combination, combinations};
 use crate::words::number::significant;
 
 pub fn sentences(fitted: &Fitted) -> Vec<String> {
-    let mut all = left_out(fitted);
+    let mut all: Vec<String> = broken(fitted).into_iter().collect();
+    all.extend(left_out(fitted));
     all.extend(combinations(&fitted.estimate).iter().map(|one| inseparable(fitted, one)));
     all.extend(bounds(fitted));
     all.extend(rivals(fitted));

@@ -196,6 +196,20 @@ fn a_drift_outside_the_model_is_reported() {
         "{:?}",
         found.whiteness.correlation
     );
+    assert!(found.drift.is_seen() && !decay.fitted(4).drift.is_seen(), "{:?}", found.drift);
+    // The program says so in its first line, shows the answer all the same, and exits with 1.
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("drift.csv").display().to_string();
+    let rows = decay.times().into_iter().zip(&record.x).map(|(t, x)| format!("{t},{x}"));
+    fs::write(&file, rows.collect::<Vec<_>>().join("\n")).unwrap();
+    let ran = run(&["fit", &file, "--draws", "40"]);
+    assert!(ran.code == 1 && ran.out.starts_with("not to be relied on"), "{}", ran.out);
+    assert!(ran.out.contains("omega0") && ran.err.contains("zero"), "{}", ran.err);
+    let ran = run(&["fit", &file, "--draws", "40", "--format", "json"]);
+    let told: Value = serde_json::from_str(&ran.out).unwrap();
+    let conditions = told["conditions"].as_array().unwrap();
+    let zero = conditions.iter().find(|it| it["name"] == "zero").unwrap();
+    assert_eq!((ran.code, &zero["holds"]), (1, &Value::Bool(false)));
 }
 
 #[test]

@@ -12,8 +12,9 @@ use crate::words::number::{duration, resolved, significant};
 /// The whole answer of a fit.
 pub fn table(fitted: &Fitted) -> String {
     let estimate = &fitted.estimate;
-    let broken = broken(fitted).map(|line| line + "\n").unwrap_or_default();
-    let mut out = format!("{broken}{}: {}\n\n", fitted.name, subject(fitted));
+    let broken = broken(fitted);
+    let first = broken.as_ref().map(|line| format!("{line}\n")).unwrap_or_default();
+    let mut out = format!("{first}{}: {}\n\n", fitted.name, subject(fitted));
     let mut numbers = Table::new(&["number", "value", "error", "from", "to", "unit"]);
     for row in &NAMES {
         if !estimate.free[row.place] || !estimate.choice.is_wanted(row) {
@@ -36,7 +37,7 @@ pub fn table(fitted: &Fitted) -> String {
     out += &correlations(fitted);
     out += &forces(fitted);
     out += &margins(fitted);
-    for sentence in sentences(fitted) {
+    for sentence in sentences(fitted).into_iter().filter(|it| Some(it) != broken.as_ref()) {
         out += &format!("{sentence}\n");
     }
     let (with, plain) = fitted.motions();
