@@ -121,7 +121,7 @@ fn the_tour_goes_on_by_any_key_but_those_it_names_and_is_left_by_escape() {
     terminal.wait_for("-0.35");
     assert!(terminal.text().contains("takes a step"), "the caption stays");
     terminal.types(" ");
-    terminal.wait_for("The shaded region");
+    terminal.wait_for("Starts inside the dashed curve");
     terminal.wait_for("-0.6");
     // An arrow that is not named goes back.
     terminal.types("\x1b[D");
@@ -247,7 +247,7 @@ fn keys_pressed_while_a_file_plays_are_not_mixed_into_it() {
         terminal.next(Duration::from_millis(5));
     }
     terminal.wait_for("replay done");
-    for row in [" D           -0.1 ", " r           0.25 "] {
+    for row in [" D         -0.1 step ", " r           0.25 "] {
         assert!(terminal.text().replace('\u{25b8}', " ").contains(row), "{}", terminal.text());
     }
     terminal.leave();
