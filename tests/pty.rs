@@ -91,27 +91,19 @@ fn a_full_picture_and_a_step_are_a_few_bytes() {
     terminal.leave();
 }
 
-/// Content and style of every cell.
-fn cells(terminal: &Terminal) -> Vec<String> {
-    let screen = terminal.screen();
-    let (rows, columns) = screen.size();
-    let all = (0..rows.get()).flat_map(|row| (0..columns.get()).map(move |column| (row, column)));
-    all.map(|(row, column)| format!("{:?}", screen.cell(row, column))).collect()
-}
-
 #[test]
 fn a_changed_cell_costs_at_most_five_bytes_at_every_size() {
     for size in [(80, 24), (120, 40), (200, 60)] {
         let mut terminal = explorer(&[], &[], size);
         let (mut bytes, mut changed) = (0, 0);
         for _ in 0..5 {
-            let (before, written) = (cells(&terminal), terminal.written.len());
+            let (before, written) = (terminal.cells(), terminal.written.len());
             let frames = terminal.frames();
             terminal.types("\x1b[C");
             terminal.wait("a frame", |terminal| terminal.frames() > frames);
             terminal.quiet(QUIET);
             bytes += terminal.written.len() - written;
-            changed += before.iter().zip(cells(&terminal)).filter(|(old, new)| *old != new).count();
+            changed += before.iter().zip(terminal.cells()).filter(|(old, new)| *old != new).count();
         }
         assert!(changed > 500, "{changed} cells at {size:?}");
         assert!(bytes <= 5 * changed, "{bytes} bytes for {changed} cells at {size:?}");

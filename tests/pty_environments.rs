@@ -1,9 +1,12 @@
-//! The explorer in every environment: locales, `NO_COLOR`, kinds of terminals, and no terminal.
+//! The explorer in every environment: locales, `NO_COLOR`, kinds of terminals, no terminal, and terminals whose
+//! size changes or that it has to give back for a while.
 
 mod support;
 
 use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
+use std::time::Duration;
+
 use support::{Answers, PROGRAM, QUIET, TITLE, Terminal};
 
 /// The parameters of all sequences that set colours and attributes.
@@ -134,4 +137,97 @@ fn a_dumb_terminal_is_refused_in_one_line() {
     let said = String::from_utf8_lossy(&terminal.written).into_owned();
     assert!(said.contains("TERM=dumb") && said.contains("trajectory"), "{said}");
     assert!(!said.contains('\x1b'), "{said:?}");
+}
+
+/// The rows that a draw on an empty screen changes, before and after it.
+fn damaged(terminal: &mut Terminal) -> Vec<[String; 2]> {
+    terminal.wait("the answers", |it| !it.text().contains("computing"));
+    terminal.quiet(QUIET);
+    let (before, text) = (terminal.cells(), terminal.text());
+    let frames = terminal.frames();
+    terminal.types("\x0c");
+    terminal.wait("a fresh draw", |terminal| terminal.frames() > frames);
+    terminal.quiet(QUIET);
+    let (after, width) = (terminal.cells(), usize::from(terminal.screen().size().1.get()));
+    let rows = before.chunks(width).zip(after.chunks(width)).map(|(before, after)| before == after);
+    let texts = text
+        .lines()
+        .zip(terminal.text().lines())
+        .map(|(one, other)| [one, other].map(str::to_owned))
+        .collect::<Vec<_>>();
+    let changed = rows.zip(texts).filter(|(same, _)| !same).map(|(_, texts)| texts);
+    // What the last key has cost is never the same.
+    changed.filter(|[before, _]| !before.contains(" ms")).collect()
+}
+
+/// Gaps between two changes of the size, in ms.
+const GAPS: [u64; 6] = [0, 5, 20, 60, 150, 300];
+
+#[test]
+fn a_size_that_changes_there_and_back_leaves_no_damage() {
+    for (columns, rows) in [(60, 16), (100, 30)] {
+        for keys in ["", "\x1b[C"] {
+            let mut terminal = Terminal::explorer(&["supercritical"], &[], (80, 24));
+            for gap in GAPS {
+                terminal.quiet(QUIET);
+                terminal.types(&keys.repeat(3));
+                terminal.resize(columns, rows);
+                terminal.watch(Duration::from_millis(gap));
+                terminal.types(keys);
+                terminal.resize(80, 24);
+                assert_eq!(
+                    damaged(&mut terminal),
+                    [[""; 2]; 0],
+                    "{columns}x{rows}, {gap} ms, {keys:?}"
+                );
+            }
+            terminal.leave();
+        }
+    }
+}
+
+#[test]
+fn on_a_slow_line_a_size_that_changes_there_and_back_leaves_no_damage() {
+    let mut terminal = Terminal::explorer(&["supercritical"], &[], (80, 24));
+    for gap in GAPS {
+        terminal.quiet(QUIET);
+        terminal.answers = Answers::WhenTold;
+        // A frame is under way while the size changes.
+        terminal.types("\x1b[C");
+        terminal.watch(Duration::from_millis(50));
+        for (columns, rows) in [(60, 16), (100, 30), (80, 24)] {
+            terminal.resize(columns, rows);
+            terminal.watch(Duration::from_millis(gap));
+        }
+        while terminal.owed() > 0 {
+            terminal.answer();
+            terminal.quiet(Duration::from_millis(100));
+        }
+        terminal.answers = Answers::AtOnce;
+        assert_eq!(damaged(&mut terminal), [[""; 2]; 0], "{gap} ms");
+    }
+    terminal.leave();
+}
+
+#[test]
+fn a_stop_leaves_no_damage() {
+    let shell = ["bash", "--norc", "--noprofile", "-i"];
+    let mut terminal = Terminal::start(&shell, &[("PS1", "ready> ")], (80, 24), Answers::AtOnce);
+    terminal.wait_for("ready> ");
+    terminal.types(&format!("{PROGRAM} supercritical\r"));
+    terminal.wait("the first picture", |terminal| terminal.screen().alternate_screen());
+    for stops in 1..=3 {
+        terminal.quiet(QUIET);
+        // The frame under way is confirmed before the shell has the terminal, later ones too late.
+        terminal.types("\x1b[C\x1b[C\x1a");
+        terminal.wait("the shell", |terminal| !terminal.screen().alternate_screen());
+        terminal.resize(60, 16);
+        terminal.resize(80, 24);
+        terminal.wait("the stop", |it| it.text().matches("Stopped").count() == stops);
+        terminal.types("fg\r");
+        terminal.wait("the picture", |terminal| terminal.screen().alternate_screen());
+        assert_eq!(damaged(&mut terminal), [[""; 2]; 0], "stop {stops}");
+    }
+    terminal.types("q");
+    terminal.wait("the shell", |terminal| !terminal.screen().alternate_screen());
 }

@@ -167,14 +167,11 @@ impl<M: Application, W: Write> Pump<M, W> {
         self.beat = None;
     }
 
-    /// Draws again, on a terminal in an unknown state.
+    /// Draws again, on a terminal that was just taken.
     pub fn repaint(&mut self) -> io::Result<()> {
         self.held = false;
-        let size = (self.terminal_size)();
-        self.screen.repaint(size)?;
         self.screen.probe(Instant::now(), self.application.asks_for_background())?;
-        self.resized(size);
-        Ok(())
+        self.resized()
     }
 
     /// Waits for an answer that the terminal owes, so that it does not arrive after the program has ended.
@@ -212,8 +209,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                 Ok(None)
             }
             Event::Resized => {
-                let size = (self.terminal_size)();
-                self.resized(size);
+                self.resized()?;
                 Ok(None)
             }
             Event::Suspend => Ok(Some(LoopEnd::Suspended)),
@@ -223,14 +219,17 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
     }
 
-    fn resized(&mut self, size: Size) {
-        self.screen.resize(size);
+    /// Follows the size of the terminal, and draws everything again even if that is the size it was: in between
+    /// it may have been another one, which has moved or cut what is on the screen.
+    fn resized(&mut self) -> io::Result<()> {
+        self.screen.repaint((self.terminal_size)())?;
         let Size { width, height } = self.screen.size();
         let msg = Msg::Resize { width, height };
         self.recorder.note(&msg);
         // A resize has no effects.
         drop(self.application.update(msg));
         self.changed.get_or_insert_with(Instant::now);
+        Ok(())
     }
 
     /// Changes the session and carries out the resulting effects.
@@ -321,7 +320,7 @@ impl<M: Application, W: Write> Host for Pump<M, W> {
             Effect::Quit => return Ok(EffectOutcome::Stop(LoopEnd::Quit)),
             Effect::Suspend => return Ok(EffectOutcome::Stop(LoopEnd::Suspend)),
             Effect::Mouse(on) => return Ok(EffectOutcome::Stop(LoopEnd::Mouse(on))),
-            Effect::Repaint => return self.repaint().map(|()| EffectOutcome::Done),
+            Effect::Repaint => return self.resized().map(|()| EffectOutcome::Done),
             Effect::StopWriting => {
                 self.workers.stop_writing();
                 return Ok(EffectOutcome::Done);

@@ -10,6 +10,7 @@
 //! answered and then falls silent (a dropped line), the next frame waits, but only for [`Pacing::PATIENCE`], or
 //! four times the longest wait so far if that is longer.
 
+use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 /// Minimum time between two frames: about 60 a second.
@@ -27,8 +28,10 @@ const LAST_WAIT: Duration = Duration::from_millis(300);
 pub struct Pacing {
     /// When the last frame was sent.
     last: Option<Instant>,
-    /// Time of the request that is not answered yet.
-    waiting_since: Option<Instant>,
+    /// Times of the requests that are not answered yet, the oldest first.
+    owed: VecDeque<Instant>,
+    /// Whether the next frame waits for these answers.
+    waits: bool,
     /// Longest time until an answer; `None` before the first one.
     slowest: Option<Duration>,
     /// Requests since the last answer.
@@ -47,25 +50,33 @@ impl Pacing {
     /// Earliest time for the next frame; an answer from the terminal can make it earlier.
     pub fn next(&self, now: Instant) -> Instant {
         let spaced = self.last.map_or(now, |last| last + FRAME_TIME);
-        match (self.waiting_since, self.slowest) {
-            (Some(since), Some(slowest)) => spaced.max(since + Self::PATIENCE.max(4 * slowest)),
-            _ => spaced,
-        }
+        let patience = self.patience().filter(|_| self.waits);
+        patience.map_or(spaced, |until| spaced.max(until))
+    }
+
+    /// When the answers count as lost; `None` if none is owed, or none has ever come.
+    fn patience(&self) -> Option<Instant> {
+        Some(*self.owed.back()? + Self::PATIENCE.max(4 * self.slowest?))
     }
 
     /// A frame was sent, with or without a request.
     pub fn sent(&mut self, now: Instant, asked: bool) {
         self.last = Some(now);
+        self.waits = true;
+        if !asked || self.patience().is_some_and(|until| until <= now) {
+            self.owed.clear();
+        }
         if asked {
-            self.asked(now);
-        } else {
-            self.waiting_since = None;
+            self.owed.push_back(now);
+            self.unanswered += 1;
         }
     }
 
-    /// A request was sent without a frame.
+    /// A request was sent to a terminal that was just taken. The next frame does not wait for the answer, nor for
+    /// earlier ones, which may have gone elsewhere.
     pub fn asked(&mut self, now: Instant) {
-        self.waiting_since = Some(now);
+        self.owed = VecDeque::from([now]);
+        self.waits = false;
         self.unanswered += 1;
     }
 
@@ -73,7 +84,7 @@ impl Pacing {
     ///
     /// In that case, the apparent answer is a key: xterm sends `ESC[1;5R` for Ctrl-F3.
     pub fn answered(&mut self, now: Instant) -> bool {
-        let Some(since) = self.waiting_since.take() else { return false };
+        let Some(since) = self.owed.pop_front() else { return false };
         let took = now.saturating_duration_since(since);
         self.slowest = Some(self.slowest.map_or(took, |slowest| slowest.max(took)));
         self.unanswered = 0;
@@ -83,7 +94,7 @@ impl Pacing {
     /// Until when to wait for an answer before leaving the terminal, so that the answer does not turn up as
     /// garbage on the shell's command line; `None` if no answer is due.
     pub fn last_wait(&self) -> Option<Instant> {
-        let since = self.waiting_since?;
+        let since = *self.owed.back()?;
         match self.slowest {
             Some(slowest) => Some(since + LAST_WAIT.max(2 * slowest)),
             None if self.unanswered < TRIES => Some(since + LAST_WAIT),
@@ -121,6 +132,38 @@ mod tests {
         let again = sent + 700 * MILLISECOND;
         pacing.sent(again, pacing.asks());
         assert_eq!(pacing.next(again), again + 4 * 700 * MILLISECOND);
+    }
+
+    #[test]
+    fn the_next_frame_waits_for_the_answers_to_all_frames() {
+        let mut now = Instant::now();
+        let mut pacing = Pacing::default();
+        // Nobody knows yet whether the terminal answers.
+        for _ in 0..3 {
+            now = pacing.next(now);
+            pacing.sent(now, true);
+        }
+        for frame in 1..=3 {
+            assert!(pacing.answered(now + frame * MILLISECOND));
+            let free = pacing.next(now) == now + FRAME_TIME;
+            assert_eq!(free, frame == 3);
+        }
+    }
+
+    #[test]
+    fn a_lost_answer_delays_one_frame() {
+        let mut now = Instant::now();
+        let mut pacing = Pacing::default();
+        pacing.asked(now);
+        assert!(pacing.answered(now));
+        pacing.sent(now, true);
+        for delayed in [true, false, false] {
+            let next = pacing.next(now);
+            assert_eq!(next > now + FRAME_TIME, delayed);
+            pacing.sent(next, true);
+            now = next;
+            assert!(pacing.answered(now));
+        }
     }
 
     #[test]

@@ -71,7 +71,7 @@ impl<W: Write> Painter<W> {
         self.written
     }
 
-    /// Tells the painter the size of the terminal; ratatui clears and repaints when it differs.
+    /// Tells the painter the size of the terminal.
     pub fn set_size(&mut self, size: Size) {
         self.size = size;
     }
@@ -81,8 +81,10 @@ impl<W: Write> Painter<W> {
         self.size
     }
 
-    /// Forgets the state of the terminal, because something else has written to it.
+    /// Forgets the state of the terminal, because something else has written to it or it has another size, and
+    /// the frame begun for that state.
     pub fn forget(&mut self) {
+        self.frame.clear();
         self.hand = Hand::default();
         self.shown = Shown::default();
         self.cursor_shown = false;

@@ -37,8 +37,8 @@ impl<W: Write> Screen<W> {
         Ok(Screen { terminal, pacing: Pacing::default(), frames: 0 })
     }
 
-    /// Asks the terminal whether it answers, before the first frame, and for its background colour if
-    /// `background`. The first frame does not wait for the answers, which may take long on a slow line.
+    /// Asks a terminal that was just taken whether it answers, and for its background colour if `background`. The
+    /// next frame does not wait for the answers, which may take long on a slow line.
     pub fn probe(&mut self, now: Instant, background: bool) -> io::Result<()> {
         let question = if background { BACKGROUND } else { "" };
         self.terminal.backend_mut().control(&format!("{question}{REQUEST}"))?;
@@ -74,17 +74,13 @@ impl<W: Write> Screen<W> {
         Ok(())
     }
 
-    /// Sets the size of the terminal.
-    pub fn resize(&mut self, size: Size) {
-        self.terminal.backend_mut().set_size(known(size));
-    }
-
     /// The current size of frames, in cells.
     pub fn size(&self) -> Size {
         self.terminal.backend().shown_size()
     }
 
-    /// Makes the next frame redraw everything, because something else may have written to the terminal.
+    /// Sets the size of the terminal and makes the next frame redraw everything, because what is on the screen is
+    /// not known.
     pub fn repaint(&mut self, size: Size) -> io::Result<()> {
         let size = known(size);
         let painter = self.terminal.backend_mut();

@@ -151,6 +151,22 @@ impl Terminal {
         self.screen.screen().contents().replace('\u{2212}', "-")
     }
 
+    /// Content and style of every cell, as far as they are seen: a blank has no colour but that of its ground.
+    pub fn cells(&self) -> Vec<String> {
+        let screen = self.screen();
+        let (rows, columns) = screen.size();
+        let all =
+            (0..rows.get()).flat_map(|row| (0..columns.get()).map(move |column| (row, column)));
+        let seen = |(row, column)| {
+            let cell = screen.cell(row, column).expect("a cell of the screen");
+            if cell.contents().trim().is_empty() && !cell.inverse() && !cell.underline() {
+                return format!("{:?}", cell.bgcolor());
+            }
+            format!("{cell:?}")
+        };
+        all.map(seen).collect()
+    }
+
     /// The emulated screen.
     pub fn screen(&self) -> &vt100::Screen {
         self.screen.screen()

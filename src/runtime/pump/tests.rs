@@ -172,6 +172,36 @@ fn the_next_frame_waits_until_the_terminal_has_shown_the_last() {
     assert!(pump.due().unwrap() <= shown + FRAME_TIME);
 }
 
+#[test]
+fn after_a_stop_no_frame_waits_for_the_terminal() {
+    let Bench { mut pump, .. } = bench();
+    pump.repaint().unwrap();
+    pump.handle(Event::Shown).unwrap();
+    pump.draw().unwrap();
+    pump.hold();
+    pump.repaint().unwrap();
+    assert!(pump.due().unwrap() <= Instant::now() + FRAME_TIME);
+}
+
+#[test]
+fn a_size_that_changes_there_and_back_before_a_frame_is_drawn_is_a_full_frame() {
+    let Bench { mut pump, written, .. } = bench();
+    pump.draw().unwrap();
+    let first = written.recv().unwrap();
+    assert!(first.contains("\x1b[m0"), "{first:?}");
+    for signals in 1..=3 {
+        for _ in 0..signals {
+            pump.handle(Event::Resized).unwrap();
+        }
+        pump.draw().unwrap();
+        let again = written.recv().unwrap();
+        let erased = again.find("\x1b[2J").unwrap();
+        assert!(again[erased..].contains("\x1b[H0"), "{again:?}");
+        assert_eq!(again.matches("\x1b[2J").count(), 1, "{again:?}");
+        assert!(written.is_empty());
+    }
+}
+
 /// Plays a file and returns what is on the screen at its end.
 fn play(file: &str) -> String {
     let Bench { pump, events, written } = bench();
