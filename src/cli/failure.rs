@@ -5,7 +5,6 @@ use std::io;
 use std::process::ExitCode;
 
 use crate::runtime::standard::tell;
-use crate::scene::misread::printable;
 
 /// Why a command has no answer.
 #[derive(Debug)]
@@ -53,7 +52,7 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::Usage(line) | Failure::Unanswered(line) => out.write_str(&printable(line)),
+            Failure::Usage(line) | Failure::Unanswered(line) => out.write_str(line),
         }
     }
 }

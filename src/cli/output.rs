@@ -11,6 +11,7 @@ use super::wrapped::on_terminal;
 use crate::flow::Reason;
 use crate::runtime::new_file::{self, Readers};
 use crate::runtime::{provenance_file, standard};
+use crate::words::printable;
 
 /// How an answer is printed.
 #[derive(Clone, Debug, Args)]
@@ -70,11 +71,11 @@ pub fn write_source(path: &Path) -> Result<(), Failure> {
         .map_err(|error| Failure::unwritten(&provenance_file::beside(path), &error))
 }
 
-/// The answer; with its provenance if it is a JSON document.
+/// The answer in printable characters; with its provenance if it is a JSON document.
 pub fn sourced(format: Format, answer: &str) -> String {
     match format {
         Format::Json => provenance_file::of_process().within(answer),
-        Format::Table | Format::Csv => answer.to_owned(),
+        Format::Table | Format::Csv => printable::lines(answer).into_owned(),
     }
 }
 
@@ -104,7 +105,7 @@ pub enum Format {
     Csv,
 }
 
-/// Prints an answer. A closed pipe is not an error: its reader has seen enough.
+/// Prints an answer in printable characters. A closed pipe is not an error: its reader has seen enough.
 pub fn print(text: &str) -> Result<(), Failure> {
     match standard::print(text) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

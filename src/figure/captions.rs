@@ -4,12 +4,13 @@
 use std::fmt::Write;
 
 use super::content::Panel;
-use super::ink::{escaped, ink};
+use super::ink::ink;
 use super::layout::{Frame, PLOT, Spot};
 use crate::numerics::count::real;
 use crate::numerics::elementary::hypot;
 use crate::picture::items::Caption;
 use crate::scene::Point;
+use crate::words::printable::xml;
 
 /// Width of a letter and height of a line, in pixels.
 const LETTER: f64 = 5.6;
@@ -229,7 +230,7 @@ fn best(
 pub(super) fn write(out: &mut String, panel: &Panel, frame: Frame) {
     for (Caption { role, .. }, text, Rectangle { left, top, .. }) in places(panel, frame) {
         let (_, color) = ink(*role);
-        let (text, line) = (escaped(text), top + LINE - 2.5);
+        let (text, line) = (xml(text), top + LINE - 2.5);
         // First its halo, so that what understands no order of painting shows the letters too.
         for paint in [
             "fill=\"none\" stroke=\"#ffffff\" stroke-width=\"2.5\"".to_owned(),

@@ -6,6 +6,7 @@ use super::content::{Area, Figure, FigureCurve};
 use crate::picture::map::{Map, MapCell};
 use crate::report::csv::Sheet;
 use crate::report::json::text;
+use crate::words::printable;
 
 /// One document; what is not a number is `null`.
 pub fn json(figure: &Figure) -> String {
@@ -94,5 +95,5 @@ pub(super) fn remarks(figure: &Figure) -> Vec<String> {
             panel.title, panel.y.name, panel.x.name
         ));
     }
-    remarks
+    remarks.iter().map(|remark| printable::line(remark).into_owned()).collect()
 }

@@ -44,8 +44,3 @@ pub(super) fn shading(role: Role) -> (&'static str, f64) {
         _ => ("#dbe7f3", 0.75),
     }
 }
-
-/// A text in which nothing is markup.
-pub(super) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
-}

@@ -2,13 +2,14 @@
 
 use std::fmt::Write;
 
-use super::ink::{escaped, shading};
+use super::ink::shading;
 use super::layout::{Frame, PLOT, Spot};
 use crate::numerics::count::{real, whole};
 use crate::picture::map::{Danger, Map, MapCell};
 use crate::picture::role::Role;
 use crate::scene::Point;
 use crate::words::number::significant;
+use crate::words::printable::xml;
 
 /// Height of the scale of a map with its name and its numbers, in pixels.
 pub(super) const SCALE: f64 = 54.0;
@@ -94,7 +95,7 @@ pub(super) fn scale(out: &mut String, map: &Map, (x, y): Spot) {
         "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"11\">{}</text>",
         x + width / 2.0,
         y + 14.0,
-        escaped(&map.name)
+        xml(&map.name)
     );
     out.push_str("<g shape-rendering=\"crispEdges\" stroke=\"none\">\n");
     for step in 0..STEPS {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::captions;
 use super::content::{Area, Figure, MarkedPoint, Panel};
 use super::data::remarks;
-use super::ink::{dashes, escaped, ink, shading};
+use super::ink::{dashes, ink, shading};
 use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT};
 use super::map;
 use super::region::loops;
@@ -16,6 +16,7 @@ use crate::picture::map::Map;
 use crate::picture::role::{self, Role};
 use crate::picture::ticks::Ticks;
 use crate::scene::Point;
+use crate::words::printable::xml;
 
 pub fn svg(figure: &Figure) -> String {
     let panels = u32::try_from(figure.panels.len()).unwrap_or(u32::MAX).max(1);
@@ -34,10 +35,10 @@ pub fn svg(figure: &Figure) -> String {
          font-size=\"12\" role=\"img\">\n<title>{}</title>\n<desc>{}</desc>\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n\
          <text x=\"{}\" y=\"22\" text-anchor=\"middle\" font-size=\"14\">{}</text>\n",
-        escaped(&figure.title),
-        escaped(&remarks(figure).join("\n")),
+        xml(&figure.title),
+        xml(&remarks(figure).join("\n")),
         width / 2.0,
-        escaped(&figure.title),
+        xml(&figure.title),
     );
     for (number, panel) in (0..).zip(&figure.panels) {
         draw(&mut out, number, panel, Frame::of(number, panels, panel.window));
@@ -215,7 +216,7 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
          stroke=\"#222222\" stroke-width=\"0.9\"/>"
     );
     let mut text = |x: f64, y: f64, anchor: &str, more: &str, text: &str| {
-        let text = escaped(text);
+        let text = xml(text);
         let _ = writeln!(
             out,
             "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\"{more}>{text}</text>"
@@ -312,6 +313,6 @@ fn sample(out: &mut String, entry: &FigureLegendEntry, (x, y): (f64, f64)) {
             y - 5.0
         );
     }
-    let (x, y, name) = (x + 37.0, y + 4.0, escaped(entry.name));
+    let (x, y, name) = (x + 37.0, y + 4.0, xml(entry.name));
     let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"11\">{name}</text>");
 }

@@ -1,8 +1,10 @@
-//! JSON documents: numbers in the shortest form that reads back exactly, `null` for a value that does not exist.
+//! JSON documents: numbers in the shortest form that reads back exactly, `null` for a value that does not exist;
+//! what is not printable is escaped.
 
 use serde::Serialize;
 
 use crate::flow::Cost;
+use crate::words::printable;
 
 /// The cost of an answer, counted and timed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -26,7 +28,7 @@ pub struct Seconds {
 /// Never: strings, numbers and structs of them can always be written, and keys are strings.
 pub fn text(document: &impl Serialize) -> String {
     match serde_json::to_string(document) {
-        Ok(text) => text + "\n",
+        Ok(text) => printable::json(&text).into_owned() + "\n",
         Err(error) => unreachable!("a document cannot be written: {error}"),
     }
 }

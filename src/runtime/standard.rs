@@ -6,11 +6,13 @@ use std::io::{self, Write};
 use std::os::fd::AsFd;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::words::printable;
+
 /// Whether standard output was closed when the process began. The runtime of the language has put /dev/null in
 /// its place before `main`, so only the program itself can know.
 pub static CLOSED: AtomicBool = AtomicBool::new(false);
 
-/// Prints a part of the answer at once. Fails if it cannot be written.
+/// Prints a part of the answer at once, in printable characters. Fails if it cannot be written.
 pub fn print(text: &str) -> io::Result<()> {
     if text.is_empty() {
         return Ok(());
@@ -19,10 +21,12 @@ pub fn print(text: &str) -> io::Result<()> {
         return Err(io::Error::other("it is closed"));
     }
     // Not by `io::Stdout`, which takes one that is not open for writing for success.
-    File::from(io::stdout().as_fd().try_clone_to_owned()?).write_all(text.as_bytes())
+    File::from(io::stdout().as_fd().try_clone_to_owned()?)
+        .write_all(printable::lines(text).as_bytes())
 }
 
-/// Tells the user a line. If that fails, nobody can be told: the exit code has to say it.
+/// Tells the user a line, in printable characters. If that fails, nobody can be told: the exit code has to say it.
 pub fn tell(line: impl Display) {
-    drop(io::stderr().write_all(format!("hopfscope: {line}\n").as_bytes()));
+    let line = format!("hopfscope: {line}");
+    drop(io::stderr().write_all(format!("{}\n", printable::line(&line)).as_bytes()));
 }

@@ -1,10 +1,11 @@
 //! Mistakes in files that people write: one line, `file:line:column: message`.
 
-use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 
 use serde::de::DeserializeOwned;
+
+use crate::words::printable;
 
 /// A mistake in a file, and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,22 +22,11 @@ pub struct Misread {
 impl fmt::Display for Misread {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { file, line, column, message } = self;
-        write!(out, "{file}:{line}:{column}: {}", printable(message))
+        write!(out, "{}:{line}:{column}: {}", printable::line(file), printable::line(message))
     }
 }
 
 impl std::error::Error for Misread {}
-
-/// The text with its control characters escaped: messages quote files, and a terminal must not interpret them.
-pub fn printable(message: &str) -> Cow<'_, str> {
-    if !message.contains(char::is_control) {
-        return message.into();
-    }
-    let written = message.chars().map(|char| {
-        if char.is_control() { char.escape_default().to_string() } else { char.to_string() }
-    });
-    written.collect::<String>().into()
-}
 
 /// A complaint about a part of a text, given as a range of bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]

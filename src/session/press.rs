@@ -1,6 +1,5 @@
 //! The effect of a key press: it completes what is pending, runs a command, or types a character.
 
-use crate::scene::misread::printable;
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::{general, macros, marks, typing};
@@ -17,6 +16,7 @@ use crate::session::state::history::Before;
 use crate::session::state::overlay::{Overlay, Prompt};
 use crate::session::state::pending::{Letter, Pending};
 use crate::session::state::session::{Price, Session};
+use crate::words::printable;
 use crate::words::similar::most_similar;
 
 /// The key that is passed to commands that are run from a line.
@@ -185,7 +185,7 @@ pub fn run_line(session: &mut Session, text: &str) -> Done {
         }
         (Some(_), _) => {
             let run = lines::run(name).map_or(Ok(Vec::new()), |run| run(session, rest));
-            run.map_err(|why| printable(&format!("{name}: {why}")).into())
+            run.map_err(|why| printable::line(&format!("{name}: {why}")).into())
         }
         (None, Some(_)) => Err(format!("{name} takes no words, but there are {rest:?}")),
         (None, None) => Err(match most_similar(name, names(&session.keymap)) {

@@ -13,6 +13,7 @@ use ratatui::layout::{Position, Size};
 use unicode_width::UnicodeWidthStr;
 
 use super::pen::Pen;
+use crate::words::printable::is_printable;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cursor {
@@ -140,7 +141,7 @@ impl Sheet {
         last.adopt(cell);
         last.width += u16::try_from(width).unwrap_or(1);
         last.certain &= cell.symbol().width_cjk() == width;
-        self.text.push_str(cell.symbol());
+        push_printable(cell.symbol(), width, &mut self.text);
         last.text.end = self.text.len();
     }
 
@@ -167,6 +168,14 @@ impl Sheet {
         }
         (out, hand)
     }
+}
+
+/// Appends a symbol of this width as far as it is printable: ratatui adds invisible characters to the cell before.
+fn push_printable(symbol: &str, width: usize, text: &mut String) {
+    let end = symbol.find(|char| !is_printable(char)).unwrap_or(symbol.len());
+    let seen = &symbol[..end];
+    text.push_str(seen);
+    text.extend(std::iter::repeat_n(' ', width.saturating_sub(seen.width())));
 }
 
 /// The cells of strokes that are not drawn yet: their present content does not matter.
@@ -362,6 +371,15 @@ mod tests {
         board.put(0, 0, "aBcdEfghijkL", Color::Reset);
         // After the A: two changed cells with two unchanged ones between, then six unchanged ones.
         assert_eq!(board.draw(), "\x08aBcdE\x1b[6CL");
+    }
+
+    #[test]
+    fn what_is_not_printable_is_not_drawn() {
+        let mut board = Board::new();
+        for (x, symbol) in (0..).zip(["a\u{202e}", "b\u{200d}", "\u{9b}", "c\u{301}"]) {
+            board.after[(x, 0)].set_symbol(symbol);
+        }
+        assert_eq!(board.draw(), "ab c\u{301}");
     }
 
     #[test]

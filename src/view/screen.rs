@@ -10,6 +10,7 @@ use ratatui::style::{Color, Modifier};
 use unicode_width::UnicodeWidthStr;
 
 use super::signs::MINUS;
+use crate::words::printable::xml;
 
 /// The rows of a screen, without the blanks at their ends and with minus signs as programs read them.
 pub fn text(screen: &Buffer) -> String {
@@ -279,7 +280,7 @@ fn letters(out: &mut String, row: &[ScreenCell], top: f64) {
             let indent = line.chars().take_while(|char| char.is_whitespace()).count();
             let (x, y) = (CELL.0 * units(column + indent), top + BASELINE);
             let length = CELL.0 * units(text.width());
-            let (attributes, text) = (paint.attributes(), escaped(text));
+            let (attributes, text) = (paint.attributes(), xml(text));
             let _ = writeln!(
                 out,
                 "<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\" {attributes}>{text}</text>"
@@ -292,11 +293,6 @@ fn is_shape(symbol: &str) -> bool {
     let mut chars = symbol.chars();
     let shaped = |char| braille(char).is_some() || block(char).is_some() || strokes(char).is_some();
     matches!((chars.next(), chars.next()), (Some(char), None) if shaped(char))
-}
-
-/// Text with the characters that mean something in XML replaced.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// A colour as `#rrggbb`, or `None` where it is left to the terminal.

@@ -5,6 +5,7 @@ pub mod fit;
 pub mod measured;
 pub mod motion;
 pub mod number;
+pub mod printable;
 pub mod provenance;
 pub mod quantity;
 pub mod similar;

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::printable;
+
 /// What computed an output, and how to compute it again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Provenance {
@@ -90,7 +92,7 @@ impl Provenance {
             return document.to_owned();
         };
         let own = match serde_json::to_string(self) {
-            Ok(own) => own,
+            Ok(own) => printable::json(&own).into_owned(),
             Err(error) => unreachable!("strings cannot be written: {error}"),
         };
         let comma = if fields == "{" { "" } else { "," };

@@ -1,6 +1,7 @@
 //! What scripts rely on: documents, their numbers, and exit codes.
 
 mod files;
+mod outside;
 #[path = "../program/mod.rs"]
 mod program;
 mod replay;

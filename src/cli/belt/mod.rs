@@ -30,6 +30,7 @@ use crate::report::belt::{
     self, Designed, Head, MachineAnswer, MachineSweep, OnBelt, RestShare, SweepPoint,
 };
 use crate::runtime::bounded;
+use crate::runtime::standard::tell;
 use crate::scene::machine::file::parse;
 use crate::scene::machine::library::{TEXTBOOK, find, machines};
 use crate::scene::machine::mode::{self, Mode, is_mode};
@@ -219,7 +220,7 @@ impl Arguments {
         };
         checked.map_err(Failure::Usage)?;
         if let Some(line) = unlikely(&case.subject.body, case.start) {
-            eprintln!("hopfscope: warning: {line}");
+            tell(format!("warning: {line}"));
         }
         Ok(case)
     }

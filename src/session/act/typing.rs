@@ -4,6 +4,7 @@ use crate::session::effect::Effect;
 use crate::session::state::input::Input;
 use crate::session::state::overlay::Overlay;
 use crate::session::state::session::Session;
+use crate::words::printable::is_printable;
 
 /// Applies an edit to the open line, and drops what was said about its old text.
 pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) -> Vec<Effect> {
@@ -25,9 +26,9 @@ pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) -> Vec<Effect> 
     Vec::new()
 }
 
-/// Types a text into the open line, if there is one; control characters are dropped.
+/// Types a text into the open line, if there is one; what is not printable is dropped.
 pub fn insert(session: &mut Session, text: &str) {
-    let mut visible = text.chars().filter(|char| !char.is_control());
+    let mut visible = text.chars().filter(|char| is_printable(*char));
     if let Some(list) = session.overlay.as_mut().and_then(Overlay::list_mut) {
         list.search.extend(visible);
         list.selected = 0;

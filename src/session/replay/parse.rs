@@ -4,10 +4,10 @@ use std::fmt;
 
 use super::mouse;
 use crate::oscillator::PARAMETERS;
-use crate::scene::misread::printable;
 use crate::session::message::key::{self, Code, Key};
 use crate::session::message::pointer::Gesture;
 use crate::session::replay::script::{self, Instruction, LONGEST, Located, Script, too_long};
+use crate::words::printable;
 use crate::words::similar::most_similar;
 
 /// Why a text is not a keystroke file.
@@ -23,7 +23,13 @@ pub struct BadScript {
 
 impl fmt::Display for BadScript {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "line {}, column {}: {}", self.line, self.column, printable(&self.message))
+        write!(
+            out,
+            "line {}, column {}: {}",
+            self.line,
+            self.column,
+            printable::line(&self.message)
+        )
     }
 }
 
