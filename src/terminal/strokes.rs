@@ -288,15 +288,18 @@ fn go_to(target: Position, cursor: Option<Cursor>, size: Size, out: &mut String)
 /// backspaces, a sequence or from the margin, right by a sequence. There is none upwards.
 fn relative_move(target: Position, cursor: Cursor, size: Size) -> Option<String> {
     let Position { x, y } = cursor.at;
-    // At the right margin, terminals disagree about the position of the cursor.
-    let certain = cursor.certain && x < size.width;
-    if target.y < y || !(certain || (target.y == y && target.x >= x) || target.x == 0) {
+    if target.y < y {
         return None;
     }
     let down = steps(target.y - y, "\n", 'B');
     let from_margin = format!("\r{down}{}", steps(target.x, "", 'C'));
-    if !certain && (target.y != y || target.x < x) {
-        return Some(from_margin);
+    // At the right margin, terminals disagree about the position of the cursor.
+    let inside = x < size.width;
+    if !(cursor.certain && inside) {
+        // Text that follows at once stays together, wherever the terminal has got to.
+        let follows = inside && target == cursor.at;
+        let is_known = target.x == 0 || (inside && target.y == y);
+        return if follows { Some(String::new()) } else { is_known.then_some(from_margin) };
     }
     let along =
         if target.x >= x { steps(target.x - x, "", 'C') } else { steps(x - target.x, "\x08", 'D') };
@@ -419,6 +422,10 @@ mod tests {
         board.draw();
         board.put(0, 3, "c", Color::Reset);
         assert_eq!(board.draw(), "\rc");
+        // Nor does one along the row, over a blank that stays.
+        board.put(20, 5, "\u{25cb}", Color::Reset);
+        board.put(25, 5, "d", Color::Reset);
+        assert_eq!(board.draw(), "\x1b[6;21H\u{25cb}\r\x1b[25Cd");
     }
 
     #[test]
