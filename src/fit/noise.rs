@@ -260,7 +260,9 @@ mod tests {
         let mut free: Vec<f64> = swing(60).iter().map(|x| x + 0.01 * chance.normal()).collect();
         assert_eq!(left_out(&free), 0);
         let limit = free.iter().copied().fold(f64::NEG_INFINITY, f64::max) - 0.1;
-        free.iter_mut().for_each(|x| *x = x.min(limit));
+        for x in &mut free {
+            *x = x.min(limit);
+        }
         assert!(free.iter().filter(|x| **x == limit).count() < 8);
         assert!(left_out(&free) >= 2, "{}", left_out(&free));
         assert!(left_out(&beyond) >= 200, "{}", left_out(&beyond));

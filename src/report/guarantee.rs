@@ -66,13 +66,12 @@ pub fn table(found: &Guarantee, seconds: f64) -> String {
     };
     rows("nominal", found.nominal);
     let below = |size: f64| BELOW * size;
-    let nothing = match found.guaranteed.reason {
-        Some(reason) => format!("nothing is guaranteed: {reason}\n"),
-        None => {
-            rows("guaranteed", found.guaranteed.margin.map(below, below));
-            String::new()
-        }
-    };
+    let nothing = found.guaranteed.reason;
+    let nothing = nothing.map(|reason| format!("nothing is guaranteed: {reason}\n"));
+    if nothing.is_none() {
+        rows("guaranteed", found.guaranteed.margin.map(below, below));
+    }
+    let nothing = nothing.unwrap_or_default();
     format!(
         "{parameters}; disturbance {}\n\n{table}{nothing}\n{} evaluations, {}\n",
         significant(found.disturbance, 12),
