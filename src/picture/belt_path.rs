@@ -29,7 +29,7 @@ pub fn draw(picture: &mut Picture, session: &Session, right: Symbol, up: Symbol)
     };
     let place = |(_, parameters): Station| parameters.as_ref().map_or(Point::NOWHERE, at);
     let line = LineStyle::new("over the speed of the belt", PEN, Dash::Dotted);
-    let line = line.briefly("as the belt varies");
+    let line = line.briefly("path of the belt");
     picture.items.push(Item::Path(line, running.path().into_iter().map(place).collect()));
     let here = at(&session.problem.parameters);
     milestones(picture, &running, here, place);

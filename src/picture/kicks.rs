@@ -47,10 +47,10 @@ fn lost_part(session: &Session, index: usize) -> String {
     }
     match session.answer(Topic::Kicks, index) {
         Some(Answer::Kicks(found)) if !session.is_stale(Topic::Kicks, index) => {
-            let [part, error] = [(found.share.part, 6), (found.share.error, 2)]
+            let [part, error] = [(found.share.part, 4), (found.share.error, 2)]
                 .map(|(value, digits)| significant(value, digits));
             let of = if session.variants(index).is_some() { " at the present values" } else { "" };
-            format!("kicks lost{of}: {part} +- {error}")
+            format!("kicks lost{of} {part} +- {error}")
         }
         _ => "kicks lost: ..".to_owned(),
     }

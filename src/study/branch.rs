@@ -133,7 +133,7 @@ const VAGUE: f64 = 1e-3;
 
 /// Relative error of a clearance beyond which a point that was followed is not shown: a picture of the branch could
 /// tell.
-const SHOWN: f64 = 1e-2;
+const SHOWN: f64 = 0.1;
 
 /// Folds closer than this fraction of the range are one.
 const SAME: f64 = 1e-9;

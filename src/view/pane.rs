@@ -107,7 +107,10 @@ pub fn title(
     let room = width.saturating_sub(right.width());
     let whole = |text: &str| pointer.chars().count() + text.chars().count() <= room;
     let (view, held) = title.split_once(", ").unwrap_or((title, title));
-    let beside = [title, held, view].into_iter().find(|text| whole(&format!("{text}  {names}")));
+    // A number matters more than its error.
+    let number = held.split(" +- ").next().unwrap_or(held);
+    let beside = |text: &&str| whole(&format!("{text}  {names}"));
+    let beside = [title, held, number, view].into_iter().find(beside);
     // Beside a reading, a title of which only a few letters fit is left out.
     let stump = heading.reading.is_some() && 2 * room < title.chars().count();
     let otherwise = if stump { "" } else { title };

@@ -20,7 +20,7 @@ fn kicks_are_drawn_their_lost_part_is_told_and_a_saved_session_keeps_them() {
     assert_eq!(trial.press("<run \"kicks q=0.1+-0.2,v=0+-0.05\">"), [Topic::Kicks]);
     assert!(trial.session.layers.contains(&Layer::Kicks));
     let phase = titles(&trial).remove(0);
-    assert!(phase.ends_with("kicks lost: 0.125 +- 1e-11"), "{phase}");
+    assert!(phase.ends_with("kicks lost 0.125 +- 1e-11"), "{phase}");
     let drawn = picture::of(&trial.session, 0);
     let right = drawn.items.iter().filter_map(|item| match item {
         Item::Curve(line, points) if line.name.starts_with("kicks, 3") => {
