@@ -21,6 +21,7 @@
 
 use std::f64::consts::PI;
 
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::closing::{Equation, Route, first_side};
@@ -379,8 +380,14 @@ impl Tracer<'_> {
     fn keep_part(&mut self, points: &[CurvePoint]) -> Result<(), Reason> {
         let mut piece = Vec::new();
         if let Points::Even(count) = self.points {
-            for place in self.curve.spread(points, count.max(2))? {
-                match self.polished(&place)? {
+            let places = self.curve.spread(points, count.max(2))?;
+            // Most of the work, and each point stands for itself.
+            let curve = &self.curve;
+            let cycles: Vec<_> = places.par_iter().map(|place| polished(curve, place)).collect();
+            for (place, found) in places.iter().zip(cycles) {
+                let (cycle, cost) = found?;
+                self.curve.cost += cost;
+                match cycle {
                     Some(cycle) => piece.push(BranchPoint { value: place.p, cycle }),
                     None => self.found.vague.push(place.p),
                 }
@@ -393,24 +400,6 @@ impl Tracer<'_> {
             self.found.pieces.push(piece);
         }
         Ok(())
-    }
-
-    /// The cycle at a place as the search for cycles finds it, to rounding; `None` where it cannot be told.
-    fn polished(&mut self, place: &CurvePlace) -> Result<Option<Cycle>, Reason> {
-        let parameters = self.curve.parameters_at(place.p);
-        if let Some(closing) = weak_closing(&parameters) {
-            return Ok(Some(closing.describe(&parameters, self.curve.side)));
-        }
-        let mut equation = Equation::on_side(&parameters, self.curve.side, STEP);
-        let sharp = POLISHED * self.curve.tolerance();
-        let closing =
-            polish_near(&mut equation, place.u, place.log_multiplier, sharp, self.curve.limits());
-        self.curve.cost += equation.cost();
-        match closing {
-            Err(Reason::Interrupted) => Err(Reason::Interrupted),
-            Ok(Some(closing)) => Ok(Some(closing.describe(&parameters, self.curve.side))),
-            Ok(None) | Err(_) => Ok(None),
-        }
     }
 
     fn describe(&self, point: &CurvePoint) -> Cycle {
@@ -454,6 +443,24 @@ impl Tracer<'_> {
         }
         Ok(())
     }
+}
+
+/// The cycle at a place as the search for cycles finds it, to rounding, and what it cost; no cycle where it cannot be
+/// told.
+fn polished(curve: &CycleCurve, place: &CurvePlace) -> Result<(Option<Cycle>, Cost), Reason> {
+    let (parameters, side) = (curve.parameters_at(place.p), curve.side);
+    if let Some(closing) = weak_closing(&parameters) {
+        return Ok((Some(closing.describe(&parameters, side)), Cost::default()));
+    }
+    let mut equation = Equation::on_side(&parameters, side, STEP);
+    let sharp = POLISHED * curve.tolerance();
+    let closing = polish_near(&mut equation, place.u, place.log_multiplier, sharp, curve.limits());
+    let cycle = match closing {
+        Err(Reason::Interrupted) => return Err(Reason::Interrupted),
+        Ok(Some(closing)) => Some(closing.describe(&parameters, side)),
+        Ok(None) | Err(_) => None,
+    };
+    Ok((cycle, equation.cost()))
 }
 
 /// The branch of the piecewise linear oscillator over D, from its closed form.
