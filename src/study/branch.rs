@@ -21,7 +21,6 @@
 
 use std::f64::consts::PI;
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::closing::{Equation, Route, first_side};
@@ -380,12 +379,8 @@ impl Tracer<'_> {
     fn keep_part(&mut self, points: &[CurvePoint]) -> Result<(), Reason> {
         let mut piece = Vec::new();
         if let Points::Even(count) = self.points {
-            let places = self.curve.spread(points, count.max(2))?;
-            // Most of the work, and each point stands for itself.
-            let curve = &self.curve;
-            let cycles: Vec<_> = places.par_iter().map(|place| polished(curve, place)).collect();
-            for (place, found) in places.iter().zip(cycles) {
-                let (cycle, cost) = found?;
+            for place in self.curve.spread(points, count.max(2))? {
+                let (cycle, cost) = polished(&self.curve, &place)?;
                 self.curve.cost += cost;
                 match cycle {
                     Some(cycle) => piece.push(BranchPoint { value: place.p, cycle }),
