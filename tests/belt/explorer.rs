@@ -21,7 +21,7 @@ fn figure() -> Scene {
 fn a_played_motion_moves_with_the_time_it_is_told_and_then_stands_still() {
     let (session, start) = screen(figure(), "");
     assert!(session.head().is_none() && !session.is_playing());
-    assert!(start.contains("t 0 s  x 1 mm  v 0 m/s"), "{start}");
+    assert!(start.contains("x [mm]") && start.contains("t 0 s  x 1 mm  v 0 m/s"), "{start}");
     // The period is 4 s: after 2 s of playing, half a period has passed and the motion is near the left turning point.
     let (session, half) = screen(figure(), "<f8> <elapse 1.5> <elapse 0.5>");
     let head = session.head().unwrap();
