@@ -81,10 +81,10 @@ fn percentage<'a>(outcomes: impl Iterator<Item = &'a Outcome>, name: Option<&str
 
 #[test]
 fn no_answer_about_records_of_fifteen_kinds_is_wrong_without_saying_so() {
-    let found = outcomes(&KINDS, 1..=5, 40);
-    assert!(found.len() >= 60 && found.iter().filter(|it| it.warns).count() <= 8);
     // A known defect, of unknown cause: this record is fitted 4.58 standard errors off, and nothing is said.
     const KNOWN: &str = "heavy 1:";
+    let found = outcomes(&KINDS, 1..=5, 40);
+    assert!(found.len() >= 60 && found.iter().filter(|it| it.warns).count() <= 8);
     let mut silent = silent_errors(&found);
     silent.retain(|it| !it.starts_with(KNOWN));
     assert!(silent.is_empty(), "{silent:#?}");
