@@ -18,8 +18,8 @@ use crate::fit::levenberg_marquardt::Runs;
 use crate::fit::names::{Choice, NameSpec, assigned, listed};
 use crate::fit::observation::{D, R};
 use crate::fit::{
-    Column, DRAWS, Estimate, Fitted, Inertia, LENGTHS, LossName, Question, Reading, Unfit,
-    estimate, length_in_metres, margins, parse,
+    Column, DRAWS, Estimate, Fitted, Inertia, LENGTHS, LossName, MarginQuestion, Question, Reading,
+    Unfit, estimate, length_in_metres, margins, parse,
 };
 use crate::flow::Limits;
 use crate::oscillator::belt::Dimension;
@@ -157,6 +157,7 @@ impl Arguments {
         record.unit = self.unit.clone().or(record.unit);
         let inertia = self.inertia(record.unit.as_deref()).map_err(|problem| bad(&problem))?;
         let question = self.question()?;
+        let asked = MarginQuestion { draws: self.draws, inertia, ..MarginQuestion::default() };
         let place = if io::stderr().is_terminal() { Outlet::Line } else { Outlet::Nowhere };
         let counted = Mutex::new((0_u64, StatusLine::new(place)));
         let interrupted = || {
@@ -169,7 +170,7 @@ impl Arguments {
         let (found, seconds) = timed(self.output.repeat, || {
             let estimate = estimate(&record, &question, &interrupted)?;
             let margins =
-                margins(&estimate, self.draws, &Limits::PATIENT).map_err(|_| Unfit::Interrupted)?;
+                margins(&estimate, &asked, &Limits::PATIENT).map_err(|_| Unfit::Interrupted)?;
             Ok::<_, Unfit>((estimate, margins))
         });
         if let Ok((_, line)) = counted.into_inner() {

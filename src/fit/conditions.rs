@@ -22,8 +22,22 @@ pub struct Condition {
     pub name: &'static str,
     /// Whether it holds.
     pub holds: bool,
+    /// Whether the answer rests on it; otherwise it is for caution.
+    pub essential: bool,
     /// What was found.
     pub detail: String,
+}
+
+impl Condition {
+    /// `pass`, `fail`, or `caution` if the answer does not rest on it.
+    #[must_use]
+    pub fn verdict(&self) -> &'static str {
+        match (self.holds, self.essential) {
+            (true, _) => "pass",
+            (false, true) => "fail",
+            (false, false) => "caution",
+        }
+    }
 }
 
 /// Fewest degrees of freedom from which the size of the noise is known to a factor of two.
@@ -31,7 +45,7 @@ const FREEDOM: f64 = 3.0;
 
 /// All conditions of an answer.
 pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
-    let state = |name, holds, detail| Condition { name, holds, detail };
+    let state = |name, holds, detail| Condition { name, holds, essential: true, detail };
     let whiteness = &estimate.whiteness;
     let kind = match (whiteness.systematic, whiteness.white) {
         (true, _) => "they swing with the motion: the model leaves something out",
@@ -46,7 +60,7 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
         .wanted()
         .map(|row| estimate.covariance.independent(row.place))
         .fold(f64::INFINITY, f64::min);
-    let enough = FEWEST.min(real(margins.draws.len()));
+    let enough = FEWEST.min(real(margins.draws.len())).max(real(margins.question.needed()));
     let mut all = vec![
         state("residuals", !whiteness.systematic, kind.to_owned()),
         state(

@@ -1,42 +1,12 @@
 //! The whole result of a fit, with what the record itself does not contain: its unit, and a mass or stiffness.
 
-use serde::{Deserialize, Serialize};
-
 use super::curves::Curves;
 use super::estimate::Estimate;
+use super::inertia::{Inertia, length_in_metres};
 use super::margin::Margins;
 use super::observation::OMEGA0;
 use super::record::Record;
 use crate::oscillator::belt::Units;
-
-/// The mass or stiffness, which a record does not contain.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Inertia {
-    /// Mass in kg.
-    Mass(f64),
-    /// Stiffness in N/m.
-    Stiffness(f64),
-}
-
-/// Units of length and their values in metres.
-pub const LENGTHS: [(&str, f64); 8] = [
-    ("m", 1.0),
-    ("mm", 1e-3),
-    ("um", 1e-6),
-    ("cm", 1e-2),
-    ("nm", 1e-9),
-    ("in", 0.0254),
-    ("inch", 0.0254),
-    ("km", 1e3),
-];
-
-/// The value of a unit of length in metres; `None` if it is unknown.
-#[must_use]
-pub fn length_in_metres(unit: &str) -> Option<f64> {
-    let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u");
-    LENGTHS.iter().find(|(name, _)| *name == plain).map(|(_, metres)| *metres)
-}
 
 /// The whole result of a fit.
 #[derive(Clone, Debug)]
@@ -67,11 +37,7 @@ impl Fitted {
     pub fn units(&self) -> Option<Units> {
         let displacement = length_in_metres(self.unit()).filter(|_| self.estimate.free[OMEGA0])?;
         let omega_0 = self.estimate.p[OMEGA0];
-        let mass = match self.inertia {
-            Some((Inertia::Mass(mass), _)) => mass,
-            Some((Inertia::Stiffness(stiffness), _)) => stiffness / (omega_0 * omega_0),
-            None => f64::NAN,
-        };
+        let mass = self.inertia.map_or(f64::NAN, |(inertia, _)| inertia.times(omega_0, 0));
         let velocity = omega_0 * displacement;
         let (impulse, force) = (mass * velocity, mass * omega_0 * velocity);
         Some(Units { omega_0, displacement, velocity, time: 1.0 / omega_0, impulse, force })

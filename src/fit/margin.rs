@@ -4,24 +4,83 @@
 //! exactly for each draw. Linear error propagation would fail near a fold, where the derivative of the margin
 //! diverges or the margin is infinite on one side; quantiles remain valid. Draws are spread evenly (an additive
 //! recurrence) rather than at random, so few of them suffice. If the loss is not quadratic they come from the
-//! likelihood itself ([`super::posterior`]).
+//! likelihood itself ([`super::posterior`]). What a disturbance and tolerances leave of the margin is computed for each
+//! draw, too, so that what is correlated stays correlated.
 
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
 use super::estimate::Estimate;
+use super::inertia::Inertia;
 use super::names::NAMES;
-use super::observation::{D2, D3, R, parameters};
+use super::observation::{D2, D3, OMEGA0, R, Unknowns, parameters};
 use super::posterior::{Drawn, drawn};
 use super::refit::following;
 use crate::flow::{Limits, Reason};
 use crate::numerics::count::{real, whole};
-use crate::oscillator::Parameters;
+use crate::oscillator::{Interval, ParameterBox, Parameters};
 use crate::study::basin::Basin;
 use crate::study::closing::Equation;
 use crate::study::closings::all_closings;
 use crate::study::fold::fold;
+use crate::study::guarantee::guaranteed;
 use crate::study::margin::Margin;
+
+/// What is asked of the margin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MarginQuestion {
+    /// Least number of draws; a high confidence takes more.
+    pub draws: usize,
+    /// Probability that a kick below the guaranteed margin is survived.
+    pub confidence: f64,
+    /// Largest force of a disturbance: in N with `inertia`, else over the stiffness, a length in the unit of the record.
+    pub disturbance: f64,
+    /// Half widths of D, D2, D3 and r, by which they may change after the record was made.
+    pub half_widths: [f64; 4],
+    /// Mass or stiffness, if known, and the unit of the displacements in m.
+    pub inertia: Option<(Inertia, f64)>,
+}
+
+impl Default for MarginQuestion {
+    fn default() -> Self {
+        let (confidence, disturbance, half_widths, inertia) = (0.95, 0.0, [0.0; 4], None);
+        MarginQuestion { draws: DRAWS, confidence, disturbance, half_widths, inertia }
+    }
+}
+
+impl MarginQuestion {
+    /// The number of effective draws that the quantile takes: ten of them lie beyond it.
+    #[must_use]
+    pub fn needed(&self) -> usize {
+        whole((10.0 / (1.0 - self.confidence)).round())
+    }
+
+    /// Whether anything beside the uncertainty of the fit is to be survived.
+    #[must_use]
+    pub fn is_disturbed(&self) -> bool {
+        self.disturbance > 0.0 || self.half_widths.iter().any(|it| *it > 0.0)
+    }
+
+    /// The margin that holds whatever the disturbance and the tolerances do; none where that is not known.
+    fn guaranteed(&self, p: &Unknowns, plain: &Margin, limits: &Limits) -> Margin {
+        if !self.is_disturbed() {
+            return *plain;
+        }
+        let scale = self.inertia.map_or(1.0, |(it, metres)| metres * it.times(p[OMEGA0], 2));
+        let Parameters { d, d2, d3, r } = parameters(p);
+        let [wide, wide2, wide3, wider] = self.half_widths;
+        let known = ParameterBox {
+            d: Interval::around(d, wide),
+            d2: Interval::around(d2, wide2),
+            d3: Interval::around(d3, wide3),
+            r: Interval::new((r - wider).max(0.0), r + wider),
+        };
+        match guaranteed(&known, self.disturbance / scale, limits) {
+            Ok((found, _)) if found.reason.is_none() => found.margin,
+            _ => Margin::ZERO,
+        }
+    }
+}
 
 /// Quantiles of a quantity that may not exist, such as the margin if every kick is survived.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -46,6 +105,53 @@ impl Spread {
     }
 }
 
+/// The distributions of the smallest kicks that are not survived.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct KickSpreads {
+    /// The smallest displacement from the middle of the sticking set.
+    pub displacement: Spread,
+    /// The smallest impulse from there, as `velocity/omega0`.
+    pub impulse: Spread,
+    /// Those from the worst rest position.
+    pub from_rest: RestSpreads,
+}
+
+/// The distributions of the smallest kicks that are not survived from the worst rest position.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct RestSpreads {
+    /// The smallest change of position.
+    pub displacement: Spread,
+    /// The smallest impulse, as `velocity/omega0`.
+    pub impulse: Spread,
+}
+
+impl KickSpreads {
+    fn of<'a>(margins: impl Iterator<Item = &'a Margin> + Clone) -> Self {
+        let of = |pick: fn(&Margin) -> Option<f64>| spread(&sorted(margins.clone().map(pick)));
+        KickSpreads {
+            displacement: of(|it| it.displacement),
+            impulse: of(|it| it.impulse),
+            from_rest: RestSpreads {
+                displacement: of(|it| it.from_rest.displacement),
+                impulse: of(|it| it.from_rest.impulse),
+            },
+        }
+    }
+
+    /// The same in other units of displacement and impulse.
+    #[must_use]
+    pub fn scaled(&self, displacement: f64, impulse: f64) -> Self {
+        KickSpreads {
+            displacement: self.displacement.scaled(displacement),
+            impulse: self.impulse.scaled(impulse),
+            from_rest: RestSpreads {
+                displacement: self.from_rest.displacement.scaled(displacement),
+                impulse: self.from_rest.impulse.scaled(impulse),
+            },
+        }
+    }
+}
+
 /// The distribution of the margins.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Margins {
@@ -56,6 +162,17 @@ pub struct Margins {
     pub displacement: Spread,
     /// The smallest impulse from the middle of the sticking set that is not captured, as `velocity/omega0`.
     pub impulse: Spread,
+    /// Both from the worst rest position.
+    pub from_rest: RestSpreads,
+    /// All of these whatever a disturbance and tolerances do, if there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub guaranteed: Option<KickSpreads>,
+    /// `omega0` and the guaranteed margin of each draw; a margin that could not be computed counts as none.
+    #[serde(skip)]
+    pub each: Vec<(f64, Margin)>,
+    /// What was asked.
+    #[serde(skip)]
+    pub question: MarginQuestion,
     /// The right turning point of the smallest stable cycle; `none` is the fraction of draws without one.
     pub cycle: Spread,
     /// The damping `D_F` of the fold, above which every motion is captured; `none` is the fraction of draws
@@ -90,38 +207,68 @@ fn number<S: Serializer>(draws: &[Parameters], out: S) -> Result<S::Ok, S::Error
 /// Default number of draws.
 pub const DRAWS: usize = 400;
 
+impl Margins {
+    /// The smallest kicks that are not survived.
+    #[must_use]
+    pub fn kicks(&self) -> KickSpreads {
+        let Margins { displacement, impulse, from_rest, .. } = *self;
+        KickSpreads { displacement, impulse, from_rest }
+    }
+
+    /// The lower one-sided quantile, at the confidence asked for, of what `of` makes of `omega0` and the guaranteed
+    /// margin; `None` if it does not exist there.
+    #[must_use]
+    pub fn certain(&self, of: impl Fn(f64, &Margin) -> Option<f64>) -> Option<f64> {
+        let values = sorted(self.each.iter().map(|(omega0, margin)| of(*omega0, margin)));
+        quantile(&values, 1.0 - self.question.confidence)
+    }
+}
+
 /// The distribution of the margins that follows from an estimate.
 ///
 /// # Errors
 /// [`Reason::Interrupted`].
-pub fn margins(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Margins, Reason> {
+pub fn margins(
+    estimate: &Estimate,
+    question: &MarginQuestion,
+    limits: &Limits,
+) -> Result<Margins, Reason> {
     let (smallest, largest) = estimate.amplitudes();
     let ask = |parameters: &Parameters| answer(parameters, largest, limits);
+    let draws = question.draws.max(question.needed());
     let Drawn { draws: drawn, effective, motions } = drawn(estimate, draws, limits)?;
-    let computed: Vec<Result<MarginOfDraw, Reason>> = drawn.par_iter().map(ask).collect();
+    let compute = |p: &Unknowns| -> Result<(MarginOfDraw, Margin), Reason> {
+        let found = ask(&parameters(p))?;
+        let sure = question.guaranteed(p, &found.margin, limits);
+        Ok((found, sure))
+    };
+    let computed: Vec<Result<(MarginOfDraw, Margin), Reason>> =
+        drawn.par_iter().map(compute).collect();
     if (limits.interrupted)() {
         return Err(Reason::Interrupted);
     }
-    let known: Vec<MarginOfDraw> = computed.into_iter().filter_map(Result::ok).collect();
-    let sorted = |pick: fn(&MarginOfDraw) -> Option<f64>| {
-        let mut values: Vec<f64> =
-            known.iter().map(|it| pick(it).unwrap_or(f64::INFINITY)).collect();
-        values.sort_by(f64::total_cmp);
-        values
+    let each = |(p, found): (&Unknowns, &Result<(MarginOfDraw, Margin), Reason>)| {
+        (p[OMEGA0], found.as_ref().map_or(Margin::ZERO, |(_, sure)| *sure))
     };
-    let displacements = sorted(|answer| answer.margin.displacement);
-    let displacement = spread(&displacements);
+    let each: Vec<(f64, Margin)> = drawn.iter().zip(&computed).map(each).collect();
+    let known: Vec<MarginOfDraw> = computed.into_iter().filter_map(|it| Some(it.ok()?.0)).collect();
+    let kicks = KickSpreads::of(known.iter().map(|it| &it.margin));
+    let sure = || KickSpreads::of(each.iter().map(|(_, margin)| margin));
     Ok(Margins {
         best: ask(&parameters(&estimate.p)).ok().map(|answer| answer.margin),
-        displacement,
-        impulse: spread(&sorted(|answer| answer.margin.impulse)),
-        cycle: spread(&sorted(|answer| answer.cycle)),
-        fold: spread(&sorted(|answer| answer.fold)),
-        extrapolated: displacement.median.is_none_or(|at| at > largest || at < smallest),
+        displacement: kicks.displacement,
+        impulse: kicks.impulse,
+        from_rest: kicks.from_rest,
+        guaranteed: question.is_disturbed().then(sure),
+        question: *question,
+        cycle: spread(&sorted(known.iter().map(|it| it.cycle))),
+        fold: spread(&sorted(known.iter().map(|it| it.fold))),
+        extrapolated: kicks.displacement.median.is_none_or(|at| at > largest || at < smallest),
         allowed: allowed(estimate, ask),
         failed: draws - known.len(),
-        displacements,
-        draws: drawn,
+        displacements: sorted(known.iter().map(|it| it.margin.displacement)),
+        draws: drawn.iter().map(parameters).collect(),
+        each,
         effective,
         motions,
     })
@@ -165,11 +312,21 @@ fn answer(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Margin
     })
 }
 
+/// In ascending order, infinite where there is none.
+fn sorted(values: impl Iterator<Item = Option<f64>>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.map(|it| it.unwrap_or(f64::INFINITY)).collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// The value below which at most this part of the sorted ones lies.
+fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
+    let index = whole(part * real(sorted.len()));
+    sorted.get(index.min(sorted.len().saturating_sub(1))).copied().filter(|it| it.is_finite())
+}
+
 fn spread(sorted: &[f64]) -> Spread {
-    let at = |part: f64| -> Option<f64> {
-        let index = whole(part * real(sorted.len()));
-        sorted.get(index.min(sorted.len().saturating_sub(1))).copied().filter(|it| it.is_finite())
-    };
+    let at = |part: f64| quantile(sorted, part);
     let none = sorted.iter().filter(|it| it.is_infinite()).count();
     let share = real(none) / real(sorted.len().max(1));
     Spread { median: at(0.5), lower: at(0.025), upper: at(0.975), none: share }

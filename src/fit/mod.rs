@@ -48,6 +48,7 @@ pub(crate) mod fitted;
 pub(crate) mod guess;
 pub(crate) mod half_swing;
 pub(crate) mod header;
+pub(crate) mod inertia;
 #[doc(hidden)]
 pub mod levenberg_marquardt;
 pub(crate) mod loss;
@@ -79,8 +80,9 @@ pub(crate) mod uncertainty;
 pub(crate) mod valley;
 
 pub use estimate::Estimate;
-pub use fitted::{Fitted, Inertia, LENGTHS, length_in_metres};
-pub use margin::{DRAWS, Margins, margins};
+pub use fitted::Fitted;
+pub use inertia::{Inertia, LENGTHS, length_in_metres};
+pub use margin::{DRAWS, MarginQuestion, Margins, margins};
 pub use observation::parameters;
 pub use question::{LOSSES, LossName, Question, Unfit};
 pub use record::{BadRecord, Column, Reading, Record, parse};

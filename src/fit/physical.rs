@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::fitted::{Fitted, Inertia};
+use super::fitted::Fitted;
+use super::inertia::Inertia;
 use super::observation::{D, D2, D3, OMEGA0, R, UNKNOWNS};
 use crate::numerics::elementary::powi;
 
@@ -74,10 +75,5 @@ fn row(fitted: &Fitted, law: &Law, inertia: Inertia, metres: f64) -> EstimatedNu
 /// Factors that convert a displacement of the record to metres, and a velocity over `omega0` to an impulse.
 pub fn kicks(fitted: &Fitted) -> Option<(f64, f64)> {
     let (inertia, metres) = fitted.inertia?;
-    let omega0 = fitted.estimate.p[OMEGA0];
-    let impulse = match inertia {
-        Inertia::Mass(mass) => mass * omega0 * metres,
-        Inertia::Stiffness(stiffness) => stiffness / omega0 * metres,
-    };
-    Some((metres, impulse))
+    Some((metres, metres * inertia.times(fitted.estimate.p[OMEGA0], 1)))
 }

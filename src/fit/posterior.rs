@@ -11,18 +11,17 @@ use rayon::prelude::*;
 
 use super::estimate::Estimate;
 use super::levenberg_marquardt::{NoFit, Runs, Task};
-use super::observation::{D, D2, D3, R, Seen, Unknowns, parameters};
+use super::observation::{D, D2, D3, R, Seen, Unknowns};
 use super::refit::Refit;
 use super::uncertainty::chi_squared;
 use crate::flow::{Limits, Reason};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, ln, pow};
-use crate::oscillator::Parameters;
 
-/// Parameters drawn, all of equal weight.
+/// Unknowns drawn, all of equal weight.
 pub struct Drawn {
-    /// The parameters.
-    pub draws: Vec<Parameters>,
+    /// The unknowns.
+    pub draws: Vec<Unknowns>,
     /// The number of independent draws that would carry as much information.
     pub effective: f64,
     /// Number of motions computed for the weights.
@@ -52,7 +51,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
         let draw = |index: usize| {
             let mut p = frame.straight(&estimate.p, &(-frame.errors(index)));
             p[R] = p[R].max(0.0);
-            parameters(&p)
+            p
         };
         let effective = real(draws);
         return Ok(Drawn { draws: (0..draws).map(draw).collect(), effective, motions: 0 });
@@ -95,7 +94,7 @@ fn effective(weights: &[f64]) -> f64 {
 }
 
 /// Resamples points by weight, at even steps through the sum of the weights.
-fn resampled(points: &[(Unknowns, f64)], weights: &[f64], draws: usize) -> Vec<Parameters> {
+fn resampled(points: &[(Unknowns, f64)], weights: &[f64], draws: usize) -> Vec<Unknowns> {
     let sum: f64 = weights.iter().sum();
     let step = sum / real(draws);
     let mut found = Vec::with_capacity(draws);
@@ -103,7 +102,7 @@ fn resampled(points: &[(Unknowns, f64)], weights: &[f64], draws: usize) -> Vec<P
     for ((point, _), weight) in points.iter().zip(weights) {
         passed += weight;
         while next < passed && found.len() < draws {
-            found.push(parameters(point));
+            found.push(*point);
             next += step;
         }
     }

@@ -14,14 +14,14 @@ use crate::fit::observation::{
 };
 use crate::fit::{self, refit};
 use crate::fit::{
-    Estimate, Inertia, LossName, Margins, Question, Record, Unfit, estimate, length_in_metres,
-    margins, parameters,
+    Estimate, Inertia, LossName, MarginQuestion, Margins, Question, Record, Unfit, estimate,
+    length_in_metres, margins, parameters,
 };
 use crate::flow::{Limits, Problem, Reason};
 use crate::oscillator::{State, Symbol};
 
 /// Draws for the distribution of the margin: fewer than on the command line, so that it appears quickly.
-const DRAWN: usize = 100;
+const DRAWN: usize = 200;
 
 /// A record as it was opened, with the choices for its fit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -149,9 +149,11 @@ impl Fit {
             Err(Unfit::Interrupted) => return Err(Reason::Interrupted),
             Err(unfit) => return Ok(unfit.into()),
         };
-        let margins = margins(&estimate, DRAWN, limits)?;
+        let inertia = metric(recording);
+        let asked = MarginQuestion { draws: DRAWN, inertia, ..MarginQuestion::default() };
+        let margins = margins(&estimate, &asked, limits)?;
         let named = (recording.name.clone(), &recording.record);
-        Ok(Fit::with(named, estimate, (margins, true), metric(recording), 0.0))
+        Ok(Fit::with(named, estimate, (margins, true), inertia, 0.0))
     }
 
     /// The fit with those of D, D2, D3 and r held that have a value. Unless `drawn`, the distribution of the
@@ -173,8 +175,11 @@ impl Fit {
                 let deviation = fit.estimate.covariance.deviation;
                 let unit = deviation * deviation;
                 let rise = (cost(&estimate) - cost(&fit.estimate)) / unit;
-                let margins =
-                    if drawn { margins(&estimate, DRAWN, limits)? } else { fit.margins.clone() };
+                let margins = if drawn {
+                    margins(&estimate, &fit.margins.question, limits)?
+                } else {
+                    fit.margins.clone()
+                };
                 let named = (fit.name.clone(), &fit.record);
                 Ok(Fit::with(named, estimate, (margins, drawn), fit.inertia, rise))
             }

@@ -23,7 +23,7 @@ pub fn broken(fitted: &Fitted) -> Option<String> {
     let all = conditions(&fitted.estimate, &fitted.margins);
     let failing: Vec<String> = all
         .iter()
-        .filter(|it| !it.holds)
+        .filter(|it| !it.holds && it.essential)
         .map(|it| format!("{} ({})", it.name, it.detail))
         .collect();
     (!failing.is_empty())

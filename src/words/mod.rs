@@ -9,6 +9,7 @@ pub mod printable;
 pub mod provenance;
 pub mod quantity;
 pub mod similar;
+pub mod statement;
 
 /// `no limit cycle`, `1 cycle`, `2 cycles`.
 pub fn cycles(count: usize) -> String {

@@ -27,6 +27,15 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// A positive `value` with all but this many significant digits cut off, so that it is not above `value`.
+pub fn rounded_down(value: f64, digits: usize) -> f64 {
+    let text = format!("{value:e}");
+    let Some((mantissa, exponent)) = text.split_once('e') else { return value };
+    // One more for the point.
+    let kept = &mantissa[..mantissa.len().min(digits + 1)];
+    format!("{kept}e{exponent}").parse().unwrap_or(0.0)
+}
+
 /// Writes `value` with only the digits needed to distinguish numbers that are `resolution` apart.
 pub fn resolved(value: f64, resolution: f64) -> String {
     let ratio = log10(value.abs() / resolution);

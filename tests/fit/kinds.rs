@@ -1,7 +1,7 @@
 //! Records of many kinds with known truth: what a fit says without a warning must be right.
 
 use hopfscope::fit::conditions::conditions;
-use hopfscope::fit::{DRAWS, margins};
+use hopfscope::fit::{DRAWS, MarginQuestion, margins};
 use hopfscope::flow::Limits;
 use hopfscope::oscillator::Parameters;
 use hopfscope::study::basin::Basin;
@@ -29,7 +29,9 @@ fn outcome(kind: &'static str, seed: u64, draws: usize) -> Option<Outcome> {
     let question = Question { peaks, ..Question::default() };
     // A refusal is no wrong answer.
     let found = estimate(&record, &question, &|| false).ok()?;
-    let margins = margins(&found, draws, &Limits::PATIENT).unwrap();
+    let margins =
+        margins(&found, &MarginQuestion { draws, ..MarginQuestion::default() }, &Limits::PATIENT)
+            .unwrap();
     let warns = conditions(&found, &margins).iter().any(|it| !it.holds);
     let numbers = found.wanted().map(|row| {
         let index = NAMES.iter().position(|other| other == row).unwrap();
@@ -159,7 +161,7 @@ fn records_with_a_turning_point_near_the_rim_or_a_late_release_are_fitted_right(
 fn a_curved_valley_is_followed_by_the_draws_of_the_margin() {
     let (record, truth) = hard("cycle_9");
     let found = estimate(&record, &Question::default(), &|| false).unwrap();
-    let margins = margins(&found, DRAWS, &Limits::PATIENT).unwrap();
+    let margins = margins(&found, &MarginQuestion::default(), &Limits::PATIENT).unwrap();
     let [lower, upper] =
         [margins.displacement.lower, margins.displacement.upper].map(Option::unwrap);
     let is = truth["margin"]["displacement"].as_f64().unwrap();

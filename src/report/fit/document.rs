@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::fit::Fitted;
-use crate::fit::conditions::{Condition, conditions};
+use crate::fit::conditions::Condition;
 use crate::fit::estimate::Rival;
-use crate::fit::margin::{Margins, Spread};
+use crate::fit::margin::{KickSpreads, Margins};
 use crate::fit::names::NAMES;
 use crate::fit::observation::{LAST, Q0, StartKind};
 use crate::fit::physical::{EstimatedNumber, kicks, rows};
@@ -16,6 +16,7 @@ use crate::fit::separable::combinations;
 use crate::report::csv;
 use crate::report::json;
 use crate::words::fit::sentences;
+use crate::words::statement::{Signed, Statement, signed};
 
 #[derive(Serialize)]
 struct Estimated {
@@ -36,8 +37,10 @@ struct Combined {
 #[derive(Serialize)]
 struct Physical {
     numbers: BTreeMap<&'static str, EstimatedNumber>,
-    displacement: Spread,
-    impulse: Spread,
+    #[serde(flatten)]
+    kicks: KickSpreads,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    guaranteed: Option<KickSpreads>,
 }
 
 #[derive(Serialize)]
@@ -76,6 +79,7 @@ struct FitDocument<'a> {
     margin: &'a Margins,
     #[serde(skip_serializing_if = "Option::is_none")]
     physical: Option<Physical>,
+    statement: Statement,
     conditions: Vec<Condition>,
     draws: Draws,
     sentences: Vec<String>,
@@ -100,6 +104,7 @@ pub fn json(fitted: &Fitted) -> String {
         })
         .collect();
     let (with_derivatives, without) = fitted.motions();
+    let Signed { statement, conditions } = signed(fitted);
     json::text(&FitDocument {
         file: &fitted.name,
         unit: record.unit.as_deref(),
@@ -121,7 +126,8 @@ pub fn json(fitted: &Fitted) -> String {
         residuals: &estimate.whiteness,
         margin: margins,
         physical: physical(fitted),
-        conditions: conditions(estimate, margins),
+        statement,
+        conditions,
         draws: Draws { effective: margins.effective },
         sentences: sentences(fitted),
         cost: FitCost { with_derivatives, without, seconds: fitted.seconds },
@@ -176,11 +182,12 @@ fn correlations(fitted: &Fitted) -> BTreeMap<String, f64> {
 }
 
 fn physical(fitted: &Fitted) -> Option<Physical> {
-    let (metres, impulse) = kicks(fitted)?;
+    let scales = kicks(fitted)?;
+    let scaled = |spreads: &KickSpreads| spreads.scaled(scales.0, scales.1);
     Some(Physical {
         numbers: rows(fitted).into_iter().map(|number| (number.name, number)).collect(),
-        displacement: fitted.margins.displacement.scaled(metres),
-        impulse: fitted.margins.impulse.scaled(impulse),
+        kicks: scaled(&fitted.margins.kicks()),
+        guaranteed: fitted.margins.guaranteed.as_ref().map(scaled),
     })
 }
 

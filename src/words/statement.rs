@@ -1,0 +1,239 @@
+//! What may be signed after a fit: one sentence about the kicks that are survived, one-sided, and the conditions under
+//! which it holds.
+
+use serde::Serialize;
+
+use super::number::{rounded_down, significant};
+use super::quantity::with_unit;
+use crate::fit::Fitted;
+use crate::fit::conditions::{Condition, conditions};
+use crate::fit::margin::MarginQuestion;
+use crate::fit::names::NAMES;
+use crate::fit::observation::{D, OMEGA0};
+use crate::numerics::count::real;
+use crate::study::margin::Margin;
+
+/// The sentence with its numbers.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Statement {
+    /// From any rest position each impulse below this is survived; `None` if each is. In N s if a mass or stiffness is
+    /// known, else as velocity over `omega0`, a length in the unit of the record.
+    pub impulse: Option<f64>,
+    /// Without mass or stiffness: the same as a change of velocity, in the unit of the record per second.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub velocity: Option<f64>,
+    /// From any rest position each sudden change of position below this is survived; `None` if each is. In m if a mass
+    /// or stiffness is known, else in the unit of the record.
+    pub displacement: Option<f64>,
+    /// The probability with which it holds, one-sided.
+    pub confidence: f64,
+    /// The largest force of a disturbance: in N, or over the stiffness, a length in the unit of the record.
+    pub disturbance: f64,
+    /// The units of these.
+    pub units: StatementUnits,
+    /// The displacement that the survived motions may reach, in largest amplitudes measured; `None` if any is survived.
+    pub reach: Option<f64>,
+    /// The sentence; its number is rounded down.
+    pub text: String,
+}
+
+/// The units of the numbers of a statement.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StatementUnits {
+    /// Of `impulse`.
+    pub impulse: String,
+    /// Of `displacement`.
+    pub displacement: String,
+    /// Of `disturbance`.
+    pub disturbance: String,
+}
+
+/// The sentence, and the conditions under which it holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Signed {
+    /// The sentence.
+    pub statement: Statement,
+    /// The conditions; the sentence is not to be relied on unless all essential ones hold.
+    pub conditions: Vec<Condition>,
+}
+
+/// What may be signed after a fit.
+pub fn signed(fitted: &Fitted) -> Signed {
+    let margins = &fitted.margins;
+    let MarginQuestion { confidence, disturbance, .. } = margins.question;
+    let rest = |_: f64, margin: &Margin| margin.from_rest;
+    let has_frequency = fitted.estimate.p[OMEGA0] > 0.0 && fitted.record.t.is_some();
+    let length = if fitted.unit().is_empty() { "unit" } else { fitted.unit() };
+    let (impulse, velocity, displacement, units) = match fitted.inertia {
+        Some((inertia, metres)) => {
+            let impulse = margins.certain(|omega0, margin| {
+                Some(rest(omega0, margin).impulse? * metres * inertia.times(omega0, 1))
+            });
+            let displacement =
+                margins.certain(|_, margin| Some(margin.from_rest.displacement? * metres));
+            (impulse, None, displacement, ["N s", "m", "N"])
+        }
+        None => {
+            let velocity =
+                margins.certain(|omega0, margin| Some(margin.from_rest.impulse? * omega0));
+            (
+                margins.certain(|_, margin| margin.from_rest.impulse),
+                velocity.filter(|_| has_frequency),
+                margins.certain(|_, margin| margin.from_rest.displacement),
+                [length; 3],
+            )
+        }
+    };
+    let reach = margins.certain(|_, margin| margin.displacement);
+    let reach = reach.map(|reach| reach / fitted.estimate.amplitudes().1);
+    let units = {
+        let [impulse, displacement, disturbance] = units.map(str::to_owned);
+        StatementUnits { impulse, displacement, disturbance }
+    };
+    let mut statement = Statement {
+        impulse,
+        velocity,
+        displacement,
+        confidence,
+        disturbance,
+        units,
+        reach,
+        text: String::new(),
+    };
+    let mut conditions = conditions(&fitted.estimate, margins);
+    conditions.extend([amplitudes(fitted, reach), alternatives(fitted)]);
+    let failing: Vec<&str> =
+        conditions.iter().filter(|it| !it.holds && it.essential).map(|it| it.name).collect();
+    let sentence = sentence(fitted, &statement);
+    statement.text = if failing.is_empty() {
+        sentence
+    } else {
+        format!("Not to be relied on ({} fails): {sentence}", failing.join(", "))
+    };
+    Signed { statement, conditions }
+}
+
+fn sentence(fitted: &Fitted, statement: &Statement) -> String {
+    let confidence = format!("{} % confidence", significant(100.0 * statement.confidence, 6));
+    let amount = |value: f64, unit: &str| match fitted.inertia {
+        Some(_) => with_unit(rounded_down(value, 3), 3, unit),
+        None => format!("{} {unit}", significant(rounded_down(value, 3), 3)),
+    };
+    let StatementUnits { impulse: impulse_unit, displacement: length, .. } = &statement.units;
+    let force = force(fitted, statement);
+    if statement.impulse == Some(0.0) || statement.displacement == Some(0.0) {
+        let each = &fitted.margins.each;
+        let lost = each.iter().filter(|(_, it)| it.from_rest.impulse == Some(0.0)).count();
+        let share = real(lost) / real(each.len().max(1));
+        let against = if force.is_empty() { String::new() } else { format!(" against {force}") };
+        return format!(
+            "No kick, however small, is survived with {confidence}: in {} % of what the record allows the mass has no \
+             rest position that holds{against}.",
+            significant(100.0 * share, 2)
+        );
+    }
+    let kicks = match (statement.impulse, statement.velocity, statement.displacement) {
+        (None, _, None) => "every kick is survived".to_owned(),
+        (None, _, Some(shift)) => format!(
+            "every impulse is survived, and every sudden change of position below {}",
+            amount(shift, length)
+        ),
+        (Some(_), Some(velocity), _) => {
+            format!(
+                "a change of velocity below {} is survived",
+                amount(velocity, &format!("{length}/s"))
+            )
+        }
+        (Some(impulse), None, _) if fitted.inertia.is_some() => {
+            format!("an impulse below {} is survived", amount(impulse, impulse_unit))
+        }
+        (Some(impulse), None, _) => {
+            format!(
+                "a change of velocity below {} times omega0 is survived",
+                amount(impulse, length)
+            )
+        }
+    };
+    let whatever = if force.is_empty() {
+        "provided that no other force acts".to_owned()
+    } else {
+        format!("whatever {force} does")
+    };
+    let sentence = format!("From any rest position, with {confidence}, {kicks}, {whatever}.");
+    match amplitudes(fitted, statement.reach) {
+        beyond if !beyond.holds => {
+            format!("{sentence} Extrapolated by the model: {}.", beyond.detail)
+        }
+        _ => sentence,
+    }
+}
+
+/// `a force of at most 0.5 N, with r changed by up to 0.01 mm`; nothing if there is neither.
+fn force(fitted: &Fitted, statement: &Statement) -> String {
+    let question = &fitted.margins.question;
+    let mut all = Vec::new();
+    if statement.disturbance > 0.0 {
+        all.push(match fitted.inertia {
+            Some(_) => format!("a force of at most {}", with_unit(statement.disturbance, 6, "N")),
+            None => format!(
+                "a force of at most {} {} times the stiffness",
+                significant(statement.disturbance, 6),
+                statement.units.disturbance
+            ),
+        });
+    }
+    let changed = NAMES.iter().filter(|row| row.place >= D).zip(question.half_widths);
+    all.extend(changed.filter(|(_, half)| *half > 0.0).map(|(row, half)| {
+        let unit = row.unit(fitted.unit());
+        format!("a change of {} by at most {} {unit}", row.name, significant(half, 6))
+            .trim_end()
+            .to_owned()
+    }));
+    all.join(" or ")
+}
+
+/// Whether the motions of the sentence are among those measured; `reach` is in largest amplitudes.
+fn amplitudes(fitted: &Fitted, reach: Option<f64>) -> Condition {
+    let (low, high) = fitted.estimate.amplitudes();
+    let unit = fitted.unit();
+    let range = format!("{} .. {} {unit}", significant(low, 3), significant(high, 3));
+    let range = range.trim_end();
+    let holds = reach.is_some_and(|reach| reach <= 1.0 && reach * high >= low);
+    let detail = match (reach, fitted.margins.allowed) {
+        (Some(reach), _) if holds || reach > 1.0 => format!(
+            "motions reach {} times the largest amplitude measured ({range})",
+            significant(reach, 2)
+        ),
+        (Some(reach), _) => format!(
+            "motions reach {} of the smallest amplitude measured ({range})",
+            significant(reach * high / low, 2)
+        ),
+        (None, Some((name, value, at))) => format!(
+            "amplitudes measured were {range}; with {name} = {}, which the record does not exclude, a displacement of {} \
+             {unit} is not survived, {} times the largest amplitude",
+            significant(value, 2),
+            significant(at, 3),
+            significant(at / high, 2)
+        ),
+        (None, None) => {
+            format!(
+                "amplitudes measured were {range}; no D2 or D3 within its interval changes that"
+            )
+        }
+    };
+    Condition { name: "amplitudes", holds, essential: false, detail }
+}
+
+/// Whether all motions that explain the record are among the draws.
+fn alternatives(fitted: &Fitted) -> Condition {
+    let estimate = &fitted.estimate;
+    let listed = |numbers: &mut dyn Iterator<Item = usize>| {
+        numbers.map(|it| it.to_string()).collect::<Vec<_>>().join(", ")
+    };
+    let tried = listed(&mut estimate.rivals.iter().map(|it| it.half_swings));
+    let fitting = listed(&mut estimate.contenders().map(|it| it.half_swings));
+    // Normal draws come from the best motion only; those that follow the likelihood visit the others, too.
+    let holds = estimate.contenders().count() < 2 || fitted.margins.motions > 0;
+    let detail = format!("motions of {tried} half swings compared; the record allows {fitting}");
+    Condition { name: "alternatives", holds, essential: false, detail }
+}
