@@ -19,13 +19,13 @@ use crate::fit::names::{Choice, NameSpec, assigned, listed};
 use crate::fit::observation::{D, R};
 use crate::fit::{
     Column, DRAWS, Estimate, Fitted, Inertia, LENGTHS, LossName, MarginQuestion, Question, Reading,
-    Unfit, estimate, length_in_metres, margins, parse,
+    Record, Unfit, estimate, length_in_metres, margins, parse,
 };
 use crate::flow::Limits;
 use crate::oscillator::belt::Dimension;
 use crate::report::fit as forms;
 use crate::runtime::{bounded, provenance_file};
-use crate::scene::machine::unit::measured;
+use crate::scene::machine::unit::{Measured, measured};
 use crate::words::fit::broken;
 
 /// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
@@ -58,7 +58,18 @@ pub struct Arguments {
     /// Unit of the displacements, if the file does not name it
     #[arg(long, value_name = "UNIT", value_parser = length)]
     unit: Option<String>,
-    /// Number of draws from the estimate, for the distribution of the margin
+    /// Largest force that may act beside the kick, such as "0.5 N"; without --mass or --stiffness over the stiffness, as a
+    /// length
+    #[arg(long, value_name = "FORCE", value_parser = not_negative, allow_hyphen_values = true)]
+    disturbance: Option<Measured>,
+    /// How much D, D2, D3 or r may change after the record, such as r=0.01 in its unit; repeatable
+    #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = half_width, allow_hyphen_values = true)]
+    half_width: Vec<(&'static NameSpec, f64)>,
+    /// Probability with which the kicks of the statement are survived (default: 0.95)
+    #[arg(long, value_name = "P", default_value_t = 0.95, hide_default_value = true,
+          value_parser = confidence)]
+    confidence: f64,
+    /// Least number of draws from the estimate, for the distribution of the margin; a confidence above 0.975 takes more
     #[arg(long, value_name = "N", default_value_t = DRAWS, hide_default_value = true,
           value_parser = draws)]
     draws: usize,
@@ -118,6 +129,24 @@ fn stiffness(text: &str) -> Result<f64, String> {
     positive(text, Dimension::new(1, 0, -2), "N/m")
 }
 
+fn not_negative(text: &str) -> Result<Measured, String> {
+    let read = measured(text)?;
+    if read.value >= 0.0 { Ok(read) } else { Err(format!("{text:?} is negative")) }
+}
+
+fn half_width(text: &str) -> Result<(&'static NameSpec, f64), String> {
+    let (row, half) = assigned(text)?;
+    if row.place >= D && half >= 0.0 {
+        Ok((row, half))
+    } else {
+        Err(format!("{text:?}: D, D2, D3 and r have half widths, of 0 or more, such as r=0.01"))
+    }
+}
+
+fn confidence(text: &str) -> Result<f64, String> {
+    input::within("confidence", (0.5, 0.999), text)
+}
+
 fn length(text: &str) -> Result<String, String> {
     let known = || {
         format!("{text:?} is not a unit of length; there are {}", LENGTHS.map(|it| it.0).join(", "))
@@ -155,9 +184,9 @@ impl Arguments {
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
         let mut record = parse(&bytes, &reading).map_err(|error| bad(&error))?;
         record.unit = self.unit.clone().or(record.unit);
-        let inertia = self.inertia(record.unit.as_deref()).map_err(|problem| bad(&problem))?;
+        let asked = self.margin_question(&record).map_err(|problem| bad(&problem))?;
+        let inertia = asked.inertia;
         let question = self.question()?;
-        let asked = MarginQuestion { draws: self.draws, inertia, ..MarginQuestion::default() };
         let place = if io::stderr().is_terminal() { Outlet::Line } else { Outlet::Nowhere };
         let counted = Mutex::new((0_u64, StatusLine::new(place)));
         let interrupted = || {
@@ -199,12 +228,30 @@ impl Arguments {
         Ok(Question { choice, loss: self.loss, peaks: self.peaks })
     }
 
+    fn margin_question(&self, record: &Record) -> Result<MarginQuestion, String> {
+        let inertia = self.inertia(record)?;
+        let mut half_widths = [0.0; 4];
+        for (row, half) in &self.half_width {
+            half_widths[row.place - D] = *half;
+        }
+        let disturbance =
+            self.disturbance.map_or(Ok(0.0), |it| disturbance(it, inertia, record))?;
+        let Arguments { draws, confidence, .. } = *self;
+        Ok(MarginQuestion { draws, confidence, disturbance, half_widths, inertia })
+    }
+
     /// The mass or stiffness, if given, and the record's unit of length in metres.
-    fn inertia(&self, unit: Option<&str>) -> Result<Option<(Inertia, f64)>, String> {
+    fn inertia(&self, record: &Record) -> Result<Option<(Inertia, f64)>, String> {
         let mass = self.mass.map(Inertia::Mass);
         let Some(inertia) = mass.or(self.stiffness.map(Inertia::Stiffness)) else {
             return Ok(None);
         };
+        if record.t.is_none() {
+            return Err(
+                "without times there is no frequency: leave out --mass and --stiffness".to_owned()
+            );
+        }
+        let unit = record.unit.as_deref();
         let known = LENGTHS.map(|it| it.0).join(", ");
         let unit =
             unit.ok_or_else(|| format!("the file names no unit of length; --unit one of {known}"))?;
@@ -212,6 +259,27 @@ impl Arguments {
             format!("{unit:?} is not a known unit of length; --unit one of {known}")
         })?;
         Ok(Some((inertia, metres)))
+    }
+}
+
+/// A disturbance in N, or without a mass or stiffness in the unit of the record.
+fn disturbance(
+    read: Measured,
+    inertia: Option<(Inertia, f64)>,
+    record: &Record,
+) -> Result<f64, String> {
+    let refused = |problem: String| format!("--disturbance {problem}");
+    match (inertia, read.dimension) {
+        (Some(_), _) => read.as_a(Dimension::FORCE, "N").map_err(refused),
+        (None, None) => Ok(read.value),
+        (None, Some(Dimension::LENGTH)) => {
+            let unit = record.unit.as_deref().and_then(length_in_metres);
+            let unknown = "is a length, but the file names no unit of length; give it with --unit";
+            unit.map(|metres| read.value / metres).ok_or_else(|| refused(unknown.to_owned()))
+        }
+        _ => Err(refused(
+            "in N takes --mass or --stiffness; without them it is the force over the stiffness, a length".to_owned(),
+        )),
     }
 }
 

@@ -61,10 +61,10 @@ impl MarginQuestion {
         self.disturbance > 0.0 || self.half_widths.iter().any(|it| *it > 0.0)
     }
 
-    /// The margin that holds whatever the disturbance and the tolerances do; none where that is not known.
-    fn guaranteed(&self, p: &Unknowns, plain: &Margin, limits: &Limits) -> Margin {
+    /// The margin that holds whatever the disturbance and the tolerances do.
+    fn guaranteed(&self, p: &Unknowns, plain: &Margin, limits: &Limits) -> Result<Margin, Reason> {
         if !self.is_disturbed() {
-            return *plain;
+            return Ok(*plain);
         }
         let scale = self.inertia.map_or(1.0, |(it, metres)| metres * it.times(p[OMEGA0], 2));
         let Parameters { d, d2, d3, r } = parameters(p);
@@ -75,10 +75,8 @@ impl MarginQuestion {
             d3: Interval::around(d3, wide3),
             r: Interval::new((r - wider).max(0.0), r + wider),
         };
-        match guaranteed(&known, self.disturbance / scale, limits) {
-            Ok((found, _)) if found.reason.is_none() => found.margin,
-            _ => Margin::ZERO,
-        }
+        let (found, _) = guaranteed(&known, self.disturbance / scale, limits)?;
+        Ok(if found.reason.is_none() { found.margin } else { Margin::ZERO })
     }
 }
 
@@ -239,7 +237,7 @@ pub fn margins(
     let Drawn { draws: drawn, effective, motions } = drawn(estimate, draws, limits)?;
     let compute = |p: &Unknowns| -> Result<(MarginOfDraw, Margin), Reason> {
         let found = ask(&parameters(p))?;
-        let sure = question.guaranteed(p, &found.margin, limits);
+        let sure = question.guaranteed(p, &found.margin, limits)?;
         Ok((found, sure))
     };
     let computed: Vec<Result<(MarginOfDraw, Margin), Reason>> =

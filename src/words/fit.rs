@@ -6,6 +6,7 @@ use crate::fit::names::NAMES;
 use crate::fit::observation::R;
 use crate::fit::separable::{Combination, combinations};
 use crate::words::number::significant;
+use crate::words::statement::signed;
 
 pub fn sentences(fitted: &Fitted) -> Vec<String> {
     let mut all: Vec<String> = broken(fitted).into_iter().collect();
@@ -14,7 +15,7 @@ pub fn sentences(fitted: &Fitted) -> Vec<String> {
     all.extend(bounds(fitted));
     all.extend(rivals(fitted));
     all.push(residuals(fitted));
-    all.push(margin(fitted));
+    all.push(signed(fitted).statement.text);
     all
 }
 
@@ -144,35 +145,4 @@ fn residuals(fitted: &Fitted) -> String {
     format!(
         "the residuals are correlated from sample to sample ({correlation}) as filtered noise is; the errors allow for it"
     )
-}
-
-fn margin(fitted: &Fitted) -> String {
-    let margins = &fitted.margins;
-    let share = significant(100.0 * margins.displacement.none, 2);
-    let (low, high) = fitted.estimate.amplitudes();
-    let unit = fitted.unit();
-    let range = format!("{} .. {} {unit}", significant(low, 3), significant(high, 3));
-    let range = range.trim_end();
-    match margins.displacement.median {
-        None => format!(
-            "every kick is survived in {share} % of what the record allows; amplitudes were {range}, beyond them this is \
-             extrapolated by the model: {}",
-            match margins.allowed {
-                Some((name, value, at)) => format!(
-                    "with {name} = {}, which the record does not exclude, a displacement of {} is not survived, \
-                     {} times the largest amplitude",
-                    significant(value, 2),
-                    significant(at, 3),
-                    significant(at / high, 2)
-                ),
-                None => "no D2 or D3 within its interval changes that".to_owned(),
-            }
-        ),
-        Some(_) if margins.extrapolated => {
-            format!(
-                "the margin lies outside the amplitudes measured ({range}): it is extrapolated by the model"
-            )
-        }
-        Some(_) => format!("the margin lies within the amplitudes measured ({range})"),
-    }
 }

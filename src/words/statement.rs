@@ -7,9 +7,10 @@ use super::number::{rounded_down, significant};
 use super::quantity::with_unit;
 use crate::fit::Fitted;
 use crate::fit::conditions::{Condition, conditions};
-use crate::fit::margin::MarginQuestion;
+use crate::fit::estimate::Rival;
+use crate::fit::margin::{MarginQuestion, Margins};
 use crate::fit::names::NAMES;
-use crate::fit::observation::{D, OMEGA0};
+use crate::fit::observation::{D, Data, StartKind};
 use crate::numerics::count::real;
 use crate::study::margin::Margin;
 
@@ -61,42 +62,27 @@ pub struct Signed {
 pub fn signed(fitted: &Fitted) -> Signed {
     let margins = &fitted.margins;
     let MarginQuestion { confidence, disturbance, .. } = margins.question;
-    let rest = |_: f64, margin: &Margin| margin.from_rest;
-    let has_frequency = fitted.estimate.p[OMEGA0] > 0.0 && fitted.record.t.is_some();
+    let velocity = |omega0: f64, margin: &Margin| Some(margin.from_rest.impulse? * omega0);
+    let has_mass = fitted.inertia.is_some();
     let length = if fitted.unit().is_empty() { "unit" } else { fitted.unit() };
-    let (impulse, velocity, displacement, units) = match fitted.inertia {
-        Some((inertia, metres)) => {
-            let impulse = margins.certain(|omega0, margin| {
-                Some(rest(omega0, margin).impulse? * metres * inertia.times(omega0, 1))
-            });
-            let displacement =
-                margins.certain(|_, margin| Some(margin.from_rest.displacement? * metres));
-            (impulse, None, displacement, ["N s", "m", "N"])
-        }
-        None => {
-            let velocity =
-                margins.certain(|omega0, margin| Some(margin.from_rest.impulse? * omega0));
-            (
-                margins.certain(|_, margin| margin.from_rest.impulse),
-                velocity.filter(|_| has_frequency),
-                margins.certain(|_, margin| margin.from_rest.displacement),
-                [length; 3],
-            )
-        }
+    let units = if has_mass { ["N s", "m", "N"] } else { [length; 3] };
+    let [impulse, displacement, disturbed] = units.map(str::to_owned);
+    // Those of a displacement and of a velocity over omega0.
+    let scales = |omega0: f64| {
+        fitted.inertia.map_or((1.0, 1.0), |(it, metres)| (metres, metres * it.times(omega0, 1)))
     };
     let reach = margins.certain(|_, margin| margin.displacement);
     let reach = reach.map(|reach| reach / fitted.estimate.amplitudes().1);
-    let units = {
-        let [impulse, displacement, disturbance] = units.map(str::to_owned);
-        StatementUnits { impulse, displacement, disturbance }
-    };
     let mut statement = Statement {
-        impulse,
-        velocity,
-        displacement,
+        impulse: margins.certain(|omega0, it| Some(it.from_rest.impulse? * scales(omega0).1)),
+        velocity: (!has_mass && fitted.record.t.is_some())
+            .then(|| margins.certain(velocity))
+            .flatten(),
+        displacement: margins
+            .certain(|omega0, it| Some(it.from_rest.displacement? * scales(omega0).0)),
         confidence,
         disturbance,
-        units,
+        units: StatementUnits { impulse, displacement, disturbance: disturbed },
         reach,
         text: String::new(),
     };
@@ -108,7 +94,7 @@ pub fn signed(fitted: &Fitted) -> Signed {
     statement.text = if failing.is_empty() {
         sentence
     } else {
-        format!("Not to be relied on ({} fails): {sentence}", failing.join(", "))
+        format!("Not to be relied on, as a condition fails ({}): {sentence}", failing.join(", "))
     };
     Signed { statement, conditions }
 }
@@ -122,14 +108,9 @@ fn sentence(fitted: &Fitted, statement: &Statement) -> String {
     let StatementUnits { impulse: impulse_unit, displacement: length, .. } = &statement.units;
     let force = force(fitted, statement);
     if statement.impulse == Some(0.0) || statement.displacement == Some(0.0) {
-        let each = &fitted.margins.each;
-        let lost = each.iter().filter(|(_, it)| it.from_rest.impulse == Some(0.0)).count();
-        let share = real(lost) / real(each.len().max(1));
-        let against = if force.is_empty() { String::new() } else { format!(" against {force}") };
         return format!(
-            "No kick, however small, is survived with {confidence}: in {} % of what the record allows the mass has no \
-             rest position that holds{against}.",
-            significant(100.0 * share, 2)
+            "No kick, however small, is survived with {confidence}: {}.",
+            lost(fitted, force)
         );
     }
     let kicks = match (statement.impulse, statement.velocity, statement.displacement) {
@@ -154,12 +135,11 @@ fn sentence(fitted: &Fitted, statement: &Statement) -> String {
             )
         }
     };
-    let whatever = if force.is_empty() {
-        "provided that no other force acts".to_owned()
-    } else {
-        format!("whatever {force} does")
+    let whatever = match force {
+        Some(force) => format!(", whatever {force} does{}", changes(fitted)),
+        None => format!("{}, provided that no other force acts", changes(fitted)),
     };
-    let sentence = format!("From any rest position, with {confidence}, {kicks}, {whatever}.");
+    let sentence = format!("From any rest position, with {confidence}, {kicks}{whatever}.");
     match amplitudes(fitted, statement.reach) {
         beyond if !beyond.holds => {
             format!("{sentence} Extrapolated by the model: {}.", beyond.detail)
@@ -168,28 +148,41 @@ fn sentence(fitted: &Fitted, statement: &Statement) -> String {
     }
 }
 
-/// `a force of at most 0.5 N, with r changed by up to 0.01 mm`; nothing if there is neither.
-fn force(fitted: &Fitted, statement: &Statement) -> String {
-    let question = &fitted.margins.question;
-    let mut all = Vec::new();
-    if statement.disturbance > 0.0 {
-        all.push(match fitted.inertia {
-            Some(_) => format!("a force of at most {}", with_unit(statement.disturbance, 6, "N")),
-            None => format!(
-                "a force of at most {} {} times the stiffness",
-                significant(statement.disturbance, 6),
-                statement.units.disturbance
-            ),
-        });
+/// `a force of at most 0.5 N`.
+fn force(fitted: &Fitted, statement: &Statement) -> Option<String> {
+    let Statement { disturbance, units, .. } = statement;
+    let size = match fitted.inertia {
+        Some(_) => with_unit(*disturbance, 6, "N"),
+        None => {
+            format!("{} {} times the stiffness", significant(*disturbance, 6), units.disturbance)
+        }
+    };
+    (*disturbance > 0.0).then(|| format!("a force of at most {size}"))
+}
+
+/// `, even if D changes by up to 0.001 and r by up to 0.01 mm`.
+fn changes(fitted: &Fitted) -> String {
+    let widths = fitted.margins.question.half_widths;
+    let rows = NAMES.iter().filter(|row| row.place >= D).zip(widths).filter(|it| it.1 > 0.0);
+    let mut all = String::new();
+    for (row, half) in rows {
+        let (start, verb) = if all.is_empty() { (", even if", " changes") } else { (" and", "") };
+        let half = format!("{} {}", significant(half, 6), row.unit(fitted.unit()));
+        all += &format!("{start} {}{verb} by up to {}", row.name, half.trim_end());
     }
-    let changed = NAMES.iter().filter(|row| row.place >= D).zip(question.half_widths);
-    all.extend(changed.filter(|(_, half)| *half > 0.0).map(|(row, half)| {
-        let unit = row.unit(fitted.unit());
-        format!("a change of {} by at most {} {unit}", row.name, significant(half, 6))
-            .trim_end()
-            .to_owned()
-    }));
-    all.join(" or ")
+    all
+}
+
+/// Why no kick is survived: in which share of the draws the mass may leave its rest without one.
+fn lost(fitted: &Fitted, force: Option<String>) -> String {
+    let Margins { each, failed, .. } = &fitted.margins;
+    let lost = each.iter().filter(|(_, it)| it.from_rest.displacement == Some(0.0)).count();
+    let share = significant(100.0 * real(lost) / real(each.len().max(1)), 2);
+    let alone = force.map_or("the mass leaves its rest by itself".to_owned(), |force| {
+        format!("{force} alone may carry the mass away")
+    });
+    let unknown = if *failed > 0 { ", or its margin could not be computed" } else { "" };
+    format!("in {share} % of what the record allows, {alone}{unknown}")
 }
 
 /// Whether the motions of the sentence are among those measured; `reach` is in largest amplitudes.
@@ -198,7 +191,7 @@ fn amplitudes(fitted: &Fitted, reach: Option<f64>) -> Condition {
     let unit = fitted.unit();
     let range = format!("{} .. {} {unit}", significant(low, 3), significant(high, 3));
     let range = range.trim_end();
-    let holds = reach.is_some_and(|reach| reach <= 1.0 && reach * high >= low);
+    let holds = reach.is_some_and(|it| it == 0.0 || (it <= 1.0 && it * high >= low));
     let detail = match (reach, fitted.margins.allowed) {
         (Some(reach), _) if holds || reach > 1.0 => format!(
             "motions reach {} times the largest amplitude measured ({range})",
@@ -227,13 +220,20 @@ fn amplitudes(fitted: &Fitted, reach: Option<f64>) -> Condition {
 /// Whether all motions that explain the record are among the draws.
 fn alternatives(fitted: &Fitted) -> Condition {
     let estimate = &fitted.estimate;
-    let listed = |numbers: &mut dyn Iterator<Item = usize>| {
-        numbers.map(|it| it.to_string()).collect::<Vec<_>>().join(", ")
+    let listed = |rivals: &mut dyn Iterator<Item = &Rival>| {
+        let mut numbers: Vec<usize> = rivals.map(|it| it.half_swings).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
     };
-    let tried = listed(&mut estimate.rivals.iter().map(|it| it.half_swings));
-    let fitting = listed(&mut estimate.contenders().map(|it| it.half_swings));
+    let tried = listed(&mut estimate.rivals.iter());
+    let fitting = listed(&mut estimate.contenders());
     // Normal draws come from the best motion only; those that follow the likelihood visit the others, too.
     let holds = estimate.contenders().count() < 2 || fitted.margins.motions > 0;
-    let detail = format!("motions of {tried} half swings compared; the record allows {fitting}");
+    let releases = match (estimate.start, &estimate.data) {
+        (StartKind::Release, Data::Samples { .. }) => ", and releases some periods off,",
+        _ => "",
+    };
+    let detail = format!("{tried} half swings{releases} compared; the record allows {fitting}");
     Condition { name: "alternatives", holds, essential: false, detail }
 }

@@ -5,6 +5,7 @@ mod kinds;
 mod noise;
 #[path = "../program/mod.rs"]
 mod program;
+mod signed;
 mod simulator;
 mod strange;
 

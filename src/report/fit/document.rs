@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::fit::Fitted;
 use crate::fit::conditions::Condition;
 use crate::fit::estimate::Rival;
-use crate::fit::margin::{KickSpreads, Margins};
+use crate::fit::margin::{KickSpreads, Margins, Spread};
 use crate::fit::names::NAMES;
 use crate::fit::observation::{LAST, Q0, StartKind};
 use crate::fit::physical::{EstimatedNumber, kicks, rows};
@@ -196,31 +196,41 @@ pub fn csv(fitted: &Fitted) -> String {
     let numbers = fitted.estimate.wanted().map(|row| {
         let Estimated { value, standard_error, lower, upper, .. } = estimated(fitted, row.place);
         EstimateRow {
-            name: row.name,
+            name: row.name.to_owned(),
             value: Some(value),
             standard_error: Some(standard_error),
             lower,
             upper,
         }
     });
-    let margins = [
-        ("margin displacement", &fitted.margins.displacement),
-        ("margin impulse", &fitted.margins.impulse),
-    ];
-    let margins = margins.map(|(name, spread)| EstimateRow {
-        name,
-        value: spread.median,
-        standard_error: None,
-        lower: spread.lower,
-        upper: spread.upper,
-    });
-    csv::sheet(&EstimateRow::default(), numbers.chain(margins))
+    let spreads = |what: &str, kicks: KickSpreads| {
+        let KickSpreads { displacement, impulse, from_rest } = kicks;
+        let row = |kick: &str, spread: Spread| EstimateRow {
+            name: format!("{what} {kick}"),
+            value: spread.median,
+            standard_error: None,
+            lower: spread.lower,
+            upper: spread.upper,
+        };
+        [
+            row("displacement from rest", from_rest.displacement),
+            row("impulse from rest", from_rest.impulse),
+            row("displacement", displacement),
+            row("impulse", impulse),
+        ]
+    };
+    let margins = spreads("margin", fitted.margins.kicks());
+    let guaranteed = fitted.margins.guaranteed.map(|kicks| spreads("guaranteed", kicks));
+    csv::sheet(
+        &EstimateRow::default(),
+        numbers.chain(margins).chain(guaranteed.into_iter().flatten()),
+    )
 }
 
 /// An estimated number or a margin.
 #[derive(Default, Serialize)]
 struct EstimateRow {
-    name: &'static str,
+    name: String,
     value: Option<f64>,
     standard_error: Option<f64>,
     lower: Option<f64>,

@@ -1,13 +1,15 @@
 //! A fit as readable text.
 
 use crate::fit::Fitted;
-use crate::fit::margin::Spread;
+use crate::fit::conditions::Condition;
+use crate::fit::margin::{KickSpreads, Spread};
 use crate::fit::names::{NAMES, NameSpec};
 use crate::fit::observation::{Data, LAST, Q0, StartKind};
 use crate::fit::physical::{kicks, rows};
 use crate::report::table::Table;
 use crate::words::fit::{broken, sentences};
 use crate::words::number::{duration, resolved, significant};
+use crate::words::statement::signed;
 
 /// The whole answer of a fit.
 pub fn table(fitted: &Fitted) -> String {
@@ -40,6 +42,7 @@ pub fn table(fitted: &Fitted) -> String {
     for sentence in sentences(fitted).into_iter().filter(|it| Some(it) != broken.as_ref()) {
         out += &format!("{sentence}\n");
     }
+    out += &format!("\n{}\n", states(&signed(fitted).conditions));
     let (with, plain) = fitted.motions();
     out + &format!(
         "{with} motions with derivatives, {plain} without, {}\n",
@@ -123,6 +126,11 @@ fn forces(fitted: &Fitted) -> String {
     format!("{table}\n")
 }
 
+fn states(conditions: &[Condition]) -> String {
+    let line = |it: &Condition| format!("  {:7}  {:12}  {}\n", it.verdict(), it.name, it.detail);
+    format!("conditions:\n{}", conditions.iter().map(line).collect::<String>())
+}
+
 fn margins(fitted: &Fitted) -> String {
     let margins = &fitted.margins;
     let mut table = Table::new(&["what follows", "median", "from", "to", "none", "unit"]);
@@ -139,12 +147,21 @@ fn margins(fitted: &Fitted) -> String {
             unit.to_owned(),
         ]);
     };
-    row("smallest displacement not survived", &margins.displacement, 1.0, fitted.unit());
-    match kicks(fitted) {
-        Some((_, impulse)) => {
-            row("smallest impulse not survived", &margins.impulse, impulse, "N s");
-        }
-        None => row("smallest velocity/omega0 not survived", &margins.impulse, 1.0, fitted.unit()),
+    let (kick, scale, unit) = match kicks(fitted) {
+        Some((_, scale)) => ("impulse", scale, "N s"),
+        None => ("velocity/omega0", 1.0, fitted.unit()),
+    };
+    let mut kicks = |what: &str, KickSpreads { displacement, impulse, from_rest }: &KickSpreads| {
+        let name = |kick: &str, from: &str| format!("{what} {kick} not survived, from {from}");
+        let (rest, middle) = ("any rest position", "q = 0");
+        row(&name("displacement", rest), &from_rest.displacement, 1.0, fitted.unit());
+        row(&name(kick, rest), &from_rest.impulse, scale, unit);
+        row(&name("displacement", middle), displacement, 1.0, fitted.unit());
+        row(&name(kick, middle), impulse, scale, unit);
+    };
+    kicks("smallest", &margins.kicks());
+    if let Some(guaranteed) = &margins.guaranteed {
+        kicks("guaranteed, smallest", guaranteed);
     }
     row("stable cycle, right turning point", &margins.cycle, 1.0, fitted.unit());
     row("D of the fold, above which all is survived", &margins.fold, 1.0, "");

@@ -58,7 +58,7 @@ impl Session {
         let scene = Arc::make_mut(&mut self.scene);
         // A step below one standard error would mean nothing.
         scene.steps.extend(errors.filter(|(_, error)| *error > 0.0));
-        scene.look = format!("{}. {}", said.join("; "), scene.look);
+        scene.look = format!("{}. {}", said.join("; ").trim_end_matches('.'), scene.look);
         if self.problem.until == scene.problem.until {
             self.problem.until = problem.until;
         }
