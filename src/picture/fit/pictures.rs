@@ -142,7 +142,7 @@ pub fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
         curve("margin is less than this", Role::Danger, Dash::Thick, steps),
         curve("largest amplitude measured", Role::Current, Dash::DashDot, ends),
     ];
-    let name = with_unit("smallest displacement not survived", fitted.unit());
+    let name = with_unit("smallest displacement not survived, from q = 0", fitted.unit());
     let names = (name, "probability".to_owned());
     let extent = Some(window(fitted.curves.spread_extent)?);
     picture("distribution of the margin", names, curves, extent)
