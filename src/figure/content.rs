@@ -66,6 +66,9 @@ pub struct Panel {
     pub window: Window,
     #[serde(skip)]
     pub captions: Vec<Caption>,
+    /// What the plot needs, where it can show nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nothing: Option<String>,
     /// Lines to be read against.
     #[serde(skip)]
     pub guides: Vec<Vec<Point>>,

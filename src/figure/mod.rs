@@ -32,7 +32,7 @@ use std::path::Path;
 
 use crate::flow::Problem;
 use crate::picture;
-use crate::session::Session;
+use crate::session::{Key, Session};
 use crate::words::provenance::Provenance;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,7 +88,9 @@ fn panel(session: &Session, plot: usize) -> Panel {
     if session.has_equal_units(plot) {
         picture.window = picture.window.with_equal_units(layout::PLOT.0, layout::PLOT.1);
     }
-    Panel::of(&picture)
+    let nothing = session.nothing(plot).filter(|_| !picture.draws());
+    let nothing = nothing.map(|text| session.keymap.fill(&text, Key::said));
+    Panel { nothing, ..Panel::of(&picture) }
 }
 
 impl Figure {

@@ -35,6 +35,7 @@ impl Panel {
             map: picture.map.clone(),
             window: *window,
             captions: Vec::new(),
+            nothing: None,
             guides: Vec::new(),
             arrows: Vec::new(),
         };

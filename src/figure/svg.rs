@@ -245,6 +245,18 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
     let (x, y) = (left - 46.0, top + height / 2.0);
     let turned = format!("{italic} transform=\"rotate(-90 {x:.2} {y:.2})\"");
     text(x, y, "middle", &turned, &based(&panel.names[1], upward.base.as_ref()));
+    // Clause by clause, as none is wider than the plot.
+    let clauses =
+        panel.nothing.iter().flat_map(|sentence| sentence.split_inclusive([':', ';', ',']));
+    for (line, clause) in clauses.enumerate() {
+        text(
+            left + width / 2.0,
+            top + height / 2.0 + 16.0 * real(line),
+            "middle",
+            "",
+            clause.trim(),
+        );
+    }
     let mut notches = String::new();
     for tick in &rightward.ticks {
         let x = left + tick.fraction * width;

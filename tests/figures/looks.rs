@@ -55,6 +55,23 @@ fn the_dashes_of_the_constructed_cycle_lie_over_its_half_turns() {
 }
 
 #[test]
+fn a_plot_that_can_show_nothing_says_in_the_figure_what_it_needs() {
+    let mut session = Session::new(find("plain").unwrap(), Size { width: 100, height: 30 });
+    hopfscope::session::run_line(&mut session, "view speeds").unwrap();
+    complete(&mut session, Fineness::SCREEN, &Limits::PATIENT).unwrap();
+    let drawn = Figure::of(&session, [session.plot]);
+    let needs = drawn.panels[0].nothing.clone().unwrap();
+    assert!(needs.contains("machine") && !needs.contains('{'), "{needs}");
+    let svg = text(&drawn, FileForm::Svg);
+    let picture = Document::parse(&svg).unwrap();
+    let texts: Vec<&str> = picture.descendants().filter_map(|node| node.text()).collect();
+    assert!(
+        needs.split([':', ';', ',']).all(|part| texts.iter().any(|it| it.contains(part.trim())))
+    );
+    assert!(figure("plain", Fineness::SCREEN).panels.iter().all(|panel| panel.nothing.is_none()));
+}
+
+#[test]
 fn the_name_of_a_fold_covers_no_branch() {
     let drawn = figure("fig11", Fineness::SCREEN);
     let svg = text(&drawn, FileForm::Svg);
