@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 
 use super::failure::Failure;
 use super::input;
@@ -24,12 +24,13 @@ use crate::fit::{
 use crate::flow::Limits;
 use crate::oscillator::belt::Dimension;
 use crate::report::fit as forms;
-use crate::runtime::{bounded, provenance_file};
+use crate::runtime::{bounded, provenance_file, source_file};
 use crate::scene::machine::unit::{Measured, measured};
 use crate::words::fit::broken;
 
 /// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("written").args(["pictures", "report"]).multiple(true))]
 pub struct Arguments {
     /// Record: a column of times and one of displacements, as instruments write them
     #[arg(value_name = "FILE")]
@@ -77,8 +78,11 @@ pub struct Arguments {
     /// format: .svg, .png, .csv or .json
     #[arg(long = "output", value_name = "FILE", value_parser = input::figure_file)]
     pictures: Option<(PathBuf, FileForm)>,
-    /// Replaces the file if it holds something else
-    #[arg(long, requires = "pictures")]
+    /// Also writes the answer as a page to print and sign: numbers, what they rest on, figures, SHA-256 of the record
+    #[arg(long, value_name = "FILE.html", value_parser = input::page_file)]
+    report: Option<PathBuf>,
+    /// Replaces the files if they hold something else
+    #[arg(long, requires = "written")]
     force: bool,
     #[command(flatten)]
     output: Output,
@@ -160,11 +164,20 @@ fn draws(text: &str) -> Result<usize, String> {
 
 impl Arguments {
     pub fn run(&self) -> Result<(), Failure> {
-        let fitted = self.fitted()?;
+        let bytes =
+            bounded::bytes(&self.file).map_err(|error| Failure::file(&self.file, &error))?;
+        let fitted = self.fitted(&bytes)?;
+        let provenance = provenance_file::of_process();
         if let Some((path, form)) = &self.pictures {
-            let drawn = Figure::of_fit(&fitted).from(provenance_file::of_process());
+            let drawn = Figure::of_fit(&fitted).from(provenance.clone());
             let content = figure::file(&drawn, *form).map_err(Failure::Unanswered)?;
             write(path, &content, self.force)?;
+        }
+        if let Some(path) = &self.report {
+            let pictures = figure::panels(&Figure::of_fit(&fitted));
+            let source = source_file::of(&self.file, &bytes);
+            let page = forms::page(&fitted, &pictures, &provenance, &source);
+            write(path, page.as_bytes(), self.force)?;
         }
         self.output.print(&match self.output.format {
             Format::Table => forms::table(&fitted),
@@ -175,14 +188,12 @@ impl Arguments {
         broken(&fitted).map_or(Ok(()), failure)
     }
 
-    fn fitted(&self) -> Result<Fitted, Failure> {
+    fn fitted(&self, bytes: &[u8]) -> Result<Fitted, Failure> {
         let name = self.file.display().to_string();
-        let bytes =
-            bounded::bytes(&self.file).map_err(|error| Failure::file(&self.file, &error))?;
         let (time, displacement) = self.columns.clone().unwrap_or_default();
         let reading = Reading { time, displacement, peaks: self.peaks };
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
-        let mut record = parse(&bytes, &reading).map_err(|error| bad(&error))?;
+        let mut record = parse(bytes, &reading).map_err(|error| bad(&error))?;
         record.unit = self.unit.clone().or(record.unit);
         let asked = self.margin_question(&record).map_err(|problem| bad(&problem))?;
         let inertia = asked.inertia;
@@ -209,7 +220,8 @@ impl Arguments {
             Unfit::TooFew { .. } | Unfit::NotAlternating { .. } => bad(&reason),
             _ => Failure::Unanswered(format!("{name}: {reason}")),
         })?;
-        let contours = if self.pictures.is_some() { contours(&estimate) } else { Vec::new() };
+        let drawn = self.pictures.is_some() || self.report.is_some();
+        let contours = if drawn { contours(&estimate) } else { Vec::new() };
         let name = short_name(&self.file);
         let curves = Curves::of(&estimate, &margins);
         Ok(Fitted { name, record, estimate, margins, curves, contours, inertia, seconds })

@@ -203,6 +203,13 @@ pub fn figure_file(text: &str) -> Result<(PathBuf, FileForm), String> {
     FileForm::of_file(&path).map(|form| (path, form))
 }
 
+/// The file of a page.
+pub fn page_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_page = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html"));
+    if is_page { Ok(path) } else { Err("a page ends in .html".to_owned()) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -265,6 +272,10 @@ mod tests {
         assert_eq!(figure_file("fig.png").unwrap().1, FileForm::Png);
         for wrong in ["fig", "fig.pdf", ".svg", ""] {
             assert!(figure_file(wrong).is_err(), "{wrong}");
+        }
+        assert!(page_file("a/Page.HTML").is_ok());
+        for wrong in ["page", "page.htm", ".html", ""] {
+            assert!(page_file(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -12,7 +12,7 @@ pub(super) const MARGIN: (f64, f64, f64, f64) = (64.0, 16.0, 30.0, 44.0);
 pub(super) const HEAD: f64 = 34.0;
 
 /// Height of a line of the legend, and width of one of its columns.
-pub(super) const ENTRY: (f64, f64) = (218.0, 18.0);
+pub(super) const ENTRY: (f64, f64) = (214.0, 18.0);
 
 /// A place on paper, in pixels.
 pub(super) type Spot = (f64, f64);

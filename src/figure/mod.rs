@@ -24,7 +24,7 @@ mod svg;
 
 pub use chord::FAINT;
 pub use data::{csv, json};
-pub use svg::svg;
+pub use svg::{panels, svg};
 
 pub use content::{Area, Axis, Figure, FigureCurve, MarkedPoint, Panel};
 

@@ -18,7 +18,24 @@ use crate::picture::ticks::Ticks;
 use crate::scene::Point;
 use crate::words::printable::xml;
 
+/// The whole figure as one picture.
 pub fn svg(figure: &Figure) -> String {
+    picture(figure, None)
+}
+
+/// Each panel as a picture of its own with its part of the legend, so that a page of any width can hold them.
+pub fn panels(figure: &Figure) -> Vec<String> {
+    let alone = |panel: &Panel| Figure {
+        title: panel.title.clone(),
+        panels: vec![panel.clone()],
+        ..figure.clone()
+    };
+    (0..).zip(&figure.panels).map(|(place, panel)| picture(&alone(panel), Some(place))).collect()
+}
+
+/// A picture of all panels, or of the one that has this place on a page: it needs no title above its own, and the
+/// names of its parts differ from those of the others.
+fn picture(figure: &Figure, alone: Option<u32>) -> String {
     let panels = u32::try_from(figure.panels.len()).unwrap_or(u32::MAX).max(1);
     let (width, height) = layout::panel();
     let width = width * f64::from(layout::columns(panels));
@@ -28,20 +45,26 @@ pub fn svg(figure: &Figure) -> String {
     let lines = real(entries.len().div_ceil(across));
     let maps = || figure.panels.iter().filter_map(|panel| panel.map.as_ref());
     let legend_height = lines * ENTRY.1;
-    let height = below + legend_height + real(maps().count()) * map::SCALE + 12.0;
+    let above = if alone.is_some() { HEAD } else { 0.0 };
+    let height = below + legend_height + real(maps().count()) * map::SCALE + 12.0 - above;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" font-family=\"Helvetica, Arial, sans-serif\" \
+         viewBox=\"0 {above} {width} {height}\" font-family=\"Helvetica, Arial, sans-serif\" \
          font-size=\"12\" role=\"img\">\n<title>{}</title>\n<desc>{}</desc>\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n\
-         <text x=\"{}\" y=\"22\" text-anchor=\"middle\" font-size=\"14\">{}</text>\n",
+         <rect y=\"{above}\" width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n",
         xml(&figure.title),
         xml(&remarks(figure).join("\n")),
-        width / 2.0,
-        xml(&figure.title),
     );
+    if alone.is_none() {
+        let _ = writeln!(
+            out,
+            "<text x=\"{}\" y=\"22\" text-anchor=\"middle\" font-size=\"14\">{}</text>",
+            width / 2.0,
+            xml(&figure.title),
+        );
+    }
     for (number, panel) in (0..).zip(&figure.panels) {
-        draw(&mut out, number, panel, Frame::of(number, panels, panel.window));
+        draw(&mut out, alone.unwrap_or(number), panel, Frame::of(number, panels, panel.window));
     }
     for (number, entry) in entries.iter().enumerate() {
         let place = |count: usize| f64::from(u32::try_from(count).unwrap_or(0));

@@ -49,6 +49,7 @@ pub(crate) mod guess;
 pub(crate) mod half_swing;
 pub(crate) mod header;
 pub(crate) mod inertia;
+pub(crate) mod left_out;
 #[doc(hidden)]
 pub mod levenberg_marquardt;
 pub(crate) mod loss;

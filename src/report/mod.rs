@@ -17,6 +17,7 @@ pub mod guarantee;
 pub mod harmonic_balance;
 pub mod json;
 pub mod kicks;
+pub mod page;
 mod proof;
 pub mod scan;
 pub mod scene_cost;

@@ -10,8 +10,8 @@ use crate::words::number::{exact, significant};
 /// A table: titles, and rows with at most as many cells. Numbers are aligned at their decimal points.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table {
-    titles: Vec<&'static str>,
-    rows: Vec<Vec<String>>,
+    pub(super) titles: Vec<&'static str>,
+    pub(super) rows: Vec<Vec<String>>,
 }
 
 /// A column: its title, and a function that gives its cell of a row.

@@ -28,6 +28,7 @@ pub mod record;
 pub mod scan_file;
 pub mod scanning;
 pub mod signals;
+pub mod source_file;
 pub mod standard;
 pub mod worker;
 pub mod workers;

@@ -44,7 +44,8 @@ fn listed(names: &[&str]) -> String {
     }
 }
 
-fn left_out(fitted: &Fitted) -> Vec<String> {
+/// What was left out of a record, and why, a sentence each.
+pub fn left_out(fitted: &Fitted) -> Vec<String> {
     let counts = [
         (fitted.record.missing, "row", "without a number"),
         (fitted.record.repeated, "row", "repeating another one"),

@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::fit::Fitted;
 use crate::fit::conditions::Condition;
 use crate::fit::estimate::Rival;
+use crate::fit::left_out::{LeftOut, left_out};
 use crate::fit::margin::{KickSpreads, Margins, Spread};
 use crate::fit::names::NAMES;
 use crate::fit::observation::{LAST, Q0, StartKind};
@@ -75,6 +76,7 @@ struct FitDocument<'a> {
     excited_again: usize,
     missing: usize,
     repeated: usize,
+    left_out: Vec<LeftOut>,
     residuals: &'a Whiteness,
     margin: &'a Margins,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -123,6 +125,7 @@ pub fn json(fitted: &Fitted) -> String {
         excited_again: estimate.after,
         missing: record.missing,
         repeated: record.repeated,
+        left_out: left_out(record, estimate),
         residuals: &estimate.whiteness,
         margin: margins,
         physical: physical(fitted),

@@ -13,10 +13,36 @@ use crate::words::statement::signed;
 
 /// The whole answer of a fit.
 pub fn table(fitted: &Fitted) -> String {
-    let estimate = &fitted.estimate;
     let broken = broken(fitted);
     let first = broken.as_ref().map(|line| format!("{line}\n")).unwrap_or_default();
     let mut out = format!("{first}{}: {}\n\n", fitted.name, subject(fitted));
+    out += &format!("{}{NUMBERS}\n\n", numbers(fitted));
+    out += &format!("{}\n\n", start(fitted));
+    out += &spaced(&correlations(fitted));
+    out += &spaced(&forces(fitted));
+    out += &format!("{}{}\n\n", margins(fitted), draws(fitted));
+    for sentence in sentences(fitted).into_iter().filter(|it| Some(it) != broken.as_ref()) {
+        out += &format!("{sentence}\n");
+    }
+    out += &format!("\n{}\n", states(&signed(fitted).conditions));
+    let (with, plain) = fitted.motions();
+    out + &format!(
+        "{with} motions with derivatives, {plain} without, {}\n",
+        duration(fitted.seconds)
+    )
+}
+
+/// A table with an empty line below it; nothing if it is empty.
+fn spaced(table: &Table) -> String {
+    if table.is_empty() { String::new() } else { format!("{table}\n") }
+}
+
+/// What the table of the numbers shows.
+pub(super) const NUMBERS: &str = "standard errors; 95 % lie from .. to";
+
+/// The estimated numbers.
+pub(super) fn numbers(fitted: &Fitted) -> Table {
+    let estimate = &fitted.estimate;
     let mut numbers = Table::new(&["number", "value", "error", "from", "to", "unit"]);
     for row in &NAMES {
         if !estimate.free[row.place] || !estimate.choice.is_wanted(row) {
@@ -34,23 +60,11 @@ pub fn table(fitted: &Fitted) -> String {
             row.unit(fitted.unit()),
         ]);
     }
-    out += &format!("{numbers}standard errors; 95 % lie from .. to\n\n");
-    out += &start(fitted);
-    out += &correlations(fitted);
-    out += &forces(fitted);
-    out += &margins(fitted);
-    for sentence in sentences(fitted).into_iter().filter(|it| Some(it) != broken.as_ref()) {
-        out += &format!("{sentence}\n");
-    }
-    out += &format!("\n{}\n", states(&signed(fitted).conditions));
-    let (with, plain) = fitted.motions();
-    out + &format!(
-        "{with} motions with derivatives, {plain} without, {}\n",
-        duration(fitted.seconds)
-    )
+    numbers
 }
 
-fn subject(fitted: &Fitted) -> String {
+/// What was measured, and how the motion goes.
+pub(super) fn subject(fitted: &Fitted) -> String {
     let estimate = &fitted.estimate;
     let what = match &estimate.data {
         Data::Samples { t, .. } => {
@@ -71,7 +85,8 @@ fn subject(fitted: &Fitted) -> String {
     format!("{what}, {} half swings{end}", estimate.half_swings)
 }
 
-fn start(fitted: &Fitted) -> String {
+/// Where the motion starts, and the noise.
+pub(super) fn start(fitted: &Fitted) -> String {
     let estimate = &fitted.estimate;
     let number = |name: &str, place: usize, unit: &str| {
         let error = estimate.covariance.error(place);
@@ -87,14 +102,15 @@ fn start(fitted: &Fitted) -> String {
         });
     }
     let noise = significant(estimate.covariance.deviation, 3);
-    format!("start: {}; noise {noise} {unit}", parts.join(", ")).trim_end().to_owned() + "\n\n"
+    format!("start: {}; noise {noise} {unit}", parts.join(", ")).trim_end().to_owned()
 }
 
-fn correlations(fitted: &Fitted) -> String {
+/// The correlations between the estimated numbers; empty for a single one.
+pub(super) fn correlations(fitted: &Fitted) -> Table {
     let estimate = &fitted.estimate;
     let wanted: Vec<&NameSpec> = estimate.wanted().collect();
     if wanted.len() < 2 {
-        return String::new();
+        return Table::default();
     }
     let mut titles = vec!["correlation"];
     titles.extend(wanted.iter().map(|row| row.name));
@@ -106,16 +122,13 @@ fn correlations(fitted: &Fitted) -> String {
         }
         table.row(cells);
     }
-    format!("{table}\n")
+    table
 }
 
-fn forces(fitted: &Fitted) -> String {
-    let rows = rows(fitted);
-    if rows.is_empty() {
-        return String::new();
-    }
+/// The numbers in SI units; empty if neither mass nor stiffness is known.
+pub(super) fn forces(fitted: &Fitted) -> Table {
     let mut table = Table::new(&["physical", "value", "error", "unit"]);
-    for row in rows {
+    for row in rows(fitted) {
         table.row(vec![
             row.name.to_owned(),
             resolved(row.value, 0.05 * row.standard_error.max(1e-6 * row.value.abs())),
@@ -123,7 +136,7 @@ fn forces(fitted: &Fitted) -> String {
             row.unit.to_owned(),
         ]);
     }
-    format!("{table}\n")
+    table
 }
 
 fn states(conditions: &[Condition]) -> String {
@@ -131,7 +144,8 @@ fn states(conditions: &[Condition]) -> String {
     format!("conditions:\n{}", conditions.iter().map(line).collect::<String>())
 }
 
-fn margins(fitted: &Fitted) -> String {
+/// The margins and what else follows from the numbers.
+pub(super) fn margins(fitted: &Fitted) -> Table {
     let margins = &fitted.margins;
     let mut table = Table::new(&["what follows", "median", "from", "to", "none", "unit"]);
     let shown = |value: Option<f64>, scale: f64| {
@@ -165,8 +179,13 @@ fn margins(fitted: &Fitted) -> String {
     }
     row("stable cycle, right turning point", &margins.cycle, 1.0, fitted.unit());
     row("D of the fold, above which all is survived", &margins.fold, 1.0, "");
+    table
+}
+
+/// What the table of the margins shows.
+pub(super) fn draws(fitted: &Fitted) -> String {
     format!(
-        "{table}95 % lie from .. to, by {} effective draws; none: the share of the draws without\n\n",
-        significant(margins.effective, 3)
+        "95 % lie from .. to, by {} effective draws; none: the share of the draws without",
+        significant(fitted.margins.effective, 3)
     )
 }

@@ -1,0 +1,80 @@
+//! A fit as a page that can be signed.
+
+use super::table::{NUMBERS, correlations, draws, forces, margins, numbers, start, subject};
+use crate::fit::Fitted;
+use crate::fit::conditions::Condition;
+use crate::fit::left_out::{LeftOut, left_out};
+use crate::report::page::{Page, Part, Section, Source, origin};
+use crate::report::table::Table;
+use crate::words::fit::{broken, left_out as counts, sentences};
+use crate::words::number::significant;
+use crate::words::provenance::Provenance;
+use crate::words::statement::{Signed, signed};
+
+/// The page of a fit: with its pictures, what computed it, and the file of the record.
+pub fn page(
+    fitted: &Fitted,
+    pictures: &[String],
+    provenance: &Provenance,
+    source: &Source,
+) -> String {
+    let Signed { statement, conditions } = signed(fitted);
+    let broken = broken(fitted);
+    let counts = counts(fitted);
+    let remarks = sentences(fitted)
+        .into_iter()
+        .filter(|it| Some(it) != broken.as_ref() && !counts.contains(it))
+        .collect();
+    let statement = Part::Statement { holds: broken.is_none(), text: statement.text };
+    let section = |heading, parts| Section { heading, parts };
+    let table = |caption, table: Table| (!table.is_empty()).then_some(Part::Table(caption, table));
+    let known = [
+        table(NUMBERS, numbers(fitted)),
+        table("in SI units, with standard errors", forces(fitted)),
+        Some(Part::Text(start(fitted))),
+    ];
+    let draws = draws(fitted);
+    Page {
+        kind: "Fit of a recorded motion",
+        title: &fitted.name,
+        subject: subject(fitted),
+        sections: vec![
+            section("", vec![statement, Part::Table("what the sentence rests on", tested(&conditions))]),
+            section("Numbers", known.into_iter().flatten().collect()),
+            section("Margin", vec![Part::Table(&draws, margins(fitted))]),
+            section("Record and fit", vec![Part::Pictures(pictures)]),
+            section("Correlations", table("", correlations(fitted)).into_iter().collect()),
+            section("Left out", vec![Part::List(counts), Part::Text(places(fitted))]),
+            section("Remarks", vec![Part::List(remarks)]),
+            origin(provenance, std::slice::from_ref(source)),
+        ],
+    }
+    .html()
+}
+
+/// The conditions with their results.
+fn tested(conditions: &[Condition]) -> Table {
+    Table::of(
+        conditions,
+        &[
+            ("condition", &|it| it.name.to_owned()),
+            ("result", &|it| it.verdict().to_owned()),
+            ("what was found", &|it| it.detail.clone()),
+        ],
+    )
+}
+
+/// Where the samples lie that do not count.
+fn places(fitted: &Fitted) -> String {
+    let time = |t| significant(t, 6);
+    let place = |it: &LeftOut| match it.samples {
+        1 => format!("{} s", time(it.from)),
+        several => format!("{} .. {} s ({several} samples)", time(it.from), time(it.to)),
+    };
+    let places: Vec<String> =
+        left_out(&fitted.record, &fitted.estimate).iter().map(place).collect();
+    if places.is_empty() {
+        return "every sample of the record that was read counts".to_owned();
+    }
+    format!("samples at these times do not count: {}", places.join("; "))
+}

@@ -1,0 +1,230 @@
+//! An answer as a page that can be kept, printed and signed: one file of HTML that needs no other file, no network
+//! and no script, and is well-formed as XML.
+
+use super::table::Table;
+use crate::numerics::count::real;
+use crate::words::printable::xml;
+use crate::words::provenance::Provenance;
+
+/// How the page looks on a screen, on a phone and on A4.
+const STYLE: &str = include_str!("../../assets/report.css");
+
+/// A page.
+pub struct Page<'a> {
+    /// What kind of answer it is.
+    pub kind: &'static str,
+    /// What it is about.
+    pub title: &'a str,
+    /// A line below the title.
+    pub subject: String,
+    pub sections: Vec<Section<'a>>,
+}
+
+/// A part of a page with its heading; left out if there is nothing in it.
+pub struct Section<'a> {
+    /// Empty for what stands below the title.
+    pub heading: &'static str,
+    pub parts: Vec<Part<'a>>,
+}
+
+/// What a section consists of.
+pub enum Part<'a> {
+    /// The sentence that is signed, and whether all that it rests on holds.
+    Statement { text: String, holds: bool },
+    Text(String),
+    List(Vec<String>),
+    /// A table and what it shows; the first cell of a row names it.
+    Table(&'a str, Table),
+    /// Names and values, such as those of the program and its files.
+    Facts(Vec<(&'static str, String)>),
+    /// Pictures as SVG; the names of their parts differ.
+    Pictures(&'a [String]),
+    /// Room for a date and a signature on paper.
+    Signature,
+}
+
+/// A file that an answer was computed from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    pub name: String,
+    /// When it was last changed; `None` for a pipe and for a file of the program.
+    pub changed: Option<String>,
+    /// The SHA-256 of its bytes, in hexadecimal digits.
+    pub sha256: String,
+}
+
+/// What computed an answer, and from which files.
+pub fn origin<'a>(provenance: &Provenance, sources: &[Source]) -> Section<'a> {
+    let mut facts =
+        vec![("program", provenance.build()), ("command", provenance.command.clone())];
+    for source in sources {
+        facts.push(("file", source.name.clone()));
+        facts.extend(source.changed.clone().map(|date| ("last changed", date)));
+        facts.push(("SHA-256", source.sha256.clone()));
+    }
+    Section { heading: "Origin", parts: vec![Part::Facts(facts), Part::Signature] }
+}
+
+impl Page<'_> {
+    /// The page as a file.
+    pub fn html(&self) -> String {
+        let title = element("title", &xml(&format!("{}: {}", self.title, self.kind)));
+        let head = format!(
+            "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width\"/>\n{title}\n{}",
+            element("style", STYLE)
+        );
+        let above = element(
+            "header",
+            &[
+                element("p class=\"kind\"", &xml(self.kind)),
+                element("h1", &xml(self.title)),
+                element("p", &xml(&self.subject)),
+            ]
+            .concat(),
+        );
+        let sections: String = self.sections.iter().map(Section::html).collect();
+        let body = element("body", &element("main", &(above + &sections)));
+        let page = element(
+            "html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\"",
+            &(element("head", &head) + &body),
+        );
+        format!("<!DOCTYPE html>\n{page}")
+    }
+}
+
+impl Section<'_> {
+    fn html(&self) -> String {
+        let parts: String = self.parts.iter().map(Part::html).collect();
+        if parts.is_empty() {
+            return parts;
+        }
+        let heading = Some(self.heading).filter(|heading| !heading.is_empty());
+        let heading = heading.map(|heading| element("h2", &xml(heading)));
+        element("section", &(heading.unwrap_or_default() + &parts))
+    }
+}
+
+impl Part<'_> {
+    fn html(&self) -> String {
+        let all = |name: &str, texts: &[String]| -> String {
+            texts.iter().map(|text| element(name, &xml(text))).collect()
+        };
+        match self {
+            Part::Statement { text, holds } => {
+                let class = if *holds { "statement" } else { "statement broken" };
+                element(&format!("p class=\"{class}\""), &xml(text))
+            }
+            Part::Text(text) => element("p", &xml(text)),
+            Part::List(texts) if texts.is_empty() => String::new(),
+            Part::List(texts) => element("ul", &all("li", texts)),
+            Part::Table(caption, table) => table_html(caption, table),
+            Part::Facts(facts) => {
+                let fact = |(name, value): &(&str, String)| {
+                    element("dt", &xml(name)) + &element("dd", &xml(value))
+                };
+                element("dl", &facts.iter().map(fact).collect::<String>())
+            }
+            Part::Pictures(pictures) => {
+                let pictures = pictures.iter().map(|picture| element("figure", picture));
+                element("div class=\"pictures\"", &pictures.collect::<String>())
+            }
+            Part::Signature => {
+                let lines = ["Name", "Date", "Signature"].map(|line| element("span", line));
+                element("p class=\"signature\"", &lines.concat())
+            }
+        }
+    }
+}
+
+/// An element with its attributes, and what is inside it.
+fn element(open: &str, inside: &str) -> String {
+    let name = open.split(' ').next().unwrap_or(open);
+    format!("<{open}>{inside}</{name}>\n")
+}
+
+/// A table whose numbers stand below each other at their points, units and words at their beginnings.
+fn table_html(caption: &str, table: &Table) -> String {
+    let columns: Vec<Column> = (0..table.titles.len()).map(|at| Column::of(table, at)).collect();
+    let titles = table.titles.iter().zip(&columns).map(|(title, column)| {
+        element(&format!("th scope=\"col\"{}", column.class()), &xml(title))
+    });
+    let row = |cells: &Vec<String>| {
+        let cells = cells.iter().zip(&columns).enumerate().map(|(at, (cell, column))| match at {
+            0 => element("th scope=\"row\"", &xml(cell)),
+            _ => column.cell(cell),
+        });
+        element("tr", &cells.collect::<String>())
+    };
+    let head = element("thead", &element("tr", &titles.collect::<String>()));
+    let body = element("tbody", &table.rows.iter().map(row).collect::<String>());
+    let shown = Some(caption).filter(|caption| !caption.is_empty());
+    let caption = shown.map(|caption| element("caption", &xml(caption))).unwrap_or_default();
+    element("div class=\"table\"", &element("table", &(caption + &head + &body)))
+}
+
+/// How the cells of a column are set.
+struct Column {
+    /// Whether it has numbers.
+    numeric: bool,
+    /// Largest number of characters from the decimal point on.
+    after: usize,
+    /// Largest number of characters of a unit behind the number.
+    unit: usize,
+}
+
+/// A cell as a number up to its decimal point, the rest of it, and its unit.
+fn parts(cell: &str) -> (&str, &str, &str) {
+    let (number, unit) = cell.split_once(' ').unwrap_or((cell, ""));
+    let (whole, after) = number.split_at(number.find('.').unwrap_or(number.len()));
+    (whole, after, unit)
+}
+
+/// Whether a cell is a number, with or without a unit.
+fn is_number(cell: &str) -> bool {
+    cell.split(' ').next().is_some_and(|number| number.parse::<f64>().is_ok())
+}
+
+/// Whether a cell may stand in a column of numbers: the word for one that does not exist may.
+fn is_figure(cell: &str) -> bool {
+    is_number(cell) || ["", "-", "none", "any"].contains(&cell)
+}
+
+impl Column {
+    fn of(table: &Table, at: usize) -> Self {
+        let cells = || table.rows.iter().filter_map(|row| row.get(at)).map(|cell| cell.as_str());
+        let numbers = || cells().filter(|cell| is_number(cell)).map(parts);
+        let widest = |length: fn((&str, &str, &str)) -> usize| numbers().map(length).max();
+        Column {
+            numeric: at > 0 && numbers().next().is_some() && cells().all(is_figure),
+            after: widest(|(_, after, _)| after.len()).unwrap_or(0),
+            unit: widest(|(.., unit)| unit.len()).unwrap_or(0),
+        }
+    }
+
+    fn class(&self) -> &'static str {
+        if self.numeric { " class=\"number\"" } else { "" }
+    }
+
+    fn cell(&self, cell: &str) -> String {
+        let class = match cell {
+            // The verdicts on conditions.
+            "pass" | "fail" | "caution" => format!(" class=\"{cell}\""),
+            _ => self.class().to_owned(),
+        };
+        if !self.numeric || !is_number(cell) {
+            return element(&format!("td{class}"), &xml(cell));
+        }
+        let (whole, after, unit) = parts(cell);
+        // A point is about half as wide as a digit.
+        let width = |length: usize| real(length) - if length > 0 { 0.5 } else { 0.0 };
+        let span = |style: &str, length: f64, text: String| {
+            format!("<span style=\"{style}:{length}ch\">{}</span>", xml(&text))
+        };
+        let room = width(self.after) - width(after.len());
+        let mut inside = span("padding-right", room, format!("{whole}{after}"));
+        if self.unit > 0 {
+            inside += &span("width", real(self.unit + 1), format!(" {unit}"));
+        }
+        element(&format!("td{class}"), &inside)
+    }
+}
