@@ -1,6 +1,7 @@
 //! `hopfscope figure`: the plots of a scene, for papers and for other programs.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 
@@ -14,6 +15,7 @@ use crate::flow::Limits;
 use crate::question::Fineness;
 use crate::runtime::print::{complete, figure};
 use crate::runtime::provenance_file;
+use crate::scene::Scene;
 use crate::session::{Session, Size};
 use crate::view::screen;
 use crate::view::{self, Look};
@@ -65,12 +67,7 @@ impl Arguments {
             return Err(Failure::Usage(line.to_owned()));
         };
         let scene = self.start.scene_named(name)?;
-        let width = columns().unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
-        let mut session = Session::new(scene, Size { width, height: PANEL.1 });
-        complete(&mut session, Fineness::PRINT, &Limits::PATIENT).map_err(|(topic, reason)| {
-            Failure::Unanswered(format!("{} not computed: {reason}", topic.name()))
-        })?;
-        let plots: Vec<usize> = (0..session.plots.len()).collect();
+        let (mut session, plots) = completed(scene)?;
         let mut drawn =
             || figure(&mut session, &plots, &Limits::PATIENT).from(provenance_file::of_process());
         if let Some((path, form)) = &self.output {
@@ -84,6 +81,17 @@ impl Arguments {
             Printed::Svg => forms::svg(&drawn()),
         })
     }
+}
+
+/// A session of a scene with everything on show computed for print, and its plots.
+pub fn completed(scene: Arc<Scene>) -> Result<(Session, Vec<usize>), Failure> {
+    let width = columns().unwrap_or(PANEL.0).clamp(NARROWEST, PANEL.0);
+    let mut session = Session::new(scene, Size { width, height: PANEL.1 });
+    complete(&mut session, Fineness::PRINT, &Limits::PATIENT).map_err(|(topic, reason)| {
+        Failure::Unanswered(format!("{} not computed: {reason}", topic.name()))
+    })?;
+    let plots = (0..session.plots.len()).collect();
+    Ok((session, plots))
 }
 
 /// Every plot, one above the other.

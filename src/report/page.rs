@@ -30,7 +30,10 @@ pub struct Section<'a> {
 /// What a section consists of.
 pub enum Part<'a> {
     /// The sentence that is signed, and whether all that it rests on holds.
-    Statement { text: String, holds: bool },
+    Statement {
+        text: String,
+        holds: bool,
+    },
     Text(String),
     List(Vec<String>),
     /// A table and what it shows; the first cell of a row names it.
@@ -55,8 +58,10 @@ pub struct Source {
 
 /// What computed an answer, and from which files.
 pub fn origin<'a>(provenance: &Provenance, sources: &[Source]) -> Section<'a> {
-    let mut facts =
-        vec![("program", provenance.build()), ("command", provenance.command.clone())];
+    let mut facts = vec![("program", provenance.build()), ("command", provenance.command.clone())];
+    if sources.is_empty() {
+        facts.push(("file", "none, a part of the program".to_owned()));
+    }
     for source in sources {
         facts.push(("file", source.name.clone()));
         facts.extend(source.changed.clone().map(|date| ("last changed", date)));
@@ -172,10 +177,10 @@ struct Column {
     unit: usize,
 }
 
-/// A cell as a number up to its decimal point, the rest of it, and its unit.
+/// A cell as a number up to its decimal point, or its exponent, the rest of it, and its unit.
 fn parts(cell: &str) -> (&str, &str, &str) {
     let (number, unit) = cell.split_once(' ').unwrap_or((cell, ""));
-    let (whole, after) = number.split_at(number.find('.').unwrap_or(number.len()));
+    let (whole, after) = number.split_at(number.find(['.', 'e']).unwrap_or(number.len()));
     (whole, after, unit)
 }
 

@@ -1,21 +1,26 @@
 //! `hopfscope belt`: a machine in physical units.
 
+mod case;
 mod input;
 
-use std::path::Path;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
 
+use self::case::MachineCase;
+pub use self::case::scene;
 use self::input::{
     Name, RangeInUnits, StartOverride, WindowInUnits, assignment, disturbance, margin, range,
     start, window,
 };
 use super::failure::Failure;
-use super::input::method;
-use super::output::{Format, Output};
+use super::figure::completed;
+use super::input::{method, page_file};
+use super::output::{Format, Output, write};
 use super::start::tolerance;
 use super::timing::timed;
+use crate::figure::panels;
 use crate::flow::Limits;
 use crate::flow::Method;
 use crate::machine::branch::{borders, branch, spaced};
@@ -23,21 +28,19 @@ use crate::machine::design::friction_for;
 use crate::machine::guarantee::guaranteed;
 use crate::machine::stepped::{ALLOWED, SteppedMethod};
 use crate::machine::survey::{Course, CubicExpansion, Trouble};
-use crate::machine::{Body, Portrait, Subject, Tolerances};
+use crate::machine::{Portrait, Subject, Tolerances};
 use crate::oscillator::Belt;
 use crate::report::belt::branch::{Borders, Branched};
 use crate::report::belt::{
     self, Designed, Head, MachineAnswer, MachineSweep, OnBelt, RestShare, SweepPoint,
 };
-use crate::runtime::bounded;
+use crate::runtime::print::figure;
+use crate::runtime::provenance_file;
 use crate::runtime::standard::tell;
-use crate::scene::machine::file::parse;
-use crate::scene::machine::library::{TEXTBOOK, find, machines};
-use crate::scene::machine::mode::{self, Mode, is_mode};
+use crate::scene::machine::library::{TEXTBOOK, machines};
 use crate::scene::machine::unit::Toleranced;
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::usual::TOLERANCE;
-use crate::scene::{Machine, ScaledMachine, Scene};
 use crate::study::design::Kick;
 
 /// Analyses a mass on a belt in physical units
@@ -84,6 +87,13 @@ pub struct Arguments {
     /// Size of the last terms of a step, relative to the state, 1e-15 .. 0.01 (default: below rounding)
     #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
     tol: Option<f64>,
+    /// Also writes the answer as a page to print and sign: margins, cycles, pictures, SHA-256 of the machine file
+    #[arg(long, value_name = "FILE.html", value_parser = page_file,
+          conflicts_with_all = ["sweep", "branch"])]
+    report: Option<PathBuf>,
+    /// Replaces the page if the file holds something else
+    #[arg(long, requires = "report")]
+    force: bool,
     #[command(flatten)]
     output: Output,
 }
@@ -101,101 +111,10 @@ fn long_about() -> String {
     )
 }
 
-/// What the name on the command line refers to.
-enum MachineOrMode {
-    Belt(Machine),
-    Mode(Mode),
-}
-
-/// The machine or mode in a file, or a built-in machine.
-fn named(name: &str) -> Result<MachineOrMode, Failure> {
-    let path = Path::new(name);
-    // Read once: it may be a pipe.
-    let text = match bounded::text(path) {
-        Ok(text) => text,
-        Err(error) => {
-            return find(name).cloned().map(MachineOrMode::Belt).ok_or_else(|| {
-                let known: Vec<&str> =
-                    machines().iter().map(|machine| machine.name.as_str()).collect();
-                Failure::Usage(format!(
-                    "{name}: {error}; the machines of the program are {}",
-                    known.join(", ")
-                ))
-            });
-        }
-    };
-    let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-    let refused = |error: &dyn std::fmt::Display| Failure::Usage(error.to_string());
-    if is_mode(&text) {
-        return mode::parse(&title, name, &text)
-            .map(MachineOrMode::Mode)
-            .map_err(|error| refused(&error));
-    }
-    let fetch = |table: &str| {
-        let beside = path.with_file_name(table);
-        bounded::text(&beside).map_err(|error| format!("{}: {error}", beside.display()))
-    };
-    parse(&title, name, &text, fetch).map(MachineOrMode::Belt).map_err(|error| refused(&error))
-}
-
-/// The scene of a machine in a file or a built-in machine, for the explorer.
-pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
-    let refused = |error: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {error}"));
-    let machine = match named(name)? {
-        MachineOrMode::Belt(machine) => machine,
-        MachineOrMode::Mode(_) => return Err(refused(&mode::NO_BELT)),
-    };
-    let scaled = ScaledMachine::new(machine).map_err(|error| refused(&error))?;
-    Ok(Arc::new(scaled.scene()))
-}
-
-/// A machine or mode, and the motion to compute.
-struct MachineCase {
-    name: String,
-    title: String,
-    subject: Subject,
-    tolerances: Tolerances,
-    /// Displacement (m) and velocity (m/s) at the start.
-    start: (f64, f64),
-    /// How long the motion is followed, in s.
-    until: f64,
-}
-
-impl From<MachineOrMode> for MachineCase {
-    fn from(named: MachineOrMode) -> Self {
-        match named {
-            MachineOrMode::Belt(Machine {
-                name,
-                title,
-                belt,
-                tolerances,
-                displacement,
-                velocity,
-                until,
-                ..
-            }) => {
-                let subject = Body::Belt(Box::new(belt)).into();
-                MachineCase {
-                    name,
-                    title,
-                    subject,
-                    tolerances,
-                    start: (displacement, velocity),
-                    until,
-                }
-            }
-            MachineOrMode::Mode(Mode { name, title, numbers, start, until }) => {
-                let (subject, tolerances) = (Body::Mode(numbers).into(), Tolerances::default());
-                MachineCase { name, title, subject, tolerances, start, until }
-            }
-        }
-    }
-}
-
 impl Arguments {
     /// The machine and the motion, with the values set on the command line.
     fn case(&self) -> Result<MachineCase, Failure> {
-        let mut case = MachineCase::from(named(&self.machine)?);
+        let mut case = MachineCase::named(&self.machine)?;
         for &(name, Toleranced { middle, half_width }) in &self.set {
             match name {
                 Name::Number(varied) => {
@@ -263,6 +182,11 @@ impl Arguments {
         }
         let (found, seconds) = timed(self.output.repeat, || self.answer(&case, &head, second));
         let answer = MachineAnswer { seconds, ..found.map_err(troubled)? };
+        if let Some(path) = &self.report {
+            let (pictures, provenance) = (pictures(&case)?, provenance_file::of_process());
+            let page = belt::page(&answer, &pictures, &provenance, &case.sources);
+            write(path, page.as_bytes(), self.force)?;
+        }
         self.output.print(&match self.output.format {
             Format::Table => belt::table(&answer),
             Format::Json => belt::json(&answer),
@@ -382,6 +306,13 @@ impl Arguments {
         let points = (0..count).map(point).collect::<Result<_, Failure>>()?;
         Ok(MachineSweep { head, varied, points, seconds: 0.0 })
     }
+}
+
+/// The plots of a mass on a belt in the explorer; none of a mode.
+fn pictures(case: &MachineCase) -> Result<Vec<String>, Failure> {
+    let Some(scene) = case.scene()? else { return Ok(Vec::new()) };
+    let (mut session, plots) = completed(Arc::new(scene))?;
+    Ok(panels(&figure(&mut session, &plots, &Limits::PATIENT)))
 }
 
 /// Why a machine has no answer; an error in the machine itself counts as bad input.

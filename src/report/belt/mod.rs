@@ -4,10 +4,12 @@
 pub mod branch;
 mod document;
 mod expansion;
+mod page;
 mod sweep;
 mod table;
 
 pub use document::json;
+pub use page::page;
 pub use sweep::{
     MachineSweep, SweepPoint, csv as sweep_csv, json as sweep_json, table as sweep_table,
 };

@@ -20,6 +20,9 @@ use crate::words::number::{duration, significant};
 use crate::words::quantity::with_unit;
 use crate::words::stability;
 
+/// What stands in place of an empty table of cycles.
+pub(super) const NO_CYCLE: &str = "no cycle";
+
 /// Significant digits of a dimensionless number.
 const DIGITS: usize = 10;
 
@@ -79,8 +82,9 @@ pub fn table(answer: &MachineAnswer) -> String {
     {
         out += &format!("{}\n", guaranteed(belt, portrait, certain));
     }
-    out += &cycles(&portrait.cycles);
-    out += &gaps(portrait);
+    let cycles = cycles(&portrait.cycles);
+    out += &if cycles.is_empty() { NO_CYCLE.to_owned() + "\n" } else { cycles.to_string() };
+    out += &gaps(portrait).iter().map(|line| format!("{line}\n")).collect::<String>();
     out += &format!("{}\n", fate(answer.start, &answer.course));
     out += &answer.rest_share.line();
     if let Some(OnBelt { expansion, .. }) = &answer.on_belt {
@@ -111,7 +115,7 @@ fn survived(portrait: &Portrait) -> String {
 }
 
 /// The table of these numbers.
-fn quantities(expansion: &CubicExpansion, portrait: &Portrait) -> Table {
+pub(super) fn quantities(expansion: &CubicExpansion, portrait: &Portrait) -> Table {
     let mut table = Table::new(&["", "dimensionless", "physical"]);
     for QuantityRow { what, dimensionless, physical } in rows(expansion, portrait) {
         table.row(vec![
@@ -124,7 +128,7 @@ fn quantities(expansion: &CubicExpansion, portrait: &Portrait) -> Table {
 }
 
 /// The friction law at the belt speed.
-fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
+pub(super) fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
     let Derivatives { value, first, second, third } = *mu;
     let from = match law {
         FrictionLaw::Table(spline) => format!(
@@ -145,7 +149,7 @@ fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
 }
 
 /// The border of the basin of rest, in a sentence.
-fn border(portrait: &Portrait) -> &'static str {
+pub(super) fn border(portrait: &Portrait) -> &'static str {
     match portrait.border {
         MachineBorder::None if portrait.margin.is_some() => {
             "every kick within the margin is survived; larger ones are not known"
@@ -165,12 +169,45 @@ fn border(portrait: &Portrait) -> &'static str {
     }
 }
 
-/// The nominal margins, the guaranteed ones, and the uncertainties for which these hold.
-fn guaranteed(
-    belt: &OnBelt,
-    portrait: &Portrait,
-    certain: &Result<Margin, MachineUncertain>,
-) -> String {
+/// Margins as text: nominal or guaranteed, from where the kick comes, displacement and impulse.
+pub(super) struct MarginRow {
+    pub what: &'static str,
+    pub from: &'static str,
+    pub displacement: String,
+    pub impulse: String,
+}
+
+/// The two rows of a margin.
+fn margin_rows(what: &'static str, margin: Margin) -> [MarginRow; 2] {
+    let size = |value: Option<f64>, unit| {
+        value.map_or_else(|| "any".to_owned(), |value| with_unit(value, PLACES, unit))
+    };
+    let row = |from, displacement, impulse| MarginRow {
+        what,
+        from,
+        displacement: size(displacement, "m"),
+        impulse: size(impulse, "N s"),
+    };
+    let Margin { displacement, impulse, from_rest } = margin;
+    [
+        row("from rest", from_rest.displacement, from_rest.impulse),
+        row("from x = 0", displacement, impulse),
+    ]
+}
+
+/// The rows of the nominal margins.
+pub(super) fn nominal(portrait: &Portrait) -> [MarginRow; 2] {
+    margin_rows("nominal", portrait.least_kicks())
+}
+
+/// The rows of the guaranteed margins, rounded down.
+pub(super) fn certain(margin: Margin) -> [MarginRow; 2] {
+    let below = |value: f64| value * (1.0 - 5e-5);
+    margin_rows("guaranteed", margin.map(below, below))
+}
+
+/// The numbers that are not known exactly, each with its interval.
+pub(super) fn varying(belt: &OnBelt) -> Vec<String> {
     let unit = |varied: Varied, value| with_unit(value, 12, varied.unit());
     let number = |(varied, interval): (Varied, Interval)| {
         format!(
@@ -180,56 +217,64 @@ fn guaranteed(
             unit(varied, interval.upper())
         )
     };
-    let disturbance = Some(belt.tolerances.disturbance).filter(|force| *force > 0.0);
-    let disturbance = disturbance.map(|force| format!("disturbance {}", with_unit(force, 12, "N")));
-    let known: Vec<String> = belt.uncertain().into_iter().map(number).chain(disturbance).collect();
-    let both = |displacement: Option<f64>, impulse: Option<f64>| {
-        let size = |value: Option<f64>, unit| {
-            value.map_or_else(|| "any".to_owned(), |value| with_unit(value, PLACES, unit))
-        };
-        format!("displacement {}, impulse {}", size(displacement, "m"), size(impulse, "N s"))
-    };
-    // Guaranteed numbers must not be rounded up.
-    let below = |value: f64| value * (1.0 - 5e-5);
-    let lines = |margin: Margin| {
-        let Margin { displacement, impulse, from_rest } = margin;
-        let rest = both(from_rest.displacement, from_rest.impulse);
-        format!("from rest   {rest}\n            from x = 0  {}", both(displacement, impulse))
+    belt.uncertain().into_iter().map(number).collect()
+}
+
+/// The largest force of a disturbance, if there is one.
+pub(super) fn disturbance(belt: &OnBelt) -> Option<String> {
+    let force = Some(belt.tolerances.disturbance).filter(|force| *force > 0.0);
+    force.map(|force| with_unit(force, 12, "N"))
+}
+
+/// What the guaranteed margins allow for.
+pub(super) fn allowed(belt: &OnBelt) -> String {
+    let disturbance = disturbance(belt).map(|force| format!("disturbance {force}"));
+    varying(belt).into_iter().chain(disturbance).collect::<Vec<_>>().join(", ")
+}
+
+/// The nominal margins, the guaranteed ones, and the uncertainties for which these hold.
+fn guaranteed(
+    belt: &OnBelt,
+    portrait: &Portrait,
+    certain: &Result<Margin, MachineUncertain>,
+) -> String {
+    let lines = |rows: [MarginRow; 2]| {
+        rows.map(|MarginRow { from, displacement, impulse, .. }| {
+            format!("{from:11} displacement {displacement}, impulse {impulse}")
+        })
+        .join("\n            ")
     };
     let certain = match certain {
-        Ok(margin) => lines(margin.map(below, below)),
+        Ok(margin) => lines(self::certain(*margin)),
         Err(reason) => format!("nothing: {reason}"),
     };
     format!(
         "nominal     {}\nguaranteed  {certain}\n            for {}\n",
-        lines(portrait.least_kicks()),
-        known.join(", ")
+        lines(nominal(portrait)),
+        allowed(belt)
     )
 }
 
 /// What is not known about the motions, one line each.
-fn gaps(portrait: &Portrait) -> String {
+pub(super) fn gaps(portrait: &Portrait) -> Vec<String> {
     let length = |x| with_unit(x, PLACES, "m");
     let limit = portrait.stop.map(|stop| {
-        format!("motions that turn beyond x = {} are not known: {stop}\n", length(portrait.known))
+        format!("motions that turn beyond x = {} are not known: {stop}", length(portrait.known))
     });
     let unresolved = portrait.unresolved.iter().map(|(from, to)| {
         let (from, to) = (length(*from), length(*to));
-        format!("between x = {from} and {to} the search for cycles did not settle\n")
+        format!("between x = {from} and {to} the search for cycles did not settle")
     });
     limit.into_iter().chain(unresolved).collect()
 }
 
 /// The table of cycles.
-fn cycles(cycles: &[MachineCycle]) -> String {
-    if cycles.is_empty() {
-        return "no cycle\n".to_owned();
-    }
+pub(super) fn cycles(cycles: &[MachineCycle]) -> Table {
     let mut table = Table::new(&[&[""], CYCLE].concat());
     for cycle in cycles {
         table.row(cells(cycle));
     }
-    table.to_string()
+    table
 }
 
 /// Titles of the columns that describe a cycle, after that of its kind.
@@ -251,7 +296,7 @@ pub(super) fn cells(cycle: &MachineCycle) -> Vec<String> {
 }
 
 /// How the motion ends, in a sentence.
-fn fate((x, v): (f64, f64), course: &Course) -> String {
+pub(super) fn fate((x, v): (f64, f64), course: &Course) -> String {
     let length = |x| with_unit(x, PLACES, "m");
     let from = format!("from x = {}, v = {}: ", length(x), with_unit(v, PLACES, "m/s"));
     let end = &course.motion.end;
@@ -292,7 +337,7 @@ fn by(Second { way, tolerance, found }: &Second, course: &Course) -> String {
 }
 
 /// The result of the cubic expansion, in a sentence.
-fn by_expansion(expansion: &CubicExpansion, portrait: &Portrait) -> String {
+pub(super) fn by_expansion(expansion: &CubicExpansion, portrait: &Portrait) -> String {
     let found = Expansion::new(expansion, portrait);
     let lead = "friction as a cubic (the oscillator of the paper) says: ";
     let Some(margin) = found.margin else {

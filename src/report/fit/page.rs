@@ -23,7 +23,7 @@ pub fn page(
     let counts = counts(fitted);
     let remarks = sentences(fitted)
         .into_iter()
-        .filter(|it| Some(it) != broken.as_ref() && !counts.contains(it))
+        .filter(|it| Some(it) != broken.as_ref() && *it != statement.text && !counts.contains(it))
         .collect();
     let statement = Part::Statement { holds: broken.is_none(), text: statement.text };
     let section = |heading, parts| Section { heading, parts };
@@ -39,7 +39,10 @@ pub fn page(
         title: &fitted.name,
         subject: subject(fitted),
         sections: vec![
-            section("", vec![statement, Part::Table("what the sentence rests on", tested(&conditions))]),
+            section(
+                "",
+                vec![statement, Part::Table("what the sentence rests on", tested(&conditions))],
+            ),
             section("Numbers", known.into_iter().flatten().collect()),
             section("Margin", vec![Part::Table(&draws, margins(fitted))]),
             section("Record and fit", vec![Part::Pictures(pictures)]),
