@@ -150,8 +150,9 @@ fn element(open: &str, inside: &str) -> String {
 /// A table whose numbers stand below each other at their points, units and words at their beginnings.
 fn table_html(caption: &str, table: &Table) -> String {
     let columns: Vec<Column> = (0..table.titles.len()).map(|at| Column::of(table, at)).collect();
-    let titles = table.titles.iter().zip(&columns).map(|(title, column)| {
-        element(&format!("th scope=\"col\"{}", column.class()), &xml(title))
+    let titles = table.titles.iter().zip(&columns);
+    let titles = titles.map(|(title, column)| {
+        element(&("th scope=\"col\"".to_owned() + column.wide()), &xml(title))
     });
     let row = |cells: &Vec<String>| {
         let cells = cells.iter().zip(&columns).enumerate().map(|(at, (cell, column))| match at {
@@ -168,68 +169,64 @@ fn table_html(caption: &str, table: &Table) -> String {
 }
 
 /// How the cells of a column are set.
-struct Column {
-    /// Whether it has numbers.
-    numeric: bool,
-    /// Largest number of characters from the decimal point on.
-    after: usize,
-    /// Largest number of characters of a unit behind the number.
-    unit: usize,
+enum Column {
+    Words,
+    Numbers {
+        /// Largest number of characters from the decimal point on.
+        after: usize,
+        /// Whether units follow, in a column of their own.
+        units: bool,
+    },
 }
 
-/// A cell as a number up to its decimal point, or its exponent, the rest of it, and its unit.
-fn parts(cell: &str) -> (&str, &str, &str) {
+/// A cell as a number up to its decimal point or exponent, the rest of it, and its unit; `None` for another cell.
+fn parts(cell: &str) -> Option<(&str, &str, &str)> {
     let (number, unit) = cell.split_once(' ').unwrap_or((cell, ""));
+    number.parse::<f64>().ok()?;
     let (whole, after) = number.split_at(number.find(['.', 'e']).unwrap_or(number.len()));
-    (whole, after, unit)
-}
-
-/// Whether a cell is a number, with or without a unit.
-fn is_number(cell: &str) -> bool {
-    cell.split(' ').next().is_some_and(|number| number.parse::<f64>().is_ok())
-}
-
-/// Whether a cell may stand in a column of numbers: the word for one that does not exist may.
-fn is_figure(cell: &str) -> bool {
-    is_number(cell) || ["", "-", "none", "any"].contains(&cell)
+    Some((whole, after, unit))
 }
 
 impl Column {
     fn of(table: &Table, at: usize) -> Self {
-        let cells = || table.rows.iter().filter_map(|row| row.get(at)).map(|cell| cell.as_str());
-        let numbers = || cells().filter(|cell| is_number(cell)).map(parts);
-        let widest = |length: fn((&str, &str, &str)) -> usize| numbers().map(length).max();
-        Column {
-            numeric: at > 0 && numbers().next().is_some() && cells().all(is_figure),
-            after: widest(|(_, after, _)| after.len()).unwrap_or(0),
-            unit: widest(|(.., unit)| unit.len()).unwrap_or(0),
+        let cells = || table.rows.iter().filter_map(|row| row.get(at));
+        let numbers = || cells().filter_map(|cell| parts(cell));
+        // The words for a number that does not exist.
+        let is_gap = |cell: &String| ["", "-", "none", "any"].contains(&cell.as_str());
+        if !cells().all(|cell| is_gap(cell) || parts(cell).is_some()) {
+            return Column::Words;
         }
+        numbers().map(|(_, after, _)| after.len()).max().map_or(Column::Words, |after| {
+            Column::Numbers { after, units: numbers().any(|(.., unit)| !unit.is_empty()) }
+        })
     }
 
-    fn class(&self) -> &'static str {
-        if self.numeric { " class=\"number\"" } else { "" }
+    /// The attributes of a cell that is as wide as the column.
+    fn wide(&self) -> &'static str {
+        match self {
+            Column::Words => "",
+            Column::Numbers { units: false, .. } => " class=\"number\"",
+            Column::Numbers { units: true, .. } => " class=\"number\" colspan=\"2\"",
+        }
     }
 
     fn cell(&self, cell: &str) -> String {
-        let class = match cell {
-            // The verdicts on conditions.
-            "pass" | "fail" | "caution" => format!(" class=\"{cell}\""),
-            _ => self.class().to_owned(),
-        };
-        if !self.numeric || !is_number(cell) {
-            return element(&format!("td{class}"), &xml(cell));
+        match (self, parts(cell)) {
+            (Column::Numbers { after: most, units }, Some((whole, after, unit))) => {
+                // A point is about half as wide as a digit.
+                let width = |length: usize| real(length) - if length > 0 { 0.5 } else { 0.0 };
+                let room = width(*most) - width(after.len());
+                let number = xml(&format!("{whole}{after}"));
+                let number = format!("<span style=\"padding-right:{room}ch\">{number}</span>");
+                let unit =
+                    if *units { element("td class=\"unit\"", &xml(unit)) } else { String::new() };
+                element("td class=\"number\"", &number) + &unit
+            }
+            // The verdicts on conditions have their colours.
+            _ if ["pass", "caution", "fail"].contains(&cell) => {
+                element(&format!("td class=\"{cell}\""), cell)
+            }
+            _ => element(&("td".to_owned() + self.wide()), &xml(cell)),
         }
-        let (whole, after, unit) = parts(cell);
-        // A point is about half as wide as a digit.
-        let width = |length: usize| real(length) - if length > 0 { 0.5 } else { 0.0 };
-        let span = |style: &str, length: f64, text: String| {
-            format!("<span style=\"{style}:{length}ch\">{}</span>", xml(&text))
-        };
-        let room = width(self.after) - width(after.len());
-        let mut inside = span("padding-right", room, format!("{whole}{after}"));
-        if self.unit > 0 {
-            inside += &span("width", real(self.unit + 1), format!(" {unit}"));
-        }
-        element(&format!("td{class}"), &inside)
     }
 }

@@ -60,8 +60,8 @@ pub fn page(
             section("Margins", vec![Part::Table(&known, margins)]),
             section("Machine", machine),
             section("Cycles", vec![cycles]),
-            section("Remarks", vec![Part::List(remarks(answer))]),
             section("Pictures", pictures),
+            section("Remarks", vec![Part::List(remarks(answer))]),
             origin(provenance, sources),
         ],
     }
