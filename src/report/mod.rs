@@ -1,6 +1,6 @@
-//! Answers as readable text, as comma-separated values and as JSON; one file for each subject.
+//! Answers as readable text, as comma-separated values, as JSON and as pages to sign; one file for each subject.
 //!
-//! Each subject defines its rows once; [`csv`], [`json`] and [`table`] write them in the three forms.
+//! Each subject defines its rows once; [`csv`], [`json`], [`table`] and [`page`] write them in their forms.
 
 pub mod basin;
 pub mod belt;

@@ -33,10 +33,12 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 /// Every command that writes a file, here over an old one.
-const WRITERS: [&str; 10] = [
+const WRITERS: [&str; 12] = [
     "figure fig17 --output old.svg --force",
     "cycles --set D=-0.3 --set D3=0.5 --certificate old.svg --force",
     "fit record.csv --output old.svg --force",
+    "fit record.csv --report old.html --force",
+    "belt groan --report new.html",
     "man . --force",
     "scan --over D=-0.3:-0.1:3 --measure margin --output old.svg --force",
     "scan --over D=-0.3:-0.1:3 --measure margin --format json --output old.svg --force",
@@ -53,6 +55,7 @@ fn a_disk_without_room_leaves_every_file_as_it_was() {
     fs::write(folder.join("old.svg"), "old\n").unwrap();
     fs::write(folder.join("screen.keys"), "<screen old>").unwrap();
     fs::write(folder.join("old.txt"), "old\n").unwrap();
+    fs::write(folder.join("old.html"), "old\n").unwrap();
     fs::write(folder.join("hopfscope.1"), "old\n").unwrap();
     let page =
         fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/fit/coulomb_rest.csv"));
@@ -66,7 +69,7 @@ fn a_disk_without_room_leaves_every_file_as_it_was() {
         assert_eq!((ran.code, ran.err.lines().count()), (1, 1), "{line}: {}{}", ran.out, ran.err);
         assert!(ran.err.contains("not written"), "{line}: {}", ran.err);
         assert_eq!(names(folder), before, "{line}");
-        for old in ["old.svg", "old.txt", "hopfscope.1"] {
+        for old in ["old.svg", "old.html", "old.txt", "hopfscope.1"] {
             assert_eq!(fs::read_to_string(folder.join(old)).unwrap(), "old\n", "{line}");
         }
     }

@@ -2,6 +2,7 @@
 
 mod files;
 mod outside;
+mod page;
 #[path = "../program/mod.rs"]
 mod program;
 mod replay;

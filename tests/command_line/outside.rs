@@ -4,6 +4,7 @@ use std::path::Path;
 
 use hopfscope::words::printable::is_printable;
 use proptest::prelude::*;
+use roxmltree::{Document, ParsingOptions};
 use serde_json::Value;
 
 use super::program::run;
@@ -37,6 +38,9 @@ fn holds(value: &Value, text: &str) -> bool {
     }
 }
 
+/// The pages that the command lines write.
+const PAGES: [&str; 2] = ["machine.html", "fit.html"];
+
 /// Files in a folder that quote a text, each with the text in its name, and the command lines that read them.
 fn command_lines(folder: &Path, text: &str) -> Vec<Vec<String>> {
     let data = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -55,12 +59,13 @@ fn command_lines(folder: &Path, text: &str) -> Vec<Vec<String>> {
     let (_, recorded) = recorded.split_once('\n').unwrap();
     let recorded = write("csv", format!("no,peak time [s],\"peak [{heading}]\"\n{recorded}"));
     let drawn = folder.join("drawn.svg").to_str().unwrap().to_owned();
+    let pages = PAGES.map(|name| folder.join(name).to_str().unwrap().to_owned());
     let script = write("keys", format!("<say {text:?}>"));
     let wrong = write("wrong", format!("<expect \"{text}\"> <{text}> {text}"));
     let missing = folder.join("none").join(text).to_str().unwrap().to_owned();
     let picture = format!("{missing}.svg");
     let words: [&[&str]; 25] = [
-        &["belt", &machine],
+        &["belt", &machine, "--report", &pages[0]],
         &["belt", &machine, "--format", "csv"],
         &["belt", &machine, "--format", "json"],
         &["belt", &machine, "--sweep", "v0=0.2 m/s:0.3 m/s:2"],
@@ -69,7 +74,10 @@ fn command_lines(folder: &Path, text: &str) -> Vec<Vec<String>> {
         &["belt", "--set", text],
         &["fit", &recorded, "--peaks"],
         &["fit", &recorded, "--mass", "1 kg", "--peaks"],
-        &["fit", &recorded, "--peaks", "--format", "json", "--output", &drawn],
+        &[
+            "fit", &recorded, "--peaks", "--format", "json", "--output", &drawn, "--report",
+            &pages[1],
+        ],
         &["fit", &recorded, "--columns", text],
         &["fit", &torn],
         &["replay", &script],
@@ -109,7 +117,14 @@ proptest! {
             }
         }
         // It has the name of the file in its title.
-        let drawn = std::fs::read_to_string(folder.path().join("drawn.svg")).unwrap_or_default();
-        prop_assert!(drawn.chars().all(|char| char == '\n' || is_printable(char)), "{}", drawn);
+        for file in ["drawn.svg", PAGES[0], PAGES[1]] {
+            let drawn = std::fs::read_to_string(folder.path().join(file)).unwrap();
+            prop_assert!(drawn.chars().all(|char| char == '\n' || is_printable(char)), "{}", drawn);
+            let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+            let document = Document::parse_with_options(&drawn, options).unwrap();
+            // The text is nowhere an element.
+            let own = |name: &str| document.descendants().filter(|it| it.tag_name().name() == name).count();
+            prop_assert_eq!((own("a"), own("c")), (0, 0), "{}", drawn);
+        }
     }
 }
