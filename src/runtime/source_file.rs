@@ -20,7 +20,12 @@ pub fn of(path: &Path, bytes: &[u8]) -> Source {
 
 /// The SHA-256 in hexadecimal digits.
 fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    let digest = Sha256::digest(bytes);
+    digest
+        .iter()
+        .flat_map(|byte| [byte >> 4, byte & 15])
+        .filter_map(|four| char::from_digit(four.into(), 16))
+        .collect()
 }
 
 /// Seconds since 1970 as `2026-03-02 10:11:12 UTC`, in the calendar.

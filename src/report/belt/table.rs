@@ -84,7 +84,9 @@ pub fn table(answer: &MachineAnswer) -> String {
     }
     let cycles = cycles(&portrait.cycles);
     out += &if cycles.is_empty() { NO_CYCLE.to_owned() + "\n" } else { cycles.to_string() };
-    out += &gaps(portrait).iter().map(|line| format!("{line}\n")).collect::<String>();
+    for gap in gaps(portrait) {
+        out += &format!("{gap}\n");
+    }
     out += &format!("{}\n", fate(answer.start, &answer.course));
     out += &answer.rest_share.line();
     if let Some(OnBelt { expansion, .. }) = &answer.on_belt {
