@@ -124,8 +124,8 @@ pub struct RestSpreads {
 }
 
 impl KickSpreads {
-    fn of<'a>(margins: impl Iterator<Item = &'a Margin> + Clone) -> Self {
-        let of = |pick: fn(&Margin) -> Option<f64>| spread(&sorted(margins.clone().map(pick)));
+    fn of(margins: &[Margin]) -> Self {
+        let of = |pick: fn(&Margin) -> Option<f64>| spread(&sorted(margins.iter().map(pick)));
         KickSpreads {
             displacement: of(|it| it.displacement),
             impulse: of(|it| it.impulse),
@@ -250,8 +250,8 @@ pub fn margins(
     };
     let each: Vec<(f64, Margin)> = drawn.iter().zip(&computed).map(each).collect();
     let known: Vec<MarginOfDraw> = computed.into_iter().filter_map(|it| Some(it.ok()?.0)).collect();
-    let kicks = KickSpreads::of(known.iter().map(|it| &it.margin));
-    let sure = || KickSpreads::of(each.iter().map(|(_, margin)| margin));
+    let kicks = KickSpreads::of(&known.iter().map(|it| it.margin).collect::<Vec<_>>());
+    let sure = || KickSpreads::of(&each.iter().map(|(_, margin)| *margin).collect::<Vec<_>>());
     Ok(Margins {
         best: ask(&parameters(&estimate.p)).ok().map(|answer| answer.margin),
         displacement: kicks.displacement,

@@ -108,6 +108,20 @@ mod tests {
     use super::*;
 
     #[test]
+    fn what_is_promised_is_rounded_down() {
+        for (value, digits, below) in [
+            (0.139_66, 3, 0.139),
+            (0.231, 3, 0.231),
+            (2050.9, 3, 2050.0),
+            (9.999e-7, 2, 9.9e-7),
+            (3.0, 3, 3.0),
+            (0.0, 3, 0.0),
+        ] {
+            assert_eq!(rounded_down(value, digits), below, "{value} to {digits}");
+        }
+    }
+
+    #[test]
     fn digits_are_those_that_matter() {
         let cases = [
             (-0.116_144, 3, "-0.116"),

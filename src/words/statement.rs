@@ -203,9 +203,9 @@ fn amplitudes(fitted: &Fitted, reach: Option<f64>) -> Condition {
         ),
         (None, Some((name, value, at))) => format!(
             "amplitudes measured were {range}; with {name} = {}, which the record does not exclude, a displacement of {} \
-             {unit} is not survived, {} times the largest amplitude",
+             is not survived, {} times the largest amplitude",
             significant(value, 2),
-            significant(at, 3),
+            format!("{} {unit}", significant(at, 3)).trim_end(),
             significant(at / high, 2)
         ),
         (None, None) => {
