@@ -177,7 +177,8 @@ fn assessed(
     whiteness.systematic |= problem.noise > 0.0 && covariance.deviation > HIDDEN * problem.noise;
     whiteness.white &= !whiteness.systematic;
     // With correlated noise, larger differences of the loss occur by chance.
-    let unit = task.variance(&best.seen, covariance.freedom) * covariance.inflation(R);
+    let variance = task.variance(&best.seen, covariance.freedom);
+    let unit = variance * covariance.inflation(R);
     let rivals: Vec<Rival> = found
         .valleys
         .iter()
@@ -187,7 +188,7 @@ fn assessed(
             p: valley.optimum.p,
         })
         .collect();
-    let (intervals, lower) = intervals(&task, found, &whiteness, runs)?;
+    let (intervals, lower) = intervals(&task, found, variance, &whiteness, runs)?;
     let estimate = Estimate {
         choice: Choice::default(),
         data: problem.data.clone(),
@@ -220,6 +221,7 @@ fn assessed(
 fn intervals(
     task: &Task,
     found: &Minima,
+    variance: f64,
     whiteness: &Whiteness,
     runs: &mut Runs,
 ) -> Result<([ProfileInterval; UNKNOWNS], Option<Box<Optimum>>), Unfit> {
@@ -235,6 +237,7 @@ fn intervals(
             optimum,
             covariance: &covariance,
             least: found.valleys[0].optimum.cost,
+            variance,
         };
         for place in task.columns() {
             // If the model leaves something out there is no likelihood, and a profile would be meaningless.

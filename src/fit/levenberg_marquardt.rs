@@ -161,7 +161,7 @@ impl Task<'_> {
             bounds.push((p[R], by));
         }
         if self.within.is_some() {
-            let rims = seen.clearances(p, self.observation.start).into_iter();
+            let rims = seen.clearances(p, self.observation).into_iter();
             bounds.extend(rims.map(|(value, by)| (PART * value, by)));
         }
         bounds

@@ -121,14 +121,17 @@ pub type Bound = (f64, Unknowns);
 
 impl Seen {
     /// The distances of the last turning points from the rims that bound the region.
-    pub fn clearances(&self, p: &Unknowns, start: StartKind) -> Vec<Bound> {
-        let last = self.turns.iter().rev().take(if self.region.is_some() { 2 } else { 1 });
+    pub fn clearances(&self, p: &Unknowns, of: &Observation) -> Vec<Bound> {
+        // What follows the last of a list of peaks is not seen, so that it may lie on either side of the rim.
+        let unseen = usize::from(self.region.is_none() && of.data.has_peaks());
+        let last = self.turns.iter().rev().skip(unseen);
+        let last = last.take(if self.region.is_some() { 2 } else { 1 });
         let bound = |(index, turn): (usize, &FittedTurn)| {
             // A mass that rests has turned within the sticking set, and before that outside it.
             let side = if self.region.is_some() && index == 0 { -1.0 } else { 1.0 };
             let mut by = unknowns(&turn.q_by).map(|by| side * turn.q.signum() * by);
             by[R] -= side;
-            if start == StartKind::Moving {
+            if of.start == StartKind::Moving {
                 by[LAST] = side * turn.q.signum() * turn.q_by[5];
             }
             (side * (turn.q.abs() - p[R]), by)

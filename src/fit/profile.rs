@@ -52,6 +52,8 @@ pub struct Profile<'a> {
     pub covariance: &'a Covariance,
     /// The loss of the lowest minimum of all regions.
     pub least: f64,
+    /// The variance of the noise there.
+    pub variance: f64,
 }
 
 /// Why a profile was left.
@@ -84,13 +86,15 @@ impl Profile<'_> {
     ) -> Result<Option<ProfileInterval>, Left> {
         let z = self.deviations(unknown);
         let white = self.covariance.inflation(unknown);
-        let variance = self.task.variance(&self.optimum.seen, self.covariance.freedom);
-        let rise = z * z * white * variance;
+        let rise = z * z * white * self.variance;
         let left = 1.0 - (self.optimum.cost - self.least) / rise;
         if left <= 0.0 {
             return Ok(None);
         }
-        let reach = left.sqrt() * z * self.covariance.error(unknown);
+        // The error in this region if the noise is that of the lowest minimum.
+        let own = self.task.variance(&self.optimum.seen, self.covariance.freedom);
+        let error = self.covariance.error(unknown) * (self.variance / own).sqrt();
+        let reach = left.sqrt() * z * error;
         let mut ends = [None; 2];
         let mut quadratic = true;
         for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {

@@ -142,7 +142,7 @@ fn beyond_the_rim(
         let is_near = verdict != Verdict::Noise || value <= FAR * error;
         Some(p).filter(|p| is_near && p[R] > 0.0 && p.iter().all(|value| value.is_finite()))
     };
-    let rims = optimum.seen.clearances(&optimum.p, task.observation.start);
+    let rims = optimum.seen.clearances(&optimum.p, task.observation);
     let mut found = Vec::new();
     for beyond in rims.into_iter().filter_map(point) {
         for further in FURTHER {
