@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
-use super::estimate::Estimate;
+use super::estimate::{Estimate, Rival};
 use super::levenberg_marquardt::Runs;
 use super::margin::Margins;
-use super::observation::{Data, UNKNOWNS};
+use super::names::NameSpec;
+use super::observation::{Data, R, Unknowns};
 use super::peaks::peaks;
 use super::posterior::FEWEST;
 use super::problem::{HIDDEN, IMPOSSIBLE, RUN, longest_run};
@@ -40,8 +41,8 @@ impl Condition {
     }
 }
 
-/// Fewest degrees of freedom from which the size of the noise is known to a factor of two.
-const FREEDOM: f64 = 3.0;
+/// Fewest degrees of freedom: with one of them, one number in fifty is off by more than 2.3 times half its interval.
+const FREEDOM: f64 = 1.5;
 
 /// All conditions of an answer.
 pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
@@ -60,6 +61,13 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
         .wanted()
         .map(|row| estimate.covariance.independent(row.place))
         .fold(f64::INFINITY, f64::min);
+    let other = alternative(estimate);
+    let others = other.map_or("no other motion fits as well".to_owned(), |rival| {
+        format!(
+            "a motion with r = {:.3e} has a chi-squared that is higher by only {:.1}",
+            rival.p[R], rival.delta_chi2
+        )
+    });
     let enough = FEWEST.min(real(margins.draws.len())).max(real(margins.question.needed()));
     let mut all = vec![
         state("residuals", !whiteness.systematic, kind.to_owned()),
@@ -68,6 +76,7 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
             run < RUN,
             format!("{} left out, at most {run} in a row", estimate.outliers()),
         ),
+        state("rivals", other.is_none(), others),
         state("freedom", freedom >= FREEDOM, format!("{freedom:.1} degrees of freedom")),
         state(
             "draws",
@@ -112,19 +121,27 @@ pub fn repeated(estimate: &Estimate, question: &Question, runs: &mut Runs) -> Re
         Err(Unfit::Interrupted) => return Err(Unfit::Interrupted),
         Err(_) => return Ok(f64::INFINITY),
     };
-    let off = |place: usize| {
-        let (from, to) = (estimate.p[place], again.p[place]);
-        let interval = estimate.intervals[place];
+    Ok(furthest(estimate, &again.p))
+}
+
+/// The largest distance of another point from an estimate, in standard errors by the intervals.
+fn furthest(estimate: &Estimate, to: &Unknowns) -> f64 {
+    let off = |row: &NameSpec| {
+        let (from, to) = (estimate.p[row.place], to[row.place]);
+        let interval = estimate.intervals[row.place];
         let end = if to < from { interval.lower } else { interval.upper };
         // Half an interval of 95 % is 1.96 standard errors.
         end.map_or(0.0, |end| 1.96 * (to - from).abs() / (end - from).abs())
     };
-    let largest = (0..UNKNOWNS)
-        .filter(|&place| estimate.wanted().any(|row| row.place == place))
-        .map(off)
-        .filter(|off| off.is_finite())
-        .fold(0.0, f64::max);
-    Ok(largest)
+    estimate.wanted().map(off).filter(|off| off.is_finite()).fold(0.0, f64::max)
+}
+
+/// A motion in another region that the intervals leave out, although the record does not rule it out for certain.
+fn alternative(estimate: &Estimate) -> Option<&Rival> {
+    /// Rise of chi-squared that noise makes of the right motion once in a thousand times or less.
+    const RARE: f64 = 12.0;
+    let mut others = estimate.rivals.iter().skip(1).filter(|rival| rival.delta_chi2 < RARE);
+    others.find(|rival| furthest(estimate, &rival.p) > IMPOSSIBLE)
 }
 
 /// A record of the fitted motion with other noise of the same kind.

@@ -39,13 +39,16 @@ pub fn averaged(d: f64, d3: f64, r: f64, amplitude: f64) -> f64 {
 /// wrong if the motion hardly decays.
 const TERMS: [&[usize]; 4] = [&[0, 1, 2], &[0, 1], &[1, 2], &[1]];
 
-/// Damping and offset from the turning points, one result for each of `TERMS` that can be fitted; empty for
-/// fewer than three turning points.
+/// Damping and offset from the turning points, one result for each of `TERMS` that can be fitted; of a single swing
+/// one for each of several intensities of friction. Empty for fewer than two turning points.
 pub fn regressions(extremes: &[Extreme]) -> Vec<Averaged> {
     let largest =
         extremes.windows(2).map(|two| 0.5 * (two[1].x - two[0].x).abs()).fold(0.0, f64::max);
-    if largest <= 0.0 || extremes.len() < 3 {
+    if largest <= 0.0 || extremes.len() < 2 {
         return Vec::new();
+    }
+    if let [one, other] = extremes {
+        return of_one_swing(one.x, other.x);
     }
     // In units of the largest amplitude, so that the columns have similar norms.
     let unit: Vec<Extreme> =
@@ -63,6 +66,20 @@ pub fn regressions(extremes: &[Extreme]) -> Vec<Averaged> {
         });
     }
     found
+}
+
+/// A single swing tells offset and friction only together: `x_0 + x_1 = 2 (offset + r)` if it begins on the right.
+fn of_one_swing(begin: f64, end: f64) -> Vec<Averaged> {
+    /// Intensities of friction as parts of the amplitude.
+    const PARTS: [f64; 6] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3];
+    /// Moderate damping.
+    const D: f64 = 0.02;
+    let of = |part: f64| {
+        let right = 0.5 * part * (begin - end);
+        let offset = 0.5 * (begin + end) - right;
+        Averaged { d: D, r: right.abs(), offset, ..Averaged::default() }
+    };
+    PARTS.map(of).to_vec()
 }
 
 /// r, D and D3 from the decrements; `None` for fewer decrements than terms, or if the friction is negative.
@@ -169,8 +186,16 @@ mod tests {
     }
 
     #[test]
-    fn without_three_turning_points_there_is_nothing_to_read() {
-        assert!(regressions(&coulomb(0.1, 0.0)[..2]).is_empty());
+    fn a_single_swing_tells_friction_and_offset_only_together() {
+        for two in coulomb(0.125, 0.5).windows(2) {
+            let found = regressions(two);
+            let side = (two[0].x - two[1].x).signum();
+            assert!(found.len() > 2);
+            assert!(
+                found.iter().all(|it| (it.offset + side * it.r - 0.5 - side * 0.125).abs() < 1e-12)
+            );
+        }
+        assert!(regressions(&coulomb(0.1, 0.0)[..1]).is_empty());
         assert!(regressions(&[Extreme { t: 0.0, x: 1.0 }; 5]).is_empty());
     }
 }

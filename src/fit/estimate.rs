@@ -177,8 +177,7 @@ fn assessed(
     whiteness.systematic |= problem.noise > 0.0 && covariance.deviation > HIDDEN * problem.noise;
     whiteness.white &= !whiteness.systematic;
     // With correlated noise, larger differences of the loss occur by chance.
-    let variance = task.variance(&best.seen, covariance.freedom);
-    let unit = variance * covariance.inflation(R);
+    let unit = covariance.variance * covariance.inflation(R);
     let rivals: Vec<Rival> = found
         .valleys
         .iter()
@@ -188,7 +187,7 @@ fn assessed(
             p: valley.optimum.p,
         })
         .collect();
-    let (intervals, lower) = intervals(&task, found, variance, &whiteness, runs)?;
+    let (intervals, lower) = intervals(&task, found, covariance.variance, &whiteness, runs)?;
     let estimate = Estimate {
         choice: Choice::default(),
         data: problem.data.clone(),
@@ -225,6 +224,9 @@ fn intervals(
     whiteness: &Whiteness,
     runs: &mut Runs,
 ) -> Result<([ProfileInterval; UNKNOWNS], Option<Box<Optimum>>), Unfit> {
+    /// How much of the rise of chi-squared to the minimum of another region counts. The lowest of several minima is lower by
+    /// chance than any one of them: so they count up to a chi-squared of 9, not of 3.84.
+    const CHOSEN: f64 = 0.43;
     let mut intervals = [ProfileInterval::default(); UNKNOWNS];
     let mut lower = None;
     for (number, valley) in found.valleys.iter().enumerate() {
@@ -236,7 +238,7 @@ fn intervals(
             task: &task,
             optimum,
             covariance: &covariance,
-            least: found.valleys[0].optimum.cost,
+            least: optimum.cost - CHOSEN * (optimum.cost - found.valleys[0].optimum.cost),
             variance,
         };
         for place in task.columns() {

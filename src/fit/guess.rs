@@ -24,7 +24,7 @@ pub struct Guess {
     pub again: Option<usize>,
 }
 
-/// Makes first guesses from a record; `None` if fewer than three turning points, including a hold and a rest, can
+/// Makes first guesses from a record; `None` if fewer than two turning points, including a hold and a rest, can
 /// be distinguished from noise.
 pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
     /// Periods by which the release may be earlier or later.
@@ -124,7 +124,7 @@ fn samples_within(t: &[f64], stretch: f64) -> f64 {
 /// counts for as many half periods as fit.
 pub fn period_of(extremes: &[Extreme]) -> Option<f64> {
     let gaps: Vec<f64> = extremes.windows(2).map(|two| two[1].t - two[0].t).collect();
-    if gaps.len() < 2 {
+    if gaps.is_empty() {
         return None;
     }
     let half = median(gaps.clone());

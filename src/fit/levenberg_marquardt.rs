@@ -107,13 +107,6 @@ impl Task<'_> {
         used.map(|(_, residual)| residual).collect()
     }
 
-    /// Variance of the noise: the sum of squared influences (weight times residual) over the degrees of freedom.
-    pub fn variance(&self, seen: &Seen, freedom: f64) -> f64 {
-        let used = self.used_residuals(seen).into_iter();
-        let influence = |residual: &Residual| self.loss.weight(residual.value) * residual.value;
-        used.map(|residual| powi(influence(residual), 2)).sum::<f64>() / freedom
-    }
-
     /// Compares the model with the record, and counts the motion.
     ///
     /// # Errors

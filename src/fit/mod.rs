@@ -69,6 +69,7 @@ pub(crate) mod question;
 pub(crate) mod record;
 #[doc(hidden)]
 pub mod refit;
+pub(crate) mod release;
 pub(crate) mod residuals;
 pub(crate) mod sampled;
 pub(crate) mod samples;

@@ -52,7 +52,7 @@ pub struct Profile<'a> {
     pub covariance: &'a Covariance,
     /// The loss of the lowest minimum of all regions.
     pub least: f64,
-    /// The variance of the noise there.
+    /// A unit of chi-squared there.
     pub variance: f64,
 }
 
@@ -92,8 +92,8 @@ impl Profile<'_> {
             return Ok(None);
         }
         // The error in this region if the noise is that of the lowest minimum.
-        let own = self.task.variance(&self.optimum.seen, self.covariance.freedom);
-        let error = self.covariance.error(unknown) * (self.variance / own).sqrt();
+        let part = (self.variance / self.covariance.variance).sqrt();
+        let error = part * self.covariance.error(unknown);
         let reach = left.sqrt() * z * error;
         let mut ends = [None; 2];
         let mut quadratic = true;

@@ -88,7 +88,7 @@ impl fmt::Display for Unfit {
             }
             Unfit::NoSwings => write!(
                 out,
-                "fewer than three turning points, a hold and a rest included, stand out from the noise: of a single \
+                "fewer than two turning points, a hold and a rest included, stand out from the noise: of a single \
                  swing friction and offset cannot be told apart"
             ),
             Unfit::NotAlternating { peak } => write!(

@@ -9,6 +9,7 @@ use super::observation::{Data, LAST, OMEGA0, StartKind};
 use super::problem::{IMPOSSIBLE, LeastSquares};
 use super::question::{LossName, Question, Unfit, placed, reach};
 use super::record::Record;
+use super::release::released_before;
 use super::search::Minima;
 use super::spectrum::dominant_frequency;
 use crate::numerics::count::{real, whole};
@@ -57,13 +58,19 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
         LossName::Auto if noise.has_outliers => Loss::SoftL1 { scale },
         LossName::Auto | LossName::Linear => Loss::Linear,
         LossName::SoftL1 => Loss::SoftL1 { scale },
-        LossName::Cauchy => Loss::Cauchy { scale },
+        LossName::Cauchy => Loss::Cauchy { scale: scale },
     };
     let reach = reach(&x);
     let data = Data::Samples { t, x };
     let mut problem =
         LeastSquares { data: &data, free, loss, used: &[], noise: noise.deviation, reach };
     let mut found = problem.search(&beginnings, runs)?;
+    let is_held = beginnings[0].start == StartKind::Release;
+    if is_held && !problem.explains(&found.valleys[0].optimum) {
+        let other = released_before(&problem, &held, &noise, &extremes, runs)?;
+        let cost = |of: &Minima| of.valleys[0].optimum.cost;
+        found = other.filter(|other| cost(other) < cost(&found)).unwrap_or(found);
+    }
     let mut used = vec![true; data.residuals()];
     let mut alike = used.clone();
     if question.loss == LossName::Auto {

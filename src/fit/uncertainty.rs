@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::levenberg_marquardt::{Optimum, Task};
 use super::observation::{Data, Residual, UNKNOWNS, Unknowns};
+use super::problem::IMPOSSIBLE;
 use crate::numerics::count::real;
 use crate::numerics::elementary::{cos, pow, powi, sin};
 
@@ -18,6 +19,8 @@ pub struct Covariance {
     pub white: DMatrix<f64>,
     /// Standard deviation of the noise.
     pub deviation: f64,
+    /// Its variance as it acts on the unknowns: a unit of chi-squared.
+    pub variance: f64,
     /// Degrees of freedom: the number of residuals minus the noise absorbed by the unknowns.
     pub freedom: f64,
     /// The noise absorbed by the unknowns, in residuals.
@@ -66,7 +69,7 @@ impl Covariance {
         let (sum, influence) = weighted.fold((0.0, 0.0), |(sum, influence), (weight, value)| {
             (sum + weight * value * value, influence + powi(weight * value, 2))
         });
-        let variance = influence / freedom;
+        let variance = influence / freedom * powi(widening(task, optimum, influence / freedom), 2);
         let freedoms = match &task.observation.data {
             Data::Peaks { t: Some(_), x, .. } => of_two_kinds(&rows, x.len(), &bread),
             _ => vec![freedom; width],
@@ -76,6 +79,7 @@ impl Covariance {
             matrix: spread * variance,
             white: bread * variance,
             deviation: (sum / freedom).sqrt(),
+            variance,
             freedom,
             absorbed,
             freedoms,
@@ -137,6 +141,22 @@ impl Covariance {
         }
         along
     }
+}
+
+/// The factor of all errors that is due to samples left out because they do not belong to the motion. If the noise reaches
+/// beyond the limit, a small change of the motion puts some samples out and others in, so that those that count see only
+/// a part of it. That part follows from the density of residuals at the limit, here from their number up to twice the
+/// limit: with Student's distribution of three degrees of freedom it falls with the fourth power.
+fn widening(task: &Task, optimum: &Optimum, variance: f64) -> f64 {
+    /// The density of magnitudes at the limit times the limit, by their share between the limit and its double.
+    const AT_LIMIT: f64 = 3.0 / (1.0 - 0.125);
+    /// Largest share of the residuals that may be lost in this way.
+    const MOST: f64 = 0.3;
+    let limit = IMPOSSIBLE * variance.sqrt();
+    let out = optimum.seen.residuals.iter().zip(task.used).filter(|(_, used)| !**used);
+    let near = out.filter(|(it, _)| (limit..2.0 * limit).contains(&it.value.abs())).count();
+    let share = real(near) / real(optimum.seen.residuals.len());
+    1.0 / (1.0 - (AT_LIMIT * share).min(MOST))
 }
 
 /// The degrees of freedom of each unknown's variance if the first `count` residuals and the others are of two kinds,

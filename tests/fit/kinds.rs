@@ -1,7 +1,7 @@
 //! Records of many kinds with known truth: what a fit says without a warning must be right.
 
 use hopfscope::fit::conditions::conditions;
-use hopfscope::fit::{DRAWS, MarginQuestion, margins};
+use hopfscope::fit::{DRAWS, MarginQuestion, Margins, margins};
 use hopfscope::flow::Limits;
 use hopfscope::oscillator::Parameters;
 use hopfscope::study::basin::Basin;
@@ -29,10 +29,15 @@ fn outcome(kind: &'static str, seed: u64, draws: usize) -> Option<Outcome> {
     let question = Question { peaks, ..Question::default() };
     // A refusal is no wrong answer.
     let found = estimate(&record, &question, &|| false).ok()?;
-    let margins =
-        margins(&found, &MarginQuestion { draws, ..MarginQuestion::default() }, &Limits::PATIENT)
-            .unwrap();
-    let warns = conditions(&found, &margins).iter().any(|it| !it.holds);
+    let margins = if draws == 0 {
+        Margins::default()
+    } else {
+        let question = MarginQuestion { draws, ..MarginQuestion::default() };
+        margins(&found, &question, &Limits::PATIENT).unwrap()
+    };
+    // Without a margin nothing is asked of its draws.
+    let counts = |name: &str| draws > 0 || name != "draws";
+    let warns = conditions(&found, &margins).iter().any(|it| !it.holds && counts(it.name));
     let numbers = found.wanted().map(|row| {
         let index = NAMES.iter().position(|other| other == row).unwrap();
         let (value, interval) = (found.p[row.place], found.intervals[row.place]);
@@ -83,12 +88,9 @@ fn percentage<'a>(outcomes: impl Iterator<Item = &'a Outcome>, name: Option<&str
 
 #[test]
 fn no_answer_about_records_of_fifteen_kinds_is_wrong_without_saying_so() {
-    // A known defect, of unknown cause: this record is fitted 4.58 standard errors off, and nothing is said.
-    const KNOWN: &str = "heavy 1:";
     let found = outcomes(&KINDS, 1..=5, 40);
     assert!(found.len() >= 60 && found.iter().filter(|it| it.warns).count() <= 8);
-    let mut silent = silent_errors(&found);
-    silent.retain(|it| !it.starts_with(KNOWN));
+    let silent = silent_errors(&found);
     assert!(silent.is_empty(), "{silent:#?}");
     let covered = percentage(found.iter(), None);
     assert!((91.0..=98.5).contains(&covered), "{covered} % of the intervals hold the truth");
@@ -119,6 +121,39 @@ fn intervals_of_a_hundred_records_of_each_kind_hold_the_truth_as_often_as_they_s
     let above = told.iter().filter(|it| **it).count();
     println!("lower end of the margin above the truth: {above} of {}", told.len());
     assert!(25 * above <= told.len());
+}
+
+#[test]
+fn a_growth_from_near_an_unstable_cycle_is_released_when_it_was() {
+    for seed in [15, 27, 34, 62] {
+        let Simulation { truth, record, .. } = simulated("growth", seed);
+        let found = estimate(&record, &Question::default(), &|| false).unwrap();
+        assert_eq!((found.start, found.outliers()), (StartKind::Release, 0), "growth {seed}");
+        for (row, is) in NAMES.iter().zip(truth) {
+            let off = (found.p[row.place] - is) / found.covariance.error(row.place);
+            assert!(off.abs() < 4.5, "growth {seed}: {} is {off} errors off", row.name);
+        }
+    }
+}
+
+#[test]
+fn two_turning_points_are_enough_if_the_curve_between_them_is_seen() {
+    let found = outcomes(&["few"], 1..=24, 0);
+    assert_eq!(found.len(), 24);
+    let covered = percentage(found.iter(), None);
+    assert!((88.0..=99.0).contains(&covered), "{covered} % of the intervals hold the truth");
+}
+
+#[test]
+fn another_motion_that_the_record_hardly_excludes_is_told() {
+    let Simulation { record, .. } = simulated("shorthold", 56);
+    let found = estimate(&record, &Question::default(), &|| false).unwrap();
+    let all = conditions(&found, &Margins::default());
+    let told = all.iter().find(|it| it.name == "rivals").unwrap();
+    assert!(!told.holds && told.detail.contains("chi-squared"), "{told:?}");
+    let Simulation { record, .. } = simulated("release", 1);
+    let found = estimate(&record, &Question::default(), &|| false).unwrap();
+    assert!(conditions(&found, &Margins::default()).iter().all(|it| it.holds));
 }
 
 /// A record that was once fitted wrongly, and its truth.

@@ -2,6 +2,7 @@
 //! noise of fixed seeds.
 
 mod kinds;
+mod lists;
 mod noise;
 #[path = "../program/mod.rs"]
 mod program;

@@ -112,19 +112,14 @@ fn a_rest_explained_by_two_numbers_of_half_swings_is_reported_with_both() {
 }
 
 #[test]
-fn noise_of_several_times_the_friction_does_not_hide_the_number_of_half_swings() {
+fn intervals_hold_the_truth_where_noise_of_several_times_the_friction_hides_the_number_of_half_swings()
+ {
     // A descent with all numbers free ends with two or three half swings too many, D3 < 0 and a third of the friction.
     let p = [18.0, 1.0, 0.02, 0.0, 0.0, 0.15, 5.0, 0.3];
     let loud = Simulated { p, seconds: 8.0, samples: 1200, noise: 0.6, ..RELEASED };
-    let outside: Vec<usize> = (1..=4_u64)
-        .into_par_iter()
-        .map(|seed| {
-            let found = loud.fitted(seed);
-            // Noise may make another number the best, but never rules out the true one.
-            let right = found.contenders().any(|rival| (11..=13).contains(&rival.half_swings));
-            assert!(right, "{seed}: {:?}", found.rivals);
-            4 - covered(std::slice::from_ref(&found), &p).into_iter().skip(2).sum::<usize>()
-        })
-        .collect();
-    assert!(outside.iter().sum::<usize>() <= 3, "{outside:?}");
+    let estimates: Vec<Estimate> =
+        (1..=20_u64).into_par_iter().map(|seed| loud.fitted(seed)).collect();
+    let covered = covered(&estimates, &p);
+    // Of 20, three or more of 95 % miss in one case of thirteen, four in one of sixty.
+    assert!(covered.iter().all(|count| *count >= 17), "of 20: {covered:?}");
 }

@@ -126,7 +126,7 @@ pub fn simulated(kind: &str, seed: u64) -> Simulation {
     let a = chance.log(0.4, 18.0);
     let (omega0, offset) = (chance.log(8.0, 350.0), 0.2 * a * chance.0.normal());
     let Plan { law, start, noise, hold, periods } = planned(kind, a, &mut chance);
-    if kind == "peaks" || kind == "untimed" {
+    if ["peaks", "untimed", "brief"].contains(&kind) {
         return listed(kind, a, [omega0, offset], &law, &mut chance);
     }
     let rate = chance.log(35.0, 90.0);
@@ -229,7 +229,7 @@ fn planned(kind: &str, a: f64, chance: &mut Chance) -> Plan {
     }
 }
 
-/// A list of 9 to 12 turning points of a decay.
+/// A list of 9 to 12 turning points of a decay, or of 7 to 9 of them.
 fn listed(
     kind: &str,
     a: f64,
@@ -239,13 +239,14 @@ fn listed(
 ) -> Simulation {
     let law = [law[0], 0.05 * chance.0.normal() / a, 0.0, a * chance.log(0.01, 0.03)];
     let (_, turns) = motion(&law, [a, 0.0], &[20.0 * PI]);
-    let count = 9 + usize::from(chance.0.even() < 0.5) + 2 * usize::from(chance.0.even() < 0.5);
+    let more = [1, 2].map(|peaks| peaks * usize::from(chance.0.even() < 0.5));
+    let count = if kind == "brief" { 7 + more[1] / 2 + more[0] } else { 9 + more[0] + more[1] };
     let noise = a * chance.log(0.0005, 0.003);
     let turns: Vec<[f64; 2]> = turns.into_iter().take(count).collect();
     let x = turns.iter().map(|turn| offset + turn[1] + noise * chance.0.normal()).collect();
     let late = 3.0 * noise / (a * omega0);
     let t = turns.iter().map(|turn| turn[0] / omega0 + late * chance.0.normal()).collect();
-    let record = Record { t: (kind == "peaks").then_some(t), x, ..Record::default() };
+    let record = Record { t: (kind != "untimed").then_some(t), x, ..Record::default() };
     let truth = [omega0, offset, law[0], law[1], law[2], law[3]];
     Simulation { truth, amplitude: a, record, peaks: true }
 }

@@ -1,0 +1,63 @@
+//! The release of a record whose first swings say little about the motion, such as those of a growth from near an unstable
+//! cycle: the motion is fitted without them, and then followed from the hold.
+
+use super::guess::{Guess, guess};
+use super::levenberg_marquardt::{NoFit, Runs, interrupted};
+use super::motion::{Way, follow};
+use super::noise::Noise;
+use super::observation::{
+    Data, LAST, OFFSET, OMEGA0, Q0, StartKind, UNKNOWNS, Unknowns, parameters,
+};
+use super::problem::LeastSquares;
+use super::question::placed;
+use super::search::{Beginning, Minima};
+use super::turning_points::Extreme;
+use crate::oscillator::State;
+
+/// The minima from guesses that release the held mass so that it comes into the motion after its first swings.
+/// `extremes` are the hold and the turning points. `None` if there is no such motion; fails with [`NoFit::Interrupted`].
+pub fn released_before(
+    problem: &LeastSquares,
+    held: &[Option<f64>; UNKNOWNS],
+    noise: &Noise,
+    extremes: &[Extreme],
+    runs: &mut Runs,
+) -> Result<Option<Minima>, NoFit> {
+    /// Number of turning points left out, at most, and the part of all.
+    const FIRST: usize = 4;
+    const PART: usize = 4;
+    /// Number of swings between the release and the fitted motion, at most.
+    const SWINGS: usize = 60;
+    let Data::Samples { t, x } = problem.data else { return Ok(None) };
+    let first = extremes[FIRST.min(extremes.len() / PART)];
+    let from = t.partition_point(|&t| t < first.t);
+    let (later, times) = (&x[from..], &t[from..]);
+    let Some(Guess { mut beginnings, .. }) = guess(times, later, noise) else { return Ok(None) };
+    beginnings.retain(|beginning| beginning.start == StartKind::Moving);
+    for guess in beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
+        *guess = placed(held, *guess);
+    }
+    let data = Data::Samples { t: times.to_vec(), x: later.to_vec() };
+    let part = LeastSquares { data: &data, ..*problem };
+    let Ok(found) = interrupted(part.search(&beginnings, runs))? else { return Ok(None) };
+    let optimum = &found.valleys[0].optimum;
+    let Some(turn) = optimum.seen.turns.first().filter(|_| part.explains(optimum)) else {
+        return Ok(None);
+    };
+    let p = &optimum.p;
+    let begin = State { q: extremes[0].x - p[OFFSET], v: 0.0 };
+    let way = Way { linear: false, with_derivatives: false, reach: problem.reach, turns: SWINGS };
+    let Ok(motion) = follow(&parameters(p), begin, &[f64::MAX], way, |_, _| {}) else {
+        return Ok(None);
+    };
+    let released = |tau: f64| {
+        let mut guess: Unknowns = *p;
+        (guess[Q0], guess[LAST]) = (begin.q, times[0] + (turn.tau - tau) / p[OMEGA0]);
+        guess
+    };
+    let same = motion.turns.iter().filter(|it| it.q * turn.q > 0.0);
+    let guesses = same.map(|it| placed(held, released(it.tau))).filter(|it| it[LAST] > t[0]);
+    let guesses: Vec<Unknowns> = guesses.collect();
+    let beginning = Beginning { start: StartKind::Release, certain: true, guesses };
+    Ok(interrupted(problem.search(&[beginning], runs))?.ok())
+}
