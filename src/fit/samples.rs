@@ -58,7 +58,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
         LossName::Auto if noise.has_outliers => Loss::SoftL1 { scale },
         LossName::Auto | LossName::Linear => Loss::Linear,
         LossName::SoftL1 => Loss::SoftL1 { scale },
-        LossName::Cauchy => Loss::Cauchy { scale: scale },
+        LossName::Cauchy => Loss::Cauchy { scale },
     };
     let reach = reach(&x);
     let data = Data::Samples { t, x };
