@@ -6,6 +6,10 @@ use std::f64::consts::PI;
 use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, powi};
 
+/// Number of standard deviations beyond which a residual does not belong to the motion. Chance exceeds it 7 times
+/// in a million.
+pub const IMPOSSIBLE: f64 = 4.5;
+
 /// The median; 0 for an empty list.
 pub fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;

@@ -2,7 +2,7 @@
 
 use super::levenberg_marquardt::{Optimum, Task};
 use super::loss::Loss;
-use super::noise::robust_deviation;
+use super::noise::{IMPOSSIBLE, robust_deviation};
 use super::observation::{D2, D3, Data, OMEGA0, Observation, StartKind, UNKNOWNS};
 use super::residuals::whiteness;
 use crate::numerics::count::real;
@@ -38,10 +38,6 @@ pub enum Verdict {
 /// Residuals up to this many times the noise of neighbouring differences may still be noise, since these underestimate
 /// filtered noise.
 pub const HIDDEN: f64 = 3.0;
-
-/// Number of standard deviations beyond which a residual does not belong to the motion. Chance exceeds it 7 times
-/// in a million.
-pub const IMPOSSIBLE: f64 = 4.5;
 
 /// So many samples in a row that do not belong to the motion are no outliers: then the motion is wrong.
 pub const RUN: usize = 5;

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::levenberg_marquardt::{Optimum, Task};
+use super::noise::IMPOSSIBLE;
 use super::observation::{Data, Residual, UNKNOWNS, Unknowns};
-use super::problem::IMPOSSIBLE;
 use crate::numerics::count::real;
 use crate::numerics::elementary::{cos, pow, powi, sin};
 
