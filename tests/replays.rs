@@ -53,9 +53,9 @@ fn every_keystroke_file_of_the_handbook_plays() {
 /// What a newcomer reads: a screen along the way and words on it, at every size.
 const READ: [(&str, &[&str]); 8] = [
     ("opened", &["parameters", "phase plane", "grows without bound", "q quit"]),
-    ("captured", &["comes to rest at q = ", "survives kicks up to q "]),
+    ("captured", &["comes to rest at q = ", "margin from rest: shift "]),
     ("scenes", &["Lessons", "supercritical fig16b"]),
-    ("supercritical", &["onto the stable cycle, q_max 1.158", "survives kicks up to q 0.2247"]),
+    ("supercritical", &["onto the stable cycle, q_max 1.158", "margin from rest: shift 0.1247"]),
     ("beyond-the-fold", &["comes to rest", "every kick is survived"]),
     ("inside", &["comes to rest at q = ", "(inside the unstable cycle)"]),
     ("outside", &["grows onto the stable cycle", "(outside the unstable cycle)"]),

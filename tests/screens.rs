@@ -7,12 +7,14 @@ use std::rc::Rc;
 use hopfscope::flow::Limits;
 use hopfscope::question::{NoAnswer, answer};
 use hopfscope::scene::Scene;
-use hopfscope::scene::library::library;
+use hopfscope::scene::library::{find, library};
 use hopfscope::session::settings::{self, Colors, Glyphs};
 use hopfscope::session::{Msg, Session, Size, settle, update};
 use hopfscope::terminal::painter::Painter;
 use hopfscope::view::{self, Look};
 use ratatui::Terminal;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
 
 /// A terminal that counts bytes.
 #[derive(Clone, Default)]
@@ -94,5 +96,89 @@ fn what_did_not_change_is_not_sent() {
         let mut explorer = Explorer::open(scene, 120, 40);
         explorer.draw();
         assert_eq!(explorer.draw(), 0, "{}", scene.name);
+    }
+}
+
+/// What the second status line says.
+fn told(explorer: &mut Explorer) -> String {
+    explorer.draw();
+    let Size { width, height } = explorer.session.size;
+    let area = Rect::new(0, 0, width, height);
+    let mut buffer = Buffer::empty(area);
+    view::frame::render(area, &explorer.session, &explorer.look, &mut buffer);
+    (0..width).map(|x| buffer[(x, height - 2)].symbol()).collect::<String>().trim().to_owned()
+}
+
+/// What a command of the program answers as JSON.
+fn answered(arguments: &[&str]) -> serde_json::Value {
+    let program = env!("CARGO_BIN_EXE_hopfscope");
+    let output = std::process::Command::new(program).args(arguments).output().unwrap();
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// The numbers after these words, with the factors of their units.
+fn numbers(text: &str, after: &str) -> Vec<f64> {
+    let rest = text.split_once(after).unwrap_or_else(|| panic!("{after}: {text}")).1;
+    let rest = rest.split(';').next().unwrap().split(" (").next().unwrap();
+    let number = |part: &str| {
+        let words = part.split_whitespace().filter(|it| !["shift", "impulse"].contains(it));
+        let words: Vec<&str> = words.collect();
+        let unit = match words.get(1).and_then(|unit| unit.chars().next()) {
+            Some('u') => 1e-6,
+            Some('m') if words[1] != "m" => 1e-3,
+            _ => 1.0,
+        };
+        unit * words[0].parse::<f64>().unwrap_or_else(|_| panic!("{text}"))
+    };
+    rest.split(", ").map(number).collect()
+}
+
+fn agrees(told: &[f64], answer: &serde_json::Value) {
+    let expected = ["displacement", "impulse"].map(|name| answer[name].as_f64().unwrap());
+    assert_eq!(told.len(), 2);
+    for (told, expected) in told.iter().zip(expected) {
+        // Four digits.
+        assert!((told / expected - 1.0).abs() < 6e-4, "{told} {expected}");
+    }
+}
+
+#[test]
+fn the_headline_is_the_margin_from_the_worst_rest_position_that_the_command_line_answers() {
+    let scene = find("supercritical").unwrap();
+    for (width, height) in [(80, 24), (120, 40), (200, 60)] {
+        let mut explorer = Explorer::open(&scene, width, height);
+        let line = told(&mut explorer);
+        let answer = answered(&["margin", "--scene", "supercritical", "--format", "json"]);
+        agrees(&numbers(&line, "margin from rest: "), &answer["nominal"]["from_rest"]);
+        agrees(&numbers(&line, "from q = 0: "), &answer["nominal"]);
+
+        update(&mut explorer.session, Msg::Run("set w=0.02 r=0.1+-0.01".to_owned()));
+        let line = told(&mut explorer);
+        let disturbed = ["--set", "r=0.1+-0.01", "--disturbance", "0.02", "--format", "json"];
+        let answer = answered(&[&["margin", "--scene", "supercritical"], &disturbed[..]].concat());
+        agrees(&numbers(&line, "margin from rest: "), &answer["nominal"]["from_rest"]);
+        let certain = numbers(&line, "for certain: ");
+        agrees(&certain, &answer["guaranteed"]["from_rest"]);
+        let bound = &answer["guaranteed"]["from_rest"]["displacement"];
+        assert!(certain[0] <= bound.as_f64().unwrap(), "a bound is not rounded up: {line}");
+
+        update(&mut explorer.session, Msg::Run("belt textbook".to_owned()));
+        let line = told(&mut explorer);
+        let answer = answered(&["belt", "textbook", "--format", "json"]);
+        agrees(&numbers(&line, "margin from rest: "), &answer["margin"]["from_rest"]);
+    }
+}
+
+#[test]
+fn no_number_of_a_margin_is_cut_on_a_small_screen() {
+    let doubts = ["", "set w=0.00123456 D=-0.3+-0.00123456", "set r=1.23456e-7 w=0"];
+    for scene in library() {
+        for doubt in doubts {
+            let mut explorer = Explorer::open(scene, 80, 24);
+            update(&mut explorer.session, Msg::Run(doubt.to_owned()));
+            let line = told(&mut explorer);
+            let whole = !line.contains('\u{2026}') || line.contains("nothing is certain");
+            assert!(whole, "{}: {doubt}: {line}", scene.name);
+        }
     }
 }

@@ -129,6 +129,9 @@ pub struct MarkedPoint {
     pub x: f64,
     /// Along the vertical axis.
     pub y: f64,
+    /// Whether an arrow at the edge of the plot stands for it if it lies above or below.
+    #[serde(skip)]
+    pub at_edge: bool,
     /// How it is drawn.
     #[serde(skip)]
     pub mark: role::Mark,

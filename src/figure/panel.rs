@@ -137,7 +137,8 @@ impl Panel {
     fn marks(&mut self, marks: &Marks) {
         for at in &marks.at {
             let (name, mark, pen) = (marks.name.clone(), marks.mark, marks.role);
-            let mark = MarkedPoint { name, x: at.x, y: at.y, mark, pen };
+            let at_edge = marks.at_edge;
+            let mark = MarkedPoint { name, x: at.x, y: at.y, at_edge, mark, pen };
             if !self.marks.contains(&mark) {
                 self.marks.push(mark);
             }

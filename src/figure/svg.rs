@@ -6,12 +6,12 @@ use super::captions;
 use super::content::{Area, Figure, MarkedPoint, Panel};
 use super::data::remarks;
 use super::ink::{dashes, ink, shading};
-use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT};
+use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT, Spot};
 use super::map;
 use super::region::loops;
 use crate::numerics::count::{real, whole};
 use crate::numerics::elementary::hypot;
-use crate::picture::items::passes;
+use crate::picture::items::{Marks, passes};
 use crate::picture::map::Map;
 use crate::picture::role::{self, Role};
 use crate::picture::ticks::Ticks;
@@ -206,12 +206,27 @@ fn arrow(out: &mut String, at: Point, way: Point, frame: Frame) {
 }
 
 fn dot(out: &mut String, mark: &MarkedPoint, frame: Frame) {
-    let (x, y) = frame.spot(Point { x: mark.x, y: mark.y });
-    if !(x.is_finite() && y.is_finite() && near(mark.x, mark.y, frame)) {
+    let (_, color) = ink(mark.pen);
+    let at = Point { x: mark.x, y: mark.y };
+    if let Some((at, above)) = Marks::edge(at, frame.window).filter(|_| mark.at_edge) {
+        let (x, y) = frame.spot(at);
+        let way = if above { 1 } else { -1 };
+        let _ = writeln!(
+            out,
+            "<path d=\"M{x:.2} {y:.2}l-4 {down}h8z\" fill=\"{color}\"/>",
+            down = 8 * way
+        );
         return;
     }
-    let (_, color) = ink(mark.pen);
-    let _ = match mark.mark {
+    let (x, y) = frame.spot(at);
+    if x.is_finite() && y.is_finite() && near(mark.x, mark.y, frame) {
+        spot(out, mark.mark, (x, y), color);
+    }
+}
+
+/// A mark at a place on paper.
+fn spot(out: &mut String, mark: role::Mark, (x, y): Spot, color: &str) {
+    let _ = match mark {
         role::Mark::Rest => writeln!(
             out,
             "<rect x=\"{:.3}\" y=\"{:.3}\" width=\"6\" height=\"6\" fill=\"{color}\"/>",
@@ -226,6 +241,16 @@ fn dot(out: &mut String, mark: &MarkedPoint, frame: Frame) {
             "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"3.2\" fill=\"#ffffff\" stroke=\"{color}\" \
              stroke-width=\"1.2\"/>"
         ),
+        role::Mark::Outlier => writeln!(
+            out,
+            "<path d=\"M{x:.2} {y:.2}m-3 -3l6 6m-6 0l6 -6\" stroke=\"{color}\" stroke-width=\"1.4\"/>"
+        ),
+        role::Mark::Saturated => {
+            writeln!(out, "<path d=\"M{x:.2} {y:.2}m-3 0l3 -3l3 3l-3 3z\" fill=\"{color}\"/>")
+        }
+        role::Mark::Aside => {
+            writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"1.2\" fill=\"{color}\"/>")
+        }
     };
 }
 
@@ -297,8 +322,9 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
 struct FigureLegendEntry<'a> {
     name: &'a str,
     role: Role,
-    /// How the line is drawn; `None` for an area.
+    /// How the line is drawn; `None` for an area or a mark.
     style: Option<&'static str>,
+    mark: Option<role::Mark>,
 }
 
 /// Everything with a name that is seen, once; which of several variants a curve is stands beside it. An
@@ -314,8 +340,13 @@ fn legend(figure: &Figure) -> Vec<FigureLegendEntry<'_>> {
         let areas = panel.areas.iter().map(|area| (area.kind.as_str(), area.pen, None));
         let words = panel.map.iter().flat_map(Map::words);
         let words = words.map(|word| (word, map::role(word), None));
-        for (name, role, style) in lines.chain(areas).chain(words) {
-            let entry = FigureLegendEntry { name, role, style };
+        let dropped = [role::Mark::Outlier, role::Mark::Saturated, role::Mark::Aside];
+        let marks = panel.marks.iter().filter(|it| dropped.contains(&it.mark));
+        let marks = marks.map(|it| (it.name.as_ref(), it.pen, None, Some(it.mark)));
+        let others =
+            lines.chain(areas).chain(words).map(|(name, role, style)| (name, role, style, None));
+        for (name, role, style, mark) in others.chain(marks) {
+            let entry = FigureLegendEntry { name, role, style, mark };
             if !entries.contains(&entry) {
                 entries.push(entry);
             }
@@ -326,12 +357,16 @@ fn legend(figure: &Figure) -> Vec<FigureLegendEntry<'_>> {
         .filter(|entry| entry.style.is_some())
         .map(|entry| (entry.name, entry.role))
         .collect();
-    entries.retain(|entry| entry.style.is_some() || !edges.contains(&(entry.name, entry.role)));
+    entries.retain(|entry| {
+        entry.style.is_some() || entry.mark.is_some() || !edges.contains(&(entry.name, entry.role))
+    });
     entries
 }
 
 fn sample(out: &mut String, entry: &FigureLegendEntry, (x, y): (f64, f64)) {
-    if let Some(style) = entry.style {
+    if let Some(mark) = entry.mark {
+        spot(out, mark, (x + 15.0, y), ink(entry.role).1);
+    } else if let Some(style) = entry.style {
         let (thickness, color) = ink(entry.role);
         let thickness = if style == "thick" { 3.0 } else { thickness };
         let dashes = dashes(style);

@@ -6,7 +6,7 @@ use super::decrements::averaged;
 use super::estimate::Estimate;
 use super::margin::Margins;
 use super::motion::{Way, follow};
-use super::observation::{Data, OMEGA0, parameters};
+use super::observation::{Data, OFFSET, OMEGA0, parameters};
 use super::residuals::autocorrelations;
 use super::sampled::Sampled;
 use crate::numerics::count::{real, whole};
@@ -25,7 +25,7 @@ pub struct Curves {
     pub sampled: Option<Sampled>,
     /// Damping over amplitude.
     pub damping: Damping,
-    /// The fraction of draws whose smallest displacement not survived is less than the abscissa.
+    /// The fraction of draws whose smallest change of position from rest that is not survived is less than the abscissa.
     pub spread: Vec<PlotPoint>,
     /// The window in which `spread` is shown.
     pub spread_extent: Extent,
@@ -58,12 +58,18 @@ impl Curves {
     /// Computes all curves.
     pub fn of(estimate: &Estimate, margins: &Margins) -> Self {
         let (spread, spread_extent) = spread(estimate, margins);
-        Curves {
-            sampled: Sampled::of(estimate),
-            damping: damping(estimate, margins),
-            spread,
-            spread_extent,
-        }
+        let sampled = Sampled::of(estimate);
+        let farthest = match (&sampled, &estimate.data) {
+            (Some(seen), _) => seen.motion.iter().map(|[_, q, _]| q.abs()).fold(0.0, f64::max),
+            // What was measured at a peak less its residual is how far the fitted motion goes.
+            (None, data) => data
+                .displacements()
+                .iter()
+                .zip(&estimate.residuals)
+                .map(|(x, residual)| (x - residual - estimate.p[OFFSET]).abs())
+                .fold(0.0, f64::max),
+        };
+        Curves { damping: damping(estimate, margins, farthest), sampled, spread, spread_extent }
     }
 }
 
@@ -95,11 +101,12 @@ fn exact(parameters: &Parameters, from: f64) -> Option<PlotPoint> {
     pair(&turns)
 }
 
-fn damping(estimate: &Estimate, margins: &Margins) -> Damping {
+/// `farthest` is how far the fitted motion goes.
+fn damping(estimate: &Estimate, margins: &Margins, farthest: f64) -> Damping {
     const POINTS: u32 = 160;
-    let (_, largest) = estimate.amplitudes();
+    let (smallest, largest) = estimate.amplitudes();
     let parameters = parameters(&estimate.p);
-    let to = 1.25 * largest;
+    let to = 1.25 * largest.min(farthest);
     let amplitudes: Vec<f64> =
         (1..=POINTS).map(|i| to * f64::from(i) / f64::from(POINTS)).collect();
     let x: Vec<f64> = estimate.extremes.iter().map(|extreme| extreme.x).collect();
@@ -110,10 +117,8 @@ fn damping(estimate: &Estimate, margins: &Margins) -> Damping {
         .collect();
     let exact: Vec<PlotPoint> = amplitudes.iter().filter_map(|&a| exact(&parameters, a)).collect();
     let own = |a: f64| averaged(parameters.d, parameters.d3, parameters.r, a);
-    let heights = measured.iter().map(|it| it[1]).chain(exact.iter().map(|it| it[1])).chain([0.0]);
-    let (low, high) = heights
-        .filter(|it| it.is_finite())
-        .fold((0.0_f64, 0.0_f64), |(low, high), it| (low.min(it), high.max(it)));
+    let computed = exact.iter().filter(|it| it[0] >= smallest).map(|it| it[1]);
+    let [low, high] = covering(computed.collect(), measured.iter().map(|it| it[1]).collect());
     let room = 0.15 * (high - low).max(f64::MIN_POSITIVE);
     Damping {
         measured,
@@ -122,6 +127,23 @@ fn damping(estimate: &Estimate, margins: &Margins) -> Damping {
         band: band(margins, &amplitudes),
         extent: [0.0, to, low - room, high + room],
     }
+}
+
+/// Heights that are worth seeing: zero, all those computed, and those measured, except for single ones far from all
+/// others, which would flatten the rest.
+fn covering(computed: Vec<f64>, mut measured: Vec<f64>) -> [f64; 2] {
+    let around = |ends: [f64; 2], values: &[f64]| {
+        let finite = values.iter().filter(|it| it.is_finite());
+        finite.fold(ends, |[low, high], it| [low.min(*it), high.max(*it)])
+    };
+    measured.retain(|it| it.is_finite());
+    measured.sort_by(f64::total_cmp);
+    let trim = measured.len().div_ceil(10);
+    let usual = measured.get(trim..measured.len().saturating_sub(trim)).unwrap_or_default();
+    let [low, high] = around(around([0.0; 2], &computed), usual);
+    let far = high - low;
+    measured.retain(|it| (low - far..=high + far).contains(it));
+    around([low, high], &measured)
 }
 
 /// The standard error of a measured decrement. Each half peak-to-peak value has the error of two turning points,
@@ -159,20 +181,20 @@ fn spread(estimate: &Estimate, margins: &Margins) -> (Vec<PlotPoint>, Extent) {
     /// Margins are shown up to this multiple of the largest amplitude.
     const FAR: f64 = 10.0;
     let (_, largest) = estimate.amplitudes();
-    let finite: Vec<f64> =
-        margins.displacements.iter().copied().filter(|it| it.is_finite()).collect();
-    let share = |count: usize| real(count) / real(margins.displacements.len());
+    let finite: Vec<f64> = margins.shifts.iter().copied().filter(|it| it.is_finite()).collect();
+    let share = |count: usize| real(count) / real(margins.shifts.len());
     let mut steps = vec![[0.0, 0.0]];
     for (index, &x) in finite.iter().enumerate() {
         steps.extend([[x, share(index)], [x, share(index + 1)]]);
     }
     // Margins far beyond the record are not known well enough for their tail to be shown.
-    let typical = margins.displacement.upper.or(margins.displacement.median);
+    let shift = margins.from_rest.displacement;
+    let typical = shift.upper.or(shift.median);
     let far = typical.or(finite.last().copied()).unwrap_or(largest).min(FAR * largest);
     let to = far.max(largest) + 0.1 * (far.max(largest) - far.min(largest)).max(0.02 * largest);
     steps.push([to.max(finite.last().copied().unwrap_or(0.0)), share(finite.len())]);
     // The window zooms in on a narrow distribution.
-    let near = margins.displacement.lower.unwrap_or(0.0).min(largest);
+    let near = shift.lower.unwrap_or(0.0).min(largest);
     let from = if near > 0.7 * to { near - 0.3 * (to - near) } else { 0.0 };
     (steps, [from, to, 0.0, 1.0])
 }

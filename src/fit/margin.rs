@@ -182,9 +182,10 @@ pub struct Margins {
     /// the name, its value, and the displacement.
     #[serde(skip)]
     pub allowed: Option<(&'static str, f64, f64)>,
-    /// The smallest displacement not captured for every draw, in ascending order; infinite if all are survived.
+    /// The smallest change of position from the worst rest position that is not captured, for every draw, in ascending
+    /// order; infinite if all are survived.
     #[serde(skip)]
-    pub displacements: Vec<f64>,
+    pub shifts: Vec<f64>,
     /// The parameters drawn.
     #[serde(serialize_with = "number")]
     pub draws: Vec<Parameters>,
@@ -264,7 +265,7 @@ pub fn margins(
         extrapolated: kicks.displacement.median.is_none_or(|at| at > largest || at < smallest),
         allowed: allowed(estimate, ask),
         failed: draws - known.len(),
-        displacements: sorted(known.iter().map(|it| it.margin.displacement)),
+        shifts: sorted(known.iter().map(|it| it.margin.from_rest.displacement)),
         draws: drawn.iter().map(parameters).collect(),
         each,
         effective,

@@ -43,6 +43,8 @@ pub(crate) mod decrements;
 #[doc(hidden)]
 pub mod drift;
 #[doc(hidden)]
+pub mod dropped;
+#[doc(hidden)]
 pub mod estimate;
 pub(crate) mod fitted;
 pub(crate) mod guess;

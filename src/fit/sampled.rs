@@ -1,5 +1,6 @@
 //! The plotted points of a sampled record and of the fitted motion.
 
+use super::dropped::{Dropped, dropped_of_fitted};
 use super::estimate::Estimate;
 use super::motion::{Way, follow};
 use super::observation::{Data, LAST, OMEGA0, Q0, StartKind, parameters};
@@ -9,7 +10,7 @@ use crate::oscillator::State;
 /// Maximum number of points plotted of a record. Of longer records every second, third, .. sample is plotted.
 const POINTS: usize = 4000;
 
-/// The plotted points of a sampled record.
+/// The plotted points of a sampled record, without outliers.
 #[derive(Clone, Debug)]
 pub struct Sampled {
     /// Times in s; NaN in a gap.
@@ -40,7 +41,9 @@ impl Sampled {
             if seen.t.last().is_some_and(|last| t[index] - last > GAP * step) {
                 seen.push([f64::NAN; 3]);
             }
-            seen.push([t[index], x[index], estimate.residuals[index]]);
+            if dropped_of_fitted(estimate, index) != Some(Dropped::Outlier) {
+                seen.push([t[index], x[index], estimate.residuals[index]]);
+            }
         }
         Some(seen)
     }

@@ -114,12 +114,23 @@ pub struct Marks {
     pub brief: &'static str,
     /// Whether all are left out where they would touch each other.
     pub sparse: bool,
+    /// Whether those above and below the window are shown at its edge, by arrows.
+    pub at_edge: bool,
 }
 
 impl Marks {
     /// Marks with the usual name, which no legend explains.
     pub fn new(mark: Mark, role: Role, at: Vec<Point>) -> Self {
-        Marks { mark, role, at, name: mark.name().into(), brief: "", sparse: false }
+        let name = mark.name().into();
+        Marks { mark, role, at, name, brief: "", sparse: false, at_edge: false }
+    }
+
+    /// Where a point above or below a window is shown at its edge, and whether it lies above.
+    pub fn edge(at: Point, window: Window) -> Option<(Point, bool)> {
+        let Window { x, y } = window;
+        let above = at.y > y.to();
+        let outside = x.contains(at.x) && (above || at.y < y.from());
+        outside.then(|| (Point { x: at.x, y: if above { y.to() } else { y.from() } }, above))
     }
 }
 

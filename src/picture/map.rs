@@ -22,6 +22,8 @@ const DANGEROUS: [(Dangerous, &[&str]); 2] = [
         &[
             "displacement",
             "impulse",
+            "from_rest_displacement",
+            "from_rest_impulse",
             "guaranteed_displacement",
             "guaranteed_impulse",
             "captured_part",
@@ -35,8 +37,15 @@ const DANGEROUS: [(Dangerous, &[&str]); 2] = [
 ];
 
 /// Columns without a number where every kick is survived.
-const OF_KICKS: [&str; 5] =
-    ["displacement", "impulse", "guaranteed_displacement", "guaranteed_impulse", "circle_radius"];
+const OF_KICKS: [&str; 7] = [
+    "displacement",
+    "impulse",
+    "from_rest_displacement",
+    "from_rest_impulse",
+    "guaranteed_displacement",
+    "guaranteed_impulse",
+    "circle_radius",
+];
 
 /// Ratio of the largest to the smallest value from which on shades are parts of a logarithm.
 const SPREAD: f64 = 10.0;

@@ -125,7 +125,8 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
 
 /// What was measured; the velocities are those of the fit.
 fn record(picture: &mut Picture, fitted: &Fitted) {
-    let points = fitted.points.iter().map(|point| Point { x: point.q, y: point.v });
+    let counted = fitted.points.iter().filter(|point| point.dropped.is_none());
+    let points = counted.map(|point| Point { x: point.q, y: point.v });
     let line = LineStyle::new("record", Role::Ghost, Dash::Dotted);
     picture.curve(line.briefly("measured"), points);
 }

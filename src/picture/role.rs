@@ -122,6 +122,12 @@ pub enum Mark {
     Turn,
     Stable,
     Unstable,
+    /// A sample that cannot belong to the motion.
+    Outlier,
+    /// A sample that was flattened at full scale.
+    Saturated,
+    /// A sample that belongs to another part of the record.
+    Aside,
 }
 
 impl Mark {
@@ -134,6 +140,9 @@ impl Mark {
             Mark::Turn => "turning point",
             Mark::Stable => "stable",
             Mark::Unstable => "unstable",
+            Mark::Outlier => "outlier",
+            Mark::Saturated => "saturated",
+            Mark::Aside => "left out",
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Displacement and energy change smoothly through the turning points, where the force of friction
 //! jumps from one end of `[-r, r]` to the other; at rest it balances the spring.
 
+use super::fit::dropped;
 use super::items::{Item, LineStyle, Marks, Picture};
 use super::phase_plane::{motion, number_curve};
 use super::role::{Dash, Mark, Role};
@@ -48,9 +49,10 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     });
     picture.level(LineStyle::guide(), 0.0);
     if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Record)) {
-        let points = fitted.points.iter().map(|point| Point { x: point.tau, y: point.q });
-        picture
-            .curve(LineStyle::new("record", Role::Ghost, Dash::Solid).briefly("measured"), points);
+        let all = || fitted.points.iter().map(|it| (Point { x: it.tau, y: it.q }, it.dropped));
+        let line = LineStyle::new("record", Role::Ghost, Dash::Solid).briefly("measured");
+        picture.curve(line, all().filter(|(_, why)| why.is_none()).map(|(at, _)| at));
+        dropped::mark(picture, all().filter_map(|(at, why)| Some((at, why?))));
     }
     for (place, beside) in session.motions().into_iter().filter(|(place, _)| *place > 0) {
         let line = motion(session, place);

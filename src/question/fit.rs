@@ -6,7 +6,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::means::Means;
+use super::refit::Unsure;
 use crate::fit::curves::Curves;
+use crate::fit::dropped::{Dropped, dropped};
 use crate::fit::levenberg_marquardt::Runs;
 use crate::fit::names::Choice;
 use crate::fit::observation::{
@@ -95,8 +97,10 @@ pub struct Measured {
     pub tau: f64,
     /// Displacement from the offset, as measured.
     pub q: f64,
-    /// Velocity divided by omega0, from the fit.
+    /// Velocity divided by omega0, from the fit; 0 if the fit does not know it.
     pub v: f64,
+    /// Why it does not count in the fit; `None` if it does.
+    pub dropped: Option<Dropped>,
 }
 
 /// A fitted record.
@@ -104,7 +108,7 @@ pub struct Measured {
 pub struct Fitted {
     /// What was estimated, the distribution of the margin, and the curves of the pictures.
     pub fit: fit::Fitted,
-    /// The measured points; their velocities are zero in a list of peaks.
+    /// All points of the record; their velocities are zero in a list of peaks.
     pub points: Vec<Measured>,
     /// Increase of chi-squared caused by the held numbers.
     pub rise: f64,
@@ -161,7 +165,7 @@ impl Fit {
     pub fn held(
         &self,
         values: [Option<f64>; 4],
-        drawn: bool,
+        drawn: Option<Unsure>,
         limits: &Limits,
     ) -> Result<Self, Reason> {
         let Ok(Fitted { fit, .. }) = self.found() else { return Ok(self.clone()) };
@@ -169,23 +173,33 @@ impl Fit {
         let numbers: Vec<_> = named.filter_map(|(place, value)| Some((place, value?))).collect();
         let interrupted = || (limits.interrupted)();
         let mut runs = Runs::new(&interrupted);
-        match refit::held(&fit.estimate, &numbers, &mut runs) {
-            Ok(estimate) => {
-                let cost = |of: &Estimate| of.kept_residuals().map(|it| it * it).sum::<f64>();
-                let deviation = fit.estimate.covariance.deviation;
-                let unit = deviation * deviation;
-                let rise = (cost(&estimate) - cost(&fit.estimate)) / unit;
-                let margins = if drawn {
-                    margins(&estimate, &fit.margins.question, limits)?
-                } else {
-                    fit.margins.clone()
-                };
-                let named = (fit.name.clone(), &fit.record);
-                Ok(Fit::with(named, estimate, (margins, drawn), fit.inertia, rise))
+        // With all numbers free it is known.
+        let estimate = if numbers.is_empty() {
+            Ok(fit.estimate.clone())
+        } else {
+            refit::held(&fit.estimate, &numbers, &mut runs)
+        };
+        let estimate = match estimate {
+            Ok(estimate) => estimate,
+            Err(Unfit::Interrupted) => return Err(Reason::Interrupted),
+            Err(unfit) => return Ok(unfit.into()),
+        };
+        let cost = |of: &Estimate| of.kept_residuals().map(|it| it * it).sum::<f64>();
+        let deviation = fit.estimate.covariance.deviation;
+        let rise = (cost(&estimate) - cost(&fit.estimate)) / (deviation * deviation);
+        let margins = match drawn {
+            Some(Unsure { disturbance, half_widths }) => {
+                // In N where there is a mass.
+                let force = fit.units().map(|units| units.force).filter(|force| force.is_finite());
+                let disturbance = disturbance * force.unwrap_or(1.0);
+                let question = fit.margins.question;
+                let question = MarginQuestion { disturbance, half_widths, ..question };
+                margins(&estimate, &question, limits)?
             }
-            Err(Unfit::Interrupted) => Err(Reason::Interrupted),
-            Err(unfit) => Ok(unfit.into()),
-        }
+            None => fit.margins.clone(),
+        };
+        let named = (fit.name.clone(), &fit.record);
+        Ok(Fit::with(named, estimate, (margins, drawn.is_some()), fit.inertia, rise))
     }
 
     fn with(
@@ -195,7 +209,7 @@ impl Fit {
         inertia: Option<(Inertia, f64)>,
         rise: f64,
     ) -> Self {
-        let (points, curves) = (points(&estimate), Curves::of(&estimate, &margins));
+        let (points, curves) = (points(record, &estimate), Curves::of(&estimate, &margins));
         let (record, contours, seconds) = (record.clone(), Vec::new(), 0.0);
         let fit =
             fit::Fitted { name, record, estimate, margins, curves, contours, inertia, seconds };
@@ -214,15 +228,15 @@ fn metric(recording: &Recording) -> Option<(Inertia, f64)> {
 }
 
 /// The measured points, relative to the fitted motion.
-fn points(estimate: &Estimate) -> Vec<Measured> {
+fn points(record: &Record, estimate: &Estimate) -> Vec<Measured> {
     let p = &estimate.p;
-    let (t, x) = match &estimate.data {
-        Data::Samples { t, x } => (t.clone(), x),
-        Data::Peaks { t, x, .. } => (t.clone().unwrap_or_default(), x),
+    let t = match &estimate.data {
+        Data::Samples { t, .. } => Some(t),
+        Data::Peaks { t, .. } => t.as_ref(),
     };
     let origin = match estimate.start {
         StartKind::Release => p[LAST],
-        StartKind::Moving => t.first().copied().unwrap_or(0.0),
+        StartKind::Moving => t.and_then(|t| t.first()).copied().unwrap_or(0.0),
     };
     let observation = Observation {
         data: estimate.data.clone(),
@@ -231,20 +245,23 @@ fn points(estimate: &Estimate) -> Vec<Measured> {
         reach: estimate.reach,
     };
     // The derivative of a displacement by omega0 is v times the time since the origin.
-    let seen = match &estimate.data {
+    let mut seen = match &estimate.data {
         Data::Samples { .. } => observation.compare(p, true).unwrap_or_default().residuals,
         Data::Peaks { .. } => Vec::new(),
-    };
-    let velocity = |index: usize, passed: f64| {
-        let by = seen.get(index).map_or(0.0, |residual| residual.by[OMEGA0]);
+    }
+    .into_iter();
+    let mut velocity = |passed: f64| {
+        let by = seen.next().map_or(0.0, |residual| residual.by[OMEGA0]);
         if passed > 0.0 { by / passed } else { 0.0 }
     };
-    let point = |(index, (t, x)): (usize, (&f64, &f64))| Measured {
-        tau: p[OMEGA0] * (t - origin),
-        q: x - p[OFFSET],
-        v: velocity(index, t - origin),
-    };
-    t.iter().zip(x).enumerate().map(point).collect()
+    let all = record.t.iter().flatten().zip(&record.x).zip(dropped(record, estimate));
+    all.map(|((t, x), dropped)| {
+        // These are no part of what was fitted.
+        let outside = [Dropped::Saturated, Dropped::Before, Dropped::After].map(Some);
+        let v = if outside.contains(&dropped) { 0.0 } else { velocity(t - origin) };
+        Measured { tau: p[OMEGA0] * (t - origin), q: x - p[OFFSET], v, dropped }
+    })
+    .collect()
 }
 
 /// Index of a parameter of the oscillator among the unknowns of the fit.
@@ -264,7 +281,8 @@ impl Fitted {
     pub fn problem(&self, before: Problem) -> Problem {
         let p = &self.fit.estimate.p;
         let v = if self.fit.estimate.start == StartKind::Moving { p[LAST] } else { 0.0 };
-        let last = self.points.last().map_or(before.until, |point| point.tau);
+        let counted = self.points.iter().filter(|point| point.dropped.is_none());
+        let last = counted.last().map_or(before.until, |point| point.tau);
         Problem {
             parameters: parameters(p),
             initial: State { q: p[Q0], v },

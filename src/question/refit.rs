@@ -5,14 +5,23 @@ use super::kind::Question;
 use super::means::Means;
 use crate::flow::Reason;
 
+/// What is to be survived beside the uncertainty of the fit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Unsure {
+    /// Bound on a disturbance, in the unit of r.
+    pub disturbance: f64,
+    /// Half widths of D, D2, D3 and r.
+    pub half_widths: [f64; 4],
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {
     /// The fit with all numbers free.
     pub fit: Fit,
     /// Values at which D, D2, D3 and r are held.
     pub held: [Option<f64>; 4],
-    /// Whether to draw the distribution of the margin as well, which takes longer than a frame.
-    pub drawn: bool,
+    /// What is to be survived if the distribution of the margin is drawn as well, which takes longer than a frame.
+    pub drawn: Option<Unsure>,
 }
 
 impl Question for Asked {

@@ -56,7 +56,7 @@ const LINES: &[LineRow] = &[
         Words::Window, values::window),
     row("axes", "PARAMETER [PROPERTY]", "Draw the diagram in use over a parameter: axes r period",
         Words::Axes, values::axes),
-    row("scan", "NAME=FROM:TO:COUNT .. MEASURE,..", "Scan over values: D=-0.9:0:100 r=log:0.01:1:20 margin",
+    row("scan", "NAME=FROM:TO:COUNT .. MEASURE,..", "Scan over values: D=-0.9:0:100 r=log:0.01:1:20 from-rest",
         Words::Scan, scan::scan),
     row("save-scan", "FILE", "Write the rows of the scan to a file, .csv or .json",
         Words::Unknown, scan::save_to),

@@ -1,6 +1,7 @@
 //! What a fitted record says in the pane: numbers with their errors, in physical units where these are known.
 
 use super::look::Look;
+use super::pane;
 use crate::fit::names::named;
 use crate::fit::observation::OMEGA0;
 use crate::fit::physical::rows;
@@ -9,6 +10,7 @@ use crate::scene::Fitted;
 use crate::session::{Row, Session};
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
+use crate::words::statement::signed;
 
 /// What a fitted number stands for with its standard error, and the error alone; or that it is held.
 pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
@@ -71,9 +73,9 @@ fn stands_for(symbol: Symbol) -> &'static str {
     }
 }
 
-/// Where the smallest displacement that is not survived lies with 95 %, with numbers held how much worse the fit is, and
-/// the frequency of a record.
-pub fn spread(session: &Session, look: &Look) -> Vec<String> {
+/// Where the smallest shift from rest that is not survived lies with 95 %, with numbers held how much worse the fit is,
+/// and the frequency of a record.
+pub fn spread(session: &Session, width: usize, look: &Look) -> Vec<String> {
     let Some(Fitted { fit, rise, drawn, .. }) = session.fitted() else { return Vec::new() };
     let estimate = &fit.estimate;
     let hertz = |value: f64| value / std::f64::consts::TAU;
@@ -81,7 +83,7 @@ pub fn spread(session: &Session, look: &Look) -> Vec<String> {
     let frequency = with_unit(hertz(estimate.p[OMEGA0]), 4, "Hz");
     let frequency =
         format!("f0 {frequency} {}{}", look.symbols().plus_minus, with_unit(error, 2, "Hz"));
-    let spread = fit.margins.displacement;
+    let spread = fit.margins.from_rest.displacement;
     let scale = fit.units().map(|units| units.displacement);
     let end = |end: Option<f64>| match (end, scale) {
         (None, _) => "any".to_owned(),
@@ -90,16 +92,64 @@ pub fn spread(session: &Session, look: &Look) -> Vec<String> {
     };
     let held = session.doubt.holds_any();
     let rise = held.then(|| format!("held: chi^2 +{}", significant(*rise, 3)));
-    let name = if scale.is_some() { "x" } else { "q" };
     let margin = if spread.lower.is_none() {
         "95 %: every kick".to_owned()
     } else {
-        format!("95 %: {name} {}", between(end(spread.lower), &end(spread.upper)))
+        let range = between(end(spread.lower), &end(spread.upper));
+        let texts = ["95 % from rest: ", "95 %: rest ", "rest: "];
+        pane::fitting(texts.map(|before| format!("{before}{range}")), width.saturating_sub(1))
     };
     let frequency = estimate.free[OMEGA0].then_some(frequency);
     // What matters most first: a low pane has no room for what follows.
     let margin = (*drawn || !held).then_some(margin);
     rise.into_iter().chain(margin).chain(frequency).collect()
+}
+
+/// What the record allows to be signed, in a line of this width if that is possible; a test that fails comes first.
+/// `None` until it is known for what is held and unsure.
+pub fn statement(session: &Session, width: usize) -> Option<String> {
+    Some(shortened(&signed(&session.drawn()?.fit).statement.text, width))
+}
+
+/// How a statement begins whose conditions fail.
+pub const UNRELIABLE: &str = "Not to be relied on";
+
+/// Shorter words for those of a statement that say the same, in the order in which they are used.
+const SHORTER: [(&str, &str); 10] = [
+    (", as a condition fails (", " ("),
+    (", provided that no other force acts", ", if no other force acts"),
+    (", with 95 % confidence, ", ", 95 %: "),
+    ("rom any rest position", "rom rest"),
+    ("a sudden change of position below", "a shift below"),
+    (" is survived, ", " survived, "),
+    ("an impulse below", "impulses below"),
+    ("a change of velocity below", "velocities below"),
+    (", whatever a force of at most ", ", against "),
+    (", if no other force acts", ", undisturbed"),
+];
+
+/// A statement in at most so many columns, if that is possible.
+fn shortened(text: &str, width: usize) -> String {
+    let fits = |text: &str| text.chars().count() <= width;
+    if fits(text) {
+        return text.to_owned();
+    }
+    // That it is extrapolated is said before, how far is said elsewhere.
+    let mut short = match text.split_once(" Extrapolated") {
+        None => text.to_owned(),
+        Some((sentence, _)) if sentence.starts_with(UNRELIABLE) => sentence.to_owned(),
+        Some((sentence, _)) => format!("Extrapolated: {}", sentence.replacen("From", "from", 1)),
+    };
+    short.truncate(short.trim_end_matches('.').len());
+    for (long, brief) in SHORTER {
+        if fits(&short) {
+            break;
+        }
+        // `whatever a force does`, `against a force`.
+        let verb = if long.contains("whatever") && short.contains(long) { " does" } else { "" };
+        short = short.replace(long, brief).replacen(verb, "", 1);
+    }
+    short
 }
 
 /// Two numbers, with one unit where both have the same.
@@ -110,4 +160,37 @@ fn between(low: String, high: &str) -> String {
         None => low,
     };
     format!("{low} .. {high}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_statement_is_shortened_to_a_screen_and_says_the_same() {
+        let sure =
+            "From any rest position, with 95 % confidence, an impulse below 0.231 N s is survived";
+        let alone = format!("{sure}, provided that no other force acts.");
+        let against = format!("{sure}, whatever a force of at most 0.5 N does.");
+        let far =
+            " Extrapolated by the model: motions reach 3.1 times the largest amplitude measured.";
+        let failed = format!("Not to be relied on, as a condition fails (residuals): {alone}{far}");
+        let short = |text: &str| shortened(text, 79);
+        assert_eq!(shortened(&alone, 120), alone);
+        assert_eq!(
+            short(&alone),
+            "From rest, 95 %: an impulse below 0.231 N s is survived, if no other force acts"
+        );
+        assert_eq!(
+            short(&against),
+            "From rest, 95 %: impulses below 0.231 N s survived, against 0.5 N"
+        );
+        let told = short(&format!("{alone}{far}"));
+        assert_eq!(
+            told,
+            "Extrapolated: from rest, 95 %: impulses below 0.231 N s survived, undisturbed"
+        );
+        assert!(short(&failed).starts_with("Not to be relied on (residuals): From rest, 95 %"));
+        assert!(told.len() <= 79);
+    }
 }

@@ -7,16 +7,13 @@
 use ratatui::layout::Rect;
 
 use crate::scene::Arrangement;
-use crate::session::Session;
+use crate::session::{Session, Size};
 
 /// Smallest screen on which anything but a card is drawn.
 pub const SMALLEST: (u16, u16) = (60, 16);
 
 /// Smallest plot beside others: columns and rows.
 pub const SMALLEST_PLOT: (u16, u16) = (26, 8);
-
-/// Rows of a screen that has two status lines.
-pub(super) const DESIGNED: u16 = 20;
 
 /// Columns of the parameter pane, by the columns of the screen: with names and values, with all
 /// steps, with meanings.
@@ -46,9 +43,10 @@ pub fn layout(screen: Rect, session: &Session) -> Option<Layout> {
         return None;
     }
     let band = |y: u16, rows: u16| Rect { y: screen.y + y, height: rows, ..screen };
-    let status = if height < DESIGNED { 1 } else { 2 };
+    let designed = Size { width, height }.tells_margin();
+    let status = if designed { 2 } else { 1 };
     let legend = match height {
-        ..DESIGNED => 0,
+        _ if !designed => 0,
         TALL.. => 2,
         _ => 1,
     };

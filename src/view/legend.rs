@@ -8,7 +8,7 @@ use super::look::Look;
 use super::paint::symbol;
 use crate::picture::items::Picture;
 use crate::picture::legend::{LegendEntry, LegendSample, entries};
-use crate::picture::role::{Dash, Role};
+use crate::picture::role::{Dash, Mark, Role};
 
 const SAMPLE: u16 = 3;
 
@@ -61,9 +61,10 @@ fn places(widths: &[u16], area: Rect, reserved: u16) -> (Vec<Option<Rect>>, u16)
     (places, ends.last().copied().unwrap_or(area.x))
 }
 
-/// What is drawn through is asked for first.
+/// What is drawn through is asked for first, and what was left out of a record.
 fn rank(sample: LegendSample) -> u8 {
     match sample {
+        LegendSample::Point(Mark::Outlier | Mark::Saturated | Mark::Aside) => 0,
         LegendSample::Line(Dash::Solid | Dash::Thick | Dash::Dashed) | LegendSample::Spot => 0,
         LegendSample::Line(Dash::DashDot | Dash::Dotted | Dash::Sparse) => 1,
         LegendSample::Point(_) | LegendSample::Shade | LegendSample::Arrow => 2,

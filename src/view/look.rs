@@ -47,6 +47,8 @@ pub struct Symbols {
     pub head: char,
     /// A stable and an unstable point.
     pub points: [char; 2],
+    /// Samples that do not count: an outlier, a saturated one, one aside.
+    pub dropped: [char; 3],
     /// Corners and sides of a box: top left, top right, bottom left, bottom right.
     pub corners: [&'static str; 4],
     /// Direction of motion, from east counter-clockwise in eighths of a turn.
@@ -68,6 +70,7 @@ const RICH: Symbols = Symbols {
     rest: '■',
     head: '●',
     points: ['●', '○'],
+    dropped: ['×', '◆', ':'],
     corners: ["┌", "┐", "└", "┘"],
     arrows: ['→', '↗', '↑', '↖', '←', '↙', '↓', '↘'],
     shade: '·',
@@ -86,6 +89,7 @@ const LETTERS: Symbols = Symbols {
     rest: 'X',
     head: '@',
     points: ['#', 'o'],
+    dropped: ['x', '%', ':'],
     corners: ["+", "+", "+", "+"],
     arrows: ['>', '/', '^', '\\', '<', '/', 'v', '\\'],
     shade: '.',

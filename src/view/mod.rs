@@ -5,7 +5,6 @@
 //! decided in [`look`] alone.
 
 pub mod caption;
-mod certain;
 mod colour;
 mod content;
 mod costs;
@@ -20,6 +19,7 @@ pub mod legend;
 pub mod lists;
 pub mod look;
 mod machine;
+mod margin;
 pub mod paint;
 pub mod pane;
 pub mod paper;

@@ -8,7 +8,7 @@ use super::pane::Heading;
 use super::plot::{Canvas, Names};
 use crate::picture::items::{Caption, Item, Marks, Pattern, Picture};
 use crate::picture::role::{Dash, Mark};
-use crate::scene::Point;
+use crate::scene::{Point, Window};
 
 /// Plots at least this wide have the long form of captions.
 const WIDE: u16 = 36;
@@ -31,7 +31,7 @@ pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, bu
     for item in &items {
         match item {
             Item::Caption(caption) => captions.push(caption),
-            item => put(&mut plot, item, look),
+            item => put(&mut plot, item, window, look),
         }
     }
     let (names, beside_points): (Vec<&Caption>, Vec<&Caption>) =
@@ -61,7 +61,7 @@ fn followed<'a>(item: &'a Item) -> Option<&'a [Point]> {
     }
 }
 
-fn put(plot: &mut Canvas, item: &Item, look: &Look) {
+fn put(plot: &mut Canvas, item: &Item, window: Window, look: &Look) {
     let symbols = look.symbols();
     match item {
         Item::Curve(line, points) | Item::Path(line, points) => {
@@ -82,10 +82,15 @@ fn put(plot: &mut Canvas, item: &Item, look: &Look) {
             at(point).map(|fill| (filling(fill.pattern, symbols), fill.role))
         }),
         Item::Arrows(role, flow) => plot.arrows(*role, flow),
-        Item::Marks(Marks { mark, role, at, sparse, .. }) => {
+        Item::Marks(Marks { mark, role, at, sparse, at_edge, .. }) => {
             if !sparse || at.len() * APART <= usize::from(plot.inner().width) {
                 for at in at {
-                    plot.mark(*at, symbol(*mark, symbols), *role);
+                    match Marks::edge(*at, window).filter(|_| *at_edge) {
+                        Some((at, above)) => {
+                            plot.mark(at, symbols.arrows[if above { 2 } else { 6 }], *role);
+                        }
+                        None => plot.mark(*at, symbol(*mark, symbols), *role),
+                    }
                 }
             }
         }
@@ -109,5 +114,8 @@ pub fn symbol(mark: Mark, symbols: &Symbols) -> char {
         Mark::Head => symbols.head,
         Mark::Stable => symbols.points[0],
         Mark::Unstable => symbols.points[1],
+        Mark::Outlier => symbols.dropped[0],
+        Mark::Saturated => symbols.dropped[1],
+        Mark::Aside => symbols.dropped[2],
     }
 }

@@ -4,11 +4,10 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::certain;
 use super::fitted::{fitted, spread};
 use super::keys;
-use super::layout::DESIGNED;
 use super::look::Look;
+use super::margin;
 use super::paint::symbol;
 use super::pane::{self, Heading};
 use super::prose;
@@ -20,7 +19,6 @@ use crate::picture::role::{CycleStyle, Role, cycle_style};
 use crate::picture::units;
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
-use crate::study::belt::PhysicalMargin;
 use crate::study::harmonic_error::Balanced;
 use crate::study::proved::compare;
 use crate::study::{Cycle, Cycles, Edge};
@@ -370,40 +368,29 @@ fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<St
     };
     // Without friction there is no set of rests that could survive anything.
     let rests = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
-    let kicks = rests.map(|picture| picture.margin).and_then(|margin| {
-        let (q, v) = (margin.displacement?, margin.impulse?);
-        let text =
-            |digits| format!("kick q {} v {}", significant(q, digits), significant(v, digits));
-        // Fewer digits are better than a number that is cut.
-        (1..=5).rev().map(text).find(|text| text.len() < width)
-    });
+    let kicks = rests.and_then(|picture| margin::brief(session, &picture.margin, width));
     // Where there is a second status line, it says what kicks are survived.
-    let low = session.size.height < DESIGNED;
+    let low = !session.size.tells_margin();
     let mut lines = vec![edge.to_owned()];
     // In the units of a machine they stand below.
     let physical = units::shown(session).is_some();
-    lines.extend(kicks.filter(|_| low && !physical));
-    lines.extend(spread(session, look));
+    // Of a record the distribution of the margin is told.
+    lines.extend(kicks.filter(|_| low && session.fitted().is_none()));
+    lines.extend(spread(session, width, look));
     lines.extend(on_the_machine(session, found, width));
-    lines.extend(certain::line(session, width));
-    lines.extend(share(found).filter(|_| low));
+    lines.extend(margin::brief_certain(session, width));
+    let share = rests.and_then(|picture| margin::share(picture.lyapunov_share));
+    let screen = usize::from(session.size.width).saturating_sub(1);
+    let above =
+        |share: &String| margin::status(session, screen).is_some_and(|it| it.contains(share));
+    lines.extend(share.filter(|it| low || (session.shows(Layer::Lyapunov) && !above(it))));
     lines.extend(area(found).filter(|_| !physical));
     lines
 }
 
-/// The margin on the machine, and which cycles overtake its belt.
+/// The frequency of the machine, and which cycles overtake its belt.
 fn on_the_machine(session: &Session, found: &Cycles, width: usize) -> Vec<String> {
     let Some(running) = session.running() else { return Vec::new() };
-    let margin = found.picture.as_ref().map(|picture| picture.margin);
-    let margin = margin.map(|margin| PhysicalMargin::new(&margin, &running.reduced.units));
-    // The second status line says that too, where there is one.
-    let margin = margin.filter(|_| session.size.height < DESIGNED);
-    let kick = margin.and_then(|margin| {
-        let (x, impulse) = (margin.displacement?, margin.impulse?);
-        let kick = format!("{}, {}", with_unit(x, 3, "m"), with_unit(impulse, 3, "N s"));
-        // Where there is little room, the word is left out before a unit.
-        Some(format!("kick {kick}")).filter(|text| text.len() < width).or(Some(kick))
-    });
     // The whole model covers what happens there.
     let sticking = running.reduced.sticking_velocity;
     let fast = |cycle: &&Cycle| !session.draws_whole() && cycle.v_max >= sticking;
@@ -414,7 +401,7 @@ fn on_the_machine(session: &Session, found: &Cycles, width: usize) -> Vec<String
     let hertz = with_unit(units.omega_0 / std::f64::consts::TAU, 3, "Hz");
     let natural = format!("f0 {hertz}, damping ratio {d}");
     let natural = Some(natural).filter(|text| text.len() < width).unwrap_or(format!("f0 {hertz}"));
-    std::iter::once(natural).chain(kick).chain(alarms).collect()
+    std::iter::once(natural).chain(alarms).collect()
 }
 
 /// The errors of amplitude and frequency of the cycles of N harmonics.
@@ -443,17 +430,4 @@ fn balance(session: &Session, width: usize) -> Vec<String> {
 fn area(found: &Cycles) -> Option<String> {
     let picture = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
     picture?.area.map(|area| format!("area {}", significant(area, 5)))
-}
-
-/// How much of the margin the Lyapunov circle (24) proves. It accounts for linear damping only: where D2 or D3
-/// feed the motion it can be larger than the basin.
-fn share(found: &Cycles) -> Option<String> {
-    let picture = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
-    picture?.lyapunov_share.map(|share| {
-        if share > 1.0 {
-            "Lyapunov: not valid".to_owned()
-        } else {
-            format!("Lyapunov: {} % of it", significant(100.0 * share, 2))
-        }
-    })
 }

@@ -4,10 +4,11 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::certain;
+use super::fitted::UNRELIABLE;
 use super::keys;
 use super::look::Look;
 use super::machine;
+use super::margin;
 use super::pane;
 use super::walk;
 use crate::flow::trajectory::choice;
@@ -17,7 +18,6 @@ use crate::picture::units;
 use crate::scene::{Answer, Layer, Topic};
 use crate::session::Session;
 use crate::session::fate::{End, MotionVerdict, SideOfBorder};
-use crate::study::Edge;
 use crate::words::motion::{Writing, sentence, swings};
 use crate::words::number::{count, duration, significant};
 
@@ -66,8 +66,10 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     // While the accuracy is changed, the cost stands here; at other times a key of its own lists it.
     if !session.measures() {
         let width = usize::from(area.width).saturating_sub(1);
-        let margin = margin(session, width).unwrap_or_default();
-        return pane::line(area, 1, quiet(format!(" {margin}")), look, buffer);
+        let text = margin::status(session, width).unwrap_or_default();
+        let failed = text.starts_with(UNRELIABLE);
+        let role = if failed { Role::Warning } else { Role::Quiet };
+        return pane::line(area, 1, look.span(format!(" {text}"), role), look, buffer);
     }
     let line = |words| (work(session, look, words), price(session, look, words));
     let fits = |(left, right): &(String, String)| {
@@ -243,30 +245,6 @@ fn verdict(fate: &MotionVerdict, motion: &Trajectory, writing: Writing) -> Strin
         (End::Decays, _) => "decays towards the equilibrium".to_owned(),
     };
     end + why
-}
-
-/// What the parameters say about kicks out of rest; `None` where that is not known.
-fn margin(session: &Session, width: usize) -> Option<String> {
-    if let Some(line) = certain::status(session).or_else(|| machine::margin(session, width)) {
-        return Some(line);
-    }
-    let found = session.cycles().filter(|_| !session.is_stale(Topic::Cycles, session.plot))?;
-    if found.parameters.r == 0.0 {
-        return None;
-    }
-    if found.edge == Edge::None {
-        return Some("every kick is survived".to_owned());
-    }
-    let picture = found.picture.as_ref()?;
-    let proved = match picture.lyapunov_share {
-        Some(share) if share <= 1.0 => {
-            format!(" (Lyapunov proves {} %)", significant(100.0 * share, 2))
-        }
-        Some(_) => " (Lyapunov: not valid)".to_owned(),
-        None => String::new(),
-    };
-    let kicks = certain::size(session, &picture.margin, 4)?;
-    Some(format!("survives kicks up to {kicks}{proved}"))
 }
 
 /// How the motion was computed, what it cost, and its error: measured while the dial is in use, else

@@ -176,6 +176,17 @@ mod tests {
         }
 
         #[test]
+        fn what_is_rounded_down_is_not_above_and_less_than_a_unit_below(
+            value in 1e-30_f64..1e30, digits in 1_usize..8,
+        ) {
+            let down = rounded_down(value, digits);
+            let power: i32 = format!("{value:e}").split_once('e').unwrap().1.parse().unwrap();
+            let unit = 10_f64.powi(power + 1 - i32::try_from(digits).unwrap());
+            prop_assert!(down <= value && value - down < unit * (1.0 + 1e-9), "{down} of {value}");
+            prop_assert_eq!(significant(down, digits).parse::<f64>().unwrap(), down);
+        }
+
+        #[test]
         fn rounding_to_three_digits_loses_less_than_half_a_percent(value: f64) {
             prop_assume!(value.is_normal());
             let back: f64 = significant(value, 3).parse().unwrap();

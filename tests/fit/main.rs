@@ -287,7 +287,7 @@ fn the_zeros_of_the_damping_over_amplitude_are_the_cycles() {
             "memory of the residuals",
             "damping over amplitude",
             "phase plane",
-            "distribution of the margin",
+            "margin from rest, distribution",
             "D and r together"
         ]
     );

@@ -28,22 +28,27 @@ pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
         curve("averaged", Role::Harmonic, Dash::Dashed, points(&found.averaged)),
         curve("exact", Role::Trajectory, Dash::Thick, points(&found.exact)),
     ];
+    let extent = window(found.extent)?;
+    let measured: Vec<Point> = found.measured.iter().map(|&[x, y, _]| Point { x, y }).collect();
+    let beyond = measured.iter().filter(|at| !extent.contains(**at)).count();
+    let name = match beyond {
+        0 => "measured".to_owned(),
+        _ => format!("measured, {beyond} beyond the plot"),
+    };
     curves.extend(found.measured.iter().map(|&[x, y, error]| {
         let bar = [y - error, y + error].map(|y| Point { x, y });
-        curve("measured", Role::Ghost, Dash::Solid, bar.to_vec())
+        (LineStyle::new(name.clone(), Role::Ghost, Dash::Solid), bar.to_vec())
     }));
-    let name = with_unit("amplitude A", fitted.unit());
-    let names = (name, "loss of amplitude".to_owned());
-    let extent = Some(window(found.extent)?);
-    let mut picture = picture("damping over amplitude", names, curves, extent)?;
+    let amplitude = with_unit("amplitude A", fitted.unit());
+    let names = (amplitude, "loss of amplitude".to_owned());
+    let mut picture = picture("damping over amplitude", names, curves, Some(extent))?;
     let line = LineStyle::new("90 % band of averaged", Role::Field, Dash::Solid);
     picture.items.push(Item::Shade(line, points(&found.band)));
     let exact = points(&found.exact);
     let zeros = exact.windows(2).filter(|two| two[0].y * two[1].y < 0.0);
     picture.items.extend(zeros.map(|two| Item::Marks(zero(two[0], two[1]))));
-    let measured = found.measured.iter().map(|&[x, y, _]| Point { x, y }).collect();
     let marks = Marks::new(Mark::Turn, Role::Ghost, measured);
-    picture.items.push(Item::Marks(Marks { name: "measured".into(), ..marks }));
+    picture.items.push(Item::Marks(Marks { name: "measured".into(), at_edge: true, ..marks }));
     Some(picture)
 }
 

@@ -1,6 +1,7 @@
 //! What a recorded motion says, in pictures.
 
 mod damping;
+pub mod dropped;
 mod pictures;
 mod pieces;
 

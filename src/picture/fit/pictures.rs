@@ -2,10 +2,12 @@
 //! together.
 
 use super::damping::damping;
+use super::dropped::mark;
 use super::pieces::{StyledPoints, at, curve, picture, points, window, with_unit};
 use crate::fit::Fitted;
 use crate::fit::curves::memory as memory_of;
-use crate::fit::observation::{D, OFFSET, Q0, R, parameters};
+use crate::fit::dropped::{Dropped, dropped, dropped_of_fitted};
+use crate::fit::observation::{D, Data, OFFSET, Q0, R, parameters};
 use crate::flow::Limits;
 use crate::numerics::count::real;
 use crate::oscillator::Parameters;
@@ -35,7 +37,15 @@ fn record(fitted: &Fitted) -> Option<Picture<'static>> {
         curve("fitted motion", Role::Trajectory, Dash::Solid, fit),
     ];
     let names = ("t [s]".to_owned(), with_unit("x", fitted.unit()));
-    picture("record and fit", names, curves, None)
+    let mut picture = picture("record and fit", names, curves, None)?;
+    let record = &fitted.record;
+    // What lies before and after the motion is seen, too.
+    if let Some(times) = Span::covering(record.t.iter().flatten().copied()) {
+        picture.window.x = times.scaled(times.center(), 1.06);
+    }
+    let all = record.t.iter().flatten().zip(&record.x).zip(dropped(record, &fitted.estimate));
+    mark(&mut picture, all.filter_map(|((t, x), why)| Some((at(*t, *x), why?))));
+    Some(picture)
 }
 
 pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
@@ -50,7 +60,16 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
         curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(-2.0 * deviation)),
     ];
     let names = ("t [s]".to_owned(), with_unit("measured - fitted", fitted.unit()));
-    picture("residuals", names, curves, None)
+    let mut picture = picture("residuals", names, curves, None)?;
+    if let Data::Samples { t, .. } = &fitted.estimate.data {
+        let all = t.iter().zip(&fitted.estimate.residuals).enumerate();
+        let outliers = all.filter_map(|(index, (t, e))| {
+            let why = dropped_of_fitted(&fitted.estimate, index)?;
+            (why == Dropped::Outlier).then(|| (at(*t, *e), why))
+        });
+        mark(&mut picture, outliers);
+    }
+    Some(picture)
 }
 
 /// The autocorrelation of the residuals over two periods.
@@ -133,17 +152,19 @@ fn together(fitted: &Fitted) -> Option<Picture<'static>> {
     Some(picture)
 }
 
-/// The cumulative distribution of the margin; what is missing to 1 is the share in which every kick is survived.
+/// The cumulative distribution of the margin from rest; what is missing to 1 is the share in which every kick is survived.
 pub fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
     let (_, largest) = fitted.estimate.amplitudes();
+    // A shift from rest leads this far out if it begins at the end of the sticking set.
+    let largest = largest - fitted.estimate.p[R];
     let steps = points(&fitted.curves.spread);
     let ends = vec![at(largest, 0.0), at(largest, 1.0)];
     let curves = vec![
         curve("margin is less than this", Role::Danger, Dash::Thick, steps),
-        curve("largest amplitude measured", Role::Current, Dash::DashDot, ends),
+        curve("largest amplitude less r", Role::Current, Dash::DashDot, ends),
     ];
-    let name = with_unit("smallest displacement not survived, from q = 0", fitted.unit());
+    let name = with_unit("smallest shift from rest not survived", fitted.unit());
     let names = (name, "probability".to_owned());
     let extent = Some(window(fitted.curves.spread_extent)?);
-    picture("distribution of the margin", names, curves, extent)
+    picture("margin from rest, distribution", names, curves, extent)
 }

@@ -238,7 +238,7 @@ pub fn scan(session: &mut Session, rest: &str) -> Done {
     let (sweeps, measures): (Vec<&str>, Vec<&str>) =
         rest.split_whitespace().partition(|word| word.contains('='));
     let over = sweeps.into_iter().map(str::parse).collect::<Result<Vec<Sweep>, _>>()?;
-    let measures = if measures.is_empty() { "margin".to_owned() } else { measures.join(",") };
+    let measures = if measures.is_empty() { "from-rest".to_owned() } else { measures.join(",") };
     let scan = scan_of(session, over, &measures)?;
     Ok(start(session, scan))
 }

@@ -2,11 +2,13 @@
 
 use crate::closed_form::lyapunov;
 use crate::fit::curves::Extent;
+use crate::fit::dropped::Dropped;
 use crate::flow::{Outcome, Trajectory};
 use crate::numerics::count::{real, whole};
 use crate::numerics::elementary::hypot;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{State, Symbol};
+use crate::question::fit::Measured;
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Answer, Axes, Layer, Point, Request, Span, Topic, View, Window};
 use crate::session::state::plot::Framing;
@@ -220,8 +222,16 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
         Outcome::Escaped { tau } | Outcome::GaveUp { tau, .. } => ROOM * tau,
     };
     let end = motions.iter().map(|(_, motion)| end(motion)).fold(0.0, f64::max);
+    let record = session.fitted().filter(|_| shown(Layer::Record));
+    let record: &[Measured] = record.map_or(&[], |fitted| &fitted.points);
+    let swinging = values.iter().fold(r, |far, value| far.max(value.abs()));
+    // Outliers far away are shown at the edge.
+    let near =
+        |at: &&Measured| at.dropped != Some(Dropped::Outlier) || at.q.abs() < ESCAPE * swinging;
+    values.extend(record.iter().filter(near).map(|at| at.q));
     let y = Span::covering(values)?;
-    Some(Window { x: Span::new(0.0, end).ok()?, y: y.scaled(y.center(), ROOM) })
+    let x = Span::covering(record.iter().map(|at| at.tau).chain([0.0, end]))?;
+    Some(Window { x, y: y.scaled(y.center(), ROOM) })
 }
 
 /// All lines of the energy ledger.

@@ -3,9 +3,11 @@
 use crate::oscillator::Symbol;
 use crate::oscillator::belt::Units;
 use crate::question;
+use crate::question::refit::Unsure;
 use crate::question::{Fit, Fitted};
 use crate::scene::{Answer, Request, Topic};
 use crate::session::state::answers::Standing;
+use crate::session::state::doubt::Doubt;
 use crate::session::state::session::Session;
 
 impl Session {
@@ -21,6 +23,12 @@ impl Session {
             _ => None,
         });
         held.or_else(|| self.fit_of_all()?.found().ok())
+    }
+
+    /// The fit only if the distribution of its margin is that for the held numbers and for what is unsure.
+    pub fn drawn(&self) -> Option<&Fitted> {
+        let drawn = self.refit_request(true).map(|request| self.answers.standing(&request));
+        self.fitted().filter(|_| drawn.is_none_or(|standing| standing.is_fresh()))
     }
 
     /// The fit only if it is up to date with the held numbers.
@@ -40,11 +48,14 @@ impl Session {
     }
 
     /// The question for the fit with the held numbers, if `drawn` with the distribution of the margin; `None`
-    /// if nothing is held.
+    /// if nothing is held, and nothing unsure that a margin is drawn for.
     pub(in crate::session) fn refit_request(&self, drawn: bool) -> Option<Request> {
         let held = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R]
             .map(|symbol| self.doubt.holds(symbol).then(|| self.value(symbol)));
-        let fit = self.fit_of_all().filter(|_| held.iter().any(Option::is_some))?.clone();
+        let asks = held.iter().any(Option::is_some) || (drawn && !self.doubt.is_certain());
+        let fit = self.fit_of_all().filter(|_| asks)?.clone();
+        let Doubt { half_widths, disturbance, .. } = self.doubt;
+        let drawn = drawn.then_some(Unsure { disturbance, half_widths });
         Some(Request::Refit(question::refit::Asked { fit, held, drawn }))
     }
 

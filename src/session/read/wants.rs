@@ -83,8 +83,10 @@ impl Session {
         let mut asked = Vec::new();
         let proof = || self.request(Topic::Proof, self.plot);
         let proof = needed.iter().any(|(topic, _)| *topic == Topic::Cycles).then(proof).flatten();
+        // The distribution of the margin is drawn, and the second status line tells of it.
         let spread = self.on_show().any(|plot| self.plots[plot].view == View::Spread);
-        let drawn = spread.then(|| self.refit_request(true)).flatten();
+        let told = self.size.tells_margin() && !self.measures();
+        let drawn = (spread || told).then(|| self.refit_request(true)).flatten();
         for request in all.chain(last).chain(proof).chain(drawn).chain(self.scan_request()) {
             if !asked.contains(&request) {
                 asked.push(request);

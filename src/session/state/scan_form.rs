@@ -77,7 +77,7 @@ impl ScanForm {
         let name = symbol.spec().name.to_owned();
         let over = [name, text(from), text(to), "100".to_owned()];
         let second = ["", "", "", "20"].map(str::to_owned);
-        let mut texts = over.into_iter().chain(second).chain(["margin".to_owned()]);
+        let mut texts = over.into_iter().chain(second).chain(["from-rest".to_owned()]);
         ScanForm {
             inputs: std::array::from_fn(|_| Input::new(texts.next().unwrap_or_default())),
             at: 0,

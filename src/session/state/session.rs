@@ -77,6 +77,16 @@ pub struct Size {
     pub height: u16,
 }
 
+/// Rows of a screen that has two status lines.
+const DESIGNED: u16 = 20;
+
+impl Size {
+    /// Whether a screen has a second status line, which tells the margin.
+    pub fn tells_margin(self) -> bool {
+        self.height >= DESIGNED
+    }
+}
+
 /// The complete state of a session.
 #[expect(
     clippy::struct_excessive_bools,

@@ -3,6 +3,7 @@
 use super::Trial;
 use crate::numerics::elementary::{cos, exp, sin};
 use crate::oscillator::Symbol;
+use crate::picture::items::Item;
 use crate::scene::{Topic, View};
 use crate::session::{Code, Effect, Key, Msg, Purpose, save, update};
 
@@ -22,6 +23,110 @@ pub(crate) fn record() -> String {
         (from, side) = ((from - 0.05) * decay - 0.05, -side);
     }
     format!("time [s],displacement [mm]\n{text}")
+}
+
+/// The rows of a record, each as time and displacement, after changes.
+fn changed(change: impl Fn(usize, f64) -> f64) -> String {
+    let text = record();
+    let mut lines = text.lines();
+    let head = lines.next().unwrap().to_owned();
+    let row = |(index, line): (usize, &str)| {
+        let (t, x) = line.split_once(',').unwrap();
+        format!("{t},{:.3}", change(index, x.parse().unwrap()))
+    };
+    let rows = lines.enumerate().map(row);
+    std::iter::once(head).chain(rows).collect::<Vec<_>>().join("\n")
+}
+
+fn opened(text: String, words: &str) -> Trial {
+    let mut trial = Trial::open("plain");
+    let purpose = Purpose::Fit(words.to_owned());
+    trial.give(Msg::Read { path: "decay.csv".into(), purpose, result: Ok(text) });
+    trial
+}
+
+/// What each plot marks under these names in its legend.
+fn marked(trial: &Trial, plot: usize) -> Vec<(String, usize)> {
+    let picture = crate::picture::of(&trial.session, plot);
+    let marks = picture.items.iter().filter_map(|item| match item {
+        Item::Marks(marks) if marks.brief.contains("left out") => {
+            Some((marks.brief.to_owned(), marks.at.len()))
+        }
+        _ => None,
+    });
+    marks.collect()
+}
+
+#[test]
+fn what_a_fit_leaves_out_is_marked_by_what_it_is_and_is_no_part_of_the_record_on_show() {
+    let mut trial = opened(changed(|index, x| if index % 97 == 60 { x + 1.5 } else { x }), "");
+    let outliers = trial.session.fitted().unwrap().fit.estimate.outliers();
+    assert!(outliers > 2, "{outliers}");
+    assert_eq!(marked(&trial, 1), [("outliers, left out".to_owned(), outliers)]);
+    let measured = |trial: &Trial| {
+        let picture = crate::picture::of(&trial.session, 1);
+        let curve = picture.items.iter().find_map(|item| match item {
+            Item::Curve(line, points) if line.name == "record" => Some(points.len()),
+            _ => None,
+        });
+        curve.unwrap()
+    };
+    let all = trial.session.fitted().unwrap().points.len();
+    assert_eq!(measured(&trial), all - outliers);
+    let legend = crate::picture::legend::entries(&[crate::picture::of(&trial.session, 1)]);
+    assert!(legend.iter().any(|entry| entry.text == "outliers, left out"), "{legend:?}");
+    trial.press("<run \"view residuals\">");
+    let index = trial.session.plots.iter().position(|plot| plot.view == View::Residuals).unwrap();
+    assert_eq!(marked(&trial, index), [("outliers, left out".to_owned(), outliers)]);
+
+    let trial = opened(changed(|_, x| x.clamp(-2.0, 2.0)), "");
+    let saturated = trial.session.fitted().unwrap().fit.estimate.saturated;
+    assert!(saturated > 10, "{saturated}");
+    assert_eq!(marked(&trial, 1), [("saturated, left out".to_owned(), saturated)]);
+    assert_eq!(measured(&trial), all - saturated);
+}
+
+#[test]
+fn a_wrong_turning_point_does_not_flatten_the_decrements() {
+    let peaks = |wrong: f64| {
+        let turns = (0..24_u32).map(|k| {
+            let size = 3.0 * exp(-0.06 * f64::from(k)) - 0.02 * f64::from(k);
+            let x = if k % 2 == 0 { size } else { -size };
+            format!("{:.4}\n", if k == 11 { wrong * x } else { x })
+        });
+        format!("peak\n{}", turns.collect::<String>())
+    };
+    let extent = |trial: &Trial| trial.session.fitted().unwrap().fit.curves.damping.extent;
+    let [right, wrong] = [1.0, 8.0].map(|factor| opened(peaks(factor), "peaks"));
+    let height = |trial: &Trial| extent(trial)[3] - extent(trial)[2];
+    assert!(height(&wrong) < 3.0 * height(&right), "{:?} {:?}", extent(&wrong), extent(&right));
+    let beyond = |trial: &Trial| {
+        let picture = crate::picture::of(&trial.session, 0);
+        let found = crate::picture::legend::entries(&[picture]);
+        let entry = found.iter().find(|entry| entry.text.starts_with("measured")).unwrap();
+        entry.text.clone()
+    };
+    assert_eq!(beyond(&right), "measured");
+    assert!(beyond(&wrong).ends_with("beyond the plot"), "{}", beyond(&wrong));
+}
+
+#[test]
+fn the_statement_is_drawn_for_the_disturbance_of_the_session_and_only_where_it_is_told() {
+    let mut trial = fitted();
+    let best = trial.session.drawn().unwrap().fit.margins.question;
+    assert_eq!((best.confidence, best.disturbance), (0.95, 0.0));
+    trial.press(":set<space>w=0.005<space>N<enter>");
+    let asked = trial.session.drawn().unwrap().fit.margins.question;
+    assert!((asked.disturbance - 0.005).abs() < 1e-12, "{asked:?}");
+    assert_eq!(asked.half_widths, [0.0; 4]);
+    // Neither the second status line nor the distribution is on show.
+    trial.press(
+        "<run \"set w=0 N\"> <run \"remove-plot\"> <run \"remove-plot\"> <run \"remove-plot\">",
+    );
+    trial.press("<run \"view phase\">");
+    trial.give(Msg::Resize { width: 80, height: 18 });
+    let asked = trial.press("<run \"set w=0.01 N\">");
+    assert!(!asked.contains(&Topic::Refit), "{asked:?}");
 }
 
 fn fitted() -> Trial {
@@ -57,7 +162,7 @@ fn a_record_opens_with_its_pictures_and_a_number_stepped_is_held_while_the_other
     let held = trial.session.problem.parameters;
     assert!(trial.session.doubt.holds(Symbol::R) && held.r == 0.06);
     let margin = crate::picture::of(&trial.session, 3).title;
-    assert_eq!(margin, "distribution of the margin");
+    assert_eq!(margin, "margin from rest, distribution");
     // Once its draws are there, the distribution is that with r held: more friction, less damping.
     let told = trial.session.fitted().unwrap();
     assert!(told.drawn && told.fit.margins.draws.iter().all(|draw| draw.r == 0.06));

@@ -73,7 +73,7 @@ fn the_form_starts_a_scan_with_keys_alone_and_shows_it() {
     let session = &trial.session;
     assert!(session.overlay.is_none() && session.focuses_scan());
     let found = scanned(session);
-    assert_eq!(found.scan.measures()[0].spec().name, "stability");
+    assert_eq!(found.scan.measures()[0].spec().name, "area");
     assert_eq!(found.scan.over()[0].to_string(), "D=-0.6:-0.1:6");
     assert_eq!(found.scan.points(), 6);
     assert_eq!(found.progress, Progress::Done);
@@ -85,7 +85,7 @@ fn a_form_that_makes_no_sense_stays_open_and_says_why_until_it_changes() {
     trial.press("%");
     for (keys, text, said) in [
         ("", "x", "there is no parameter \"x\""),
-        ("", "q0", "margin does not depend on q0"),
+        ("", "q0", "from-rest does not depend on q0"),
         ("", "D", ""),
         ("<tab>", "one", "\"one\" is not a number"),
         ("", "-1e9", "D = -1000000000 is outside its range"),

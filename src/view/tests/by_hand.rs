@@ -13,6 +13,7 @@ use crate::scene::library::find;
 use crate::scene::{Answer, Layer, Request};
 use crate::session::{Key, Msg, Session, Size, update};
 use crate::study::chart::{Band, Chart, ChartLine, Plane};
+use crate::study::margin::RestMargin;
 use crate::study::measure::Value;
 use crate::study::regime::Regime;
 use crate::study::scan::ScanRow;
@@ -93,12 +94,8 @@ pub(super) fn by_hand(request: &Request) -> Answer {
         Request::Zones(_) | Request::MachineZones(_) => Answer::Zones(Zones {
             safe: Extent::Within(circle(0.4)),
             hopeful: Extent::Within(circle(0.6)),
-            nominal: Margin { displacement: Some(0.5), impulse: Some(0.5), ..Margin::ENDLESS },
-            guaranteed: Ok(Margin {
-                displacement: Some(0.4),
-                impulse: Some(0.4),
-                ..Margin::ENDLESS
-            }),
+            nominal: margin(0.5),
+            guaranteed: Ok(margin(0.4)),
             cost: Cost { evaluations: 400, steps: 20, rejected: 0 },
         }),
         Request::Capture(_) => Answer::Capture(Borders {
@@ -133,8 +130,15 @@ pub(super) fn by_hand(request: &Request) -> Answer {
     }
 }
 
+/// The margin of a basin whose border is a circle, for r = 0.1.
+fn margin(radius: f64) -> Margin {
+    let impulse = Some((radius * radius - 0.1 * 0.1).sqrt());
+    let from_rest = RestMargin { displacement: Some(radius - 0.1), impulse };
+    Margin { displacement: Some(radius), impulse: Some(radius), from_rest }
+}
+
 pub(super) fn picture(edge: Vec<State>, curves: Vec<Vec<State>>) -> BasinPicture {
-    let margin = Margin { displacement: Some(0.5), impulse: Some(0.5), ..Margin::ENDLESS };
+    let margin = margin(0.5);
     let ledger = Ledger {
         start: 0.72,
         end: 0.72,

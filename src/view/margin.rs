@@ -1,0 +1,231 @@
+//! Margins in words: the smallest kicks that are not survived, from the worst rest position first; nominal and for
+//! certain, of the machine by the whole model and by its cubic expansion.
+
+use super::fitted::statement;
+use super::pane;
+use crate::oscillator::Symbol;
+use crate::scene::Topic;
+use crate::session::Session;
+use crate::study::{Edge, Margin};
+use crate::words::number::{rounded_down, significant};
+use crate::words::quantity::with_unit;
+
+/// Columns of a screen that has room for margins as forces too.
+const WIDE: u16 = 110;
+
+/// Digits of a margin. Where there is no room for them, fewer are better than a number that is cut.
+const PLACES: usize = 4;
+
+const EVERY: &str = "every kick is survived";
+
+/// A shift and an impulse; `None` where every one of them is survived.
+pub type Kick = [Option<f64>; 2];
+
+/// The smallest kicks from the worst rest position.
+pub fn from_rest(margin: &Margin) -> Kick {
+    [margin.from_rest.displacement, margin.from_rest.impulse]
+}
+
+/// The smallest kicks from where the spring is relaxed.
+fn from_centre(margin: &Margin) -> Kick {
+    [margin.displacement, margin.impulse]
+}
+
+/// How kicks are written.
+#[derive(Clone, Copy)]
+struct Writing<'a> {
+    session: &'a Session,
+    places: usize,
+    /// Whether shift and impulse have their names where no units tell them apart.
+    named: bool,
+    /// Whether the numbers are bounds, which must not be rounded up.
+    bound: bool,
+}
+
+impl<'a> Writing<'a> {
+    fn new(session: &'a Session, places: usize) -> Self {
+        Writing { session, places, named: true, bound: false }
+    }
+
+    fn unnamed(self) -> Self {
+        Writing { named: false, ..self }
+    }
+
+    fn bound(self) -> Self {
+        Writing { bound: true, ..self }
+    }
+
+    /// A shift and an impulse, in the units of the machine or the record; `None` where every kick is survived.
+    fn kick(self, kick: Kick) -> Option<String> {
+        if kick == [None; 2] {
+            return None;
+        }
+        let units = match self.session.units() {
+            None => [("shift ", 1.0, ""), ("impulse ", 1.0, "")],
+            Some(units) if units.force.is_finite() => {
+                [("", units.displacement, "m"), ("", units.impulse, "N s")]
+            }
+            Some(units) => [("", units.displacement, "m"), ("", units.velocity, "m/s")],
+        };
+        let texts = kick.into_iter().zip(units).map(|(size, (name, one, unit))| {
+            let name = if self.named { name } else { "" };
+            let size = size.map(|size| self.size(size * one, unit));
+            format!("{name}{}", size.unwrap_or_else(|| "any".to_owned()))
+        });
+        Some(texts.collect::<Vec<_>>().join(", "))
+    }
+
+    fn size(self, size: f64, unit: &str) -> String {
+        let size = if self.bound { rounded_down(size, self.places) } else { size };
+        with_unit(size, self.places, unit)
+    }
+
+    /// The kicks from where the spring is relaxed, after those from rest: in the same order, without their names.
+    fn centre(self, margin: &Margin) -> Option<String> {
+        let kick = self.unnamed().kick(from_centre(margin))?;
+        let units = self.session.units().filter(|units| units.force.is_finite());
+        // The force that holds the mass there.
+        let force = units.zip(margin.displacement).filter(|_| self.session.size.width >= WIDE);
+        let force = force.map(|(units, q)| format!(" ({})", self.size(q * units.force, "N")));
+        let letter = if self.session.running().is_some() { "x" } else { "q" };
+        Some(format!("from {letter} = 0: {kick}{}", force.unwrap_or_default()))
+    }
+
+    /// The headline.
+    fn headline(self, margin: &Margin) -> String {
+        match self.kick(from_rest(margin)) {
+            Some(_) if *margin == Margin::ZERO => "no kick is survived".to_owned(),
+            Some(kick) => format!("margin from rest: {kick}"),
+            None => EVERY.to_owned(),
+        }
+    }
+}
+
+/// The first of the texts that fits, with as many digits as possible.
+fn fitting(width: usize, texts: impl Fn(usize) -> Vec<String>) -> String {
+    pane::fitting((1..=PLACES).rev().flat_map(texts), width)
+}
+
+/// The status line about margins, for a record what may be signed; `None` where they are not known.
+pub fn status(session: &Session, width: usize) -> Option<String> {
+    if session.scene.recording.is_some() {
+        return statement(session, width);
+    }
+    let nominal = || machine(session, width).or_else(|| oscillator(session, width));
+    certain(session, width).or_else(nominal)
+}
+
+/// What the pane says about a margin where there is no status line about it.
+pub fn brief(session: &Session, margin: &Margin, width: usize) -> Option<String> {
+    in_pane(session, "from rest", margin, width)
+}
+
+/// What the pane says about the margin that holds for certain, in a line of less than this width.
+pub fn brief_certain(session: &Session, width: usize) -> Option<String> {
+    let (_, sure) = margins(session)?;
+    match sure {
+        Err(_) => Some("sure: no kick".to_owned()),
+        Ok(sure) if from_rest(&sure) == [None; 2] => Some("sure: every kick".to_owned()),
+        Ok(sure) => in_pane(session, "sure", &sure, width),
+    }
+}
+
+fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> Option<String> {
+    let write = |places| Writing { bound: name == "sure", ..Writing::new(session, places) };
+    let texts = (1..=PLACES).rev().flat_map(|places| [write(places), write(places).unnamed()]);
+    let mut texts =
+        texts.filter_map(|write| Some(format!("{name} {}", write.kick(from_rest(margin))?)));
+    texts.find(|text| text.chars().count() < width)
+}
+
+/// The nominal margin, and the one that holds for certain or why none does.
+fn margins(session: &Session) -> Option<(Margin, Result<Margin, String>)> {
+    let told = session.on_show().any(|plot| session.tells_certain(plot));
+    if !told || session.value(Symbol::R) == 0.0 {
+        return None;
+    }
+    let found = session.zones().filter(|_| !session.is_stale(Topic::Zones, session.plot))?;
+    Some((found.nominal, found.guaranteed.clone()))
+}
+
+/// Nominal and for certain.
+fn certain(session: &Session, width: usize) -> Option<String> {
+    let (nominal, sure) = margins(session)?;
+    let texts = |places| {
+        let write = Writing::new(session, places);
+        let headline = write.headline(&nominal);
+        let sure = match &sure {
+            Ok(sure) => sure,
+            Err(why) => {
+                let nothing = format!("nothing is certain: {why}");
+                return vec![format!("{headline}; {nothing}"), nothing];
+            }
+        };
+        let told = |write: Writing| match write.bound().kick(from_rest(sure)) {
+            Some(kick) => format!("{headline}; for certain: {kick}"),
+            None => format!("{headline}; for certain: every kick"),
+        };
+        let centre = write.centre(&nominal).zip(write.bound().unnamed().kick(from_centre(sure)));
+        let centre =
+            centre.map(|(own, sure)| format!("{}; {own}; for certain: {sure}", told(write)));
+        centre.into_iter().chain([told(write), told(write.unnamed())]).collect()
+    };
+    Some(fitting(width, texts))
+}
+
+fn oscillator(session: &Session, width: usize) -> Option<String> {
+    let found = session.cycles().filter(|_| !session.is_stale(Topic::Cycles, session.plot))?;
+    if found.parameters.r == 0.0 {
+        return None;
+    }
+    if found.edge == Edge::None {
+        return Some(EVERY.to_owned());
+    }
+    let picture = found.picture.as_ref()?;
+    Some(fitting(width, |places| {
+        let write = Writing::new(session, places);
+        let headline = write.headline(&picture.margin);
+        let centre = write.centre(&picture.margin).map(|centre| format!("{headline}; {centre}"));
+        let proved = centre.iter().zip(share(picture.lyapunov_share));
+        let proved = proved.map(|(centre, share)| format!("{centre} ({share})")).next();
+        proved.into_iter().chain(centre.clone()).chain([headline.clone()]).collect()
+    }))
+}
+
+/// How much of the margin from the centre the Lyapunov circle (24) proves. It accounts for linear damping only: where
+/// D2 or D3 feed the motion it can be larger than the basin.
+pub fn share(share: Option<f64>) -> Option<String> {
+    share.map(|share| match share {
+        _ if share > 1.0 => "Lyapunov: not valid".to_owned(),
+        _ => format!("Lyapunov proves {} %", significant(100.0 * share, 2)),
+    })
+}
+
+/// The margin of a machine by the model on show, and by how much the expansion is wrong.
+fn machine(session: &Session, width: usize) -> Option<String> {
+    let fresh = !session.is_stale(Topic::Cycles, session.plot);
+    let kinds = session.kinds().filter(|_| fresh)?;
+    session.running()?;
+    let [whole, cubic] = kinds.margins.map(|margin| margin.unwrap_or(Margin::ENDLESS));
+    let error = match (whole.from_rest.displacement, cubic.from_rest.displacement) {
+        (Some(own), Some(other)) if own > 0.0 => {
+            let percent = 100.0 * (other / own - 1.0);
+            let way = if percent > 0.0 { "large" } else { "small" };
+            format!("{} % too {way}", significant(percent.abs(), 2))
+        }
+        (Some(_), None) => EVERY.to_owned(),
+        (None, Some(_)) => "not every kick is survived".to_owned(),
+        _ => "the same".to_owned(),
+    };
+    Some(fitting(width, |places| {
+        let write = Writing::new(session, places);
+        let [own, other] = [whole, cubic].map(|margin| write.headline(&margin));
+        if session.draws_whole() {
+            let both = format!("{own}; cubic expansion: {error}");
+            let centre = write.centre(&whole).map(|centre| format!("{both}; {centre}"));
+            return centre.into_iter().chain([both, format!("{own} (cubic: {error})")]).collect();
+        }
+        let cubic = format!("cubic expansion: {other} ({error})");
+        vec![format!("{cubic}; whole model: {own}"), cubic, format!("cubic {other} ({error})")]
+    }))
+}
