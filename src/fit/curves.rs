@@ -118,7 +118,8 @@ fn damping(estimate: &Estimate, margins: &Margins, farthest: f64) -> Damping {
     let exact: Vec<PlotPoint> = amplitudes.iter().filter_map(|&a| exact(&parameters, a)).collect();
     let own = |a: f64| averaged(parameters.d, parameters.d3, parameters.r, a);
     let computed = exact.iter().filter(|it| it[0] >= smallest).map(|it| it[1]);
-    let [low, high] = covering(computed.collect(), measured.iter().map(|it| it[1]).collect());
+    let [low, high] =
+        covering(&computed.collect::<Vec<_>>(), measured.iter().map(|it| it[1]).collect());
     let room = 0.15 * (high - low).max(f64::MIN_POSITIVE);
     Damping {
         measured,
@@ -131,7 +132,7 @@ fn damping(estimate: &Estimate, margins: &Margins, farthest: f64) -> Damping {
 
 /// Heights that are worth seeing: zero, all those computed, and those measured, except for single ones far from all
 /// others, which would flatten the rest.
-fn covering(computed: Vec<f64>, mut measured: Vec<f64>) -> [f64; 2] {
+fn covering(computed: &[f64], mut measured: Vec<f64>) -> [f64; 2] {
     let around = |ends: [f64; 2], values: &[f64]| {
         let finite = values.iter().filter(|it| it.is_finite());
         finite.fold(ends, |[low, high], it| [low.min(*it), high.max(*it)])
@@ -140,7 +141,7 @@ fn covering(computed: Vec<f64>, mut measured: Vec<f64>) -> [f64; 2] {
     measured.sort_by(f64::total_cmp);
     let trim = measured.len().div_ceil(10);
     let usual = measured.get(trim..measured.len().saturating_sub(trim)).unwrap_or_default();
-    let [low, high] = around(around([0.0; 2], &computed), usual);
+    let [low, high] = around(around([0.0; 2], computed), usual);
     let far = high - low;
     measured.retain(|it| (low - far..=high + far).contains(it));
     around([low, high], &measured)

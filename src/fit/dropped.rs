@@ -1,8 +1,8 @@
 //! Which samples of a record do not count in its fit, and why.
 
 use super::estimate::Estimate;
+use super::noise::IMPOSSIBLE;
 use super::observation::Data;
-use super::problem::IMPOSSIBLE;
 use super::record::Record;
 
 /// Why a sample does not count.

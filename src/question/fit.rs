@@ -281,8 +281,8 @@ impl Fitted {
     pub fn problem(&self, before: Problem) -> Problem {
         let p = &self.fit.estimate.p;
         let v = if self.fit.estimate.start == StartKind::Moving { p[LAST] } else { 0.0 };
-        let counted = self.points.iter().filter(|point| point.dropped.is_none());
-        let last = counted.last().map_or(before.until, |point| point.tau);
+        let last = self.points.iter().rfind(|point| point.dropped.is_none());
+        let last = last.map_or(before.until, |point| point.tau);
         Problem {
             parameters: parameters(p),
             initial: State { q: p[Q0], v },

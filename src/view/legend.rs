@@ -64,8 +64,9 @@ fn places(widths: &[u16], area: Rect, reserved: u16) -> (Vec<Option<Rect>>, u16)
 /// What is drawn through is asked for first, and what was left out of a record.
 fn rank(sample: LegendSample) -> u8 {
     match sample {
-        LegendSample::Point(Mark::Outlier | Mark::Saturated | Mark::Aside) => 0,
-        LegendSample::Line(Dash::Solid | Dash::Thick | Dash::Dashed) | LegendSample::Spot => 0,
+        LegendSample::Point(Mark::Outlier | Mark::Saturated | Mark::Aside)
+        | LegendSample::Line(Dash::Solid | Dash::Thick | Dash::Dashed)
+        | LegendSample::Spot => 0,
         LegendSample::Line(Dash::DashDot | Dash::Dotted | Dash::Sparse) => 1,
         LegendSample::Point(_) | LegendSample::Shade | LegendSample::Arrow => 2,
     }

@@ -106,6 +106,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::numerics::elementary::powi;
 
     #[test]
     fn what_is_promised_is_rounded_down() {
@@ -181,7 +182,7 @@ mod tests {
         ) {
             let down = rounded_down(value, digits);
             let power: i32 = format!("{value:e}").split_once('e').unwrap().1.parse().unwrap();
-            let unit = 10_f64.powi(power + 1 - i32::try_from(digits).unwrap());
+            let unit = powi(10.0, power + 1 - i32::try_from(digits).unwrap());
             prop_assert!(down <= value && value - down < unit * (1.0 + 1e-9), "{down} of {value}");
             prop_assert_eq!(significant(down, digits).parse::<f64>().unwrap(), down);
         }

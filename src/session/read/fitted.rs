@@ -28,7 +28,7 @@ impl Session {
     /// The fit only if the distribution of its margin is that for the held numbers and for what is unsure.
     pub fn drawn(&self) -> Option<&Fitted> {
         let drawn = self.refit_request(true).map(|request| self.answers.standing(&request));
-        self.fitted().filter(|_| drawn.is_none_or(|standing| standing.is_fresh()))
+        self.fitted().filter(|_| drawn.is_none_or(Standing::is_fresh))
     }
 
     /// The fit only if it is up to date with the held numbers.
