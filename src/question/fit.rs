@@ -6,7 +6,6 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::means::Means;
-use super::refit::Unsure;
 use crate::fit::curves::Curves;
 use crate::fit::dropped::{Dropped, dropped};
 use crate::fit::levenberg_marquardt::Runs;
@@ -24,6 +23,15 @@ use crate::oscillator::{State, Symbol};
 
 /// Draws for the distribution of the margin: fewer than on the command line, so that it appears quickly.
 const DRAWN: usize = 200;
+
+/// What is to be survived beside the uncertainty of the fit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Unsure {
+    /// Bound on a disturbance, in the unit of r.
+    pub disturbance: f64,
+    /// Half widths of D, D2, D3 and r.
+    pub half_widths: [f64; 4],
+}
 
 /// A record as it was opened, with the choices for its fit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

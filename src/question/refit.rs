@@ -1,18 +1,9 @@
 //! A fitted record with some numbers held.
 
-use super::fit::Fit;
+use super::fit::{Fit, Unsure};
 use super::kind::Question;
 use super::means::Means;
 use crate::flow::Reason;
-
-/// What is to be survived beside the uncertainty of the fit.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Unsure {
-    /// Bound on a disturbance, in the unit of r.
-    pub disturbance: f64,
-    /// Half widths of D, D2, D3 and r.
-    pub half_widths: [f64; 4],
-}
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Asked {

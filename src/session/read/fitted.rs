@@ -3,7 +3,7 @@
 use crate::oscillator::Symbol;
 use crate::oscillator::belt::Units;
 use crate::question;
-use crate::question::refit::Unsure;
+use crate::question::fit::Unsure;
 use crate::question::{Fit, Fitted};
 use crate::scene::{Answer, Request, Topic};
 use crate::session::state::answers::Standing;
