@@ -79,7 +79,7 @@ fn a_machine_is_a_scene_with_physical_values_beside_the_numbers() {
     let scene = ScaledMachine::new(machine.clone()).unwrap().scene();
     let (session, text) = screen(scene.clone(), "");
     assert_eq!(session.contact(), None);
-    for words in ["1 N", "1 mm", "2 s", "1.449 mm or 0.1473 N s", "belt"] {
+    for words in ["1 N", "1 mm", "2 s", "margin from rest: 1.249 mm, 0.1448 N s", "belt"] {
         assert!(text.contains(words), "{words} in {text}");
     }
     // The line is where the velocity of the mass equals that of the belt.
