@@ -50,10 +50,11 @@ pub fn svg(screen: &Buffer, paper: Paper) -> String {
     let ground = paper.ground;
     let (width, height) = (f64::from(screen.area.width), f64::from(screen.area.height));
     let (width, height) = (width * CELL.0, height * CELL.1);
+    // Browsers go by the style, other readers of SVG by the attribute.
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\" font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\" \
-         font-size=\"{FONT_SIZE}\" xml:space=\"preserve\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n"
+         font-size=\"{FONT_SIZE}\" xml:space=\"preserve\">\n<style>text{{white-space:pre}}</style>\n<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n"
     );
     for (number, row) in rows(screen, paper).enumerate() {
         let top = CELL.1 * units(number);
