@@ -1,11 +1,11 @@
 //! The border of the basin for any multiplier, against numbers computed elsewhere and against motions.
 
 use hopfscope::flow::trajectory::trajectory;
-use hopfscope::flow::{Detail, Limits, Outcome, Problem, Reason};
+use hopfscope::flow::{Detail, Fate, Limits, Outcome, Problem, Reason};
 use hopfscope::numerics::elementary::pow;
 use hopfscope::oscillator::{Parameters, State};
 use hopfscope::study::Edge;
-use hopfscope::study::basin::{Basin, Fate, SurveyedBasin, Window, basin};
+use hopfscope::study::basin::{Basin, SurveyedBasin, Window, basin};
 use hopfscope::study::cycle::cycles;
 use hopfscope::study::measure::{Measure, Value, measure};
 use proptest::prelude::*;
@@ -134,7 +134,7 @@ fn motions_beside_the_border_are_captured_inside_and_run_away_outside() {
                 parts.iter().flat_map(|&part| beside_the_border(&found, part)).collect();
             let parameters = row.parameters;
             starts.into_iter().filter_map(move |(start, inside)| {
-                let fate = found.fate(start) == Fate::Captured;
+                let fate = found.fate(start) == Fate::Rest;
                 let motion = is_captured(parameters, start);
                 let agree = fate == inside && motion.is_none_or(|captured| captured == inside);
                 (!agree).then_some((parameters, start, inside, motion))
@@ -217,7 +217,7 @@ fn the_motions_of_a_centre_are_neutral() {
         let place = |step: i32| -3.0 + 6.0 * f64::from(index * step % 400) / 399.0;
         let start = State { q: place(1), v: place(37) };
         let first_integral = 0.5 * start.v * start.v + start.q - 1.0;
-        let expected = if first_integral < 0.0 { Fate::Undecided } else { Fate::Escaped };
+        let expected = if first_integral < 0.0 { Fate::Neutral } else { Fate::Escapes };
         assert_eq!(found.fate(start), expected, "{start:?}");
     }
     assert_eq!(found.area(), None);
@@ -250,7 +250,7 @@ fn starts_of_a_hair_beside_the_sticking_set_go_where_they_belong() {
     ] {
         let start = State { q, v };
         let found = basin(&parameters, 3.0, &LIMITS).unwrap();
-        assert_eq!(found.fate(start) == Fate::Captured, captured, "{parameters:?} {start:?}");
+        assert_eq!(found.fate(start) == Fate::Rest, captured, "{parameters:?} {start:?}");
         let problem = Problem { parameters, initial: start, until: 250.0, ..Problem::default() };
         let outcome = trajectory(&problem, Detail::default(), &LIMITS).outcome;
         let rests = matches!(outcome, Outcome::Captured { .. });
@@ -289,7 +289,7 @@ proptest! {
         let margin = found.margin();
         prop_assert!(margin.displacement.is_some_and(|it| it >= r) && margin.impulse.is_some());
         for (start, inside) in beside_the_border(&found, part) {
-            prop_assert_eq!(found.fate(start) == Fate::Captured, inside, "{:?}", start);
+            prop_assert_eq!(found.fate(start) == Fate::Rest, inside, "{:?}", start);
             if let Some(captured) = is_captured(parameters, start) {
                 prop_assert_eq!(captured, inside, "{:?} {:?}", parameters, start);
             }

@@ -1,8 +1,8 @@
 //! Each scene fulfils the promises of its texts, under the keys that they name.
 
 use hopfscope::flow::trajectory::trajectory;
-use hopfscope::flow::{Detail, Limits, Method, Outcome, Reason};
-use hopfscope::machine::{BorderKind, MachineFate};
+use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Reason};
+use hopfscope::machine::BorderKind;
 use hopfscope::numerics::elementary::hypot;
 use hopfscope::oscillator::Symbol;
 use hopfscope::question::answer;
@@ -267,7 +267,7 @@ impl Stage {
     /// Whether the motion eventually comes to rest: by the whole model where that is drawn.
     fn rests_in_the_end(&self) -> bool {
         if let Some(course) = self.0.course() {
-            return course.fate == MachineFate::Rest;
+            return course.fate == Fate::Rest;
         }
         let problem = hopfscope::flow::Problem { until: 1e4, ..self.0.problem };
         let motion = trajectory(&problem, Detail::default(), &Limits::PATIENT);
@@ -338,13 +338,13 @@ fn benchmark_rest_and_stick_slip_are_parted_by_a_cycle_until_the_belt_is_fast() 
     assert_eq!((kinds.border, sticking(&stage)), (BorderKind::Cycle, (1, 1)));
     let [whole, cubic] = kinds.margins.map(|margin| margin.unwrap().displacement.unwrap());
     assert!(cubic > 1.1 * whole, "{cubic} {whole}");
-    assert_eq!(stage.0.course().unwrap().fate, MachineFate::Cycle(1));
+    assert_eq!(stage.0.course().unwrap().fate, Fate::Cycle(1));
     assert!(stage.0.course().unwrap().rides.len() > 3);
     let end = Stage::open("benchmark").press(":set<space>belt=1.836<enter>");
     assert_eq!(sticking(&end), (1, 1));
     let beyond = Stage::open("benchmark").press(":set<space>belt=1.837<enter>");
     assert_eq!((beyond.0.kinds().unwrap().border, sticking(&beyond)), (BorderKind::None, (0, 0)));
-    assert_eq!(beyond.0.course().unwrap().fate, MachineFate::Rest);
+    assert_eq!(beyond.0.course().unwrap().fate, Fate::Rest);
     // One key switches to the expansion: the question is a different one, and so is the answer.
     let cubic = Stage::open("benchmark").press("|");
     assert!(cubic.0.course().is_none() && !cubic.0.draws_whole());
@@ -356,7 +356,7 @@ fn groan_needs_no_cycle_to_be_parted_from_rest() {
     let stage = Stage::open("groan");
     let kinds = stage.0.kinds().unwrap();
     assert_eq!((kinds.border, sticking(&stage)), (BorderKind::Grazing, (1, 0)));
-    assert_eq!(stage.0.course().unwrap().fate, MachineFate::Cycle(0));
+    assert_eq!(stage.0.course().unwrap().fate, Fate::Cycle(0));
     assert_eq!(kinds.margins[1].and_then(|margin| margin.displacement), None);
     assert!(Stage::open("groan").press("i").is_captured());
     let fast = Stage::open("groan").press(":set<space>belt=0.5<enter>");

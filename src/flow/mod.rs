@@ -22,6 +22,7 @@ pub(crate) mod auto;
 mod between;
 pub(crate) mod exact;
 pub(crate) mod explicit;
+pub(crate) mod fate;
 pub(crate) mod limits;
 #[doc(hidden)]
 pub mod method;
@@ -42,6 +43,7 @@ pub(crate) mod time_stepping;
 pub mod trajectory;
 pub(crate) mod without_events;
 
+pub use fate::Fate;
 pub use limits::{Limits, Reason};
 pub use method::{METHODS, Method, MethodSpec};
 pub use motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};

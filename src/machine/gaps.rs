@@ -6,30 +6,16 @@ use super::landmarks::Landmarks;
 use super::model::Model;
 use super::return_map::MachineReturn;
 use super::search::NOTHING;
-
-/// The fate of a motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum MachineFate {
-    /// It comes to rest.
-    Rest,
-    /// It tends to the cycle with this index, or starts on it.
-    Cycle(usize),
-    /// It is periodic, one of a family.
-    Neutral,
-    /// It grows without bound.
-    Escaped,
-    /// It leaves the range in which the machine is known.
-    Unknown(Unfollowed),
-}
+use crate::flow::Fate;
 
 /// A gap between right turning points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
     /// Its upper end.
     pub to: f64,
-    pub fate: MachineFate,
+    pub fate: Fate<Unfollowed>,
     /// Fate of a motion that turns exactly at the upper end.
-    pub end: MachineFate,
+    pub end: Fate<Unfollowed>,
 }
 
 /// A right turning point at which the return map changes.
@@ -114,15 +100,15 @@ pub(super) fn gaps(
         let mut here = gap;
         loop {
             let (mark, next) = match ways[here] {
-                Tendency::Lost(stop) => return MachineFate::Unknown(stop),
-                Tendency::Nowhere => return MachineFate::Neutral,
+                Tendency::Lost(stop) => return Fate::Unknown(stop),
+                Tendency::Nowhere => return Fate::Neutral,
                 Tendency::Outward => (marks.get(here), here + 1),
-                Tendency::Inward if here == 0 => return MachineFate::Rest,
+                Tendency::Inward if here == 0 => return Fate::Rest,
                 Tendency::Inward => (marks.get(here - 1), here - 1),
             };
             match mark {
-                None => return stop.map_or(MachineFate::Escaped, MachineFate::Unknown),
-                Some((_, Divide::Cycle(index))) => return MachineFate::Cycle(*index),
+                None => return stop.map_or(Fate::Escapes, Fate::Unknown),
+                Some((_, Divide::Cycle(index))) => return Fate::Cycle(*index),
                 // Motions continue across a jump: the map rises there and never sends them back.
                 Some((_, Divide::Jump | Divide::Capture)) => here = next,
             }
@@ -131,7 +117,7 @@ pub(super) fn gaps(
     let gap = |(gap, mark): (usize, Option<&(f64, Divide)>)| {
         let (to, mark) = mark.map_or((f64::INFINITY, Divide::Capture), |(x, mark)| (*x, *mark));
         let end = match mark {
-            Divide::Cycle(index) => MachineFate::Cycle(index),
+            Divide::Cycle(index) => Fate::Cycle(index),
             // An orbit that touches the belt sticks to it.
             Divide::Jump => fate(gap + 1),
             Divide::Capture => fate(gap),

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::gaps::MachineFate;
 use super::model::Model;
 use super::portrait::{MachineBorder, Portrait};
+use crate::flow::Fate;
 
 /// The model along a number: `None` where there is none.
 pub type Family<'a> = &'a dyn Fn(f64) -> Option<Model>;
@@ -89,11 +89,11 @@ fn jump(from: &Portrait, to: &Portrait) -> Option<Jump> {
     let stable = from.cycles.iter().filter(|cycle| cycle.stable).map(|cycle| cycle.x.1);
     rests.then_some(0.0).into_iter().chain(stable).find_map(|state| {
         let to = match to.fate(state.max(KICK * size), 0.0) {
-            Ok(MachineFate::Rest) => Landing::Rest,
-            Ok(MachineFate::Cycle(index)) => Landing::Cycle { x_max: to.cycles[index].x.1 },
-            Ok(MachineFate::Neutral) => return None,
-            Ok(MachineFate::Escaped) => Landing::Escaped,
-            Ok(MachineFate::Unknown(_)) | Err(_) => Landing::Unknown,
+            Ok(Fate::Rest) => Landing::Rest,
+            Ok(Fate::Cycle(index)) => Landing::Cycle { x_max: to.cycles[index].x.1 },
+            Ok(Fate::Neutral) => return None,
+            Ok(Fate::Escapes) => Landing::Escaped,
+            Ok(Fate::Moving | Fate::Unknown(_)) | Err(_) => Landing::Unknown,
         };
         Some(Jump { from: state, to }).filter(|jump| jump.size() > MOVED * size)
     })

@@ -69,7 +69,6 @@ pub mod varied;
 
 pub use arc::{Flow, Unfollowed};
 pub use cycles::MachineCycle;
-pub use gaps::MachineFate;
 pub use ledger::MachineLedger;
 pub use modal::Modal;
 pub use model::{Lines, Model, NoModel, Phase};

@@ -9,11 +9,12 @@ use serde::Serialize;
 use super::arc::{Flow, Unfollowed};
 use super::curve::{CurvePiece, MachineCurve, Rectangle};
 use super::cycles::MachineCycle;
-use super::gaps::{Divide, Gap, MachineFate, Tendency, gaps, jumps, ways};
+use super::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
 use super::return_map::MachineReturn;
 use super::turn::ContactState;
+use crate::flow::Fate;
 use crate::numerics::root::bisect;
 use crate::study::margin::{Margin, RestMargin};
 
@@ -205,8 +206,8 @@ impl Portrait {
     ) -> Result<(), Unfollowed> {
         let model = &self.model;
         let Some(first) = self.gaps.first() else { return Ok(()) };
-        let inner = if self.neutral { MachineFate::Neutral } else { MachineFate::Rest };
-        if let MachineFate::Unknown(stop) = first.fate {
+        let inner = if self.neutral { Fate::Neutral } else { Fate::Rest };
+        if let Fate::Unknown(stop) = first.fate {
             return Err(stop);
         }
         if first.fate != inner {
@@ -293,7 +294,7 @@ impl Portrait {
         /// Halvings down to rounding.
         const HALVINGS: u32 = 60;
         let model = &self.model;
-        let rests = |x: f64, y: f64| self.fate(x, y * model.omega_0) == Ok(MachineFate::Rest);
+        let rests = |x: f64, y: f64| self.fate(x, y * model.omega_0) == Ok(Fate::Rest);
         let most = |far: f64, rests: &dyn Fn(f64) -> bool| {
             if rests(far) { far } else { bisect(0.0, far, HALVINGS, |kick| !rests(kick)).0 }
         };
@@ -324,23 +325,23 @@ impl Portrait {
     ///
     /// # Errors
     /// [`Unfollowed`] if it does not reach its next right turning point.
-    pub fn fate(&self, x: f64, v: f64) -> Result<MachineFate, Unfollowed> {
+    pub fn fate(&self, x: f64, v: f64) -> Result<Fate<Unfollowed>, Unfollowed> {
         let y = self.model.scaled_velocity(v);
         let mut flow = Flow::new(&self.model);
         let turn = match flow.to_the_right(x, y) {
             Ok(turn) => turn,
-            Err(Unfollowed::Settled) => return Ok(MachineFate::Rest),
-            Err(Unfollowed::Escaped) => return Ok(MachineFate::Escaped),
+            Err(Unfollowed::Settled) => return Ok(Fate::Rest),
+            Err(Unfollowed::Escaped) => return Ok(Fate::Escapes),
             Err(stop) => return Err(stop),
         };
-        let Some(mut x) = turn else { return Ok(MachineFate::Rest) };
+        let Some(mut x) = turn else { return Ok(Fate::Rest) };
         // Far out, every swing is checked: it may leave the known range.
         while x > self.known {
             match flow.returned(x) {
                 Ok(MachineReturn::Turns(image)) if image.x < x => x = image.x,
                 Ok(MachineReturn::Turns(_)) => break,
-                Ok(MachineReturn::Rests(_)) => return Ok(MachineFate::Rest),
-                Err(Unfollowed::Escaped) => return Ok(MachineFate::Escaped),
+                Ok(MachineReturn::Rests(_)) => return Ok(Fate::Rest),
+                Err(Unfollowed::Escaped) => return Ok(Fate::Escapes),
                 Err(stop) => return Err(stop),
             }
         }
@@ -351,15 +352,15 @@ impl Portrait {
     #[must_use]
     pub fn incomplete(&self) -> Option<Unfollowed> {
         let outermost = self.gaps.last().map(|gap| gap.fate);
-        let open = matches!(outermost, Some(MachineFate::Unknown(_)));
+        let open = matches!(outermost, Some(Fate::Unknown(_)));
         let stop = self.stop.filter(|stop| matches!(stop, Unfollowed::OutsideLaw { .. }));
         stop.filter(|_| open || matches!(self.border, MachineBorder::None))
     }
 
     /// The fate of a motion that turns on the right at `x`.
-    fn fate_of_turn(&self, x: f64) -> MachineFate {
+    fn fate_of_turn(&self, x: f64) -> Fate<Unfollowed> {
         let gap = self.gaps.iter().find(|gap| x <= gap.to).or(self.gaps.last());
-        gap.map_or(MachineFate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
+        gap.map_or(Fate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
     }
 
     /// The fraction of a window, in m and m/s, from which the mass comes to rest; `None` if motions from the window
@@ -374,7 +375,7 @@ impl Portrait {
             // motions that rise through it fall through it farther right, so the outermost ones pass a corner. The
             // same holds below v = 0.
             MachineBorder::None => {
-                let rests = |x: f64, v: f64| self.fate(x, v) == Ok(MachineFate::Rest);
+                let rests = |x: f64, v: f64| self.fate(x, v) == Ok(Fate::Rest);
                 let all = || [x.0, x.1].iter().all(|x| [v.0, v.1].iter().all(|v| rests(*x, *v)));
                 (self.margin.is_none() || all()).then_some(1.0)
             }

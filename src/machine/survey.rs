@@ -4,12 +4,11 @@
 use std::fmt;
 
 use super::arc::{Flow, Unfollowed};
-use super::gaps::MachineFate;
 use super::model::{Model, NoModel};
 use super::motion::MachineMotion;
 use super::portrait::Portrait;
 use super::stepped::{Stepped, SteppedMethod, stepped};
-use crate::flow::{Limits, Reason};
+use crate::flow::{Fate, Limits, Reason};
 use crate::oscillator::Belt;
 use crate::oscillator::belt::{BeltError, Reduced};
 use crate::study::cycle::{Cycles, cycles};
@@ -42,7 +41,7 @@ pub struct Course {
     /// The one that was asked for.
     pub motion: MachineMotion,
     /// What it ends as.
-    pub fate: MachineFate,
+    pub fate: Fate<Unfollowed>,
     /// Where it comes to rest, in m.
     pub rest: Option<f64>,
     /// The same motion by another method, if asked for.
@@ -64,11 +63,11 @@ impl Course {
         let portrait = Portrait::new(model)?;
         let (x, v) = start;
         let fate = match portrait.fate(x, v) {
-            Err(stop @ Unfollowed::OutsideLaw { .. }) => MachineFate::Unknown(stop),
+            Err(stop @ Unfollowed::OutsideLaw { .. }) => Fate::Unknown(stop),
             fate => fate?,
         };
-        let rest = (fate == MachineFate::Rest)
-            .then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v)));
+        let rest =
+            (fate == Fate::Rest).then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v)));
         let motion = MachineMotion::new(model, x, v, until);
         Ok(Course { motion, fate, rest: rest.transpose()?, portrait, second: None })
     }

@@ -2,14 +2,12 @@
 //! motion or cycles draws these as well.
 
 use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
-use crate::flow::{Cost, Limits, Method, Problem, Reason};
+use crate::flow::{Cost, Fate, Limits, Method, Problem, Reason};
 use crate::machine::curve::{CurvePiece, MachineCurve};
 use crate::machine::motion::{self, MachineMotion};
 use crate::machine::stepped::{SteppedMethod, Traced, traced};
 use crate::machine::turn::ContactState;
-use crate::machine::{
-    BorderKind, Flow, MachineFate, MachineLedger, Model, Phase, Portrait, Unfollowed,
-};
+use crate::machine::{BorderKind, Flow, MachineLedger, Model, Phase, Portrait, Unfollowed};
 use crate::numerics::elementary::ln;
 use crate::oscillator::{Belt, Parameters, State};
 use crate::study::cycle::CycleErrors;
@@ -19,7 +17,7 @@ use crate::study::{Cycle, Cycles, Edge, Margin, cycle};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
     /// The fate; a cycle is given by its index in [`Self::cycles`].
-    pub fate: MachineFate,
+    pub fate: Fate<Unfollowed>,
     /// The cycles of the machine, in SI units.
     pub cycles: Vec<crate::machine::MachineCycle>,
     /// Unit of displacement of the drawing, in m.
@@ -120,7 +118,7 @@ pub fn motion(
         None => Drawn::series(&found, between),
     };
     let fate = match portrait.fate(x, v) {
-        Err(stop @ Unfollowed::OutsideLaw { .. }) => MachineFate::Unknown(stop),
+        Err(stop @ Unfollowed::OutsideLaw { .. }) => Fate::Unknown(stop),
         fate => fate.map_err(reason)?,
     };
     let course = Course {

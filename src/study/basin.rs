@@ -5,14 +5,14 @@
 //! column of starts the orbits' speeds at that displacement ([`super::arc`]) sort all of them.
 //!
 //! ```
-//! use hopfscope::flow::Limits;
+//! use hopfscope::flow::{Fate, Limits};
 //! use hopfscope::oscillator::{Parameters, State};
-//! use hopfscope::study::basin::{Fate, basin};
+//! use hopfscope::study::basin::basin;
 //!
 //! let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
 //! let found = basin(&parameters, 3.0, &Limits::PATIENT)?;
-//! assert_eq!(found.fate(State { q: 0.2, v: 0.0 }), Fate::Captured);
-//! assert_eq!(found.fate(State { q: 0.3, v: 0.0 }), Fate::Cycle);
+//! assert_eq!(found.fate(State { q: 0.2, v: 0.0 }), Fate::Rest);
+//! assert_eq!(found.fate(State { q: 0.3, v: 0.0 }), Fate::Cycle(1));
 //! # Ok::<(), hopfscope::flow::Reason>(())
 //! ```
 
@@ -24,23 +24,9 @@ use super::closing::{Equation, first_side};
 use super::closings::{STEP, all_closings};
 use super::limit_cycle::{Edge, Margin};
 use crate::closed_form::harmonic::is_centre;
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Fate, Limits, Reason};
 use crate::oscillator::sticking::rests;
 use crate::oscillator::{Parameters, State};
-
-/// Where a start ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Fate {
-    /// On the sticking set (at r = 0: at the steady state, in infinite time).
-    Captured,
-    /// On a stable limit cycle.
-    Cycle,
-    /// Beyond all bounds.
-    Escaped,
-    /// On none of these: neutral motion of a centre.
-    Undecided,
-}
 
 /// The borders of the plane, innermost first, and the fates of the regions between them.
 #[derive(Clone, Debug)]
@@ -83,10 +69,10 @@ impl Counts {
     /// Counts one start more.
     pub fn add(&mut self, fate: Fate, starts: u64) {
         match fate {
-            Fate::Captured => self.captured += starts,
-            Fate::Cycle => self.cycle += starts,
-            Fate::Escaped => self.escaped += starts,
-            Fate::Undecided => self.undecided += starts,
+            Fate::Rest => self.captured += starts,
+            Fate::Cycle(_) => self.cycle += starts,
+            Fate::Escapes => self.escaped += starts,
+            Fate::Neutral | Fate::Moving | Fate::Unknown(_) => self.undecided += starts,
         }
     }
 }
@@ -107,17 +93,19 @@ pub fn basin(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Bas
 /// taken the sticking set's own region.
 fn fates_between(parameters: &Parameters, stable: &[bool], with_centre: bool) -> Vec<Fate> {
     let outside = match stable.last() {
-        Some(true) => Fate::Cycle,
+        Some(true) => Fate::Cycle(stable.len() - 1),
         None if with_centre => centre_fate(parameters),
-        Some(false) | None => Fate::Escaped,
+        Some(false) | None => Fate::Escapes,
     };
     let inside = match stable.first() {
-        Some(true) if parameters.r > 0.0 && with_centre => Fate::Captured,
-        Some(true) => Fate::Cycle,
-        Some(false) => Fate::Captured,
+        Some(true) if parameters.r > 0.0 && with_centre => Fate::Rest,
+        Some(true) => Fate::Cycle(0),
+        Some(false) => Fate::Rest,
         None => return vec![outside],
     };
-    let between = std::iter::repeat_n(Fate::Cycle, stable.len() - 1);
+    let between = stable.iter().enumerate().skip(1);
+    let between =
+        between.map(|(outer, stable)| Fate::Cycle(if *stable { outer } else { outer - 1 }));
     std::iter::once(inside).chain(between).chain(std::iter::once(outside)).collect()
 }
 
@@ -125,11 +113,11 @@ fn fates_between(parameters: &Parameters, stable: &[bool], with_centre: bool) ->
 fn centre_fate(parameters: &Parameters) -> Fate {
     let Parameters { d, d3, r, .. } = *parameters;
     if r > 0.0 || d > 0.0 || (d == 0.0 && d3 > 0.0) {
-        Fate::Captured
+        Fate::Rest
     } else if is_centre(parameters) {
-        Fate::Undecided
+        Fate::Neutral
     } else {
-        Fate::Escaped
+        Fate::Escapes
     }
 }
 
@@ -152,7 +140,7 @@ impl Basin {
         let mut fates = Vec::new();
         if edge == Edge::Separatrix {
             borders.push(Border::separatrix(parameters, reach, limits)?);
-            fates.push(if is_centre(parameters) { Fate::Undecided } else { Fate::Captured });
+            fates.push(if is_centre(parameters) { Fate::Neutral } else { Fate::Rest });
         }
         for closing in found {
             borders.push(Border::of_cycle(parameters, side, closing, limits)?);
@@ -170,7 +158,7 @@ impl Basin {
     #[must_use]
     pub fn fate(&self, start: State) -> Fate {
         if self.rests(start) {
-            return Fate::Captured;
+            return Fate::Rest;
         }
         let inside = |border: &Border| {
             border.span_at(start.q).is_some_and(|(low, high)| start.v > low && start.v < high)

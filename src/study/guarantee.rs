@@ -13,7 +13,7 @@
 use serde::Serialize;
 
 use super::arc::{Arc, Direction};
-use super::basin::{Basin, Fate, basin};
+use super::basin::{Basin, basin};
 use super::border::Border;
 use super::closed_pair::Closing;
 use super::closing::{Equation, Route};
@@ -24,7 +24,7 @@ use super::margin::{Margin, RestMargin};
 use super::search::Bracket;
 use super::weak::has_cycle;
 use crate::closed_form::piecewise_linear::LinearCycle;
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Fate, Limits, Reason};
 use crate::numerics::root::{PlaceTolerance, illinois};
 use crate::oscillator::{HalfPlane, ParameterBox, Parameters, Side};
 
@@ -99,11 +99,11 @@ impl Sided {
                 (Edge::None, None, 0.0)
             };
         let mut cost = equation.cost();
-        let mut fates = vec![Fate::Captured];
+        let mut fates = vec![Fate::Rest];
         if let Some(border) = &border {
             cost += border.upper.cost;
             cost += border.lower.cost;
-            fates.push(Fate::Escaped);
+            fates.push(Fate::Escapes);
         }
         let borders = border.into_iter().collect();
         Ok((Basin { parameters: self.upper, edge, borders, fates, cost }, error))

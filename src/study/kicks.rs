@@ -10,8 +10,9 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::basin::{Basin, Fate};
+use super::basin::Basin;
 use super::stability::{Share, over_scales, support};
+use crate::flow::Fate;
 use crate::numerics::elementary::exp;
 use crate::numerics::quadrature::Integral;
 
@@ -155,7 +156,7 @@ impl RandomKick {
     /// The basin has to be known as far as [`RandomKick::reach`]. Quadrature as in [`Basin::captured_share`].
     pub fn lost(&self, basin: &Basin) -> Share {
         let all = |part| Share { part, error: 0.0 };
-        if basin.fates.first() != Some(&Fate::Captured) {
+        if basin.fates.first() != Some(&Fate::Rest) {
             return all(1.0);
         }
         let Some(edge) = basin.borders.first() else { return all(0.0) };
@@ -266,7 +267,7 @@ mod tests {
             let spread = |ratio: f64| (0.5 + ratio * f64::from(index)).fract();
             let (a, b) = (spread(0.754_877_666_246_693), spread(0.569_840_290_998_053));
             let start = State { q: 0.02 + 0.08 * inverse(a), v: 0.1 * inverse(b) };
-            out += u32::from(found.fate(start) != Fate::Captured);
+            out += u32::from(found.fate(start) != Fate::Rest);
         }
         let counted = f64::from(out) / f64::from(draws);
         assert!(lost.part > 0.02 && lost.part < 0.5 && lost.error < 1e-8, "{lost:?}");

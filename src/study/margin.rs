@@ -23,10 +23,11 @@
 //! ```
 
 use super::arc::Arc;
-use super::basin::{Basin, Fate};
+use super::basin::Basin;
 use super::limit_cycle::Edge;
 pub use super::limit_cycle::{Margin, RestMargin};
 use crate::closed_form::lyapunov;
+use crate::flow::Fate;
 use crate::numerics::elementary::hypot;
 use crate::numerics::root::maximum;
 use crate::oscillator::{Parameters, State};
@@ -116,7 +117,7 @@ impl Basin {
     /// where it is infinite, or where there is no basin.
     #[must_use]
     pub fn area(&self) -> Option<f64> {
-        let captured = self.fates.first() == Some(&Fate::Captured) && self.edge != Edge::None;
+        let captured = self.fates.first() == Some(&Fate::Rest) && self.edge != Edge::None;
         let edge = self.borders.first().filter(|edge| captured && edge.is_closed())?;
         Some(edge.upper.area() + edge.lower.area())
     }

@@ -10,11 +10,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::basin::{Basin, Fate, basin};
+use super::basin::{Basin, basin};
 use super::kicks::RandomKick;
 use super::stability::Share;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Detail, Limits, Outcome, Problem, Reason};
+use crate::flow::{Cost, Detail, Fate, Limits, Outcome, Problem, Reason};
 use crate::numerics::count::{real, whole};
 use crate::oscillator::{Parameters, State};
 
@@ -114,7 +114,7 @@ impl Chain {
         for column in &columns {
             for &(v, share) in &rows {
                 let start = State { q: column.q, v };
-                if basin.fate(start) != Fate::Captured {
+                if basin.fate(start) != Fate::Rest {
                     continue;
                 }
                 let Some(rest) = rest_of(&basin.parameters, start, limits, &mut cost)? else {
@@ -269,7 +269,7 @@ mod tests {
                     State { q: place + kicks.q.0 + kicks.q.1 * a, v: kicks.v.0 + kicks.v.1 * b };
                 kicked += 1;
                 run += 1.0;
-                if found.fate(start) != Fate::Captured {
+                if found.fate(start) != Fate::Rest {
                     break;
                 }
                 let mut cost = Cost::default();

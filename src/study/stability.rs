@@ -8,8 +8,9 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::Serialize;
 
-use super::basin::{Basin, Fate, Window};
+use super::basin::{Basin, Window};
 use super::border::Border;
+use crate::flow::Fate;
 use crate::numerics::elementary::{asin, cos, powi, sin};
 use crate::numerics::quadrature::{Integral, integrate};
 use crate::numerics::root::{TO_ROUNDING, bisect};
@@ -38,7 +39,7 @@ impl Basin {
     /// differences between its two rules.
     pub fn captured_share(&self, window: &Window) -> Share {
         let whole = |part| Share { part, error: 0.0 };
-        if self.fates.first() != Some(&Fate::Captured) {
+        if self.fates.first() != Some(&Fate::Rest) {
             return whole(0.0);
         }
         let Some(edge) = self.borders.first() else { return whole(1.0) };

@@ -1,7 +1,7 @@
 //! What becomes of the motion of a machine, in its own units, by the whole model.
 
-use crate::flow::{Outcome, Trajectory};
-use crate::machine::{BorderKind, MachineCycle, MachineFate};
+use crate::flow::{Fate, Outcome, Trajectory};
+use crate::machine::{BorderKind, MachineCycle};
 use crate::session::Session;
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
@@ -21,16 +21,17 @@ pub fn outcome(session: &Session, motion: &Trajectory) -> String {
         BorderKind::None | BorderKind::NoBasin => "",
     };
     match (course.fate, motion.outcome) {
-        (MachineFate::Rest, Outcome::Captured { tau, q }) => {
+        (Fate::Rest, Outcome::Captured { tau, q }) => {
             let place = with_unit(q * units.displacement, PLACES, "m");
             let time = with_unit(tau * units.time, PLACES, "s");
             format!("comes to rest at x = {place}, after {time}{within}")
         }
-        (MachineFate::Rest, _) => format!("comes to rest{within}"),
-        (MachineFate::Cycle(index), _) => course.cycles.get(index).map_or_else(String::new, onto),
-        (MachineFate::Neutral, _) => "is periodic, one of a family".to_owned(),
-        (MachineFate::Escaped, _) => "grows without bound".to_owned(),
-        (MachineFate::Unknown(stop), _) => format!("ends in a way that is not known: {stop}"),
+        (Fate::Rest, _) => format!("comes to rest{within}"),
+        (Fate::Cycle(index), _) => course.cycles.get(index).map_or_else(String::new, onto),
+        (Fate::Neutral, _) => "is periodic, one of a family".to_owned(),
+        (Fate::Moving, _) => "still moves".to_owned(),
+        (Fate::Escapes, _) => "grows without bound".to_owned(),
+        (Fate::Unknown(stop), _) => format!("ends in a way that is not known: {stop}"),
     }
 }
 

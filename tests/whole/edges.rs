@@ -2,9 +2,10 @@
 //! that end beyond the cycles.
 
 use super::portrait;
+use hopfscope::flow::Fate;
 use hopfscope::machine::return_map::MachineReturn;
 use hopfscope::machine::{
-    Body, BorderKind, Flow, MachineBorder, MachineFate, Modal, Portrait, Subject, Unfollowed,
+    Body, BorderKind, Flow, MachineBorder, Modal, Portrait, Subject, Unfollowed,
 };
 use hopfscope::numerics::elementary::exp;
 use hopfscope::oscillator::Belt;
@@ -43,16 +44,8 @@ fn a_guide_that_holds_one_turning_point_of_a_cycle_leaves_no_cycle() {
         (0.0, margin.velocity.0),
         (0.0, -margin.velocity.1),
     ] {
-        assert_eq!(
-            found.fate(x * (1.0 - 1e-9), v * (1.0 - 1e-9)),
-            Ok(MachineFate::Rest),
-            "{x} {v}"
-        );
-        assert_eq!(
-            found.fate(x * (1.0 + 1e-9), v * (1.0 + 1e-9)),
-            Ok(MachineFate::Cycle(0)),
-            "{x} {v}"
-        );
+        assert_eq!(found.fate(x * (1.0 - 1e-9), v * (1.0 - 1e-9)), Ok(Fate::Rest), "{x} {v}");
+        assert_eq!(found.fate(x * (1.0 + 1e-9), v * (1.0 + 1e-9)), Ok(Fate::Cycle(0)), "{x} {v}");
         // Followed for one return, a motion just inside comes to rest, one just outside continues.
         if v == 0.0 && x > 0.0 {
             let mut flow = Flow::new(&found.model);
@@ -102,11 +95,11 @@ fn where_no_cycle_repels_the_basin_ends_where_the_guide_just_holds() {
         }
         // Motions confirm the place of the border.
         for (sign, kick) in [(1.0, margin.velocity.0), (-1.0, margin.velocity.1)] {
-            assert_eq!(found.fate(0.0, sign * kick * (1.0 - 1e-9)), Ok(MachineFate::Rest));
-            assert_eq!(found.fate(0.0, sign * kick * (1.0 + 1e-9)), Ok(MachineFate::Cycle(0)));
+            assert_eq!(found.fate(0.0, sign * kick * (1.0 - 1e-9)), Ok(Fate::Rest));
+            assert_eq!(found.fate(0.0, sign * kick * (1.0 + 1e-9)), Ok(Fate::Cycle(0)));
         }
-        assert_eq!(found.fate(held, 0.0), Ok(MachineFate::Rest));
-        assert_eq!(found.fate(held * (1.0 + 1e-9), 0.0), Ok(MachineFate::Cycle(0)));
+        assert_eq!(found.fate(held, 0.0), Ok(Fate::Rest));
+        assert_eq!(found.fate(held * (1.0 + 1e-9), 0.0), Ok(Fate::Cycle(0)));
         // A window within the basin is entirely captured. Of one that reaches ten times as far as the guide
         // holds, less than half is.
         let (x, v) = (1e-3 * held, 1e-3 * margin.velocity.0.min(margin.velocity.1));
@@ -132,8 +125,8 @@ fn where_the_law_ends_it_is_not_said_that_every_kick_is_survived() {
     let fastest = 0.408_645_154 - 0.1379;
     assert!((0.9999 * fastest..fastest).contains(&margin.velocity.1), "{margin:?}");
     for (x, v) in [(margin.displacement.0, 0.0), (-margin.displacement.1, 0.0)] {
-        assert_eq!(found.fate(0.999 * x, v), Ok(MachineFate::Rest), "{x}");
-        assert!(matches!(found.fate(1.001 * x, v), Err(_) | Ok(MachineFate::Unknown(_))), "{x}");
+        assert_eq!(found.fate(0.999 * x, v), Ok(Fate::Rest), "{x}");
+        assert!(matches!(found.fate(1.001 * x, v), Err(_) | Ok(Fate::Unknown(_))), "{x}");
     }
     // In a window within the known range everything comes to rest; for a larger one the share is unknown.
     let near = 0.5 * margin.velocity.1;
@@ -183,7 +176,7 @@ fn an_overdamped_mass_rests_after_every_kick_that_the_law_covers() {
         (0.0, -margin.velocity.1),
     ] {
         assert!(x != 0.0 || v != 0.0);
-        assert_eq!(found.fate(0.999 * x, 0.999 * v), Ok(MachineFate::Rest), "{x} {v}");
+        assert_eq!(found.fate(0.999 * x, 0.999 * v), Ok(Fate::Rest), "{x} {v}");
     }
 }
 
@@ -198,9 +191,9 @@ fn what_the_belt_releases_is_on_its_cycle_even_where_all_beyond_is_unknown() {
     assert!(short.cycles[last].sticks);
     let release = short.model.lines.unwrap().release;
     for part in [0.0, 0.3, 0.9] {
-        assert_eq!(short.fate(release - part * cycle.x.1, 0.02), Ok(MachineFate::Cycle(last)));
+        assert_eq!(short.fate(release - part * cycle.x.1, 0.02), Ok(Fate::Cycle(last)));
     }
-    assert_eq!(short.fate(cycle.x.1, 0.0), Ok(MachineFate::Cycle(last)));
+    assert_eq!(short.fate(cycle.x.1, 0.0), Ok(Fate::Cycle(last)));
 }
 
 /// A tool whose cut feeds energy into its mode at small velocities.
@@ -262,7 +255,7 @@ fn where_motions_run_away_the_search_for_cycles_settles() {
     let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
     assert_eq!(found.unresolved, []);
     let outermost = found.cycles.last().unwrap().x.1;
-    assert_eq!(found.fate(outermost * (1.0 + 1e-9), 0.0), Ok(MachineFate::Escaped));
+    assert_eq!(found.fate(outermost * (1.0 + 1e-9), 0.0), Ok(Fate::Escapes));
     assert!(found.steps < 4000, "{} steps", found.steps);
 }
 
@@ -280,10 +273,10 @@ fn where_everything_is_carried_off_that_is_the_answer() {
         let held = carried_off(damping, 0.05);
         assert_eq!(held.stop, None, "{damping}");
         assert_eq!(held.margin.unwrap().displacement, (0.05, 0.05), "{damping}");
-        assert_eq!(held.fate(0.05 * (1.0 + 1e-9), 0.0), Ok(MachineFate::Escaped), "{damping}");
+        assert_eq!(held.fate(0.05 * (1.0 + 1e-9), 0.0), Ok(Fate::Escapes), "{damping}");
         let free = carried_off(damping, 0.0);
         assert!(matches!(free.border, MachineBorder::NoBasin) && free.stop.is_none(), "{damping}");
-        assert_eq!(free.fate(1e-6, 0.0), Ok(MachineFate::Escaped), "{damping}");
+        assert_eq!(free.fate(1e-6, 0.0), Ok(Fate::Escapes), "{damping}");
     }
 }
 
@@ -304,7 +297,7 @@ fn a_mode_far_beyond_critical_damping_has_an_answer() {
         "{:?}",
         found.cycles
     );
-    assert_eq!(found.fate(1e-3, 0.0), Ok(MachineFate::Rest));
+    assert_eq!(found.fate(1e-3, 0.0), Ok(Fate::Rest));
     // Fed as strongly, it relaxes to a cycle: it creeps until feeding and damping cancel at the knee, and then jumps.
     for ratio in [-5.0_f64, -10.0] {
         let found = relaxing(ratio);
@@ -328,8 +321,8 @@ fn what_static_friction_alone_holds_survives_no_kick_along_the_belt() {
         assert!((displacement / 0.05 - 1.0).abs() < 1e-15, "{margin:?}");
     }
     for kick in [1e-4, -1e-4, 0.03] {
-        assert!(matches!(found.fate(0.0, kick), Ok(MachineFate::Cycle(_))), "{kick}");
+        assert!(matches!(found.fate(0.0, kick), Ok(Fate::Cycle(_))), "{kick}");
     }
-    assert_eq!(found.fate(0.05 * (1.0 - 1e-9), 0.0), Ok(MachineFate::Rest));
-    assert!(matches!(found.fate(0.05 * (1.0 + 1e-9), 0.0), Ok(MachineFate::Cycle(_))));
+    assert_eq!(found.fate(0.05 * (1.0 - 1e-9), 0.0), Ok(Fate::Rest));
+    assert!(matches!(found.fate(0.05 * (1.0 + 1e-9), 0.0), Ok(Fate::Cycle(_))));
 }

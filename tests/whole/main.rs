@@ -2,11 +2,13 @@
 //! polynomial events, and DOP853), against closed forms, and against itself.
 
 mod edges;
+mod paper;
 mod precise;
 mod random;
 
 use std::f64::consts::PI;
 
+use hopfscope::flow::Fate;
 use hopfscope::machine::branch::branch;
 use hopfscope::machine::motion::MachineOutcome;
 use hopfscope::machine::return_map::MachineReturn;
@@ -14,7 +16,7 @@ use hopfscope::machine::special::MachineSpecialKind;
 use hopfscope::machine::turn::ContactState;
 use hopfscope::machine::varied::Varied;
 use hopfscope::machine::{
-    BorderKind, Flow, MachineBorder, MachineFate, MachineMotion, Model, NoModel, Portrait,
+    BorderKind, Flow, MachineBorder, MachineMotion, Model, NoModel, Portrait,
 };
 use hopfscope::numerics::elementary::{asin, atan, atan2, exp, exp_m1, hypot, ln, powi, tanh};
 use hopfscope::oscillator::Belt;
@@ -92,13 +94,13 @@ fn every_reference_start_ends_where_it_should() {
             let (x, v) = (number(&end[0]), number(&end[1]));
             let fate = found.fate(x, v).unwrap();
             let told = match fate {
-                MachineFate::Rest => Value::from("rest"),
-                MachineFate::Cycle(index) => Value::from(index),
-                MachineFate::Neutral => Value::from("neutral"),
+                Fate::Rest => Value::from("rest"),
+                Fate::Cycle(index) => Value::from(index),
+                Fate::Neutral => Value::from("neutral"),
                 other => panic!("{name}: {other:?}"),
             };
             assert_eq!(told, end[2], "{name} from {x}, {v}");
-            if fate == MachineFate::Rest {
+            if fate == Fate::Rest {
                 let rest = Flow::new(&found.model).rest_of(x, v / found.model.omega_0).unwrap();
                 let error = (rest - number(&end[3])).abs();
                 assert!(
@@ -136,7 +138,7 @@ fn the_share_counts_every_piece_of_the_border() {
             for j in 0..count {
                 let part = |index: i32| (f64::from(index) + 0.5) / f64::from(count);
                 let start = (x.0 + (x.1 - x.0) * part(i), v.0 + (v.1 - v.0) * part(j));
-                rest += i32::from(found.fate(start.0, start.1) == Ok(MachineFate::Rest));
+                rest += i32::from(found.fate(start.0, start.1) == Ok(Fate::Rest));
             }
         }
         let counted = f64::from(rest) / f64::from(count * count);
@@ -253,7 +255,7 @@ fn without_friction_of_the_guide_a_falling_law_leaves_no_basin() {
     assert!(matches!(found.border, MachineBorder::NoBasin));
     assert_eq!(found.margin.unwrap().least_displacement(), 0.0);
     assert_eq!(found.cycles.len(), 1);
-    assert!(found.cycles[0].sticks && found.fate(1e-9, 0.0) == Ok(MachineFate::Cycle(0)));
+    assert!(found.cycles[0].sticks && found.fate(1e-9, 0.0) == Ok(Fate::Cycle(0)));
 }
 
 #[test]
@@ -365,7 +367,7 @@ fn a_law_that_ends_far_out_hides_no_margin() {
     let cubic = hopfscope::study::cycle::cycles(&reduced.parameters, true, &limits).unwrap();
     let expected = cubic.cycles[0].q_max * reduced.units.displacement;
     assert!(close(found.margin.unwrap().displacement.0, expected, 1e-13));
-    assert!(matches!(found.fate(3.0, 0.0), Err(_) | Ok(MachineFate::Unknown(_))));
+    assert!(matches!(found.fate(3.0, 0.0), Err(_) | Ok(Fate::Unknown(_))));
     // Where everything within the range of the law comes to rest, the margin is that range, not infinite.
     let damped = Belt { damping: 0.9, belt_speed: 1.2, ..belt };
     let found = portrait(&damped);
@@ -373,8 +375,8 @@ fn a_law_that_ends_far_out_hides_no_margin() {
     assert_eq!(found.border.kind(), BorderKind::None);
     let slip = |x: f64| MachineMotion::new(&found.model, x, 0.0, 20.0).v.0.abs() + 1.2;
     assert!(found.stop.is_some() && close(slip(margin.displacement.0), 1.25, 1e-9), "{margin:?}");
-    assert_eq!(found.fate(0.999 * margin.displacement.0, 0.0), Ok(MachineFate::Rest));
-    assert_eq!(found.fate(0.0, -0.999 * margin.velocity.1), Ok(MachineFate::Rest));
+    assert_eq!(found.fate(0.999 * margin.displacement.0, 0.0), Ok(Fate::Rest));
+    assert_eq!(found.fate(0.0, -0.999 * margin.velocity.1), Ok(Fate::Rest));
 }
 
 #[test]

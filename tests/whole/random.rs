@@ -76,9 +76,7 @@ fn any_start_ends_where_its_motion_goes() {
             let late = motion.samples(0).into_iter().filter(|state| state.t > 380.0);
             let size = late.map(|state| state.x).fold(0.0, f64::max);
             match (fate, motion.outcome) {
-                (MachineFate::Cycle(index), MachineOutcome::Moves)
-                    if found.cycles[index].sticks =>
-                {
+                (Fate::Cycle(index), MachineOutcome::Moves) if found.cycles[index].sticks => {
                     let cycle = &found.cycles[index];
                     assert!(
                         close(size, cycle.x.1, 1e-9),
@@ -86,10 +84,10 @@ fn any_start_ends_where_its_motion_goes() {
                     );
                     followed += 1;
                 }
-                (MachineFate::Cycle(_), outcome) => {
+                (Fate::Cycle(_), outcome) => {
                     assert_eq!(outcome, MachineOutcome::Moves, "{belt:?}");
                 }
-                (MachineFate::Rest, outcome) => {
+                (Fate::Rest, outcome) => {
                     assert!(outcome == MachineOutcome::Rests || belt.friction == 0.0, "{belt:?}");
                 }
                 _ => {}

@@ -6,11 +6,12 @@ use serde::Serialize;
 
 use super::expansion::Expansion;
 use super::{Designed, MachineAnswer, OnBelt, RestShare};
+use crate::flow::Fate;
 use crate::machine::guarantee::MachineUncertain;
 use crate::machine::motion::{MachineOutcome, MachineState};
 use crate::machine::survey::{Course, CubicExpansion, Second};
 use crate::machine::turn::ContactState;
-use crate::machine::{BorderKind, MachineCycle, MachineFate, MachineLedger, Portrait};
+use crate::machine::{BorderKind, MachineCycle, MachineLedger, Portrait};
 use crate::oscillator::belt::{Derivatives, FrictionLaw, QUANTITIES, Units};
 use crate::oscillator::{Belt, Interval, Parameters};
 use crate::report::json::text;
@@ -327,15 +328,16 @@ impl MachineMotionDocument {
         let Course { motion, fate, rest, .. } = course;
         let named = |kind| OutcomeDocument { kind, cycle: None, x: None, t: None };
         let outcome = match fate {
-            MachineFate::Rest => OutcomeDocument {
+            Fate::Rest => OutcomeDocument {
                 x: *rest,
                 t: (motion.outcome == MachineOutcome::Rests).then_some(motion.end.t),
                 ..named("rest")
             },
-            MachineFate::Cycle(index) => OutcomeDocument { cycle: Some(*index), ..named("cycle") },
-            MachineFate::Neutral => named("neutral"),
-            MachineFate::Escaped => named("escaped"),
-            MachineFate::Unknown(_) => named("unknown"),
+            Fate::Cycle(index) => OutcomeDocument { cycle: Some(*index), ..named("cycle") },
+            Fate::Neutral => named("neutral"),
+            Fate::Moving => named("moving"),
+            Fate::Escapes => named("escaped"),
+            Fate::Unknown(_) => named("unknown"),
         };
         let phase = |place: ContactState| match place {
             ContactState::Sticks => "stick",

@@ -5,12 +5,13 @@ use serde::Serialize;
 use super::document::kind;
 use super::expansion::Expansion;
 use super::{MachineAnswer, OnBelt, PLACES};
+use crate::flow::Fate;
 use crate::machine::guarantee::MachineUncertain;
 use crate::machine::motion::{MachineOutcome, MachineState};
 use crate::machine::stepped::Stepped;
 use crate::machine::survey::{Course, CubicExpansion, Second};
 use crate::machine::varied::Varied;
-use crate::machine::{MachineBorder, MachineCycle, MachineFate, Portrait};
+use crate::machine::{MachineBorder, MachineCycle, Portrait};
 use crate::oscillator::Interval;
 use crate::oscillator::belt::{Derivatives, FrictionLaw};
 use crate::report::csv;
@@ -303,7 +304,7 @@ pub(super) fn fate((x, v): (f64, f64), course: &Course) -> String {
     let from = format!("from x = {}, v = {}: ", length(x), with_unit(v, PLACES, "m/s"));
     let end = &course.motion.end;
     from + &match course.fate {
-        MachineFate::Rest => {
+        Fate::Rest => {
             let place = course.rest.map_or_else(String::new, |x| format!(" at x = {}", length(x)));
             if course.motion.outcome == MachineOutcome::Rests {
                 format!("comes to rest{place}, at t = {}", with_unit(end.t, PLACES, "s"))
@@ -311,13 +312,14 @@ pub(super) fn fate((x, v): (f64, f64), course: &Course) -> String {
                 format!("comes to rest{place}")
             }
         }
-        MachineFate::Cycle(index) => {
+        Fate::Cycle(index) => {
             let cycle = &course.portrait.cycles[index];
             format!("ends on the {} cycle up to x = {}", kind(cycle), length(cycle.x.1))
         }
-        MachineFate::Neutral => "is periodic, one of a family".to_owned(),
-        MachineFate::Escaped => "grows without bound".to_owned(),
-        MachineFate::Unknown(stop) => format!("is not known: {stop}"),
+        Fate::Neutral => "is periodic, one of a family".to_owned(),
+        Fate::Moving => "still moves".to_owned(),
+        Fate::Escapes => "grows without bound".to_owned(),
+        Fate::Unknown(stop) => format!("is not known: {stop}"),
     } + &course.second.as_ref().map_or_else(String::new, |second| by(second, course))
 }
 

@@ -4,8 +4,8 @@
 //! from unstable cycles towards stable ones. So the first of them decides, by its position relative to the
 //! cycles. The end time limits how far a motion is followed, but not what is known of it.
 
-use crate::flow::{Outcome, Sample, Trajectory};
-use crate::machine::{self, BorderKind};
+use crate::flow::{Fate, Outcome, Sample, Trajectory};
+use crate::machine::BorderKind;
 use crate::numerics::elementary::hypot;
 use crate::oscillator::Parameters;
 use crate::question::whole::Course;
@@ -165,16 +165,16 @@ fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdic
 /// The verdict by the whole model.
 fn of_course(course: &Course, motion: &Trajectory) -> Option<MotionVerdict> {
     let end = match course.fate {
-        machine::MachineFate::Rest => End::Rests,
-        machine::MachineFate::Cycle(index) => {
+        Fate::Rest => End::Rests,
+        Fate::Cycle(index) => {
             let cycle = course.cycles.get(index)?;
             let size = |sample: &Sample| hypot(sample.q, sample.v);
             let (first, last) = (motion.samples.first()?, motion.samples.last()?);
             let grows = cycle.stable && size(first) <= size(last);
             End::Onto { q_max: cycle.x.1 / course.unit, grows }
         }
-        machine::MachineFate::Escaped => End::Grows,
-        machine::MachineFate::Neutral | machine::MachineFate::Unknown(_) => return None,
+        Fate::Escapes => End::Grows,
+        Fate::Neutral | Fate::Moving | Fate::Unknown(_) => return None,
     };
     let place = match (course.border, end) {
         (BorderKind::Cycle, End::Rests) => SideOfBorder::InsideCycle,

@@ -1,0 +1,63 @@
+//! The oscillator of the paper is a machine without a belt: its cycles by the closing equation and by the return map
+//! of machines, which share no code but elementary functions, are the same within the errors that are told.
+
+use hopfscope::flow::Limits;
+use hopfscope::machine::{BorderKind, Model, Portrait};
+use hopfscope::numerics::random::Random;
+use hopfscope::oscillator::Parameters;
+use hopfscope::study::basin::basin;
+use hopfscope::study::cycle::cycles;
+use hopfscope::study::{Edge, Margin};
+
+fn margins(margin: &Margin) -> [Option<f64>; 4] {
+    let Margin { displacement, impulse, from_rest } = *margin;
+    [displacement, impulse, from_rest.displacement, from_rest.impulse]
+}
+
+#[test]
+fn the_oscillator_of_the_paper_and_a_machine_without_a_belt_have_the_same_cycles_and_margins() {
+    let mut chance = Random::new(28);
+    let mut between = |low: f64, high: f64| low + (high - low) * chance.even();
+    let mut compared = [0; 3];
+    for _ in 0..60 {
+        let (d, d2, d3) = (between(-1.0, 0.3), between(-1.0, 1.0), between(0.01, 3.0));
+        let parameters = Parameters { d, d2, d3, r: between(0.01, 1.0) };
+        let found = cycles(&parameters, false, &Limits::PATIENT).unwrap();
+        let model = Model::of_mode(1.0, 1.0, &[d, 0.5 * d2, 0.5 * d3], parameters.r, parameters.r);
+        let portrait = Portrait::new(&model.unwrap()).unwrap();
+        assert_eq!(found.cycles.len(), portrait.cycles.len(), "{parameters:?}");
+        for (one, other) in found.cycles.iter().zip(&portrait.cycles) {
+            let errors = &one.errors;
+            let numbers = [
+                (one.q_min, other.x.0, errors.q_min),
+                (one.q_max, other.x.1, errors.q_max),
+                (one.v_min, other.v.0, errors.v_min),
+                (one.v_max, other.v.1, errors.v_max),
+                (one.period, other.period, errors.period),
+            ];
+            for (value, same, error) in numbers {
+                let tolerance = (1e-12 * value.abs()).max(error);
+                assert!((value - same).abs() <= tolerance, "{parameters:?}: {one:?} {other:?}");
+            }
+            let apart = (one.log_multiplier - other.log_multiplier).abs();
+            assert!(apart <= errors.log_multiplier.max(1e-11), "{parameters:?}: {one:?} {other:?}");
+            assert_eq!(one.stable, other.stable, "{parameters:?}");
+            compared[0] += 1;
+        }
+        let border = match found.edge {
+            Edge::None => BorderKind::None,
+            Edge::Cycle => BorderKind::Cycle,
+            Edge::Separatrix => BorderKind::Grazing,
+        };
+        assert_eq!(border, portrait.border.kind(), "{parameters:?}");
+        let margin = basin(&parameters, 10.0, &Limits::PATIENT).unwrap().margin();
+        for (one, other) in margins(&margin).into_iter().zip(margins(&portrait.least_kicks())) {
+            assert_eq!(one.is_some(), other.is_some(), "{parameters:?}");
+            compared[1 + usize::from(one.is_none())] += 1;
+            // From rest, they are differences of lengths of the size of r.
+            let apart = one.zip(other).map_or(0.0, |(one, other)| (one - other).abs());
+            assert!(apart <= 1e-12 * one.unwrap_or(1.0).max(parameters.r), "{parameters:?}");
+        }
+    }
+    assert!(compared.into_iter().all(|count| count > 20), "{compared:?}");
+}
