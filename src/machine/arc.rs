@@ -10,6 +10,7 @@ use std::fmt;
 use super::force::ForceBranch;
 use super::model::{Model, Phase};
 use super::series::{FINEST, Series};
+use crate::flow::Fate;
 use crate::numerics::elementary::ln;
 use crate::numerics::polynomial::{derivative, value, value_and_slope};
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
@@ -50,6 +51,16 @@ impl fmt::Display for Unfollowed {
 }
 
 impl std::error::Error for Unfollowed {}
+
+impl From<Unfollowed> for Fate<Unfollowed> {
+    fn from(stop: Unfollowed) -> Self {
+        match stop {
+            Unfollowed::Settled => Fate::Rest,
+            Unfollowed::Escaped => Fate::Escapes,
+            Unfollowed::OutsideLaw { .. } | Unfollowed::Steps => Fate::Unknown(stop),
+        }
+    }
+}
 
 /// One step of a motion, as its series.
 pub struct SeriesStep<'a> {

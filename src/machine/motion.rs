@@ -7,17 +7,7 @@ use super::curve::{CurvePiece, MachineCurve};
 use super::ledger::{MachineLedger, StepWorks};
 use super::model::{Model, Phase};
 use super::turn::ContactState;
-
-/// How a motion ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum MachineOutcome {
-    /// The guide holds the mass since then.
-    Rests,
-    /// It still moves when time is up.
-    Moves,
-    /// It could not be followed further.
-    Stops(Unfollowed),
-}
+use crate::flow::Fate;
 
 /// A stretch of a motion in one phase, on the belt, or at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +41,7 @@ pub struct MachineMotion {
     /// Where it ends, or how far it was followed.
     pub end: MachineState,
     /// How it ends.
-    pub outcome: MachineOutcome,
+    pub outcome: Fate<Unfollowed>,
     /// Smallest and largest displacement, in m.
     pub x: (f64, f64),
     /// Smallest and largest velocity, in m/s.
@@ -145,17 +135,17 @@ impl MachineMotion {
         let mut place = model.place(x, y);
         let outcome = loop {
             if recorder.left <= 0.0 {
-                break MachineOutcome::Moves;
+                break Fate::Moving;
             }
             if recorder.curve.pieces.len() > MOST_PIECES {
-                break MachineOutcome::Stops(Unfollowed::Steps);
+                break Fate::Unknown(Unfollowed::Steps);
             }
             legs.push(Leg { place, t: (whole - recorder.left) / omega_0, x });
             match flow.leg(place, (x, y), &mut recorder) {
                 Ok(Some(next)) => (place, x, y) = next,
-                _ if recorder.left <= 0.0 => break MachineOutcome::Moves,
-                Ok(None) | Err(Unfollowed::Settled) => break MachineOutcome::Rests,
-                Err(stop) => break MachineOutcome::Stops(stop),
+                _ if recorder.left <= 0.0 => break Fate::Moving,
+                Ok(None) => break Fate::Rest,
+                Err(stop) => break stop.into(),
             }
         };
         let Recorder { curve, works, left, state: (x, y), .. } = recorder;

@@ -3,11 +3,11 @@
 
 use super::arc::Unfollowed;
 use super::model::{Model, Phase};
-use super::motion::{Leg, MachineOutcome, MachineState};
+use super::motion::{Leg, MachineState};
 use super::turn::ContactState;
-use crate::flow::Method;
 use crate::flow::explicit::{Dop853, Dopri5};
 use crate::flow::step::{Field, Step, StepPoint, Stepper};
+use crate::flow::{Fate, Method};
 use crate::numerics::root::bisect;
 
 /// The methods that can follow a machine beside Taylor series.
@@ -57,7 +57,7 @@ pub struct Stepped {
     /// Where it ends, or how far it was followed.
     pub end: MachineState,
     /// How it ends.
-    pub outcome: MachineOutcome,
+    pub outcome: Fate<Unfollowed>,
     /// Evaluations of the force.
     pub evaluations: u64,
 }
@@ -100,7 +100,7 @@ pub struct Traced {
     /// The states between its steps.
     pub samples: Vec<MachineState>,
     /// How it ends.
-    pub outcome: MachineOutcome,
+    pub outcome: Fate<Unfollowed>,
     /// Evaluations of the force.
     pub evaluations: u64,
     /// Steps taken.
@@ -119,7 +119,8 @@ pub fn stepped(
 ) -> Result<Stepped, Unfollowed> {
     let Traced { samples, outcome, evaluations, .. } = traced(model, way, tolerance, start, until);
     match (outcome, samples.last()) {
-        (MachineOutcome::Stops(stop), _) => Err(stop),
+        (Fate::Unknown(stop), _) => Err(stop),
+        (Fate::Escapes, _) => Err(Unfollowed::Escaped),
         (_, Some(end)) => Ok(Stepped { end: *end, outcome, evaluations }),
         (_, None) => Err(Unfollowed::Steps),
     }
@@ -174,11 +175,11 @@ fn follow<'a>(
     let mut place = model.place(x, y);
     let outcome = loop {
         if trace.left <= 0.0 {
-            break MachineOutcome::Moves;
+            break Fate::Moving;
         }
         legs.push(Leg { place, t: trace.t(), x });
         let phase = match place {
-            ContactState::Rests => break MachineOutcome::Rests,
+            ContactState::Rests => break Fate::Rest,
             ContactState::Slips(phase) => phase,
             ContactState::Sticks => {
                 let release = model.lines.map_or(x, |lines| lines.release);
@@ -193,7 +194,7 @@ fn follow<'a>(
         };
         match arc(&mut stepper, Slope { model, phase }, (x, y), &mut trace) {
             Ok(end) => (x, y) = end,
-            Err(stop) => break MachineOutcome::Stops(stop),
+            Err(stop) => break stop.into(),
         }
         place = model.place(x, y);
     };

@@ -139,7 +139,7 @@ struct Drawn {
     legs: Vec<motion::Leg>,
     samples: Vec<motion::MachineState>,
     end: motion::MachineState,
-    outcome: motion::MachineOutcome,
+    outcome: Fate<Unfollowed>,
     cost: Cost,
 }
 
@@ -172,10 +172,10 @@ fn trajectory(found: &Drawn, problem: &Problem, units: DrawingUnits) -> Trajecto
     let samples = std::iter::once(start).chain(sampled);
     let Sample { tau, q, v } = units.sample(&found.end);
     let outcome = match found.outcome {
-        motion::MachineOutcome::Rests => Outcome::Captured { tau, q },
-        motion::MachineOutcome::Moves => Outcome::Moving { tau, q, v },
-        motion::MachineOutcome::Stops(Unfollowed::Escaped) => Outcome::Escaped { tau },
-        motion::MachineOutcome::Stops(stop) => Outcome::GaveUp { tau, reason: reason(stop) },
+        Fate::Rest => Outcome::Captured { tau, q },
+        Fate::Moving | Fate::Cycle(_) | Fate::Neutral => Outcome::Moving { tau, q, v },
+        Fate::Escapes => Outcome::Escaped { tau },
+        Fate::Unknown(stop) => Outcome::GaveUp { tau, reason: reason(stop) },
     };
     // A leg begins at a turning point unless it begins on the belt's line.
     let turns = found.legs.windows(2).filter(|pair| match pair[1].place {

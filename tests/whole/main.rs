@@ -10,7 +10,6 @@ use std::f64::consts::PI;
 
 use hopfscope::flow::Fate;
 use hopfscope::machine::branch::branch;
-use hopfscope::machine::motion::MachineOutcome;
 use hopfscope::machine::return_map::MachineReturn;
 use hopfscope::machine::special::MachineSpecialKind;
 use hopfscope::machine::turn::ContactState;
@@ -277,9 +276,7 @@ fn the_ledger_of_a_motion_closes_with_the_work_of_the_belt() {
                 "{name} {start:?}: {:?}",
                 motion.ledger
             );
-            assert!(
-                motion.outcome == MachineOutcome::Rests || close(motion.end.t, 5.3 * period, 1e-13)
-            );
+            assert!(motion.outcome == Fate::Rest || close(motion.end.t, 5.3 * period, 1e-13));
         }
     }
 }

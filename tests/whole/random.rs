@@ -76,7 +76,7 @@ fn any_start_ends_where_its_motion_goes() {
             let late = motion.samples(0).into_iter().filter(|state| state.t > 380.0);
             let size = late.map(|state| state.x).fold(0.0, f64::max);
             match (fate, motion.outcome) {
-                (Fate::Cycle(index), MachineOutcome::Moves) if found.cycles[index].sticks => {
+                (Fate::Cycle(index), Fate::Moving) if found.cycles[index].sticks => {
                     let cycle = &found.cycles[index];
                     assert!(
                         close(size, cycle.x.1, 1e-9),
@@ -85,10 +85,10 @@ fn any_start_ends_where_its_motion_goes() {
                     followed += 1;
                 }
                 (Fate::Cycle(_), outcome) => {
-                    assert_eq!(outcome, MachineOutcome::Moves, "{belt:?}");
+                    assert_eq!(outcome, Fate::Moving, "{belt:?}");
                 }
                 (Fate::Rest, outcome) => {
-                    assert!(outcome == MachineOutcome::Rests || belt.friction == 0.0, "{belt:?}");
+                    assert!(outcome == Fate::Rest || belt.friction == 0.0, "{belt:?}");
                 }
                 _ => {}
             }
@@ -167,7 +167,7 @@ fn any_kick_below_the_smallest_one_is_survived_from_wherever_the_mass_rests() {
         };
         let (shift, push) = (margin.rest_displacement, margin.rest_velocity);
         let rests = |from: f64, x: f64, v: f64| {
-            MachineMotion::new(&model, from + x, v, 2000.0).outcome == MachineOutcome::Rests
+            MachineMotion::new(&model, from + x, v, 2000.0).outcome == Fate::Rest
         };
         let mut lost = [0; 2];
         for sign in [-1.0, 1.0] {

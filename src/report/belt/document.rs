@@ -8,7 +8,7 @@ use super::expansion::Expansion;
 use super::{Designed, MachineAnswer, OnBelt, RestShare};
 use crate::flow::Fate;
 use crate::machine::guarantee::MachineUncertain;
-use crate::machine::motion::{MachineOutcome, MachineState};
+use crate::machine::motion::MachineState;
 use crate::machine::survey::{Course, CubicExpansion, Second};
 use crate::machine::turn::ContactState;
 use crate::machine::{BorderKind, MachineCycle, MachineLedger, Portrait};
@@ -330,7 +330,7 @@ impl MachineMotionDocument {
         let outcome = match fate {
             Fate::Rest => OutcomeDocument {
                 x: *rest,
-                t: (motion.outcome == MachineOutcome::Rests).then_some(motion.end.t),
+                t: (motion.outcome == Fate::Rest).then_some(motion.end.t),
                 ..named("rest")
             },
             Fate::Cycle(index) => OutcomeDocument { cycle: Some(*index), ..named("cycle") },

@@ -7,7 +7,7 @@ use super::expansion::Expansion;
 use super::{MachineAnswer, OnBelt, PLACES};
 use crate::flow::Fate;
 use crate::machine::guarantee::MachineUncertain;
-use crate::machine::motion::{MachineOutcome, MachineState};
+use crate::machine::motion::MachineState;
 use crate::machine::stepped::Stepped;
 use crate::machine::survey::{Course, CubicExpansion, Second};
 use crate::machine::varied::Varied;
@@ -306,7 +306,7 @@ pub(super) fn fate((x, v): (f64, f64), course: &Course) -> String {
     from + &match course.fate {
         Fate::Rest => {
             let place = course.rest.map_or_else(String::new, |x| format!(" at x = {}", length(x)));
-            if course.motion.outcome == MachineOutcome::Rests {
+            if course.motion.outcome == Fate::Rest {
                 format!("comes to rest{place}, at t = {}", with_unit(end.t, PLACES, "s"))
             } else {
                 format!("comes to rest{place}")
