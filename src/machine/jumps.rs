@@ -1,7 +1,9 @@
 //! Where a stable state ends along a number of a machine, and what its motions become there.
 
-use serde::Serialize;
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
 
+use super::arc::Unfollowed;
 use super::model::Model;
 use super::portrait::{MachineBorder, Portrait};
 use crate::flow::Fate;
@@ -9,41 +11,42 @@ use crate::flow::Fate;
 /// The model along a number: `None` where there is none.
 pub type Family<'a> = &'a dyn Fn(f64) -> Option<Model>;
 
-/// What motions become whose state has ended.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case", tag = "kind")]
-pub enum Landing {
-    /// They come to rest.
-    Rest,
-    /// They go to another cycle.
-    Cycle {
-        /// Its largest displacement, in m.
-        x_max: f64,
-    },
-    /// They grow without bound.
-    Escaped,
-    /// They leave the friction law.
-    Unknown,
-}
-
 /// The end of a stable state.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jump {
     /// Largest displacement of the cycle that ends, in m; 0 for rest.
     pub from: f64,
-    /// Where its motions go.
-    pub to: Landing,
+    /// What its motions become.
+    pub to: Fate<Unfollowed>,
+    /// Largest displacement of the cycle to which they tend, in m; 0 for rest, else infinite.
+    pub x_max: f64,
 }
 
 impl Jump {
     /// How far it goes.
     fn size(&self) -> f64 {
-        let to = match self.to {
-            Landing::Rest => 0.0,
-            Landing::Cycle { x_max } => x_max,
-            Landing::Escaped | Landing::Unknown => f64::INFINITY,
+        (self.x_max - self.from).abs()
+    }
+}
+
+impl Serialize for Jump {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct To {
+            kind: &'static str,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            x_max: Option<f64>,
+        }
+        let (kind, x_max) = match self.to {
+            Fate::Rest => ("rest", None),
+            Fate::Cycle(_) => ("cycle", Some(self.x_max)),
+            Fate::Escapes => ("escaped", None),
+            Fate::Neutral | Fate::Moving | Fate::Unknown(_) => ("unknown", None),
         };
-        (to - self.from).abs()
+        let mut jump = out.serialize_struct("Jump", 2)?;
+        jump.serialize_field("from", &self.from)?;
+        jump.serialize_field("to", &To { kind, x_max })?;
+        jump.end()
     }
 }
 
@@ -88,13 +91,13 @@ fn jump(from: &Portrait, to: &Portrait) -> Option<Jump> {
     let rests = !from.neutral && !matches!(from.border, MachineBorder::NoBasin);
     let stable = from.cycles.iter().filter(|cycle| cycle.stable).map(|cycle| cycle.x.1);
     rests.then_some(0.0).into_iter().chain(stable).find_map(|state| {
-        let to = match to.fate(state.max(KICK * size), 0.0) {
-            Ok(Fate::Rest) => Landing::Rest,
-            Ok(Fate::Cycle(index)) => Landing::Cycle { x_max: to.cycles[index].x.1 },
-            Ok(Fate::Neutral) => return None,
-            Ok(Fate::Escapes) => Landing::Escaped,
-            Ok(Fate::Moving | Fate::Unknown(_)) | Err(_) => Landing::Unknown,
+        let fate = to.fate(state.max(KICK * size), 0.0).unwrap_or_else(Fate::Unknown);
+        let x_max = match fate {
+            Fate::Rest => 0.0,
+            Fate::Cycle(index) => to.cycles[index].x.1,
+            Fate::Neutral => return None,
+            Fate::Moving | Fate::Escapes | Fate::Unknown(_) => f64::INFINITY,
         };
-        Some(Jump { from: state, to }).filter(|jump| jump.size() > MOVED * size)
+        Some(Jump { from: state, to: fate, x_max }).filter(|jump| jump.size() > MOVED * size)
     })
 }

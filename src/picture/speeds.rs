@@ -7,7 +7,7 @@ use super::phase_plane::AT_REST;
 use super::reading::reading;
 use super::role::{Dash, Role};
 use crate::machine::MachineCycle;
-use crate::machine::jumps::{Jump, Landing};
+use crate::machine::jumps::Jump;
 use crate::machine::special::{MachineSpecial, MachineSpecialKind};
 use crate::question::speeds::SpeedPoint;
 use crate::scene::{Layer, Point};
@@ -103,12 +103,8 @@ fn changes(picture: &mut Picture, special: &MachineSpecial) {
     let at = special.value;
     let ways = [("jump on a faster belt", Dash::Dotted), ("jump on a slower belt", Dash::Sparse)];
     for (jump, (name, dash)) in [special.jumps.up, special.jumps.down].into_iter().zip(ways) {
-        let Some(Jump { from, to }) = jump else { continue };
-        let to = match to {
-            Landing::Rest => 0.0,
-            Landing::Cycle { x_max } => x_max,
-            Landing::Escaped | Landing::Unknown => picture.window.y.to(),
-        };
+        let Some(Jump { from, x_max, .. }) = jump else { continue };
+        let to = if x_max.is_finite() { x_max } else { picture.window.y.to() };
         let ends = [from, to].map(|y| Point { x: at, y });
         picture.curve(LineStyle::new(name, Role::Warning, dash), ends);
     }

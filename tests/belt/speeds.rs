@@ -1,10 +1,10 @@
 //! The view of the cycles over the belt speed: every kind of cycle has its own look, and jumps up and down are
 //! where the motions of the machine leave the end of a stable state.
 
-use hopfscope::flow::Limits;
+use hopfscope::flow::{Fate, Limits};
 use hopfscope::machine::MachineCycle;
 use hopfscope::machine::branch::branch;
-use hopfscope::machine::jumps::{Jump, Landing};
+use hopfscope::machine::jumps::Jump;
 use hopfscope::machine::special::{MachineSpecial, MachineSpecialKind};
 use hopfscope::machine::survey::portrait;
 use hopfscope::machine::varied::Varied;
@@ -36,7 +36,7 @@ fn rest_and_stick_slip_end_at_different_speeds() {
             (MachineSpecialKind::Hopf, MachineSpecialKind::Annihilation)
         );
         assert_eq!((hopf.jumps.up, end.jumps.down), (None, None), "{found:?}");
-        let Some(Jump { from: 0.0, to: Landing::Cycle { x_max } }) = hopf.jumps.down else {
+        let Some(Jump { from: 0.0, to: Fate::Cycle(_), x_max }) = hopf.jumps.down else {
             panic!("{hopf:?}")
         };
         // The stick-slip cycle at that speed.
@@ -44,7 +44,7 @@ fn rest_and_stick_slip_end_at_different_speeds() {
         let cycles = portrait(&there).unwrap().cycles;
         let stuck = cycles.iter().find(|cycle| cycle.sticks).unwrap();
         assert!((x_max / stuck.x.1 - 1.0).abs() < 1e-6, "{x_max} {stuck:?}");
-        let Some(Jump { from, to: Landing::Rest }) = end.jumps.up else { panic!("{end:?}") };
+        let Some(Jump { from, to: Fate::Rest, .. }) = end.jumps.up else { panic!("{end:?}") };
         assert!((from / end.x_max.unwrap() - 1.0).abs() < 0.01, "{end:?}");
     }
 }
@@ -55,7 +55,7 @@ fn a_cycle_that_grows_into_the_line_does_not_jump_and_one_that_folds_does() {
     let [touch, fold] = found[..] else { panic!("{found:?}") };
     assert_eq!((touch.kind, fold.kind), (MachineSpecialKind::Grazing, MachineSpecialKind::Fold));
     assert_eq!((touch.jumps.up, touch.jumps.down, fold.jumps.down), (None, None, None));
-    assert!(matches!(fold.jumps.up, Some(Jump { to: Landing::Rest, .. })), "{fold:?}");
+    assert!(matches!(fold.jumps.up, Some(Jump { to: Fate::Rest, .. })), "{fold:?}");
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn where_friction_at_rest_is_higher_stick_slip_and_slip_change_into_each_other()
     let belt = Belt { static_coefficient: Some(0.6), ..machine("textbook") };
     let found = specials(&belt, 0.1, 0.5, 9);
     let cycle = |jump: Option<Jump>| match jump {
-        Some(Jump { from, to: Landing::Cycle { x_max } }) => Some((from, x_max)),
+        Some(Jump { from, to: Fate::Cycle(_), x_max }) => Some((from, x_max)),
         _ => None,
     };
     // Downwards: the slipping cycle touches the line, and the motion goes on to the larger cycle that sticks.

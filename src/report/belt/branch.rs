@@ -5,8 +5,9 @@ use serde::Serialize;
 use super::document::{CycleNumbers, MachineCost, MachineCycleDocument, kind};
 use super::table::{CYCLE, cells};
 use super::{Head, PLACES};
+use crate::flow::Fate;
 use crate::machine::branch::MachineBranch;
-use crate::machine::jumps::{Jump, Landing};
+use crate::machine::jumps::Jump;
 use crate::machine::special::{MachineSpecial, MachineSpecialKind};
 use crate::machine::varied::Varied;
 use crate::report::csv::Sheet;
@@ -106,15 +107,17 @@ fn words(kind: MachineSpecialKind) -> &'static str {
 /// The stable states that end at a change, as the number increases and as it decreases.
 fn jumps(special: &MachineSpecial) -> String {
     let sentence = |jump: Option<Jump>, way: &str| {
-        jump.map_or_else(String::new, |Jump { from, to }| {
+        jump.map_or_else(String::new, |Jump { from, to, x_max }| {
             let length = |x| with_unit(x, 5, "m");
             let from =
                 if from == 0.0 { "rest".to_owned() } else { format!("x = {}", length(from)) };
             let to = match to {
-                Landing::Rest => "rest".to_owned(),
-                Landing::Cycle { x_max } => format!("x = {}", length(x_max)),
-                Landing::Escaped => "beyond all bounds".to_owned(),
-                Landing::Unknown => "where the friction law ends".to_owned(),
+                Fate::Rest => "rest".to_owned(),
+                Fate::Cycle(_) => format!("x = {}", length(x_max)),
+                Fate::Escapes => "beyond all bounds".to_owned(),
+                Fate::Neutral | Fate::Moving | Fate::Unknown(_) => {
+                    "where the friction law ends".to_owned()
+                }
             };
             format!("; {way}, from {from} to {to}")
         })
