@@ -10,11 +10,18 @@ from pathlib import Path
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 # What a text says about times and costs.
 COST = re.compile(r"\d+ (?:evaluations?|steps?|rejected)|(?:^|,|  |in) ?[\d.e+-]+ (?:ns|us|ms|s)(?=  |$)", re.M)
+# The revision of the program.
+REVISION = re.compile(r'(?<=\()[0-9a-f]{12}[^)]*(?=\):)|(?<="revision":")[^"]*')
 # Columns that depend on times, or count costs.
 COUNTED = re.compile(r"seconds|evaluations|steps|rejected|\.front$")
 ERRORS = re.compile(r"error|residual|difference")
 # Differences shown for each command, and places for each of them.
 SHOWN = 8
+
+
+def number(cell):
+    """A cell as a number if it is one."""
+    return float(cell) if NUMBER.fullmatch(cell) else cell
 
 
 def values(at, value, error=0.0):
@@ -35,9 +42,9 @@ def parsed(line, text):
     if "--format=json" in line and text:
         return dict(values("", json.loads(text)))
     if "--format=csv" in line:
-        number = lambda cell: float(cell) if NUMBER.fullmatch(cell or "") else cell
-        rows = csv.DictReader(io.StringIO(text))
-        return dict(values("", [{name: number(cell) for name, cell in row.items()} for row in rows]))
+        rows = [[number(cell) for cell in row] for row in csv.reader(io.StringIO(text))]
+        named = [dict(zip(rows[0], row)) if len(row) == len(rows[0]) else row for row in rows[1:]]
+        return dict(values("", rows[:1] + named))
     return {}
 
 
@@ -68,7 +75,7 @@ def alike(old, new):
 def differences(old, new):
     """The places where two answers differ, with both sides."""
     for part in sorted(old.keys() | new.keys()):
-        one, other = str(old.get(part, "")), str(new.get(part, ""))
+        one, other = (REVISION.sub("", str(told.get(part, ""))) for told in (old, new))
         found = [parsed(old["line"], text) for text in (one, other)] if part == "out" and one != other else [{}, {}]
         if all(found):
             for at in [*found[0], *(found[1].keys() - found[0].keys())]:
