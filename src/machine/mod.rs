@@ -42,6 +42,7 @@ pub mod jumps;
 pub(crate) mod landmarks;
 pub(crate) mod law;
 pub(crate) mod ledger;
+mod margin;
 pub(crate) mod modal;
 #[warn(clippy::missing_errors_doc)]
 pub(crate) mod model;
@@ -53,6 +54,7 @@ mod reach;
 #[doc(hidden)]
 pub mod return_map;
 pub(crate) mod search;
+mod separatrix;
 mod series;
 #[doc(hidden)]
 pub mod special;
@@ -70,10 +72,11 @@ pub mod varied;
 pub use arc::{Flow, Unfollowed};
 pub use cycles::MachineCycle;
 pub use ledger::MachineLedger;
+pub use margin::MachineMargin;
 pub use modal::Modal;
 pub use model::{Lines, Model, NoModel, Phase};
 pub use motion::MachineMotion;
-pub use portrait::{BorderKind, MachineBorder, MachineMargin, Portrait};
+pub use portrait::{BorderKind, MachineBorder, Portrait};
 pub use series::ORDER;
 pub use subject::{Body, Subject};
 pub use tolerance::Tolerances;

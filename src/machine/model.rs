@@ -17,7 +17,7 @@ use super::law::{Scaled, faster, slower};
 use super::reach::first_below_zero;
 use super::series::FINEST;
 use crate::numerics::elementary::powi;
-use crate::oscillator::Belt;
+use crate::oscillator::{Belt, Parameters};
 
 /// What the mass does on one side of the switching lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -249,6 +249,17 @@ impl Model {
         } else {
             Err(NoModel::OutOfRange)
         }
+    }
+
+    /// The parameters of the paper's oscillator that this is, with displacements in m and times in `1/omega_0`; `None`
+    /// with a belt, or with damping of a higher power than the third.
+    #[must_use]
+    pub fn parameters(&self) -> Option<Parameters> {
+        let power = |power: usize| self.damper.get(power).copied().unwrap_or(0.0);
+        let higher = self.damper.iter().skip(4).any(|number| *number != 0.0);
+        let parameters =
+            Parameters { d: 0.5 * power(1), d2: power(2), d3: power(3), r: self.guide };
+        (self.speed.is_infinite() && !higher).then_some(parameters)
     }
 
     /// The force that depends on velocity, and its derivative.

@@ -11,12 +11,15 @@ use super::curve::{CurvePiece, MachineCurve, Rectangle};
 use super::cycles::MachineCycle;
 use super::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
 use super::landmarks::Landmarks;
+use super::margin::MachineMargin;
 use super::model::{Model, Phase};
 use super::return_map::MachineReturn;
+use super::separatrix;
 use super::turn::ContactState;
 use crate::flow::Fate;
 use crate::numerics::root::bisect;
-use crate::study::margin::{Margin, RestMargin};
+use crate::study::basin::{Basin, Window};
+use crate::study::margin::Margin;
 
 /// What borders the basin of rest.
 #[derive(Clone, Debug)]
@@ -26,6 +29,8 @@ pub enum MachineBorder {
     /// An orbit that touches the belt's line, with a piece of that line; or one that just reaches the end of
     /// what the guide holds.
     Grazing(MachineCurve),
+    /// A motion that just escapes.
+    Separatrix(Box<Basin>),
     /// Nothing: everything comes to rest.
     None,
     /// Rest itself repels.
@@ -40,6 +45,8 @@ pub enum BorderKind {
     Cycle,
     /// An orbit that touches the belt's line or the end of what the guide holds.
     Grazing,
+    /// A motion that just escapes.
+    Separatrix,
     /// Everything comes to rest.
     None,
     /// Rest repels.
@@ -53,6 +60,7 @@ impl MachineBorder {
         match self {
             MachineBorder::Cycle(..) => BorderKind::Cycle,
             MachineBorder::Grazing(_) => BorderKind::Grazing,
+            MachineBorder::Separatrix(_) => BorderKind::Separatrix,
             MachineBorder::None => BorderKind::None,
             MachineBorder::NoBasin => BorderKind::NoBasin,
         }
@@ -71,56 +79,8 @@ impl MachineBorder {
     pub fn curve(&self) -> Option<&MachineCurve> {
         match self {
             MachineBorder::Cycle(_, curve) | MachineBorder::Grazing(curve) => Some(curve),
-            MachineBorder::None | MachineBorder::NoBasin => None,
+            MachineBorder::Separatrix(_) | MachineBorder::None | MachineBorder::NoBasin => None,
         }
-    }
-}
-
-/// The largest kicks out of the steady position after which the mass comes back to rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MachineMargin {
-    /// Displacements to the right and to the left, in m.
-    pub displacement: (f64, f64),
-    /// Velocities with and against the belt, in m/s.
-    pub velocity: (f64, f64),
-    /// Change of position, in m, from where the mass rests nearest to the border.
-    pub rest_displacement: f64,
-    /// Velocity, in m/s, from where the mass can rest and the smallest one is lost.
-    pub rest_velocity: f64,
-}
-
-impl MachineMargin {
-    /// No kick is survived.
-    const ZERO: MachineMargin = MachineMargin {
-        displacement: (0.0, 0.0),
-        velocity: (0.0, 0.0),
-        rest_displacement: 0.0,
-        rest_velocity: 0.0,
-    };
-
-    /// The smallest kicks of a mass in kg that are not survived, in m and N s.
-    #[must_use]
-    pub fn least(&self, mass: f64) -> Margin {
-        Margin {
-            displacement: Some(self.least_displacement()),
-            impulse: Some(mass * self.least_velocity()),
-            from_rest: RestMargin {
-                displacement: Some(self.rest_displacement),
-                impulse: Some(mass * self.rest_velocity),
-            },
-        }
-    }
-
-    /// The smaller displacement, in m.
-    #[must_use]
-    pub fn least_displacement(&self) -> f64 {
-        self.displacement.0.min(self.displacement.1)
-    }
-
-    /// The smaller velocity, in m/s.
-    #[must_use]
-    pub fn least_velocity(&self) -> f64 {
-        self.velocity.0.min(self.velocity.1)
     }
 }
 
@@ -158,6 +118,10 @@ impl Portrait {
     /// # Errors
     /// [`Unfollowed`] if the motions near rest, or those that the belt releases, cannot be followed.
     pub fn new(model: &Model) -> Result<Self, Unfollowed> {
+        let basin = separatrix::basin_beside(model);
+        if let Some(found) = basin.and_then(|basin| Portrait::beside_separatrix(model, basin)) {
+            return Ok(found);
+        }
         let mut flow = Flow::new(model);
         let landmarks = flow.landmarks()?;
         let found = flow.fixed_points(landmarks.as_ref())?;
@@ -197,6 +161,26 @@ impl Portrait {
         portrait.settle_border(&mut flow, &marks)?;
         portrait.steps = flow.steps;
         Ok(portrait)
+    }
+
+    /// The portrait of a machine without cycles whose basin of rest a separatrix borders.
+    fn beside_separatrix(model: &Model, basin: Basin) -> Option<Self> {
+        let margin = separatrix::margin(&basin, model, model.guide_static)?;
+        let escapes = Gap { to: f64::INFINITY, fate: Fate::Escapes, end: Fate::Escapes };
+        let rests = Gap { to: margin.displacement.0, fate: Fate::Rest, ..escapes };
+        Some(Portrait {
+            model: model.clone(),
+            cycles: Vec::new(),
+            neutral: false,
+            steps: basin.cost.steps,
+            border: MachineBorder::Separatrix(Box::new(basin)),
+            margin: Some(margin),
+            landmarks: None,
+            stop: None,
+            known: f64::INFINITY,
+            unresolved: Vec::new(),
+            gaps: vec![rests, escapes],
+        })
     }
 
     fn settle_border(
@@ -275,6 +259,9 @@ impl Portrait {
         let border = match &self.border {
             MachineBorder::Cycle(_, curve) | MachineBorder::Grazing(curve) => curve,
             MachineBorder::NoBasin => return Some(margin),
+            MachineBorder::Separatrix(basin) => {
+                return separatrix::margin(basin, &self.model, farthest);
+            }
             MachineBorder::None => return Some(self.covered(farthest)),
         };
         let gap = (margin.least_displacement() - farthest).max(0.0);
@@ -380,6 +367,9 @@ impl Portrait {
                 (self.margin.is_none() || all()).then_some(1.0)
             }
             MachineBorder::NoBasin => Some(0.0),
+            MachineBorder::Separatrix(basin) => {
+                separatrix::rest_share(basin, &Window { q: window.x, v: window.y })
+            }
             MachineBorder::Cycle(_, curve) | MachineBorder::Grazing(curve) => {
                 Some(curve.area_within(&window, self.model.speed) / window.area())
             }

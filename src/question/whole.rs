@@ -284,7 +284,7 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
         harmonic: Vec::new(),
         edge: match found.border.kind() {
             BorderKind::Cycle => Edge::Cycle,
-            BorderKind::Grazing => Edge::Separatrix,
+            BorderKind::Grazing | BorderKind::Separatrix => Edge::Separatrix,
             BorderKind::None | BorderKind::NoBasin => Edge::None,
         },
         picture: Some(picture),

@@ -18,6 +18,7 @@ pub fn outcome(session: &Session, motion: &Trajectory) -> String {
         BorderKind::Cycle => " (inside the unstable cycle)",
         BorderKind::Grazing if course.touches => " (inside the motion that touches the belt)",
         BorderKind::Grazing => " (inside the motion that ends where the guide just holds)",
+        BorderKind::Separatrix => " (inside the separatrix)",
         BorderKind::None | BorderKind::NoBasin => "",
     };
     match (course.fate, motion.outcome) {

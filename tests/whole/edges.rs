@@ -326,3 +326,52 @@ fn what_static_friction_alone_holds_survives_no_kick_along_the_belt() {
     assert_eq!(found.fate(0.05 * (1.0 - 1e-9), 0.0), Ok(Fate::Rest));
     assert!(matches!(found.fate(0.05 * (1.0 + 1e-9), 0.0), Ok(Fate::Cycle(_))));
 }
+
+#[test]
+fn a_mode_that_asymmetric_damping_drives_away_survives_what_the_paper_says() {
+    use hopfscope::flow::Limits;
+    use hopfscope::oscillator::Parameters;
+    use hopfscope::study::basin::basin;
+    // It escapes to the left or to the right, from rest in a wide or a narrow sticking set, with static friction above
+    // the kinetic one or not.
+    for (d, d2, r) in [(0.2, -1.0, 0.3), (0.2, 1.0, 0.3), (0.6, 6.0, 3.0), (-0.01, -0.5, 0.1)] {
+        for held in [r, 1.1 * r] {
+            let (omega, mass) = (3.0, 2.0);
+            let mode = Modal {
+                frequency: omega / std::f64::consts::TAU,
+                mass,
+                damping_ratio: vec![d, 0.5 * d2 / omega],
+                friction: mass * omega * omega * r,
+                static_guide: Some(mass * omega * omega * held),
+            };
+            let found = Subject::from(Body::Mode(mode)).portrait().unwrap();
+            assert_eq!(found.border.kind(), BorderKind::Separatrix, "{d} {d2} {r}");
+            let parameters = Parameters { d, d2, d3: 0.0, r };
+            let paper = basin(&parameters, 20.0 / d2.abs(), &Limits::PATIENT).unwrap();
+            let expected = paper.margin_within(held).map(|length| length, |v| mass * omega * v);
+            let least = found.least_kicks();
+            let close = |one: Option<f64>, other: Option<f64>| {
+                let (one, other) = (one.unwrap(), other.unwrap());
+                (one - other).abs() <= 1e-12 * other.max(r)
+            };
+            let displacement = expected.displacement.map(|length| length.max(held));
+            assert!(close(least.displacement, displacement), "{least:?} {expected:?}");
+            assert!(close(least.impulse, expected.impulse), "{least:?} {expected:?}");
+            let (rest, from) = (least.from_rest, expected.from_rest);
+            assert!(close(rest.displacement, from.displacement), "{rest:?} {from:?}");
+            assert!(close(rest.impulse, from.impulse), "{rest:?} {from:?}");
+            // Each motion says the same, followed by itself.
+            let margin = found.margin.unwrap();
+            let (right, left) = margin.displacement;
+            for (x, v) in
+                [(right, 0.0), (-left, 0.0), (0.0, margin.velocity.0), (0.0, -margin.velocity.1)]
+            {
+                if x.is_finite() && v.is_finite() {
+                    let (inside, outside) = (1.0 - 1e-9, 1.0 + 1e-9);
+                    assert_eq!(found.fate(inside * x, inside * v), Ok(Fate::Rest), "{x} {v}");
+                    assert_eq!(found.fate(outside * x, outside * v), Ok(Fate::Escapes), "{x} {v}");
+                }
+            }
+        }
+    }
+}

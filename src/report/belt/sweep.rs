@@ -86,6 +86,7 @@ fn regime(found: &Portrait) -> String {
         _ if found.neutral => "periodic",
         MachineBorder::None if found.margin.is_some() => "all that are known come to rest",
         MachineBorder::None => "all come to rest",
+        MachineBorder::Separatrix(_) => "basin up to escape",
         MachineBorder::Cycle(..) => "basin within a cycle",
         MachineBorder::Grazing(_) if found.border.touches() => "basin up to the belt",
         MachineBorder::Grazing(_) => "basin up to what the guide holds",

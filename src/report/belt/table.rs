@@ -159,6 +159,7 @@ pub(super) fn border(portrait: &Portrait) -> &'static str {
         }
         MachineBorder::None => "every kick is survived: whatever happens, the mass comes to rest",
         MachineBorder::NoBasin => "no kick is survived, however small: rest repels",
+        MachineBorder::Separatrix(_) => "beyond the margin motions grow without bound",
         MachineBorder::Cycle(..) => "beyond the margin an unstable cycle is crossed",
         MachineBorder::Grazing(_) if portrait.neutral => {
             "within the margin every motion is periodic; beyond it the mass sticks to the belt"
