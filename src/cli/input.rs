@@ -58,7 +58,8 @@ fn symbol(name: &str) -> Result<Symbol, String> {
 
 /// A value of one of the six numbers.
 fn value_of(symbol: Symbol, text: &str) -> Result<f64, String> {
-    within(symbol.spec().name, (symbol.spec().min, symbol.spec().max), text)
+    let value = within(symbol.spec().name, (symbol.spec().min, symbol.spec().max), text)?;
+    symbol.spec().check(value).map_err(|refused| refused.to_string())
 }
 
 /// `NAME=VALUE`.
@@ -217,13 +218,14 @@ mod tests {
     #[test]
     fn assignments_are_read_and_refused_with_the_range() {
         assert_eq!(assignment("D=-0.3"), Ok((Symbol::D, -0.3)));
-        assert_eq!(assignment("q0= 1e300"), Ok((Symbol::Q0, 1e300)));
+        assert_eq!(assignment("q0= 1e150"), Ok((Symbol::Q0, 1e150)));
         for (text, expected) in [
             ("D", "NAME=VALUE"),
             ("d=1", "D, D2, D3, r, q0, v0"),
-            ("r=-1", "r = -1 is outside its range; allowed: 0.0 .. 1e300"),
+            ("r=-1", "r = -1 is outside its range; allowed: 0.0 .. 1e150"),
+            ("r=1e-151", "r = 1e-151 is too close to 0; allowed: 0, or 1e-150 and more"),
             ("D=NaN", "\"NaN\" is not a finite number; allowed: -1000000.0 .. 1000000.0"),
-            ("q0=1e400", "\"1e400\" is not a finite number; allowed: -1e300 .. 1e300"),
+            ("q0=1e400", "\"1e400\" is not a finite number; allowed: -1e150 .. 1e150"),
             ("v0=", "\"\" is not a number"),
             ("D=1,5", "\"1,5\" is not a number"),
         ] {
@@ -237,7 +239,7 @@ mod tests {
         assert_eq!(interval("D=-0.3..-0.28"), Ok((Symbol::D, Interval::new(-0.3, -0.28))));
         for (text, expected) in [
             ("r", "NAME=VALUE+-HALFWIDTH"),
-            ("r=0.1+-0.2", "outside its range 0.0 .. 1e300"),
+            ("r=0.1+-0.2", "outside its range 0.0 .. 1e150"),
             ("R=0.1", "there is no parameter"),
             ("r=0.1+-", "r: \"\" is not a number"),
         ] {

@@ -8,22 +8,21 @@
 //! tiny against another (`R -> 0`) or where two roots meet at the fold (`R -> 1`): there the small
 //! difference `1 - R` decides, and it is computed in twice the working precision.
 //!
-//! Roots that over- or underflow are absent.
+//! Within the range of the parameters no root over- or underflows.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6, PI};
 
-use crate::numerics::elementary::{acos, acosh, asinh, atan2, cos, cosh, sin, sinh};
+use crate::numerics::elementary::{acos, acosh, asinh, atan2, cbrt, cos, cosh, sin, sinh};
 use crate::numerics::twofold::{self, Twofold};
-use crate::numerics::wide::Wide;
 
 /// The roots for `D3 > 0`, `r > 0`.
 pub enum Pair {
     /// Beyond the fold.
     None,
     /// Both in one point, at the fold.
-    Meeting(Option<f64>),
+    Meeting(f64),
     /// The smaller and the larger.
-    Apart(Option<f64>, Option<f64>),
+    Apart(f64, f64),
 }
 
 /// The roots for `D3 > 0`, `r > 0`.
@@ -40,40 +39,39 @@ pub fn supercritical(d: f64, d3: f64, r: f64) -> Pair {
     }
     let sine = ratio.sqrt();
     let third = atan2(sine, gap.sqrt()) / 3.0;
-    let small = small_root(d, r).times(Wide::of(triple_ratio(sin(third), sine)));
-    let large = large_root(d, d3).times(Wide::of(SCALE * cos(FRAC_PI_6 + third)));
-    if gap > 0.0 { Pair::Apart(small.value(), large.value()) } else { Pair::Meeting(small.value()) }
+    let small = small_root(d, r) * triple_ratio(sin(third), sine);
+    let large = large_root(d, d3) * (SCALE * cos(FRAC_PI_6 + third));
+    if gap > 0.0 { Pair::Apart(small, large) } else { Pair::Meeting(small) }
 }
 
 /// The root for `D3 < 0`, `r > 0`.
 ///
 /// In units of `A_Z` it obeys `u^3 - delta u - 1 = 0` with `delta = pi D A_Z/(2 r)`; where delta is not
 /// small, the hyperbolic and the trigonometric formula in units of `A_1` and `A_2` keep all digits.
-pub fn subcritical(d: f64, d3: f64, r: f64) -> Option<f64> {
+pub fn subcritical(d: f64, d3: f64, r: f64) -> f64 {
     /// Up to here the expansion about `u = 1` is a good start for Newton's method.
     const NEAR_ZERO: f64 = 1.5;
     let crossing = zero_crossing_root(d3, r);
-    let delta = Wide::of(FRAC_PI_2).times(Wide::of(d)).times(crossing).over(Wide::of(r)).rounded();
-    let root = if delta.abs() <= NEAR_ZERO {
+    let delta = FRAC_PI_2 * d * crossing / r;
+    if delta.abs() <= NEAR_ZERO {
         let mut u = 1.0 + delta / 3.0;
         // Convex and increasing at the root, so Newton converges: quadratically, from an error < 0.2.
         for _ in 0..6 {
             u -= (u * (u * u - delta) - 1.0) / (3.0 * u * u - delta);
         }
-        crossing.times(Wide::of(u))
+        crossing * u
     } else {
         let (ratio, _) = distance_from_fold(d, d3, r);
         let sine = ratio.sqrt();
         if d < 0.0 {
             let third = asinh(sine) / 3.0;
-            small_root(d, r).times(Wide::of(triple_ratio(sinh(third), sine)))
+            small_root(d, r) * triple_ratio(sinh(third), sine)
         } else {
             // Above 1 the arc cosine turns hyperbolic; the root itself does not notice.
             let third = if sine <= 1.0 { cos(acos(sine) / 3.0) } else { cosh(acosh(sine) / 3.0) };
-            large_root(d, d3).times(Wide::of(SCALE * third))
+            large_root(d, d3) * (SCALE * third)
         }
-    };
-    root.value()
+    }
 }
 
 /// `2/sqrt(3)`, which makes the large root tend to `A_2`.
@@ -87,35 +85,33 @@ fn triple_ratio(part: f64, whole: f64) -> f64 {
 
 /// `R` and `1 - R`, the latter with full relative precision.
 pub fn distance_from_fold(d: f64, d3: f64, r: f64) -> (f64, f64) {
-    /// Beyond this power of two R is as good as zero or infinite.
-    const FAR: i32 = 1000;
-    let (damping, cubic, friction) = (Wide::of(d.abs()), Wide::of(d3.abs()), Wide::of(r));
-    let power = 2 * friction.exponent + cubic.exponent - 3 * damping.exponent;
-    let mantissa = |number: Wide| Twofold::of(number.mantissa);
-    let (m, n) = (mantissa(damping), mantissa(friction));
-    let numerator = n.by(n).by(mantissa(cubic)).times(81.0 / 8.0);
-    let ratio = numerator.over(m.by(m).by(m).by(twofold::PI.by(twofold::PI)));
-    if power < -FAR {
+    /// Up to its reciprocal R is as good as zero, from here on as good as infinite.
+    const FAR: f64 = 1e290;
+    let (friction, cubic) = (r / d.abs(), (d3 / d).abs());
+    let rough = friction * cubic * friction;
+    if rough < 1.0 / FAR {
         return (0.0, 1.0);
-    } else if power > FAR {
+    } else if rough > FAR {
         return (f64::INFINITY, f64::NEG_INFINITY);
     }
-    let unit = Wide { mantissa: 1.0, exponent: power }.rounded();
-    let ratio = Twofold { high: ratio.high * unit, low: ratio.low * unit };
+    let over = |number: f64| Twofold::of(number).over(Twofold::of(d.abs()));
+    let (friction, cubic) = (over(r), over(d3.abs()));
+    let numerator = friction.by(cubic).by(friction).times(81.0 / 8.0);
+    let ratio = numerator.over(twofold::PI.by(twofold::PI));
     (ratio.high, ratio.one_minus().value())
 }
 
 /// `A_1 = 2 r/(pi abs(D))`.
-pub fn small_root(d: f64, r: f64) -> Wide {
-    Wide::of(2.0 / PI).times(Wide::of(r)).over(Wide::of(d.abs()))
+pub fn small_root(d: f64, r: f64) -> f64 {
+    2.0 / PI * r / d.abs()
 }
 
 /// `A_2 = sqrt(8 abs(D)/(3 abs(D3)))`.
-pub fn large_root(d: f64, d3: f64) -> Wide {
-    Wide::of(8.0 / 3.0).times(Wide::of(d.abs())).over(Wide::of(d3.abs())).sqrt()
+pub fn large_root(d: f64, d3: f64) -> f64 {
+    (8.0 / 3.0 * (d / d3).abs()).sqrt()
 }
 
 /// `A_Z = cbrt(16 r/(3 pi abs(D3)))`.
-pub fn zero_crossing_root(d3: f64, r: f64) -> Wide {
-    Wide::of(16.0 / (3.0 * PI)).times(Wide::of(r)).over(Wide::of(d3.abs())).cbrt()
+pub fn zero_crossing_root(d3: f64, r: f64) -> f64 {
+    cbrt(16.0 / (3.0 * PI) * r / d3.abs())
 }

@@ -1,8 +1,8 @@
 //! Arithmetic used by every other ring, independent of oscillators.
 //!
-//! - Numbers: [`interval`] rounds outwards, [`twofold`] carries twice the digits, [`wide`] a far wider range,
-//!   [`scaling`] multiplies by powers of two without error, [`sum`] compensates rounding, [`mod@count`] converts
-//!   between counts and real numbers, [`random`] simulates noise.
+//! - Numbers: [`interval`] rounds outwards, [`twofold`] carries twice the digits, [`scaling`] multiplies by powers
+//!   of two without error, [`sum`] compensates rounding, [`mod@count`] converts between counts and real numbers,
+//!   [`random`] simulates noise.
 //! - Functions: [`elementary`] has those of the standard library, [`root`] finds zeros inside brackets, [`quadrature`]
 //!   integrates, [`polynomial`] evaluates, [`hermite`] interpolates by cubics, [`spline`] smooths measured points.
 
@@ -23,6 +23,5 @@ pub(crate) mod spline;
 pub(crate) mod sum;
 #[doc(hidden)]
 pub mod twofold;
-pub(crate) mod wide;
 
 pub use interval::Interval;

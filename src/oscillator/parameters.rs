@@ -117,9 +117,10 @@ impl ParameterSpec {
     /// Accepts a value of this number.
     ///
     /// # Errors
-    /// [`OutOfRange`] if the value is not finite or outside `min ..= max`.
+    /// [`OutOfRange`] if the value is not finite, outside `min ..= max`, or closer to 0 than 1e-150 without being 0.
     pub fn check(&self, value: f64) -> Result<f64, OutOfRange> {
-        if value.is_finite() && (self.min..=self.max).contains(&value) {
+        let is_large_enough = value == 0.0 || value.abs() >= 1.0 / FAR;
+        if is_large_enough && (self.min..=self.max).contains(&value) {
             Ok(value)
         } else {
             Err(OutOfRange { name: self.name, value, min: self.min, max: self.max })
@@ -143,15 +144,24 @@ pub struct OutOfRange {
 impl fmt::Display for OutOfRange {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, value, min, max } = self;
+        let is_small = (*min..=*max).contains(value);
         let value = shortest(*value);
+        if is_small {
+            let least = shortest(1.0 / FAR);
+            return write!(
+                out,
+                "{name} = {value} is too close to 0; allowed: 0, or {least} and more in magnitude"
+            );
+        }
         write!(out, "{name} = {value} is outside its range {min:?} .. {max:?}")
     }
 }
 
 impl std::error::Error for OutOfRange {}
 
-/// Largest magnitude that the command line and the panes accept for a displacement or a velocity.
-const FAR: f64 = 1e300;
+/// Largest magnitude of a number; the least, besides 0, is its reciprocal. Between them products of a few numbers
+/// neither over- nor underflow.
+const FAR: f64 = 1e150;
 
 /// The six numbers that define a motion, in the order in which they are shown.
 pub const PARAMETERS: [ParameterSpec; 6] = [
@@ -300,7 +310,13 @@ mod tests {
     fn numbers_that_are_none_are_refused_with_the_range() {
         for value in [f64::NAN, f64::INFINITY, -1.0] {
             let refused = Symbol::R.spec().check(value).unwrap_err().to_string();
-            assert!(refused.starts_with("r = ") && refused.contains("0.0 .. 1e300"), "{refused}");
+            assert!(refused.starts_with("r = ") && refused.contains("0.0 .. 1e150"), "{refused}");
         }
+        let refused = Symbol::D2.spec().check(-1e-151).unwrap_err().to_string();
+        assert_eq!(
+            refused,
+            "D2 = -1e-151 is too close to 0; allowed: 0, or 1e-150 and more in magnitude"
+        );
+        assert_eq!(Symbol::D2.spec().check(-1e-150), Ok(-1e-150));
     }
 }

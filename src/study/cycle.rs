@@ -18,7 +18,6 @@ use super::basin::Basin;
 use super::closed_pair::{Closing, share};
 use super::closing::Equation;
 use super::closings::{STEP, all_closings};
-use super::lift::lifted;
 pub use super::limit_cycle::{BasinPicture, Cycle, CycleErrors, Cycles, Edge};
 use super::works::works as works_over;
 use crate::closed_form::harmonic::amplitudes;
@@ -55,26 +54,8 @@ pub fn cycles_drawn(
     found(parameters, Some(points), limits)
 }
 
-/// All limit cycles, and the closed pairs of half swings that they are; `None` where these were computed in other units.
-///
-/// # Errors
-/// The [`Reason`] why the search could not be completed.
-pub(super) fn cycles_and_closings(
-    parameters: &Parameters,
-    limits: &Limits,
-) -> Result<(Cycles, Option<Vec<Closing>>), Reason> {
-    if lifted(parameters).is_some() {
-        return Ok((cycles(parameters, false, limits)?, None));
-    }
-    let (found, closings) = searched(parameters, limits)?;
-    Ok((found, Some(closings)))
-}
-
 fn found(parameters: &Parameters, points: Option<u16>, limits: &Limits) -> Result<Cycles, Reason> {
-    if let Some((lifted, unit)) = lifted(parameters) {
-        return Ok(found(&lifted, points, limits)?.times_power(-unit));
-    }
-    let (mut answer, closings) = searched(parameters, limits)?;
+    let (mut answer, closings) = cycles_and_closings(parameters, limits)?;
     if let Some(points) = points {
         let reach = PICTURE_REACH / parameters.d2.abs().max(f64::MIN_POSITIVE);
         let basin = Basin::around(parameters, &closings, reach, limits)?;
@@ -84,8 +65,14 @@ fn found(parameters: &Parameters, points: Option<u16>, limits: &Limits) -> Resul
     Ok(answer)
 }
 
-/// All limit cycles, without a picture, and their closings.
-fn searched(parameters: &Parameters, limits: &Limits) -> Result<(Cycles, Vec<Closing>), Reason> {
+/// All limit cycles, without a picture, and the closed pairs of half swings that they are.
+///
+/// # Errors
+/// The [`Reason`] why the search could not be completed.
+pub(super) fn cycles_and_closings(
+    parameters: &Parameters,
+    limits: &Limits,
+) -> Result<(Cycles, Vec<Closing>), Reason> {
     let mut equation = Equation::new(parameters, STEP);
     let closings = all_closings(&mut equation, limits)?;
     let describe = |closing: &Closing| closing.describe(parameters, equation.side);

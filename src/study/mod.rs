@@ -43,7 +43,6 @@ pub mod half_map;
 #[doc(hidden)]
 pub mod harmonic_error;
 pub(crate) mod kicks;
-pub(crate) mod lift;
 pub(crate) mod limit_cycle;
 #[warn(clippy::missing_errors_doc)]
 pub mod margin;

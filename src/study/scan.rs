@@ -339,7 +339,7 @@ mod tests {
             ("x=0:1:3", "there is no parameter \"x\"; there are D, D2, D3, r, q0, v0"),
             ("D=a:1:3", "D: \"a\" is not a number"),
             ("D=NaN:1:3", "range"),
-            ("r=-1:1:3", "r = -1 is outside its range 0.0 .. 1e300"),
+            ("r=-1:1:3", "r = -1 is outside its range 0.0 .. 1e150"),
             ("D=0:0:3", "both 0.0"),
             ("D=0:1:1", "COUNT = 1 is not a whole number in 2 .. 1000000"),
             ("D=0:1:-4", "COUNT = -4 is not"),

@@ -37,10 +37,7 @@ pub fn weak_closing(parameters: &Parameters) -> Option<Closing> {
     let cubic = d3.abs() * amplitude * amplitude;
     let strengths = [d.abs(), r / amplitude, bend, cubic];
     let square = PI * amplitude * amplitude;
-    // Of an amplitude next to nothing the square underflows, which matters beside a large D3 only.
-    let matters = cubic > f64::EPSILON * d.abs();
-    let has_square = square.is_normal() || (square < f64::MIN_POSITIVE && !matters);
-    if !one_zero || !has_square || !strengths.iter().all(|&strength| strength <= WEAK) {
+    if !one_zero || !square.is_finite() || !strengths.iter().all(|&strength| strength <= WEAK) {
         return None;
     }
     // In the frame of the first swing, in which D2 >= 0, the left turning point is the farther one.
@@ -105,14 +102,9 @@ mod tests {
     }
 
     #[test]
-    fn amplitudes_whose_square_is_no_number_have_a_multiplier_or_no_answer_here() {
-        let answer = |d, d2, d3, r| {
-            let parameters = Parameters { d, d2, d3, r };
-            weak_closing(&parameters).map(|closing| closing.log_multiplier(&parameters))
-        };
-        let tiny = answer(-1e-12, 1e6, -1e-12, 5e-324).unwrap();
-        assert!((tiny / (TAU * 1e-12) - 1.0).abs() < 1e-9, "{tiny:e}");
-        assert_eq!(answer(-1.6e-256, -1.76e-308, 0.0, 2814.6), None);
+    fn amplitudes_whose_square_is_no_number_have_no_answer_here() {
+        let parameters = Parameters { d: -1.6e-150, d2: -1e-150, d3: 0.0, r: 2814.6 };
+        assert_eq!(weak_closing(&parameters), None);
     }
 
     #[test]
@@ -123,6 +115,6 @@ mod tests {
             assert_eq!(is_one_way(&Parameters { d, d2: 3.0, d3: 0.5, r: 0.1 }), one_way);
         }
         assert!(is_one_way(&Parameters { d: 0.0, d2: -1.0, d3: 0.0, r: 0.0 }));
-        assert!(!is_one_way(&Parameters { d: 1e-300, d2: 0.0, d3: -1e-300, r: 0.0 }));
+        assert!(!is_one_way(&Parameters { d: 1e-150, d2: 0.0, d3: -1e-150, r: 0.0 }));
     }
 }

@@ -7,7 +7,7 @@ use std::process::Stdio;
 use crate::program::{command, run};
 
 /// A wrong command line, and the words that its error message must contain.
-const WRONG: [(&str, &[&str]); 35] = [
+const WRONG: [(&str, &[&str]); 36] = [
     ("--sett D=1", &["--sett", "did you mean '--set'"]),
     ("nowhere", &["nowhere", "hopfscope scenes", "hopfscope --help"]),
     ("supercritcal", &["supercritcal", "did you mean supercritical"]),
@@ -18,8 +18,9 @@ const WRONG: [(&str, &[&str]); 35] = [
     ("trajectory --set d=1", &["\"d\"", "D, D2, D3, r, q0, v0"]),
     ("trajectory --set D=NaN", &["D=NaN", "-1000000.0 .. 1000000.0"]),
     ("trajectory --set D=-inf", &["D=-inf", "-1000000.0 .. 1000000.0"]),
-    ("trajectory --set q0=1e400", &["q0=1e400", "-1e300 .. 1e300"]),
-    ("trajectory --set r=-0.1", &["r=-0.1", "0.0 .. 1e300"]),
+    ("trajectory --set q0=1e400", &["q0=1e400", "-1e150 .. 1e150"]),
+    ("trajectory --set r=-0.1", &["r=-0.1", "0.0 .. 1e150"]),
+    ("trajectory --set D2=-1e-151", &["D2=-1e-151", "allowed: 0, or 1e-150 and more"]),
     ("trajectory --set D=abc", &["D=abc", "not a number"]),
     ("trajectory --until NaN", &["NaN", "0.0 .. 1000000000.0"]),
     ("trajectory --until -1", &["-1", "0.0 .. 1000000000.0"]),
@@ -38,7 +39,7 @@ const WRONG: [(&str, &[&str]); 35] = [
     ("border --over D=-0.9:-0.1:4", &["not over D", "D2, D3 or r"]),
     ("branch --over D=0:1:0", &["COUNT = 0", "2 .. 1000000"]),
     ("branch --over D=0:nan:9", &["nan", "-1000000.0 .. 1000000.0"]),
-    ("branch --over r=-1:1:9", &["r=-1:1:9", "0.0 .. 1e300"]),
+    ("branch --over r=-1:1:9", &["r=-1:1:9", "0.0 .. 1e150"]),
     ("branch --over q0=0:1:9", &["q0", "D, D2, D3, r"]),
     ("replay /does/not/exist", &["/does/not/exist", "No such file"]),
     ("replay x --size 80", &["80", "WxH"]),

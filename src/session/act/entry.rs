@@ -165,6 +165,9 @@ fn read_number(problem: Problem, row: Row, text: &str) -> Result<Problem, String
     if !(min..=max).contains(&value) {
         return Err(format!("{name} = {text} is out of range; {takes}"));
     }
+    if let Row::Parameter(symbol) = row {
+        symbol.spec().check(value).map_err(|refused| refused.to_string())?;
+    }
     // Adding 0.0 turns -0.0 into 0.0.
     Ok(with_number(problem, row, value + 0.0))
 }

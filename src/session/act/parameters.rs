@@ -77,6 +77,11 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
     let (min, max) = range(&session.problem, row);
     let value = number(&session.setup(), row);
     let stepped = size.from(value, count).clamp(min, max);
+    if let Row::Parameter(symbol) = row
+        && let Err(refused) = symbol.spec().check(stepped)
+    {
+        return refuse(session, refused.to_string());
+    }
     let changed = with_number(session.problem, row, stepped);
     if !change(session, changed) {
         let name = row.name_in(&session.problem);

@@ -2,6 +2,7 @@
 
 use crate::flow::Problem;
 use crate::numerics::decimal::shortest;
+use crate::oscillator::Symbol;
 use crate::scene::file::UNTIL_RANGE;
 use crate::session::state::rows::{ROWS, Row};
 use crate::session::state::setup::Setup;
@@ -10,7 +11,7 @@ pub(in crate::session) fn range(problem: &Problem, row: Row) -> (f64, f64) {
     match row {
         Row::Quantity(quantity) => (quantity.spec().min, quantity.spec().max),
         Row::Parameter(symbol) => (symbol.spec().min, symbol.spec().max),
-        Row::Disturbance => (0.0, f64::MAX),
+        Row::Disturbance => (0.0, Symbol::R.spec().max),
         Row::Until => UNTIL_RANGE,
         Row::Tolerance | Row::Method => problem.method.spec().dial.range(),
     }

@@ -93,7 +93,7 @@ fn what_is_wrong_stays_in_the_line_with_what_is_allowed() {
             (": set", "set needs NAME=VALUE ..: Set values"),
             (": set D", "set: \"D\" is not NAME=VALUE, such as D=-0.3"),
             (": set E=1", "set: no value \"E\"; there are D, D2"),
-            (": set D=-0.3 r=-1", "set: r = -1 is out of range; r takes 0 to 1e300"),
+            (": set D=-0.3 r=-1", "set: r = -1 is out of range; r takes 0 to 1e150"),
             (": set D=nan", "set: nan is not a finite number; D takes -1000000 to 1000000"),
             (": method euler", "method: no method \"euler\"; there are auto"),
             (": tol 1", "tol: tolerance = 1 is out of range; tolerance takes 1e-15 to 0.01"),

@@ -9,7 +9,6 @@ use crate::study::Cycle;
 use crate::study::closed_pair::Closing;
 use crate::study::closing::{Equation, Route};
 use crate::study::closings::{STEP, all_closings};
-use crate::study::lift::lifted;
 
 /// Maximum number of evaluations of one half map in a search.
 pub const BUDGET: u64 = 3_000_000;
@@ -83,17 +82,15 @@ pub fn sets(thin: bool) -> impl Iterator<Item = Parameters> {
 pub fn judge_set(parameters: &Parameters, limits: &Limits) -> SetVerdict {
     let limits =
         Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
-    // As [`crate::study::cycle::cycles`] does with friction next to the smallest numbers.
-    let (scaled, unit) = lifted(parameters).unwrap_or((*parameters, 0));
-    let mut equation = Equation::new(&scaled, STEP);
+    let mut equation = Equation::new(parameters, STEP);
     let answer = match all_closings(&mut equation, &limits) {
         Err(reason) => SetAnswer::GaveUp { reason },
         Ok(closings) => SetAnswer::Found {
             cycles: closings
                 .iter()
                 .map(|closing| LatticeCycle {
-                    cycle: closing.describe(&scaled, equation.side).times_power(-unit),
-                    residual: residual(closing, &scaled, &limits),
+                    cycle: closing.describe(parameters, equation.side),
+                    residual: residual(closing, parameters, &limits),
                 })
                 .collect(),
         },
@@ -117,7 +114,7 @@ mod tests {
 
     #[test]
     fn the_thin_sets_still_pair_every_value_with_every_other() {
-        assert_eq!(sets(false).count(), 1_800);
+        assert_eq!(sets(false).count(), 1_500);
         let mut pairs = HashSet::new();
         for Parameters { d, d2, d3, r } in sets(true) {
             let values = [d, r, d2, d3].map(f64::to_bits);

@@ -88,7 +88,7 @@ impl ScanPoint {
             MeasureNeed::Cycles => {
                 let (found, closings) = cycles_and_closings(parameters, limits)?;
                 self.cost += found.cost;
-                (self.cycles, self.closings) = (Some(found), closings);
+                (self.cycles, self.closings) = (Some(found), Some(closings));
             }
             MeasureNeed::Edge => {
                 // What is beyond the edge does not matter here.
