@@ -141,7 +141,7 @@ pub fn go(
     let mouse = session.look.mouse;
     let keep = memory.as_ref().map(Memory::keep);
     let last = memory.as_ref().map(Memory::last);
-    let replay = (!play.is_empty()).then(|| Script::repeated(play, 1));
+    let replay = (!play.is_empty()).then(|| Script::of(play.to_vec()));
     let options = Options { replay, started, recorder, record, keep, last, mouse, files };
     explore(session, environment, options)
         .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))

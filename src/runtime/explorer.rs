@@ -72,7 +72,7 @@ impl Application for Explorer {
     }
 
     fn asked(&self) -> u32 {
-        self.session.macros.asked
+        self.session.asked
     }
 
     fn wants(&self) -> Vec<Request> {

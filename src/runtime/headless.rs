@@ -155,15 +155,13 @@ impl<M: Application> Host for Replay<M> {
                 let result = embedded.unwrap_or_else(|| Files::read(&path));
                 EffectOutcome::Told(Msg::Read { path, purpose, result })
             }
-            Effect::Play(script) | Effect::PlayRegister(script) => {
-                match self.player.interject(script) {
-                    Ok(()) => EffectOutcome::Done,
-                    Err(unmet) => {
-                        self.unmet = Some(unmet);
-                        EffectOutcome::Stop(LoopEnd::Quit)
-                    }
+            Effect::Play(script) => match self.player.interject(script) {
+                Ok(()) => EffectOutcome::Done,
+                Err(unmet) => {
+                    self.unmet = Some(unmet);
+                    EffectOutcome::Stop(LoopEnd::Quit)
                 }
-            }
+            },
             Effect::Figure { .. }
             | Effect::SaveScan { .. }
             | Effect::Record { .. }

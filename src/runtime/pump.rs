@@ -95,7 +95,7 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// Plays a keystroke file: each key is given once the answers to the last one are on the screen.
     pub fn playing(mut self, script: Option<Script>) -> Self {
-        self.playing = script.map(|script| Playing::new(script, false, 0));
+        self.playing = script.map(|script| Playing::new(script, 0));
         self
     }
 
@@ -336,8 +336,7 @@ impl<M: Application, W: Write> Host for Pump<M, W> {
                 let result = self.read(&path);
                 return Ok(EffectOutcome::Told(Msg::Read { path, purpose, result }));
             }
-            Effect::Play(script) => return self.begin(script, false),
-            Effect::PlayRegister(script) => return self.begin(script, true),
+            Effect::Play(script) => return self.begin(script),
             Effect::Copy(text) => self.copy(&text)?,
             Effect::CopyScreen => {
                 let picture = picture::of(&self.application, self.screen.size());

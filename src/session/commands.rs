@@ -10,8 +10,8 @@ use crate::scene::View::{
 };
 use crate::scene::{LAYERS, Layer, LayerSpec, Scene};
 use crate::session::act::{
-    axes, copy, entry, files, focus, general, history, lists, macros, mouse, palette, parameters,
-    pending, playback, plots, prompt, scan, screen_setup, starts, typing, walk,
+    axes, copy, entry, files, focus, general, history, lists, mouse, palette, parameters, pending,
+    playback, plots, prompt, scan, screen_setup, starts, typing, walk,
 };
 use crate::session::command_row::{CommandAction, CommandRow, chooses, row};
 use crate::session::effect::Effect;
@@ -262,10 +262,6 @@ const COMMANDS: &[CommandRow] = &[
         "Mark this point by a letter: parameters, start, method", |s, _| pending::ask(s, Ask::Mark)),
     row("go-to-mark", &[(Everywhere, &["'"])], "",
         "Go to a mark; twice: to the point left last", |s, _| pending::ask(s, Ask::GoTo)),
-    row("record-macro", &[(Everywhere, &["&"])], "",
-        "Record keys into a register; again: stop", |s, _| macros::record_or_end(s)),
-    row("play-macro", &[(Everywhere, &["@"])], "",
-        "Play the keys of a register; twice: the last one again", |s, _| pending::ask(s, Ask::Play)),
 
     row("explain", &[(Everywhere, &["!"]), (Walk, &["!"])], "",
         "Show what there is to see in this scene, and what to press", |s, _| general::explain(s)),

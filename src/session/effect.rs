@@ -19,8 +19,6 @@ pub enum Effect {
     Repaint,
     /// Play these keys, as if they were typed, before anything else.
     Play(Script),
-    /// Play the keys of a register; input of the user waits until they are over.
-    PlayRegister(Script),
     /// Turn mouse reports of the terminal on or off.
     Mouse(bool),
     /// Put this text on the clipboard (OSC 52) and into a file beside the session.

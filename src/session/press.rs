@@ -2,7 +2,7 @@
 
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::{inform, refuse, with_keys};
-use crate::session::act::{general, macros, marks, typing};
+use crate::session::act::{general, marks, typing};
 use crate::session::command_row::CommandAction;
 use crate::session::commands;
 use crate::session::effect::{Done, Effect};
@@ -55,7 +55,7 @@ fn act(session: &mut Session, key: Key) -> Vec<Effect> {
 fn resolve(session: &mut Session, pending: Pending, key: Key) -> Vec<Effect> {
     let context = match pending {
         Pending::Count(_) => Context::Count,
-        Pending::Letter { .. } => Context::Letter,
+        Pending::Letter(_) => Context::Letter,
     };
     if let Some(command) = session.keymap.command(&[context], key) {
         return run(session, command, key);
@@ -63,12 +63,12 @@ fn resolve(session: &mut Session, pending: Pending, key: Key) -> Vec<Effect> {
     session.pending = None;
     match pending {
         Pending::Count(count) => repeat(session, key, count.max(1)),
-        Pending::Letter { what, count } => letter(session, what, count, key),
+        Pending::Letter(what) => letter(session, what, key),
     }
 }
 
 /// Presses a key `count` times as one change. Stops early if a press is refused, opens something, quits, or
-/// asks for a letter, which then gets the count.
+/// asks for a letter.
 fn repeat(session: &mut Session, key: Key, count: u32) -> Vec<Effect> {
     let depth = session.history.depth().0;
     let overlay = session.overlay.clone();
@@ -80,9 +80,6 @@ fn repeat(session: &mut Session, key: Key, count: u32) -> Vec<Effect> {
         }
         session.notice = None;
         effects.extend(act(session, key));
-        if let Some(Pending::Letter { count: times, .. }) = &mut session.pending {
-            *times = count;
-        }
         let refused = session.notice.as_ref().is_some_and(|notice| notice.error);
         let opened = match (&session.overlay, &overlay) {
             (Some(now), Some(before)) => now.differs(before),
@@ -96,9 +93,8 @@ fn repeat(session: &mut Session, key: Key, count: u32) -> Vec<Effect> {
     effects
 }
 
-/// Uses a letter for its purpose. The key that asked for the letter, pressed again, means the last register or
-/// point.
-fn letter(session: &mut Session, what: Letter, count: u32, key: Key) -> Vec<Effect> {
+/// Uses a letter for its purpose. The key that asked for the letter, pressed again, means the last point.
+fn letter(session: &mut Session, what: Letter, key: Key) -> Vec<Effect> {
     let asks =
         |name| session.keymap.command(session.contexts(), key).is_some_and(|c| c.name == name);
     let name = match key.typed() {
@@ -106,9 +102,6 @@ fn letter(session: &mut Session, what: Letter, count: u32, key: Key) -> Vec<Effe
         _ => None,
     };
     match (what, name) {
-        (Letter::Record, Some(name)) => macros::record(session, name),
-        (Letter::Play, Some(name)) => macros::play(session, name, count),
-        (Letter::Play, None) if asks("play-macro") => macros::play_again(session, count),
         (Letter::Mark, Some(name)) => marks::set(session, name),
         (Letter::GoTo, Some(name)) => marks::go_to(session, name),
         (Letter::GoTo, None) if asks("go-to-mark") => marks::go_back(session),

@@ -8,7 +8,7 @@ use crate::flow::Reason;
 use crate::question::NoAnswer;
 use crate::scene::{Answered, Request};
 use crate::session::act::notice::{inform, refuse, with_keys};
-use crate::session::act::{answers, files, history, macros, mouse, typing, walk};
+use crate::session::act::{answers, files, history, mouse, typing, walk};
 use crate::session::effect::Effect;
 use crate::session::message::Msg;
 use crate::session::press::{ENTER, press, run_untyped};
@@ -23,11 +23,10 @@ use crate::session::state::waiting::Waiting;
 
 /// Takes a message in; a press that needs an answer that is still being computed waits for it.
 pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
-    if matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_) | Msg::Run(_)) {
+    if is_press(&message) {
         // While a press waits, the only press that arrives here is one that cancels it.
         if session.waiting.take().is_some() && waiting::forgets(&message) {
             inform(session, "the waiting key is dropped");
-            macros::end(session);
             return Vec::new();
         }
         if let (Some(request), Some(step)) = (session.awaited(&message), Instruction::of(&message))
@@ -63,7 +62,7 @@ pub fn settle(session: &mut Session, mut answer: impl FnMut(&Session, &Request) 
 
 /// Takes a message in that does not have to wait.
 fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
-    macros::note(session, &message);
+    session.chord += u32::from(is_press(&message));
     let effects = match message {
         Msg::Key(key) => press(session, key),
         Msg::Paste(text) => paste(session, &text),
@@ -91,9 +90,6 @@ fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
         }
         Msg::Say(caption, place) => {
             // An empty caption says that a replay is over.
-            if caption.is_empty() {
-                macros::end(session);
-            }
             session.caption = if caption.is_empty() {
                 SessionCaption::Nothing
             } else {
@@ -122,8 +118,15 @@ fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
     session.answers.ask(asked);
     answers::resolve(session);
     walk::keep_hold(session);
-    macros::rest(session);
+    if session.chord > 0 && session.overlay.is_none() && session.pending.is_none() {
+        session.asked = std::mem::take(&mut session.chord);
+    }
     effects
+}
+
+/// Whether a message is input of the user.
+fn is_press(message: &Msg) -> bool {
+    matches!(message, Msg::Key(_) | Msg::Paste(_) | Msg::Pointed(_) | Msg::Run(_))
 }
 
 /// Pasted text goes into the open line, a number into a new line; keystrokes are offered as a replay.

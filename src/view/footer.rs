@@ -86,7 +86,7 @@ fn pending(pending: Option<Pending>, look: &Look) -> Span<'static> {
     let text = match pending {
         Some(Pending::Count(0)) => " how many times? a number, then a key".to_owned(),
         Some(Pending::Count(count)) => format!(" {count} times: which key?"),
-        Some(Pending::Letter { what, .. }) => format!(" {}", what.question()),
+        Some(Pending::Letter(what)) => format!(" {}", what.question()),
         None => String::new(),
     };
     look.span(text, Role::Title)

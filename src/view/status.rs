@@ -52,10 +52,6 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         None if session.is_playing() => format!("{busy}playing "),
         None => busy,
     };
-    let busy = match &session.macros.recording {
-        Some((register, _)) => format!("{busy}recording {register} "),
-        None => busy,
-    };
     // That a computation is running matters more than the end of the sentence.
     let room = usize::from(area.width).saturating_sub(busy.chars().count());
     let text = pane::cut(&shorter(session, format!(" {text}"), room), room, look);

@@ -1,4 +1,4 @@
-//! The state of the loop while it plays a file or a register.
+//! The state of the loop while it plays a file.
 
 use crate::session::replay::{Player, Recorder, Script};
 
@@ -12,7 +12,7 @@ pub(super) enum Pause {
     Wished,
 }
 
-/// A file or register that is being played.
+/// A file that is being played.
 #[derive(Debug)]
 pub(super) struct Playing {
     pub(super) player: Player,
@@ -22,8 +22,6 @@ pub(super) struct Playing {
     pub(super) passed: usize,
     /// Whether keys had their usual effect since the present caption was shown.
     pub(super) tried: bool,
-    /// Whether it is a register: input of the user then waits until it is over.
-    pub(super) register: bool,
     /// Number of key presses that asked for it, the last ones recorded.
     pub(super) asked: u32,
     /// The steps that it has given to the session so far.
@@ -36,13 +34,12 @@ pub(super) struct Playing {
 }
 
 impl Playing {
-    pub(super) fn new(script: Script, register: bool, asked: u32) -> Self {
+    pub(super) fn new(script: Script, asked: u32) -> Self {
         Playing {
             player: Player::new(script.clone()),
             script,
             passed: 0,
             tried: false,
-            register,
             asked,
             given: Recorder::default(),
             timed: false,

@@ -1,4 +1,4 @@
-//! Files and registers played in the loop, the effect of the user's keys meanwhile, and what is recorded.
+//! Files played in the loop, the effect of the user's keys meanwhile, and what is recorded.
 //!
 //! A recording keeps the command that asked for a replay, because it plays the same again. Only if the replay
 //! ended early, or something besides its steps was given to the session, the recording has the given steps
@@ -63,9 +63,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         if leaves(&msg) {
             return Ok(Some(LoopEnd::Quit));
         }
-        if playing.register {
-            self.held_back.push_back(Event::Session(msg));
-        } else if caption && BACK.iter().any(|code| is_key(&msg, *code)) {
+        if caption && BACK.iter().any(|code| is_key(&msg, *code)) {
             playing.go_back();
         } else if caption && matches!(msg, Msg::Key(_)) {
             playing.go_on();
@@ -113,10 +111,10 @@ impl<M: Application, W: Write> Pump<M, W> {
     }
 
     /// Begins a replay; one that is already being played continues afterwards.
-    pub(super) fn begin(&mut self, script: Script, register: bool) -> io::Result<EffectOutcome> {
+    pub(super) fn begin(&mut self, script: Script) -> io::Result<EffectOutcome> {
         let asked = self.application.asked();
         let Some(playing) = &mut self.playing else {
-            self.playing = Some(Playing::new(script, register, asked));
+            self.playing = Some(Playing::new(script, asked));
             return Ok(EffectOutcome::Done);
         };
         playing.given.forget(asked);
@@ -127,7 +125,7 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// The refusal of an effect that writes a file, if a file that may not do so is played.
     pub(super) fn refusal(&mut self, effect: &Effect) -> Option<Msg> {
-        let playing = self.playing.as_mut().filter(|playing| !playing.register)?;
+        let playing = self.playing.as_mut()?;
         let notice = unasked(effect).filter(|_| !self.files.may_play_write)?;
         playing.unwritten.get_or_insert(notice.text.clone());
         let is_figure = matches!(effect, Effect::Figure { .. });

@@ -384,27 +384,6 @@ fn the_users_keys_stop_hold_or_leave_a_replay_and_are_no_part_of_it() {
 }
 
 #[test]
-fn what_is_typed_while_a_register_is_played_comes_after_it() {
-    let Bench { mut pump, .. } = bench();
-    pump.application.asks = Some(Effect::PlayRegister(replay::parse("<right*3>").unwrap()));
-    for name in ["<enter>", "p", "q"] {
-        assert_eq!(pump.handle(key(name)).unwrap(), None);
-    }
-    while pump.playing.is_some() {
-        assert!(!pump.application.moving);
-        pump.draw().unwrap();
-        pump.play().unwrap();
-    }
-    assert_eq!(pump.application.count, 3);
-    pump.release();
-    let missed: Vec<Event> = pump.missed.drain(..).collect();
-    let stops: Vec<_> = missed.into_iter().map(|event| pump.handle(event).unwrap()).collect();
-    assert_eq!(stops, [None, Some(LoopEnd::Quit)]);
-    assert!(pump.application.moving);
-    assert_eq!(recorded(&pump), "<enter> p\n", "what asks for it plays it again; q is no part");
-}
-
-#[test]
 fn what_was_not_played_to_its_end_is_recorded_as_far_as_it_went() {
     let Bench { mut pump, .. } = bench();
     pump.application.asks = Some(Effect::Play(replay::parse("<right*3>").unwrap()));

@@ -8,8 +8,7 @@ use crate::scene::machine::file::parse;
 use crate::scene::machine::mode::{NO_BELT, is_mode};
 use crate::scene::{Recording, ScaledMachine};
 use crate::session::act::notice::{inform, refuse, warn_of_units, with_keys};
-use crate::session::act::values::letter;
-use crate::session::act::{history, macros, measurement, prompt};
+use crate::session::act::{history, measurement, prompt};
 use crate::session::effect::{Done, Effect};
 use crate::session::message::Purpose;
 use crate::session::replay::script::Script;
@@ -27,7 +26,7 @@ pub(in crate::session) fn write(session: &mut Session, path: &str, replace: bool
 
 /// Writes the recording since the start, without the presses that asked for that.
 pub(in crate::session) fn record(session: &mut Session, path: &str, replace: bool) -> Vec<Effect> {
-    let forget = session.macros.chord;
+    let forget = session.chord;
     vec![Effect::Record { path: PathBuf::from(path), forget, replace }]
 }
 
@@ -67,28 +66,6 @@ pub fn offer_figure(session: &mut Session) -> Vec<Effect> {
     prompt::open_with(session, format!("figure-pane {scene}-{}.svg", session.plot + 1))
 }
 
-fn register(rest: &str) -> Result<(char, &str), String> {
-    let (name, path) = rest
-        .split_once(char::is_whitespace)
-        .ok_or_else(|| format!("{rest:?} is not a letter and a file, such as: a walk.keys"))?;
-    Ok((letter(name)?, path.trim()))
-}
-
-/// Writes a register to a keystroke file.
-pub(in crate::session) fn write_macro(session: &mut Session, rest: &str) -> Done {
-    let (name, path) = register(rest)?;
-    let steps = session.macros.registers.get(&name);
-    let steps = steps.ok_or_else(|| format!("register {name} is empty"))?;
-    let text = replay::text(&format!("register {name} of hopfscope"), steps);
-    Ok(vec![Effect::Write { path: PathBuf::from(path), text, replace: false }])
-}
-
-/// Reads a register from a keystroke file.
-pub(in crate::session) fn read_macro(_: &mut Session, rest: &str) -> Done {
-    let (name, path) = register(rest)?;
-    Ok(ask(path, Purpose::Register(name)))
-}
-
 /// Takes a file in, or says what is wrong with it and changes nothing.
 pub(in crate::session) fn read(
     session: &mut Session,
@@ -110,7 +87,6 @@ fn take(
     }
     let text = result?;
     let of_file = |why: String| format!("{}: {why}", path.display());
-    let script = || replay::parse(&text).map_err(|error| of_file(error.to_string()));
     match purpose {
         Purpose::Open => {
             save::open(session, &text).map_err(of_file)?;
@@ -134,14 +110,8 @@ fn take(
         // Handled above, because the table may be unreadable.
         Purpose::Table { .. } => {}
         Purpose::Play => {
-            let script = script()?;
-            macros::inline(session);
+            let script = replay::parse(&text).map_err(|error| of_file(error.to_string()))?;
             return Ok(vec![Effect::Play(script)]);
-        }
-        Purpose::Register(name) => {
-            let steps = script()?.steps.into_iter().map(|located| located.step).collect();
-            session.macros.registers.insert(name, steps);
-            inform(session, format!("register {name} now holds the keys of {}", path.display()));
         }
     }
     Ok(Vec::new())
@@ -242,7 +212,6 @@ pub fn tour_script() -> Result<Script, String> {
 pub fn tour(session: &mut Session) -> Vec<Effect> {
     match tour_script() {
         Ok(script) => {
-            macros::inline(session);
             vec![Effect::Play(script)]
         }
         Err(why) => refuse(session, why),

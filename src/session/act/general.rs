@@ -1,7 +1,6 @@
 //! Commands that belong to no pane: layers, harmonics, the scene's caption, appearance, retry, quitting.
 
 use crate::scene::Layer;
-use crate::session::act::macros;
 use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::effect::Effect;
 use crate::session::state::overlay::{Overlay, SessionCaption};
@@ -114,10 +113,7 @@ pub fn retry(session: &mut Session) -> Vec<Effect> {
 /// Plays the pasted keys after confirmation.
 pub fn accept_offer(session: &mut Session) -> Vec<Effect> {
     match session.overlay.take() {
-        Some(Overlay::Offer(script)) => {
-            macros::inline(session);
-            vec![Effect::Play(script)]
-        }
+        Some(Overlay::Offer(script)) => vec![Effect::Play(script)],
         other => {
             session.overlay = other;
             Vec::new()

@@ -9,7 +9,6 @@ pub mod focus;
 pub mod general;
 pub mod history;
 pub mod lists;
-pub mod macros;
 pub mod marks;
 pub mod measurement;
 pub mod mouse;

@@ -1,4 +1,4 @@
-//! Keys that need another key: a count before a key, and the letter of a register or a mark.
+//! Keys that need another key: a count before a key, and the letter of a mark.
 
 use crate::session::effect::Effect;
 use crate::session::message::key::Key;
@@ -27,7 +27,7 @@ pub fn delete_digit(session: &mut Session) -> Vec<Effect> {
 
 /// Waits for a letter.
 pub fn ask(session: &mut Session, what: Letter) -> Vec<Effect> {
-    session.pending = Some(Pending::Letter { what, count: 1 });
+    session.pending = Some(Pending::Letter(what));
     Vec::new()
 }
 

@@ -1,4 +1,4 @@
-//! Lines that set values: parameters, scenes, views, layers, marks, registers and appearance.
+//! Lines that set values: parameters, scenes, views, layers, marks and appearance.
 
 use std::sync::Arc;
 
@@ -9,11 +9,10 @@ use crate::scene::{
 };
 use crate::session::act::notice::{inform, warn_of_units};
 use crate::session::act::{
-    axes as axis, entry, focus, general, history, macros, marks, parameters, screen_setup,
+    axes as axis, entry, focus, general, history, marks, parameters, screen_setup,
 };
 use crate::session::effect::Done;
 use crate::session::read::completion::{properties, rows};
-use crate::session::state::pending::MOST;
 use crate::session::state::plot::{Framing, Pane};
 use crate::session::state::rows::Row;
 use crate::session::state::session::{MOST_HARMONICS, Session};
@@ -183,7 +182,7 @@ pub fn kicks(session: &mut Session, rest: &str) -> Done {
     Ok(inform(session, format!("{} kicks {kicks}, in q and v", kicks.law.name())))
 }
 
-/// The letter of a register or mark.
+/// The letter of a mark.
 pub fn letter(text: &str) -> Result<char, String> {
     let mut chars = text.chars();
     match (chars.next(), chars.next()) {
@@ -199,15 +198,6 @@ pub fn mark(session: &mut Session, rest: &str) -> Done {
 /// Goes to a mark.
 pub fn go_to(session: &mut Session, rest: &str) -> Done {
     Ok(marks::go_to(session, letter(rest)?))
-}
-
-/// Plays a register, optionally several times.
-pub fn play(session: &mut Session, rest: &str) -> Done {
-    let (name, times) = rest.split_once(char::is_whitespace).unwrap_or((rest, "1"));
-    let most = MOST;
-    let count = times.trim().parse().ok().filter(|count| (1..=most).contains(count));
-    let count = count.ok_or_else(|| format!("{times:?} is not a number from 1 to {most}"))?;
-    Ok(macros::play(session, letter(name)?, count))
 }
 
 fn look<T: Copy>(table: &[(T, &'static str)], name: &str) -> Result<T, String> {

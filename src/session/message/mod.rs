@@ -64,8 +64,6 @@ pub enum Purpose {
     Restore,
     /// To play its keys.
     Play,
-    /// To put its keys into a register.
-    Register(char),
     /// To fit the record of a motion that it holds; the text has further options.
     Fit(String),
     /// To open the machine that it describes.

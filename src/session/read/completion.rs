@@ -33,7 +33,6 @@ fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
         Words::Window => windows(session),
         Words::Scan => scan(given),
         Words::Marks => session.marks.places.keys().map(char::to_string).collect(),
-        Words::Registers => session.macros.registers.keys().map(char::to_string).collect(),
         Words::Themes => owned(&THEMES.map(|row| row.1)),
         Words::Glyphs => owned(&GLYPHS.map(|row| row.1)),
         Words::Colors => owned(&COLORS.map(|row| row.1)),

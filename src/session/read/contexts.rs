@@ -15,7 +15,7 @@ impl Session {
     pub fn contexts(&self) -> &'static [Context] {
         match self.pending {
             Some(Pending::Count(_)) => chain(Context::Count),
-            Some(Pending::Letter { .. }) => chain(Context::Letter),
+            Some(Pending::Letter(_)) => chain(Context::Letter),
             None => self.contexts_at_rest(),
         }
     }

@@ -80,16 +80,16 @@ impl Session {
         let context = match self.pending {
             None => None,
             Some(Pending::Count(_)) => Some(Context::Count),
-            Some(Pending::Letter { .. }) => Some(Context::Letter),
+            Some(Pending::Letter(_)) => Some(Context::Letter),
         };
         if context.is_some_and(|context| self.keymap.command(&[context], key).is_some()) {
             return None;
         }
         match self.pending {
-            Some(Pending::Letter { what: Letter::GoTo, .. }) => {
+            Some(Pending::Letter(Letter::GoTo)) => {
                 return self.awaited_by("goto", None);
             }
-            Some(Pending::Letter { .. }) => return None,
+            Some(Pending::Letter(_)) => return None,
             Some(Pending::Count(_)) | None => {}
         }
         let Some(command) = self.keymap.command(self.contexts_at_rest(), key) else {

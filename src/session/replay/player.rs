@@ -23,7 +23,7 @@ pub enum Action {
 /// keys.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unmet {
-    /// Line of the step, from 1; of keys from another file or a register, that of the step that plays them.
+    /// Line of the step, from 1; of keys from another file, that of the step that plays them.
     pub line: usize,
     /// Column, from 1.
     pub column: usize,
@@ -45,7 +45,7 @@ impl std::error::Error for Unmet {}
 /// `<async>`, it waits for that before each step, so that each key finds the picture that its author saw.
 #[derive(Clone, Debug)]
 pub struct Player {
-    /// The remaining steps, each with whether it is from another file or a register.
+    /// The remaining steps, each with whether it is from another file.
     steps: VecDeque<(Located, bool)>,
     /// Line and column of the last step that is not.
     place: (usize, usize),

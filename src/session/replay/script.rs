@@ -8,8 +8,8 @@ use crate::session::message::pointer::Pointed;
 /// Longest time in a single step, in s.
 pub const LONGEST: f64 = 3600.0;
 
-/// Maximum number of steps that are run, presses of a key one by one: those of a file, and those of the files and
-/// registers that it plays. The quickest take a tenth of a millisecond each.
+/// Maximum number of steps that are run, presses of a key one by one: those of a file, and those of the files that
+/// it plays. The quickest take a tenth of a millisecond each.
 pub const MOST: u64 = 100_000;
 
 /// Why a file with more steps is not run.
@@ -121,30 +121,15 @@ pub struct Script {
 }
 
 impl Script {
-    /// A file of these steps, repeated `times` times.
-    pub fn repeated(steps: &[Instruction], times: u32) -> Self {
-        let located = |(index, step): (usize, &Instruction)| Located {
-            line: 1,
-            column: index + 1,
-            step: step.clone(),
-        };
-        let once: Vec<Located> = steps.iter().enumerate().map(located).collect();
-        Script { steps: (0..times).flat_map(|_| once.iter().cloned()).collect() }
+    /// A file of these steps.
+    pub fn of(steps: Vec<Instruction>) -> Self {
+        let located = (1..).zip(steps).map(|(column, step)| Located { line: 1, column, step });
+        Script { steps: located.collect() }
     }
 
     /// Number of steps, presses of a key one by one.
     pub fn length(&self) -> u64 {
         self.steps.iter().map(|located| located.step.length()).sum()
-    }
-
-    /// Number of messages that count as input of the user.
-    pub fn presses(&self) -> u64 {
-        let presses = |located: &Located| match located.step {
-            Instruction::Key { count, .. } => u64::from(count),
-            Instruction::Pointed(_) | Instruction::Paste(_) | Instruction::Run(_) => 1,
-            _ => 0,
-        };
-        self.steps.iter().map(presses).sum()
     }
 
     /// Number of key presses.

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::flow::Problem;
@@ -54,9 +55,10 @@ pub struct SavedSession {
     pub left_belt: Option<Setting>,
     #[serde(default, skip_serializing_if = "Doubt::is_none")]
     pub left_doubt: Doubt,
-    /// Recorded keys, in the notation of keystroke files.
-    #[serde(default)]
-    pub registers: BTreeMap<char, String>,
+    /// Recorded keys of earlier versions, which are dropped.
+    #[serde(default, skip_serializing)]
+    #[expect(dead_code, reason = "a file that has them is still read")]
+    pub registers: IgnoredAny,
     #[serde(default)]
     pub past: Vec<SavedChange>,
     #[serde(default)]

@@ -13,8 +13,6 @@ use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
 use crate::scene::misread::{self, Misread};
 use crate::scene::{MOST_PLOTS, PlotSetup, Scene, Setting, find};
 use crate::session::read::numbers::difference;
-use crate::session::replay;
-use crate::session::replay::script::Instruction;
 use crate::session::state::doubt::Doubt;
 use crate::session::state::history::{Before, History, ScreenSetup, Snapshot};
 use crate::session::state::marks::{Bookmark, Marks};
@@ -66,9 +64,6 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
         .left
         .map(|left| mark(left, &file.left_beside, file.left_belt, file.left_doubt))
         .transpose()?;
-    let register = |(name, keys): (char, String)| Ok((name, steps(name, &keys)?));
-    let registers = file.registers.into_iter().map(register);
-    let registers = registers.collect::<Result<BTreeMap<_, _>, String>>()?;
     let changes =
         |changes: Vec<SavedChange>| changes.into_iter().map(before).collect::<Result<_, _>>();
     let history = History::of(changes(file.past)?, changes(file.future)?);
@@ -84,7 +79,6 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     (opened.harmonics, opened.kicks) = (file.harmonics, file.kicks);
     (opened.lines, opened.history) = (file.lines, history);
     opened.marks = Marks { places, left };
-    opened.macros.registers = registers;
     opened.answers = std::mem::take(&mut session.answers);
     opened.answers.ask(opened.asks());
     opened.answers.forget_others();
@@ -189,11 +183,6 @@ fn opened(look: &SavedPlot) -> Plot {
         cursor: cursor.filter(|cursor| cursor.x.is_finite() && cursor.y.is_finite()),
         ..plot
     }
-}
-
-fn steps(name: char, keys: &str) -> Result<Vec<Instruction>, String> {
-    let script = replay::parse(keys).map_err(|error| format!("register {name}: {error}"))?;
-    Ok(script.steps.into_iter().map(|located| located.step).collect())
 }
 
 fn before(change: SavedChange) -> Result<Before, String> {

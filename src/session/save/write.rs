@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use serde::de::IgnoredAny;
+
 use super::file::{SavedChange, SavedPlot, SavedScene, SavedSession, Show, VERSION};
 use crate::scene::{Scene, find};
-use crate::session::replay;
 use crate::session::state::doubt::Doubt;
 use crate::session::state::history::{Before, ScreenSetup};
 use crate::session::state::overlay::Overlay;
@@ -51,12 +52,7 @@ pub fn text(session: &Session) -> Result<String, String> {
         left_beside: left.map_or_else(Vec::new, |setup| setup.others.all().to_vec()),
         left_belt: left.and_then(|setup| setup.setting),
         left_doubt: left.map_or_else(Doubt::default, |setup| setup.doubt),
-        registers: session
-            .macros
-            .registers
-            .iter()
-            .map(|(name, steps)| (*name, replay::text("", steps)))
-            .collect(),
+        registers: IgnoredAny,
         past: past.iter().map(change).collect(),
         future: future.iter().map(change).collect(),
     };
@@ -118,12 +114,11 @@ fn change(before: &Before) -> SavedChange {
 }
 
 impl Session {
-    /// Whether the user made something whose loss would matter: a change, a mark, a register.
+    /// Whether the user made something whose loss would matter: a change, a mark.
     pub fn is_worth_keeping(&self) -> bool {
         let (past, future) = self.history.depth();
         past + future > 0
             || !self.marks.places.is_empty()
-            || !self.macros.registers.is_empty()
             || matches!(self.overlay, Some(Overlay::Entry(_)))
     }
 }

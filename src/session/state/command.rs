@@ -84,8 +84,6 @@ pub enum Words {
     Scan,
     /// The letter of a mark.
     Marks,
-    /// The letter of a register.
-    Registers,
     Themes,
     /// A set of characters.
     Glyphs,

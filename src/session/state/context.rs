@@ -33,7 +33,7 @@ pub enum Context {
     Palette,
     /// A count is being typed before a key.
     Count,
-    /// The next key is the letter of a register or mark.
+    /// The next key is the letter of a mark.
     Letter,
     /// Some list is open.
     Lists,
@@ -103,7 +103,7 @@ const OTHERS: [ContextSpec; 20] = [
     row(Context::Interrupted, "interrupted", "In the list of interrupted sessions", ContextKind::List),
     row(Context::Palette, "palette", "While searching the list", ContextKind::Text),
     row(Context::Count, "count", "After a count", ContextKind::Question),
-    row(Context::Letter, "letter", "Before the letter of a register or mark", ContextKind::Question),
+    row(Context::Letter, "letter", "Before the letter of a mark", ContextKind::Question),
     row(Context::Lists, "lists", "In every list", ContextKind::SharedByLists),
     row(Context::Search, "search", "While searching", ContextKind::Text),
     row(Context::Entry, "entry", "While typing a value", ContextKind::Text),

@@ -72,15 +72,6 @@ impl History {
         }
     }
 
-    /// Merges all changes recorded since the past had this depth into one; `before` is the state before them.
-    pub fn merge_all(&mut self, depth: usize, before: Box<Snapshot>) {
-        self.merge(depth, |before| matches!(before, Before::Setup(_)));
-        if self.past.len() > depth + 1 {
-            self.past.truncate(depth);
-            self.past.push(Before::Scene(before));
-        }
-    }
-
     /// The state before the last change. For redo, `present` returns the present state to the same extent.
     pub fn undo(&mut self, present: impl FnOnce(&Before) -> Before) -> Option<Before> {
         let before = self.past.pop()?;

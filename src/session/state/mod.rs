@@ -8,7 +8,6 @@ pub mod history;
 pub mod input;
 pub mod kept;
 pub mod keymap;
-pub mod macros;
 pub mod marks;
 pub mod overlay;
 pub mod pending;

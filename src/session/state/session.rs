@@ -18,7 +18,6 @@ use crate::session::state::doubt::Doubt;
 use crate::session::state::history::History;
 use crate::session::state::kept::Kept;
 use crate::session::state::keymap::Keymap;
-use crate::session::state::macros::Macros;
 use crate::session::state::marks::Marks;
 use crate::session::state::overlay::{Overlay, SessionCaption};
 use crate::session::state::pending::Pending;
@@ -138,7 +137,10 @@ pub struct Session {
     pub pending: Option<Pending>,
     /// A press that waits for an answer.
     pub waiting: Option<Waiting>,
-    pub macros: Macros,
+    /// Number of presses since nothing was open and nothing pending: they lead up to a command.
+    pub chord: u32,
+    /// Number of presses of the last such sequence that is complete.
+    pub asked: u32,
     /// Points to come back to, and the point for comparison.
     pub marks: Marks,
     /// The caption above the status lines.
@@ -198,7 +200,8 @@ impl Session {
             history: History::default(),
             pending: None,
             waiting: None,
-            macros: Macros::default(),
+            chord: 0,
+            asked: 0,
             marks: Marks::default(),
             caption: SessionCaption::Nothing,
             interrupted: Vec::new(),

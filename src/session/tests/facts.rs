@@ -3,7 +3,6 @@
 use super::Trial;
 use crate::oscillator::PARAMETERS;
 use crate::scene::LAYERS;
-use crate::session::replay::text;
 use crate::session::{Overlay, Pane, Session};
 
 impl Trial {
@@ -81,11 +80,6 @@ fn fact(session: &Session, name: &str) -> String {
         "rows" => session.rows().iter().map(|row| row.name()).collect::<Vec<_>>().join(" "),
         "selected" => session.selected.name().to_owned(),
         "pending" => session.pending.map_or_else(|| "none".to_owned(), |it| format!("{it:?}")),
-        "registers" => {
-            let registers = session.macros.registers.iter();
-            let told = registers.map(|(name, steps)| format!("{name} {}", text("", steps).trim()));
-            told.collect::<Vec<_>>().join("; ")
-        }
         "scanned" => session.scanned.as_ref().expect("a scan").at.to_string(),
         "ghost" => {
             let left = session.marks.left.as_ref().map(|mark| mark.setup.problem.parameters.d);

@@ -1,8 +1,7 @@
-//! Combinations of keys: counts, macros, marks.
+//! Combinations of keys: counts and marks.
 
 use super::Trial;
 use crate::scene::Answer;
-use crate::session::replay::{Script, text};
 
 #[test]
 fn a_count_presses_the_next_key_so_often_as_one_change() {
@@ -36,53 +35,6 @@ fn a_count_ends_where_the_key_is_refused_or_opens_something() {
 }
 
 #[test]
-fn keys_are_recorded_and_played_and_played_again() {
-    Trial::open("plain").goes(&[
-        ("&a <right*3> &", "notice register a has 3 keys | registers a <right*3>"),
-        ("@a", "D -0.04"),
-        ("@@", "D -0.01"),
-        ("*3@@", "D 0.08"),
-        // However often it is played, it is one change.
-        ("u", "D -0.01"),
-        ("uu", "D -0.07 | changes 3 3"),
-        ("@q", "notice register q is empty"),
-        // A key that is not a letter has no other effect.
-        ("@?", "notice ? is not a letter from a to z | open none"),
-    ]);
-}
-
-#[test]
-fn what_is_played_while_recording_is_recorded_in_its_place() {
-    Trial::open("plain").goes(&[
-        ("&a <right> & &b *2@a <left> &", "registers a <right>; b <right*2> <left>"),
-        // However the recording is ended, the keys that end it are not recorded.
-        ("&c <right> :record-macro<enter>", "registers ..; c <right>"),
-        ("&d <right> <space>record-macro<enter>", "registers ..; d <right>"),
-    ]);
-}
-
-#[test]
-fn a_register_is_one_change_whatever_it_changes() {
-    Trial::open("plain").goes(&[
-        ("&a <right> W &", "plots 3 | D -0.09"),
-        ("*2@a u", "plots 3 | D -0.09"),
-        ("<C-r>", "plots 4"),
-    ]);
-}
-
-#[test]
-fn a_macro_is_a_keystroke_file() {
-    let mut trial = Trial::open("plain");
-    trial.press("&a -0.3<enter> <tab>++ &");
-    let file = text("hopfscope", &trial.session.macros.registers[&'a']);
-    let mut other = Trial::open("plain");
-    other.press(&file);
-    assert_eq!(other.session.problem, trial.session.problem);
-    assert_eq!(other.session.plots[0].window, trial.session.plots[0].window);
-    assert_eq!(Script::repeated(&trial.session.macros.registers[&'a'], 2).keys(), 16);
-}
-
-#[test]
 fn between_two_marks_nothing_is_computed_twice_and_the_other_one_is_a_ghost() {
     let mut trial = Trial::open("plain");
     trial
@@ -106,7 +58,6 @@ fn a_mark_without_a_letter_or_a_point_is_refused() {
         ("'x", "notice there is no mark x"),
         ("''", "notice no mark has been visited yet"),
         ("\"7", "notice 7 is not a letter from a to z"),
-        ("@@", "notice no register has been played yet"),
         ("\"<C-c>", "quit true"),
     ]);
 }

@@ -101,7 +101,7 @@ impl Trial {
             let before = self.effects.len();
             self.give(message);
             for effect in &self.effects[before..] {
-                if let Effect::Play(script) | Effect::PlayRegister(script) = effect {
+                if let Effect::Play(script) = effect {
                     player.interject(script.clone()).unwrap();
                 }
             }

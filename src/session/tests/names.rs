@@ -175,7 +175,7 @@ fn found(words: &str) -> Vec<(&'static str, &'static str)> {
 
 /// Words that a person may type, and the row that is meant.
 #[rustfmt::skip]
-const MEANT: [(&str, &str); 60] = [
+const MEANT: [(&str, &str); 59] = [
     ("fold", "walk-to-next"), ("export", "save-figure"), ("stable", "cycles"), ("animate", "play-motion"),
     ("fig 16", "fig16"), ("fig16b", "supercritical"), ("time series", "time-series"), ("damping", "damping"),
     ("save", "write"), ("zoom", "zoom-in"), ("undo", "undo"), ("amplitude", "diagram"), ("basin", "basin"),
@@ -183,7 +183,7 @@ const MEANT: [(&str, &str); 60] = [
     ("theme", "theme"), ("help", "help"), ("keys", "help"), ("color", "color"), ("bifurcation", "diagram"),
     ("phase plane", "phase"), ("friction", "friction"), ("sweep", "scan-form"), ("scan", "scan-form"),
     ("kick", "start-inside"), ("tolerance", "tol"), ("method", "next-method"), ("mouse", "mouse"),
-    ("record", "record"), ("macro", "macro"), ("mark", "set-mark"), ("import", "fit"), ("load", "open"),
+    ("record", "record"), ("mark", "set-mark"), ("import", "fit"), ("load", "open"),
     ("open", "open"), ("print", "save-figure"), ("csv", "save-scan"), ("eigenvalue", "eigenvalues"),
     ("poincare", "return-map"), ("return map", "return-map"), ("lyapunov", "lyapunov"), ("restart", "reset-scene"),
     ("reset", "reset-value"), ("squeal", "groan"), ("tour", "tour"), ("window", "window"), ("axis", "axes"),

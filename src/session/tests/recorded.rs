@@ -44,7 +44,7 @@ fn replayed(text: &str, before: &str) -> Trial {
 fn alike(session: &Session) -> Session {
     let mut session = session.clone();
     session.price = crate::session::Price::default();
-    (session.macros.chord, session.macros.asked) = (0, 0);
+    (session.chord, session.asked) = (0, 0);
     session.answers = Answers::default();
     session.marks.places.values_mut().for_each(|mark| mark.asked.clear());
     session.marks.left.iter_mut().for_each(|mark| mark.asked.clear());
@@ -106,7 +106,7 @@ fn a_machine_and_a_saved_session_begin_as_they_were() {
         assert_alike(&live.session, &replayed(&begun, "fig17").session, &begun);
     }
     let mut used = Trial::open("linear");
-    used.press("<right*3> \"a <left> [ -0.3<enter> 'a W ; <tab*2> +++ &x <right> & u");
+    used.press("<right*3> \"a <left> [ -0.3<enter> 'a W ; <tab*2> +++ u");
     let saved = save::text(&used.session).unwrap();
     let mut session = Session::new(crate::scene::plain(), Size { width: 80, height: 24 });
     save::open(&mut session, &saved).unwrap();
@@ -169,7 +169,7 @@ proptest! {
             let since = live.effects.len();
             live.give(message);
             let mut given: Vec<Effect> = live.effects[since..].to_vec();
-            while let Some(Effect::Play(script) | Effect::PlayRegister(script)) = given.pop() {
+            while let Some(Effect::Play(script)) = given.pop() {
                 live.press(&text("", &script.steps.into_iter().map(|it| it.step).collect::<Vec<_>>()));
             }
             if live.session.quit {

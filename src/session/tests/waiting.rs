@@ -39,7 +39,7 @@ fn type_ahead(trial: &mut Trial, keys: &str) -> Vec<String> {
             waited.push(format!("{message:?}"));
         }
         for effect in &trial.effects[before..] {
-            if let Effect::Play(script) | Effect::PlayRegister(script) = effect {
+            if let Effect::Play(script) = effect {
                 player.interject(script.clone()).unwrap();
             }
         }
