@@ -1,5 +1,7 @@
 //! Lists whose last column is text, wrapped to the width of the terminal.
 
+use crate::words;
+
 /// Narrowest readable last column; with less room the text continues below its row.
 const NARROWEST: usize = 30;
 
@@ -36,23 +38,12 @@ fn wrapped(list: &str, width: usize) -> String {
         }
         let head: String = cells[..start].iter().collect();
         let text: String = cells[start..].iter().collect();
-        let mut line =
-            if indent == start { head } else { format!("{}\n{:INDENT$}", head.trim_end(), "") };
-        let mut used = 0;
-        for word in text.split(' ') {
-            let length = word.chars().count();
-            if used > 0 && used + 1 + length > room {
-                out += line.trim_end();
-                out.push('\n');
-                (line, used) = (" ".repeat(indent), 0);
-            } else if used > 0 {
-                line.push(' ');
-                used += 1;
-            }
-            line += word;
-            used += length;
+        if indent == start {
+            out += &head;
+        } else {
+            out += &format!("{}\n{:INDENT$}", head.trim_end(), "");
         }
-        out += line.trim_end();
+        out += &words::wrapped(&text, room).join(&format!("\n{:indent$}", ""));
         out.push('\n');
     }
     out

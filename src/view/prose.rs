@@ -6,6 +6,7 @@ use ratatui::text::{Line, Span};
 
 use super::look::Look;
 use super::pane;
+use crate::words::wrapped;
 
 /// Writes lines from the top of `area` down; those that are too long for a row go on in the next, in the
 /// style of their first words.
@@ -36,23 +37,6 @@ fn broken(line: Line<'static>, width: usize) -> Vec<Line<'static>> {
     wrapped(&text, width).into_iter().map(|row| Line::from(Span::styled(row, style))).collect()
 }
 
-/// A text in lines of at most `width` columns, broken between words where possible.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let line = lines.last_mut();
-        match line {
-            Some(line) if line.is_empty() => line.push_str(word),
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
-}
-
 /// The rows that lines take in `width` columns.
 pub fn rows(lines: &[Line<'static>], width: u16) -> u16 {
     let rows = lines.iter().map(|line| broken(line.clone(), width.into()).len()).sum::<usize>();
@@ -64,14 +48,6 @@ mod tests {
     use super::*;
     use crate::session::settings;
     use crate::view::screen::text;
-
-    #[test]
-    fn words_stay_whole_and_lines_within_their_width() {
-        let text = "one two three four five";
-        assert_eq!(wrapped(text, 9), ["one two", "three", "four five"]);
-        assert_eq!(wrapped("", 9), [""]);
-        assert_eq!(wrapped("incomprehensible", 3), ["incomprehensible"]);
-    }
 
     #[test]
     fn what_goes_on_below_has_a_mark() {

@@ -11,6 +11,10 @@ pub mod quantity;
 pub mod similar;
 pub mod statement;
 
+use std::borrow::Cow;
+
+use textwrap::{Options, WordSplitter};
+
 /// `no limit cycle`, `1 cycle`, `2 cycles`.
 pub fn cycles(count: usize) -> String {
     match count {
@@ -23,4 +27,23 @@ pub fn cycles(count: usize) -> String {
 /// `stable` or `unstable`.
 pub fn stability(stable: bool) -> &'static str {
     if stable { "stable" } else { "unstable" }
+}
+
+/// A text in lines of at most `width` columns, broken between words where possible.
+pub fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let options = Options::new(width).break_words(false).word_splitter(WordSplitter::NoHyphenation);
+    textwrap::wrap(text.trim(), options).into_iter().map(Cow::into_owned).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_stay_whole_and_lines_within_their_width() {
+        let text = "one two three four-five six";
+        assert_eq!(wrapped(text, 9), ["one two", "three", "four-five", "six"]);
+        assert_eq!(wrapped("", 9), [""]);
+        assert_eq!(wrapped("incomprehensible", 3), ["incomprehensible"]);
+    }
 }
