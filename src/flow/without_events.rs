@@ -131,16 +131,6 @@ mod tests {
     }
 
     #[test]
-    fn the_sign_in_the_field_chatters_and_rests_in_the_wrong_place() {
-        let [coarse, fine] =
-            [0.1, 0.001].map(|step| run(&Problem { method: Method::SignRk4, step, ..from(2.0) }));
-        assert!((end(&coarse) - REST).abs() > 0.1, "{:?}", coarse.outcome);
-        assert!(matches!(fine.outcome, Outcome::Moving { .. }));
-        // The motion has three half swings; all other crossings are spurious, one every few steps.
-        assert!(fine.crossings.len() > 1000, "{}", fine.crossings.len());
-    }
-
-    #[test]
     fn smoothed_friction_creeps_and_costs_as_the_inverse_of_its_width() {
         let creep = [(1e-2, 0.131), (1e-3, 0.351), (1e-4, 0.395), (1e-5, 0.3995)].map(
             |(epsilon, place)| {

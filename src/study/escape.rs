@@ -124,27 +124,3 @@ fn excess_at_infinity(
     let (plain, weighed) = (plain?, weighed?);
     Ok(weighed.filter(|(_, noise)| *noise < f64::EPSILON).map_or(plain, |(weighed, _)| weighed))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn escape_points_agree_with_those_computed_elsewhere() {
-        let table = [
-            (0.02, -0.015_958),
-            (0.05, -0.039_892),
-            (0.1, -0.079_769),
-            (0.25, -0.199_164),
-            (0.5, -0.396_442),
-            (1.0, -0.776_232),
-        ];
-        for (product, expected) in table {
-            for (d2, r) in [(1.0, product), (product / 0.3, 0.3), (-product, 1.0)] {
-                let parameters = Parameters { d: 0.0, d2, d3: 0.0, r };
-                let d = escape_point(&parameters, &Limits::PATIENT).unwrap().0.unwrap();
-                assert!((d - expected).abs() < 5e-7, "r D2 = {product}: {d}");
-            }
-        }
-    }
-}

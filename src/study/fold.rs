@@ -182,16 +182,6 @@ mod tests {
         fold(&parameters, &Limits::PATIENT).unwrap().0.expect("a fold")
     }
 
-    #[test]
-    fn the_fold_is_where_it_was_computed_elsewhere() {
-        for (kappa, expected) in [(0.01, -0.217_412_751_691), (0.25, -0.639_011_106_199)] {
-            assert!((found(0.0, kappa, 1.0).d - expected).abs() < 1e-11, "{kappa}");
-        }
-        let shifted = found(0.2, 0.5, 0.1);
-        assert!((shifted.d + 0.172_784_103_071_94).abs() < 1e-13);
-        assert!((shifted.q_max - 0.515_541_875_076).abs() < 1e-7);
-    }
-
     /// Whether a motion from rest at `q0` comes back to its side further out.
     fn turn_grows(parameters: Parameters, q0: f64) -> bool {
         let initial = State { q: q0, v: 0.0 };

@@ -188,13 +188,6 @@ mod tests {
     }
 
     #[test]
-    fn interruptions_are_passed_on() {
-        let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
-        let limits = Limits { interrupted: &|| true, ..Limits::PATIENT };
-        assert_eq!(compare(&parameters, &[], 9, 0, &limits), Err(Reason::Interrupted));
-    }
-
-    #[test]
     fn without_the_true_cycles_the_answer_stands_alone_and_says_why() {
         let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
         let limits = Limits { evaluations: 100, ..Limits::PATIENT };

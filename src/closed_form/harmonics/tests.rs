@@ -1,7 +1,5 @@
 //! What N harmonics must give: known numbers, exact laws, and honest failures.
 
-use std::cell::Cell;
-
 use proptest::prelude::*;
 
 use super::*;
@@ -96,22 +94,6 @@ fn a_cycle_that_is_not_there_shows_by_its_crossings() {
     // Without cubic damping, D2 lets no cycle live above D_c = -0.015958 r abs(D2)/0.02.
     let cycle = only(&oscillator(-0.01, 0.2, 0.0, 0.1), 31);
     assert!(cycle.crossings > 2, "{cycle:?}");
-}
-
-#[test]
-fn a_computation_that_is_told_to_stop_stops() {
-    let parameters = oscillator(-0.7, 0.2, 0.5, 0.1);
-    let [first, ..] = amplitudes(&parameters)[..] else { panic!("a first-order answer") };
-    for patience in [0, 1, 5] {
-        let asked = Cell::new(0);
-        let interrupted = || {
-            asked.set(asked.get() + 1);
-            asked.get() > patience
-        };
-        let answer = harmonic_cycle(&parameters, &first, 127, &interrupted);
-        assert_eq!(answer, Err(Lost::Interrupted));
-        assert_eq!(asked.get(), patience + 1);
-    }
 }
 
 #[test]

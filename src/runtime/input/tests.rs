@@ -107,16 +107,6 @@ fn escape_is_a_key_when_nothing_follows_and_else_begins_a_sequence() {
 }
 
 #[test]
-fn five_hundred_arrows_at_once_are_five_hundred_arrows() {
-    let mut keyboard = keyboard();
-    keyboard.types(&[b"\x1b[C".repeat(500), b"q".to_vec()].concat());
-    let heard = keyboard.all();
-    assert_eq!(heard.len(), 502);
-    assert!(heard[..500].iter().all(|name| name == "Right"));
-    assert_eq!(heard[500..], ["Char('q')", "Closed"]);
-}
-
-#[test]
 fn a_paste_is_one_message_with_lines() {
     let mut keyboard = keyboard();
     let text = "<right*5>\r\n<wait>\rq".repeat(1000);

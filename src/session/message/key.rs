@@ -304,16 +304,4 @@ pub(in crate::session) mod tests {
         (code, any::<bool>(), any::<bool>(), any::<bool>())
             .prop_map(|(code, control, alt, shift)| Key::new(code, control, alt, shift))
     }
-
-    proptest! {
-        #[test]
-        fn what_is_printed_is_read_back(key in any_key()) {
-            prop_assert_eq!(key.to_string().parse::<Key>(), Ok(key));
-        }
-
-        #[test]
-        fn no_text_is_too_strange(text in any::<String>()) {
-            let _ = text.parse::<Key>();
-        }
-    }
 }

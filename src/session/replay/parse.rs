@@ -323,16 +323,6 @@ mod tests {
 
     proptest! {
         #[test]
-        fn no_text_is_too_strange(text in any::<String>()) {
-            let _ = parse(&text);
-        }
-
-        #[test]
-        fn nor_any_soup_of_brackets(text in "[<>\"\\\\*# a-cCS0-3x-]{0,40}") {
-            let _ = parse(&text);
-        }
-
-        #[test]
         fn what_is_printed_is_read_back(
             key in crate::session::message::key::tests::any_key(),
             count in 1..=MOST,

@@ -2,12 +2,10 @@
 
 use super::{COST, Trial, answered, by_hand};
 use crate::flow::{Limits, Method, Reason};
-use crate::oscillator::Symbol;
 use crate::question::{NoAnswer, answer};
 use crate::scene::{Answer, Request, TOPICS, Topic, find};
-use crate::session::act::parameters;
 use crate::session::read::wants::Unmeasured;
-use crate::session::{Msg, Row, Session, Standing, update};
+use crate::session::{Msg, Standing, update};
 use crate::study::accuracy::Reference;
 
 #[test]
@@ -216,42 +214,6 @@ fn why_there_is_no_measured_error_is_known() {
         assert!(session.measures());
         assert_eq!(session.unmeasured(), why);
         assert_eq!(session.measured().is_none(), why.is_some());
-    }
-}
-
-/// For each number of the motion, the topics whose questions contain it.
-#[test]
-fn a_step_of_each_number_asks_exactly_these_questions_anew() {
-    use Symbol::{D, D2, D3, Q0, R, V0};
-    use Topic::{Balance, Branch, Capture, Cycles, Reference, Trajectory};
-    let mut trial = Trial::alone("supercritical");
-    trial.press("<run \"layer bands\"> <run \"layer balance\"> <down*9>");
-    let now = [Trajectory, Cycles, Capture, Branch, Balance, Reference];
-    let columns = |row: Row| {
-        let mut stepped = trial.session.clone();
-        stepped.selected = row;
-        parameters::step(&mut stepped, 1);
-        let plot = |topic| usize::from(topic == Branch);
-        now.map(|topic| {
-            let asked = |session: &Session| session.request(topic, plot(topic));
-            if asked(&stepped) == asked(&trial.session) { '.' } else { 'x' }
-        })
-        .iter()
-        .collect::<String>()
-    };
-    for (row, table) in [
-        //                      motion cycles bands branch harmonics reference
-        (Row::Parameter(D), "xxx.xx"), // the branch runs over it
-        (Row::Parameter(D2), "xxxxxx"),
-        (Row::Parameter(D3), "xxxxxx"),
-        (Row::Parameter(R), "xxxxxx"),
-        (Row::Parameter(Q0), "x....x"),
-        (Row::Parameter(V0), "x....x"),
-        (Row::Until, "x....x"),
-        (Row::Method, "x....."),
-        (Row::Tolerance, "x..x.."),
-    ] {
-        assert_eq!(columns(row), table, "{row:?}");
     }
 }
 

@@ -246,7 +246,6 @@ mod tests {
     use super::*;
     use crate::oscillator::{Parameters, State, Symbol};
     use crate::study::basin::Window;
-    use crate::study::cycle::cycles;
     use crate::study::measure::MEASURES;
 
     const WINDOW: Window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
@@ -296,20 +295,6 @@ mod tests {
         sum += cost(&[Measure::Rest]);
         let all = [Measure::Cycles, Measure::Rest, Measure::Multipliers, Measure::Outcome];
         assert_eq!(cost(&all), sum);
-    }
-
-    #[test]
-    fn what_is_measured_is_what_the_questions_answer() {
-        let problem = problem(-0.2, 0.2, 0.5, 0.1);
-        let limits = &Limits::PATIENT;
-        let found = cycles(&problem.parameters, true, limits).unwrap();
-        let (values, _) = measured(&problem, &[Measure::Cycles, Measure::Margin, Measure::Fold]);
-        assert_eq!(values[0], Value::Count(found.cycles.len()));
-        assert_eq!(values[2], Value::from(found.cycles[0].q_max));
-        let margin = found.picture.unwrap().margin;
-        assert_eq!(values[9..11], [margin.displacement.into(), margin.impulse.into()]);
-        let fold = fold(&problem.parameters, limits).unwrap().0.unwrap();
-        assert_eq!(values[11], Value::from(fold.d));
     }
 
     #[test]
