@@ -7,13 +7,13 @@
 //! computed again.
 
 use std::collections::BTreeMap;
-use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::lines::{FileLine, Lines};
+use super::new_file::beside;
 use crate::report::scan::RowForm;
 use crate::study::scan::Scan;
 use crate::words::provenance::Checksum;
@@ -36,7 +36,7 @@ pub struct Journal {
 impl Journal {
     /// The empty journal beside this file; one that an earlier scan left is removed.
     pub fn new(path: &Path) -> Self {
-        let journal = Journal { path: beside(path), file: None, bytes: 0 };
+        let journal = Journal { path: beside(path, ENDING), file: None, bytes: 0 };
         journal.remove();
         journal
     }
@@ -48,13 +48,13 @@ impl Journal {
         form: RowForm,
         points: &Range<usize>,
     ) -> (Self, BTreeMap<usize, String>) {
-        let open = OpenOptions::new().read(true).append(true).open(beside(path));
+        let open = OpenOptions::new().read(true).append(true).open(beside(path, ENDING));
         let Ok(file) = open else { return (Self::new(path), BTreeMap::new()) };
         let (found, bytes) = rows(&file, scan, form, points);
         if found.is_empty() || file.set_len(bytes).is_err() {
             return (Self::new(path), BTreeMap::new());
         }
-        (Journal { path: beside(path), file: Some(file), bytes }, found)
+        (Journal { path: beside(path, ENDING), file: Some(file), bytes }, found)
     }
 
     /// Adds a row. Fails if it cannot be written.
@@ -98,13 +98,6 @@ impl Journal {
         // A journal that cannot be removed is a nuisance but no error: its rows are known to be unnecessary.
         drop(fs::remove_file(&self.path));
     }
-}
-
-/// The name of the journal beside this file.
-fn beside(path: &Path) -> PathBuf {
-    let mut name = OsString::from(path);
-    name.push(ENDING);
-    name.into()
 }
 
 /// The rows of these points in a journal, and its length in bytes without an incomplete last line.

@@ -11,6 +11,13 @@ use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
 /// Maximum number of symbolic links that are followed one after the other, as in the system.
 const LINKS: usize = 40;
 
+/// The file beside another one that has this ending behind its name.
+pub fn beside(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    name.into()
+}
+
 /// Who may read a file that was not there before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Readers {

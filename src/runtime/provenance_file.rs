@@ -2,7 +2,6 @@
 //!
 //! The file of rows itself stays as other programs expect it, with nothing before the line of column names.
 
-use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::os::unix::fs::FileExt;
@@ -26,9 +25,7 @@ pub fn arguments() -> Vec<String> {
 }
 
 pub fn beside(path: &Path) -> PathBuf {
-    let mut name = OsString::from(path);
-    name.push(ENDING);
-    name.into()
+    new_file::beside(path, ENDING)
 }
 
 /// Writes the provenance of a file, unless it is a device or a pipe. Fails if it cannot be written.

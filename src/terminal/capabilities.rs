@@ -60,7 +60,15 @@ impl std::error::Error for Refusal {}
 impl Environment {
     pub fn of_process() -> Environment {
         use std::io::IsTerminal;
-        let value = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+        Environment {
+            input_is_terminal: std::io::stdin().is_terminal(),
+            output_is_terminal: std::io::stdout().is_terminal(),
+            ..Environment::of(|name| std::env::var(name).ok().filter(|value| !value.is_empty()))
+        }
+    }
+
+    /// That of terminals on both sides and these variables.
+    fn of(value: impl Fn(&str) -> Option<String>) -> Environment {
         Environment {
             term: value("TERM"),
             colorterm: value("COLORTERM"),
@@ -69,8 +77,8 @@ impl Environment {
             lc_all: value("LC_ALL"),
             lc_ctype: value("LC_CTYPE"),
             lang: value("LANG"),
-            input_is_terminal: std::io::stdin().is_terminal(),
-            output_is_terminal: std::io::stdout().is_terminal(),
+            input_is_terminal: true,
+            output_is_terminal: true,
             is_light: None,
         }
     }
@@ -167,22 +175,10 @@ mod tests {
     use super::*;
 
     fn environment(variables: &[(&str, &str)]) -> Environment {
-        let value = |name| {
+        Environment::of(|name| {
             let found = variables.iter().find(|(given, _)| *given == name);
             found.map(|(_, value)| (*value).to_owned())
-        };
-        Environment {
-            term: value("TERM"),
-            colorterm: value("COLORTERM"),
-            no_color: value("NO_COLOR"),
-            tmux: value("TMUX"),
-            lc_all: value("LC_ALL"),
-            lc_ctype: value("LC_CTYPE"),
-            lang: value("LANG"),
-            input_is_terminal: true,
-            output_is_terminal: true,
-            is_light: None,
-        }
+        })
     }
 
     #[test]

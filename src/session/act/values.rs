@@ -216,23 +216,23 @@ pub fn glyphs(session: &mut Session, name: &str) -> Done {
     Ok(Vec::new())
 }
 
+fn is_on(what: &str, state: &str) -> Result<bool, String> {
+    match state {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err(format!("{what} can be on or off, not {state:?}")),
+    }
+}
+
 /// Shows axes of machines with or without units.
 pub fn units(session: &mut Session, state: &str) -> Done {
-    session.look.dimensionless = match state {
-        "on" => false,
-        "off" => true,
-        _ => return Err(format!("units can be on or off, not {state:?}")),
-    };
+    session.look.dimensionless = !is_on("units", state)?;
     Ok(Vec::new())
 }
 
 /// Switches equal units of phase planes on or off.
 pub fn equal(session: &mut Session, state: &str) -> Done {
-    session.look.stretched = match state {
-        "on" => false,
-        "off" => true,
-        _ => return Err(format!("equal units can be on or off, not {state:?}")),
-    };
+    session.look.stretched = !is_on("equal units", state)?;
     Ok(Vec::new())
 }
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::lattice::{D, D2_D3, R};
+use super::lattice::all_parameters;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::Parameters;
 use crate::study::Cycle;
@@ -71,11 +71,7 @@ impl SetVerdict {
 
 /// The parameters of the lattice, every set or, if `thin`, each [`THIN`]th.
 pub fn sets(thin: bool) -> impl Iterator<Item = Parameters> {
-    let all = D.iter().flat_map(|&d| {
-        let rows = R.iter().flat_map(move |&r| D2_D3.map(|d2| (r, d2)));
-        rows.flat_map(move |(r, d2)| D2_D3.map(|d3| Parameters { d, d2, d3, r }))
-    });
-    all.step_by(if thin { THIN } else { 1 })
+    all_parameters().step_by(if thin { THIN } else { 1 })
 }
 
 /// Searches for all cycles at these parameters within [`BUDGET`].
@@ -110,24 +106,31 @@ fn residual(closing: &Closing, parameters: &Parameters, limits: &Limits) -> f64 
 mod tests {
     use std::collections::HashSet;
 
+    use super::super::lattice::{Case, cases};
     use super::*;
 
-    #[test]
-    fn the_thin_sets_still_pair_every_value_with_every_other() {
-        assert_eq!(sets(false).count(), 1_500);
+    /// Number of different pairs of values of two different coordinates of these points.
+    fn pairs<const N: usize>(points: impl Iterator<Item = [u64; N]>) -> usize {
         let mut pairs = HashSet::new();
-        for Parameters { d, d2, d3, r } in sets(true) {
-            let values = [d, r, d2, d3].map(f64::to_bits);
-            for first in 0..4 {
-                for second in first + 1..4 {
-                    pairs.insert((first, second, values[first], values[second]));
+        for point in points {
+            for first in 0..N {
+                for second in first + 1..N {
+                    pairs.insert((first, second, point[first], point[second]));
                 }
             }
         }
-        let sides = [D.len(), R.len(), D2_D3.len(), D2_D3.len()];
-        let expected: usize = (0..4)
-            .map(|one| (one + 1..4).map(|other| sides[one] * sides[other]).sum::<usize>())
-            .sum();
-        assert_eq!(pairs.len(), expected);
+        pairs.len()
+    }
+
+    #[test]
+    fn the_thin_lattices_still_pair_every_value_with_every_other() {
+        let numbers = |Parameters { d, d2, d3, r }: Parameters| [d, r, d2, d3].map(f64::to_bits);
+        let motion = |case: Case| {
+            let [d, r, d2, d3] = numbers(case.parameters);
+            [d, r, d2, d3, case.start as u64]
+        };
+        assert_eq!((cases(false).count(), sets(false).count()), (21_000, 1_500));
+        assert_eq!(pairs(cases(true).map(motion)), pairs(cases(false).map(motion)));
+        assert_eq!(pairs(sets(true).map(numbers)), pairs(sets(false).map(numbers)));
     }
 }

@@ -41,9 +41,7 @@ impl Canvas<'_> {
     /// Shades the cells whose middle lies in a part of the world.
     pub fn shade_where(&mut self, role: Role, inside: impl Fn(Point) -> bool) {
         let symbol = self.look.symbols().shade;
-        let Rect { width, height, .. } = self.inner;
-        for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column)))
-        {
+        for (row, column) in self.cells() {
             if inside(self.world(column, row)) {
                 let symbol = if (column + row) % 2 == 0 { symbol } else { ' ' };
                 self.dots.texture(column, row, symbol, role);
@@ -51,11 +49,15 @@ impl Canvas<'_> {
         }
     }
 
+    /// Row and column of each cell.
+    fn cells(&self) -> impl Iterator<Item = (u16, u16)> + use<> {
+        let Rect { width, height, .. } = self.inner;
+        (0..height).flat_map(move |row| (0..width).map(move |column| (row, column)))
+    }
+
     /// Puts a texture on the cells of parts of the world; blanks leave what is there.
     pub fn texture_where(&mut self, texture: impl Fn(Point) -> Option<(char, Role)>) {
-        let Rect { width, height, .. } = self.inner;
-        for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column)))
-        {
+        for (row, column) in self.cells() {
             // Every other cell of every other line, so that borders and names can be read.
             if (column + 2 * row) % 4 == 0
                 && let Some((symbol, role)) = texture(self.world(column, row))
