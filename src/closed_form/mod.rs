@@ -25,6 +25,4 @@ pub(crate) mod lyapunov;
 pub mod piecewise_linear;
 
 #[cfg(test)]
-#[rustfmt::skip]
-#[expect(clippy::unreadable_literal, clippy::approx_constant, reason = "a table of digits")]
 mod reference;
