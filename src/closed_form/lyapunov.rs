@@ -19,12 +19,11 @@ pub fn energy_rate(parameters: &Parameters, state: State) -> f64 {
 
 /// Radius `l = -r/(2 D)` of the circle on which the linearised energy stops falling (equation 24).
 ///
-/// `None` where it is not a finite number: for `D >= 0` the linearised energy never grows.
+/// `None` for `D >= 0`, where the linearised energy never grows.
 /// Assumption: `D2` and `D3` negligible within the circle; [`full_disk`] assumes nothing.
 pub fn radius(parameters: &Parameters) -> Option<f64> {
     let Parameters { d, r, .. } = *parameters;
-    let radius = -r / (2.0 * d);
-    (d < 0.0 && radius.is_finite()).then_some(radius)
+    (d < 0.0).then_some(-r / (2.0 * d))
 }
 
 /// Where the energy of the full system never grows.
@@ -87,7 +86,7 @@ mod tests {
             assert_eq!(radius(&oscillator(d, 0.0, 0.0, 0.5)), None);
             assert_eq!(full_disk(&oscillator(d, 0.0, 0.0, 0.5)), Disk::Plane);
         }
-        assert_eq!(radius(&oscillator(-1e-300, 0.0, 0.0, 1e12)), None);
+        assert!(radius(&oscillator(-1e-150, 0.0, 0.0, 1e150)).is_some_and(f64::is_finite));
     }
 
     #[test]
@@ -105,8 +104,8 @@ mod tests {
 
     #[test]
     fn without_friction_the_origin_decides() {
-        assert_eq!(full_disk(&oscillator(-1e-300, 0.0, 1.0, 0.0)), Disk::Radius(0.0));
-        assert_eq!(full_disk(&oscillator(-0.0, 1e-300, 1.0, 0.0)), Disk::Radius(0.0));
+        assert_eq!(full_disk(&oscillator(-1e-150, 0.0, 1.0, 0.0)), Disk::Radius(0.0));
+        assert_eq!(full_disk(&oscillator(-0.0, 1e-150, 1.0, 0.0)), Disk::Radius(0.0));
         assert_eq!(full_disk(&oscillator(0.0, 0.0, 0.0, 0.0)), Disk::Plane);
         assert_eq!(full_disk(&oscillator(0.1, 0.0, 1.0, 0.0)), Disk::Plane);
     }

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 use crate::numerics::decimal::shortest;
 use crate::numerics::scaling::times_power;
 
-/// The parameters of equation (4): damping, asymmetry, cubic damping, friction. All dimensionless.
+/// The parameters of equation (4): damping, asymmetry, cubic damping, friction. All dimensionless, and each 0 or
+/// within 1e-150 .. 1e150 in magnitude ([`PARAMETERS`]): beyond that, nothing is promised.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameters {
     /// Effective linear damping D; negative means self-excited, `abs(D) < 1` oscillatory.
