@@ -254,6 +254,12 @@ mod tests {
             }
         }
 
+        /// Lets the running job end, and expects its answer.
+        fn finishes(&self, number: f64) {
+            self.finish.send(JobStep::Finish).unwrap();
+            assert_eq!(self.answered(), (number, Ok(())));
+        }
+
         /// Expects the worker to report that it is idle, and nothing else.
         fn idle(&self) {
             assert!(matches!(self.messages.recv().unwrap(), Msg::Idle));
@@ -268,8 +274,7 @@ mod tests {
         bench.worker.submit(vec![request(1.0), request(2.0)]);
         for wanted in [1.0, 2.0] {
             assert_eq!(bench.started.recv(), Ok(wanted));
-            bench.finish.send(JobStep::Finish).unwrap();
-            assert_eq!(bench.answered(), (wanted, Ok(())));
+            bench.finishes(wanted);
         }
         bench.idle();
     }
@@ -280,8 +285,7 @@ mod tests {
         let bench = bench_with(Duration::ZERO);
         bench.worker.submit(vec![request(1.0), request(2.0), request(3.0)]);
         for number in [3.0, 2.0, 1.0] {
-            bench.finish.send(JobStep::Finish).unwrap();
-            assert_eq!(bench.answered(), (number, Ok(())));
+            bench.finishes(number);
         }
         bench.idle();
         let started: Vec<f64> = bench.started.try_iter().collect();
@@ -295,8 +299,7 @@ mod tests {
         assert_eq!(bench.started.recv(), Ok(1.0));
         bench.worker.submit(vec![request(2.0)]);
         assert_eq!(bench.started.recv(), Ok(2.0));
-        bench.finish.send(JobStep::Finish).unwrap();
-        assert_eq!(bench.answered(), (2.0, Ok(())));
+        bench.finishes(2.0);
         bench.idle();
     }
 
@@ -306,11 +309,9 @@ mod tests {
         bench.worker.submit(vec![request(1.0), request(2.0)]);
         assert_eq!(bench.started.recv(), Ok(1.0));
         bench.worker.submit(vec![request(1.0), request(3.0)]);
-        bench.finish.send(JobStep::Finish).unwrap();
-        assert_eq!(bench.answered(), (1.0, Ok(())));
+        bench.finishes(1.0);
         assert_eq!(bench.started.recv(), Ok(3.0));
-        bench.finish.send(JobStep::Finish).unwrap();
-        assert_eq!(bench.answered(), (3.0, Ok(())));
+        bench.finishes(3.0);
         bench.idle();
     }
 
@@ -334,19 +335,16 @@ mod tests {
     fn an_answer_on_its_way_is_not_computed_again() {
         let bench = bench();
         bench.worker.submit(vec![request(1.0)]);
-        bench.finish.send(JobStep::Finish).unwrap();
-        assert_eq!(bench.answered(), (1.0, Ok(())));
+        bench.finishes(1.0);
         bench.idle();
         // Not taken yet: a session that wants something else as well still wants this.
         bench.worker.submit(vec![request(1.0), request(2.0)]);
-        bench.finish.send(JobStep::Finish).unwrap();
-        assert_eq!(bench.answered(), (2.0, Ok(())));
+        bench.finishes(2.0);
         bench.idle();
         // Taken and wanted again, as when a failed request is retried.
         bench.worker.taken(&request(1.0));
         bench.worker.submit(vec![request(1.0), request(2.0)]);
-        bench.finish.send(JobStep::Finish).unwrap();
-        assert_eq!(bench.answered(), (1.0, Ok(())));
+        bench.finishes(1.0);
         bench.idle();
         assert_eq!(bench.started.try_iter().collect::<Vec<_>>(), [1.0, 2.0, 1.0]);
     }
@@ -407,8 +405,7 @@ mod tests {
         bench.worker.submit(vec![request(-1.0), request(1.0)]);
         let panic = NoAnswer::Panic("a negative number".to_owned());
         assert_eq!(bench.answered(), (-1.0, Err(panic)));
-        bench.finish.send(JobStep::Finish).unwrap();
-        assert_eq!(bench.answered(), (1.0, Ok(())));
+        bench.finishes(1.0);
         bench.idle();
     }
 

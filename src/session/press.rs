@@ -12,7 +12,6 @@ use crate::session::read::completion::names;
 use crate::session::read::palette::{elsewhere, place};
 use crate::session::state::command::{Chosen, Command, full_name};
 use crate::session::state::context::Context;
-use crate::session::state::history::Before;
 use crate::session::state::overlay::{Overlay, Prompt};
 use crate::session::state::pending::{Letter, Pending};
 use crate::session::state::session::{Price, Session};
@@ -89,7 +88,7 @@ fn repeat(session: &mut Session, key: Key, count: u32) -> Vec<Effect> {
             break;
         }
     }
-    session.history.merge(depth, |before| matches!(before, Before::Setup(_)));
+    session.history.merge(depth);
     effects
 }
 

@@ -58,7 +58,7 @@ fn present(session: &Session, other: &Before) -> Before {
 }
 
 /// Everything that a scene determines, as it is now.
-pub(in crate::session) fn snapshot(session: &Session) -> Snapshot {
+fn snapshot(session: &Session) -> Snapshot {
     Snapshot {
         scene: Arc::clone(&session.scene),
         setup: session.setup(),

@@ -65,9 +65,10 @@ impl History {
         self.future.clear();
     }
 
-    /// Merges the changes recorded since the past had this depth into one, if all of them are of one kind.
-    pub fn merge(&mut self, depth: usize, is_of_kind: impl Fn(&Before) -> bool) {
-        if self.past.get(depth..).is_some_and(|since| since.iter().all(is_of_kind)) {
+    /// Merges the changes recorded since the past had this depth into one, if all of them are of numbers.
+    pub fn merge(&mut self, depth: usize) {
+        let is_of_numbers = |before: &Before| matches!(before, Before::Setup(_));
+        if self.past.get(depth..).is_some_and(|since| since.iter().all(is_of_numbers)) {
             self.past.truncate(depth + 1);
         }
     }
