@@ -3,10 +3,10 @@
 //! W1 is the motion D = -0.1, D3 = 0.05, r = 0.1 from (3, 0) until tau = 200: 63 half swings.
 
 use divan::{Bencher, black_box};
-use hopfscope::flow::method::{Dial, EPSILON, STEP};
+use hopfscope::flow::method::Dial;
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
-use hopfscope::oscillator::{Parameters, State, Symbol};
+use hopfscope::oscillator::{Knob, Parameters, State};
 use hopfscope::study::basin::{SurveyedBasin, Window};
 use hopfscope::study::branch::{Points, branch};
 use hopfscope::study::cycle::cycles;
@@ -46,7 +46,7 @@ const METHODS_AND_DIALS: [(Method, f64); 26] = [
 ];
 
 fn w1(method: Method, dial: f64) -> Problem {
-    let (mut tolerance, mut step, mut epsilon) = (1e-8, STEP, EPSILON);
+    let (mut tolerance, mut step, mut epsilon) = (1e-8, Knob::Step.usual(), Knob::Epsilon.usual());
     match method.spec().dial {
         Dial::Nothing => {}
         Dial::Tolerance => tolerance = dial,
@@ -162,7 +162,7 @@ fn branch_through_the_fold(bencher: Bencher) {
     bencher.bench(|| {
         branch(
             black_box(&parameters),
-            Symbol::D,
+            Knob::D,
             (-0.95, 0.0),
             Points::Even(400),
             1e-10,

@@ -5,7 +5,7 @@
 use divan::{Bencher, black_box};
 use hopfscope::flow::Limits;
 use hopfscope::numerics::Interval;
-use hopfscope::oscillator::{HalfPlane, Parameters, Symbol};
+use hopfscope::oscillator::{HalfPlane, Knob, Parameters};
 use hopfscope::proof::cycles::prove;
 use hopfscope::proof::derivatives::derivatives;
 use hopfscope::proof::enclose::enclose;
@@ -73,7 +73,7 @@ fn one_cycle_enclosed(bencher: Bencher, case: usize) {
 fn fold_enclosed(bencher: Bencher) {
     let parameters = ParameterBox::from(&CASES[0]);
     let near = -0.172_784_103_072;
-    bencher.bench_local(|| enclose_fold(&parameters, Symbol::D, black_box(near), 0.415_541_875));
+    bencher.bench_local(|| enclose_fold(&parameters, Knob::D, black_box(near), 0.415_541_875));
 }
 
 /// The return map with its derivatives with respect to the clearance and all parameters.

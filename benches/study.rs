@@ -6,7 +6,7 @@
 use divan::{Bencher, black_box};
 use hopfscope::flow::{Limits, Problem};
 use hopfscope::numerics::elementary::ln;
-use hopfscope::oscillator::{Parameters, Symbol};
+use hopfscope::oscillator::{Knob, Parameters};
 use hopfscope::runtime::scanning::{Processors, rows};
 use hopfscope::study::basin::Window;
 use hopfscope::study::branch::{Points, branch};
@@ -71,7 +71,7 @@ fn one_fold_by_its_graph() -> f64 {
 
 #[divan::bench]
 fn a_border() -> usize {
-    border(black_box(&CASE), Symbol::D3, RANGE, POINTS, LIMITS).unwrap().points.len()
+    border(black_box(&CASE), Knob::D3, RANGE, POINTS, LIMITS).unwrap().points.len()
 }
 
 #[divan::bench(sample_count = 10)]
@@ -85,10 +85,10 @@ fn a_border_by_graphs() -> f64 {
 }
 
 /// Regimes over D and D3, and over r and D3, as in the scenes.
-#[divan::bench(args = [Symbol::D, Symbol::R])]
-fn a_chart(bencher: Bencher, right: Symbol) {
-    let right_range = if right == Symbol::D { (-0.9, 0.2) } else { (0.0, 0.5) };
-    let plane = Plane { right, up: Symbol::D3, right_range, up_range: (0.02, 2.0) };
+#[divan::bench(args = [Knob::D, Knob::R])]
+fn a_chart(bencher: Bencher, right: Knob) {
+    let right_range = if right == Knob::D { (-0.9, 0.2) } else { (0.0, 0.5) };
+    let plane = Plane { right, up: Knob::D3, right_range, up_range: (0.02, 2.0) };
     let resolution = Resolution { lines: 40, chord: f64::INFINITY, tolerance: 1e-13 };
     bencher.bench_local(|| chart(black_box(&CASE), plane, resolution, LIMITS).is_ok());
 }
@@ -99,14 +99,14 @@ fn a_branch(bencher: Bencher, r: f64) {
     let parameters = Parameters { d2: 0.0, r, ..CASE };
     let (range, points) = ((-0.6, 0.4), Points::Even(160));
     bencher.bench_local(|| {
-        branch(black_box(&parameters), Symbol::D, range, points, 1e-10, LIMITS).is_ok()
+        branch(black_box(&parameters), Knob::D, range, points, 1e-10, LIMITS).is_ok()
     });
 }
 
 /// Twenty thousand points on all cores.
 #[divan::bench(sample_count = 1, sample_size = 1)]
 fn a_scan_of_margins_and_cycles() -> usize {
-    let sweep = Sweep::new(Symbol::D, (-0.95, 0.0), 20_000, Spacing::Even).unwrap();
+    let sweep = Sweep::new(Knob::D, (-0.95, 0.0), 20_000, Spacing::Even).unwrap();
     let window = Window { q: (-1.0, 1.0), v: (-1.0, 1.0) };
     let problem = Problem { parameters: CASE, ..Problem::default() };
     let measures = vec![Measure::Margin, Measure::Cycles];

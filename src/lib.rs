@@ -7,7 +7,8 @@
 //! (`tests/architecture.rs`) keeps it so.
 //!
 //! - [`oscillator`] is the paper's model: parameters, the smooth field of one half plane in a frame in
-//!   which both look alike, the sticking set, energy. [`closed_form`] is what follows in formulas.
+//!   which both look alike, the sticking set, energy. [`oscillator::Knob`] is the one table of every number that can be
+//!   set. [`closed_form`] is what follows in formulas.
 //! - [`flow`] computes motions. A motion is a chain of smooth half swings glued at `v = 0`; a
 //!   [`flow::step::Stepper`] takes one step of the smooth field, [`flow::swing`] runs it to the next
 //!   `v = 0`, [`flow::trajectory`] glues. No step ever crosses the discontinuity.

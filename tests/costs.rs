@@ -1,7 +1,7 @@
 //! Cost of answers, counted in evaluations; the bounds are a few per cent above the need.
 
 use hopfscope::flow::Limits;
-use hopfscope::oscillator::{Parameters, Symbol};
+use hopfscope::oscillator::{Knob, Parameters};
 use hopfscope::study::branch::{Points, branch};
 use hopfscope::study::chart::{Plane, Resolution, chart};
 use hopfscope::study::cycle::cycles;
@@ -16,7 +16,7 @@ fn at(d: f64, d2: f64, d3: f64, r: f64) -> Parameters {
 
 #[test]
 fn a_border_takes_two_thousand_evaluations_a_point() {
-    let found = border(&at(0.0, 0.2, 0.0, 0.1), Symbol::D3, (0.1, 2.0), 100, LIMITS).unwrap();
+    let found = border(&at(0.0, 0.2, 0.0, 0.1), Knob::D3, (0.1, 2.0), 100, LIMITS).unwrap();
     assert!(found.points.iter().all(|point| point.fold.is_some()));
     assert!(found.cost.evaluations <= 220_000, "{:?}", found.cost);
 }
@@ -55,7 +55,7 @@ fn folds_are_the_tops_of_the_graph_of_all_cycles() {
 
 #[test]
 fn no_evaluations_are_wasted_on_folds_where_the_cycle_grazes_the_sticking_set() {
-    let found = border(&at(0.0, 0.0, 0.0, 1.0), Symbol::D3, (8.0, 12.0), 5, LIMITS).unwrap();
+    let found = border(&at(0.0, 0.0, 0.0, 1.0), Knob::D3, (8.0, 12.0), 5, LIMITS).unwrap();
     assert!(found.points.iter().all(|point| point.fold.is_some_and(|fold| fold.grazes)));
     assert!(found.cost.evaluations <= 230_000, "{:?}", found.cost);
 }
@@ -90,9 +90,9 @@ fn each_line_of_a_chart_takes_its_fold_from_the_one_before() {
     let parameters = at(-0.2, 0.2, 0.5, 0.1);
     let resolution = Resolution { lines: 40, chord: f64::INFINITY, tolerance: 1e-13 };
     let (d, d3) = ((-0.8, 0.2), (-0.5, 2.0));
-    let over_d = Plane { right: Symbol::D, up: Symbol::D3, right_range: d, up_range: d3 };
+    let over_d = Plane { right: Knob::D, up: Knob::D3, right_range: d, up_range: d3 };
     let (r, d3) = ((0.0, 0.5), (0.02, 2.0));
-    let at_d = Plane { right: Symbol::R, up: Symbol::D3, right_range: r, up_range: d3 };
+    let at_d = Plane { right: Knob::R, up: Knob::D3, right_range: r, up_range: d3 };
     for (plane, most) in [(over_d, 120_000), (at_d, 60_000)] {
         let found = chart(&parameters, plane, resolution, LIMITS).unwrap();
         assert!(found.lines.iter().all(|line| line.failure.is_none()));
@@ -104,7 +104,7 @@ fn each_line_of_a_chart_takes_its_fold_from_the_one_before() {
 fn branches_cost_a_few_closings_a_point_down_to_where_cycles_are_harmonic_to_rounding() {
     for (d3, r, most) in [(0.5, 0.0, 300_000), (0.5, 0.1, 385_000), (-0.5, 0.1, 310_000)] {
         let parameters = at(-0.2, 0.0, d3, r);
-        let found = branch(&parameters, Symbol::D, (-0.6, 0.4), Points::Even(160), 1e-10, LIMITS);
+        let found = branch(&parameters, Knob::D, (-0.6, 0.4), Points::Even(160), 1e-10, LIMITS);
         let found = found.unwrap();
         assert_eq!(found.pieces.iter().map(Vec::len).sum::<usize>(), 160, "D3 = {d3}, r = {r}");
         assert!(found.cost.evaluations <= most, "D3 = {d3}, r = {r}: {:?}", found.cost);

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Cost, Detail, Limits, METHODS, Outcome, Problem, Reason};
-use hopfscope::oscillator::{Parameters, State, Symbol};
+use hopfscope::oscillator::{Knob, Parameters, State};
 use hopfscope::study::basin::{SurveyedBasin, Window};
 use hopfscope::study::branch::{Points, branch};
 use hopfscope::study::capture::bands;
@@ -110,12 +110,12 @@ fn cycles_stop() {
 fn branches_and_borders_stop() {
     for parameters in [parameters()[0], parameters()[2]] {
         check("branch", |limits| {
-            match branch(&parameters, Symbol::D, (-0.5, -0.05), Points::Even(20), 1e-6, limits) {
+            match branch(&parameters, Knob::D, (-0.5, -0.05), Points::Even(20), 1e-6, limits) {
                 Ok(found) => (None, Some(found.cost)),
                 Err(reason) => (Some(reason), None),
             }
         });
-        check("border", |limits| match border(&parameters, Symbol::D2, (0.0, 0.4), 3, limits) {
+        check("border", |limits| match border(&parameters, Knob::D2, (0.0, 0.4), 3, limits) {
             Ok(found) => (None, Some(found.cost)),
             Err(reason) => (Some(reason), None),
         });

@@ -4,7 +4,7 @@ use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Reason};
 use hopfscope::machine::BorderKind;
 use hopfscope::numerics::elementary::hypot;
-use hopfscope::oscillator::Symbol;
+use hopfscope::oscillator::{Group, Knob};
 use hopfscope::question::answer;
 use hopfscope::scene::{Answer, Request, Topic, find};
 use hopfscope::session::replay::{Action, Player, parse};
@@ -299,7 +299,7 @@ fn no_text_contradicts_what_is_on_show_anywhere_in_the_ranges_of_its_scene() {
     let mut checked = std::collections::BTreeSet::new();
     for scene in hopfscope::scene::library() {
         let said = [scene.look.as_str(), &scene.press].join(" ");
-        let declared = |name: &&(&str, &[f64])| match Symbol::named(name.0) {
+        let declared = |name: &&(&str, &[f64])| match Knob::named(name.0, &[Group::Motion]).ok() {
             Some(symbol) => scene.declares(symbol),
             None => scene.machine.is_some(),
         };

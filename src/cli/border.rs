@@ -8,7 +8,7 @@ use super::input::{self, Over};
 use super::output::{Certify, Format, Output};
 use super::start::StartOptions;
 use crate::flow::Limits;
-use crate::oscillator::{State, Symbol};
+use crate::oscillator::{Knob, State};
 use crate::proof::ParameterBox;
 use crate::proof::escape::enclose_escape;
 use crate::proof::fold::enclose_fold;
@@ -34,9 +34,9 @@ pub struct Arguments {
 /// Reads the second parameter. The border is located along D and does not depend on the start of a motion.
 fn second(text: &str) -> Result<Over, String> {
     let over = input::over(text)?;
-    let name = over.symbol.spec().name;
-    match over.symbol {
-        Symbol::D2 | Symbol::D3 | Symbol::R => Ok(over),
+    let name = over.knob.spec().name;
+    match over.knob {
+        Knob::D2 | Knob::D3 | Knob::R => Ok(over),
         _ => Err(format!(
             "the border is a value of D over another parameter, not over {name}: D2, D3 or r"
         )),
@@ -47,7 +47,8 @@ impl Arguments {
     pub fn run(&self) -> Result<(), Failure> {
         self.start.note_own_method();
         let parameters = self.start.problem()?.parameters;
-        let Over { symbol, range, count } = self.over;
+        let Over { knob: symbol, count, .. } = self.over;
+        let range = self.over.range();
         let follow = || border(&parameters, symbol, range, count, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the boundary could not be completed", follow)?;
         let certified = self.certify.ask(|| enclosed(&found));
@@ -69,14 +70,14 @@ fn enclosed(found: &Found) -> Vec<Bordered> {
         let known = ParameterBox::from(&parameters);
         // Where two cycles do not merge smoothly, as at a grazing, only the change in the number of cycles can be
         // enclosed.
-        let changes = |d: f64| Some(change_near(&known, Symbol::D, d)?.between);
+        let changes = |d: f64| Some(change_near(&known, Knob::D, d)?.between);
         let fold = point.fold.and_then(|fold| {
             let clearance = fold.q_max - parameters.r;
-            let met = enclose_fold(&known, Symbol::D, fold.d, clearance).map(|met| met.value);
+            let met = enclose_fold(&known, Knob::D, fold.d, clearance).map(|met| met.value);
             met.or_else(|| changes(fold.d))
         });
         let escape =
-            point.escape.and_then(|d| enclose_escape(&known, Symbol::D, d).or_else(|| changes(d)));
+            point.escape.and_then(|d| enclose_escape(&known, Knob::D, d).or_else(|| changes(d)));
         Bordered::new(point, fold, escape)
     };
     found.points.par_iter().map(at).collect()

@@ -7,7 +7,6 @@ use super::input::{self, Over};
 use super::output::{Certify, Format, Output};
 use super::start::StartOptions;
 use crate::flow::Limits;
-use crate::oscillator::Symbol;
 use crate::proof::{self, ParameterBox};
 use crate::report::{branch as report, certified};
 use crate::study::branch::{Points, branch};
@@ -29,8 +28,8 @@ pub struct Arguments {
 /// A range of a parameter on which cycles depend.
 fn parameter(text: &str) -> Result<Over, String> {
     let over = input::over(text)?;
-    if matches!(over.symbol, Symbol::Q0 | Symbol::V0) {
-        return Err(format!("cycles do not depend on {}; allowed: D, D2, D3, r", over.symbol));
+    if !over.knob.is_parameter() {
+        return Err(format!("cycles do not depend on {}; allowed: D, D2, D3, r", over.knob));
     }
     Ok(over)
 }
@@ -40,7 +39,8 @@ impl Arguments {
         self.start.note_own_method();
         let problem = self.start.problem()?;
         let (base, tolerance) = (&problem.parameters, problem.tolerance);
-        let Over { symbol, range, count } = self.over;
+        let Over { knob: symbol, count, .. } = self.over;
+        let range = self.over.range();
         let follow =
             || branch(base, symbol, range, Points::Even(count), tolerance, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the branch could not be completed", follow)?;

@@ -14,6 +14,7 @@ use super::look::Looks;
 use super::places::Memory;
 use super::replay::script;
 use super::start::StartOptions;
+use crate::numerics::similar::similar;
 use crate::runtime::effects::Files;
 use crate::runtime::{Options, RecordingFile, explore};
 use crate::scene::library::{PLAIN, find, names};
@@ -21,7 +22,6 @@ use crate::session::opening::opening;
 use crate::session::replay::{Instruction, Recorder, Script};
 use crate::session::{Kept, Key, Notice, Session, Size, save};
 use crate::terminal::Environment;
-use crate::words::similar::similar;
 
 /// Opens the explorer.
 #[derive(Debug, Args)]

@@ -9,7 +9,6 @@ use super::output::{Format, print, sourced};
 use crate::flow::Limits;
 use crate::oscillator::Parameters;
 use crate::report::{extreme_cycles, extremes};
-use crate::scene::file::TOLERANCE_RANGE;
 use crate::study::extremes::verdict::TOLERANCE;
 use crate::study::extremes::{Case, cases, judge, judge_set, named, sets};
 
@@ -28,12 +27,8 @@ pub struct Arguments {
     #[arg(long, conflicts_with = "tol")]
     cycles: bool,
     /// Relative error per step, 1e-15 .. 0.01 (default: 1e-10)
-    #[arg(long, value_name = "X", value_parser = tolerance, default_value_t = TOLERANCE, hide_default_value = true)]
+    #[arg(long, value_name = "X", value_parser = input::tolerance, default_value_t = TOLERANCE, hide_default_value = true)]
     tol: f64,
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    input::within("tolerance", TOLERANCE_RANGE, text)
 }
 
 impl Arguments {

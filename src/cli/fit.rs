@@ -22,10 +22,10 @@ use crate::fit::{
     Record, Unfit, estimate, length_in_metres, margins, parse,
 };
 use crate::flow::Limits;
-use crate::oscillator::belt::Dimension;
+use crate::oscillator::Knob;
+use crate::oscillator::unit::{Dimension, Measured, measured};
 use crate::report::fit as forms;
 use crate::runtime::{bounded, provenance_file, source_file};
-use crate::scene::machine::unit::{Measured, measured};
 use crate::words::fit::broken;
 
 /// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
@@ -51,10 +51,10 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = LossName::Auto, value_name = "LOSS")]
     loss: LossName,
     /// Mass of the oscillator, such as "2 kg": forces and damping in N, N s/m
-    #[arg(long, value_name = "MASS", value_parser = mass, conflicts_with = "stiffness")]
+    #[arg(long, value_name = "MASS", value_parser = |text: &str| Knob::Mass.parse(text), conflicts_with = "stiffness")]
     mass: Option<f64>,
     /// Stiffness of the spring, such as "800 N/m", instead of the mass
-    #[arg(long, value_name = "STIFFNESS", value_parser = stiffness)]
+    #[arg(long, value_name = "STIFFNESS", value_parser = |text: &str| Knob::Stiffness.parse(text))]
     stiffness: Option<f64>,
     /// Unit of the displacements, if the file does not name it
     #[arg(long, value_name = "UNIT", value_parser = length)]
@@ -119,20 +119,6 @@ fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
     Ok(chosen)
 }
 
-/// A positive quantity, with or without a unit.
-fn positive(text: &str, dimension: Dimension, unit: &str) -> Result<f64, String> {
-    let value = measured(text)?.as_a(dimension, unit)?;
-    if value > 0.0 { Ok(value) } else { Err(format!("{text:?} is not positive")) }
-}
-
-fn mass(text: &str) -> Result<f64, String> {
-    positive(text, Dimension::new(1, 0, 0), "kg")
-}
-
-fn stiffness(text: &str) -> Result<f64, String> {
-    positive(text, Dimension::new(1, 0, -2), "N/m")
-}
-
 fn not_negative(text: &str) -> Result<Measured, String> {
     let read = measured(text)?;
     if read.value >= 0.0 { Ok(read) } else { Err(format!("{text:?} is negative")) }
@@ -148,7 +134,7 @@ fn half_width(text: &str) -> Result<(&'static NameSpec, f64), String> {
 }
 
 fn confidence(text: &str) -> Result<f64, String> {
-    input::within("confidence", (0.5, 0.999), text)
+    Knob::Confidence.parse(text)
 }
 
 fn length(text: &str) -> Result<String, String> {
@@ -282,7 +268,7 @@ fn disturbance(
 ) -> Result<f64, String> {
     let refused = |problem: String| format!("--disturbance {problem}");
     match (inertia, read.dimension) {
-        (Some(_), _) => read.as_a(Dimension::FORCE, "N").map_err(refused),
+        (Some(_), _) => read.in_unit("N").map_err(refused),
         (None, None) => Ok(read.value),
         (None, Some(Dimension::LENGTH)) => {
             let unit = record.unit.as_deref().and_then(length_in_metres);

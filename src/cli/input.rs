@@ -6,18 +6,9 @@ use std::str::FromStr;
 
 use crate::figure::FileForm;
 use crate::flow::{METHODS, Method};
-use crate::oscillator::{Interval, PARAMETERS, Symbol};
-use crate::scene::file::UNTIL_RANGE;
+use crate::oscillator::unit::measured;
+use crate::oscillator::{Group, Interval, Knob};
 use crate::study::basin::Window;
-
-/// A finite number; `1e400` is refused, as no double is that large.
-fn number(text: &str) -> Result<f64, String> {
-    match f64::from_str(text.trim()) {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err(format!("{text:?} is not a finite number")),
-        Err(_) => Err(format!("{text:?} is not a number")),
-    }
-}
 
 /// A whole number within a range.
 pub fn whole(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> {
@@ -32,118 +23,85 @@ pub fn pair<T: FromStr>(text: &str, separator: char) -> Option<(T, T)> {
     Some((one.parse().ok()?, other.parse().ok()?))
 }
 
-/// A number within a closed range.
-pub fn within(name: &str, (min, max): (f64, f64), text: &str) -> Result<f64, String> {
-    let allowed = format!("allowed: {min:?} .. {max:?}");
-    let value = number(text).map_err(|refused| format!("{name}: {refused}; {allowed}"))?;
-    if (min..=max).contains(&value) {
-        Ok(value)
-    } else {
-        Err(format!("{name} = {text} is outside its range; {allowed}"))
-    }
-}
-
 /// An end time.
 pub fn until(text: &str) -> Result<f64, String> {
-    within("until", UNTIL_RANGE, text)
+    Knob::Until.parse(text)
 }
 
-/// One of the six numbers that define a motion.
-fn symbol(name: &str) -> Result<Symbol, String> {
-    Symbol::named(name).ok_or_else(|| {
-        let names = PARAMETERS.map(|row| row.name).join(", ");
-        format!("there is no parameter {name:?}; there are {names}")
-    })
+/// The relative error of a step.
+pub fn tolerance(text: &str) -> Result<f64, String> {
+    Knob::Tolerance.parse(text)
 }
 
-/// A value of one of the six numbers.
-fn value_of(symbol: Symbol, text: &str) -> Result<f64, String> {
-    let value = within(symbol.spec().name, (symbol.spec().min, symbol.spec().max), text)?;
-    symbol.spec().check(value).map_err(|refused| refused.to_string())
+/// A number of these groups and the text of its value, from `NAME=VALUE`; `form` says what is expected.
+pub fn named<'a>(text: &'a str, groups: &[Group], form: &str) -> Result<(Knob, &'a str), String> {
+    let (name, value) = text.split_once('=').ok_or(form)?;
+    Ok((Knob::named(name.trim(), groups)?, value))
 }
 
-/// `NAME=VALUE`.
-pub fn assignment(text: &str) -> Result<(Symbol, f64), String> {
-    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as D=-0.3")?;
-    let symbol = symbol(name.trim())?;
-    Ok((symbol, value_of(symbol, value)?))
-}
-
-/// `NAME=VALUE` or `NAME=INTERVAL`.
-pub fn assigned(text: &str) -> Result<(Symbol, Interval), String> {
-    if text.contains("+-") || text.contains("..") {
-        return interval(text);
-    }
-    assignment(text).map(|(symbol, value)| (symbol, Interval::point(value)))
-}
-
-/// `NAME=INTERVAL`: a number, `VALUE+-HALFWIDTH` or `LOW..HIGH`.
-pub fn interval(text: &str) -> Result<(Symbol, Interval), String> {
-    let form = "expected NAME=VALUE+-HALFWIDTH or NAME=LOW..HIGH, such as r=0.10+-0.01";
-    let (name, interval) = text.split_once('=').ok_or(form)?;
-    let symbol = symbol(name.trim())?;
-    let interval: Interval =
-        interval.parse().map_err(|refused| format!("{}: {refused}", symbol.spec().name))?;
-    for end in [interval.lower(), interval.upper()] {
-        symbol.spec().check(end).map_err(|refused| refused.to_string())?;
-    }
-    Ok((symbol, interval))
+/// `NAME=VALUE` or `NAME=INTERVAL`: a number, `VALUE+-HALFWIDTH` or `LOW..HIGH`.
+pub fn assigned(text: &str) -> Result<(Knob, Interval), String> {
+    let form = "expected NAME=VALUE, such as D=-0.3 or r=0.10+-0.01";
+    let (knob, value) = named(text, &[Group::Motion], form)?;
+    Ok((knob, knob.parse_toleranced(value)?.ends))
 }
 
 /// A bound on a disturbing force.
 pub fn disturbance(text: &str) -> Result<f64, String> {
-    within("disturbance", (0.0, Symbol::R.spec().max), text)
+    Knob::Disturbance.parse(text)
 }
 
 /// `NAME=HALFWIDTH` of D, D2, D3 or r.
-pub fn half_width(text: &str) -> Result<(Symbol, f64), String> {
+pub fn half_width(text: &str) -> Result<(Knob, f64), String> {
     let form = "expected NAME=HALFWIDTH with D, D2, D3 or r, such as r=0.01";
-    let (name, value) = text.split_once('=').ok_or(form)?;
-    let symbol = symbol(name.trim())?;
-    if matches!(symbol, Symbol::Q0 | Symbol::V0) {
+    let (knob, value) = named(text, &[Group::Motion], form)?;
+    if !knob.is_parameter() {
         return Err(form.to_owned());
     }
-    Ok((symbol, within(name, (0.0, symbol.spec().max), value)?))
+    let half_width = knob.parse(value)?;
+    let wide = Some(half_width).filter(|half_width| *half_width >= 0.0);
+    Ok((knob, wide.ok_or_else(|| format!("{text:?}: a half width is 0 or more"))?))
 }
 
-/// A parameter and its values.
+/// A number and the values that it takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Over {
-    pub symbol: Symbol,
-    /// Smallest and largest value.
-    pub range: (f64, f64),
+    pub knob: Knob,
+    /// The first and the last value.
+    pub ends: (f64, f64),
     /// Number of values.
     pub count: usize,
 }
 
-/// `NAME=FROM:TO:COUNT`.
-pub fn over(text: &str) -> Result<Over, String> {
-    let form = "expected NAME=FROM:TO:COUNT, such as D=-0.95:0:400";
-    let (name, range) = text.split_once('=').ok_or(form)?;
-    let symbol = symbol(name.trim())?;
-    let value = |text: &str| value_of(symbol, text);
-    let ((from, to), count) =
-        stepped(range, form, 1_000_000, |from, to| Ok((value(from)?, value(to)?)))?;
-    Ok(Over { symbol, range: (from.min(to), from.max(to)), count })
+impl Over {
+    /// Smallest and largest value.
+    pub fn range(&self) -> (f64, f64) {
+        let (from, to) = self.ends;
+        (from.min(to), from.max(to))
+    }
 }
 
-/// `FROM:TO:COUNT`: two different ends, which `ends` reads together, and a count from 2 to `most`.
-pub fn stepped(
-    text: &str,
-    form: &str,
-    most: usize,
-    ends: impl Fn(&str, &str) -> Result<(f64, f64), String>,
-) -> Result<((f64, f64), usize), String> {
-    let [from, to, count] = text.split(':').collect::<Vec<_>>()[..] else {
-        return Err(form.to_owned());
-    };
-    let (from, to) = ends(from, to)?;
+/// `NAME=FROM:TO:COUNT` of a number of a motion.
+pub fn over(text: &str) -> Result<Over, String> {
+    over_of(text, &[Group::Motion], "such as D=-0.95:0:400", 1_000_000)
+}
+
+/// `NAME=FROM:TO:COUNT` of a number of these groups: two different ends, and a count from 2 to `most`.
+pub fn over_of(text: &str, groups: &[Group], such: &str, most: usize) -> Result<Over, String> {
+    let form = format!("expected NAME=FROM:TO:COUNT, {such}");
+    let (knob, range) = named(text, groups, &form)?;
+    let [from, to, count] = range.split(':').collect::<Vec<_>>()[..] else { return Err(form) };
+    let ends = (knob.parse(from)?, knob.parse(to)?);
+    let has_unit = |text: &str| measured(text).is_ok_and(|read| read.dimension.is_some());
+    if has_unit(from) != has_unit(to) {
+        return Err(format!("{range:?}: FROM and TO both take a unit, or none (SI units)"));
+    }
     let count = whole(count, 2..=most)
         .map_err(|_| format!("COUNT = {count} is not a whole number in 2 .. {most}"))?;
-    if from == to {
-        return Err(format!("FROM and TO are both {from:?}"));
+    if ends.0 == ends.1 {
+        return Err(format!("FROM and TO are both {:?}", ends.0));
     }
-    Ok(((from, to), count))
+    Ok(Over { knob, ends, count })
 }
 
 /// Reads a number; the error says in one line what is wrong.
@@ -164,8 +122,8 @@ pub fn sides(text: &str, form: &str, read: [ReadNumber; 2]) -> Result<[(f64, f64
 /// `QMIN:QMAX,VMIN:VMAX`.
 pub fn window(text: &str) -> Result<Window, String> {
     let form = "expected QMIN:QMAX,VMIN:VMAX, such as -6:6,-6:6";
-    let read = |symbol| move |text: &str| value_of(symbol, text);
-    let [q, v] = sides(text, form, [&read(Symbol::Q0), &read(Symbol::V0)])?;
+    let read = |knob: Knob| move |text: &str| knob.parse(text);
+    let [q, v] = sides(text, form, [&read(Knob::Q0), &read(Knob::V0)])?;
     Ok(Window { q, v })
 }
 
@@ -216,24 +174,27 @@ mod tests {
     use super::*;
 
     #[test]
-    fn intervals_are_read_and_refused_with_the_range() {
-        assert_eq!(interval("D=-0.3..-0.28"), Ok((Symbol::D, Interval::new(-0.3, -0.28))));
+    fn numbers_and_intervals_are_read_and_refused_with_the_range() {
+        assert_eq!(assigned("q0= 1e150"), Ok((Knob::Q0, Interval::point(1e150))));
+        assert_eq!(assigned("D=-0.3..-0.28"), Ok((Knob::D, Interval::new(-0.3, -0.28))));
         for (text, expected) in [
-            ("r", "NAME=VALUE+-HALFWIDTH"),
-            ("r=0.1+-0.2", "outside its range 0.0 .. 1e150"),
-            ("R=0.1", "there is no parameter"),
-            ("r=0.1+-", "r: \"\" is not a number"),
+            ("r=0.1+-0.2", "r = -0.1 is outside its range 0 .. 1e150"),
+            ("r=1e-151..1", "r = 1e-151 is too close to 0; allowed: 0, or 1e-150 and more"),
         ] {
-            let refused = interval(text).unwrap_err();
+            let refused = assigned(text).unwrap_err();
             assert!(refused.contains(expected), "{text}: {refused}");
+        }
+        assert_eq!(half_width("r=0.01"), Ok((Knob::R, 0.01)));
+        for text in ["q0=1", "D=-1", "D"] {
+            assert!(half_width(text).unwrap_err().to_lowercase().contains("half"), "{text}");
         }
     }
 
     #[test]
     fn ranges_are_read_in_either_direction() {
-        let expected = Over { symbol: Symbol::D, range: (-0.95, 0.0), count: 400 };
+        let expected = Over { knob: Knob::D, ends: (-0.95, 0.0), count: 400 };
         assert_eq!(over("D=-0.95:0:400"), Ok(expected));
-        assert_eq!(over("D=0:-0.95:400"), Ok(expected));
+        assert_eq!(over("D=0:-0.95:400").map(|over| over.range()), Ok(expected.range()));
         for text in ["D", "D=1", "D=0:1", "D=0:1:1", "D=0:1:x", "D=0:0:5", "D=0:inf:5", "D=0:1:2:3"]
         {
             assert!(over(text).is_err(), "{text}");

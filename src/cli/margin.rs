@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::input;
 use super::output::{Format, Output};
 use crate::flow::Limits;
-use crate::oscillator::{Interval, ParameterBox, Symbol};
+use crate::oscillator::{Interval, Knob, ParameterBox};
 use crate::report::guarantee;
 use crate::scene::library::{PLAIN, find};
 use crate::study;
@@ -18,8 +18,8 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME", default_value = PLAIN)]
     scene: String,
     /// Sets D, D2, D3 or r to a number, to VALUE+-HALFWIDTH or to LOW..HIGH; repeatable
-    #[arg(long, value_name = "NAME=INTERVAL", value_parser = input::interval, allow_hyphen_values = true)]
-    set: Vec<(Symbol, Interval)>,
+    #[arg(long, value_name = "NAME=INTERVAL", value_parser = input::assigned, allow_hyphen_values = true)]
+    set: Vec<(Knob, Interval)>,
     /// Bound on the disturbing force, in the units of r
     #[arg(long, value_name = "W", default_value = "0", value_parser = input::disturbance,
           allow_hyphen_values = true)]

@@ -19,7 +19,7 @@ use super::plan::Plan;
 use super::progress::{Outlet, Progress};
 use super::start::StartOptions;
 use crate::flow::Limits;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::report::scan::RowForm;
 use crate::runtime::provenance_file;
 use crate::runtime::scan_file::{LineRefusal, ScanFile};
@@ -57,7 +57,7 @@ pub struct ScanCommand {
     disturbance: f64,
     /// Half width of a parameter for `guaranteed`, such as r=0.01; repeatable
     #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = input::half_width, allow_hyphen_values = true)]
-    half_width: Vec<(Symbol, f64)>,
+    half_width: Vec<(Knob, f64)>,
     /// Random kicks of `lost` and `repeated`, mean and standard deviation; with uniform: before them, mean and
     /// half width
     #[arg(

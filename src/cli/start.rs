@@ -6,10 +6,8 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input;
-use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
-use crate::flow::quality::TOLERANCE_RANGE;
 use crate::flow::{METHODS, Method, Problem};
-use crate::oscillator::{Interval, PARAMETERS, ParameterBox, Symbol};
+use crate::oscillator::{Interval, Knob, ParameterBox};
 use crate::runtime::standard::tell;
 use crate::scene::Scene;
 use crate::scene::library::{PLAIN, find};
@@ -23,39 +21,26 @@ pub struct StartOptions {
 
     #[arg(long, value_name = "NAME=VALUE", value_parser = input::assigned, help = parameters_help(),
           allow_hyphen_values = true)]
-    set: Vec<(Symbol, Interval)>,
+    set: Vec<(Knob, Interval)>,
 
     #[arg(long, value_name = "NAME", value_parser = input::method, help = methods_help())]
     method: Option<Method>,
 
     /// Relative error per step, 1e-15 .. 0.01
-    #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
+    #[arg(long, value_name = "X", value_parser = input::tolerance, allow_hyphen_values = true)]
     tol: Option<f64>,
 
     /// Step length of the fixed-step methods, 1e-7 .. 1
-    #[arg(long, value_name = "H", value_parser = step, allow_hyphen_values = true)]
+    #[arg(long, value_name = "H", value_parser = |text: &str| Knob::Step.parse(text), allow_hyphen_values = true)]
     step: Option<f64>,
 
     /// Velocity scale over which the method `smoothed` smooths friction, 1e-12 .. 1e6
-    #[arg(long, value_name = "E", value_parser = epsilon, allow_hyphen_values = true)]
+    #[arg(long, value_name = "E", value_parser = |text: &str| Knob::Epsilon.parse(text), allow_hyphen_values = true)]
     epsilon: Option<f64>,
 }
 
-/// The relative error of a step.
-pub fn tolerance(text: &str) -> Result<f64, String> {
-    input::within("tolerance", TOLERANCE_RANGE, text)
-}
-
-fn step(text: &str) -> Result<f64, String> {
-    input::within("step", STEP_RANGE, text)
-}
-
-fn epsilon(text: &str) -> Result<f64, String> {
-    input::within("epsilon", EPSILON_RANGE, text)
-}
-
 fn parameters_help() -> String {
-    let names = PARAMETERS.map(|row| format!("{} ({})", row.name, row.meaning));
+    let names = Knob::MOTION.map(|knob| format!("{knob} ({})", knob.spec().meaning));
     format!("Sets a parameter or start value; repeatable: {}", names.join(", "))
 }
 
@@ -92,7 +77,7 @@ impl StartOptions {
         let Problem { parameters, initial, .. } = &mut changed.problem;
         for &(symbol, value) in &self.set {
             symbol.set(parameters, initial, value.middle());
-            if !matches!(symbol, Symbol::Q0 | Symbol::V0) {
+            if symbol.is_parameter() {
                 changed.terms.insert(symbol);
             }
         }
@@ -109,7 +94,7 @@ impl StartOptions {
         let scene = find(name).map_err(Failure::Usage)?;
         let mut known = ParameterBox::from(&scene.problem.parameters);
         for &(symbol, interval) in &self.set {
-            if !matches!(symbol, Symbol::Q0 | Symbol::V0) {
+            if symbol.is_parameter() {
                 known.set(symbol, interval).map_err(Failure::Usage)?;
             }
         }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::content::{Area, Axis, FigureCurve, MarkedPoint, Panel};
 use super::filled;
 use super::sample;
-use crate::oscillator::{State, Symbol};
+use crate::oscillator::{Knob, State};
 use crate::picture::items::{Item, LineStyle, Marks, Picture, VariantTag};
 use crate::picture::role::Dash;
 use crate::picture::ticks::Scale;
@@ -176,8 +176,8 @@ fn curve(line: &LineStyle, points: &[Point], parameters: Held) -> Option<FigureC
 fn held(picture: &Picture, variant: Option<&VariantTag>) -> Held {
     let index = variant.map_or(0, |variant| variant.index);
     let Some(parameters) = picture.variants.get(index) else { return Held::new() };
-    let value = |symbol: Symbol| symbol.get(parameters, &State { q: 0.0, v: 0.0 });
-    [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R]
+    let value = |symbol: Knob| symbol.get(parameters, &State { q: 0.0, v: 0.0 });
+    Knob::PARAMETERS
         .into_iter()
         .filter(|symbol| !picture.varied.contains(symbol))
         .map(|symbol| (symbol.spec().name, value(symbol)))

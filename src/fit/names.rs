@@ -3,10 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::observation::{self, UNKNOWNS};
+use crate::oscillator::{KNOBS, Knob, unknown};
 
 /// One row of [`NAMES`].
 #[derive(Clone, Copy, Debug)]
 pub struct NameSpec {
+    /// The number.
+    pub knob: Knob,
     /// The name on the command line and in documents.
     pub name: &'static str,
     /// Its place among the unknowns.
@@ -31,14 +34,18 @@ impl NameSpec {
     }
 }
 
+const fn row(knob: Knob, place: usize, length: i32, time: i32) -> NameSpec {
+    NameSpec { knob, name: KNOBS[knob as usize].name, place, length, time }
+}
+
 /// The numbers that are estimated from a record, except those of its start.
 pub const NAMES: [NameSpec; 6] = [
-    NameSpec { name: "omega0", place: observation::OMEGA0, length: 0, time: -1 },
-    NameSpec { name: "offset", place: observation::OFFSET, length: 1, time: 0 },
-    NameSpec { name: "D", place: observation::D, length: 0, time: 0 },
-    NameSpec { name: "D2", place: observation::D2, length: -1, time: 0 },
-    NameSpec { name: "D3", place: observation::D3, length: -2, time: 0 },
-    NameSpec { name: "r", place: observation::R, length: 1, time: 0 },
+    row(Knob::Omega0, observation::OMEGA0, 0, -1),
+    row(Knob::Offset, observation::OFFSET, 1, 0),
+    row(Knob::D, observation::D, 0, 0),
+    row(Knob::D2, observation::D2, -1, 0),
+    row(Knob::D3, observation::D3, -2, 0),
+    row(Knob::R, observation::R, 1, 0),
 ];
 
 /// The row with this name.
@@ -55,9 +62,7 @@ pub fn listed(text: &str) -> Result<Vec<&'static NameSpec>, String> {
 }
 
 fn known(text: &str) -> Result<&'static NameSpec, String> {
-    named(text.trim()).ok_or_else(|| {
-        format!("there is no {text:?}; there are {}", NAMES.map(|row| row.name).join(", "))
-    })
+    named(text.trim()).ok_or_else(|| unknown(text, &NAMES.map(|row| row.name)))
 }
 
 /// A number to be held and its value, from `NAME=VALUE`.
@@ -67,17 +72,7 @@ fn known(text: &str) -> Result<&'static NameSpec, String> {
 pub fn assigned(text: &str) -> Result<(&'static NameSpec, f64), String> {
     let (key, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as D3=0")?;
     let row = known(key)?;
-    let value: f64 = value.trim().parse().map_err(|_| format!("{value:?} is not a number"))?;
-    let (allowed, range) = match row.place {
-        observation::OMEGA0 => (value > 0.0, "more than 0"),
-        observation::R => (value >= 0.0, "0 or more"),
-        _ => (true, "any finite number"),
-    };
-    if value.is_finite() && allowed {
-        Ok((row, value))
-    } else {
-        Err(format!("{text} is outside its range; allowed: {range}"))
-    }
+    Ok((row, row.knob.parse(value)?))
 }
 
 /// Which numbers a fit estimates, and which it holds.

@@ -156,18 +156,6 @@ pub const METHODS: &[MethodSpec] = &[
     },
 ];
 
-/// Default length of the fixed step.
-pub const STEP: f64 = 0.01;
-
-/// Sensible lengths of a fixed step: half swings last at least pi where damping is below critical.
-pub const STEP_RANGE: (f64, f64) = (1e-7, 1.0);
-
-/// Default velocity over which friction is smoothed.
-pub const EPSILON: f64 = 1e-3;
-
-/// Velocities over which friction may be smoothed.
-pub const EPSILON_RANGE: (f64, f64) = (1e-12, 1e6);
-
 impl Method {
     /// The row of [`METHODS`] that describes this method.
     ///

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::limits::Reason;
-use super::method::{EPSILON, Method, STEP};
-use crate::oscillator::{Ledger, Parameters, State};
+use super::method::Method;
+use crate::oscillator::{Knob, Ledger, Parameters, State};
 
 /// An initial value problem.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,17 +26,42 @@ pub struct Problem {
     pub epsilon: f64,
 }
 
+impl Problem {
+    /// Reads a number of the motion, or of how it is computed; not a number if it is one of a machine.
+    #[must_use]
+    pub fn get(&self, knob: Knob) -> f64 {
+        match knob {
+            Knob::Until => self.until,
+            Knob::Tolerance => self.tolerance,
+            Knob::Step => self.step,
+            Knob::Epsilon => self.epsilon,
+            _ => knob.get(&self.parameters, &self.initial),
+        }
+    }
+
+    /// Writes a number of the motion, or of how it is computed; one of a machine changes nothing.
+    pub fn set(&mut self, knob: Knob, value: f64) {
+        match knob {
+            Knob::Until => self.until = value,
+            Knob::Tolerance => self.tolerance = value,
+            Knob::Step => self.step = value,
+            Knob::Epsilon => self.epsilon = value,
+            _ => knob.set(&mut self.parameters, &mut self.initial, value),
+        }
+    }
+}
+
 impl Default for Problem {
     /// A motion of the plain oscillator to the end time 60, to ten digits.
     fn default() -> Self {
         Problem {
             parameters: Parameters::default(),
             initial: State::default(),
-            until: 60.0,
+            until: Knob::Until.usual(),
             method: Method::Auto,
-            tolerance: 1e-10,
-            step: STEP,
-            epsilon: EPSILON,
+            tolerance: Knob::Tolerance.usual(),
+            step: Knob::Step.usual(),
+            epsilon: Knob::Epsilon.usual(),
         }
     }
 }

@@ -3,11 +3,9 @@
 //! Which number it is depends on the method: the error of a step, its length, or the velocity over which
 //! friction is smoothed. [`Problem::setting`] returns it for any method.
 
-use super::method::{Dial, EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
+use super::method::Dial;
 use super::motion::Problem;
-
-/// Sensible relative errors of a step in double precision.
-pub const TOLERANCE_RANGE: (f64, f64) = (1e-15, 1e-2);
+use crate::oscillator::Knob;
 
 /// A named setting of the dial.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,8 +35,8 @@ pub const QUALITIES: [Quality; 4] = [
         name: "normal",
         meaning: "ten digits, at a few percent of the cost of drawing them",
         tolerance: 1e-10,
-        step: STEP,
-        epsilon: EPSILON,
+        step: 0.01,
+        epsilon: 1e-3,
     },
     Quality {
         name: "fine",
@@ -60,33 +58,13 @@ pub const QUALITIES: [Quality; 4] = [
 pub const DRAFT: Quality = QUALITIES[0];
 
 impl Dial {
-    /// Name of the number.
+    /// The number itself.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn knob(self) -> Knob {
         match self {
-            Dial::Nothing | Dial::Tolerance => "tolerance",
-            Dial::Step => "step",
-            Dial::Epsilon => "epsilon",
-        }
-    }
-
-    /// Meaning of the number, in a few words.
-    #[must_use]
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Dial::Nothing | Dial::Tolerance => "relative error of a step",
-            Dial::Step => "length of a step",
-            Dial::Epsilon => "velocity that smooths",
-        }
-    }
-
-    /// Sensible values of the number.
-    #[must_use]
-    pub fn range(self) -> (f64, f64) {
-        match self {
-            Dial::Nothing | Dial::Tolerance => TOLERANCE_RANGE,
-            Dial::Step => STEP_RANGE,
-            Dial::Epsilon => EPSILON_RANGE,
+            Dial::Nothing | Dial::Tolerance => Knob::Tolerance,
+            Dial::Step => Knob::Step,
+            Dial::Epsilon => Knob::Epsilon,
         }
     }
 }
@@ -107,21 +85,13 @@ impl Problem {
     /// The number that sets the accuracy of the method. For the closed form it is the tolerance, which has no effect.
     #[must_use]
     pub fn setting(&self) -> f64 {
-        match self.method.spec().dial {
-            Dial::Nothing | Dial::Tolerance => self.tolerance,
-            Dial::Step => self.step,
-            Dial::Epsilon => self.epsilon,
-        }
+        self.get(self.method.spec().dial.knob())
     }
 
     /// The same motion by the same method, with another value of [`Problem::setting`].
     #[must_use]
     pub fn with_setting(mut self, number: f64) -> Self {
-        match self.method.spec().dial {
-            Dial::Nothing | Dial::Tolerance => self.tolerance = number,
-            Dial::Step => self.step = number,
-            Dial::Epsilon => self.epsilon = number,
-        }
+        self.set(self.method.spec().dial.knob(), number);
         self
     }
 
@@ -160,9 +130,8 @@ mod tests {
     fn the_stops_go_from_coarse_to_fine_within_every_range() {
         for dial in [Dial::Tolerance, Dial::Step, Dial::Epsilon] {
             let numbers = QUALITIES.map(|quality| quality.setting(dial));
-            let (min, max) = dial.range();
             assert!(numbers.windows(2).all(|pair| pair[0] > pair[1]), "{numbers:?}");
-            assert!(numbers.iter().all(|number| (min..=max).contains(number)), "{numbers:?}");
+            assert!(numbers.iter().all(|number| dial.knob().check(*number).is_ok()), "{numbers:?}");
         }
         assert_eq!(Problem::default().quality().map(|quality| quality.name), Some("normal"));
     }
@@ -173,7 +142,7 @@ mod tests {
             [(Method::Auto, "tolerance"), (Method::Rk4, "step"), (Method::Smoothed, "epsilon")]
         {
             let problem = Problem { method, ..Problem::default() };
-            assert_eq!(method.spec().dial.name(), name);
+            assert_eq!(method.spec().dial.knob().spec().name, name);
             assert_eq!(problem.with_setting(0.003).setting(), 0.003);
             let fine = problem.at(problem.next_quality(true).unwrap());
             assert_eq!(fine.quality().unwrap().name, "fine");

@@ -4,8 +4,8 @@ use super::portrait::Portrait;
 use super::special::{MachineSpecial, between};
 use super::subject::Subject;
 use super::survey::Trouble;
-use super::varied::Varied;
 use crate::numerics::count::real;
+use crate::oscillator::Knob;
 
 #[derive(Clone, Debug)]
 pub struct MachineBranchPoint {
@@ -36,7 +36,7 @@ pub fn spaced((from, to): (f64, f64), index: usize, count: usize) -> f64 {
 /// machine's law has no such number.
 pub fn branch(
     subject: impl Into<Subject>,
-    varied: Varied,
+    varied: Knob,
     range: (f64, f64),
     count: usize,
 ) -> Result<MachineBranch, String> {
@@ -47,7 +47,7 @@ pub fn branch(
 /// has no such number.
 pub fn branch_while(
     subject: &Subject,
-    varied: Varied,
+    varied: Knob,
     range: (f64, f64),
     count: usize,
     wanted: &dyn Fn() -> bool,
@@ -69,7 +69,7 @@ pub fn branch_while(
 /// machine's law has no such number.
 pub fn points_while(
     subject: &Subject,
-    varied: Varied,
+    varied: Knob,
     values: impl Iterator<Item = f64>,
     wanted: &dyn Fn() -> bool,
 ) -> Result<Vec<MachineBranchPoint>, String> {
@@ -82,8 +82,8 @@ pub fn points_while(
 /// no such numbers.
 pub fn borders(
     subject: &Subject,
-    (along, range, count): (Varied, (f64, f64), usize),
-    (against, values, rows): (Varied, (f64, f64), usize),
+    (along, range, count): (Knob, (f64, f64), usize),
+    (against, values, rows): (Knob, (f64, f64), usize),
 ) -> Result<Vec<(f64, Vec<MachineSpecial>)>, String> {
     let row = |index| {
         let value = spaced(values, index, rows);

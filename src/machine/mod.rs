@@ -43,7 +43,7 @@ pub(crate) mod landmarks;
 pub(crate) mod law;
 pub(crate) mod ledger;
 mod margin;
-pub(crate) mod modal;
+mod modal;
 #[warn(clippy::missing_errors_doc)]
 pub(crate) mod model;
 #[doc(hidden)]
@@ -66,14 +66,12 @@ pub mod survey;
 pub(crate) mod tolerance;
 #[doc(hidden)]
 pub mod turn;
-#[doc(hidden)]
-pub mod varied;
 
+pub use crate::oscillator::Modal;
 pub use arc::{Flow, Unfollowed};
 pub use cycles::MachineCycle;
 pub use ledger::MachineLedger;
 pub use margin::MachineMargin;
-pub use modal::Modal;
 pub use model::{Lines, Model, NoModel, Phase};
 pub use motion::MachineMotion;
 pub use portrait::{BorderKind, MachineBorder, Portrait};

@@ -1,11 +1,9 @@
 //! The subject of a question: a mass on a belt or a vibration mode, whose numbers are set and varied alike.
 
-use super::modal::Modal;
 use super::model::Model;
 use super::portrait::Portrait;
 use super::survey::Trouble;
-use super::varied::Varied;
-use crate::oscillator::Belt;
+use crate::oscillator::{Belt, Knob, Modal};
 
 /// A mass on a belt, or a vibration mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,10 +40,10 @@ impl Subject {
     ///
     /// # Errors
     /// One line, if it has no such number.
-    pub fn set(&mut self, varied: Varied, value: f64) -> Result<(), String> {
+    pub fn set(&mut self, knob: Knob, value: f64) -> Result<(), String> {
         match &mut self.body {
-            Body::Belt(belt) => varied.set(belt, value),
-            Body::Mode(mode) => varied.set_of_mode(mode, value),
+            Body::Belt(belt) => knob.set_in_belt(belt, value),
+            Body::Mode(mode) => knob.set_in_mode(mode, value),
         }
     }
 
@@ -53,9 +51,9 @@ impl Subject {
     ///
     /// # Errors
     /// One line, if it has no such number.
-    pub fn with(&self, varied: Varied, value: f64) -> Result<Self, String> {
+    pub fn with(&self, knob: Knob, value: f64) -> Result<Self, String> {
         let mut other = self.clone();
-        other.set(varied, value)?;
+        other.set(knob, value)?;
         Ok(other)
     }
 

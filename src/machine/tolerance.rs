@@ -6,9 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::model::{Model, Phase};
 use super::survey::Trouble;
-use super::varied::Varied;
-use crate::oscillator::belt::Quantity;
-use crate::oscillator::{Belt, Interval};
+use crate::oscillator::{Belt, Group, Interval, KNOBS, Knob};
 
 /// By how much the numbers of a machine may differ from their values, and the force that disturbs it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -28,16 +26,16 @@ impl Tolerances {
 
     /// Where a number lies; `None` where the machine has no such number.
     #[must_use]
-    pub fn interval(&self, varied: Varied, belt: &Belt) -> Option<Interval> {
-        let half = self.half_widths.get(varied.name()).copied().unwrap_or(0.0);
-        Some(Interval::around(varied.get(belt)?, half))
+    pub fn interval(&self, varied: Knob, belt: &Belt) -> Option<Interval> {
+        let half = self.half_widths.get(varied.spec().name).copied().unwrap_or(0.0);
+        Some(Interval::around(varied.of_belt(belt)?, half))
     }
 
     /// The numbers that are not known exactly, with their ends.
     #[must_use]
-    pub fn intervals(&self, belt: &Belt) -> Vec<(Varied, Interval)> {
-        let known = |varied: Varied| Some((varied, self.interval(varied, belt)?));
-        let all = Varied::all().filter_map(known);
+    pub fn intervals(&self, belt: &Belt) -> Vec<(Knob, Interval)> {
+        let known = |varied: Knob| Some((varied, self.interval(varied, belt)?));
+        let all = KNOBS.iter().filter_map(|row| known(row.knob));
         all.filter(|(_, interval)| !interval.is_point()).collect()
     }
 
@@ -67,10 +65,10 @@ impl Tolerances {
     /// One line that says what is allowed.
     pub fn check(&self, belt: &Belt) -> Result<(), String> {
         for (name, half) in &self.half_widths {
-            let varied = Varied::named(name).ok_or_else(|| format!("there is no number {name}"))?;
-            if let Some(value) = varied.get(belt) {
-                varied.check(value - half)?;
-                varied.check(value + half)?;
+            let knob = Knob::named(name, Group::SOURCE)?;
+            for end in knob.of_belt(belt).into_iter().flat_map(|value| [value - half, value + half])
+            {
+                knob.check(end).map_err(|refused| refused.to_string())?;
             }
         }
         Ok(())
@@ -78,12 +76,7 @@ impl Tolerances {
 }
 
 /// Numbers of which the smallest value is the worst at every velocity: friction and damping.
-const MONOTONE: [Varied; 4] = [
-    Varied::Quantity(Quantity::Friction),
-    Varied::Quantity(Quantity::Damping),
-    Varied::Quantity(Quantity::CubicDamping),
-    Varied::StaticGuide,
-];
+const MONOTONE: [Knob; 4] = [Knob::Friction, Knob::Damping, Knob::CubicDamping, Knob::StaticGuide];
 
 /// Maximum number of other numbers that may be uncertain together.
 pub const MOST: usize = 5;
@@ -150,7 +143,7 @@ impl Corners {
         let (moving, at_rest) = (belts[0].friction, belts[0].static_guide);
         let models: Vec<Model> = belts.iter().map(Model::new).collect::<Result<_, _>>()?;
         let held = models.iter().map(|model| model.guide_static).fold(0.0, f64::max);
-        let holds = known.interval(Varied::StaticGuide, belt);
+        let holds = known.interval(Knob::StaticGuide, belt);
         let more = holds.map_or(0.0, |holds| holds.upper() - holds.lower()) + known.disturbance;
         let softest = belts.iter().map(|belt| belt.stiffness).fold(f64::INFINITY, f64::min);
         let farthest_rest = if more > 0.0 { (held + more / softest).next_up() } else { held };
@@ -243,8 +236,8 @@ impl Corners {
 }
 
 /// Gives a machine the value of a number that it has.
-fn set(belt: &mut Belt, varied: Varied, value: f64) {
-    let set = varied.set(belt, value);
+fn set(belt: &mut Belt, varied: Knob, value: f64) {
+    let set = varied.set_in_belt(belt, value);
     debug_assert!(set.is_ok(), "only numbers of the machine have intervals: {set:?}");
 }
 

@@ -5,6 +5,7 @@
 //!   [`random`] simulates noise.
 //! - Functions: [`elementary`] has those of the standard library, [`root`] finds zeros inside brackets, [`quadrature`]
 //!   integrates, [`polynomial`] evaluates, [`hermite`] interpolates by cubics, [`spline`] smooths measured points.
+//! - Texts: [`decimal`] writes numbers, [`similar`] finds the name that was meant.
 
 pub(crate) mod count;
 pub(crate) mod decimal;
@@ -19,6 +20,7 @@ pub mod random;
 pub(crate) mod root;
 #[doc(hidden)]
 pub mod scaling;
+pub(crate) mod similar;
 pub(crate) mod spline;
 pub(crate) mod sum;
 #[doc(hidden)]

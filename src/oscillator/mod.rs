@@ -30,11 +30,18 @@ pub mod belt;
 pub(crate) mod energy;
 pub(crate) mod half_plane;
 pub(crate) mod interval;
+pub(crate) mod knob;
+pub(crate) mod modal;
 pub(crate) mod parameters;
 pub(crate) mod sticking;
+#[doc(hidden)]
+pub mod unit;
 
 pub use belt::Belt;
 pub use energy::Ledger;
 pub use half_plane::{HalfPlane, Side};
 pub use interval::{Interval, ParameterBox};
-pub use parameters::{PARAMETERS, ParameterSpec, Parameters, State, Symbol};
+pub(crate) use knob::unknown;
+pub use knob::{Group, KNOBS, Knob, KnobSpec, OutOfRange};
+pub use modal::Modal;
+pub use parameters::{Parameters, State};

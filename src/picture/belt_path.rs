@@ -5,7 +5,7 @@
 
 use super::items::{Item, LineStyle, Marks, Picture};
 use super::role::{Dash, Mark, Role};
-use crate::oscillator::{Parameters, State, Symbol};
+use crate::oscillator::{Knob, Parameters, State};
 use crate::scene::machine::path::Station;
 use crate::scene::{Point, Running};
 use crate::session::Session;
@@ -21,10 +21,10 @@ const CLEAR: f64 = 0.03;
 const PEN: Role = Role::Velocity;
 
 /// Draws the path over two parameters, if the scene is of a machine.
-pub fn draw(picture: &mut Picture, session: &Session, right: Symbol, up: Symbol) {
+pub fn draw(picture: &mut Picture, session: &Session, right: Knob, up: Knob) {
     let Some(running) = session.running() else { return };
     let at = |parameters: &Parameters| {
-        let value = |symbol: Symbol| symbol.get(parameters, &State { q: 0.0, v: 0.0 });
+        let value = |symbol: Knob| symbol.get(parameters, &State { q: 0.0, v: 0.0 });
         Point { x: value(right), y: value(up) }
     };
     let place = |(_, parameters): Station| parameters.as_ref().map_or(Point::NOWHERE, at);

@@ -13,7 +13,7 @@ use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,
 };
 use crate::numerics::root::bisect;
-use crate::oscillator::{Parameters, Symbol};
+use crate::oscillator::{Knob, Parameters};
 use crate::scene::{Axes, Height, Layer, Ordinate, Point};
 use crate::session::{self, Session, Shown};
 use crate::study::{Branch, BranchPoint, Special, SpecialKind};
@@ -142,7 +142,7 @@ fn asymptotes(
     picture: &mut Picture,
     shown: &Shown,
     variant: &VariantTag,
-    abscissa: Symbol,
+    abscissa: Knob,
     height: Height,
 ) {
     let Some(size) = height.ordinate.spec().harmonic else { return };
@@ -171,7 +171,7 @@ fn asymptotes(
 fn harmonic(
     picture: &mut Picture,
     (shown, variant): (&Shown, &VariantTag),
-    abscissa: Symbol,
+    abscissa: Knob,
     height: Height,
     largest: f64,
 ) {
@@ -180,7 +180,7 @@ fn harmonic(
     let Some(size) = height.ordinate.spec().harmonic else { return };
     let line = LineStyle::new("first harmonic", Role::Harmonic, Dash::Dotted).of(variant);
     let Parameters { d2, d3, r, .. } = shown.problem.parameters;
-    if abscissa == Symbol::D {
+    if abscissa == Knob::D {
         let points = (1..=SAMPLES).map(|sample| {
             let amplitude = largest * f64::from(sample) / f64::from(SAMPLES);
             let x = damping_at(d3, r, amplitude).unwrap_or(f64::NAN);

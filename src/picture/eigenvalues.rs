@@ -3,13 +3,13 @@
 
 use super::items::{Item, LineStyle, Picture, ellipse};
 use super::role::{Dash, Role, cycle_style};
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::scene::{Layer, Point};
 use crate::session::Session;
 
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     picture.axes("Re", "Im");
-    picture.varied = vec![Symbol::D];
+    picture.varied = vec![Knob::D];
     picture.reading = picture.cursor.map(|at| picture.coordinates(at));
     if session.layers.contains(&Layer::Locus) {
         locus(picture);

@@ -4,7 +4,7 @@
 use super::items::{Fill, Item, LineStyle, Pattern, Picture, VariantTag};
 use super::phase_plane::AT_REST;
 use super::role::{CycleStyle, Dash, Role, cycle_style};
-use crate::oscillator::{Parameters, Symbol};
+use crate::oscillator::{Knob, Parameters};
 use crate::scene::{Height, Ordinate};
 use crate::session::Shown;
 
@@ -17,7 +17,7 @@ pub fn draw(
     picture: &mut Picture,
     (shown, variant): (&Shown, &VariantTag),
     (name, dash): (&'static str, Dash),
-    abscissa: Symbol,
+    abscissa: Knob,
     height: Height,
 ) {
     let has_band = match height.ordinate {
@@ -25,7 +25,7 @@ pub fn draw(
         Ordinate::VMax | Ordinate::Amplitude => false,
         Ordinate::Period | Ordinate::Multiplier => return,
     };
-    if shown.problem.parameters.r == 0.0 && abscissa != Symbol::R {
+    if shown.problem.parameters.r == 0.0 && abscissa != Knob::R {
         // There is no height in units of a friction that is zero.
         if !height.is_ratio() {
             point(picture, shown, variant, abscissa);
@@ -43,8 +43,8 @@ pub fn draw(
         (r >= 0.0 && unit > 0.0).then_some(r / unit)
     };
     let (upper, lower) = (edge.clone(), edge.clone());
-    let band = edge(picture.window.x.from()).filter(|_| abscissa != Symbol::R);
-    if abscissa == Symbol::R {
+    let band = edge(picture.window.x.from()).filter(|_| abscissa != Knob::R);
+    if abscissa == Knob::R {
         let fill = Fill { pattern: Pattern::Shade, role: Role::Sticking, name };
         let within = move |place: crate::scene::Point| {
             edge(place.x).filter(|edge| place.y.abs() <= *edge).map(|_| fill)
@@ -61,7 +61,7 @@ pub fn draw(
 }
 
 /// The parameters of a motion, with that of a diagram at `value`.
-pub(super) fn at(shown: &Shown, abscissa: Symbol, value: f64) -> Parameters {
+pub(super) fn at(shown: &Shown, abscissa: Knob, value: f64) -> Parameters {
     let (mut parameters, mut initial) = (shown.problem.parameters, shown.problem.initial);
     abscissa.set(&mut parameters, &mut initial, value);
     parameters
@@ -76,7 +76,7 @@ fn is_stable(parameters: &Parameters) -> Option<bool> {
 }
 
 /// The equilibrium at 0 without friction.
-fn point(picture: &mut Picture, shown: &Shown, variant: &VariantTag, abscissa: Symbol) {
+fn point(picture: &mut Picture, shown: &Shown, variant: &VariantTag, abscissa: Knob) {
     for stable in [true, false] {
         let (name, dash) = if stable {
             ("rest (stable)", Dash::Thick)

@@ -9,7 +9,7 @@ use super::reading::reading;
 use super::role::{Dash, Mark, Role};
 use super::ticks::Scale;
 use crate::numerics::elementary::sin_cos;
-use crate::oscillator::{Parameters, Symbol};
+use crate::oscillator::{Knob, Parameters};
 use crate::scene::{Point, Window};
 
 /// A text that is a constant or was made for this picture.
@@ -189,7 +189,7 @@ pub struct Picture<'a> {
     /// The parameters of each variant on show; one set where there are no variants.
     pub variants: Vec<Parameters>,
     /// The parameters on the axes, which differ along the curves.
-    pub varied: Vec<Symbol>,
+    pub varied: Vec<Knob>,
     /// Where the cursor is.
     pub cursor: Option<Point>,
     /// What the cursor reads.

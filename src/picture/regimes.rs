@@ -7,7 +7,7 @@
 use super::belt_path;
 use super::items::{Fill, Item, LineStyle, Pattern, Picture};
 use super::role::{Dash, Mark, Role};
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::scene::{Axes, Layer, Point, Window};
 use crate::session::Session;
 use crate::study::chart::{BoundaryKind, Chart};
@@ -31,7 +31,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         let texture = |point: Point| chart.regime_at(point.x, point.y).and_then(texture);
         picture.items.push(Item::Texture(Box::new(texture)));
     }
-    signs(picture, abscissa, against, session.value(Symbol::R));
+    signs(picture, abscissa, against, session.value(Knob::R));
     if let Some(chart) = found {
         let mut boundary = |boundary, line: LineStyle| {
             for run in chart.boundary(boundary) {
@@ -78,15 +78,15 @@ fn texture(regime: Regime) -> Option<Fill> {
 }
 
 /// Where a parameter changes its sign; D = 0 is the Hopf point where there is no friction.
-fn signs(picture: &mut Picture, right: Symbol, up: Symbol, friction: f64) {
+fn signs(picture: &mut Picture, right: Knob, up: Knob, friction: f64) {
     let window = picture.window;
     picture.upright(LineStyle::guide(), 0.0);
     picture.curve(LineStyle::guide(), across(window, 0.0));
     let without = friction == 0.0;
     let hopf = match (right, up) {
-        (Symbol::D, Symbol::R) | (Symbol::R, Symbol::D) => Some(Point { x: 0.0, y: 0.0 }),
-        (Symbol::D, _) if without => Some(Point { x: 0.0, y: window.y.to() }),
-        (_, Symbol::D) if without => Some(Point { x: window.x.from(), y: 0.0 }),
+        (Knob::D, Knob::R) | (Knob::R, Knob::D) => Some(Point { x: 0.0, y: 0.0 }),
+        (Knob::D, _) if without => Some(Point { x: 0.0, y: window.y.to() }),
+        (_, Knob::D) if without => Some(Point { x: window.x.from(), y: 0.0 }),
         _ => None,
     };
     if let Some(place) = hopf.filter(|place| window.contains(*place)) {

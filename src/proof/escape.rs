@@ -10,12 +10,12 @@ use super::field::{Field, ParameterBox};
 use super::funnel::Funnel;
 use super::swing::{Passage, StartBox, swing};
 use crate::numerics::Interval;
-use crate::oscillator::{Side, Symbol};
+use crate::oscillator::{Knob, Side};
 
 /// Encloses the value of the parameter `symbol` (D, D2 or r) near `near` at which a cycle escapes to infinity,
 /// for `D3 = 0`. The other parameters are those of `parameters`, which may be intervals. `None` where nothing
 /// could be proved.
-pub fn enclose_escape(parameters: &ParameterBox, symbol: Symbol, near: f64) -> Option<Interval> {
+pub fn enclose_escape(parameters: &ParameterBox, symbol: Knob, near: f64) -> Option<Interval> {
     bracket(near, |at| returns_from_infinity(&parameters.with(symbol, Interval::point(at))))
 }
 

@@ -3,7 +3,7 @@
 use crate::numerics::Interval;
 use crate::numerics::scaling::times_power;
 pub use crate::oscillator::ParameterBox;
-use crate::oscillator::{Side, Symbol};
+use crate::oscillator::{Knob, Side};
 
 impl ParameterBox {
     /// The same parameters with lengths in units of `2^k`.
@@ -15,14 +15,14 @@ impl ParameterBox {
 
     /// The same parameters with one replaced; symbols of a start are ignored.
     #[must_use]
-    pub fn with(&self, symbol: Symbol, value: Interval) -> Self {
+    pub fn with(&self, symbol: Knob, value: Interval) -> Self {
         let mut changed = *self;
         match symbol {
-            Symbol::D => changed.d = value,
-            Symbol::D2 => changed.d2 = value,
-            Symbol::D3 => changed.d3 = value,
-            Symbol::R => changed.r = value,
-            Symbol::Q0 | Symbol::V0 => {}
+            Knob::D => changed.d = value,
+            Knob::D2 => changed.d2 = value,
+            Knob::D3 => changed.d3 = value,
+            Knob::R => changed.r = value,
+            _ => {}
         }
         changed
     }

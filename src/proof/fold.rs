@@ -12,7 +12,7 @@ use super::ends::{Sign, sign_at};
 use super::field::ParameterBox;
 use super::map::{Direction, ProvedMap};
 use crate::numerics::Interval;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 
 /// A fold of limit cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub struct Fold {
 /// The bounds of the value are about as close as rounding allows: a few units of 1e-15.
 pub fn enclose_fold(
     parameters: &ParameterBox,
-    symbol: Symbol,
+    symbol: Knob,
     near: f64,
     clearance: f64,
 ) -> Option<Fold> {

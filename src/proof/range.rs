@@ -5,7 +5,7 @@ use super::cycles::stabilities;
 use super::field::ParameterBox;
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 
 /// Part of a range, with what is proved for all values in it.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,13 +49,13 @@ const MOST_FOR_CHANGE: u32 = MOST_STEPS / 8;
 /// Asks for the cycles at values of a parameter until the steps that this takes are too many.
 struct Inquiry<'a> {
     base: &'a ParameterBox,
-    symbol: Symbol,
+    symbol: Knob,
     steps: u32,
     most: u32,
 }
 
 impl<'a> Inquiry<'a> {
-    fn new(base: &'a ParameterBox, symbol: Symbol, most: u32) -> Self {
+    fn new(base: &'a ParameterBox, symbol: Knob, most: u32) -> Self {
         Inquiry { base, symbol, steps: 0, most }
     }
 
@@ -75,7 +75,7 @@ impl<'a> Inquiry<'a> {
 }
 
 /// Decides a range of values.
-pub fn range(base: &ParameterBox, symbol: Symbol, (low, high): (f64, f64)) -> Range {
+pub fn range(base: &ParameterBox, symbol: Knob, (low, high): (f64, f64)) -> Range {
     /// Number of initial parts of the range.
     const PARTS: i32 = 16;
     /// Halvings of a part.
@@ -148,12 +148,7 @@ fn narrowed(asked: &mut Inquiry, over: Interval, [below, above]: [&Vec<bool>; 2]
 }
 
 /// The change between the values `at - away abs(at)` and `at + away abs(at)`, if there is one.
-pub fn change_within(
-    base: &ParameterBox,
-    symbol: Symbol,
-    at: f64,
-    away: f64,
-) -> Option<CountChange> {
+pub fn change_within(base: &ParameterBox, symbol: Knob, at: f64, away: f64) -> Option<CountChange> {
     let mut asked = Inquiry::new(base, symbol, MOST_FOR_CHANGE);
     let mut ask = |value: f64| asked.cycles(Interval::point(value));
     let (low, high) = (at - away * at.abs(), at + away * at.abs());
@@ -164,7 +159,7 @@ pub fn change_within(
 
 /// The change nearest to a value, if there is one: between values on both sides at which the numbers of cycles
 /// are proved and differ.
-pub fn change_near(base: &ParameterBox, symbol: Symbol, hint: f64) -> Option<CountChange> {
+pub fn change_near(base: &ParameterBox, symbol: Knob, hint: f64) -> Option<CountChange> {
     /// Distances to try, as powers of ten relative to the value.
     const AWAY: std::ops::RangeInclusive<i32> = -12..=-3;
     let mut asked = Inquiry::new(base, symbol, MOST_FOR_CHANGE);

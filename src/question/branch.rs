@@ -4,7 +4,7 @@ use super::kind::{Question, numbers};
 use super::means::Means;
 use crate::flow::Reason;
 use crate::flow::quality::DRAFT;
-use crate::oscillator::{Parameters, Symbol};
+use crate::oscillator::{Knob, Parameters};
 use crate::study::Branch;
 use crate::study::branch::{Points, branch};
 
@@ -13,7 +13,7 @@ pub struct Asked {
     /// The parameters; the one that varies is set to 0, so that stepping it leaves the request unchanged.
     pub parameters: Parameters,
     /// The parameter that varies.
-    pub parameter: Symbol,
+    pub parameter: Knob,
     /// Ends of the range of that parameter.
     pub range: (f64, f64),
     /// Requested relative error.

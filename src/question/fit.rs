@@ -19,7 +19,7 @@ use crate::fit::{
     length_in_metres, margins, parameters,
 };
 use crate::flow::{Limits, Problem, Reason};
-use crate::oscillator::{State, Symbol};
+use crate::oscillator::{Knob, State};
 
 /// Draws for the distribution of the margin: fewer than on the command line, so that it appears quickly.
 const DRAWN: usize = 200;
@@ -273,14 +273,14 @@ fn points(record: &Record, estimate: &Estimate) -> Vec<Measured> {
 }
 
 /// Index of a parameter of the oscillator among the unknowns of the fit.
-fn place(symbol: Symbol) -> Option<usize> {
+fn place(symbol: Knob) -> Option<usize> {
     Some(match symbol {
-        Symbol::D => D,
-        Symbol::D2 => D2,
-        Symbol::D3 => D3,
-        Symbol::R => R,
-        Symbol::Q0 => Q0,
-        Symbol::V0 => return None,
+        Knob::D => D,
+        Knob::D2 => D2,
+        Knob::D3 => D3,
+        Knob::R => R,
+        Knob::Q0 => Q0,
+        _ => return None,
     })
 }
 
@@ -300,13 +300,13 @@ impl Fitted {
     }
 
     /// Whether a number is held, by hand or by the choice with which the record was opened.
-    pub fn holds(&self, symbol: Symbol) -> bool {
+    pub fn holds(&self, symbol: Knob) -> bool {
         place(symbol).is_some_and(|place| !self.fit.estimate.free[place])
     }
 
     /// Standard error of a number; `None` where it was not estimated.
-    pub fn error(&self, symbol: Symbol) -> Option<f64> {
-        let place = if symbol == Symbol::V0 && self.fit.estimate.start == StartKind::Moving {
+    pub fn error(&self, symbol: Knob) -> Option<f64> {
+        let place = if symbol == Knob::V0 && self.fit.estimate.start == StartKind::Moving {
             LAST
         } else {
             place(symbol)?

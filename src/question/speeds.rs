@@ -10,10 +10,9 @@ use crate::machine::branch::{
     MachineBranch, MachineBranchPoint, branch_while, points_while, spaced,
 };
 use crate::machine::special::MachineSpecial;
-use crate::machine::varied::Varied;
 use crate::machine::{BorderKind, MachineCycle, ORDER, Subject};
 use crate::oscillator::Belt;
-use crate::oscillator::belt::Quantity;
+use crate::oscillator::Knob;
 
 /// The cycles over the speed of the belt, and where they change.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +54,7 @@ pub struct Asked {
     pub rough: bool,
 }
 
-const VARIED: Varied = Varied::Quantity(Quantity::BeltSpeed);
+const VARIED: Knob = Knob::BeltSpeed;
 
 impl Asked {
     /// The machine at all speeds of this question, and the changes between them.

@@ -7,14 +7,14 @@ use super::csv::Sheet;
 use super::json::{self, CountedCost};
 use super::table::{Table, parameters, rounded};
 use crate::numerics::Interval;
-use crate::oscillator::{Parameters, Symbol};
+use crate::oscillator::{Knob, Parameters};
 use crate::study::fold::{Boundary, BoundaryPoint};
 use crate::words::number::{duration, significant};
 
 #[derive(Serialize)]
 struct BorderDocument<'a> {
     parameters: &'a Parameters,
-    parameter: Symbol,
+    parameter: Knob,
     points: &'a [BoundaryPoint],
     #[serde(skip_serializing_if = "Option::is_none")]
     certified: Option<&'a [Bordered]>,

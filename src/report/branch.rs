@@ -7,7 +7,7 @@ use super::csv::Sheet;
 use super::cycles::{COLUMNS, cells};
 use super::json::{self, CountedCost};
 use super::table::{Table, digits, parameters, rounded};
-use crate::oscillator::{Parameters, Symbol};
+use crate::oscillator::{Knob, Parameters};
 use crate::proof::range::Range;
 use crate::study::{Branch, BranchPoint, Special};
 use crate::words::number::{duration, significant};
@@ -35,7 +35,7 @@ fn rows(branch: &Branch) -> impl Iterator<Item = BranchRow> {
 
 #[derive(Serialize)]
 struct BranchDocument<'a> {
-    parameter: Symbol,
+    parameter: Knob,
     points: Vec<BranchRow>,
     special: &'a [Special],
     vague: &'a [f64],
@@ -127,7 +127,7 @@ mod tests {
             let special = vec![Special::new(SpecialKind::Fold, -1.5, Some(cycle))];
             let cost = crate::flow::Cost::default();
             let vague = vec![-1.4, -1.2];
-            let found = Branch { parameter: Symbol::D, pieces: Vec::new(), special, vague, cost };
+            let found = Branch { parameter: Knob::D, pieces: Vec::new(), special, vague, cost };
             table(&found, &Parameters { d: -1.5, d2: 0.0, d3: 10.0, r: 1.0 }, 1e-6, 0.0)
         };
         assert!(end(-1e-6).contains("fold") && !end(-1e-6).contains("grazing"));
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn numbers_that_do_not_exist_are_null_and_the_others_come_back() {
         let branch = Branch {
-            parameter: Symbol::D,
+            parameter: Knob::D,
             pieces: Vec::new(),
             special: vec![Special::new(SpecialKind::Escape, 0.1, None)],
             vague: vec![-1.5],

@@ -7,7 +7,7 @@ use super::table::Table;
 use crate::check::{Bounds, Certificate, StepKind};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{log10, pow};
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::proof::cycles::Proof;
 use crate::proof::kicks::{ProvedEdge, ProvedKicks};
 use crate::proof::motion::{ProvedFate, ProvedMotion};
@@ -259,7 +259,7 @@ pub fn decided(range: &Range) -> Decided {
     }
 }
 
-pub fn range_table(range: &Range, symbol: Symbol) -> String {
+pub fn range_table(range: &Range, symbol: Knob) -> String {
     let name = symbol.spec().name;
     let mut table = Table::new(&["from", "to", "cycles"]);
     for piece in &range.pieces {
@@ -313,7 +313,7 @@ impl Bordered {
     }
 }
 
-pub fn border_lines(points: &[Bordered], symbol: Symbol) -> String {
+pub fn border_lines(points: &[Bordered], symbol: Knob) -> String {
     let mut table = Table::new(&[symbol.spec().name, "D_F, proved", "D_c, proved"]);
     let cell = |it: Option<IntervalDocument>| {
         it.map_or("-".to_owned(), |it| certain(Interval::new(it.lower, it.upper), PLACES))

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::csv;
 use super::json::{CountedCost, text};
 use super::table::Table;
-use crate::oscillator::{Interval, ParameterBox, Symbol};
+use crate::oscillator::{Interval, Knob, ParameterBox};
 use crate::study::Margin;
 use crate::study::guarantee::{Guarantee, Guaranteed};
 use crate::words::number::{duration, significant};
@@ -52,7 +52,7 @@ const BELOW: f64 = 1.0 - 5e-12;
 /// As a table; guaranteed numbers are not rounded up.
 pub fn table(found: &Guarantee, seconds: f64) -> String {
     let ParameterBox { d, d2, d3, r } = found.known;
-    let names = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R].map(|symbol| symbol.spec().name);
+    let names = Knob::PARAMETERS.map(|symbol| symbol.spec().name);
     let parameters = names.iter().zip([d, d2, d3, r]).map(|(name, value)| interval(name, value));
     let parameters = parameters.collect::<Vec<_>>().join(", ");
     let mut table = Table::new(&["smallest kick that is not survived", "displacement", "impulse"]);

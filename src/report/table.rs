@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::flow::Problem;
 use crate::numerics::elementary::powi;
-use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
+use crate::oscillator::{Knob, Parameters, State};
 use crate::words::number::{exact, significant};
 
 /// A table: titles, and rows with at most as many cells. Numbers are aligned at their decimal points.
@@ -96,13 +96,10 @@ pub(super) fn digits(tolerance: f64) -> usize {
 }
 
 /// `D = -0.1, D2 = 0, ...`, without the parameter `but`.
-pub(super) fn parameters(parameters: &Parameters, but: Option<Symbol>) -> String {
+pub(super) fn parameters(parameters: &Parameters, but: Option<Knob>) -> String {
     let initial = State { q: 0.0, v: 0.0 };
-    let symbols = PARAMETERS.iter().map(|row| row.symbol);
-    let shown =
-        symbols.filter(|&symbol| !matches!(symbol, Symbol::Q0 | Symbol::V0) && Some(symbol) != but);
-    let one =
-        |symbol: Symbol| format!("{symbol} = {}", exact(symbol.get(parameters, &initial), 24));
+    let shown = Knob::PARAMETERS.into_iter().filter(|knob| Some(*knob) != but);
+    let one = |knob: Knob| format!("{knob} = {}", exact(knob.get(parameters, &initial), 24));
     shown.map(one).collect::<Vec<_>>().join(", ")
 }
 

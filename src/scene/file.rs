@@ -7,20 +7,13 @@ use toml::Spanned;
 
 use super::machine::{self, ScaledMachine};
 use super::misread::{self, Complaint, Misread};
-use super::ordinate::{ABSCISSAE, Ordinate, Unit};
+use super::ordinate::{Ordinate, Unit};
 use super::plot_setup::{Arrangement, Axes, MOST_PLOTS, PlotSetup};
 use super::scene::{Scene, Variant};
-use super::usual::{TOLERANCE, UNTIL};
 use super::views::{Layer, View};
 use super::window::{Span, Window};
-use crate::flow::method::{EPSILON, EPSILON_RANGE, STEP, STEP_RANGE};
-pub use crate::flow::quality::TOLERANCE_RANGE;
 use crate::flow::{Method, Problem};
-use crate::oscillator::belt::Quantity;
-use crate::oscillator::{PARAMETERS, Parameters, State, Symbol};
-
-/// Allowed end times of motions.
-pub const UNTIL_RANGE: (f64, f64) = (0.0, 1e9);
+use crate::oscillator::{Knob, Parameters, State};
 
 /// The file as it is written.
 #[derive(Deserialize)]
@@ -30,14 +23,14 @@ struct SceneFile {
     also: Option<String>,
     look: String,
     press: String,
-    terms: Option<BTreeSet<Symbol>>,
+    terms: Option<BTreeSet<Knob>>,
     machine: Option<Spanned<String>>,
     /// Speed of the machine's belt in m/s, where it differs from the machine's own.
     belt: Option<Spanned<f64>>,
     #[serde(default)]
-    values: BTreeMap<Symbol, Spanned<f64>>,
+    values: BTreeMap<Knob, Spanned<f64>>,
     #[serde(default)]
-    steps: BTreeMap<Symbol, Spanned<f64>>,
+    steps: BTreeMap<Knob, Spanned<f64>>,
     until: Option<Spanned<f64>>,
     #[serde(default = "auto")]
     method: Method,
@@ -56,12 +49,12 @@ struct SceneFile {
 #[serde(deny_unknown_fields)]
 struct PlotTable {
     view: View,
-    over: Option<Spanned<Symbol>>,
+    over: Option<Spanned<Knob>>,
     ordinate: Option<Spanned<Ordinate>>,
     unit: Option<Spanned<Unit>>,
-    against: Option<Spanned<Symbol>>,
+    against: Option<Spanned<Knob>>,
     #[serde(default)]
-    with: Vec<BTreeMap<Symbol, Spanned<f64>>>,
+    with: Vec<BTreeMap<Knob, Spanned<f64>>>,
     x: Option<Span>,
     y: Option<Span>,
 }
@@ -138,10 +131,7 @@ fn scaled(
     })?;
     let mut machine = machine.clone();
     if let Some(speed) = speed {
-        let at = speed.span();
-        let checked = Quantity::BeltSpeed.check(*speed.get_ref());
-        machine.belt.belt_speed =
-            checked.map_err(|refused| Complaint { at, message: refused.to_string() })?;
+        machine.belt.belt_speed = checked(Knob::BeltSpeed, speed)?;
     }
     ScaledMachine::new(machine).map(Box::new).map_err(|error| complain(error.to_string()))
 }
@@ -154,9 +144,12 @@ fn of_machine(scaled: &ScaledMachine, read: &SceneFile) -> Result<Problem, Compl
     }
     let problem = scaled.problem();
     Ok(Problem {
-        until: within("until", read.until.as_ref(), UNTIL_RANGE, problem.until)?,
+        until: read
+            .until
+            .as_ref()
+            .map_or(Ok(problem.until), |given| checked(Knob::Until, given))?,
         method: read.method,
-        tolerance: within("tolerance", read.tolerance.as_ref(), TOLERANCE_RANGE, TOLERANCE)?,
+        tolerance: within(Knob::Tolerance, read.tolerance.as_ref())?,
         ..problem
     })
 }
@@ -169,7 +162,7 @@ fn plot_setup(
 ) -> Result<PlotSetup, Complaint> {
     let PlotTable { view, over, ordinate, unit, against, with, x, y } = read.get_ref();
     let title = view.spec().title;
-    let span = |given: &Option<Spanned<Symbol>>| given.as_ref().map(Spanned::span);
+    let span = |given: &Option<Spanned<Knob>>| given.as_ref().map(Spanned::span);
     for (given, views) in [
         (span(over), &[View::Diagram, View::Regimes][..]),
         (ordinate.as_ref().map(Spanned::span), &[View::Diagram]),
@@ -194,7 +187,7 @@ fn plot_setup(
         return Err(Complaint { at: unit.span(), message });
     }
     for axis in [over, against].into_iter().flatten() {
-        if ABSCISSAE.iter().all(|(symbol, _)| symbol != axis.get_ref()) {
+        if !axis.get_ref().is_parameter() {
             let message =
                 format!("no plot over {} exists; D, D2, D3 and r are allowed", axis.get_ref());
             return Err(Complaint { at: axis.span(), message });
@@ -225,66 +218,53 @@ fn plot_setup(
 }
 
 /// The values that a plot holds, each checked against the range of its parameter.
-fn variant(read: &BTreeMap<Symbol, Spanned<f64>>) -> Result<Variant, Complaint> {
-    let checked = |(symbol, value): (&Symbol, &Spanned<f64>)| {
-        let refused =
-            |refused: &dyn ToString| Complaint { at: value.span(), message: refused.to_string() };
-        let value = symbol.spec().check(*value.get_ref()).map_err(|error| refused(&error))?;
-        Ok((*symbol, value))
-    };
-    Ok(Variant { held: read.iter().map(checked).collect::<Result<_, _>>()? })
+fn variant(read: &BTreeMap<Knob, Spanned<f64>>) -> Result<Variant, Complaint> {
+    let held = |(knob, value): (&Knob, &Spanned<f64>)| Ok((*knob, checked(*knob, value)?));
+    Ok(Variant { held: read.iter().map(held).collect::<Result<_, _>>()? })
 }
 
 /// The motion of a scene: a declared term has its value from the file or its default, all others are zero.
-fn problem(read: &SceneFile, terms: &BTreeSet<Symbol>) -> Result<Problem, Complaint> {
+fn problem(read: &SceneFile, terms: &BTreeSet<Knob>) -> Result<Problem, Complaint> {
     let mut parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
     let mut initial = State { q: 0.0, v: 0.0 };
-    for row in &PARAMETERS {
-        let declared = matches!(row.symbol, Symbol::Q0 | Symbol::V0) || terms.contains(&row.symbol);
-        let value = match read.values.get(&row.symbol) {
+    for knob in Knob::MOTION {
+        let declared = !knob.is_parameter() || terms.contains(&knob);
+        let value = match read.values.get(&knob) {
             Some(given) if !declared => {
                 return Err(Complaint {
                     at: given.span(),
-                    message: format!("{0} has a value but is not in terms; add \"{0}\"", row.name),
+                    message: format!("{knob} has a value but is not in terms; add \"{knob}\""),
                 });
             }
-            Some(given) => row
-                .check(*given.get_ref())
-                .map_err(|refused| Complaint { at: given.span(), message: refused.to_string() })?,
-            None if declared => row.default,
+            Some(given) => checked(knob, given)?,
+            None if declared => knob.usual(),
             None => 0.0,
         };
-        row.symbol.set(&mut parameters, &mut initial, value);
+        knob.set(&mut parameters, &mut initial, value);
     }
     Ok(Problem {
         parameters,
         initial,
-        until: within("until", read.until.as_ref(), UNTIL_RANGE, UNTIL)?,
+        until: within(Knob::Until, read.until.as_ref())?,
         method: read.method,
-        tolerance: within("tolerance", read.tolerance.as_ref(), TOLERANCE_RANGE, TOLERANCE)?,
-        step: within("step", read.step.as_ref(), STEP_RANGE, STEP)?,
-        epsilon: within("epsilon", read.epsilon.as_ref(), EPSILON_RANGE, EPSILON)?,
+        tolerance: within(Knob::Tolerance, read.tolerance.as_ref())?,
+        step: within(Knob::Step, read.step.as_ref())?,
+        epsilon: within(Knob::Epsilon, read.epsilon.as_ref())?,
     })
 }
 
 /// A number from the file, checked against its range, or its default.
-fn within(
-    name: &str,
-    given: Option<&Spanned<f64>>,
-    (min, max): (f64, f64),
-    default: f64,
-) -> Result<f64, Complaint> {
-    let Some(given) = given else { return Ok(default) };
-    let value = *given.get_ref();
-    if (min..=max).contains(&value) {
-        Ok(value)
-    } else {
-        let message = format!("{name} = {value:?} is outside its range {min:?} .. {max:?}");
-        Err(Complaint { at: given.span(), message })
-    }
+fn within(knob: Knob, given: Option<&Spanned<f64>>) -> Result<f64, Complaint> {
+    given.map_or(Ok(knob.usual()), |given| checked(knob, given))
 }
 
-fn steps(given: &BTreeMap<Symbol, Spanned<f64>>) -> Result<BTreeMap<Symbol, f64>, Complaint> {
+/// A number from the file, checked against its range.
+fn checked(knob: Knob, given: &Spanned<f64>) -> Result<f64, Complaint> {
+    knob.check(*given.get_ref())
+        .map_err(|refused| Complaint { at: given.span(), message: refused.to_string() })
+}
+
+fn steps(given: &BTreeMap<Knob, Spanned<f64>>) -> Result<BTreeMap<Knob, f64>, Complaint> {
     given
         .iter()
         .map(|(symbol, step)| {
@@ -319,13 +299,10 @@ plot = [
     fn declared_terms_have_values_and_all_others_are_zero() {
         let scene = parse("test", "test.toml", GOOD).unwrap();
         let Problem { parameters, initial, .. } = scene.problem;
-        assert_eq!(
-            parameters,
-            Parameters { d: -0.4, d2: 0.0, d3: 0.0, r: Symbol::R.spec().default }
-        );
+        assert_eq!(parameters, Parameters { d: -0.4, d2: 0.0, d3: 0.0, r: Knob::R.usual() });
         assert_eq!(initial, State { q: 2.0, v: 0.0 });
-        assert!(scene.declares(Symbol::R) && scene.declares(Symbol::V0));
-        assert!(!scene.declares(Symbol::D3));
+        assert!(scene.declares(Knob::R) && scene.declares(Knob::V0));
+        assert!(!scene.declares(Knob::D3));
     }
 
     #[test]
@@ -336,7 +313,7 @@ plot = [
         let scene = parse("test", "test.toml", &period).unwrap();
         assert_eq!(
             scene.plots[1].axes,
-            Axes { abscissa: Symbol::R, ordinate: Ordinate::Period, ..Axes::default() }
+            Axes { abscissa: Knob::R, ordinate: Ordinate::Period, ..Axes::default() }
         );
     }
 
@@ -354,9 +331,9 @@ plot = [
         for (from, to, place, words) in [
             ("title", "titel", "1:1", "expected one of `title`"),
             ("A test\"", "A test", "1:", ""),
-            ("D = -0.4", "D = nan", "5:16", "D = NaN is outside its range -1000000.0 .. 1000000.0"),
+            ("D = -0.4", "D = nan", "5:16", "D = NaN is outside its range -1e6 .. 1e6"),
             ("D = -0.4", "D3 = 1", "5:17", "add \"D3\""),
-            ("D = -0.4", "D4 = 1", "5:12", "expected one of `D`, `D2`"),
+            ("D = -0.4", "D4 = 1", "5:12", "no number \"D4\"; did you mean D"),
             ("D = -0.4", "D = \"a\"", "5:16", "expected f64"),
             ("[-3, 3]", "[3, -3]", "8:25", "the second larger"),
             ("over = \"D\"", "over = \"q0\"", "9:30", "D, D2, D3 and r are allowed"),
@@ -378,7 +355,7 @@ plot = [
             ),
             (", y = [0, 2]", "", "9:3", "has no y; give x and y, or neither"),
             ("\"trajectory\"", "\"tail\"", "6:11", "expected one of `trajectory`"),
-            ("layers", "until = -1\nlayers", "6:9", "until = -1.0 is outside its range 0.0 .."),
+            ("layers", "until = -1\nlayers", "6:9", "until = -1 is outside its range 0 .."),
             ("layers", "steps = { r = 0 }\nlayers", "6:15", "must be positive"),
         ] {
             let error = parse("test", "test.toml", &GOOD.replacen(from, to, 1)).unwrap_err();

@@ -4,7 +4,7 @@ use std::sync::{Arc, LazyLock};
 
 use super::file::parse;
 use super::scene::Scene;
-use crate::words::similar::similar;
+use crate::numerics::similar::similar;
 
 /// The scene that opens unless another is named.
 pub const PLAIN: &str = "plain";
@@ -123,7 +123,7 @@ pub fn find(name: &str) -> Result<Arc<Scene>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oscillator::{State, Symbol};
+    use crate::oscillator::{Knob, State};
     use crate::scene::{Axes, said};
     use crate::scene::{View, Window};
 
@@ -200,7 +200,7 @@ mod tests {
                     }
                     View::TimeSeries => assert!(x.contains(0.0)),
                     View::Regimes => {
-                        let value = |symbol: Symbol| symbol.get(&parameters, &initial);
+                        let value = |symbol: Knob| symbol.get(&parameters, &initial);
                         let Axes { abscissa, against, .. } = plot.axes;
                         assert!(x.contains(value(abscissa)) && y.contains(value(against)));
                     }

@@ -9,7 +9,6 @@ pub mod plot_setup;
 pub mod said;
 #[expect(clippy::module_inception, reason = "the scene itself, beside what belongs to it")]
 pub mod scene;
-pub mod usual;
 pub mod views;
 pub mod window;
 
@@ -17,7 +16,7 @@ pub use crate::question::{Answer, Answered, Fit, Fitted, Recording, Request, TOP
 pub use library::{find, library, plain};
 pub use machine::{Machine, Running, ScaledMachine, Setting};
 pub use misread::Misread;
-pub use ordinate::{ABSCISSAE, Height, ORDINATES, Ordinate, Unit};
+pub use ordinate::{Height, ORDINATES, Ordinate, Unit};
 pub use plot_setup::{ARRANGEMENTS, Arrangement, Axes, MOST_PLOTS, PlotSetup};
 pub use scene::{Scene, Variant};
 pub use views::{LAYERS, Layer, LayerSpec, Needs, VIEWS, View, ViewSpec, letters};

@@ -9,7 +9,7 @@ use std::f64::consts::{LN_10, TAU};
 use serde::{Deserialize, Serialize};
 
 use super::window::Span;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::study::Cycle;
 
 /// A property of a cycle that the diagram can show.
@@ -178,18 +178,10 @@ impl Height {
     }
 }
 
-/// The parameters that a diagram can be drawn over, each with its first range: wide enough for
-/// what happens at friction and damping of everyday size.
-pub const ABSCISSAE: [(Symbol, Span); 4] = [
-    (Symbol::D, Span::known(-0.9, 0.1)),
-    (Symbol::D2, Span::known(-1.0, 1.0)),
-    (Symbol::D3, Span::known(-1.0, 1.0)),
-    (Symbol::R, Span::known(0.0, 0.5)),
-];
-
-/// The first range of a parameter in a diagram; that of D for a parameter that no diagram is drawn over.
-pub fn usual_values(symbol: Symbol) -> Span {
-    ABSCISSAE.iter().find(|(row, _)| *row == symbol).map_or(ABSCISSAE[0].1, |(_, span)| *span)
+/// The first range of a parameter in a diagram.
+pub fn usual_values(knob: Knob) -> Span {
+    let (from, to) = knob.spec().drawn;
+    Span::known(from, to)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::ordinate::{Height, Ordinate, Unit, usual_values};
 use super::views::View;
 use super::window::Window;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 
 /// Maximum number of plots on a screen: more would be too small to read.
 pub const MOST_PLOTS: usize = 4;
@@ -14,20 +14,20 @@ pub const MOST_PLOTS: usize = 4;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Axes {
     /// The parameter to the right.
-    pub abscissa: Symbol,
+    pub abscissa: Knob,
     /// The property of the cycles upwards.
     pub ordinate: Ordinate,
     /// The unit of the ordinate, where that is a length.
     #[serde(default)]
     pub unit: Unit,
     /// The parameter upwards, in a chart over two parameters.
-    pub against: Symbol,
+    pub against: Knob,
 }
 
 impl Default for Axes {
     /// The axes of the paper's diagrams.
     fn default() -> Self {
-        Axes { abscissa: Symbol::D, ordinate: Ordinate::QMax, unit: Unit::One, against: Symbol::D3 }
+        Axes { abscissa: Knob::D, ordinate: Ordinate::QMax, unit: Unit::One, against: Knob::D3 }
     }
 }
 
@@ -40,7 +40,7 @@ impl Axes {
 
     /// The measure of heights in a diagram whose cycles are computed at this friction.
     pub fn height(&self, friction: f64) -> Height {
-        let friction = (self.abscissa != Symbol::R).then_some(friction);
+        let friction = (self.abscissa != Knob::R).then_some(friction);
         Height { ordinate: self.ordinate, unit: self.unit, friction }
     }
 }

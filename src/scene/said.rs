@@ -6,7 +6,7 @@
 
 use super::scene::Scene;
 use super::views::Layer;
-use crate::oscillator::Symbol;
+use crate::oscillator::{Group, Knob};
 
 /// A condition of a part of a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub enum Condition {
     /// A cycle of the whole model sticks to the belt.
     Sticks,
     /// A number of the motion on show compares so with this one.
-    Compares(Symbol, Relation, f64),
+    Compares(Knob, Relation, f64),
     /// The layer is on, in a plot on show.
     Shows(Layer),
 }
@@ -119,7 +119,7 @@ pub fn said_by(scene: &Scene, text: &str) -> String {
         Condition::Shows(layer) => scene.layers.contains(&layer),
         Condition::Compares(symbol, relation, number) => {
             let problem = &scene.problem;
-            relation.holds(symbol.get(&problem.parameters, &problem.initial), number)
+            relation.holds(problem.get(symbol), number)
         }
         _ => false,
     })
@@ -140,7 +140,11 @@ fn conditions(names: &str) -> Option<Vec<Condition>> {
 fn comparison(text: &str) -> Option<Condition> {
     let split = |(sign, relation)| Some((text.split_once(sign)?, relation));
     let ((name, number), relation) = RELATIONS.into_iter().find_map(split)?;
-    Some(Condition::Compares(Symbol::named(name)?, relation, number.parse().ok()?))
+    Some(Condition::Compares(
+        Knob::named(name, &[Group::Motion]).ok()?,
+        relation,
+        number.parse().ok()?,
+    ))
 }
 
 #[cfg(test)]
@@ -160,7 +164,7 @@ mod tests {
         let text = "[D<0: Fed.] [D>=0 D3=0.5: Not fed.] [bands: Dotted.] [E<0: none] [D<x: none]";
         let at = |d: f64| {
             said(text, |condition| match condition {
-                Condition::Compares(Symbol::D3, ..) => true,
+                Condition::Compares(Knob::D3, ..) => true,
                 Condition::Compares(_, relation, number) => relation.holds(d, number),
                 condition => condition == Condition::Shows(Layer::Bands),
             })

@@ -10,11 +10,10 @@ use serde::{Deserialize, Serialize};
 
 use super::machine::ScaledMachine;
 use super::plot_setup::{Arrangement, PlotSetup};
-use super::usual::{TOLERANCE, UNTIL};
 use super::views::{Layer, View};
 use crate::fit::length_in_metres;
 use crate::flow::Problem;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::question::Recording;
 
 /// The setup that shows one phenomenon.
@@ -32,11 +31,11 @@ pub struct Scene {
     /// What to press to see more.
     pub press: String,
     /// The parameters that the scene uses, in the order of the table; all others are zero.
-    pub terms: BTreeSet<Symbol>,
+    pub terms: BTreeSet<Knob>,
     /// The motion on show: parameters, start, end time, method and tolerance.
     pub problem: Problem,
     /// Step sizes of the keys that differ from those of the table.
-    pub steps: BTreeMap<Symbol, f64>,
+    pub steps: BTreeMap<Knob, f64>,
     pub layers: BTreeSet<Layer>,
     /// The plots, one to four, in the order in which they get the focus.
     pub plots: Vec<PlotSetup>,
@@ -56,7 +55,7 @@ pub struct Scene {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Variant {
     /// The values that are held.
-    pub held: BTreeMap<Symbol, f64>,
+    pub held: BTreeMap<Knob, f64>,
 }
 
 impl Variant {
@@ -76,8 +75,8 @@ impl Scene {
     }
 
     /// Whether a parameter belongs to this scene; initial values always do.
-    pub fn declares(&self, symbol: Symbol) -> bool {
-        matches!(symbol, Symbol::Q0 | Symbol::V0) || self.terms.contains(&symbol)
+    pub fn declares(&self, symbol: Knob) -> bool {
+        !symbol.is_parameter() || self.terms.contains(&symbol)
     }
 }
 
@@ -150,8 +149,8 @@ impl Recording {
             press: "{step-up} and {step-down} hold a number beside its best value, and all others are fitted again; \
                     {reset-row} lets it go, {reset-scene} all. {views} picks what a plot shows: residuals too."
                 .to_owned(),
-            terms: [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R].into(),
-            problem: Problem { until: UNTIL, tolerance: TOLERANCE, ..Problem::default() },
+            terms: Knob::PARAMETERS.into(),
+            problem: Problem::default(),
             steps: BTreeMap::new(),
             layers: layers.into(),
             plots: [View::Damping, View::TimeSeries, View::Phase, View::Spread]

@@ -14,6 +14,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::numerics::similar::most_similar;
 use crate::scene::library::names;
 use crate::scene::misread::{self, Complaint, Misread};
 use crate::session::message::key::Key;
@@ -21,7 +22,6 @@ use crate::session::state::command::{Command, full_name};
 use crate::session::state::context::{Context, contexts};
 use crate::session::state::keymap::Keymap;
 use crate::session::state::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, named};
-use crate::words::similar::most_similar;
 
 /// The content of a settings file; whatever is missing keeps its default.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -48,7 +48,7 @@ pub use state::keymap::{self, Keymap};
 pub use state::overlay::{self, Entry, List, Listed, Overlay, Prompt};
 pub use state::pending::Pending;
 pub use state::plot::{Framing, Pane, Plot};
-pub use state::rows::{ROWS, Row, Steps};
+pub use state::rows::{Row, Steps};
 pub use state::scan::{self, Scanned};
 pub use state::session::{Price, Session, Size};
 pub use state::settings;

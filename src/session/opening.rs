@@ -6,7 +6,7 @@
 use crate::flow::method::Dial;
 use crate::flow::{METHODS, Problem};
 use crate::numerics::decimal::shortest;
-use crate::oscillator::{PARAMETERS, Symbol};
+use crate::oscillator::Knob;
 use crate::scene::{Scene, find};
 use crate::session::replay::script::Instruction;
 use crate::session::save;
@@ -61,7 +61,7 @@ fn looks(look: Wishes) -> Vec<Instruction> {
 
 /// The lines that open a built-in scene with other numbers, and the parameters that were added to its terms;
 /// `None` for any other scene.
-fn scene(scene: &Scene) -> Option<(Vec<Instruction>, Vec<Symbol>)> {
+fn scene(scene: &Scene) -> Option<(Vec<Instruction>, Vec<Knob>)> {
     let known = find(&scene.name).ok()?;
     let mut with_numbers = Scene::clone(&known);
     with_numbers.problem = scene.problem;
@@ -79,14 +79,10 @@ fn scene(scene: &Scene) -> Option<(Vec<Instruction>, Vec<Symbol>)> {
 /// The assignments that lead from one motion to another. The step or the width of a method is set while such a
 /// method is selected.
 fn numbers(from: &Problem, to: &Problem) -> Vec<String> {
-    let value =
-        |symbol: Symbol, problem: &Problem| symbol.get(&problem.parameters, &problem.initial);
-    let given = PARAMETERS.iter().filter(|row| value(row.symbol, from) != value(row.symbol, to));
+    let numbers = Knob::MOTION.into_iter().chain([Knob::Until]);
+    let given = numbers.filter(|knob| from.get(*knob) != to.get(*knob));
     let mut words: Vec<String> =
-        given.map(|row| format!("{}={}", row.name, shortest(value(row.symbol, to)))).collect();
-    if from.until != to.until {
-        words.push(format!("until={}", shortest(to.until)));
-    }
+        given.map(|knob| format!("{knob}={}", shortest(to.get(knob)))).collect();
     let mut method = from.method;
     for (dial, before, after) in [
         (Dial::Tolerance, from.tolerance, to.tolerance),

@@ -1,5 +1,6 @@
 //! The effect of a key press: it completes what is pending, runs a command, or types a character.
 
+use crate::numerics::similar::most_similar;
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::{general, marks, typing};
@@ -16,7 +17,6 @@ use crate::session::state::overlay::{Overlay, Prompt};
 use crate::session::state::pending::{Letter, Pending};
 use crate::session::state::session::{Price, Session};
 use crate::words::printable;
-use crate::words::similar::most_similar;
 
 /// The key that is passed to commands that are run from a line.
 pub(super) const ENTER: Key = Key::plain(Code::Enter);

@@ -7,13 +7,13 @@
 //!
 //! ```
 //! use hopfscope::flow::Limits;
-//! use hopfscope::oscillator::{Parameters, Symbol};
+//! use hopfscope::oscillator::{Parameters, Knob};
 //! use hopfscope::study::SpecialKind;
 //! use hopfscope::study::branch::{Points, branch};
 //!
 //! let parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.01, r: 0.1 };
 //! let range = (-0.1, 0.0);
-//! let found = branch(&parameters, Symbol::D, range, Points::Followed, 1e-8, &Limits::PATIENT)?;
+//! let found = branch(&parameters, Knob::D, range, Points::Followed, 1e-8, &Limits::PATIENT)?;
 //! let fold = found.special.iter().find(|special| special.kind == SpecialKind::Fold).unwrap();
 //! assert!((fold.value + 0.046_814_10).abs() < 1e-8);
 //! # Ok::<(), hopfscope::flow::Reason>(())
@@ -35,7 +35,7 @@ use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{cbrt, ln, pow, powi};
-use crate::oscillator::{Parameters, Side, Symbol};
+use crate::oscillator::{Knob, Parameters, Side};
 
 /// A cycle and the parameter value at which it lives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -51,7 +51,7 @@ pub struct BranchPoint {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Branch {
     /// The parameter that varies.
-    pub parameter: Symbol,
+    pub parameter: Knob,
     /// Connected pieces, each in order along the curve.
     pub pieces: Vec<Vec<BranchPoint>>,
     /// The special points, by value.
@@ -80,17 +80,17 @@ pub enum Points {
 /// The [`Reason`] why the branch could not be completed; [`Reason::NotApplicable`] for initial values.
 pub fn branch(
     parameters: &Parameters,
-    parameter: Symbol,
+    parameter: Knob,
     range: (f64, f64),
     points: Points,
     tolerance: f64,
     limits: &Limits,
 ) -> Result<Branch, Reason> {
-    if matches!(parameter, Symbol::Q0 | Symbol::V0) {
+    if !parameter.is_parameter() {
         return Err(Reason::NotApplicable { needs: "one of D, D2, D3, r to vary" });
     }
     let (mut from, to) = (range.0.min(range.1), range.0.max(range.1));
-    if parameter == Symbol::R {
+    if parameter == Knob::R {
         // Without friction the innermost cycle has shrunk to the steady state: begin just above.
         from = from.max(LEAST_FRICTION * to);
     }
@@ -102,13 +102,13 @@ pub fn branch(
     let (pieces, special, vague) = Default::default();
     let found = Branch { parameter, pieces, special, vague, cost: Cost::default() };
     let mut tracer = Tracer { curve, parameter, points, found };
-    if parameter == Symbol::D && parameters.is_piecewise_linear() {
+    if parameter == Knob::D && parameters.is_piecewise_linear() {
         tracer.found.pieces.extend(linear_branch(parameters.r, from, to, points));
         tracer.hopf(parameters.r, from, to);
         return Ok(tracer.found);
     }
     // The side of the first swing follows the sign of D2, so a curve in D2 is followed on each side of 0.
-    if parameter == Symbol::D2 && from < 0.0 && to > 0.0 {
+    if parameter == Knob::D2 && from < 0.0 && to > 0.0 {
         tracer.trace(from, 0.0)?;
         tracer.trace(0.0, to)?;
     } else {
@@ -162,7 +162,7 @@ const SHALLOW: f64 = 28.0;
 /// A branch in progress.
 struct Tracer<'a> {
     curve: CycleCurve<'a>,
-    parameter: Symbol,
+    parameter: Knob,
     points: Points,
     found: Branch,
 }
@@ -181,7 +181,7 @@ impl Tracer<'_> {
         for fraction in PROBES {
             let p = if fraction == 1.0 { to } else { from + fraction * (to - from) };
             for seed in self.seeds(p, &self.known(&curves))? {
-                let graph = self.parameter != Symbol::D2;
+                let graph = self.parameter != Knob::D2;
                 let covered = |curve: &Vec<CurvePoint>| {
                     (graph && covers(curve, &seed)) || passes(curve, &seed)
                 };
@@ -211,7 +211,7 @@ impl Tracer<'_> {
     /// The intervals of u over which all cycles are known: those of the curves, where a curve is a graph
     /// over the amplitude.
     fn known(&self, curves: &[Vec<CurvePoint>]) -> Vec<(f64, f64)> {
-        if self.parameter == Symbol::D2 {
+        if self.parameter == Knob::D2 {
             return Vec::new();
         }
         let ends = |curve: &Vec<CurvePoint>| {
@@ -249,7 +249,7 @@ impl Tracer<'_> {
         let bounds = self.bounds_of_u();
         // With D3 = 0 a cycle only ever fades by going to infinity.
         let fades = matches!(self.points, Points::Even(_))
-            && self.parameter != Symbol::D3
+            && self.parameter != Knob::D3
             && self.curve.parameters_at(from).d3 == 0.0;
         let leaves = move |point: &CurvePoint| {
             (fades && point.closing.uncertainty > VAGUE)
@@ -299,7 +299,7 @@ impl Tracer<'_> {
         } else {
             // Towards a Hopf point D goes to 0 as the square of the amplitude.
             let smallest = if r > 0.0 { deepest } else { ln(natural) + ln(NEAREST) };
-            if self.parameter == Symbol::D3 {
+            if self.parameter == Knob::D3 {
                 let least = NEAREST * self.curve.scale;
                 // Sizes there: by linear and cubic damping alone (52), by friction and cubic damping (50),
                 // on the slow manifold by asymmetric and cubic damping; finally those of the cycles that go
@@ -325,7 +325,7 @@ impl Tracer<'_> {
         to: f64,
     ) -> Result<(), Reason> {
         let friction = self.curve.parameters_at(0.0).r > 0.0;
-        if self.parameter != Symbol::D || !friction || !(from..=to).contains(&0.0) {
+        if self.parameter != Knob::D || !friction || !(from..=to).contains(&0.0) {
             return Ok(());
         }
         let mut found = self.seeds(0.0, &self.known(curves))?;
@@ -408,7 +408,7 @@ impl Tracer<'_> {
 
     /// Notes the Hopf point: without friction the steady state changes its stability at `D = 0`.
     fn hopf(&mut self, r: f64, from: f64, to: f64) {
-        if self.parameter == Symbol::D && r == 0.0 && (from..=to).contains(&0.0) {
+        if self.parameter == Knob::D && r == 0.0 && (from..=to).contains(&0.0) {
             self.found.special.push(Special::new(SpecialKind::Hopf, 0.0, Some(VANISHING)));
         }
     }
@@ -418,18 +418,18 @@ impl Tracer<'_> {
         let parameters = self.curve.parameters_at(0.0);
         self.hopf(parameters.r, from, to);
         let values = match self.parameter {
-            Symbol::D => {
+            Knob::D => {
                 let (value, cost) = escape_point(&parameters, self.curve.limits())?;
                 self.found.cost += cost;
                 [value, None]
             }
-            Symbol::D2 | Symbol::R if parameters.d3 == 0.0 => {
+            Knob::D2 | Knob::R if parameters.d3 == 0.0 => {
                 // Only the product of friction and asymmetric damping matters.
-                let other = if self.parameter == Symbol::R { parameters.d2 } else { parameters.r };
+                let other = if self.parameter == Knob::R { parameters.d2 } else { parameters.r };
                 let (product, cost) = escape_product(parameters.d, self.curve.limits())?;
                 self.found.cost += cost;
                 let value = product.map(|product| product / other.abs());
-                [value, value.filter(|_| self.parameter == Symbol::D2).map(|value| -value)]
+                [value, value.filter(|_| self.parameter == Knob::D2).map(|value| -value)]
             }
             _ => [None; 2],
         };

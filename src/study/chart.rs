@@ -14,15 +14,15 @@ use trace::{HALVINGS, Tracer, values};
 
 use super::regime::Regime;
 use crate::flow::{Cost, Limits, Reason};
-use crate::oscillator::{Parameters, Symbol};
+use crate::oscillator::{Knob, Parameters};
 
 /// What a chart is drawn over: two different ones of D, D2, D3, r, and their ranges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
     /// The parameter to the right.
-    pub right: Symbol,
+    pub right: Knob,
     /// The parameter upwards.
-    pub up: Symbol,
+    pub up: Knob,
     pub right_range: (f64, f64),
     /// Range of the one upwards.
     pub up_range: (f64, f64),
@@ -34,7 +34,7 @@ pub struct Chart {
     /// What it is drawn over.
     pub plane: Plane,
     /// The parameter along which lines run.
-    pub along: Symbol,
+    pub along: Knob,
     /// The lines, by the value of the other parameter.
     pub lines: Vec<ChartLine>,
     pub cost: Cost,
@@ -54,15 +54,12 @@ pub enum BoundaryKind {
 impl Plane {
     /// The parameter along which lines run: D where it is one of the two, else the one that moves a fold
     /// from everywhere to everywhere.
-    pub fn along(&self) -> Symbol {
-        let has = |symbol: Symbol| self.right == symbol || self.up == symbol;
-        [Symbol::D, Symbol::R, Symbol::D3]
-            .into_iter()
-            .find(|&symbol| has(symbol))
-            .unwrap_or(self.up)
+    pub fn along(&self) -> Knob {
+        let has = |symbol: Knob| self.right == symbol || self.up == symbol;
+        [Knob::D, Knob::R, Knob::D3].into_iter().find(|&symbol| has(symbol)).unwrap_or(self.up)
     }
 
-    fn range(&self, symbol: Symbol) -> (f64, f64) {
+    fn range(&self, symbol: Knob) -> (f64, f64) {
         if symbol == self.right { self.right_range } else { self.up_range }
     }
 }
@@ -87,7 +84,7 @@ pub fn chart(
     resolution: Resolution,
     limits: &Limits,
 ) -> Result<Chart, Reason> {
-    let charted = |symbol| matches!(symbol, Symbol::D | Symbol::D2 | Symbol::D3 | Symbol::R);
+    let charted = |symbol| matches!(symbol, Knob::D | Knob::D2 | Knob::D3 | Knob::R);
     if plane.right == plane.up || !charted(plane.right) || !charted(plane.up) {
         return Err(Reason::NotApplicable { needs: "two different ones of D, D2, D3, r" });
     }

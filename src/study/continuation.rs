@@ -18,7 +18,7 @@ use super::closing::{Equation, Route};
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::{hypot, ln};
 use crate::numerics::root::try_bisect;
-use crate::oscillator::{Parameters, Side, State, Symbol};
+use crate::oscillator::{Knob, Parameters, Side, State};
 
 /// Tolerance of the integration steps, in units of that of the points.
 const STEP: f64 = 1e-2;
@@ -41,7 +41,7 @@ const CORRECTIONS: usize = 8;
 /// A family of closing equations along a parameter.
 pub struct CycleCurve<'a> {
     parameters: Parameters,
-    symbol: Symbol,
+    symbol: Knob,
     /// The side of the first swing, the same all along the curve.
     pub side: Side,
     /// Unit of the parameter.
@@ -65,7 +65,7 @@ impl<'a> CycleCurve<'a> {
     /// The curve along `symbol` with p measured in units of `scale`; `side` is that of the first swing.
     pub fn new(
         parameters: &Parameters,
-        symbol: Symbol,
+        symbol: Knob,
         side: Side,
         scale: f64,
         tolerance: f64,

@@ -14,7 +14,7 @@ use super::closing::{Equation, Route, first_side};
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::{cbrt, exp, ln, powi};
-use crate::oscillator::{Parameters, Side, State, Symbol};
+use crate::oscillator::{Knob, Parameters, Side, State};
 
 /// A fold: the cycle at which two meet.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,7 @@ pub struct FoldCycle {
     /// Its unknown `ln c0`.
     u: f64,
     /// Along which parameter it was found, and the derivatives of F and G by u and by the logarithm of it.
-    along: (Symbol, Slopes),
+    along: (Knob, Slopes),
 }
 
 /// A place near a fold.
@@ -36,7 +36,7 @@ pub struct FoldGuess {
     pub parameters: Parameters,
     /// The unknown `ln c0`.
     pub u: f64,
-    slopes: Option<(Symbol, Slopes)>,
+    slopes: Option<(Knob, Slopes)>,
 }
 
 type Slopes = [[f64; 2]; 2];
@@ -101,7 +101,7 @@ impl FoldEstimate {
 /// square of the parameter; `None` where Newton's method leads nowhere. Fails with [`Reason::Interrupted`].
 pub fn fold_near(
     guess: &FoldGuess,
-    symbol: Symbol,
+    symbol: Knob,
     tolerance: f64,
     limits: &Limits,
 ) -> Result<(Option<FoldCycle>, Cost), Reason> {
@@ -124,7 +124,7 @@ struct Values {
 /// The two equations. A place is a value of u and the logarithm of the parameter in units of the guess.
 struct System<'a> {
     guess: &'a FoldGuess,
-    symbol: Symbol,
+    symbol: Knob,
     side: Side,
     limits: &'a Limits<'a>,
     cost: Cost,

@@ -7,7 +7,7 @@
 //!
 //! ```
 //! use hopfscope::flow::Limits;
-//! use hopfscope::oscillator::{Parameters, Symbol};
+//! use hopfscope::oscillator::{Parameters, Knob};
 //! use hopfscope::study::fold::{border, fold};
 //!
 //! let parameters = Parameters { d: -0.1, d2: 0.0, d3: 0.01, r: 0.1 };
@@ -15,7 +15,7 @@
 //! assert!((found.unwrap().d + 0.046_814_10).abs() < 1e-8);
 //!
 //! // The border of the region without cycles, over the friction.
-//! let border = border(&parameters, Symbol::R, (0.1, 0.2), 3, &Limits::PATIENT)?;
+//! let border = border(&parameters, Knob::R, (0.1, 0.2), 3, &Limits::PATIENT)?;
 //! assert_eq!(border.points.len(), 3);
 //! # Ok::<(), hopfscope::flow::Reason>(())
 //! ```
@@ -30,7 +30,7 @@ use super::fold_point::FoldPoint;
 use super::grazing::grazing;
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
-use crate::oscillator::{Parameters, State, Symbol};
+use crate::oscillator::{Knob, Parameters, State};
 
 /// Maximum number of evaluations of one swing: a cycle that takes more is not followed.
 const BUDGET: u64 = 200_000;
@@ -64,7 +64,7 @@ pub fn fold_within(
         &Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
     let mut cost = Cost::default();
     if let Some(guess) = FoldGuess::in_damping(parameters) {
-        let (found, spent) = fold_near(&guess, Symbol::D, tolerance, limits)?;
+        let (found, spent) = fold_near(&guess, Knob::D, tolerance, limits)?;
         cost += spent;
         if let Some(found) = found {
             return Ok((Some(FoldPoint::from(&found)), cost));
@@ -121,7 +121,7 @@ pub struct Boundary {
     /// The parameters that stay.
     pub parameters: Parameters,
     /// The second parameter.
-    pub second: Symbol,
+    pub second: Knob,
     /// Its values and what was found there.
     pub points: Vec<BoundaryPoint>,
     /// What it cost.
@@ -135,12 +135,12 @@ pub struct Boundary {
 /// says why.
 pub fn border(
     parameters: &Parameters,
-    second: Symbol,
+    second: Knob,
     range: (f64, f64),
     count: usize,
     limits: &Limits,
 ) -> Result<Boundary, Reason> {
-    if !matches!(second, Symbol::D2 | Symbol::D3 | Symbol::R) {
+    if !matches!(second, Knob::D2 | Knob::D3 | Knob::R) {
         return Err(Reason::NotApplicable { needs: "one of D2, D3, r to vary" });
     }
     let mut border =

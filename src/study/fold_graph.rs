@@ -10,7 +10,7 @@ use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::try_maximum;
-use crate::oscillator::{Parameters, Side, Symbol};
+use crate::oscillator::{Knob, Parameters, Side};
 
 /// The cycle of the largest D.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +45,7 @@ pub fn highest_cycle(
 ) -> (Result<Highest, Reason>, Cost) {
     let Some(start) = start(parameters) else { return (Err(LOST), Cost::default()) };
     let side = first_side(parameters);
-    let curve = CycleCurve::new(parameters, Symbol::D, side, 1.0, tolerance, limits);
+    let curve = CycleCurve::new(parameters, Knob::D, side, 1.0, tolerance, limits);
     let mut graph = Graph { curve, parameters: *parameters, d: start.d };
     let met = graph.meeting(start).map(|point| {
         let parameters = graph.curve.parameters_at(point.p);

@@ -14,7 +14,7 @@ use crate::flow::method::Dial;
 use crate::flow::{Cost, Limits, Problem, Reason};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{log10, pow};
-use crate::oscillator::{ParameterBox, Parameters, State, Symbol};
+use crate::oscillator::{Group, Knob, ParameterBox, Parameters, State};
 
 /// How the values of a [`Sweep`] are spaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +29,7 @@ pub enum Spacing {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sweep {
     /// Which parameter.
-    pub symbol: Symbol,
+    pub symbol: Knob,
     /// First value.
     pub from: f64,
     /// Last value.
@@ -51,13 +51,13 @@ const FORM: &str = "expected NAME=FROM:TO:COUNT, such as D=-0.95:0:400, or NAME=
 impl Sweep {
     /// A sweep that makes sense. Fails with one line that says what is wrong and what is allowed.
     pub fn new(
-        symbol: Symbol,
+        symbol: Knob,
         (from, to): (f64, f64),
         count: usize,
         spacing: Spacing,
     ) -> Result<Self, String> {
         for value in [from, to] {
-            symbol.spec().check(value).map_err(|refused| refused.to_string())?;
+            symbol.check(value).map_err(|refused| refused.to_string())?;
         }
         if from == to {
             return Err(format!("{symbol}: FROM and TO are both {from:?}"));
@@ -107,10 +107,7 @@ impl FromStr for Sweep {
     /// Reads `NAME=FROM:TO:COUNT` or `NAME=log:FROM:TO:COUNT`.
     fn from_str(text: &str) -> Result<Self, String> {
         let (name, range) = text.split_once('=').ok_or(FORM)?;
-        let name = name.trim();
-        let symbol = Symbol::named(name).ok_or_else(|| {
-            format!("there is no parameter {name:?}; there are D, D2, D3, r, q0, v0")
-        })?;
+        let symbol = Knob::named(name.trim(), &[Group::Motion])?;
         let (spacing, range) = match range.trim().strip_prefix("log:") {
             Some(range) => (Spacing::Logarithmic, range),
             None => (Spacing::Even, range),
@@ -118,12 +115,9 @@ impl FromStr for Sweep {
         let [from, to, count] = range.split(':').map(str::trim).collect::<Vec<_>>()[..] else {
             return Err(FORM.to_owned());
         };
-        let number = |text: &str| {
-            f64::from_str(text).map_err(|_| format!("{name}: {text:?} is not a number"))
-        };
         let whole = || format!("COUNT = {count} is not a whole number in 2 .. 1000000");
         let count = usize::from_str(count).map_err(|_| whole())?;
-        Sweep::new(symbol, (number(from)?, number(to)?), count, spacing)
+        Sweep::new(symbol, (symbol.parse(from)?, symbol.parse(to)?), count, spacing)
     }
 }
 
@@ -336,10 +330,10 @@ mod tests {
         for (text, expected) in [
             ("D", "NAME=FROM:TO:COUNT"),
             ("D=0:1", "NAME=FROM:TO:COUNT"),
-            ("x=0:1:3", "there is no parameter \"x\"; there are D, D2, D3, r, q0, v0"),
-            ("D=a:1:3", "D: \"a\" is not a number"),
-            ("D=NaN:1:3", "range"),
-            ("r=-1:1:3", "r = -1 is outside its range 0.0 .. 1e150"),
+            ("x=0:1:3", "no number \"x\"; there are D, D2, D3, r, q0, v0"),
+            ("D=a:1:3", "\"a\" is not a number; D takes -1e6 .. 1e6"),
+            ("D=NaN:1:3", "\"NaN\" is not a number; D takes"),
+            ("r=-1:1:3", "r = -1 is outside its range 0 .. 1e150"),
             ("D=0:0:3", "both 0.0"),
             ("D=0:1:1", "COUNT = 1 is not a whole number in 2 .. 1000000"),
             ("D=0:1:-4", "COUNT = -4 is not"),

@@ -5,7 +5,7 @@ use super::pane;
 use crate::fit::names::named;
 use crate::fit::observation::OMEGA0;
 use crate::fit::physical::rows;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::scene::Fitted;
 use crate::session::{Row, Session};
 use crate::words::number::significant;
@@ -36,9 +36,9 @@ pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
         }
         (None, Some(units)) => {
             let scale = match symbol {
-                Symbol::R | Symbol::Q0 => Some((units.displacement, "m")),
-                Symbol::V0 => Some((units.velocity, "m/s")),
-                Symbol::D | Symbol::D2 | Symbol::D3 => None,
+                Knob::R | Knob::Q0 => Some((units.displacement, "m")),
+                Knob::V0 => Some((units.velocity, "m/s")),
+                _ => None,
             };
             scale.map(|(scale, unit)| {
                 let error = error.map_or_else(String::new, |error| {
@@ -54,22 +54,22 @@ pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
 }
 
 /// The unit in which a number of the record stands; nothing where the record names no unit of length.
-fn unit(symbol: Symbol, length: &str) -> String {
+fn unit(symbol: Knob, length: &str) -> String {
     let row = match symbol {
-        Symbol::D | Symbol::D2 | Symbol::D3 => named(symbol.spec().name),
-        Symbol::R | Symbol::Q0 | Symbol::V0 => return length.to_owned(),
+        Knob::R | Knob::Q0 | Knob::V0 => return length.to_owned(),
+        _ => named(symbol.spec().name),
     };
     row.filter(|_| !length.is_empty()).map_or_else(String::new, |row| row.unit(length))
 }
 
 /// The number of a mass on a spring that a parameter is a measure of.
-fn stands_for(symbol: Symbol) -> &'static str {
+fn stands_for(symbol: Knob) -> &'static str {
     match symbol {
-        Symbol::D => "d1",
-        Symbol::D2 => "d2",
-        Symbol::D3 => "d3",
-        Symbol::R => "R",
-        Symbol::Q0 | Symbol::V0 => "",
+        Knob::D => "d1",
+        Knob::D2 => "d2",
+        Knob::D3 => "d3",
+        Knob::R => "R",
+        _ => "",
     }
 }
 

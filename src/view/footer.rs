@@ -106,13 +106,11 @@ fn entry(entry: &Entry, session: &Session, look: &Look) -> Vec<Span<'static>> {
 fn allowed(row: Row, session: &Session) -> String {
     match row {
         Row::Parameter(symbol) => {
-            let spec = symbol.spec();
-            format!("{} .. {}, {}", spec.min, spec.max, spec.meaning)
+            format!("{}, {}", symbol.range(), symbol.spec().meaning)
         }
         Row::Tolerance => {
-            let (min, max) = session.problem.method.spec().dial.range();
             let names = QUALITIES.map(|quality| quality.name).join(", ");
-            format!("{min:e} .. {max}, or {names}")
+            format!("{}, or {names}", row.knob_in(&session.problem).range())
         }
         Row::BELT => "speed of the belt, such as 0.3 m/s or 30 cm/s".to_owned(),
         Row::Quantity(quantity) => {

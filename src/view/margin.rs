@@ -3,7 +3,7 @@
 
 use super::fitted::statement;
 use super::pane;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::scene::Topic;
 use crate::session::Session;
 use crate::study::{Edge, Margin};
@@ -141,7 +141,7 @@ fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> Opti
 /// The nominal margin, and the one that holds for certain or why none does.
 fn margins(session: &Session) -> Option<(Margin, Result<Margin, String>)> {
     let told = session.on_show().any(|plot| session.tells_certain(plot));
-    if !told || session.value(Symbol::R) == 0.0 {
+    if !told || session.value(Knob::R) == 0.0 {
         return None;
     }
     let found = session.zones().filter(|_| !session.is_stale(Topic::Zones, session.plot))?;

@@ -13,7 +13,7 @@ use super::pane::{self, Heading};
 use super::prose;
 use crate::flow::Problem;
 use crate::machine::BorderKind;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::oscillator::belt::Units;
 use crate::picture::role::{CycleStyle, Role, cycle_style};
 use crate::picture::units;
@@ -175,31 +175,31 @@ fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
 /// The same of a number of the machine.
 fn on_its_belt(session: &Session, row: Row) -> Option<(&'static str, String)> {
     let running = session.running()?;
-    let (name, value, unit) = match row {
+    let (knob, value) = match row {
         Row::BELT if session.is_on_the_belt() == Some(false) => {
             return Some(("v0", "off the belt".to_owned()));
         }
-        Row::Quantity(quantity) => {
-            let spec = quantity.spec();
-            (spec.name, session.quantity(quantity), spec.unit)
-        }
+        Row::Quantity(knob) => (knob, session.quantity(knob)),
         Row::Parameter(symbol) => running.meaning(symbol, session.value(symbol))?,
         Row::Disturbance | Row::Until | Row::Method | Row::Tolerance => return None,
     };
-    Some((name, with_unit(value, 4, unit)))
+    Some((knob.spec().name, with_unit(value, 4, knob.spec().unit)))
 }
 
 fn value(session: &Session, setup: &Setup, row: Row, width: usize, sign: &str) -> String {
     let Setup { problem, setting, doubt, .. } = setup;
     match row {
         Row::Quantity(quantity) => {
-            let of_file =
-                session.scene.machine.as_ref().map(|scaled| scaled.machine.belt.get(quantity));
+            let of_file = session
+                .scene
+                .machine
+                .as_ref()
+                .and_then(|scaled| quantity.of_belt(&scaled.machine.belt));
             let value = setting.and_then(|it| it.get(quantity)).or(of_file);
             value.map_or_else(String::new, |value| exact(value, width))
         }
         Row::Parameter(symbol) => {
-            let value = symbol.get(&problem.parameters, &problem.initial);
+            let value = problem.get(symbol);
             let half = doubt.half_width(symbol);
             if half == 0.0 {
                 return number(session, value, width);
@@ -220,7 +220,7 @@ fn step(session: &Session, row: Row) -> Option<String> {
     if row == Row::Tolerance {
         return session.problem.quality().map(|quality| quality.name.to_owned());
     }
-    Some(format!("step {}", exact(session.steps.of(row)?.value(), STEP - "step ".len())))
+    Some(format!("step {}", exact(session.steps.of_row(row)?.value(), STEP - "step ".len())))
 }
 
 /// A number in this many columns, exact if that is possible. Where numbers have units, one that is not was
@@ -236,19 +236,15 @@ fn number(session: &Session, value: f64, width: usize) -> String {
 
 fn meaning(problem: &Problem, row: Row) -> &'static str {
     match row {
-        Row::Quantity(quantity) => quantity.spec().meaning,
-        Row::Parameter(symbol) => symbol.spec().meaning,
-        Row::Disturbance => "bound on a disturbance",
-        Row::Until => "end time",
         Row::Method => "integrator of half swings",
-        Row::Tolerance => problem.method.spec().dial.meaning(),
+        row => row.knob_in(problem).spec().meaning,
     }
 }
 
 /// The terms that do not stand in the pane because the scene leaves them out.
 fn folded(session: &Session) -> Option<String> {
     let shown = session.rows();
-    let hidden: Vec<&str> = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R]
+    let hidden: Vec<&str> = Knob::PARAMETERS
         .into_iter()
         .filter(|symbol| !shown.contains(&Row::Parameter(*symbol)))
         .map(|symbol| symbol.spec().name)
@@ -397,7 +393,7 @@ fn on_the_machine(session: &Session, found: &Cycles, width: usize) -> Vec<String
     let alarms = found.cycles.iter().filter(fast);
     let alarms = alarms.map(|cycle| format!("! {} > belt", cycle_style(cycle.stable).name));
     let units = &running.reduced.units;
-    let d = significant(session.value(Symbol::D), 3);
+    let d = significant(session.value(Knob::D), 3);
     let hertz = with_unit(units.omega_0 / std::f64::consts::TAU, 3, "Hz");
     let natural = format!("f0 {hertz}, damping ratio {d}");
     let natural = Some(natural).filter(|text| text.len() < width).unwrap_or(format!("f0 {hertz}"));

@@ -11,7 +11,7 @@ use super::frame::render;
 use super::layout::layout;
 use super::look::Look;
 use crate::flow::{Method, Outcome, Problem, Reason, Sample};
-use crate::oscillator::{Parameters, State, Symbol};
+use crate::oscillator::{Knob, Parameters, State};
 use crate::question::NoAnswer;
 use crate::question::zones::Extent;
 use crate::scene::library::{find, library};
@@ -74,7 +74,7 @@ fn approved() -> Scene {
         title: "A scene with a fold".into(),
         look: "Two cycles meet in the fold. ".repeat(4),
         press: "Right on D, past the fold. ".repeat(3),
-        terms: [Symbol::D, Symbol::D3, Symbol::R].into(),
+        terms: [Knob::D, Knob::D3, Knob::R].into(),
         problem,
         layers: LAYERS.iter().map(|row| row.layer).filter(|layer| !drawn_over(*layer)).collect(),
         plots: vec![

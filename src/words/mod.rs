@@ -8,7 +8,6 @@ pub mod number;
 pub mod printable;
 pub mod provenance;
 pub mod quantity;
-pub mod similar;
 pub mod statement;
 
 use std::borrow::Cow;

@@ -4,8 +4,8 @@ use crate::program::{json, run};
 use hopfscope::machine::Tolerances;
 use hopfscope::machine::guarantee::{MachineUncertain, guaranteed};
 use hopfscope::machine::survey::portrait;
-use hopfscope::machine::varied::Varied;
 use hopfscope::oscillator::Belt;
+use hopfscope::oscillator::{Group, Knob};
 use hopfscope::scene::machine::library::find;
 use hopfscope::study::Margin;
 
@@ -15,7 +15,7 @@ fn machine(name: &str) -> Belt {
 
 fn tolerances(parts: &[(&str, f64)], belt: &Belt, disturbance: f64) -> Tolerances {
     let half = |(name, part): &(&str, f64)| {
-        let value = Varied::named(name).unwrap().get(belt).unwrap();
+        let value = Knob::named(name, Group::SOURCE).unwrap().of_belt(belt).unwrap();
         ((*name).to_owned(), part * value.abs())
     };
     Tolerances { half_widths: parts.iter().map(half).collect(), disturbance }
@@ -64,7 +64,7 @@ fn no_draw_is_below(draws: u32) {
             for (number, (varied, interval)) in known.intervals(&belt).into_iter().enumerate() {
                 let value = interval.middle()
                     + part(draw, number) * 0.5 * (interval.upper() - interval.lower());
-                varied.set(&mut drawn, value).unwrap();
+                varied.set_in_belt(&mut drawn, value).unwrap();
             }
             // The worst disturbance acts like reduced friction.
             drawn.friction -= known.disturbance;

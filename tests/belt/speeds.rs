@@ -7,9 +7,9 @@ use hopfscope::machine::branch::branch;
 use hopfscope::machine::jumps::Jump;
 use hopfscope::machine::special::{MachineSpecial, MachineSpecialKind};
 use hopfscope::machine::survey::portrait;
-use hopfscope::machine::varied::Varied;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
+use hopfscope::oscillator::{Group, Knob};
 use hopfscope::picture::items::Item;
 use hopfscope::question::answer;
 use hopfscope::scene::machine::library::machines;
@@ -21,7 +21,7 @@ fn machine(name: &str) -> Belt {
 }
 
 fn specials(belt: &Belt, from: f64, to: f64, count: usize) -> Vec<MachineSpecial> {
-    branch(belt, Varied::named("v0").unwrap(), (from, to), count).unwrap().special
+    branch(belt, Knob::named("v0", Group::SOURCE).unwrap(), (from, to), count).unwrap().special
 }
 
 #[test]
@@ -86,7 +86,8 @@ fn a_cycle_that_is_born_at_rest_is_no_jump() {
     let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.2] };
     let belt = Belt { law, friction: 0.0, damping: 0.0, ..machine("bstab") };
     let belt = Belt { cubic_damping: 0.3, belt_speed: 1.0, normal_force: 1.0, ..belt };
-    let found = branch(&belt, Varied::named("d1").unwrap(), (0.1, 0.3), 4).unwrap().special;
+    let found =
+        branch(&belt, Knob::named("d1", Group::SOURCE).unwrap(), (0.1, 0.3), 4).unwrap().special;
     let [hopf] = found[..] else { panic!("{found:?}") };
     assert!(hopf.kind == MachineSpecialKind::Hopf && (hopf.value - 0.2).abs() < 1e-12, "{hopf:?}");
     assert_eq!((hopf.jumps.up, hopf.jumps.down), (None, None));

@@ -13,7 +13,7 @@ use program::{json, number, run};
 use serde_json::Value;
 
 use hopfscope::numerics::elementary::cos;
-use hopfscope::oscillator::Symbol;
+use hopfscope::oscillator::Knob;
 use hopfscope::scene::find;
 
 /// The keys of an object, in alphabetical order.

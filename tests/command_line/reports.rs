@@ -86,7 +86,7 @@ fn scenes_report_their_cost_and_what_a_step_recomputes() {
         // Only variants with their own start keep their motion.
         let held = find(scene["scene"].as_str().unwrap()).unwrap();
         let variants = held.families.iter().flatten();
-        let own = variants.filter(|variant| variant.held.contains_key(&Symbol::Q0)).count();
+        let own = variants.filter(|variant| variant.held.contains_key(&Knob::Q0)).count();
         let reused = start["reused"].as_array().unwrap();
         let reused = reused.iter().filter(|name| *name == "motion").count();
         assert!(reused <= own, "{}: {reused} of {own}", held.name);

@@ -3,7 +3,7 @@
 
 use hopfscope::flow::Limits;
 use hopfscope::numerics::elementary::pow;
-use hopfscope::oscillator::{Parameters, State, Symbol};
+use hopfscope::oscillator::{Knob, Parameters, State};
 use hopfscope::study::branch::{Branch, Points, branch};
 use hopfscope::study::cycle::cycles;
 use hopfscope::study::fold::fold;
@@ -19,11 +19,11 @@ const LIMITS: Limits = Limits::PATIENT;
 #[derive(Clone, Copy, Debug)]
 struct Path {
     parameters: Parameters,
-    symbol: Symbol,
+    symbol: Knob,
     range: (f64, f64),
 }
 
-fn set(parameters: &Parameters, symbol: Symbol, value: f64) -> Parameters {
+fn set(parameters: &Parameters, symbol: Knob, value: f64) -> Parameters {
     let mut there = *parameters;
     symbol.set(&mut there, &mut State { q: 0.0, v: 0.0 }, value);
     there
@@ -39,14 +39,14 @@ fn path() -> impl Strategy<Value = Path> {
     let d = prop_oneof![-0.99..0.2, -0.3..0.0];
     let friction = (-3.0..1.0).prop_map(|power: f64| pow(10.0, power));
     let ends = (0.0..1.0, 0.0..1.0).prop_filter("a range", |(one, other): &(f64, f64)| one < other);
-    let symbol = prop::sample::select(&[Symbol::D, Symbol::D2, Symbol::D3, Symbol::R][..]);
+    let symbol = prop::sample::select(&[Knob::D, Knob::D2, Knob::D3, Knob::R][..]);
     (d, damping(), damping(), friction, symbol, ends, -1.0..1.5).prop_map(
         |(d, d2, d3, r, symbol, (one, other), power)| {
             let parameters = Parameters { d, d2, d3, r };
             let size = pow(10.0, power);
             let range = match symbol {
-                Symbol::D => (-0.99 + 1.2 * one, -0.99 + 1.2 * other),
-                Symbol::R => (size * one, size * other),
+                Knob::D => (-0.99 + 1.2 * one, -0.99 + 1.2 * other),
+                Knob::R => (size * one, size * other),
                 _ => (size * (2.0 * one - 1.0), size * (2.0 * other - 1.0)),
             };
             Path { parameters, symbol, range }
@@ -63,7 +63,7 @@ fn paths(count: usize) -> Vec<Path> {
     let known = [(0.5, 0.1, (0.001, 100.0)), (0.0, -100.0, (0.1, 10.0))];
     all.extend(known.map(|(d2, d3, range)| Path {
         parameters: Parameters { d: -0.9, d2, d3, r: 0.1 },
-        symbol: Symbol::R,
+        symbol: Knob::R,
         range,
     }));
     all
@@ -104,7 +104,7 @@ fn out_of_order(path: &Path, piece: &[BranchPoint]) -> Option<String> {
     if let Some(turn) = ways.windows(2).find(|pair| pair[0].0 != pair[1].0) {
         return Some(format!("turns back at {}", turn[1].1));
     }
-    if path.symbol == Symbol::D2 {
+    if path.symbol == Knob::D2 {
         return None;
     }
     // The clearance of the first swing, in whose frame D2 is not negative.

@@ -12,7 +12,7 @@ mod stiff;
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Problem};
 use hopfscope::numerics::elementary::{exp, ln};
-use hopfscope::oscillator::{HalfPlane, Parameters, Side, State, Symbol};
+use hopfscope::oscillator::{HalfPlane, Knob, Parameters, Side, State};
 use hopfscope::study::SpecialKind;
 use hopfscope::study::basin::{Basin, Counts, Window, basin};
 use hopfscope::study::branch::{Points, branch};
@@ -194,7 +194,7 @@ fn folds_lie_where_they_were_computed_elsewhere() {
     let fold = |d2: f64, d3: f64, r: f64| {
         let parameters = Parameters { d: 0.0, d2, d3, r };
         let found =
-            branch(&parameters, Symbol::D, (-0.95, 0.1), Points::Even(40), 1e-10, &LIMITS).unwrap();
+            branch(&parameters, Knob::D, (-0.95, 0.1), Points::Even(40), 1e-10, &LIMITS).unwrap();
         *found.special.iter().find(|special| special.kind == SpecialKind::Fold).expect("a fold")
     };
     for row in table["folds"].as_array().expect("rows") {
@@ -335,7 +335,7 @@ fn a_relaxation_by_d2_turns_where_its_slow_curve_does() {
 fn a_fold_and_the_escape_point_end_the_branches_that_lead_to_them() {
     let parameters = Parameters { d: 0.0, d2: 0.3, d3: 0.0, r: 0.5 };
     let found =
-        branch(&parameters, Symbol::D, (-0.95, 0.2), Points::Even(60), 1e-10, &LIMITS).unwrap();
+        branch(&parameters, Knob::D, (-0.95, 0.2), Points::Even(60), 1e-10, &LIMITS).unwrap();
     let escape = found.special.iter().find(|special| special.kind == SpecialKind::Escape).unwrap();
     let largest = found.pieces[0].iter().map(|point| point.value).fold(f64::MIN, f64::max);
     assert!(largest < escape.value && escape.value - largest < 1e-3);
@@ -360,7 +360,7 @@ fn the_branch_over_cubic_damping_ends_before_its_cycles_become_uncertain() {
     ] {
         let parameters = Parameters { d, d2, d3: 0.0, r: 0.1 };
         let found =
-            branch(&parameters, Symbol::D3, (-1.0, 1.0), Points::Even(60), 1e-10, &LIMITS).unwrap();
+            branch(&parameters, Knob::D3, (-1.0, 1.0), Points::Even(60), 1e-10, &LIMITS).unwrap();
         assert!(!found.pieces.is_empty());
         let points = || found.pieces.iter().flatten();
         for point in points() {

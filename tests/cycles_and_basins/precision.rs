@@ -3,7 +3,7 @@
 //! independent program in quadruple precision (Taylor series of order 40, residuals closed to 1e-29).
 
 use hopfscope::flow::Limits;
-use hopfscope::oscillator::{Parameters, State, Symbol};
+use hopfscope::oscillator::{Knob, Parameters, State};
 use hopfscope::study::SpecialKind;
 use hopfscope::study::branch::{Branch, Points, branch};
 use hopfscope::study::cycle::{Cycle, cycles};
@@ -137,13 +137,13 @@ fn strong_cubic_damping_has_its_fold_too() {
 /// A point that cannot be computed gives its reason and does not affect the others.
 #[test]
 fn a_border_has_a_row_for_every_value() {
-    let found = border(&set([0.0, 0.0, 0.0, 1.0]), Symbol::D3, (0.25, 1e150), 2, &LIMITS).unwrap();
+    let found = border(&set([0.0, 0.0, 0.0, 1.0]), Knob::D3, (0.25, 1e150), 2, &LIMITS).unwrap();
     let rows: Vec<_> =
         found.points.iter().map(|it| (it.fold.is_some(), it.reason.is_some())).collect();
     assert_eq!(rows, [(true, false), (false, true)], "{found:?}");
 }
 
-fn followed(base: [f64; 4], parameter: Symbol, range: (f64, f64), count: usize) -> Branch {
+fn followed(base: [f64; 4], parameter: Knob, range: (f64, f64), count: usize) -> Branch {
     let found = branch(&set(base), parameter, range, Points::Even(count), 1e-10, &LIMITS);
     found.unwrap_or_else(|reason| panic!("{base:?} over {parameter}: {reason}"))
 }
@@ -180,7 +180,7 @@ fn specials(found: &Branch, kind: SpecialKind) -> Vec<f64> {
 #[test]
 fn a_branch_over_d2_goes_to_its_escapes_and_marks_them() {
     let base = [-0.462_806, 0.0, 0.0, 0.532_223];
-    let found = followed(base, Symbol::D2, (-3.65161, 2.03386), 60);
+    let found = followed(base, Knob::D2, (-3.65161, 2.03386), 60);
     assert_cycles(base, &found);
     let escapes = specials(&found, SpecialKind::Escape);
     assert_eq!(escapes.len(), 2, "{escapes:?}");
@@ -195,7 +195,7 @@ fn a_branch_over_d2_goes_to_its_escapes_and_marks_them() {
 
 #[test]
 fn a_branch_over_r_marks_its_escape() {
-    let found = followed([-0.5, 0.7, 0.0, 1.0], Symbol::R, (0.1, 2.0), 20);
+    let found = followed([-0.5, 0.7, 0.0, 1.0], Knob::R, (0.1, 2.0), 20);
     let [escape] = specials(&found, SpecialKind::Escape)[..] else { panic!("{found:?}") };
     let at = escape_point(&set([0.0, 0.7, 0.0, escape]), &LIMITS).unwrap().0.unwrap();
     assert!((at / -0.5 - 1.0).abs() < 1e-12, "{at}");
@@ -205,7 +205,7 @@ fn a_branch_over_r_marks_its_escape() {
 #[test]
 fn a_branch_is_followed_through_an_explosion() {
     let base = [-0.94486, -0.031_239_1, -4.389_05e-5, 16.4024];
-    let found = followed(base, Symbol::D, (-0.677_461, -0.359_712), 20);
+    let found = followed(base, Knob::D, (-0.677_461, -0.359_712), 20);
     let last = found.pieces.iter().flatten().find(|point| point.value == -0.359_712);
     assert!((last.expect("the cycle at the end").cycle.q_max - 2_409.017_400_127).abs() < 1e-6);
     assert_cycles(base, &found);
@@ -214,7 +214,7 @@ fn a_branch_is_followed_through_an_explosion() {
 #[test]
 fn a_branch_ends_where_its_cycle_reaches_the_sticking_set() {
     let base = [0.0, 0.5, 0.1, 1.0];
-    let found = followed(base, Symbol::D, (-1.5, 0.0), 60);
+    let found = followed(base, Knob::D, (-1.5, 0.0), 60);
     assert_eq!(specials(&found, SpecialKind::Fold).len(), 1, "{:?}", found.special);
     assert_eq!(found.pieces.len(), 1);
     assert_cycles(base, &found);
@@ -229,6 +229,6 @@ fn a_branch_ends_where_its_cycle_reaches_the_sticking_set() {
 #[test]
 fn no_cycle_is_an_answer() {
     let base = [-2.044_237_931_420_537, -2.129_402_215_354_76, 0.0, 1.0];
-    let found = followed(base, Symbol::D2, (0.665_236_599_800_346_4, -13.122_849_325_551_796), 60);
+    let found = followed(base, Knob::D2, (0.665_236_599_800_346_4, -13.122_849_325_551_796), 60);
     assert!(found.pieces.is_empty() && found.special.is_empty(), "{found:?}");
 }

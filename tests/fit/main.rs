@@ -342,9 +342,9 @@ fn bad_files_and_options_get_one_line() {
         (
             vec![&good, "--free", "D,q"],
             2,
-            "there is no \"q\"; there are omega0, offset, D, D2, D3, r",
+            "no number \"q\"; there are omega0, offset, D, D2, D3, r",
         ),
-        (vec![&good, "--set", "r=-1"], 2, "r=-1 is outside its range; allowed: 0 or more"),
+        (vec![&good, "--set", "r=-1"], 2, "r = -1 is outside its range 0 .. 1e150"),
         (vec![&good, "--free", "D", "--set", "D=0"], 2, "D is both --free and --set"),
         (vec![&good, "--columns", "t=1,x=7"], 2, "there is no column 7; there are 2"),
     ];

@@ -186,10 +186,10 @@ fn disturbances_confidences_and_half_widths_that_mean_nothing_are_refused() {
     fs::write(&untimed, rows.join("\n")).unwrap();
     let cases: [(&[&str], &str); 8] = [
         (&[&decay, "--disturbance", "0.5 N"], "takes --mass or --stiffness"),
-        (&[&decay, "--mass", "2kg", "--disturbance", "1 mm"], "a unit such as N"),
+        (&[&decay, "--mass", "2kg", "--disturbance", "1 mm"], "one such as N"),
         (&[&decay, "--disturbance", "-1"], "\"-1\" is negative"),
-        (&[&decay, "--confidence", "95"], "allowed: 0.5 .. 0.999"),
-        (&[&decay, "--confidence", "1"], "allowed: 0.5 .. 0.999"),
+        (&[&decay, "--confidence", "95"], "outside its range 0.5 .. 0.999"),
+        (&[&decay, "--confidence", "1"], "outside its range 0.5 .. 0.999"),
         (&[&decay, "--half-width", "omega0=1"], "D, D2, D3 and r have half widths"),
         (&[&decay, "--half-width", "D=-1"], "D, D2, D3 and r have half widths"),
         (&[&untimed, "--peaks", "--unit", "mm", "--mass", "2kg"], "there is no frequency"),

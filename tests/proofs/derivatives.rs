@@ -40,9 +40,7 @@ fn derivatives_by_the_parameters_are_those_of_the_map_and_of_its_cycles() {
     let of_cycle = cycle_derivatives(&base, cycle).unwrap();
     let slopes = [found.d, found.d2, found.d3, found.r];
     for (index, (symbol, value)) in
-        [(Symbol::D, -0.2), (Symbol::D2, 0.2), (Symbol::D3, 0.5), (Symbol::R, 0.1)]
-            .into_iter()
-            .enumerate()
+        [(Knob::D, -0.2), (Knob::D2, 0.2), (Knob::D3, 0.5), (Knob::R, 0.1)].into_iter().enumerate()
     {
         let at = |value: f64| {
             let there = base.with(symbol, Interval::point(value));

@@ -16,7 +16,7 @@ use hopfscope::flow::{Limits, Problem};
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::{exp, pow, powi};
 use hopfscope::numerics::random::Random;
-use hopfscope::oscillator::{Parameters, State, Symbol};
+use hopfscope::oscillator::{Knob, Parameters, State};
 use hopfscope::proof::cycles::{Proof, prove};
 use hopfscope::proof::derivatives::{cycle_derivatives, derivatives};
 use hopfscope::proof::escape::enclose_escape;
@@ -308,7 +308,7 @@ fn every_reference_fold_is_enclosed_to_twelve_digits() {
         let found = fold(&parameters, &Limits::PATIENT).unwrap().0.unwrap();
         let clearance = found.q_max - parameters.r;
         let all = ParameterBox::from(&parameters);
-        let proved = enclose_fold(&all, Symbol::D, found.d, clearance).unwrap();
+        let proved = enclose_fold(&all, Knob::D, found.d, clearance).unwrap();
         let value = proved.value;
         assert!(value.width() <= 1e-12 * expected.abs(), "{parameters:?} {value}");
         assert!((value.middle() / expected - 1.0).abs() < 1e-7, "{value} {expected}");
@@ -319,13 +319,13 @@ fn every_reference_fold_is_enclosed_to_twelve_digits() {
             assert!((q_max.middle() - number(with_d2, "q_max")).abs() < 1e-12, "{q_max}");
             // The same point is a fold with respect to every other parameter.
             let there = ParameterBox { d: value, ..all };
-            for (symbol, near) in [(Symbol::R, 0.1), (Symbol::D3, 0.5), (Symbol::D2, 0.2)] {
+            for (symbol, near) in [(Knob::R, 0.1), (Knob::D3, 0.5), (Knob::D2, 0.2)] {
                 let across = enclose_fold(&there, symbol, near, clearance).unwrap().value;
                 assert!(across.contains(near) && across.width() < 1e-10 * near, "{across}");
             }
         }
         // Where cycles do not merge there is nothing to enclose.
-        assert!(enclose_fold(&all, Symbol::D, found.d * 1.1, clearance).is_none());
+        assert!(enclose_fold(&all, Knob::D, found.d * 1.1, clearance).is_none());
     }
 }
 
@@ -343,7 +343,7 @@ fn every_reference_escape_point_is_enclosed() {
         let parameters = Parameters { d: 0.0, d2, d3: 0.0, r: 1.0 };
         let near = escape_point(&parameters, &Limits::PATIENT).unwrap().0.unwrap();
         let all = ParameterBox::from(&parameters);
-        let value = enclose_escape(&all, Symbol::D, near).unwrap();
+        let value = enclose_escape(&all, Knob::D, near).unwrap();
         assert!(value.width() < 3e-10 * -expected, "{value}");
         assert!((value.middle() - expected).abs() < 6e-7, "{value} {expected}");
         let slack = 1e-11 * expected.abs();

@@ -4,7 +4,7 @@
 use hopfscope::flow::Limits;
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::{exp, powi, sin_cos};
-use hopfscope::oscillator::{Parameters, Symbol};
+use hopfscope::oscillator::{Knob, Parameters};
 use hopfscope::proof::kicks::{ProvedEdge, ProvedKicks, kicks};
 use hopfscope::proof::motion::{ProvedFate, ProvedMotion, follow};
 use hopfscope::proof::range::{MOST_STEPS, change_within, range};
@@ -173,10 +173,10 @@ fn margins_are_never_larger_than_the_truth() {
 #[test]
 fn a_range_is_decided_and_its_fold_enclosed() {
     let base = ParameterBox::from(&Parameters { d: 0.0, d2: 0.0, d3: 0.01, r: 1.0 });
-    let near_fold = change_within(&base, Symbol::D, -0.217_412_751_691, 1e-6).unwrap();
+    let near_fold = change_within(&base, Knob::D, -0.217_412_751_691, 1e-6).unwrap();
     assert_eq!((near_fold.below.len(), near_fold.above.len()), (2, 0));
-    assert_eq!(change_within(&base, Symbol::D, -0.1, 1e-3), None);
-    let found = range(&base, Symbol::D, (-0.2175, -0.2173));
+    assert_eq!(change_within(&base, Knob::D, -0.1, 1e-3), None);
+    let found = range(&base, Knob::D, (-0.2175, -0.2173));
     let counts: Vec<_> = found.pieces.iter().map(|it| it.cycles.as_ref().map(Vec::len)).collect();
     assert_eq!((counts.first(), counts.last()), (Some(&Some(2)), Some(&Some(0))), "{found:?}");
     assert_eq!(found.changes.len(), 1);
@@ -194,7 +194,7 @@ fn a_range_is_decided_and_its_fold_enclosed() {
 #[test]
 fn the_work_for_a_range_is_limited_and_the_answer_says_so() {
     let known = Parameters { d: 5.5, d2: 0.0, d3: -1.8e-6, r: 23.0 };
-    let found = range(&ParameterBox::from(&known), Symbol::D2, (-0.0485, 0.0065));
+    let found = range(&ParameterBox::from(&known), Knob::D2, (-0.0485, 0.0065));
     assert!(
         found.exhausted && found.pieces.iter().any(|piece| piece.cycles.is_none()),
         "{found:?}"
@@ -204,6 +204,6 @@ fn the_work_for_a_range_is_limited_and_the_answer_says_so() {
     assert_eq!(ends, (-0.0485, 0.0065));
     // Where the number of cycles is proved up to its changes, the work was enough.
     let known = Parameters { d: 0.0, d2: 0.0, d3: 0.5, r: 0.1 };
-    let found = range(&ParameterBox::from(&known), Symbol::D, (-0.5, 0.0));
+    let found = range(&ParameterBox::from(&known), Knob::D, (-0.5, 0.0));
     assert!(!found.exhausted && found.changes.len() == 1, "{found:?}");
 }

@@ -13,13 +13,13 @@ use hopfscope::machine::branch::branch;
 use hopfscope::machine::return_map::MachineReturn;
 use hopfscope::machine::special::MachineSpecialKind;
 use hopfscope::machine::turn::ContactState;
-use hopfscope::machine::varied::Varied;
 use hopfscope::machine::{
     BorderKind, Flow, MachineBorder, MachineMotion, Model, NoModel, Portrait,
 };
 use hopfscope::numerics::elementary::{asin, atan, atan2, exp, exp_m1, hypot, ln, powi, tanh};
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
+use hopfscope::oscillator::{Group, Knob};
 use serde_json::{Value, json};
 
 fn data() -> Value {
@@ -390,7 +390,7 @@ fn special(
     range: (f64, f64),
     count: usize,
 ) -> Vec<(MachineSpecialKind, f64)> {
-    let found = branch(belt, Varied::named(name).unwrap(), range, count).unwrap();
+    let found = branch(belt, Knob::named(name, Group::SOURCE).unwrap(), range, count).unwrap();
     found.special.iter().map(|special| (special.kind, special.value)).collect()
 }
 

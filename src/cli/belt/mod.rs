@@ -11,14 +11,12 @@ use clap::Args;
 use self::case::MachineCase;
 pub use self::case::scene;
 use self::input::{
-    Name, RangeInUnits, StartOverride, WindowInUnits, assignment, disturbance, margin, range,
-    start, window,
+    StartOverride, WindowInUnits, assignment, disturbance, margin, range, start, window,
 };
 use super::failure::Failure;
 use super::figure::completed;
-use super::input::{method, page_file};
+use super::input::{Over, method, page_file, tolerance};
 use super::output::{Format, Output, write};
-use super::start::tolerance;
 use super::timing::timed;
 use crate::figure::panels;
 use crate::flow::Limits;
@@ -29,7 +27,8 @@ use crate::machine::guarantee::guaranteed;
 use crate::machine::stepped::{ALLOWED, SteppedMethod};
 use crate::machine::survey::{Course, CubicExpansion, Trouble};
 use crate::machine::{Portrait, Subject, Tolerances};
-use crate::oscillator::Belt;
+use crate::oscillator::unit::Toleranced;
+use crate::oscillator::{Belt, Knob};
 use crate::report::belt::branch::{Borders, Branched};
 use crate::report::belt::{
     self, Designed, Head, MachineAnswer, MachineSweep, OnBelt, RestShare, SweepPoint,
@@ -38,9 +37,7 @@ use crate::runtime::print::figure;
 use crate::runtime::provenance_file;
 use crate::runtime::standard::tell;
 use crate::scene::machine::library::{TEXTBOOK, machines};
-use crate::scene::machine::unit::Toleranced;
 use crate::scene::machine::unlikely::unlikely;
-use crate::scene::usual::TOLERANCE;
 use crate::study::design::Kick;
 
 /// Analyses a mass on a belt in physical units
@@ -53,7 +50,7 @@ pub struct Arguments {
     /// Sets a quantity of the machine or its friction law, such as "v0=0.2 m/s", or with a tolerance "R=1 N +- 0.2 N";
     /// repeatable; also the start x, v
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
-    set: Vec<(Name, Toleranced)>,
+    set: Vec<(Knob, Toleranced)>,
     /// Bound on a force that disturbs the mass in any way, such as "0.1 N": also reports the margin that is guaranteed under it
     #[arg(long, value_name = "FORCE", value_parser = disturbance, allow_hyphen_values = true)]
     disturbance: Option<f64>,
@@ -68,15 +65,15 @@ pub struct Arguments {
     elongation: bool,
     /// Varies a quantity, such as "v0=0.1 m/s:0.5 m/s:21": margins and cycles at each value
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true)]
-    sweep: Option<RangeInUnits>,
+    sweep: Option<Over>,
     /// Follows the cycles along a quantity and locates every bifurcation: Hopf, fold, grazing, annihilation ..
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
           conflicts_with_all = ["sweep", "design"])]
-    branch: Option<RangeInUnits>,
+    branch: Option<Over>,
     /// With --branch: the bifurcations at each value of a second quantity
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
           requires = "branch")]
-    against: Option<RangeInUnits>,
+    against: Option<Over>,
     /// Finds the friction R that a margin needs: a displacement ("2 mm") or an impulse ("0.1 N s")
     #[arg(long, value_name = "MARGIN", value_parser = margin, allow_hyphen_values = true)]
     design: Option<(Kick, f64)>,
@@ -115,14 +112,16 @@ impl Arguments {
     /// The machine and the motion, with the values set on the command line.
     fn case(&self) -> Result<MachineCase, Failure> {
         let mut case = MachineCase::named(&self.machine)?;
-        for &(name, Toleranced { middle, half_width }) in &self.set {
-            match name {
-                Name::Number(varied) => {
-                    case.subject.set(varied, middle.value).map_err(Failure::Usage)?;
-                    case.tolerances.half_widths.insert(varied.name().to_owned(), half_width);
+        for &(knob, Toleranced { middle, half_width, .. }) in &self.set {
+            match knob {
+                Knob::X => case.start.0 = middle.value,
+                Knob::V => case.start.1 = middle.value,
+                Knob::Duration => case.until = middle.value,
+                Knob::DisturbingForce => case.tolerances.disturbance = middle.value,
+                knob => {
+                    case.subject.set(knob, middle.value).map_err(Failure::Usage)?;
+                    case.tolerances.half_widths.insert(knob.to_string(), half_width);
                 }
-                Name::Displacement => case.start.0 = middle.value,
-                Name::Velocity => case.start.1 = middle.value,
             }
         }
         let StartOverride { x, v } = self.start.unwrap_or_default();
@@ -164,7 +163,7 @@ impl Arguments {
 
     /// The tolerance of the second method.
     fn dial(&self) -> f64 {
-        self.tol.unwrap_or(TOLERANCE)
+        self.tol.unwrap_or(Knob::Tolerance.usual())
     }
 
     /// The tolerance of the Taylor steps; `None` with a second method, to which `--tol` then applies.
@@ -236,14 +235,14 @@ impl Arguments {
     }
 
     /// The branch, or the changes along it at each value of another number.
-    fn branched(&self, subject: &Subject, head: &Head, range: RangeInUnits) -> Result<(), Failure> {
-        let RangeInUnits { varied, ends, count } = range;
+    fn branched(&self, subject: &Subject, head: &Head, range: Over) -> Result<(), Failure> {
+        let Over { knob: varied, ends, count } = range;
         if let Some(other) = self.against {
             let (rows, seconds) = timed(self.output.repeat, || {
-                let against = (other.varied, other.ends, other.count);
+                let against = (other.knob, other.ends, other.count);
                 borders(subject, (varied, ends, count), against)
             });
-            let (rows, varied) = (rows.map_err(Failure::Usage)?, (varied, other.varied));
+            let (rows, varied) = (rows.map_err(Failure::Usage)?, (varied, other.knob));
             let found = Borders { head, varied, rows, seconds };
             return self.output.print(&match self.output.format {
                 Format::Table => belt::branch::borders_table(&found),
@@ -285,9 +284,9 @@ impl Arguments {
         subject: &Subject,
         head: &'a Head,
         known: &Tolerances,
-        range: RangeInUnits,
+        range: Over,
     ) -> Result<MachineSweep<'a>, Failure> {
-        let RangeInUnits { varied, ends, count } = range;
+        let Over { knob: varied, ends, count } = range;
         let point = |index: usize| {
             let value = spaced(ends, index, count);
             let here = subject.with(varied, value).map_err(Failure::Usage)?;

@@ -12,12 +12,12 @@
 
 pub mod friction;
 pub mod mass;
-pub mod quantity;
+pub mod reduce;
 pub mod taylor;
 
 pub use friction::{Derivatives, FrictionLaw};
-pub use mass::{Belt, BeltError, Reduced, Units};
-pub use quantity::{Dimension, Outside, QUANTITIES, Quantity};
+pub use mass::Belt;
+pub use reduce::{BeltError, Reduced, Units};
 pub use taylor::TaylorError;
 
 #[cfg(test)]

@@ -5,7 +5,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::numerics::elementary::{exp, log10, powi};
 use crate::numerics::spline::SmoothingSpline;
-use crate::oscillator::{HalfPlane, Side};
+use crate::oscillator::unit::Dimension;
+use crate::oscillator::{Group, HalfPlane, Knob, Side};
 
 /// Value and derivatives by central differences of `mu` with Richardson's extrapolation: they know
 /// nothing of the formulas.
@@ -186,14 +187,14 @@ fn in_other_units(belt: &Belt, kg: f64, m: f64, s: f64) -> Belt {
     let FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } = belt.law else {
         unreachable!("the machine of these tests")
     };
-    let scale = |quantity: Quantity| {
-        let Dimension { kg: a, m: b, s: c } = quantity.spec().dimension;
-        belt.get(quantity)
+    let scale = |knob: Knob| {
+        let Dimension { kg: a, m: b, s: c } = Dimension::of_unit(knob.spec().unit);
+        knob.of_belt(belt).unwrap()
             / (powi(kg, i32::from(a)) * powi(m, i32::from(b)) * powi(s, i32::from(c)))
     };
     let mut other = belt.clone();
-    for row in &QUANTITIES {
-        other.set(row.quantity, scale(row.quantity));
+    for knob in Group::Machine.knobs() {
+        knob.set_in_belt(&mut other, scale(knob)).unwrap();
     }
     let speed = m / s;
     other.law = FrictionLaw::Stribeck {

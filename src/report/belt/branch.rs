@@ -9,7 +9,7 @@ use crate::flow::Fate;
 use crate::machine::branch::MachineBranch;
 use crate::machine::jumps::Jump;
 use crate::machine::special::{MachineSpecial, MachineSpecialKind};
-use crate::machine::varied::Varied;
+use crate::oscillator::Knob;
 use crate::report::csv::Sheet;
 use crate::report::json::{Seconds, text};
 use crate::report::table::Table;
@@ -20,7 +20,7 @@ pub struct Branched<'a> {
     /// The machine.
     pub head: &'a Head<'a>,
     /// The number that varies.
-    pub varied: Varied,
+    pub varied: Knob,
     pub branch: MachineBranch,
     pub seconds: f64,
 }
@@ -30,7 +30,7 @@ pub struct Borders<'a> {
     /// The machine.
     pub head: &'a Head<'a>,
     /// The number along which the changes are located, and the other number.
-    pub varied: (Varied, Varied),
+    pub varied: (Knob, Knob),
     /// The changes at each value of the other number.
     pub rows: Vec<(f64, Vec<MachineSpecial>)>,
     pub seconds: f64,
@@ -79,8 +79,8 @@ pub fn json(branched: &Branched) -> String {
     text(&BeltBranchDocument {
         machine: branched.head.name,
         model: "whole",
-        quantity: branched.varied.name(),
-        unit: branched.varied.unit(),
+        quantity: branched.varied.spec().name,
+        unit: branched.varied.spec().unit,
         points: points(branched),
         special: &branched.branch.special,
         cost: MachineCost {
@@ -127,7 +127,7 @@ fn jumps(special: &MachineSpecial) -> String {
 
 /// The branch as a table.
 pub fn table(branched: &Branched) -> String {
-    let (name, unit) = (branched.varied.name(), branched.varied.unit());
+    let (name, unit) = (branched.varied.spec().name, branched.varied.spec().unit);
     let mut rows = Table::new(&[&[name, "cycle"], CYCLE].concat());
     for point in &branched.branch.points {
         let value = with_unit(point.value, PLACES, unit);
@@ -171,7 +171,7 @@ struct BeltBranchRow {
 
 /// One row for each cycle, then one for each change, in SI units.
 pub fn csv(branched: &Branched) -> String {
-    let called = [("value", branched.varied.name()), ("kind", "what")];
+    let called = [("value", branched.varied.spec().name), ("kind", "what")];
     let mut sheet = Sheet::like(&BeltBranchRow::default(), &called);
     for point in &branched.branch.points {
         for cycle in point.found.iter().flat_map(|found| &found.cycles) {
@@ -213,10 +213,10 @@ pub fn borders_json(borders: &Borders) -> String {
     text(&BordersDocument {
         machine: borders.head.name,
         model: "whole",
-        quantity: borders.varied.0.name(),
-        unit: borders.varied.0.unit(),
-        against: borders.varied.1.name(),
-        against_unit: borders.varied.1.unit(),
+        quantity: borders.varied.0.spec().name,
+        unit: borders.varied.0.spec().unit,
+        against: borders.varied.1.spec().name,
+        against_unit: borders.varied.1.spec().unit,
         rows: rows.collect(),
         cost: Seconds { seconds: borders.seconds },
     })
@@ -225,12 +225,12 @@ pub fn borders_json(borders: &Borders) -> String {
 /// The changes as a table.
 pub fn borders_table(borders: &Borders) -> String {
     let (along, against) = borders.varied;
-    let mut table = Table::new(&[against.name(), along.name(), "what happens"]);
+    let mut table = Table::new(&[against.spec().name, along.spec().name, "what happens"]);
     for (value, special) in &borders.rows {
         for special in special {
             table.row(vec![
-                with_unit(*value, PLACES, against.unit()),
-                with_unit(special.value, 13, along.unit()),
+                with_unit(*value, PLACES, against.spec().unit),
+                with_unit(special.value, 13, along.spec().unit),
                 words(special.kind).to_owned(),
             ]);
         }
@@ -252,7 +252,7 @@ struct BordersRow {
 /// One row for each change, in SI units.
 pub fn borders_csv(borders: &Borders) -> String {
     let (along, against) = borders.varied;
-    let called = [("against", against.name()), ("value", along.name()), ("kind", "what")];
+    let called = [("against", against.spec().name), ("value", along.spec().name), ("kind", "what")];
     let row = |against, value, kind, x_max| BordersRow { against, value, kind, x_max };
     let mut sheet = Sheet::like(&row(0.0, 0.0, MachineSpecialKind::Fold, None), &called);
     for (against, special) in &borders.rows {

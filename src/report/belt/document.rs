@@ -12,8 +12,8 @@ use crate::machine::motion::MachineState;
 use crate::machine::survey::{Course, CubicExpansion, Second};
 use crate::machine::turn::ContactState;
 use crate::machine::{BorderKind, MachineCycle, MachineLedger, Portrait};
-use crate::oscillator::belt::{Derivatives, FrictionLaw, QUANTITIES, Units};
-use crate::oscillator::{Belt, Interval, Parameters};
+use crate::oscillator::belt::{Derivatives, FrictionLaw, Units};
+use crate::oscillator::{Belt, Group, Interval, Parameters};
 use crate::report::json::text;
 use crate::study::Margin;
 use crate::study::design::{Kick, Needed};
@@ -55,7 +55,10 @@ impl<'a> BeltDocument<'a> {
         let held = belt.static_guide.unwrap_or(belt.friction) / belt.stiffness;
         let both = |(dimensionless, physical)| Both { dimensionless, physical };
         BeltDocument {
-            quantities: QUANTITIES.iter().map(|row| (row.name, belt.get(row.quantity))).collect(),
+            quantities: Group::Machine
+                .knobs()
+                .filter_map(|knob| Some((knob.spec().name, knob.of_belt(belt)?)))
+                .collect(),
             friction: Friction::new(belt, &reduced.mu),
             units: &reduced.units,
             parameters: &reduced.parameters,
@@ -88,7 +91,7 @@ impl MachineGuaranteeDocument {
             tolerances: belt
                 .uncertain()
                 .into_iter()
-                .map(|(varied, interval)| (varied.name(), interval))
+                .map(|(knob, interval)| (knob.spec().name, interval))
                 .collect(),
         }
     }

@@ -19,10 +19,8 @@ use serde::Serialize;
 
 use crate::machine::guarantee::MachineUncertain;
 use crate::machine::survey::{Course, CubicExpansion};
-use crate::machine::varied::Varied;
 use crate::machine::{Body, Modal, Tolerances};
-use crate::oscillator::belt::QUANTITIES;
-use crate::oscillator::{Belt, Interval};
+use crate::oscillator::{Belt, Group, Interval, Knob};
 use crate::study::Margin;
 use crate::study::design::{Kick, Needed};
 use crate::words::number::significant;
@@ -97,7 +95,7 @@ pub struct OnBelt<'a> {
 
 impl OnBelt<'_> {
     /// The numbers that are not known exactly, each with its interval in SI units.
-    fn uncertain(&self) -> Vec<(Varied, Interval)> {
+    fn uncertain(&self) -> Vec<(Knob, Interval)> {
         self.tolerances.intervals(&self.expansion.belt)
     }
 }
@@ -179,12 +177,12 @@ impl Designed {
 }
 
 fn numbers_of_belt(belt: &Belt) -> Vec<(String, String)> {
-    let one = QUANTITIES
-        .iter()
-        .map(|row| (row.name.to_owned(), with_unit(belt.get(row.quantity), 12, row.unit)));
-    let mu_s = belt.static_coefficient.map(|mu| ("mu_s".to_owned(), with_unit(mu, 12, "")));
-    let held = belt.static_guide.map(|force| ("R_static".to_owned(), with_unit(force, 12, "N")));
-    one.chain(mu_s).chain(held).collect()
+    let told =
+        |(knob, value): (Knob, f64)| (knob.to_string(), with_unit(value, 12, knob.spec().unit));
+    let own = Group::Machine.knobs().filter_map(|knob| Some((knob, knob.of_belt(belt)?)));
+    let mu_s = belt.static_coefficient.map(|mu| (Knob::StaticCoefficient, mu));
+    let held = belt.static_guide.map(|force| (Knob::StaticGuide, force));
+    own.chain(mu_s).chain(held).map(told).collect()
 }
 
 fn numbers_of_mode(mode: &Modal) -> Vec<(String, String)> {

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::document::{DesignDocument, MachineCost, PortraitDocument};
 use super::{Designed, Head, PLACES, RestShare};
-use crate::machine::varied::Varied;
 use crate::machine::{BorderKind, MachineBorder, Portrait};
+use crate::oscillator::Knob;
 use crate::report::csv::Sheet;
 use crate::report::json::text;
 use crate::report::table::Table;
@@ -28,7 +28,7 @@ pub struct MachineSweep<'a> {
     /// The machine.
     pub head: &'a Head<'a>,
     /// The number that varies.
-    pub varied: Varied,
+    pub varied: Knob,
     pub points: Vec<SweepPoint>,
     pub seconds: f64,
 }
@@ -72,8 +72,8 @@ pub fn json(sweep: &MachineSweep) -> String {
     text(&BeltSweepDocument {
         machine: sweep.head.name,
         model: "whole",
-        quantity: sweep.varied.name(),
-        unit: sweep.varied.unit(),
+        quantity: sweep.varied.spec().name,
+        unit: sweep.varied.spec().unit,
         points: points.collect(),
         cost: MachineCost { steps: steps(sweep), seconds: sweep.seconds },
     })
@@ -104,7 +104,7 @@ fn regime(found: &Portrait) -> String {
 
 /// The sweep as a table.
 pub fn table(sweep: &MachineSweep) -> String {
-    let (name, unit) = (sweep.varied.name(), sweep.varied.unit());
+    let (name, unit) = (sweep.varied.spec().name, sweep.varied.spec().unit);
     let designs = sweep.points.iter().any(|point| point.design.is_some());
     let mut titles =
         vec![name, "shift from rest", "impulse from rest", "cycles up to", "on the belt", "regime"];
@@ -176,7 +176,7 @@ struct BeltSweepRow {
 
 /// One row for each point, in SI units.
 pub fn csv(sweep: &MachineSweep) -> String {
-    let mut sheet = Sheet::like(&BeltSweepRow::default(), &[("value", sweep.varied.name())]);
+    let mut sheet = Sheet::like(&BeltSweepRow::default(), &[("value", sweep.varied.spec().name)]);
     for point in &sweep.points {
         let value = point.value;
         let Ok(found) = &point.found else {

@@ -10,9 +10,9 @@ use crate::machine::guarantee::MachineUncertain;
 use crate::machine::motion::MachineState;
 use crate::machine::stepped::Stepped;
 use crate::machine::survey::{Course, CubicExpansion, Second};
-use crate::machine::varied::Varied;
 use crate::machine::{MachineBorder, MachineCycle, Portrait};
 use crate::oscillator::Interval;
+use crate::oscillator::Knob;
 use crate::oscillator::belt::{Derivatives, FrictionLaw};
 use crate::report::csv;
 use crate::report::table::{Table, rounded};
@@ -212,11 +212,11 @@ pub(super) fn certain(margin: Margin) -> [MarginRow; 2] {
 
 /// The numbers that are not known exactly, each with its interval.
 pub(super) fn varying(belt: &OnBelt) -> Vec<String> {
-    let unit = |varied: Varied, value| with_unit(value, 12, varied.unit());
-    let number = |(varied, interval): (Varied, Interval)| {
+    let unit = |varied: Knob, value| with_unit(value, 12, varied.spec().unit);
+    let number = |(varied, interval): (Knob, Interval)| {
         format!(
             "{} in {} .. {}",
-            varied.name(),
+            varied.spec().name,
             unit(varied, interval.lower()),
             unit(varied, interval.upper())
         )

@@ -1,73 +1,85 @@
 //! Machine files: reads TOML into a [`Machine`], or reports the first mistake and its place in one line.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::Range;
 
 use serde::Deserialize;
+use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};
 use toml::Spanned;
 
 use super::Machine;
 use super::table::table;
-use super::unit::{Measured, Toleranced, measured, toleranced};
 use crate::machine::{Model, Tolerances};
 use crate::numerics::decimal::shortest;
 use crate::numerics::spline::SmoothingSpline;
-use crate::oscillator::Belt;
-use crate::oscillator::belt::{Dimension, FrictionLaw, QUANTITIES, Quantity};
+use crate::oscillator::belt::FrictionLaw;
+use crate::oscillator::unit::quantity;
+use crate::oscillator::{Belt, Group, Knob, unknown};
 use crate::scene::misread::{self, Complaint, Misread};
-
-/// Largest displacement or velocity of a start, in SI units, in either direction.
-pub const FARTHEST_START: f64 = 1e6;
-
-/// Allowed disturbances, in N.
-const DISTURBANCES: (f64, f64) = (0.0, 1e6);
-
-/// Allowed durations of a motion, in s.
-pub const UNTIL_RANGE: (f64, f64) = (0.0, 1e6);
-
-/// Range of the velocity in Stribeck's characteristic, in m/s.
-const STRIBECK_VELOCITY: (f64, f64) = (1e-12, 1e12);
-
-/// Range of the exponent in Stribeck's characteristic.
-const STRIBECK_EXPONENT: (f64, f64) = (0.1, 10.0);
-
-/// Largest magnitude of the coefficients of friction and damping, in SI units.
-const LARGEST_COEFFICIENT: f64 = 1e12;
-
-/// Range of a coefficient that is not restricted otherwise.
-const ANY: (f64, f64) = (-LARGEST_COEFFICIENT, LARGEST_COEFFICIENT);
-
-/// The dimension whose product with a velocity is a pure number.
-const SLOWNESS: Dimension = Dimension::new(0, -1, 1);
 
 /// Maximum number of points of a table.
 const MOST_POINTS: usize = 10_000;
 
 /// The file as it is written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Default)]
 struct MachineFile {
-    #[serde(default)]
     title: String,
-    #[serde(default)]
     look: String,
-    m: Option<Spanned<Number>>,
-    c: Option<Spanned<Number>>,
-    d1: Option<Spanned<Number>>,
-    d3: Option<Spanned<Number>>,
-    #[serde(rename = "F")]
-    f: Option<Spanned<Number>>,
-    #[serde(rename = "R")]
-    r: Option<Spanned<Number>>,
-    #[serde(rename = "R_static")]
-    r_static: Option<Spanned<Number>>,
-    v0: Option<Spanned<Number>>,
-    friction: Spanned<Friction>,
+    /// The numbers of the machine, without those of its friction.
+    numbers: BTreeMap<Knob, Spanned<Number>>,
+    friction: Option<Spanned<Friction>>,
     /// Bound on a disturbing force.
     disturbance: Option<Spanned<Number>>,
-    #[serde(default)]
     start: StartTable,
     until: Option<Spanned<Number>>,
+    /// The first key that means nothing.
+    unknown: Option<Spanned<String>>,
+}
+
+/// The keys that are not numbers of the machine.
+const OTHER_KEYS: [&str; 6] = ["title", "look", "friction", "disturbance", "start", "until"];
+
+/// The numbers of a machine, without those of its friction.
+fn numbers() -> impl Iterator<Item = Knob> {
+    Group::Machine.knobs().chain([Knob::StaticGuide])
+}
+
+impl<'de> Deserialize<'de> for MachineFile {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Keys;
+        impl<'de> Visitor<'de> for Keys {
+            type Value = MachineFile;
+
+            fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+                out.write_str("the numbers of a machine")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<MachineFile, A::Error> {
+                let mut file = MachineFile::default();
+                while let Some(key) = map.next_key::<Spanned<String>>()? {
+                    match key.get_ref().as_str() {
+                        "title" => file.title = map.next_value()?,
+                        "look" => file.look = map.next_value()?,
+                        "friction" => file.friction = Some(map.next_value()?),
+                        "disturbance" => file.disturbance = Some(map.next_value()?),
+                        "start" => file.start = map.next_value()?,
+                        "until" => file.until = Some(map.next_value()?),
+                        name => {
+                            if let Some(knob) = numbers().find(|knob| knob.spec().name == name) {
+                                file.numbers.insert(knob, map.next_value()?);
+                            } else {
+                                map.next_value::<IgnoredAny>()?;
+                                file.unknown.get_or_insert(key);
+                            }
+                        }
+                    }
+                }
+                Ok(file)
+            }
+        }
+        deserializer.deserialize_map(Keys)
+    }
 }
 
 /// The start of the motion.
@@ -81,30 +93,29 @@ pub(super) struct StartTable {
 impl StartTable {
     /// Displacement and velocity at the start, in SI units.
     pub fn read(&self) -> Result<(f64, f64), Complaint> {
-        let far = (-FARTHEST_START, FARTHEST_START);
-        let x = number("x", self.x.as_ref(), Dimension::LENGTH, "m", far, 0.0)?;
-        let v = number("v", self.v.as_ref(), Dimension::VELOCITY, "m/s", far, 0.0)?;
-        Ok((x, v))
+        Ok((or_usual(Knob::X, self.x.as_ref())?, or_usual(Knob::V, self.v.as_ref())?))
     }
 }
 
 /// Duration of a motion in s: the one from the file, or `PERIODS` periods of the free oscillation.
 pub(super) fn duration(given: Option<&Spanned<Number>>, period: f64) -> Result<f64, Complaint> {
     const PERIODS: f64 = 20.0;
-    number("until", given, Dimension::TIME, "s", UNTIL_RANGE, PERIODS * period)
+    given.map_or(Ok(PERIODS * period), |given| exact(Knob::Duration, given))
 }
 
-/// The coefficients of a polynomial in the velocity, the constant one first.
-pub(super) fn polynomial(name: &str, given: &[Spanned<Number>]) -> Result<Vec<f64>, Complaint> {
+/// The coefficients of a polynomial in the velocity, the constant one first; each is read as the number of its
+/// `name` and power, or by its unit where the table ends.
+pub(super) fn polynomial(
+    name: &str,
+    given: &[Spanned<Number>],
+    mut read: impl FnMut(Knob, &Spanned<Number>) -> Result<f64, Complaint>,
+) -> Result<Vec<f64>, Complaint> {
     let coefficient = |(power, given): (usize, &Spanned<Number>)| {
-        let power = i8::try_from(power).unwrap_or(i8::MAX);
-        let dimension = Dimension::ONE.times(SLOWNESS, power).unwrap_or(Dimension::ONE);
-        let unit = match power {
-            0 => String::new(),
-            1 => "s/m".to_owned(),
-            _ => format!("s^{power}/m^{power}"),
-        };
-        number(name, Some(given), dimension, &unit, ANY, 0.0)
+        if let Ok(knob) = Knob::named(&format!("{name}{power}"), Group::SOURCE) {
+            return read(knob, given);
+        }
+        let number = given.get_ref().in_unit(&format!("s^{power}/m^{power}"));
+        number.map_err(|message| Complaint { at: given.span(), message })
     };
     given.iter().enumerate().map(coefficient).collect()
 }
@@ -157,17 +168,51 @@ struct Table {
 pub(super) enum Number {
     Plain(f64),
     Text(String),
-    #[serde(skip)]
-    Read(Measured),
 }
 
 impl Number {
-    fn read(&self) -> Result<Measured, String> {
+    /// A finite number in this unit.
+    fn in_unit(&self, unit: &str) -> Result<f64, String> {
         match self {
-            Number::Plain(value) => Ok(Measured { value: *value, dimension: None }),
-            Number::Text(text) => measured(text),
-            Number::Read(read) => Ok(*read),
+            Number::Plain(value) => quantity(&shortest(*value), unit),
+            Number::Text(text) => quantity(text, unit),
         }
+    }
+}
+
+/// A number that has no tolerance.
+pub(super) fn exact(knob: Knob, given: &Spanned<Number>) -> Result<f64, Complaint> {
+    let read = match given.get_ref() {
+        Number::Plain(value) => knob.check(*value).map_err(|refused| refused.to_string()),
+        Number::Text(text) => knob.parse(text),
+    };
+    read.map_err(|message| Complaint { at: given.span(), message })
+}
+
+/// The same, or its default.
+pub(super) fn or_usual(knob: Knob, given: Option<&Spanned<Number>>) -> Result<f64, Complaint> {
+    given.map_or(Ok(knob.usual()), |given| exact(knob, given))
+}
+
+/// The tolerances of the numbers read so far: half widths in SI units, by name.
+#[derive(Default)]
+struct HalfWidths(BTreeMap<String, f64>);
+
+impl HalfWidths {
+    /// A number that may have a tolerance.
+    fn read(&mut self, knob: Knob, given: &Spanned<Number>) -> Result<f64, Complaint> {
+        let Number::Text(text) = given.get_ref() else { return exact(knob, given) };
+        let read = knob.parse_toleranced(text);
+        let read = read.map_err(|message| Complaint { at: given.span(), message })?;
+        if read.half_width > 0.0 {
+            self.0.insert(knob.to_string(), read.half_width);
+        }
+        Ok(read.middle.value)
+    }
+
+    /// The same, or its default.
+    fn or_usual(&mut self, knob: Knob, given: Option<&Spanned<Number>>) -> Result<f64, Complaint> {
+        given.map_or(Ok(knob.usual()), |given| self.read(knob, given))
     }
 }
 
@@ -180,64 +225,28 @@ pub fn parse(
     text: &str,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<Machine, Misread> {
-    let mut read: MachineFile = misread::toml(file, text)?;
-    let half_widths = half_widths(&mut read);
-    half_widths
-        .and_then(|half_widths| machine(name, read, half_widths, fetch))
-        .map_err(|complaint| complaint.in_file(file, text))
-}
-
-/// Takes the tolerances of a machine's numbers out of the file and leaves the middle values. Half widths are in
-/// SI units.
-fn half_widths(read: &mut MachineFile) -> Result<BTreeMap<String, f64>, Complaint> {
-    let MachineFile { m, c, d1, d3, f, r, r_static, v0, friction, .. } = read;
-    let Friction { at_rest, constant, polynomial, stribeck, .. } = friction.get_mut();
-    let mut numbers: Vec<(String, &mut Spanned<Number>)> = Vec::new();
-    let mut put = |name: &str, given| numbers.push((name.to_owned(), given));
-    let named = ["m", "c", "d1", "d3", "F", "R", "R_static", "v0", "mu_s"];
-    for (name, given) in named.into_iter().zip([m, c, d1, d3, f, r, r_static, v0, at_rest]) {
-        if let Some(given) = given {
-            put(name, given);
-        }
-    }
-    if let Some(law) = constant {
-        put("mu", &mut law.mu);
-    }
-    for (power, given) in polynomial.iter_mut().flat_map(|law| &mut law.coefficients).enumerate() {
-        put(&format!("mu{power}"), given);
-    }
-    if let Some(Stribeck { rest, kinetic, velocity, exponent, viscous }) = stribeck {
-        [("rest", rest), ("kinetic", kinetic), ("velocity", velocity)]
-            .into_iter()
-            .chain(exponent.as_mut().map(|given| ("exponent", given)))
-            .chain(viscous.as_mut().map(|given| ("viscous", given)))
-            .for_each(|(name, given)| put(name, given));
-    }
-    let mut found = BTreeMap::new();
-    for (name, given) in numbers {
-        let Number::Text(text) = given.get_ref() else { continue };
-        let refuse = |message| Complaint { at: given.span(), message: self::named(&name, message) };
-        let Toleranced { middle, half_width } = toleranced(text).map_err(refuse)?;
-        *given.get_mut() = Number::Read(middle);
-        if half_width > 0.0 {
-            found.insert(name, half_width);
-        }
-    }
-    Ok(found)
+    let read: MachineFile = misread::toml(file, text)?;
+    machine(name, read, fetch).map_err(|complaint| complaint.in_file(file, text))
 }
 
 fn machine(
     name: &str,
     read: MachineFile,
-    half_widths: BTreeMap<String, f64>,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<Machine, Complaint> {
-    let whole = read.friction.span();
-    let friction = read.friction.into_inner();
-    let any = (0.0, LARGEST_COEFFICIENT);
-    let pure = |given| number("static", given, Dimension::ONE, "", any, 0.0);
-    let at_rest = friction.at_rest.as_ref().map(|given| pure(Some(given))).transpose()?;
-    let guide = |given| quantity_as("R_static", Quantity::Friction, given);
+    if let Some(key) = &read.unknown {
+        let known = numbers().map(|knob| knob.spec().name).chain(OTHER_KEYS);
+        let message = unknown(key.get_ref(), &known.collect::<Vec<_>>());
+        return Err(Complaint { at: key.span(), message });
+    }
+    let lacks = |message: String| Complaint { at: 0..0, message };
+    let friction = read.friction.ok_or_else(|| lacks("friction is missing".to_owned()))?;
+    let whole = friction.span();
+    let friction = friction.into_inner();
+    let mut half_widths = HalfWidths::default();
+    let at_rest = friction.at_rest.as_ref();
+    let static_coefficient =
+        at_rest.map(|given| half_widths.read(Knob::StaticCoefficient, given)).transpose()?;
     let mut belt = Belt {
         mass: 0.0,
         stiffness: 0.0,
@@ -246,31 +255,16 @@ fn machine(
         normal_force: 0.0,
         friction: 0.0,
         belt_speed: 0.0,
-        law: law(friction, &whole, fetch)?,
-        static_coefficient: at_rest,
-        static_guide: read.r_static.as_ref().map(guide).transpose()?,
+        law: law(friction, &whole, &mut half_widths, fetch)?,
+        static_coefficient,
+        static_guide: None,
     };
-    let given = [&read.m, &read.c, &read.d1, &read.d3, &read.f, &read.r, &read.v0];
-    for (row, given) in QUANTITIES.iter().zip(given) {
-        let value = match (given, row.default) {
-            (Some(given), _) => quantity_as(row.name, row.quantity, given)?,
-            (None, Some(default)) => default,
-            (None, None) => {
-                let message = format!(
-                    "{} ({}) is missing; such as {0} = \"1 {}\"",
-                    row.name, row.meaning, row.unit
-                );
-                return Err(Complaint { at: 0..0, message });
-            }
-        };
-        belt.set(row.quantity, value);
-    }
+    set_numbers(&mut belt, &read.numbers, &mut half_widths)?;
     let unfit = |message| Complaint { at: whole.clone(), message };
     let reduced = belt.reduce().map_err(|error| unfit(error.to_string()))?;
     Model::new(&belt).map_err(|error| unfit(error.to_string()))?;
-    let disturbance = read.disturbance.as_ref();
-    let disturbance = number("disturbance", disturbance, Dimension::FORCE, "N", DISTURBANCES, 0.0)?;
-    let tolerances = Tolerances { half_widths, disturbance };
+    let disturbance = or_usual(Knob::DisturbingForce, read.disturbance.as_ref())?;
+    let tolerances = Tolerances { half_widths: half_widths.0, disturbance };
     tolerances.check(&belt).map_err(unfit)?;
     let (displacement, velocity) = read.start.read()?;
     Ok(Machine {
@@ -285,68 +279,52 @@ fn machine(
     })
 }
 
-/// A value of this quantity, under another name.
-pub(super) fn quantity_as(
-    name: &str,
-    quantity: Quantity,
-    given: &Spanned<Number>,
-) -> Result<f64, Complaint> {
-    given
-        .get_ref()
-        .read()
-        .and_then(|read| value_of(quantity, &read))
-        .map_err(|message| Complaint { at: given.span(), message: named(name, message) })
-}
-
-/// A value of this quantity, checked against its range. Fails with one line that says what is allowed.
-pub fn value_of(quantity: Quantity, read: &Measured) -> Result<f64, String> {
-    let row = quantity.spec();
-    let value = read.as_a(row.dimension, row.unit)?;
-    quantity.check(value).map_err(|outside| outside.to_string())
-}
-
-/// A message that begins with the name of the number concerned.
-fn named(name: &str, message: String) -> String {
-    if message.starts_with(&format!("{name} =")) { message } else { format!("{name}: {message}") }
-}
-
-/// A number of this dimension, checked against its range, or its default.
-pub(super) fn number(
-    name: &str,
-    given: Option<&Spanned<Number>>,
-    dimension: Dimension,
-    unit: &str,
-    (min, max): (f64, f64),
-    default: f64,
-) -> Result<f64, Complaint> {
-    let Some(given) = given else { return Ok(default) };
-    let refuse = |message| Complaint { at: given.span(), message: named(name, message) };
-    let value = given.get_ref().read().and_then(|read| read.as_a(dimension, unit));
-    let value = value.map_err(refuse)?;
-    if (min..=max).contains(&value) {
-        return Ok(value);
+/// Sets the numbers of a machine that its file gives, and the defaults of the others.
+fn set_numbers(
+    belt: &mut Belt,
+    given: &BTreeMap<Knob, Spanned<Number>>,
+    half_widths: &mut HalfWidths,
+) -> Result<(), Complaint> {
+    let lacks = |message: String| Complaint { at: 0..0, message };
+    for knob in numbers() {
+        let value = match (given.get(&knob), knob.spec().default) {
+            (Some(given), _) => half_widths.read(knob, given)?,
+            (None, Some(default)) => default,
+            (None, None) if knob == Knob::StaticGuide => continue,
+            (None, None) => {
+                let meaning = knob.spec().meaning;
+                let such = knob.print(1.0);
+                return Err(lacks(format!(
+                    "{knob} ({meaning}) is missing; such as {knob} = \"{such}\""
+                )));
+            }
+        };
+        knob.set_in_belt(belt, value).map_err(lacks)?;
     }
-    let blank = if unit.is_empty() { "" } else { " " };
-    Err(refuse(format!(
-        "{name} = {}{blank}{unit} is outside its range {min:?} .. {max:?}{blank}{unit}",
-        shortest(value)
-    )))
+    Ok(())
 }
 
 fn law(
     given: Friction,
     whole: &Range<usize>,
+    half_widths: &mut HalfWidths,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<FrictionLaw, Complaint> {
     match (given.constant, given.polynomial, given.stribeck, given.table) {
         (Some(law), None, None, None) => {
-            Ok(FrictionLaw::Constant { mu: coefficient("mu", &law.mu)? })
+            Ok(FrictionLaw::Constant { mu: half_widths.read(Knob::Mu, &law.mu)? })
         }
         (None, Some(law), None, None) => {
-            let coefficients = polynomial("coefficients", &law.coefficients)?;
-            Ok(FrictionLaw::Polynomial { coefficients })
+            let read = |knob, given: &Spanned<Number>| half_widths.read(knob, given);
+            Ok(FrictionLaw::Polynomial { coefficients: polynomial("mu", &law.coefficients, read)? })
         }
-        (None, None, Some(law), None) => stribeck(&law),
+        (None, None, Some(law), None) => Ok(FrictionLaw::Stribeck {
+            rest: half_widths.read(Knob::Rest, &law.rest)?,
+            kinetic: half_widths.read(Knob::Kinetic, &law.kinetic)?,
+            velocity: half_widths.read(Knob::Velocity, &law.velocity)?,
+            exponent: half_widths.or_usual(Knob::Exponent, law.exponent.as_ref())?,
+            viscous: half_widths.or_usual(Knob::Viscous, law.viscous.as_ref())?,
+        }),
         (None, None, None, Some(law)) => spline(law, whole, fetch),
         _ => {
             let message = "friction takes one law: constant, polynomial, stribeck or table";
@@ -355,29 +333,12 @@ fn law(
     }
 }
 
-fn coefficient(name: &str, given: &Spanned<Number>) -> Result<f64, Complaint> {
-    number(name, Some(given), Dimension::ONE, "", ANY, 0.0)
-}
-
-fn stribeck(law: &Stribeck) -> Result<FrictionLaw, Complaint> {
-    let speed = Dimension::VELOCITY;
-    let (exponent, viscous) = (law.exponent.as_ref(), law.viscous.as_ref());
-    Ok(FrictionLaw::Stribeck {
-        rest: coefficient("rest", &law.rest)?,
-        kinetic: coefficient("kinetic", &law.kinetic)?,
-        velocity: number("velocity", Some(&law.velocity), speed, "m/s", STRIBECK_VELOCITY, 1.0)?,
-        exponent: number("exponent", exponent, Dimension::ONE, "", STRIBECK_EXPONENT, 1.0)?,
-        viscous: number("viscous", viscous, SLOWNESS, "s/m", ANY, 0.0)?,
-    })
-}
-
 fn spline(
     law: Table,
     whole: &Range<usize>,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<FrictionLaw, Complaint> {
-    let scatter = (0.0, LARGEST_COEFFICIENT);
-    let scatter = number("scatter", law.scatter.as_ref(), Dimension::ONE, "", scatter, 0.0)?;
+    let scatter = or_usual(Knob::Scatter, law.scatter.as_ref())?;
     let (at, points) = match (law.file, law.points) {
         (Some(file), None) => {
             let at = file.span();
@@ -403,9 +364,7 @@ fn spline(
 
 /// The points that are listed in the machine file itself.
 fn listed(points: &Spanned<Vec<(Number, Number)>>) -> Result<Vec<(f64, f64)>, Complaint> {
-    let read = |(v, mu): &(Number, Number)| {
-        Ok((v.read()?.as_a(Dimension::VELOCITY, "m/s")?, mu.read()?.as_a(Dimension::ONE, "")?))
-    };
+    let read = |(v, mu): &(Number, Number)| Ok((v.in_unit("m/s")?, mu.in_unit("")?));
     let number = points.get_ref().iter().enumerate();
     number
         .map(|(index, point)| {

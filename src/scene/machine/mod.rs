@@ -5,7 +5,6 @@ pub mod library;
 pub mod mode;
 pub mod path;
 pub mod table;
-pub mod unit;
 pub mod unlikely;
 
 mod description;

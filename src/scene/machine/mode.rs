@@ -4,9 +4,9 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::file::{Number, StartTable, duration, number, polynomial, quantity_as};
+use super::file::{Number, StartTable, duration, exact, or_usual, polynomial};
 use crate::machine::Modal;
-use crate::oscillator::belt::{Dimension, Quantity};
+use crate::oscillator::Knob;
 use crate::scene::misread::{self, Complaint, Misread};
 
 /// A vibration mode, and the start of its motion.
@@ -59,15 +59,12 @@ pub fn parse(name: &str, file: &str, text: &str) -> Result<Mode, Misread> {
 }
 
 fn mode(name: &str, read: &ModeFile) -> Result<Mode, Complaint> {
-    /// Allowed frequencies, in Hz.
-    const FREQUENCIES: (f64, f64) = (1e-9, 1e12);
-    let rate = Dimension::new(0, 0, -1);
-    let frequency = number("frequency", Some(&read.frequency), rate, "Hz", FREQUENCIES, 1.0)?;
-    let mass = quantity_as("modal_mass", Quantity::Mass, &read.modal_mass)?;
-    let damping_ratio = polynomial("damping_ratio", read.damping_ratio.get_ref())?;
-    let guide = |given| quantity_as("R", Quantity::Friction, given);
-    let moving = read.guide.as_ref().map(guide).transpose()?.unwrap_or(0.0);
-    let static_guide = read.guide_static.as_ref().map(guide).transpose()?;
+    let frequency = exact(Knob::Frequency, &read.frequency)?;
+    let mass = exact(Knob::ModalMass, &read.modal_mass)?;
+    let damping_ratio = polynomial("ratio", read.damping_ratio.get_ref(), exact)?;
+    let moving = or_usual(Knob::Friction, read.guide.as_ref())?;
+    let at_rest = read.guide_static.as_ref();
+    let static_guide = at_rest.map(|given| exact(Knob::StaticGuide, given)).transpose()?;
     let numbers = Modal { frequency, mass, damping_ratio, friction: moving, static_guide };
     numbers
         .model()

@@ -7,8 +7,8 @@
 use super::Machine;
 use crate::flow::Problem;
 use crate::numerics::elementary::powi;
-use crate::oscillator::belt::{Quantity, Reduced};
-use crate::oscillator::{Parameters, State, Symbol};
+use crate::oscillator::belt::Reduced;
+use crate::oscillator::{Knob, Parameters, State};
 
 /// A machine with its belt at a speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ impl<'a> Running<'a> {
     /// The machine with its belt at `speed` m/s instead of its own speed. Fails with one line that says what is
     /// allowed: the range of speeds, or what the friction law lacks there.
     pub fn at(machine: &'a Machine, speed: f64) -> Result<Self, String> {
-        let speed = Quantity::BeltSpeed.check(speed).map_err(|refused| refused.to_string())?;
+        let speed = Knob::BeltSpeed.check(speed).map_err(|refused| refused.to_string())?;
         let reduced = machine.belt.reduce_at(speed).map_err(|refused| refused.to_string())?;
         Ok(Running { machine, speed, reduced })
     }
@@ -58,40 +58,37 @@ impl<'a> Running<'a> {
         Problem { parameters: other.reduced.parameters, initial, ..problem }
     }
 
-    /// The quantity of the machine that a number of the motion determines while all else is fixed: its name,
-    /// its value in SI units, and the unit. D determines the damper d1, D3 determines d3, and r determines R.
+    /// The number of the machine that a number of the motion determines while all else is fixed, and its value in
+    /// SI units. D determines the damper d1, D3 determines d3, and r determines R.
     ///
     /// `None` for D2, which no single part of the machine determines.
-    pub fn meaning(&self, symbol: Symbol, value: f64) -> Option<(&'static str, f64, &'static str)> {
+    pub fn meaning(&self, symbol: Knob, value: f64) -> Option<(Knob, f64)> {
         let Reduced { mu, .. } = &self.reduced;
-        let belt = &self.machine.belt;
+        let force = self.machine.belt.normal_force;
+        let whole = value * self.scale(symbol);
         Some(match symbol {
-            Symbol::D => {
-                let whole = value * self.scale(symbol);
-                ("d1", rest_of(whole, belt.normal_force * mu.first), "N s/m")
-            }
-            Symbol::D2 => return None,
-            Symbol::D3 => {
-                let whole = value * self.scale(symbol);
-                ("d3", rest_of(whole, belt.normal_force * mu.third / 6.0), "N s^3/m^3")
-            }
-            Symbol::R => ("R", value * self.scale(symbol), "N"),
-            Symbol::Q0 => ("x", value * self.scale(symbol), "m"),
-            Symbol::V0 => ("v", value * self.scale(symbol), "m/s"),
+            Knob::D => (Knob::Damping, rest_of(whole, force * mu.first)),
+            Knob::D3 => (Knob::CubicDamping, rest_of(whole, force * mu.third / 6.0)),
+            Knob::R => (Knob::Friction, whole),
+            Knob::Q0 => (Knob::X, whole),
+            Knob::V0 => (Knob::V, whole),
+            _ => return None,
         })
     }
 
-    /// The unit of a number of the motion, in SI units; for D2, that of damping per velocity.
-    pub fn scale(&self, symbol: Symbol) -> f64 {
+    /// The unit of a number of the motion, in SI units; for D2, that of damping per velocity. A number of the machine is
+    /// in SI units itself.
+    pub fn scale(&self, symbol: Knob) -> f64 {
         let units = &self.reduced.units;
         let mass = self.machine.belt.mass;
         match symbol {
-            Symbol::D => 2.0 * mass * units.omega_0,
-            Symbol::D2 => mass / units.displacement,
-            Symbol::D3 => mass / (units.omega_0 * powi(units.displacement, 2)),
-            Symbol::R => units.force,
-            Symbol::Q0 => units.displacement,
-            Symbol::V0 => units.velocity,
+            Knob::D => 2.0 * mass * units.omega_0,
+            Knob::D2 => mass / units.displacement,
+            Knob::D3 => mass / (units.omega_0 * powi(units.displacement, 2)),
+            Knob::R => units.force,
+            Knob::Q0 => units.displacement,
+            Knob::V0 => units.velocity,
+            _ => 1.0,
         }
     }
 
@@ -122,17 +119,17 @@ mod tests {
             let scaled = ScaledMachine::new(machine.clone()).unwrap();
             let (problem, running) = (scaled.problem(), scaled.running());
             for (symbol, expected) in [
-                (Symbol::D, machine.belt.get(Quantity::Damping)),
-                (Symbol::D3, machine.belt.get(Quantity::CubicDamping)),
-                (Symbol::R, machine.belt.get(Quantity::Friction)),
-                (Symbol::Q0, machine.displacement),
-                (Symbol::V0, machine.velocity),
+                (Knob::D, machine.belt.damping),
+                (Knob::D3, machine.belt.cubic_damping),
+                (Knob::R, machine.belt.friction),
+                (Knob::Q0, machine.displacement),
+                (Knob::V0, machine.velocity),
             ] {
                 let value = symbol.get(&problem.parameters, &problem.initial);
-                let (name, found, _) = running.meaning(symbol, value).unwrap();
+                let (name, found) = running.meaning(symbol, value).unwrap();
                 let size = match symbol {
-                    Symbol::D => machine.belt.normal_force * scaled.reduced.mu.first,
-                    Symbol::D3 => machine.belt.normal_force * scaled.reduced.mu.third,
+                    Knob::D => machine.belt.normal_force * scaled.reduced.mu.first,
+                    Knob::D3 => machine.belt.normal_force * scaled.reduced.mu.third,
                     _ => 0.0,
                 };
                 let scale = expected.abs() + size.abs();
@@ -148,12 +145,12 @@ mod tests {
     #[test]
     fn a_damper_that_a_machine_does_not_have_is_zero_at_every_speed() {
         let mut looked = 0;
-        for machine in machines().iter().filter(|it| it.belt.get(Quantity::CubicDamping) == 0.0) {
+        for machine in machines().iter().filter(|it| it.belt.cubic_damping == 0.0) {
             for percent in 50..150_u8 {
                 let speed = f64::from(percent) / 100.0 * machine.belt.belt_speed;
                 let Ok(running) = Running::at(machine, speed) else { continue };
                 let value = running.reduced.parameters.d3;
-                let (_, found, _) = running.meaning(Symbol::D3, value).unwrap();
+                let (_, found) = running.meaning(Knob::D3, value).unwrap();
                 assert_eq!(found, 0.0, "{} at {speed} m/s", machine.name);
                 looked += 1;
             }
@@ -177,7 +174,7 @@ mod tests {
             // A start chosen by the user keeps its place in metres, up to rounding.
             let initial = State { q: 0.7, v: -0.3 };
             let moved = own.running().brought_to(&running, Problem { initial, ..own.problem() });
-            for (symbol, value) in [(Symbol::Q0, 0.7), (Symbol::V0, -0.3)] {
+            for (symbol, value) in [(Knob::Q0, 0.7), (Knob::V0, -0.3)] {
                 let before = own.running().meaning(symbol, value).unwrap().1;
                 let after = symbol.get(&moved.parameters, &moved.initial);
                 let after = running.meaning(symbol, after).unwrap().1;

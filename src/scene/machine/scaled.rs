@@ -8,8 +8,7 @@ use super::description::Machine;
 use super::running::Running;
 use crate::flow::Problem;
 use crate::oscillator::belt::{BeltError, Reduced};
-use crate::oscillator::{State, Symbol};
-use crate::scene::usual::TOLERANCE;
+use crate::oscillator::{Knob, State};
 
 /// A machine with its dimensionless form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,17 +45,16 @@ impl ScaledMachine {
             parameters: self.reduced.parameters,
             initial: self.running().start(),
             until: self.machine.until / self.reduced.units.time,
-            tolerance: TOLERANCE,
             ..Problem::default()
         }
     }
 
     /// The terms of the model that the machine needs: D and r always, D2 and D3 where they are not zero.
-    pub fn terms(&self) -> BTreeSet<Symbol> {
+    pub fn terms(&self) -> BTreeSet<Knob> {
         let parameters = &self.reduced.parameters;
-        let has = |symbol: &Symbol| symbol.get(parameters, &State { q: 0.0, v: 0.0 }) != 0.0;
-        let varied = [Symbol::D2, Symbol::D3].into_iter().filter(has);
-        [Symbol::D, Symbol::R].into_iter().chain(varied).collect()
+        let has = |symbol: &Knob| symbol.get(parameters, &State { q: 0.0, v: 0.0 }) != 0.0;
+        let varied = [Knob::D2, Knob::D3].into_iter().filter(has);
+        [Knob::D, Knob::R].into_iter().chain(varied).collect()
     }
 
     /// The machine with its belt at its own speed.

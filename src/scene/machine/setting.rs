@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::Machine;
-use crate::oscillator::belt::{Outside, QUANTITIES, Quantity};
+use crate::oscillator::{Group, Knob, OutOfRange};
 
 /// The speed of a belt and the other numbers of a machine that were changed, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -13,8 +13,8 @@ use crate::oscillator::belt::{Outside, QUANTITIES, Quantity};
 pub struct Setting {
     /// Speed v0 of the belt.
     pub speed: f64,
-    /// The other numbers, in the order of [`QUANTITIES`]; `None` where the file's value holds.
-    others: [Option<f64>; QUANTITIES.len() - 1],
+    /// The other numbers, in the order of the table; `None` where the file's value holds.
+    others: [Option<f64>; Group::Machine.count()],
 }
 
 /// A setting as it is saved: a speed alone, or all changed numbers by name.
@@ -30,10 +30,8 @@ impl From<Setting> for Written {
         if !setting.differs() {
             return Written::Speed(setting.speed);
         }
-        let numbers = QUANTITIES
-            .iter()
-            .filter_map(|row| Some((row.name.to_owned(), setting.get(row.quantity)?)));
-        Written::Numbers(numbers.collect())
+        let set = |knob: Knob| Some((knob.to_string(), setting.get(knob)?));
+        Written::Numbers(Group::Machine.knobs().filter_map(set).collect())
     }
 }
 
@@ -48,8 +46,7 @@ impl TryFrom<Written> for Setting {
         let speed = numbers.get("v0").ok_or("a machine without the speed v0 of its belt")?;
         let mut setting = Setting::of_speed(*speed);
         for (name, value) in &numbers {
-            let quantity = Quantity::named(name).ok_or_else(|| format!("no number {name:?}"))?;
-            setting = setting.with(quantity, *value);
+            setting = setting.with(Knob::named(name, &[Group::Machine])?, *value);
         }
         Ok(setting)
     }
@@ -58,22 +55,22 @@ impl TryFrom<Written> for Setting {
 impl Setting {
     /// The setting with this belt speed and all other numbers from the file.
     pub fn of_speed(speed: f64) -> Self {
-        Setting { speed, others: [None; QUANTITIES.len() - 1] }
+        Setting { speed, others: [None; Group::Machine.count()] }
     }
 
     /// A number that is set; `None` where the file's value holds.
-    pub fn get(&self, quantity: Quantity) -> Option<f64> {
-        match quantity {
-            Quantity::BeltSpeed => Some(self.speed),
-            other => self.others[other as usize],
+    pub fn get(&self, knob: Knob) -> Option<f64> {
+        match knob {
+            Knob::BeltSpeed => Some(self.speed),
+            other => self.others[other.place()],
         }
     }
 
     /// This setting with another value of one number.
-    pub fn with(mut self, quantity: Quantity, value: f64) -> Self {
-        match quantity {
-            Quantity::BeltSpeed => self.speed = value,
-            other => self.others[other as usize] = Some(value),
+    pub fn with(mut self, knob: Knob, value: f64) -> Self {
+        match knob {
+            Knob::BeltSpeed => self.speed = value,
+            other => self.others[other.place()] = Some(value),
         }
         self
     }
@@ -84,9 +81,9 @@ impl Setting {
     }
 
     /// Checks all numbers against their ranges. Fails with the first one that is outside.
-    pub fn checked(self) -> Result<Self, Outside> {
-        for row in &QUANTITIES {
-            self.get(row.quantity).map_or(Ok(0.0), |value| row.quantity.check(value))?;
+    pub fn checked(self) -> Result<Self, OutOfRange> {
+        for knob in Group::Machine.knobs() {
+            self.get(knob).map_or(Ok(0.0), |value| knob.check(value))?;
         }
         Ok(self)
     }
@@ -95,9 +92,10 @@ impl Setting {
     /// it would be less.
     pub fn on(&self, machine: &Machine) -> Machine {
         let mut set = machine.clone();
-        for row in &QUANTITIES {
-            if let Some(value) = self.get(row.quantity) {
-                set.belt.set(row.quantity, value);
+        for knob in Group::Machine.knobs() {
+            if let Some(value) = self.get(knob) {
+                // A belt has all numbers of this group.
+                let _ = knob.set_in_belt(&mut set.belt, value);
             }
         }
         let moving = set.belt.friction;

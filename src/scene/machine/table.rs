@@ -1,7 +1,6 @@
 //! Tables of friction, in the form of measured data.
 
-use super::unit::measured;
-use crate::oscillator::belt::Dimension;
+use crate::oscillator::unit::quantity;
 
 /// Reads a table. Each line has a velocity and a coefficient of friction, separated by a comma, or by a
 /// semicolon or a tab (numbers may then have a decimal comma). `#` begins a comment, and the first line may
@@ -35,12 +34,11 @@ pub fn table(file: &str, text: &str) -> Result<Vec<(f64, f64)>, String> {
             continue;
         }
         let velocity = if v.ends_with(|last: char| last.is_ascii_digit() || last == '.') {
-            measured(&format!("{v} {unit}"))
+            quantity(&format!("{v} {unit}"), "m/s")
         } else {
-            measured(v)
+            quantity(v, "m/s")
         };
-        let velocity = velocity.and_then(|read| read.as_a(Dimension::VELOCITY, "m/s"));
-        let mu = measured(mu).and_then(|read| read.as_a(Dimension::ONE, ""));
+        let mu = quantity(mu, "");
         points.push((
             velocity.map_err(|message| wrong(&message))?,
             mu.map_err(|message| wrong(&message))?,

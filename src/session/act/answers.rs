@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::fit::Unfit;
 use crate::flow::{Problem, Reason};
-use crate::oscillator::PARAMETERS;
+use crate::oscillator::Knob;
 use crate::question::{NoAnswer, Rows};
 use crate::scene::{Answer, Answered, Fit, Topic, View};
 use crate::session::act::notice::{inform, refuse};
@@ -52,8 +52,7 @@ impl Session {
             Err(unfit) => return drop(refuse(self, unfit.to_string())),
         };
         let problem = found.problem(self.scene.problem);
-        let errors =
-            PARAMETERS.iter().filter_map(|row| Some((row.symbol, found.error(row.symbol)?)));
+        let errors = Knob::MOTION.into_iter().filter_map(|knob| Some((knob, found.error(knob)?)));
         let said = sentences(&found.fit);
         let scene = Arc::make_mut(&mut self.scene);
         // A step below one standard error would mean nothing.
@@ -115,8 +114,8 @@ pub(in crate::session) fn follow_fit(session: &mut Session) {
         return;
     };
     let Problem { parameters: own, initial: start, .. } = &mut session.problem;
-    for row in PARAMETERS.iter().filter(|row| !session.doubt.holds(row.symbol)) {
-        row.symbol.set(own, start, row.symbol.get(&parameters, &initial));
+    for knob in Knob::MOTION.into_iter().filter(|knob| !session.doubt.holds(*knob)) {
+        knob.set(own, start, knob.get(&parameters, &initial));
     }
 }
 

@@ -1,7 +1,8 @@
 //! Commands that change the axes of diagrams and charts.
 
+use crate::oscillator::Knob;
 use crate::scene::ordinate::usual_values;
-use crate::scene::{ABSCISSAE, Axes, ORDINATES, PlotSetup, Span, Unit, View, Window};
+use crate::scene::{Axes, ORDINATES, PlotSetup, Span, Unit, View, Window};
 use crate::session::act::notice::{inform, refuse};
 use crate::session::effect::Effect;
 use crate::session::state::plot::Plot;
@@ -10,12 +11,16 @@ use crate::session::state::session::Session;
 /// Factor for room beside the present value if it lies outside of the first range.
 const ROOM: f64 = 1.25;
 
+/// The parameter that many places later in the table, cycling.
+fn after(parameter: Knob, places: usize) -> Knob {
+    Knob::PARAMETERS[(parameter.place() + places) % Knob::PARAMETERS.len()]
+}
+
 /// Draws the diagram in focus over the next parameter, cycling; this needs another branch.
 pub fn next_abscissa(session: &mut Session) -> Vec<Effect> {
     let Some(plot) = session.focused() else { return Vec::new() };
     let axes = plot.axes;
-    let at = ABSCISSAE.iter().position(|(symbol, _)| *symbol == axes.abscissa).unwrap_or(0);
-    let (symbol, _) = ABSCISSAE[(at + 1) % ABSCISSAE.len()];
+    let symbol = after(axes.abscissa, 1);
     set(session, Axes { abscissa: symbol, ..axes });
     inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning))
 }
@@ -25,9 +30,8 @@ pub fn next_of_chart(session: &mut Session, upwards: bool) -> Vec<Effect> {
     let Some(plot) = session.focused_mut() else { return Vec::new() };
     let Axes { abscissa, against, .. } = plot.axes;
     let (present, other) = if upwards { (against, abscissa) } else { (abscissa, against) };
-    let at = ABSCISSAE.iter().position(|(symbol, _)| *symbol == present).unwrap_or(0);
-    let later = (1..ABSCISSAE.len()).map(|step| ABSCISSAE[(at + step) % ABSCISSAE.len()].0);
-    let Some(symbol) = later.into_iter().find(|symbol| *symbol != other) else { return Vec::new() };
+    let next = after(present, 1);
+    let symbol = if next == other { after(present, 2) } else { next };
     let axis = if upwards { &mut plot.axes.against } else { &mut plot.axes.abscissa };
     *axis = symbol;
     // No scene sets a window for these axes: starts from the usual one, which is then fitted to include the

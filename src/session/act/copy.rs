@@ -4,8 +4,7 @@
 use crate::flow::Problem;
 use crate::flow::method::Dial;
 use crate::numerics::decimal::shortest;
-use crate::oscillator::parameters::ParameterSpec;
-use crate::oscillator::{PARAMETERS, Symbol};
+use crate::oscillator::Knob;
 use crate::scene::{Axes, View};
 use crate::session::act::notice::refuse;
 use crate::session::effect::Effect;
@@ -124,8 +123,7 @@ fn belonging(session: &Session) -> Vec<NamedNumber> {
             columns.iter().zip(values).map(|(name, value)| (name.to_string(), measured(value))),
         );
     }
-    let value = |row: &ParameterSpec| row.symbol.get(&problem.parameters, &problem.initial);
-    all.extend(PARAMETERS.iter().map(|row| named(row.name, value(row))));
+    all.extend(Knob::MOTION.map(|knob| named(knob.spec().name, problem.get(knob))));
     all
 }
 
@@ -136,10 +134,10 @@ pub fn command_line(session: &Session) -> String {
     let diagram = session.focused().filter(|plot| plot.view == View::Diagram);
     let abscissa = diagram.map(|plot| plot.axes.abscissa);
     let mut line = format!("hopfscope {}", if diagram.is_some() { "branch" } else { "trajectory" });
-    for row in &PARAMETERS {
-        let unused = matches!(row.symbol, Symbol::Q0 | Symbol::V0) || Some(row.symbol) == abscissa;
+    for knob in Knob::MOTION {
+        let unused = !knob.is_parameter() || Some(knob) == abscissa;
         if !(diagram.is_some() && unused) {
-            line += &format!(" --set {}={}", row.name, shortest(session.value(row.symbol)));
+            line += &format!(" --set {knob}={}", shortest(session.value(knob)));
         }
     }
     if let Some(plot) = diagram {

@@ -1,16 +1,13 @@
 //! Typing a value: the line opens, takes characters, and its text is accepted or refused.
 
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
-use crate::numerics::decimal::shortest;
-use crate::oscillator::belt::{Dimension, Quantity};
-use crate::oscillator::{Interval, ParameterBox, Symbol};
-use crate::scene::machine::file::value_of;
-use crate::scene::machine::unit::{measured, toleranced};
+use crate::oscillator::Knob;
+use crate::oscillator::unit::measured;
 use crate::session::act::notice::warn_of_units;
 use crate::session::act::parameters::put;
 use crate::session::effect::Effect;
 use crate::session::message::key::Key;
-use crate::session::read::numbers::{range, typed, with_number};
+use crate::session::read::numbers::{typed, with_number};
 use crate::session::state::doubt::{Doubt, symbol_of};
 use crate::session::state::overlay::{Entry, Overlay};
 use crate::session::state::rows::Row;
@@ -22,9 +19,7 @@ pub fn edit(session: &mut Session) -> Vec<Effect> {
     let row = session.selected;
     let text = match row {
         Row::Method => session.problem.method.to_string(),
-        Row::Quantity(quantity) => {
-            format!("{} {}", shortest(session.quantity(quantity)), quantity.spec().unit)
-        }
+        Row::Quantity(quantity) => quantity.print(session.quantity(quantity)),
         Row::Parameter(_) | Row::Disturbance | Row::Until | Row::Tolerance => {
             typed(&session.setup(), row)
         }
@@ -66,7 +61,7 @@ pub(in crate::session) fn read(
     text: &str,
 ) -> Result<Setup, String> {
     if let Row::Quantity(quantity) = row {
-        return built(session, setup, quantity, &plain_minus(text));
+        return built(session, setup, quantity, text);
     }
     if row == Row::Disturbance {
         return disturbed(session, setup, text);
@@ -80,14 +75,9 @@ pub(in crate::session) fn read(
 
 /// The setup with the typed number of the machine. It may have a tolerance if a parameter corresponds to it;
 /// without one, it is known exactly.
-fn built(
-    session: &Session,
-    setup: &Setup,
-    quantity: Quantity,
-    text: &str,
-) -> Result<Setup, String> {
-    let read = toleranced(&text.replace('\u{b1}', "+-"))?;
-    let built = session.with_quantity(setup, quantity, value_of(quantity, &read.middle)?)?;
+fn built(session: &Session, setup: &Setup, quantity: Knob, text: &str) -> Result<Setup, String> {
+    let read = quantity.parse_toleranced(text)?;
+    let built = session.with_quantity(setup, quantity, read.middle.value)?;
     if read.half_width == 0.0 && symbol_of(quantity).is_none() {
         return Ok(built);
     }
@@ -97,46 +87,25 @@ fn built(
 
 /// The setup with the typed bound on the disturbance, in the unit of r or with a unit of force.
 fn disturbed(session: &Session, setup: &Setup, text: &str) -> Result<Setup, String> {
-    let refused = || format!("{text:?} is not a disturbance; w takes 0 or more");
-    let read = measured(&plain_minus(text)).map_err(|_| refused())?;
-    let unit = match read.dimension {
-        None => 1.0,
-        Some(_) => session.unit_of_force(setup)?,
+    let has_unit = measured(text).is_ok_and(|read| read.dimension.is_some());
+    let disturbance = if has_unit {
+        Knob::DisturbingForce.parse(text)? / session.unit_of_force(setup)?
+    } else {
+        Knob::Disturbance.parse(text)?
     };
-    let value = read.as_a(Dimension::FORCE, "N")? / unit;
-    let disturbance = Some(value).filter(|it| *it >= 0.0).ok_or_else(refused)?;
-    Ok(Setup { doubt: Doubt { disturbance: disturbance + 0.0, ..setup.doubt }, ..*setup })
+    Ok(Setup { doubt: Doubt { disturbance, ..setup.doubt }, ..*setup })
 }
 
 /// The setup with the typed value of a parameter, which may have a half width; without one, it is known
 /// exactly.
-fn within(setup: &Setup, symbol: Symbol, text: &str) -> Result<Setup, String> {
-    let row = Row::Parameter(symbol);
-    let typed = plain_minus(text).replace('\u{b1}', "+-");
-    if !(typed.contains("+-") || typed.contains("..")) {
-        let problem = read_number(setup.problem, row, text)?;
-        let doubt = setup.doubt.with_half_width(symbol, 0.0).unwrap_or(setup.doubt);
-        return Ok(Setup { problem, doubt, ..*setup });
+fn within(setup: &Setup, knob: Knob, text: &str) -> Result<Setup, String> {
+    let read = knob.parse_toleranced(text)?;
+    let mut setup = *setup;
+    setup.problem.set(knob, read.middle.value);
+    if read.half_width > 0.0 || knob.is_parameter() {
+        setup.doubt = setup.doubt.with_half_width(knob, read.half_width)?;
     }
-    let known: Interval = typed.parse()?;
-    let mut within = ParameterBox::from(&setup.problem.parameters);
-    within.set(symbol, known)?;
-    // The typed numbers themselves, not the outward-rounded ends that enclose them.
-    let (value, half) = match typed.split_once("+-") {
-        Some((value, half)) => (number_in(value)?, number_in(half)?),
-        None => (known.middle(), 0.5 * known.upper() - 0.5 * known.lower()),
-    };
-    let problem = with_number(setup.problem, row, value + 0.0);
-    Ok(Setup { problem, doubt: setup.doubt.with_half_width(symbol, half)?, ..*setup })
-}
-
-fn number_in(text: &str) -> Result<f64, String> {
-    text.trim().parse().map_err(|_| format!("{text:?} is not a number"))
-}
-
-/// Replaces the typographic minus sign, which documents use.
-fn plain_minus(text: &str) -> String {
-    text.trim().replace('\u{2212}', "-")
+    Ok(setup)
 }
 
 /// The motion with the typed value in a row.
@@ -154,20 +123,5 @@ fn read_number(problem: Problem, row: Row, text: &str) -> Result<Problem, String
     {
         return Ok(problem.at(quality));
     }
-    let name = row.name_in(&problem);
-    let (min, max) = range(&problem, row);
-    let takes = format!("{name} takes {} to {}", shortest(min), shortest(max));
-    let value: f64 =
-        plain_minus(text).parse().map_err(|_| format!("{text:?} is not a number; {takes}"))?;
-    if !value.is_finite() {
-        return Err(format!("{text} is not a finite number; {takes}"));
-    }
-    if !(min..=max).contains(&value) {
-        return Err(format!("{name} = {text} is out of range; {takes}"));
-    }
-    if let Row::Parameter(symbol) = row {
-        symbol.spec().check(value).map_err(|refused| refused.to_string())?;
-    }
-    // Adding 0.0 turns -0.0 into 0.0.
-    Ok(with_number(problem, row, value + 0.0))
+    Ok(with_number(problem, row, row.knob_in(&problem).parse(text)?))
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::fit::Unfit;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::scene::{Answer, Answered, Scene, Topic};
 use crate::session::act::notice::{inform, refuse};
 use crate::session::act::screen_setup::set_up;
@@ -126,7 +126,7 @@ pub(in crate::session) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
 
 /// Makes the present state the start of a session: its scene opens like this, with these parameters added to
 /// its own, and the history is empty.
-pub(in crate::session) fn begin(session: &mut Session, names: Vec<Symbol>) {
+pub(in crate::session) fn begin(session: &mut Session, names: Vec<Knob>) {
     let mut scene = Arc::clone(&session.scene);
     let opens = Arc::make_mut(&mut scene);
     opens.problem = session.problem;

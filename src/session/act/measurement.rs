@@ -4,9 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::fit::names::{Choice, NAMES, assigned, listed, named};
 use crate::fit::{Column, Inertia, LENGTHS, LOSSES, LossName, Reading, length_in_metres, parse};
-use crate::oscillator::belt::Dimension;
+use crate::oscillator::Knob;
 use crate::question::Opened;
-use crate::scene::machine::unit::measured;
 use crate::session::effect::{Done, Effect};
 use crate::session::message::Purpose;
 
@@ -51,9 +50,9 @@ fn said(words: &str) -> Result<Said, String> {
     let mut said = Said::default();
     for (name, value) in given {
         match name {
-            "mass" => said.inertia = Some(Inertia::Mass(positive(&value, (1, 0, 0), "kg")?)),
+            "mass" => said.inertia = Some(Inertia::Mass(Knob::Mass.parse(&value)?)),
             "stiffness" => {
-                said.inertia = Some(Inertia::Stiffness(positive(&value, (1, 0, -2), "N/m")?));
+                said.inertia = Some(Inertia::Stiffness(Knob::Stiffness.parse(&value)?));
             }
             "unit" => said.unit = Some(value),
             "columns" => (said.reading.time, said.reading.displacement) = columns(&value)?,
@@ -81,11 +80,6 @@ fn loss(text: &str) -> Result<LossName, String> {
     let found = LOSSES.iter().find(|(name, _)| *name == text).map(|(_, loss)| *loss);
     let names = LOSSES.map(|(name, _)| name).join(", ");
     found.ok_or_else(|| format!("loss={text}; allowed are {names}"))
-}
-
-fn positive(text: &str, (kg, m, s): (i8, i8, i8), unit: &str) -> Result<f64, String> {
-    let value = measured(text)?.as_a(Dimension::new(kg, m, s), unit)?;
-    if value > 0.0 { Ok(value) } else { Err(format!("{text:?} is not positive")) }
 }
 
 /// The columns of times and displacements, by number from 1 or by name.

@@ -6,18 +6,18 @@ use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::machine::stepped::SteppedMethod;
 use crate::numerics::decimal::shortest;
 use crate::numerics::elementary::log10;
-use crate::oscillator::PARAMETERS;
-use crate::oscillator::belt::Quantity;
+use crate::oscillator::{Knob, KnobSpec};
 use crate::scene::{Running, Setting, View};
 use crate::session::act::notice::{inform, refuse};
 use crate::session::effect::Effect;
-use crate::session::read::numbers::{number, range, with_number};
+use crate::session::read::numbers::{number, with_number};
 use crate::session::state::doubt::Doubt;
 use crate::session::state::history::Before;
 use crate::session::state::plot::{Framing, Plot};
 use crate::session::state::rows::{Row, Steps};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
+use crate::session::state::step_size::StepSize;
 
 /// Changes the motion on show, as one change that can be undone; the belt keeps its speed. Returns whether
 /// anything differs.
@@ -45,10 +45,9 @@ pub(in crate::session) fn put(session: &mut Session, setup: &Setup) -> bool {
 fn holding(session: &Session, before: &Setup, mut setup: Setup) -> Setup {
     // A mark determines what is held.
     if session.scene.recording.is_some() && setup.doubt.held == before.doubt.held {
-        for row in &PARAMETERS {
-            let value = |problem: &Problem| row.symbol.get(&problem.parameters, &problem.initial);
-            if value(&setup.problem) != value(&before.problem) {
-                setup.doubt.held[row.symbol as usize] = true;
+        for knob in Knob::MOTION {
+            if setup.problem.get(knob) != before.problem.get(knob) {
+                setup.doubt.held[knob as usize] = true;
             }
         }
     }
@@ -73,39 +72,43 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
         Row::Parameter(_) | Row::Until => {}
     }
     let row = session.selected;
-    let Some(size) = session.steps.of(row) else { return Vec::new() };
-    let (min, max) = range(&session.problem, row);
+    let Some(size) = session.steps.of_row(row) else { return Vec::new() };
+    let knob = row.knob_in(&session.problem);
     let value = number(&session.setup(), row);
-    let stepped = size.from(value, count).clamp(min, max);
-    if let Row::Parameter(symbol) = row
-        && let Err(refused) = symbol.spec().check(stepped)
-    {
+    let (stepped, why) = stepped(knob, size, value, count);
+    if let Err(refused) = knob.check(stepped) {
         return refuse(session, refused.to_string());
     }
     let changed = with_number(session.problem, row, stepped);
     if !change(session, changed) {
-        let name = row.name_in(&session.problem);
-        let why = if (min..=max).contains(&size.from(value, count)) {
-            format!("the step is too small to change {name} = {}", shortest(value))
-        } else {
-            format!("{name} ends at {}", shortest(stepped))
-        };
         refuse(session, why);
     }
     Vec::new()
 }
 
+/// A value after some steps, within its range, and why it stays where it does.
+fn stepped(knob: Knob, size: StepSize, value: f64, count: i32) -> (f64, String) {
+    let KnobSpec { symbol, min, max, .. } = *knob.spec();
+    let wanted = size.from(value, count);
+    let why = if (min..=max).contains(&wanted) {
+        format!("the step is too small to change {symbol} = {}", knob.print(value))
+    } else {
+        knob.at_end(value)
+    };
+    (wanted.clamp(min, max), why)
+}
+
 /// Steps a number of the machine; if the parameters are off the belt, this leads back onto it. A value out of
 /// range is refused and not clamped: the end of the range of speeds, far below that of any belt, would be no
 /// useful place to stop.
-fn step_machine(session: &mut Session, quantity: Quantity, count: i32) -> Vec<Effect> {
-    let Some(size) = session.steps.of(Row::Quantity(quantity)) else { return Vec::new() };
+fn step_machine(session: &mut Session, quantity: Knob, count: i32) -> Vec<Effect> {
+    let Some(size) = session.steps.of_row(Row::Quantity(quantity)) else { return Vec::new() };
     let value = size.from(session.quantity(quantity), count);
     match session.with_quantity(&session.setup(), quantity, value) {
         Ok(setup) if put(session, &setup) => Vec::new(),
         Ok(_) => {
-            let unit = quantity.spec().unit;
-            refuse(session, format!("the step is too small to change {} {unit}", shortest(value)))
+            let (_, why) = stepped(quantity, size, session.quantity(quantity), count);
+            refuse(session, why)
         }
         Err(why) => refuse(session, why),
     }
@@ -113,11 +116,12 @@ fn step_machine(session: &mut Session, quantity: Quantity, count: i32) -> Vec<Ef
 
 /// Steps the bound on the disturbance, which stays at least 0.
 fn step_disturbance(session: &mut Session, count: i32) -> Vec<Effect> {
+    let Some(size) = session.steps.of_row(Row::Disturbance) else { return Vec::new() };
     let present = session.setup();
-    let stepped = session.steps.disturbance.from(present.doubt.disturbance, count).max(0.0);
-    let doubt = Doubt { disturbance: stepped, ..present.doubt };
+    let (disturbance, why) = stepped(Knob::Disturbance, size, present.doubt.disturbance, count);
+    let doubt = Doubt { disturbance, ..present.doubt };
     if !put(session, &Setup { doubt, ..present }) {
-        refuse(session, "w ends at 0");
+        refuse(session, why);
     }
     Vec::new()
 }
@@ -128,7 +132,7 @@ pub fn half_width(session: &mut Session, count: i32) -> Vec<Effect> {
     let Row::Parameter(symbol) = session.selected else {
         return refuse(session, "only D, D2, D3 and r have a half width");
     };
-    let step = session.steps.parameters[symbol as usize];
+    let Some(step) = session.steps.of_row(session.selected) else { return Vec::new() };
     let half = step.from(present.doubt.half_width(symbol), count).max(0.0);
     match present.doubt.with_half_width(symbol, half) {
         Ok(doubt) if put(session, &Setup { doubt, ..present }) => Vec::new(),
@@ -139,7 +143,7 @@ pub fn half_width(session: &mut Session, count: i32) -> Vec<Effect> {
 
 /// Makes the step size of the selected row larger or smaller.
 pub fn step_size(session: &mut Session, larger: bool) -> Vec<Effect> {
-    let Some(size) = session.steps.of_mut(session.selected) else {
+    let Some(size) = session.steps.of_row_mut(session.selected) else {
         return refuse(session, format!("{} has no step size", session.selected.name()));
     };
     *size = if larger { size.larger() } else { size.smaller() };
@@ -151,13 +155,19 @@ pub fn reset_row(session: &mut Session) -> Vec<Effect> {
     let row = session.selected;
     let (scene, present) = (session.scene.problem, session.setup());
     let steps = Steps::of_scene(&session.scene);
-    if let (Some(size), Some(wanted)) = (session.steps.of_mut(row), steps.of(row)) {
+    if let (Some(size), Some(wanted)) = (session.steps.of_row_mut(row), steps.of_row(row)) {
         *size = wanted;
     }
     let reset = match row {
         Row::Quantity(quantity) => session.scene.machine.as_ref().map_or_else(
             || Ok(present),
-            |scaled| session.with_quantity(&present, quantity, scaled.machine.belt.get(quantity)),
+            |scaled| {
+                session.with_quantity(
+                    &present,
+                    quantity,
+                    quantity.of_belt(&scaled.machine.belt).unwrap_or(0.0),
+                )
+            },
         ),
         Row::Method => {
             Ok(Setup { problem: Problem { method: scene.method, ..session.problem }, ..present })
@@ -204,27 +214,27 @@ pub fn dial(session: &mut Session, finer: bool) -> Vec<Effect> {
             change(session, session.problem.at(quality));
             let (dial, meaning) = (session.problem.method.spec().dial, quality.meaning);
             let setting = shortest(session.problem.setting());
-            inform(session, format!("{}: {} {setting}; {meaning}", quality.name, dial.name()))
+            inform(session, format!("{}: {} {setting}; {meaning}", quality.name, dial.knob()))
         }
-        None => refuse(session, format!("the dial ends at {}", end_of_dial(finer))),
+        None => refuse(session, format!("the accuracy is at its {}", end_of_dial(finer))),
     }
 }
 
-fn end_of_dial(finer: bool) -> &'static str {
-    let [first, .., last] = &QUALITIES;
-    if finer { last.name } else { first.name }
+fn end_of_dial(finer: bool) -> String {
+    let [coarsest, .., finest] = QUALITIES.map(|quality| quality.name);
+    if finer { format!("finest, {finest}") } else { format!("coarsest, {coarsest}") }
 }
 
 /// Multiplies the number that sets the accuracy by a power of ten.
 fn turn(session: &mut Session, decades: i32) -> Vec<Effect> {
-    let dial = session.problem.method.spec().dial;
-    let (min, max) = dial.range();
+    let knob = session.problem.method.spec().dial.knob();
+    let KnobSpec { min, max, .. } = *knob.spec();
     let exponent = log10(session.problem.setting()).round() + f64::from(decades);
     // Parsed, because the power of ten must be exact to the last bit, which powi does not guarantee.
     let setting = format!("1e{exponent}").parse().unwrap_or(max).clamp(min, max);
     let turned = session.problem.with_setting(setting);
     if !change(session, turned) {
-        refuse(session, format!("{} ends at {}", dial.name(), shortest(setting)));
+        refuse(session, knob.at_end(setting));
     }
     Vec::new()
 }

@@ -2,8 +2,8 @@
 
 use crate::flow::Problem;
 use crate::numerics::decimal::shortest;
+use crate::oscillator::Knob;
 use crate::oscillator::State;
-use crate::oscillator::belt::Quantity;
 use crate::scene::{PlotSetup, Point, Span, View, Window};
 use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::parameters::{change, put};
@@ -191,7 +191,7 @@ pub fn use_method(session: &mut Session) -> Vec<Effect> {
 /// Sets the belt to the speed under the cursor.
 pub fn take_speed(session: &mut Session) -> Vec<Effect> {
     let Some(Point { x, .. }) = cursor(session) else { return Vec::new() };
-    match session.with_quantity(&session.setup(), Quantity::BeltSpeed, x) {
+    match session.with_quantity(&session.setup(), Knob::BeltSpeed, x) {
         Ok(setup) => {
             put(session, &setup);
             Vec::new()
@@ -234,7 +234,7 @@ pub fn jump_here(session: &mut Session) -> Vec<Effect> {
     let upwards = (view == View::Regimes).then_some((axes.against, cursor.y));
     let mut problem = session.problem;
     for (symbol, value) in [(axes.abscissa, cursor.x)].into_iter().chain(upwards) {
-        match symbol.spec().check(value) {
+        match symbol.check(value) {
             Ok(value) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
             Err(refused) => return refuse(session, refused.to_string()),
         }

@@ -46,7 +46,7 @@ fn fresh(session: &Session) -> ScanForm {
         }
     }
     let Row::Parameter(symbol) = session.selected else {
-        return ScanForm::new(crate::oscillator::Symbol::D, (-0.9, 0.0));
+        return ScanForm::new(crate::oscillator::Knob::D, (-0.9, 0.0));
     };
     let (spec, value) = (symbol.spec(), session.value(symbol));
     let reach = 10.0 * spec.step;

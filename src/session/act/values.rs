@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use crate::oscillator::{Knob, unknown};
 use crate::scene::machine::library::machines;
 use crate::scene::{
-    ABSCISSAE, Axes, LAYERS, Layer, ORDINATES, Ordinate, ScaledMachine, Span, Unit, VIEWS, View,
-    Window, find,
+    Axes, LAYERS, Layer, ORDINATES, Ordinate, ScaledMachine, Span, Unit, VIEWS, View, Window, find,
 };
 use crate::session::act::notice::{inform, warn_of_units};
 use crate::session::act::{
@@ -26,11 +26,10 @@ fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 
 /// The row of the parameter pane with this name.
 fn row_named(session: &Session, name: &str) -> Result<Row, String> {
-    let all = || listed(rows(session).map(Row::name));
     // The command that sets only this row has that name.
     let name = if name == "tol" { Row::Tolerance.name() } else { name };
     let found = rows(session).find(|row| row.name() == name);
-    found.ok_or_else(|| format!("no value {name:?}; there are {}", all()))
+    found.ok_or_else(|| unknown(name, &rows(session).map(Row::name).collect::<Vec<_>>()))
 }
 
 /// Whether the value of this name may have a unit.
@@ -125,11 +124,10 @@ pub fn window(session: &mut Session, rest: &str) -> Done {
 /// Sets the axes of the diagram in use: a parameter, and optionally a property of the cycles.
 pub fn axes(session: &mut Session, rest: &str) -> Done {
     let (over, property) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
-    let allowed = || ABSCISSAE.iter().map(|(symbol, _)| symbol.spec().name);
-    let (abscissa, _) = ABSCISSAE
-        .iter()
-        .find(|(symbol, _)| symbol.spec().name == over)
-        .ok_or_else(|| format!("no diagram over {over:?}; there are {}", listed(allowed())))?;
+    let names = Knob::PARAMETERS.map(|knob| knob.spec().name);
+    let abscissa = Knob::PARAMETERS.into_iter().find(|knob| knob.spec().name == over);
+    let abscissa =
+        abscissa.ok_or_else(|| format!("no diagram over {over:?}; there are {}", listed(names)))?;
     let index = diagram(session).ok_or("no plot shows a diagram; view diagram makes one")?;
     let axes = session.plots[index].axes;
     let (ordinate, unit) = match property.trim() {
@@ -137,7 +135,7 @@ pub fn axes(session: &mut Session, rest: &str) -> Done {
         name => property_named(name)?,
     };
     focus::focus_on(session, Pane::Plot(index));
-    axis::set(session, Axes { abscissa: *abscissa, ordinate, unit, ..axes });
+    axis::set(session, Axes { abscissa, ordinate, unit, ..axes });
     Ok(Vec::new())
 }
 

@@ -83,8 +83,7 @@ fn moved(session: &mut Session, choose: impl Fn(&Way, &BranchStop) -> Option<Bra
 pub fn take(session: &mut Session) -> Vec<Effect> {
     let Some(held) = session.held else { return Vec::new() };
     let abscissa = session.plots[session.plot].axes.abscissa;
-    let spec = abscissa.spec();
-    let value = match spec.check(held.value) {
+    let value = match abscissa.check(held.value) {
         Ok(value) => value,
         Err(refused) => return refuse(session, refused.to_string()),
     };
@@ -100,7 +99,7 @@ pub fn take(session: &mut Session) -> Vec<Effect> {
     let start = held.cycle.map(|_| ", and the motion starts on its cycle").unwrap_or_default();
     let also = if variant.label.is_empty() { "" } else { ", " };
     let label = &variant.label;
-    inform(session, format!("{} = {}{also}{label}{start}", spec.name, shortest(value)))
+    inform(session, format!("{abscissa} = {}{also}{label}{start}", shortest(value)))
 }
 
 /// Ends the walk.

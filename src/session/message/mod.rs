@@ -5,7 +5,7 @@ pub mod pointer;
 
 use std::path::PathBuf;
 
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::question::NoAnswer;
 use crate::scene::{Answer, Answered, Request};
 use crate::session::message::key::Key;
@@ -29,7 +29,7 @@ pub enum Msg {
     /// A line of the command line, run without opening it: `<run "set D=-0.3">` in a keystroke file.
     Run(String),
     /// The present state is the start of the session; these parameters belong to its scene.
-    Start(Vec<Symbol>),
+    Start(Vec<Knob>),
     /// A caption of a tour, shown until the next one; an empty one ends that. If known, the number of the
     /// caption and the number of all captions.
     Say(String, Option<(usize, usize)>),

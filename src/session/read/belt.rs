@@ -6,13 +6,12 @@
 
 use crate::flow::Problem;
 use crate::machine::Body;
-use crate::oscillator::belt::Quantity;
-use crate::oscillator::{Belt, Parameters, State, Symbol};
+use crate::oscillator::{Belt, Knob, Parameters, State};
 use crate::question::Whole;
 use crate::question::whole::{Course, Kinds};
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Answer, Layer, Machine, Running, Setting, Topic};
-use crate::session::state::doubt::{Doubt, symbol_of};
+use crate::session::state::doubt::{Doubt, ON_A_MACHINE, symbol_of};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
 
@@ -53,17 +52,13 @@ impl Session {
             return Some(belt);
         }
         let own = Session::of_parameters(&running.reduced.parameters);
-        if own(Symbol::D2) != self.value(Symbol::D2) {
+        if own(Knob::D2) != self.value(Knob::D2) {
             return None;
         }
-        for (symbol, quantity) in [
-            (Symbol::D, Quantity::Damping),
-            (Symbol::D3, Quantity::CubicDamping),
-            (Symbol::R, Quantity::Friction),
-        ] {
+        for (symbol, quantity) in ON_A_MACHINE {
             let value = self.value(symbol);
             if own(symbol) != value {
-                belt.set(quantity, running.meaning(symbol, value)?.1);
+                quantity.set_in_belt(&mut belt, running.meaning(symbol, value)?.1).ok()?;
             }
         }
         let moving = belt.friction;
@@ -94,16 +89,16 @@ impl Session {
     }
 
     /// A function that reads these parameters.
-    fn of_parameters(parameters: &Parameters) -> impl Fn(Symbol) -> f64 {
+    fn of_parameters(parameters: &Parameters) -> impl Fn(Knob) -> f64 {
         let parameters = *parameters;
         move |symbol| symbol.get(&parameters, &State { q: 0.0, v: 0.0 })
     }
 
     /// A number of the machine with its present setting, in SI units; 0 without a machine.
-    pub fn quantity(&self, quantity: Quantity) -> f64 {
+    pub fn quantity(&self, quantity: Knob) -> f64 {
         self.running().map_or(0.0, |running| match quantity {
-            Quantity::BeltSpeed => running.speed,
-            other => running.machine.belt.get(other),
+            Knob::BeltSpeed => running.speed,
+            other => other.of_belt(&running.machine.belt).unwrap_or(0.0),
         })
     }
 
@@ -112,7 +107,7 @@ impl Session {
     pub(in crate::session) fn with_tolerance(
         &self,
         setup: &Setup,
-        quantity: Quantity,
+        quantity: Knob,
         half_width: f64,
     ) -> Result<Doubt, String> {
         let name = quantity.spec().name;
@@ -153,7 +148,7 @@ impl Session {
     pub(in crate::session) fn with_quantity(
         &self,
         setup: &Setup,
-        quantity: Quantity,
+        quantity: Knob,
         value: f64,
     ) -> Result<Setup, String> {
         let value = quantity.check(value).map_err(|refused| refused.to_string())?;

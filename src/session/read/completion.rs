@@ -2,15 +2,15 @@
 
 use crate::flow::METHODS;
 use crate::numerics::decimal::shortest;
-use crate::oscillator::PARAMETERS;
+use crate::oscillator::Knob;
 use crate::scene::machine::library::machines;
 use crate::scene::ordinate::OrdinateSpec;
-use crate::scene::{ABSCISSAE, LAYERS, ORDINATES, VIEWS, Window, library};
+use crate::scene::{LAYERS, ORDINATES, VIEWS, Window, library};
 use crate::session::read::numbers::number;
 use crate::session::state::command::{Command, Words};
 use crate::session::state::keymap::Keymap;
 use crate::session::state::overlay::Completion;
-use crate::session::state::rows::{ROWS, Row};
+use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
 use crate::session::state::settings::{COLORS, GLYPHS, THEMES};
 use crate::study::measure::MEASURES;
@@ -28,7 +28,7 @@ fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
         Words::Layers if first => owned(&LAYERS.map(|row| row.name)),
         Words::Layers if given.len() == 2 => owned(&["on", "off"]),
         Words::Switch if first => owned(&["on", "off"]),
-        Words::Axes if first => owned(&ABSCISSAE.map(|(symbol, _)| symbol.spec().name)),
+        Words::Axes if first => owned(&Knob::PARAMETERS.map(|knob| knob.spec().name)),
         Words::Axes if given.len() == 2 => properties().collect(),
         Words::Window => windows(session),
         Words::Scan => scan(given),
@@ -43,7 +43,7 @@ fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
 /// The rows to which a line can assign a value; without a machine, none of a machine.
 pub fn rows(session: &Session) -> impl Iterator<Item = Row> + use<> {
     let belt = session.running().is_some();
-    ROWS.into_iter().filter(move |row| belt || !matches!(row, Row::Quantity(_)))
+    Row::all().filter(move |row| belt || !matches!(row, Row::Quantity(_)))
 }
 
 /// The names of the properties; those that are lengths also in units of r.
@@ -89,7 +89,7 @@ fn windows(session: &Session) -> Vec<String> {
 
 /// Parameters with `=`, and once one of them is given, also measures.
 fn scan(words: &[&str]) -> Vec<String> {
-    let sweeps = PARAMETERS.iter().map(|row| format!("{}=", row.name));
+    let sweeps = Knob::MOTION.iter().map(|knob| format!("{knob}="));
     let moved = words.iter().any(|word| word.contains('='));
     let measures = MEASURES.iter().filter(|_| moved).map(|row| row.name.to_owned());
     sweeps.chain(measures).collect()

@@ -7,7 +7,7 @@ use crate::flow::{Outcome, Trajectory};
 use crate::numerics::count::{real, whole};
 use crate::numerics::elementary::hypot;
 use crate::oscillator::energy::energy;
-use crate::oscillator::{State, Symbol};
+use crate::oscillator::{Knob, State};
 use crate::question::fit::Measured;
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Answer, Axes, Layer, Point, Request, Span, Topic, View, Window};
@@ -276,7 +276,7 @@ fn eigenvalues(session: &Session) -> Option<Window> {
 /// The first ranges of both parameters, and the present point.
 fn regimes(session: &Session, plot: usize) -> Option<Window> {
     let Axes { abscissa, against, .. } = session.plots[plot].axes;
-    let around = |symbol: Symbol| {
+    let around = |symbol: Knob| {
         let usual = usual_values(symbol);
         Span::covering([usual.from(), usual.to(), ROOM * session.value(symbol)])
     };

@@ -1,6 +1,6 @@
 //! The fit of the record on show: of all numbers, or of the others while some are held by hand.
 
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::oscillator::belt::Units;
 use crate::question;
 use crate::question::fit::Unsure;
@@ -50,8 +50,8 @@ impl Session {
     /// The question for the fit with the held numbers, if `drawn` with the distribution of the margin; `None`
     /// if nothing is held, and nothing unsure that a margin is drawn for.
     pub(in crate::session) fn refit_request(&self, drawn: bool) -> Option<Request> {
-        let held = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R]
-            .map(|symbol| self.doubt.holds(symbol).then(|| self.value(symbol)));
+        let held =
+            Knob::PARAMETERS.map(|symbol| self.doubt.holds(symbol).then(|| self.value(symbol)));
         let asks = held.iter().any(Option::is_some) || (drawn && !self.doubt.is_certain());
         let fit = self.fit_of_all().filter(|_| asks)?.clone();
         let Doubt { half_widths, disturbance, .. } = self.doubt;

@@ -2,40 +2,23 @@
 
 use crate::flow::Problem;
 use crate::numerics::decimal::shortest;
-use crate::oscillator::Symbol;
-use crate::scene::file::UNTIL_RANGE;
-use crate::session::state::rows::{ROWS, Row};
+use crate::session::state::rows::Row;
 use crate::session::state::setup::Setup;
-
-pub(in crate::session) fn range(problem: &Problem, row: Row) -> (f64, f64) {
-    match row {
-        Row::Quantity(quantity) => (quantity.spec().min, quantity.spec().max),
-        Row::Parameter(symbol) => (symbol.spec().min, symbol.spec().max),
-        Row::Disturbance => (0.0, Symbol::R.spec().max),
-        Row::Until => UNTIL_RANGE,
-        Row::Tolerance | Row::Method => problem.method.spec().dial.range(),
-    }
-}
 
 /// The value of a row that is a number; 0 for a number of the machine that is not set.
 pub(in crate::session) fn number(setup: &Setup, row: Row) -> f64 {
     let Setup { problem, setting, doubt, .. } = setup;
     match row {
-        Row::Quantity(quantity) => setting.and_then(|it| it.get(quantity)).unwrap_or(0.0),
-        Row::Parameter(symbol) => symbol.get(&problem.parameters, &problem.initial),
+        Row::Quantity(knob) => setting.and_then(|it| it.get(knob)).unwrap_or(0.0),
         Row::Disturbance => doubt.disturbance,
-        Row::Until => problem.until,
-        Row::Tolerance | Row::Method => problem.setting(),
+        row => problem.get(row.knob_in(problem)),
     }
 }
 
 /// The motion with another value of a row that is a number of the motion.
 pub(in crate::session) fn with_number(mut problem: Problem, row: Row, value: f64) -> Problem {
-    match row {
-        Row::Parameter(symbol) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
-        Row::Until => problem.until = value,
-        Row::Tolerance => problem = problem.with_setting(value),
-        Row::Method | Row::Quantity(_) | Row::Disturbance => {}
+    if row != Row::Method {
+        problem.set(row.knob_in(&problem), value);
     }
     problem
 }
@@ -56,19 +39,15 @@ pub(in crate::session) fn typed(setup: &Setup, row: Row) -> String {
 pub(in crate::session) fn difference(old: &Setup, new: &Setup) -> String {
     let value = |setup: &Setup, row: Row| match row {
         Row::Method => setup.problem.method.to_string(),
-        Row::Quantity(quantity) => {
-            let unit = quantity.spec().unit;
-            let value = setup.setting.and_then(|it| it.get(quantity));
-            value.map_or_else(
-                || "as in its file".to_owned(),
-                |it| format!("{} {unit}", shortest(it)),
-            )
+        Row::Quantity(knob) => {
+            let value = setup.setting.and_then(|it| it.get(knob));
+            value.map_or_else(|| "as in its file".to_owned(), |value| knob.print(value))
         }
         row => typed(setup, row),
     };
     let belt = new.setting.is_some() && old.setting != new.setting;
     let follows = |row: &Row| belt && matches!(row, Row::Parameter(_));
-    let rows = ROWS.into_iter().filter(|row| !follows(row));
+    let rows = Row::all().filter(|row| !follows(row));
     let changed = rows.filter(|row| value(old, *row) != value(new, *row));
     let said = changed.map(|row| format!("{} = {}", row.name_in(&new.problem), value(new, row)));
     let count = |setup: &Setup| setup.others.all().len() + 1;

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use crate::flow::Problem;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::question;
 use crate::scene::{Answer, Height, Request, Topic, Variant};
 use crate::session::state::answers::Standing;
@@ -48,7 +48,7 @@ impl Session {
     pub fn held_alike(&self, plot: usize) -> String {
         let Some(all) = self.variants(plot) else { return String::new() };
         let held = all.iter().take(1).flat_map(|variant| &variant.held);
-        text(held.filter(|(symbol, value)| is_parameter(**symbol) && alike(all, **symbol, **value)))
+        text(held.filter(|(symbol, value)| symbol.is_parameter() && alike(all, **symbol, **value)))
     }
 
     /// The answers on this topic for the problems that a plot shows, stale or not, each with its index among
@@ -103,10 +103,9 @@ impl Session {
 /// `starts`, also the starts of the motions. A variant that holds nothing has the present values.
 fn labels(all: &[Variant], present: &Problem, starts: bool) -> Vec<String> {
     let tells =
-        |symbol: Symbol, value: f64| (starts || is_parameter(symbol)) && !alike(all, symbol, value);
+        |symbol: Knob, value: f64| (starts || symbol.is_parameter()) && !alike(all, symbol, value);
     let held = all.iter().flat_map(|variant| variant.held.keys());
-    let now: BTreeMap<Symbol, f64> =
-        held.map(|symbol| (*symbol, symbol.get(&present.parameters, &present.initial))).collect();
+    let now: BTreeMap<Knob, f64> = held.map(|symbol| (*symbol, present.get(*symbol))).collect();
     let label = |variant: &Variant| {
         let values = if variant.held.is_empty() { &now } else { &variant.held };
         text(values.iter().filter(|(symbol, value)| tells(**symbol, **value)))
@@ -115,14 +114,10 @@ fn labels(all: &[Variant], present: &Problem, starts: bool) -> Vec<String> {
 }
 
 /// Whether all of these variants hold this value.
-fn alike(all: &[Variant], symbol: Symbol, value: f64) -> bool {
+fn alike(all: &[Variant], symbol: Knob, value: f64) -> bool {
     all.iter().all(|variant| variant.held.get(&symbol) == Some(&value))
 }
 
-fn is_parameter(symbol: Symbol) -> bool {
-    !matches!(symbol, Symbol::Q0 | Symbol::V0)
-}
-
-fn text<'a>(held: impl Iterator<Item = (&'a Symbol, &'a f64)>) -> String {
+fn text<'a>(held: impl Iterator<Item = (&'a Knob, &'a f64)>) -> String {
     held.map(|(symbol, value)| format!("{symbol} = {value}")).collect::<Vec<_>>().join(", ")
 }

@@ -175,12 +175,12 @@ fn admits(kind: Option<SpecialKind>, around: (Option<&BranchStop>, Option<&Branc
 mod tests {
     use super::*;
     use crate::flow::Limits;
-    use crate::oscillator::{Parameters, Symbol};
+    use crate::oscillator::{Knob, Parameters};
     use crate::study::branch::{Points, branch};
 
     const FOLDED: Parameters = Parameters { d: 0.0, d2: 0.2, d3: 0.5, r: 0.1 };
 
-    fn over(parameters: &Parameters, symbol: Symbol, range: (f64, f64)) -> Way {
+    fn over(parameters: &Parameters, symbol: Knob, range: (f64, f64)) -> Way {
         let found =
             branch(parameters, symbol, range, Points::Even(60), 1e-8, &Limits::PATIENT).unwrap();
         Way::along(&[(0, &found)])
@@ -200,7 +200,7 @@ mod tests {
 
     #[test]
     fn the_fold_stands_between_the_unstable_and_the_stable_cycles() {
-        let way = over(&FOLDED, Symbol::D, (-0.9, 0.1));
+        let way = over(&FOLDED, Knob::D, (-0.9, 0.1));
         let stops = &way.pieces[0];
         let fold = stops.iter().position(|stop| stop.special == Some(SpecialKind::Fold)).unwrap();
         assert!((stops[fold].value + 0.172_784_103_071_94).abs() < 1e-12);
@@ -223,7 +223,7 @@ mod tests {
         let frictions = [0.05, 0.2];
         let found = frictions.map(|r| {
             let parameters = Parameters { r, ..FOLDED };
-            branch(&parameters, Symbol::D, (-0.9, 0.1), Points::Even(60), 1e-8, &Limits::PATIENT)
+            branch(&parameters, Knob::D, (-0.9, 0.1), Points::Even(60), 1e-8, &Limits::PATIENT)
                 .unwrap()
         });
         let way = Way::along(&[(0, &found[0]), (1, &found[1])]);
@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn a_walk_begins_on_the_border_of_the_basin() {
-        let way = over(&FOLDED, Symbol::D, (-0.9, 0.1));
+        let way = over(&FOLDED, Knob::D, (-0.9, 0.1));
         let start = way.start(-0.4).unwrap();
         assert!(!start.cycle.unwrap().stable && (start.value + 0.4).abs() < 0.05);
         // Beyond the fold there is no cycle: the nearest value is that of the fold.
@@ -256,7 +256,7 @@ mod tests {
             (Parameters { d2: 0.0, r: 0.0, ..FOLDED }, SpecialKind::Hopf, "end"),
             (Parameters { d2: 0.0, d3: -0.5, ..FOLDED }, SpecialKind::ZeroCrossing, "way"),
         ] {
-            let way = over(&parameters, Symbol::D, (-0.5, 0.1));
+            let way = over(&parameters, Knob::D, (-0.5, 0.1));
             let [stops] = &way.pieces[..] else { panic!("one piece for {kind:?}") };
             let place = stops.iter().position(|stop| stop.special == Some(kind)).unwrap();
             let is_end = place == 0 || place + 1 == stops.len();
@@ -269,9 +269,9 @@ mod tests {
 
     #[test]
     fn a_point_is_found_again_on_a_branch_computed_anew() {
-        let way = over(&FOLDED, Symbol::D, (-0.9, 0.1));
+        let way = over(&FOLDED, Knob::D, (-0.9, 0.1));
         let held = way.start(-0.4).unwrap();
-        let closer = over(&FOLDED, Symbol::D, (-0.5, -0.1));
+        let closer = over(&FOLDED, Knob::D, (-0.5, -0.1));
         let again = closer.again(&held).unwrap();
         assert!((again.value - held.value).abs() < 0.02);
         assert_eq!(again.cycle.unwrap().stable, held.cycle.unwrap().stable);

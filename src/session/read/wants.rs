@@ -9,8 +9,7 @@ use std::sync::Arc;
 
 use crate::flow::Problem;
 use crate::numerics::elementary::{exp2, hypot, log2};
-use crate::oscillator::belt::Quantity;
-use crate::oscillator::{Belt, Parameters, Symbol};
+use crate::oscillator::{Belt, Knob, Parameters};
 use crate::proof::Proof;
 use crate::question;
 use crate::question::{Motion, NoAnswer};
@@ -224,7 +223,7 @@ impl Session {
             }
             Topic::Speeds => {
                 let plot = own(View::Speeds)?;
-                let spec = Quantity::BeltSpeed.spec();
+                let spec = Knob::BeltSpeed.spec();
                 let range = plot.window.x.within(spec.min, spec.max)?;
                 let belt = Arc::new(Belt { belt_speed: 1.0, ..self.machine()? });
                 Request::Speeds(question::speeds::Asked {
@@ -249,7 +248,7 @@ impl Session {
     fn regimes_request(&self, plot: usize, parameters: Parameters) -> Option<Request> {
         let plot = self.plots.get(plot).filter(|plot| plot.view == View::Regimes)?;
         let Axes { abscissa, against, .. } = plot.axes;
-        let within = |symbol: Symbol, span: Span| {
+        let within = |symbol: Knob, span: Span| {
             let spec = symbol.spec();
             span.within(spec.min, spec.max).map(|span| (span.from(), span.to()))
         };

@@ -3,12 +3,12 @@
 use std::fmt;
 
 use super::mouse;
-use crate::oscillator::PARAMETERS;
+use crate::numerics::similar::most_similar;
+use crate::oscillator::{Group, Knob};
 use crate::session::message::key::{self, Code, Key};
 use crate::session::message::pointer::Gesture;
 use crate::session::replay::script::{self, Instruction, LONGEST, Located, Script, too_long};
 use crate::words::printable;
-use crate::words::similar::most_similar;
 
 /// Why a text is not a keystroke file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -190,11 +190,8 @@ fn screen(name: &str) -> Result<Instruction, String> {
 }
 
 fn start(rest: &str) -> Result<Instruction, String> {
-    let symbol = |name: &str| {
-        let row = PARAMETERS.iter().find(|row| row.name == name);
-        row.map(|row| row.symbol).ok_or_else(|| format!("<start> names parameters, not {name:?}"))
-    };
-    rest.split_whitespace().map(symbol).collect::<Result<_, _>>().map(Instruction::Start)
+    let named = |name: &str| Knob::named(name, &[Group::Motion]);
+    rest.split_whitespace().map(named).collect::<Result<_, _>>().map(Instruction::Start)
 }
 
 /// A name and a text, both in quotes.

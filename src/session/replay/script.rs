@@ -1,6 +1,6 @@
 //! Keystroke files as data: their steps, and the messages that these give to a session.
 
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::session::message::Msg;
 use crate::session::message::key::Key;
 use crate::session::message::pointer::Pointed;
@@ -46,7 +46,7 @@ pub enum Instruction {
     Screen(String),
     /// Make the present state the start of the session, with an empty history: `<start>`, or `<start D3 r>`
     /// with the parameters that are added to those of its scene.
-    Start(Vec<Symbol>),
+    Start(Vec<Knob>),
     /// Embed a file: a command that reads a file of this name during the replay gets this text. `<file "a.toml"
     /// "text">`.
     File {

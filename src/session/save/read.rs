@@ -7,9 +7,7 @@ use serde::Deserialize;
 
 use super::file::{SavedChange, SavedPlot, SavedScene, SavedSession, Show, VERSION};
 use crate::flow::Problem;
-use crate::flow::method::{EPSILON_RANGE, STEP_RANGE};
-use crate::oscillator::{PARAMETERS, State, Symbol};
-use crate::scene::file::{TOLERANCE_RANGE, UNTIL_RANGE};
+use crate::oscillator::{Knob, State};
 use crate::scene::misread::{self, Misread};
 use crate::scene::{MOST_PLOTS, PlotSetup, Scene, Setting, find};
 use crate::session::read::numbers::difference;
@@ -17,7 +15,7 @@ use crate::session::state::doubt::Doubt;
 use crate::session::state::history::{Before, History, ScreenSetup, Snapshot};
 use crate::session::state::marks::{Bookmark, Marks};
 use crate::session::state::plot::{Pane, Plot};
-use crate::session::state::rows::{ROWS, Row};
+use crate::session::state::rows::Row;
 use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::{MOST_MOTIONS, Starts};
@@ -42,7 +40,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let plot =
         plot.ok_or_else(|| format!("plot = {}, but there are {}", file.plot, plots.len()))?;
     let row = |row: &Row| row.name() == file.selected;
-    let selected = ROWS.into_iter().find(row);
+    let selected = Row::all().find(row);
     let selected = selected.ok_or_else(|| format!("no row {:?} to select", file.selected))?;
     let most = MOST_HARMONICS;
     if !(1..=most).contains(&file.harmonics) {
@@ -140,19 +138,9 @@ fn scene(named: SavedScene) -> Result<Arc<Scene>, String> {
 
 /// The setup of a motion and a machine, if all numbers are within their ranges.
 fn checked(problem: Problem, beside: &[State], setting: Option<Setting>) -> Result<Setup, String> {
-    for row in &PARAMETERS {
-        let value = row.symbol.get(&problem.parameters, &problem.initial);
-        row.check(value).map_err(|refused| refused.to_string())?;
-    }
-    for (name, value, (min, max)) in [
-        ("until", problem.until, UNTIL_RANGE),
-        ("tolerance", problem.tolerance, TOLERANCE_RANGE),
-        ("step", problem.step, STEP_RANGE),
-        ("epsilon", problem.epsilon, EPSILON_RANGE),
-    ] {
-        if !(min..=max).contains(&value) {
-            return Err(format!("{name} = {value:?} is outside its range {min:?} .. {max:?}"));
-        }
+    let accuracy = [Knob::Until, Knob::Tolerance, Knob::Step, Knob::Epsilon];
+    for knob in Knob::MOTION.into_iter().chain(accuracy) {
+        knob.check(problem.get(knob)).map_err(|refused| refused.to_string())?;
     }
     let setting = setting.map(Setting::checked).transpose();
     let setting = setting.map_err(|refused| refused.to_string())?;
@@ -160,9 +148,9 @@ fn checked(problem: Problem, beside: &[State], setting: Option<Setting>) -> Resu
         format!("{} motions beside another; there can be {}", beside.len(), MOST_MOTIONS - 1)
     })?;
     for (symbol, value) in
-        beside.iter().flat_map(|start| [(Symbol::Q0, start.q), (Symbol::V0, start.v)])
+        beside.iter().flat_map(|start| [(Knob::Q0, start.q), (Knob::V0, start.v)])
     {
-        symbol.spec().check(value).map_err(|refused| refused.to_string())?;
+        symbol.check(value).map_err(|refused| refused.to_string())?;
     }
     Ok(Setup { problem, others, setting, doubt: Doubt::default() })
 }

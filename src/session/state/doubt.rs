@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::machine::Tolerances;
-use crate::oscillator::belt::Quantity;
-use crate::oscillator::{Belt, Interval, ParameterBox, Parameters, Symbol};
+use crate::oscillator::{Belt, Interval, Knob, ParameterBox, Parameters};
 use crate::scene::Running;
 
 /// The largest deviations of the parameters from their values, and the bound on a force that varies in any way.
@@ -20,18 +19,12 @@ pub struct Doubt {
     pub held: [bool; 6],
 }
 
-/// The parameters that may have a half width.
-const UNSURE: [Symbol; 4] = [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R];
-
 /// The parameters that correspond to one number of a machine each.
-const ON_A_MACHINE: [(Symbol, Quantity); 3] = [
-    (Symbol::D, Quantity::Damping),
-    (Symbol::D3, Quantity::CubicDamping),
-    (Symbol::R, Quantity::Friction),
-];
+pub const ON_A_MACHINE: [(Knob, Knob); 3] =
+    [(Knob::D, Knob::Damping), (Knob::D3, Knob::CubicDamping), (Knob::R, Knob::Friction)];
 
 /// The parameter that corresponds to a number of a machine, if one does.
-pub fn symbol_of(quantity: Quantity) -> Option<Symbol> {
+pub fn symbol_of(quantity: Knob) -> Option<Knob> {
     ON_A_MACHINE.iter().find(|row| row.1 == quantity).map(|row| row.0)
 }
 
@@ -47,7 +40,7 @@ impl Doubt {
     }
 
     /// Whether a number is held by hand.
-    pub fn holds(&self, symbol: Symbol) -> bool {
+    pub fn holds(&self, symbol: Knob) -> bool {
         self.held[symbol as usize]
     }
 
@@ -68,14 +61,17 @@ impl Doubt {
     }
 
     /// The half width of a number; 0 for a number that has none.
-    pub fn half_width(&self, symbol: Symbol) -> f64 {
-        UNSURE.iter().position(|it| *it == symbol).map_or(0.0, |place| self.half_widths[place])
+    pub fn half_width(&self, symbol: Knob) -> f64 {
+        Knob::PARAMETERS
+            .iter()
+            .position(|it| *it == symbol)
+            .map_or(0.0, |place| self.half_widths[place])
     }
 
     /// This doubt with another half width of a parameter. Fails with one line if `symbol` is the start of a
     /// motion.
-    pub fn with_half_width(mut self, symbol: Symbol, half: f64) -> Result<Self, String> {
-        let place = UNSURE.iter().position(|it| *it == symbol).ok_or_else(|| {
+    pub fn with_half_width(mut self, symbol: Knob, half: f64) -> Result<Self, String> {
+        let place = Knob::PARAMETERS.iter().position(|it| *it == symbol).ok_or_else(|| {
             format!("{symbol} is the start of a motion; only D, D2, D3, r have half widths")
         })?;
         self.half_widths[place] = half;
@@ -85,7 +81,7 @@ impl Doubt {
     /// The intervals of the parameters, limited to their ranges.
     pub fn known(&self, parameters: &Parameters) -> ParameterBox {
         let mut known = ParameterBox::from(parameters);
-        for symbol in UNSURE {
+        for symbol in Knob::PARAMETERS {
             let spec = symbol.spec();
             let value = symbol.get(parameters, &crate::oscillator::State { q: 0.0, v: 0.0 });
             let around = Interval::around(value, self.half_width(symbol));
@@ -112,12 +108,12 @@ impl Doubt {
     /// The tolerances of the machine on show that correspond to this; those of its other numbers are from its
     /// file. Fails with one line if D2, which no single part of the machine determines, has a half width.
     pub fn on_machine(&self, running: &Running, belt: &Belt) -> Result<Tolerances, String> {
-        if self.half_width(Symbol::D2) > 0.0 {
+        if self.half_width(Knob::D2) > 0.0 {
             return Err("no part of the machine sets D2 alone: it has no half width".to_owned());
         }
         let mut half_widths = running.machine.tolerances.half_widths.clone();
         for (symbol, quantity) in ON_A_MACHINE {
-            let value = belt.get(quantity);
+            let value = quantity.of_belt(belt).unwrap_or(0.0);
             let half = self.half_width(symbol) * running.scale(symbol);
             // Friction and dampers are never negative, so a half width is limited.
             let half = half.min((value - quantity.spec().min).abs());

@@ -1,6 +1,6 @@
 //! The form for typing a scan.
 
-use crate::oscillator::{PARAMETERS, Symbol};
+use crate::oscillator::Knob;
 use crate::session::state::input::Input;
 use crate::study::measure::MEASURES;
 
@@ -72,7 +72,7 @@ impl ScanForm {
     pub const SECOND: usize = 4;
 
     /// The form as it opens the first time: for a sweep of this parameter over this range.
-    pub fn new(symbol: Symbol, (from, to): (f64, f64)) -> Self {
+    pub fn new(symbol: Knob, (from, to): (f64, f64)) -> Self {
         let text = |value: f64| format!("{value:?}");
         let name = symbol.spec().name.to_owned();
         let over = [name, text(from), text(to), "100".to_owned()];
@@ -95,7 +95,7 @@ impl ScanForm {
         match FIELDS[at].field {
             FormField::Parameter => {
                 let none = (at > 0).then_some("");
-                none.into_iter().chain(PARAMETERS.map(|row| row.name)).collect()
+                none.into_iter().chain(Knob::MOTION.map(|knob| knob.spec().name)).collect()
             }
             FormField::Measure => MEASURES.map(|row| row.name).to_vec(),
             FormField::From | FormField::To | FormField::Count => Vec::new(),

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::flow::{Cost, Problem};
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::scene::{Arrangement, Layer, Machine, Scene, Setting, Topic};
 use crate::session::message::Notice;
 use crate::session::message::key::Key;
@@ -23,7 +23,7 @@ use crate::session::state::overlay::{Overlay, SessionCaption};
 use crate::session::state::pending::Pending;
 use crate::session::state::playback::Playback;
 use crate::session::state::plot::{Pane, Plot};
-use crate::session::state::rows::{ROWS, Row, Steps};
+use crate::session::state::rows::{Row, Steps};
 use crate::session::state::scan::Scanned;
 use crate::session::state::scan_form::ScanForm;
 use crate::session::state::settings::Wishes;
@@ -223,8 +223,8 @@ impl Session {
     }
 
     /// The value of one of the six numbers.
-    pub fn value(&self, symbol: Symbol) -> f64 {
-        symbol.get(&self.problem.parameters, &self.problem.initial)
+    pub fn value(&self, symbol: Knob) -> f64 {
+        self.problem.get(symbol)
     }
 
     /// The rows of the parameter pane: those that the scene declares and those that are not zero; all rows if
@@ -248,6 +248,6 @@ impl Session {
             }
             Row::Until | Row::Method | Row::Tolerance => true,
         };
-        ROWS.into_iter().filter(stands).collect()
+        Row::all().filter(stands).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! The axes of the diagram.
 
 use super::Trial;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::scene::{Layer, ORDINATES, Ordinate, Topic};
 use crate::session::Framing;
 
@@ -21,12 +21,7 @@ fn every_parameter_comes_below_the_diagram_and_the_scene_s_own_comes_back() {
     let fitted = Framing::Fitted;
     assert_eq!(
         seen,
-        [
-            (Symbol::D2, fitted),
-            (Symbol::D3, fitted),
-            (Symbol::R, fitted),
-            (Symbol::D, Framing::Scene)
-        ]
+        [(Knob::D2, fitted), (Knob::D3, fitted), (Knob::R, fitted), (Knob::D, Framing::Scene)]
     );
     assert_eq!(trial.session.plot_setup(1), trial.session.scene.plots.get(1).copied());
     assert_eq!(trial.session.plots[1].window, scene.window);

@@ -2,8 +2,8 @@
 
 use super::Trial;
 use super::facts::refuses;
-use crate::oscillator::Symbol;
-use crate::oscillator::belt::{Quantity, Reduced};
+use crate::oscillator::Knob;
+use crate::oscillator::belt::Reduced;
 use crate::scene::{Layer, ScaledMachine};
 use crate::session::{Effect, Msg, Purpose, Row, save};
 
@@ -98,14 +98,14 @@ fn speeds_that_are_none_are_refused_in_one_line() {
     for (typed, words) in [
         ("0", "..v0 = 0 m/s is outside its range"),
         ("-0.3", "..v0 = -0.3 m/s is outside its range"),
-        ("nan", "..\"nan\" does not begin with a number"),
+        ("nan", "..\"nan\" is not a number"),
         ("1e999", "..\"1e999\" is not a finite number"),
-        ("3 N", "..has another dimension; it takes a unit such as m/s"),
-        ("fast", "..\"fast\" does not begin with a number"),
+        ("3 N", "..has the wrong unit; it takes one such as m/s"),
+        ("fast", "..\"fast\" is not a number"),
     ] {
         refuses("fig01", &[(&format!("<up><enter><C-u><paste {typed:?}><enter>"), words)]);
     }
-    refuses("plain", &[(": set belt=0.3", "set: no value \"belt\"; there are D, D2")]);
+    refuses("plain", &[(": set belt=0.3", "set: no number \"belt\"; there are D, D2")]);
     assert!(!Trial::open("plain").session.rows().contains(&Row::BELT));
     // Steps down stop above zero, with the reason.
     let mut trial = Trial::open("fig01");
@@ -206,7 +206,7 @@ fn a_machine_opens_from_its_file_and_the_table_beside_it() {
     // The mistake is described in one line, and nothing changes.
     for (text, words) in [
         (Err("b.toml: no such file".to_owned()), "b.toml: no such file"),
-        (Ok("m = 1".to_owned()), "b.toml:1:1: missing field `friction`"),
+        (Ok("m = 1".to_owned()), "b.toml:1:1: friction is missing"),
         (Ok(text("clutch.toml").replace("v0", "v9")), "b.toml:"),
         (Ok("modal_mass = 1".to_owned()), "b.toml: a vibration mode has no belt"),
     ] {
@@ -239,7 +239,7 @@ fn numbers_of_a_machine_are_typed_with_units_stepped_undone_and_saved() {
     assert_eq!(session.machine().unwrap(), machine.belt, "what the whole model answers for");
     let x = session.problem.initial.q * expected.units.displacement;
     assert!((x / 1e-3 - 1.0).abs() < 1e-15, "the start is 1 mm, whatever the unit of length");
-    assert!(session.rows().contains(&Row::Quantity(Quantity::Mass)));
+    assert!(session.rows().contains(&Row::Quantity(Knob::Mass)));
     // A saved session has the same state and the same history.
     let text = save::text(session).unwrap();
     let mut other = Trial::open("plain").session;
@@ -247,7 +247,7 @@ fn numbers_of_a_machine_are_typed_with_units_stepped_undone_and_saved() {
     assert_eq!(other.setup(), session.setup());
     assert_eq!(other.machine(), session.machine());
     // A step of the row, and undo.
-    trial.session.selected = Row::Quantity(Quantity::Friction);
+    trial.session.selected = Row::Quantity(Knob::Friction);
     trial.press("<right>");
     assert!(trial.session.machine().unwrap().friction > 2.0);
     trial.press("u");
@@ -256,7 +256,7 @@ fn numbers_of_a_machine_are_typed_with_units_stepped_undone_and_saved() {
     assert_eq!(trial.notice(), "undo: R = as in its file, m = as in its file");
     assert_eq!(trial.session.setup(), before);
     trial.press("U");
-    trial.session.selected = Row::Quantity(Quantity::Friction);
+    trial.session.selected = Row::Quantity(Knob::Friction);
     trial.press("<backspace>");
     assert_eq!(trial.session.machine().unwrap().friction, 1.0, "reset to its file's");
 }
@@ -272,14 +272,14 @@ fn tolerance_and_disturbance_of_a_machine_are_typed_in_newtons() {
     assert!((known.unwrap().half_widths["R"] / 0.2 - 1.0).abs() < 1e-12);
     // A number typed without a tolerance is exact, as everywhere.
     trial.press(":set<space>R=2<space>N<enter>");
-    assert_eq!(trial.session.doubt.half_width(Symbol::R), 0.0);
+    assert_eq!(trial.session.doubt.half_width(Knob::R), 0.0);
     refuses(
         "fig01",
         &[
-            (": set m=2 N", "..a unit such as kg"),
+            (": set m=2 N", "..one such as kg"),
             (": set m=0", "..m = 0 kg is outside its range"),
             (": set F=10 N +- 1 N", "..F has no tolerance here"),
-            (": set w=1 mm", "..a unit such as N"),
+            (": set w=1 mm", "..one such as N"),
             (": set R=-1", "..R = -1 N is outside its range"),
         ],
     );

@@ -6,10 +6,8 @@
 use std::collections::BTreeSet;
 
 use super::Trial;
-use crate::oscillator::Symbol;
-use crate::oscillator::belt::Quantity;
+use crate::oscillator::Knob;
 use crate::scene::{Axes, Request, Topic, library};
-use crate::session::ROWS;
 use crate::session::act::parameters;
 use crate::session::{Row, Session};
 
@@ -40,8 +38,8 @@ fn depends(topic: Topic, row: Row) -> bool {
         return letters.take(7).any(|letter| letter == 'x');
     }
     // The rows are D, D2, D3, r, w, q0, v0, until, method, tolerance.
-    let mut rows = ROWS.iter().filter(|row| !matches!(row, Row::Quantity(_)));
-    let column = rows.position(|other| *other == row).unwrap();
+    let mut rows = Row::all().filter(|row| !matches!(row, Row::Quantity(_)));
+    let column = rows.position(|other| other == row).unwrap();
     letters.nth(column).unwrap() == 'x'
 }
 
@@ -89,7 +87,7 @@ fn in_every_scene_a_key_recomputes_exactly_what_depends_on_it() {
         trial.session.unfolded = true;
         // Of the numbers of the machine, only the speed of the belt is kept: the others differ in the
         // parameters they move.
-        let fixed = |row: &Row| !matches!(row, Row::Quantity(it) if *it != Quantity::BeltSpeed);
+        let fixed = |row: &Row| !matches!(row, Row::Quantity(it) if *it != Knob::BeltSpeed);
         for row in trial.session.rows().into_iter().filter(fixed) {
             let mut stepped =
                 Trial { session: trial.session.clone(), asked: Vec::new(), effects: Vec::new() };
@@ -124,7 +122,7 @@ fn in_every_scene_a_key_recomputes_exactly_what_depends_on_it() {
     }
     assert!(several);
     assert!(
-        !expected(&Trial::open("supercritical").session, Row::Parameter(Symbol::Q0))
+        !expected(&Trial::open("supercritical").session, Row::Parameter(Knob::Q0))
             .iter()
             .any(|request| request.topic() == Topic::Branch)
     );
@@ -135,12 +133,12 @@ fn in_every_scene_a_key_recomputes_exactly_what_depends_on_it() {
 fn a_step_asks_again_only_the_variants_that_depend_on_it() {
     use Topic::{Branch, Cycles, Trajectory};
     for (scene, opening, row, asked) in [
-        ("fig17", 12, Symbol::D, &[][..]),
-        ("fig17", 12, Symbol::D3, &[]),
-        ("fig16b", 6, Symbol::D, &[Trajectory, Cycles]),
-        ("fig16b", 6, Symbol::R, &[Trajectory, Cycles, Branch]),
-        ("fig16b", 6, Symbol::D3, &[Trajectory, Cycles, Branch, Branch, Branch]),
-        ("fig15", 10, Symbol::R, &[Trajectory, Cycles]),
+        ("fig17", 12, Knob::D, &[][..]),
+        ("fig17", 12, Knob::D3, &[]),
+        ("fig16b", 6, Knob::D, &[Trajectory, Cycles]),
+        ("fig16b", 6, Knob::R, &[Trajectory, Cycles, Branch]),
+        ("fig16b", 6, Knob::D3, &[Trajectory, Cycles, Branch, Branch, Branch]),
+        ("fig15", 10, Knob::R, &[Trajectory, Cycles]),
     ] {
         let mut trial = Trial::open(scene);
         assert_eq!(trial.session.asks().len(), opening, "{scene}");

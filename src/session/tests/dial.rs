@@ -13,7 +13,7 @@ fn the_dial_goes_through_its_stops_and_ends() {
     Trial::alone("supercritical").goes(&[
         ("", "dial 1e-10 normal"),
         ("}", "dial 1e-13 fine | notice fine: tolerance 1e-13; thirteen digits"),
-        ("} }", "dial 1e-15 reference | notice the dial ends at reference"),
+        ("} }", "dial 1e-15 reference | notice the accuracy is at its finest, reference"),
         ("{ { {", "dial 0.0001 draft"),
         // Each change is undone separately.
         ("u u", "dial 1e-13 fine"),
@@ -31,7 +31,7 @@ fn the_dial_is_the_same_whatever_its_number_is_called() {
         ("} <down*6><enter><C-u>rk4<enter>", "dial 0.001 fine"),
         ("{", "tolerance 1e-10 | notice normal: step 0.01; ten digits, at a few percent of the .."),
         ("<down>0.05<enter>", "dial 0.05 - | tolerance 1e-10"),
-        ("<enter><C-u>7<enter>", "refused step = 7 is out of range; step takes 1e-7 to 1"),
+        ("<enter><C-u>7<enter>", "refused step = 7 is outside its range 1e-7 .. 1"),
     ]);
 }
 

@@ -3,7 +3,7 @@
 use super::Trial;
 use super::facts::refuses;
 use crate::machine::Tolerances;
-use crate::oscillator::{Interval, Symbol};
+use crate::oscillator::{Interval, Knob};
 use crate::question;
 use crate::question::answer;
 use crate::scene::{Answer, Request, Topic};
@@ -18,7 +18,7 @@ fn a_half_width_is_typed_stepped_undone_and_saved() {
     let mut trial = Trial::open("plain");
     assert_eq!(certainty(&trial), None, "nothing is in doubt");
     trial.press(":set<space>r=0.10+-0.01<space>w=0.02<enter>");
-    assert_eq!(trial.session.value(Symbol::R), 0.1);
+    assert_eq!(trial.session.value(Knob::R), 0.1);
     let doubt = Doubt { half_widths: [0.0, 0.0, 0.0, 0.01], disturbance: 0.02, ..Doubt::default() };
     assert_eq!(trial.session.doubt, doubt);
     let text = save::text(&trial.session).unwrap();
@@ -30,11 +30,11 @@ fn a_half_width_is_typed_stepped_undone_and_saved() {
     trial.press("U");
     assert_eq!(trial.session.doubt, doubt);
     // Keys change the half width of the selected row, and reset it to the scene's.
-    trial.session.selected = Row::Parameter(Symbol::R);
+    trial.session.selected = Row::Parameter(Knob::R);
     trial.press(">");
-    assert_eq!(trial.session.doubt.half_width(Symbol::R), 0.02);
+    assert_eq!(trial.session.doubt.half_width(Knob::R), 0.02);
     trial.press("<lt><lt><lt>");
-    assert_eq!(trial.session.doubt.half_width(Symbol::R), 0.0);
+    assert_eq!(trial.session.doubt.half_width(Knob::R), 0.0);
     trial.press("<down>");
     assert_eq!(trial.session.selected, Row::Disturbance);
     trial.press("<right>");
@@ -47,16 +47,16 @@ fn a_half_width_is_typed_stepped_undone_and_saved() {
 fn an_interval_is_taken_by_its_middle_and_a_bare_value_is_exact() {
     let mut trial = Trial::open("plain");
     trial.goes(&[(": set D=-0.3..-0.25", "D -0.275")]);
-    assert!((trial.session.doubt.half_width(Symbol::D) - 0.025).abs() < 1e-16);
+    assert!((trial.session.doubt.half_width(Knob::D) - 0.025).abs() < 1e-16);
     trial.goes(&[(": set D=-0.3", "D -0.3")]);
     assert_eq!(trial.session.doubt, Doubt::default());
     refuses(
         "plain",
         &[
-            (": set r=0.1+--1", "..half width -1.0 is negative"),
+            (": set r=0.1+--1", "..a tolerance is 0 or more"),
             (": set r=0.1+-0.2", "..r = -0.1"),
-            (": set q0=1+-0.1", "..only D, D2, D3, r have intervals"),
-            (": set w=-1", "..w takes 0 or more"),
+            (": set q0=1+-0.1", "..only D, D2, D3, r have half widths"),
+            (": set w=-1", "..disturbance = -1 is outside its range 0 .. 1e150"),
         ],
     );
 }

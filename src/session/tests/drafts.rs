@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::flow::Limits;
 use crate::flow::quality::DRAFT;
 use crate::numerics::elementary::hypot;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::question;
 use crate::question::{NoAnswer, answer};
 use crate::scene::{Answer, Request, TOPICS, Topic, library};
@@ -100,18 +100,18 @@ fn what_has_no_draft_needs_none() {
 }
 
 /// Numbers that users type to see what happens.
-const UGLY: [&[(Symbol, f64)]; 11] = [
-    &[(Symbol::D, -0.999)],
-    &[(Symbol::D, -1.5)],
-    &[(Symbol::D, -1e-12)],
-    &[(Symbol::R, 1e-6)],
-    &[(Symbol::R, 100.0)],
-    &[(Symbol::D2, 5.0)],
-    &[(Symbol::D2, -1e3)],
-    &[(Symbol::D3, -1.0)],
-    &[(Symbol::D3, 1e-9)],
-    &[(Symbol::D2, 5.0), (Symbol::D3, -1.0)],
-    &[(Symbol::D, 0.5), (Symbol::D2, 2.0), (Symbol::D3, -1e-3)],
+const UGLY: [&[(Knob, f64)]; 11] = [
+    &[(Knob::D, -0.999)],
+    &[(Knob::D, -1.5)],
+    &[(Knob::D, -1e-12)],
+    &[(Knob::R, 1e-6)],
+    &[(Knob::R, 100.0)],
+    &[(Knob::D2, 5.0)],
+    &[(Knob::D2, -1e3)],
+    &[(Knob::D3, -1.0)],
+    &[(Knob::D3, 1e-9)],
+    &[(Knob::D2, 5.0), (Knob::D3, -1.0)],
+    &[(Knob::D, 0.5), (Knob::D2, 2.0), (Knob::D3, -1e-3)],
 ];
 
 /// Counted for every scene: no first answer takes more than a few frames, whatever the numbers. Answers that

@@ -25,18 +25,27 @@ fn a_value_is_typed_from_its_first_digit_or_edited_after_enter() {
 fn what_cannot_be_a_value_is_refused_with_the_range() {
     let [r, until, method, tolerance] = [3, 6, 7, 8];
     for (row, typed, said) in [
-        (r, "nan", "nan is not a finite number; r takes 0 to 1e150"),
-        (r, "1e400", "1e400 is not a finite number; r takes 0 to 1e150"),
-        (r, "-1", "r = -1 is out of range; r takes 0 to 1e150"),
+        (r, "nan", "\"nan\" is not a number; r takes 0 .. 1e150"),
+        (r, "1e400", "\"1e400\" is not a finite number; r takes 0 .. 1e150"),
+        (r, "-1", "r = -1 is outside its range 0 .. 1e150"),
         (r, "1e-151", "r = 1e-151 is too close to 0; allowed: 0, or 1e-150 and more"),
-        (r, "zero", "\"zero\" is not a number; r takes 0 to 1e150"),
-        (r, "0,1", "\"0,1\" is not a number; r takes 0 to 1e150"),
-        (until, "1e10", "until = 1e10 is out of range; until takes 0 to 1000000000"),
+        (r, "zero", "\"zero\" is not a number; r takes 0 .. 1e150"),
+        (r, "0,1", "\"0,1\" is not a number; r takes 0 .. 1e150"),
+        (until, "1e10", "until = 10000000000 is outside its range 0 .. 1e9"),
         (method, "euler", "no method \"euler\"; there are auto, exact, taylor, dop853"),
-        (tolerance, "1", "tolerance = 1 is out of range; tolerance takes 1e-15 to 0.01"),
+        (tolerance, "1", "tolerance = 1 is outside its range 1e-15 .. 0.01"),
     ] {
         refuses("plain", &[(&format!("<down*{row}><enter><C-u>{typed}<enter>"), said)]);
     }
+}
+
+#[test]
+fn a_step_beyond_the_range_stops_at_its_end() {
+    Trial::open("plain").goes(&[
+        ("<enter><C-u>1e6<enter><right>", "D 1000000 | notice D is at its maximum, 1e6"),
+        ("<down*3><enter><C-u>0<enter><left>", "r 0 | notice r is at its minimum, 0"),
+        ("<down*3><enter><C-u>0<enter><left>", "until 0 | notice until is at its minimum, 0"),
+    ]);
 }
 
 #[test]

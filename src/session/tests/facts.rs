@@ -1,7 +1,7 @@
 //! Facts about a session, so that a test is a table of keys and facts.
 
 use super::Trial;
-use crate::oscillator::PARAMETERS;
+use crate::oscillator::{Group, Knob};
 use crate::scene::LAYERS;
 use crate::session::{Overlay, Pane, Session};
 
@@ -56,8 +56,8 @@ fn joined<T: std::fmt::Debug>(them: impl Iterator<Item = T>, between: &str) -> S
 
 /// The value of a fact about a session, by its name.
 fn fact(session: &Session, name: &str) -> String {
-    if let Some(row) = PARAMETERS.iter().find(|row| row.name == name) {
-        return session.value(row.symbol).to_string();
+    if let Ok(knob) = Knob::named(name, &[Group::Motion]) {
+        return session.value(knob).to_string();
     }
     if let Some(layer) = name.strip_prefix(['+', '-']) {
         let row = LAYERS.iter().find(|row| row.name == layer).expect("a layer");

@@ -8,7 +8,7 @@ use super::Trial;
 use super::strange::any_key;
 use crate::flow::{METHODS, Problem};
 use crate::numerics::elementary::powi;
-use crate::oscillator::{PARAMETERS, Symbol};
+use crate::oscillator::Knob;
 use crate::scene::machine::library::machines;
 use crate::scene::{ScaledMachine, Scene, library};
 use crate::session::opening::opening;
@@ -71,10 +71,10 @@ fn with_numbers(scene: &Arc<Scene>, change: impl FnOnce(&mut Scene)) -> Arc<Scen
 }
 
 /// Sets a number like `--set`.
-fn set(scene: &mut Scene, symbol: Symbol, value: f64) {
+fn set(scene: &mut Scene, symbol: Knob, value: f64) {
     let Problem { parameters, initial, .. } = &mut scene.problem;
     symbol.set(parameters, initial, value);
-    if !matches!(symbol, Symbol::Q0 | Symbol::V0) {
+    if !matches!(symbol, Knob::Q0 | Knob::V0) {
         scene.terms.insert(symbol);
     }
 }
@@ -83,8 +83,8 @@ fn set(scene: &mut Scene, symbol: Symbol, value: f64) {
 fn a_recording_begins_with_the_lines_that_lead_to_its_start() {
     let scene = crate::scene::find("supercritical").unwrap();
     let scene = with_numbers(&scene, |scene| {
-        set(scene, Symbol::Q0, 0.5);
-        set(scene, Symbol::D2, 0.0);
+        set(scene, Knob::Q0, 0.5);
+        set(scene, Knob::D2, 0.0);
     });
     let look = Wishes { theme: THEMES[1].0, ..Wishes::default() };
     let begun = text("", started(scene, look).1.steps());
@@ -100,7 +100,7 @@ fn a_recording_begins_with_the_lines_that_lead_to_its_start() {
 fn a_machine_and_a_saved_session_begin_as_they_were() {
     for machine in machines() {
         let scene = Arc::new(ScaledMachine::new(machine.clone()).unwrap().scene());
-        let scene = with_numbers(&scene, |scene| set(scene, Symbol::Q0, 0.5));
+        let scene = with_numbers(&scene, |scene| set(scene, Knob::Q0, 0.5));
         let (live, recorder) = started(scene, Wishes::default());
         let begun = text("", recorder.steps());
         assert_alike(&live.session, &replayed(&begun, "fig17").session, &begun);
@@ -126,8 +126,8 @@ prop_compose! {
     ) -> Arc<Scene> {
         with_numbers(&library()[scene], |scene| {
             for (which, tenths) in given {
-                let row = &PARAMETERS[which];
-                set(scene, row.symbol, row.check(f64::from(tenths) / 10.0).unwrap());
+                let knob = Knob::MOTION[which];
+                set(scene, knob, knob.check(f64::from(tenths) / 10.0).unwrap());
             }
             let problem = &mut scene.problem;
             problem.method = method.map_or(problem.method, |which| METHODS[which].method);

@@ -7,8 +7,9 @@ use proptest::prelude::*;
 use super::strange::any_key;
 use super::{Trial, answered};
 use crate::flow::Problem;
+use crate::oscillator::Knob;
 use crate::scene::{Request, Topic, library};
-use crate::session::{Effect, Kept, Msg, Notice, Purpose, Session, save, update};
+use crate::session::{Effect, Kept, Msg, Notice, Purpose, Row, Session, Steps, save, update};
 
 /// Everything of a session that its file holds.
 fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
@@ -172,6 +173,26 @@ fn several_interrupted_sessions_are_listed_and_one_is_taken_or_forgotten() {
 }
 
 #[test]
+fn steps_are_saved_by_name_and_those_of_former_sessions_in_the_order_of_the_table_are_read() {
+    let listed = r#"{"parameters": [0.02, 0.05, 0.05, 0.01, 0.05, 0.2], "until": 5, "belt": 0.05,
+        "machine": [0.1, 50.0, 0.2, 2.0, 5.0, 0.5], "disturbance": 0.001}"#;
+    let steps: Steps = serde_json::from_str(listed).unwrap();
+    let rows = [Row::FIRST, Row::Parameter(Knob::V0), Row::Until, Row::BELT, Row::Disturbance];
+    let machine = [Knob::Mass, Knob::Friction].map(Row::Quantity);
+    let found = rows.into_iter().chain(machine).map(|row| steps.of_row(row).unwrap().value());
+    assert_eq!(found.collect::<Vec<_>>(), [0.02, 0.2, 5.0, 0.05, 0.001, 0.1, 0.5]);
+    let named = serde_json::to_value(steps).unwrap();
+    assert_eq!(
+        (&named["D"], &named["belt"], &named["m"]),
+        (&0.02.into(), &0.05.into(), &0.1.into())
+    );
+    assert_eq!(serde_json::from_value::<Steps>(named).unwrap(), steps);
+    let few: Steps = serde_json::from_str(r#"{"D": 0.5}"#).unwrap();
+    assert_eq!(few.of_row(Row::FIRST).unwrap().value(), 0.5);
+    assert_eq!(few.of_row(Row::Until).unwrap().value(), 10.0);
+}
+
+#[test]
 fn what_is_no_session_is_refused_in_one_line_and_changes_nothing() {
     let good = save::text(&used().session).unwrap();
     for (from, to, said) in [
@@ -182,8 +203,8 @@ fn what_is_no_session_is_refused_in_one_line_and_changes_nothing() {
         ("harmonics", "harmony", "unknown field `harmony`"),
         ("focus = ", "focus = 9 # ", "focus = 9, but there are 2 plots"),
         ("selected = \"", "selected = \"no ", "no row \"no "),
-        ("tolerance = ", "tolerance = 7.0 # ", "tolerance = 7.0 is outside its range"),
-        ("D = ", "D = 1e9 # ", "D = 1000000000 is outside its range"),
+        ("tolerance = ", "tolerance = 7.0 # ", "tolerance = 7 is outside its range"),
+        ("parameters]\nD = ", "parameters]\nD = 1e9 # ", "D = 1000000000 is outside its range"),
         ("scene = \"linear\"", "scene = \"liner\"", "no scene \"liner\"; did you mean linear"),
     ] {
         assert!(good.contains(from), "{from}\n{good}");

@@ -84,7 +84,7 @@ fn a_form_that_makes_no_sense_stays_open_and_says_why_until_it_changes() {
     let mut trial = Trial::open("plain");
     trial.press("%");
     for (keys, text, said) in [
-        ("", "x", "there is no parameter \"x\""),
+        ("", "x", "no number \"x\"; there are D, D2"),
         ("", "q0", "from-rest does not depend on q0"),
         ("", "D", ""),
         ("<tab>", "one", "\"one\" is not a number"),

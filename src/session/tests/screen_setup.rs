@@ -1,7 +1,7 @@
 //! One to four plots, each with its own view, and what they ask together.
 
 use super::Trial;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::scene::{Arrangement, Axes, Ordinate, Topic, View};
 use crate::session::{Framing, Pane};
 
@@ -67,7 +67,7 @@ fn equal_questions_of_two_plots_are_one() {
 fn two_diagrams_over_different_axes_stand_side_by_side() {
     let mut trial = Trial::alone("supercritical");
     trial.goes(&[("<tab>;", ""), ("X", "asked Branch")]);
-    for (plot, over) in [(0, Symbol::D2), (1, Symbol::D)] {
+    for (plot, over) in [(0, Knob::D2), (1, Knob::D)] {
         assert_eq!(trial.session.plots[plot].axes.abscissa, over);
         assert_eq!(trial.branch(plot).parameter, over);
     }

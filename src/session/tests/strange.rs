@@ -35,9 +35,9 @@ pub(super) fn check(session: &Session) {
             assert!(cursor.x.is_finite() && cursor.y.is_finite());
         }
     }
-    for row in &crate::oscillator::PARAMETERS {
-        let value = session.value(row.symbol);
-        assert_eq!(row.check(value), Ok(value));
+    for knob in crate::oscillator::Knob::MOTION {
+        let value = session.value(knob);
+        assert_eq!(knob.check(value), Ok(value));
     }
     for request in session.wants() {
         if let Request::Branch(question::branch::Asked { range: (from, to), parameter, .. }) =

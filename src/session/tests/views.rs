@@ -1,7 +1,7 @@
 //! The questions of each view, and what can be taken from it into the phase plane.
 
 use super::Trial;
-use crate::oscillator::{State, Symbol};
+use crate::oscillator::{Knob, State};
 use crate::scene::{LAYERS, Request, Topic, VIEWS, View};
 use crate::session::{Context, Pane};
 use crate::study::claims::claims;
@@ -45,7 +45,7 @@ fn the_parameters_of_a_chart_move_its_point_and_nothing_else() {
         ("<down><right>", "asked Regimes"),       // r
         ("<tab>Y", "asked Regimes | abscissa D"), // D over r
     ]);
-    assert_eq!(trial.session.plots[0].axes.against, Symbol::R);
+    assert_eq!(trial.session.plots[0].axes.against, Knob::R);
     trial.goes(&[
         // r is already the upward axis.
         ("X", "asked Regimes | abscissa D2"),

@@ -11,7 +11,7 @@ const COARSE: Resolution = Resolution { lines: 4, chord: f64::INFINITY, toleranc
 
 const PLAIN: Parameters = Parameters { d: -0.2, d2: 0.0, d3: 0.5, r: 0.1 };
 
-fn plane(right: Symbol, right_range: (f64, f64), up: Symbol, up_range: (f64, f64)) -> Plane {
+fn plane(right: Knob, right_range: (f64, f64), up: Knob, up_range: (f64, f64)) -> Plane {
     Plane { right, up, right_range, up_range }
 }
 
@@ -32,7 +32,7 @@ fn bands_are_right(parameters: &Parameters, chart: &Chart) {
                 continue;
             }
             let mut here = *parameters;
-            let mut set = |symbol: Symbol, value: f64| {
+            let mut set = |symbol: Knob, value: f64| {
                 symbol.set(&mut here, &mut State { q: 0.0, v: 0.0 }, value);
             };
             set(across, line.at);
@@ -47,8 +47,8 @@ fn bands_are_right(parameters: &Parameters, chart: &Chart) {
 
 #[test]
 fn over_d_the_boundaries_are_the_known_folds_and_escape_points() {
-    let over_r = drawn(&PLAIN, plane(Symbol::D, (-0.5, 0.1), Symbol::R, (0.1, 0.2)), 4);
-    assert_eq!(over_r.along, Symbol::D);
+    let over_r = drawn(&PLAIN, plane(Knob::D, (-0.5, 0.1), Knob::R, (0.1, 0.2)), 4);
+    assert_eq!(over_r.along, Knob::D);
     let parameters = Parameters { r: 0.1, ..PLAIN };
     let known = fold(&parameters, &Limits::PATIENT).unwrap().0.unwrap().d;
     assert_eq!(over_r.lines[0].fold, Some(known));
@@ -59,7 +59,7 @@ fn over_d_the_boundaries_are_the_known_folds_and_escape_points() {
     assert_eq!(over_r.regime_at(known + 1e-6, 0.1), Some(Regime::Global));
 
     let parameters = Parameters { d3: 0.0, r: 0.1, ..PLAIN };
-    let over_d2 = drawn(&parameters, plane(Symbol::D, (-0.5, 0.1), Symbol::D2, (-1.0, 1.0)), 8);
+    let over_d2 = drawn(&parameters, plane(Knob::D, (-0.5, 0.1), Knob::D2, (-1.0, 1.0)), 8);
     let [left, right] = [&over_d2.lines[0], &over_d2.lines[over_d2.lines.len() - 1]];
     for end in [left, right] {
         assert!((end.escape.unwrap() + 0.079_769).abs() < 1e-6, "{end:?}");
@@ -73,8 +73,8 @@ fn without_d_the_fold_is_where_it_comes_to_the_given_d() {
     // With D2 = 0 only r^2 D3 matters: one number for all lines.
     let known = fold(&Parameters { r: 0.1, ..PLAIN }, &Limits::PATIENT).unwrap().0.unwrap().d;
     let parameters = Parameters { d: known, ..PLAIN };
-    let chart = drawn(&parameters, plane(Symbol::R, (0.0, 0.5), Symbol::D3, (-0.5, 2.0)), 10);
-    assert_eq!(chart.along, Symbol::R);
+    let chart = drawn(&parameters, plane(Knob::R, (0.0, 0.5), Knob::D3, (-0.5, 2.0)), 10);
+    assert_eq!(chart.along, Knob::R);
     let mut seen = 0;
     for line in chart.lines.iter().filter(|line| line.at > 0.0) {
         let product = powi(line.fold.unwrap(), 2) * line.at;
@@ -92,12 +92,12 @@ fn every_band_holds_what_is_computed_there() {
     let asymmetric = Parameters { d2: 0.6, ..PLAIN };
     let linear = Parameters { d2: 0.6, d3: 0.0, ..PLAIN };
     for (parameters, plane) in [
-        (PLAIN, plane(Symbol::D, (-0.8, 0.2), Symbol::D3, (-0.5, 1.0))),
-        (asymmetric, plane(Symbol::D3, (-0.5, 1.0), Symbol::D, (-0.8, 0.2))),
-        (linear, plane(Symbol::D, (-1.2, 0.2), Symbol::R, (0.0, 0.6))),
-        (asymmetric, plane(Symbol::D2, (-1.5, 1.5), Symbol::D3, (-0.2, 0.8))),
-        (linear, plane(Symbol::D2, (-1.5, 1.5), Symbol::R, (0.0, 0.8))),
-        (asymmetric, plane(Symbol::R, (0.0, 0.5), Symbol::D3, (-0.5, 2.0))),
+        (PLAIN, plane(Knob::D, (-0.8, 0.2), Knob::D3, (-0.5, 1.0))),
+        (asymmetric, plane(Knob::D3, (-0.5, 1.0), Knob::D, (-0.8, 0.2))),
+        (linear, plane(Knob::D, (-1.2, 0.2), Knob::R, (0.0, 0.6))),
+        (asymmetric, plane(Knob::D2, (-1.5, 1.5), Knob::D3, (-0.2, 0.8))),
+        (linear, plane(Knob::D2, (-1.5, 1.5), Knob::R, (0.0, 0.8))),
+        (asymmetric, plane(Knob::R, (0.0, 0.5), Knob::D3, (-0.5, 2.0))),
     ] {
         bands_are_right(&parameters, &drawn(&parameters, plane, 8));
     }
@@ -106,8 +106,8 @@ fn every_band_holds_what_is_computed_there() {
 #[test]
 fn planes_that_are_not_are_refused() {
     for plane in [
-        plane(Symbol::D, (-1.0, 0.0), Symbol::D, (0.0, 1.0)),
-        plane(Symbol::Q0, (-1.0, 0.0), Symbol::D, (0.0, 1.0)),
+        plane(Knob::D, (-1.0, 0.0), Knob::D, (0.0, 1.0)),
+        plane(Knob::Q0, (-1.0, 0.0), Knob::D, (0.0, 1.0)),
     ] {
         let refused = chart(&PLAIN, plane, COARSE, &Limits::PATIENT).unwrap_err();
         assert!(matches!(refused, Reason::NotApplicable { .. }));
@@ -116,17 +116,17 @@ fn planes_that_are_not_are_refused() {
 
 #[test]
 fn lines_stand_closer_where_a_sign_changes() {
-    let at = values(Symbol::D3, (-1.0, 3.0), 8);
+    let at = values(Knob::D3, (-1.0, 3.0), 8);
     assert!(at.windows(2).all(|pair| pair[0] < pair[1]));
     assert!(at.iter().all(|value| value.abs() >= 1e-6));
     assert_eq!((at[0], at[at.len() - 1]), (-1.0, 3.0));
-    assert!(values(Symbol::R, (-1.0, 1.0), 8).iter().all(|&value| value > 0.0));
+    assert!(values(Knob::R, (-1.0, 1.0), 8).iter().all(|&value| value > 0.0));
 }
 
 #[test]
 fn between_lines_boundaries_are_followed_as_closely_as_asked() {
     // With friction to the right the fold is hyperbolic: r^2 D3 is the same all along.
-    let over_r = plane(Symbol::R, (0.0, 0.5), Symbol::D3, (0.02, 2.0));
+    let over_r = plane(Knob::R, (0.0, 0.5), Knob::D3, (0.02, 2.0));
     let chord = 1e-4;
     let resolution = Resolution { lines: 8, chord, ..COARSE };
     let close = chart(&PLAIN, over_r, resolution, &Limits::PATIENT).unwrap();

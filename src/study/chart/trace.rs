@@ -7,7 +7,7 @@ use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, hypot, ln, powi};
 use crate::numerics::root::{PlaceTolerance, illinois};
-use crate::oscillator::{Parameters, State, Symbol};
+use crate::oscillator::{Knob, Parameters, State};
 use crate::study::cycle::cycles;
 use crate::study::escape::{escape_point, escape_product};
 use crate::study::extended::{FoldCycle, FoldGuess, fold_near};
@@ -22,7 +22,7 @@ const SLACK: f64 = 100.0;
 
 /// Values of a parameter at which lines are drawn: evenly spaced, and denser towards zero, where a sign
 /// changes; zero itself is replaced by its two sides.
-pub(super) fn values(symbol: Symbol, range: (f64, f64), count: usize) -> Vec<f64> {
+pub(super) fn values(symbol: Knob, range: (f64, f64), count: usize) -> Vec<f64> {
     /// What stands for zero, as a fraction of the range.
     const SIDE: f64 = 1e-6;
     let span = range.1 - range.0;
@@ -38,9 +38,7 @@ pub(super) fn values(symbol: Symbol, range: (f64, f64), count: usize) -> Vec<f64
         values.extend([-SIDE * span, SIDE * span]);
         values.retain(|value| value.abs() >= SIDE * span);
     }
-    values.retain(|&value| {
-        value >= range.0 && value <= range.1 && symbol.spec().check(value).is_ok()
-    });
+    values.retain(|&value| value >= range.0 && value <= range.1 && symbol.check(value).is_ok());
     values.sort_by(f64::total_cmp);
     values.dedup();
     values
@@ -49,8 +47,8 @@ pub(super) fn values(symbol: Symbol, range: (f64, f64), count: usize) -> Vec<f64
 /// Draws lines one after the other; each helps to find the fold on the next.
 pub(super) struct Tracer<'a> {
     pub parameters: Parameters,
-    pub along: Symbol,
-    pub across: Symbol,
+    pub along: Knob,
+    pub across: Knob,
     pub range: (f64, f64),
     pub across_range: (f64, f64),
     pub limits: &'a Limits<'a>,
@@ -104,7 +102,7 @@ impl Tracer<'_> {
         let mut here = self.parameters;
         self.across.set(&mut here, &mut State { q: 0.0, v: 0.0 }, at);
         let harmonic = self.harmonic(&here);
-        let boundaries = if self.along == Symbol::D {
+        let boundaries = if self.along == Knob::D {
             self.boundaries_in_d(&here)
         } else {
             self.boundaries_at_d(&here)
@@ -134,11 +132,7 @@ impl Tracer<'_> {
     }
 
     /// The fold next to a guess, while `symbol` varies.
-    fn fold_near(
-        &mut self,
-        guess: &FoldGuess,
-        symbol: Symbol,
-    ) -> Result<Option<Parameters>, Reason> {
+    fn fold_near(&mut self, guess: &FoldGuess, symbol: Knob) -> Result<Option<Parameters>, Reason> {
         let (found, cost) = fold_near(guess, symbol, self.tolerance, self.limits)?;
         self.cost += cost;
         self.known = found.or(self.known);
@@ -148,7 +142,7 @@ impl Tracer<'_> {
     fn fold(&mut self, parameters: &Parameters) -> Result<f64, Reason> {
         let beside = self.known.and_then(|known| FoldGuess::beside(&known, parameters));
         if let Some(guess) = beside
-            && let Some(found) = self.fold_near(&guess, Symbol::D)?
+            && let Some(found) = self.fold_near(&guess, Knob::D)?
         {
             return Ok(found.d);
         }
@@ -191,7 +185,7 @@ impl Tracer<'_> {
         if d >= 0.0 {
             return nowhere;
         }
-        if self.along == Symbol::D3 {
+        if self.along == Knob::D3 {
             if r == 0.0 {
                 return nowhere;
             }
@@ -255,13 +249,13 @@ impl Tracer<'_> {
     /// The fold of one harmonic (48) on the line.
     fn harmonic(&self, here: &Parameters) -> Option<f64> {
         let Parameters { d, d3, r, .. } = *here;
-        if self.along == Symbol::D {
+        if self.along == Knob::D {
             return harmonic::fold(d3, r).map(|fold| fold.d);
         }
         // (48) solved for r^2 D3.
         let product = 8.0 * powi(-d, 3) * powi(std::f64::consts::PI / 9.0, 2);
         let value = match self.along {
-            Symbol::D3 => product / (r * r),
+            Knob::D3 => product / (r * r),
             _ => (product / d3).sqrt(),
         };
         (d < 0.0 && value.is_finite() && value > 0.0).then_some(value)
@@ -272,7 +266,7 @@ impl Tracer<'_> {
         let (from, to) = self.range;
         let inside = |value: &f64| *value > from && *value < to;
         let fixed = match self.along {
-            Symbol::D => vec![-1.0, 0.0],
+            Knob::D => vec![-1.0, 0.0],
             _ => vec![0.0],
         };
         let boundaries_there = [boundaries.fold, boundaries.escape].into_iter().flatten();
@@ -303,7 +297,7 @@ impl Tracer<'_> {
         if failed && d < 0.0 && d3 >= 0.0 && r > 0.0 {
             return None;
         }
-        if self.along == Symbol::D {
+        if self.along == Knob::D {
             return Some(Regime::of(&parameters, boundaries.fold, boundaries.escape));
         }
         // A line that crosses a boundary at the given D lies below the boundary in D before it.

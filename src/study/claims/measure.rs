@@ -9,7 +9,7 @@ use super::known::KnownAnswer;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason};
 use crate::numerics::Interval;
-use crate::oscillator::{Parameters, Side, State, Symbol};
+use crate::oscillator::{Knob, Parameters, Side, State};
 use crate::proof::motion::ProvedFate;
 use crate::proof::range::change_within;
 use crate::proof::{Enclosure, ParameterBox, kicks, prove};
@@ -219,7 +219,7 @@ pub fn edge(parameters: &Parameters, limits: &Limits) -> Result<CertainEdge, Rea
 pub fn last_cycle(parameters: &Parameters, found: f64, error: f64) -> Known {
     /// Next to that value proofs take long.
     const AWAY: f64 = 1e-3;
-    let between = change_within(&ParameterBox::from(parameters), Symbol::D, found, AWAY);
+    let between = change_within(&ParameterBox::from(parameters), Knob::D, found, AWAY);
     Known::relative(found, error).within(between.map(|change| change.between))
 }
 

@@ -1,6 +1,6 @@
 //! What some measures depend on beside the parameters and the start.
 
-use crate::oscillator::{Interval, ParameterBox, Parameters, Symbol};
+use crate::oscillator::{Interval, Knob, ParameterBox, Parameters};
 use crate::study::basin::Window;
 use crate::study::kicks::RandomKick;
 
@@ -10,7 +10,7 @@ pub struct Conditions {
     /// Starts whose part or times are measured.
     pub window: Window,
     /// Half widths of parameters, each given once.
-    pub half_widths: Vec<(Symbol, f64)>,
+    pub half_widths: Vec<(Knob, f64)>,
     /// Bound on the disturbance.
     pub disturbance: f64,
     /// Kicks of which a fraction is lost.
@@ -31,14 +31,14 @@ impl Conditions {
         for &(symbol, half_width) in &self.half_widths {
             let around = |value: f64| Interval::around(value, half_width);
             match symbol {
-                Symbol::D => known.d = around(parameters.d),
-                Symbol::D2 => known.d2 = around(parameters.d2),
-                Symbol::D3 => known.d3 = around(parameters.d3),
-                Symbol::R => {
+                Knob::D => known.d = around(parameters.d),
+                Knob::D2 => known.d2 = around(parameters.d2),
+                Knob::D3 => known.d3 = around(parameters.d3),
+                Knob::R => {
                     let r = around(parameters.r);
                     known.r = Interval::new(r.lower().max(0.0), r.upper());
                 }
-                Symbol::Q0 | Symbol::V0 => {}
+                _ => {}
             }
         }
         known

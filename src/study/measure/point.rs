@@ -244,7 +244,7 @@ fn part(share: Option<Share>) -> Vec<Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oscillator::{Parameters, State, Symbol};
+    use crate::oscillator::{Knob, Parameters, State};
     use crate::study::basin::Window;
     use crate::study::measure::MEASURES;
 
@@ -307,7 +307,7 @@ mod tests {
         let (values, point) = at(&conditions);
         // Computed elsewhere.
         assert!((values[0].number().unwrap() - 0.1743).abs() < 5e-5 && point.uncertain.is_none());
-        conditions.half_widths.push((Symbol::R, 0.09));
+        conditions.half_widths.push((Knob::R, 0.09));
         let (values, point) = at(&conditions);
         assert_eq!(values, [Value::Nothing; 2]);
         assert!(point.uncertain.is_some() && point.failures.is_empty());

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::numerics::count::real;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 
 /// A property of the oscillator, or of one motion of it, at given parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -84,9 +84,8 @@ impl MeasureNeed {
     }
 
     /// The numbers on which the computation depends.
-    pub fn depends_on(self) -> &'static [Symbol] {
-        const ALL: [Symbol; 6] =
-            [Symbol::D, Symbol::D2, Symbol::D3, Symbol::R, Symbol::Q0, Symbol::V0];
+    pub fn depends_on(self) -> &'static [Knob] {
+        const ALL: [Knob; 6] = [Knob::D, Knob::D2, Knob::D3, Knob::R, Knob::Q0, Knob::V0];
         match self {
             MeasureNeed::Motion => &ALL,
             MeasureNeed::Cycles

@@ -3,7 +3,7 @@
 use crate::flow::{Cost, Crossing, Limits, Outcome, Problem, Sample, Trajectory};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{cos, ln, sin, sin_cos};
-use crate::oscillator::{Ledger, Parameters, State, Symbol};
+use crate::oscillator::{Knob, Ledger, Parameters, State};
 use crate::proof::cycles::ProvedCycle;
 use crate::proof::{ParameterBox, Proof};
 use crate::question;
@@ -236,7 +236,7 @@ pub(super) fn compared() -> Box<Trade> {
 }
 
 /// A branch that turns back at a fold.
-pub(super) fn folded(parameter: Symbol) -> Branch {
+pub(super) fn folded(parameter: Knob) -> Branch {
     let point = |index: u16| {
         let q_max = 0.05 + f64::from(index) * 0.02;
         BranchPoint {

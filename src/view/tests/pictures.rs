@@ -4,7 +4,7 @@ use super::by_hand::{press, settle};
 use super::{braille, draw, letters, settled};
 use crate::flow::Limits;
 use crate::numerics::count::real;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::picture;
 use crate::picture::items::{Caption, Item, LineStyle};
 use crate::picture::role::{Dash, Mark, Role};
@@ -56,7 +56,7 @@ fn rest_is_in_every_bifurcation_diagram() {
             for shown in session.shown(index) {
                 let own: Vec<_> = [plot.window.x.from(), plot.window.x.to()]
                     .into_iter()
-                    .filter(|at| plot.axes.abscissa != Symbol::D || *at != 0.0)
+                    .filter(|at| plot.axes.abscissa != Knob::D || *at != 0.0)
                     .flat_map(|at| {
                         let found = rests(&session, index, at);
                         let of =

@@ -6,7 +6,7 @@ use super::by_hand::{press, settle};
 use super::pictures::computed;
 use super::{braille, draw, settled};
 use crate::flow::Limits;
-use crate::oscillator::Symbol;
+use crate::oscillator::Knob;
 use crate::picture::role::Role;
 use crate::question::answer;
 use crate::scene::library::library;
@@ -52,7 +52,7 @@ fn a_step_is_called_one_and_plus_minus_is_an_error() {
         for scene in ["plain", "fig01", "benchmark"] {
             let mut session = settled(scene, width, height, "");
             for _ in 0..session.rows().len() {
-                let step = session.steps.of(session.selected);
+                let step = session.steps.of_row(session.selected);
                 let pane = pane(&session);
                 let selected = pane.lines().skip(2).find(|line| line.starts_with('\u{25b8}'));
                 let selected = selected.unwrap_or_else(|| panic!("{pane}"));
@@ -198,13 +198,13 @@ fn a_machine_is_told_of_in_the_units_of_its_axes() {
 /// Words of the texts of scenes, and when they are true.
 type True = fn(&Session) -> bool;
 const WORDS: [(&str, True); 8] = [
-    ("egative", |it| it.value(Symbol::D) < 0.0),
-    ("damping feeds the motion", |it| it.value(Symbol::D) < 0.0),
-    ("feeds the swing", |it| it.value(Symbol::D) < 0.0),
-    ("segment on the q axis", |it| it.value(Symbol::R) > 0.0),
-    ("stop for ever", |it| it.value(Symbol::R) > 0.0),
-    ("dry friction makes", |it| it.value(Symbol::R) > 0.0),
-    ("proves the circle", |it| it.value(Symbol::D) < 0.0 && it.value(Symbol::R) > 0.0),
+    ("egative", |it| it.value(Knob::D) < 0.0),
+    ("damping feeds the motion", |it| it.value(Knob::D) < 0.0),
+    ("feeds the swing", |it| it.value(Knob::D) < 0.0),
+    ("segment on the q axis", |it| it.value(Knob::R) > 0.0),
+    ("stop for ever", |it| it.value(Knob::R) > 0.0),
+    ("dry friction makes", |it| it.value(Knob::R) > 0.0),
+    ("proves the circle", |it| it.value(Knob::D) < 0.0 && it.value(Knob::R) > 0.0),
     ("broken closed curve", |it| {
         it.cycles().is_some_and(|found| found.cycles.iter().any(|cycle| !cycle.stable))
     }),

@@ -4,8 +4,58 @@
 //! minutes, hours and kilograms-force. It may contain `^` and parentheses; a blank, `*` or `·` means a product. `N/m s`, which can be
 //! read in two ways, is refused. A number without a unit is in SI units.
 
+use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
-use crate::oscillator::belt::Dimension;
+
+/// Exponents of kilogram, metre and second.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Dimension {
+    /// Exponent of the kilogram.
+    pub kg: i8,
+    /// Exponent of the metre.
+    pub m: i8,
+    /// Exponent of the second.
+    pub s: i8,
+}
+
+impl Dimension {
+    /// A pure number.
+    pub const ONE: Self = Self::new(0, 0, 0);
+    /// A length.
+    pub const LENGTH: Self = Self::new(0, 1, 0);
+    /// A time.
+    pub const TIME: Self = Self::new(0, 0, 1);
+    /// An impulse (momentum), in N s.
+    pub const IMPULSE: Self = Self::new(1, 1, -1);
+    /// A force, in N.
+    pub const FORCE: Self = Self::new(1, 1, -2);
+
+    /// From the exponents.
+    #[must_use]
+    pub const fn new(kg: i8, m: i8, s: i8) -> Self {
+        Dimension { kg, m, s }
+    }
+
+    /// That of an SI unit, such as `N s/m`; that of a pure number for the empty text.
+    #[must_use]
+    pub fn of_unit(unit: &str) -> Self {
+        if unit.is_empty() {
+            return Self::ONE;
+        }
+        read_unit(unit).map_or(Self::ONE, |(_, dimension)| dimension)
+    }
+
+    /// The dimension of a product with a power of another one; `None` beyond all sense.
+    #[must_use]
+    pub fn times(self, other: Self, power: i8) -> Option<Self> {
+        let sum = |own: i8, other: i8| own.checked_add(other.checked_mul(power)?);
+        Some(Dimension {
+            kg: sum(self.kg, other.kg)?,
+            m: sum(self.m, other.m)?,
+            s: sum(self.s, other.s)?,
+        })
+    }
+}
 
 /// A number and its dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,20 +67,27 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// The value as a quantity of this dimension; `unit` is its SI unit, for the message. Fails with one line
-    /// that says which unit is expected.
-    pub fn as_a(&self, dimension: Dimension, unit: &str) -> Result<f64, String> {
-        if self.dimension.is_none_or(|written| written == dimension) {
+    /// The value in this SI unit, in which it is where no unit was written.
+    ///
+    /// # Errors
+    /// What is wrong with the unit that was written, to follow the text of the number.
+    pub fn in_unit(&self, unit: &str) -> Result<f64, String> {
+        if self.dimension.is_none_or(|written| written == Dimension::of_unit(unit)) {
             Ok(self.value)
+        } else if unit.is_empty() {
+            Err("has a unit; it takes none".to_owned())
         } else {
-            let expected = if unit.is_empty() {
-                "no unit".to_owned()
-            } else {
-                format!("a unit such as {unit}")
-            };
-            Err(format!("has another dimension; it takes {expected}"))
+            Err(format!("has the wrong unit; it takes one such as {unit}"))
         }
     }
+}
+
+/// Reads a number with or without a unit, in this SI unit.
+///
+/// # Errors
+/// One line that says what could not be read, or which unit is expected.
+pub fn quantity(text: &str, unit: &str) -> Result<f64, String> {
+    measured(text)?.in_unit(unit).map_err(|refused| format!("{text:?} {refused}"))
 }
 
 /// Units without prefixes: name, value in SI units, dimension, and whether the unit takes prefixes.
@@ -63,14 +120,19 @@ const PREFIXES: [(char, f64); 9] = [
 /// Largest exponent allowed in a unit.
 const LARGEST_POWER: i8 = 9;
 
-/// Reads a number with or without a unit. Fails with one line that says what could not be read.
+/// Reads a number with or without a unit.
+///
+/// # Errors
+/// One line that says what could not be read.
 pub fn measured(text: &str) -> Result<Measured, String> {
     let text = text.trim();
-    let end = number_end(text);
-    let number = &text[..end];
-    let value: f64 =
-        number.parse().map_err(|_| format!("{text:?} does not begin with a number"))?;
-    let unit = text[end..].trim();
+    // Documents have a minus sign of their own.
+    let plain = text.replace('\u{2212}', "-");
+    let (number, unit) = plain.split_at(number_end(&plain));
+    let unit = unit.trim();
+    let begins_a_unit = |first: char| first.is_alphabetic() || matches!(first, '1' | '(' | '/');
+    let value = number.parse().ok().filter(|_| unit.is_empty() || unit.starts_with(begins_a_unit));
+    let value: f64 = value.ok_or_else(|| format!("{text:?} is not a number"))?;
     if unit.is_empty() {
         return finite(text, value, None);
     }
@@ -78,18 +140,23 @@ pub fn measured(text: &str) -> Result<Measured, String> {
     finite(text, value * factor, Some(dimension))
 }
 
-/// A number and the half width of its tolerance, both in SI units.
+/// A number and its tolerance, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Toleranced {
     /// The number in the middle.
     pub middle: Measured,
     /// Half the difference between both ends.
     pub half_width: f64,
+    /// Where the number lies; both ends are rounded outwards where they are not those that were written.
+    pub ends: Interval,
 }
 
-/// Reads a number that is exact or has a tolerance: `1 N +- 0.2 N`, `1 N +- 5 %`, `0.8 N .. 1.2 N`. Fails with
-/// one line that says what could not be read.
+/// Reads a number that is exact or has a tolerance: `1 N +- 0.2 N`, `1 N +- 5 %`, `0.8 N .. 1.2 N`.
+///
+/// # Errors
+/// One line that says what could not be read.
 pub fn toleranced(text: &str) -> Result<Toleranced, String> {
+    let text = &text.replace('\u{b1}', "+-");
     let two = |one: &str, other: &str| {
         let (one, other) = (measured(one)?, measured(other)?);
         if one.dimension == other.dimension {
@@ -98,23 +165,27 @@ pub fn toleranced(text: &str) -> Result<Toleranced, String> {
             Err(format!("{text:?}: both numbers take the same unit, or none (SI units)"))
         }
     };
-    let (middle, half_width) = if let Some((value, half)) = text.split_once("+-") {
-        match half.trim().strip_suffix('%') {
+    let around = |middle: Measured, half_width: f64| {
+        (middle, half_width, Interval::around(middle.value, half_width.max(0.0)))
+    };
+    let (middle, half_width, ends) = if let Some((value, half)) = text.split_once("+-") {
+        let (middle, half_width) = match half.trim().strip_suffix('%') {
             Some(percent) => {
                 let middle = measured(value)?;
                 (middle, 0.01 * measured(percent)?.value * middle.value.abs())
             }
             None => two(value, half)?,
-        }
+        };
+        around(middle, half_width)
     } else if let Some((low, high)) = text.split_once("..") {
         let (low, high) = two(low, high)?;
         let middle = Measured { value: 0.5 * low.value + 0.5 * high, ..low };
-        (middle, 0.5 * high - 0.5 * low.value)
+        (middle, 0.5 * high - 0.5 * low.value, Interval::new(low.value, high))
     } else {
-        (measured(text)?, 0.0)
+        around(measured(text)?, 0.0)
     };
     if half_width >= 0.0 {
-        Ok(Toleranced { middle, half_width })
+        Ok(Toleranced { middle, half_width, ends })
     } else {
         Err(format!("{text:?}: a tolerance is 0 or more, and LOW .. HIGH ascend"))
     }
@@ -286,9 +357,9 @@ mod tests {
             ("40 N s^3/m^3", 40.0, cubic),
             ("40 N/(m/s)^3", 40.0, cubic),
             ("40 N\u{b7}s\u{b3}/m\u{b3}", 40.0, cubic),
-            ("-15 cm/s", -0.15, Dimension::VELOCITY),
-            ("30 m/min", 0.5, Dimension::VELOCITY),
-            ("3.6 km/h", 1.0, Dimension::VELOCITY),
+            ("-15 cm/s", -0.15, Dimension::new(0, 1, -1)),
+            ("30 m/min", 0.5, Dimension::new(0, 1, -1)),
+            ("3.6 km/h", 1.0, Dimension::new(0, 1, -1)),
             ("2 ms", 0.002, Dimension::TIME),
             ("2 m s", 2.0, Dimension::new(0, 1, 1)),
             ("5 1/s", 5.0, Dimension::new(0, 0, -1)),
@@ -305,6 +376,7 @@ mod tests {
             assert!((found.value / value - 1.0).abs() < 1e-14, "{text}: {}", found.value);
         }
         assert_eq!(measured(" 2.5e-1 "), Ok(Measured { value: 0.25, dimension: None }));
+        assert_eq!(measured("\u{2212}2 m"), measured("-2 m"));
     }
 
     #[test]
@@ -331,6 +403,7 @@ mod tests {
             "0x10 m",
             "2 ^2",
             "2 m^127 m^127",
+            "2,5",
         ] {
             let error = measured(text).expect_err(text);
             assert!(!error.contains('\n') && error.len() > 10, "{text}: {error}");
@@ -359,12 +432,11 @@ mod tests {
 
     #[test]
     fn a_wrong_dimension_names_the_right_unit() {
-        let length = measured("2 mm").unwrap();
-        assert_eq!(length.as_a(Dimension::LENGTH, "m"), Ok(0.002));
-        let refused = length.as_a(Dimension::IMPULSE, "N s").unwrap_err();
-        assert!(refused.contains("such as N s"), "{refused}");
-        assert_eq!(measured("2").unwrap().as_a(Dimension::IMPULSE, "N s"), Ok(2.0));
-        assert!(length.as_a(Dimension::ONE, "").unwrap_err().contains("no unit"));
+        assert_eq!(quantity("2 mm", "m"), Ok(0.002));
+        let refused = quantity("2 mm", "N s").unwrap_err();
+        assert_eq!(refused, "\"2 mm\" has the wrong unit; it takes one such as N s");
+        assert_eq!(quantity("2", "N s"), Ok(2.0));
+        assert!(quantity("2 mm", "").unwrap_err().contains("has a unit; it takes none"));
     }
 
     proptest! {

@@ -10,7 +10,9 @@ pub fn similar<Name: AsRef<str>>(
     known: impl IntoIterator<Item = Name>,
 ) -> Vec<Name> {
     let misspelt = misspelt.to_lowercase();
-    let rated = known.into_iter().map(|name| (strsim::jaro(&misspelt, name.as_ref()), name));
+    let rated = known
+        .into_iter()
+        .map(|name| (strsim::jaro(&misspelt, &name.as_ref().to_lowercase()), name));
     let mut rated: Vec<_> = rated.filter(|(likeness, _)| *likeness >= ALIKE.0).collect();
     rated.sort_by(|a, b| b.0.total_cmp(&a.0));
     let least = rated.first().map_or(0.0, |(best, _)| best - ALIKE.1);
