@@ -37,10 +37,20 @@ def values(at, value, error=0.0):
         yield at, (value, error)
 
 
+def documents(text):
+    """The documents of an answer in JSON: a scan has one in each line."""
+    decoder, at = json.JSONDecoder(), 0
+    while at < len(text):
+        found, end = decoder.raw_decode(text, at)
+        yield found
+        at = len(text) - len(text[end:].lstrip())
+
+
 def parsed(line, text):
     """The values of an answer in JSON or CSV by their places; nothing of a text."""
     if "--format=json" in line and text:
-        return dict(values("", json.loads(text)))
+        found = list(documents(text))
+        return dict(values("", found[0] if len(found) == 1 else found))
     if "--format=csv" in line:
         rows = [[number(cell) for cell in row] for row in csv.reader(io.StringIO(text))]
         named = [dict(zip(rows[0], row)) if len(row) == len(rows[0]) else row for row in rows[1:]]
