@@ -177,13 +177,8 @@ mod tests {
     fn numbers_and_intervals_are_read_and_refused_with_the_range() {
         assert_eq!(assigned("q0= 1e150"), Ok((Knob::Q0, Interval::point(1e150))));
         assert_eq!(assigned("D=-0.3..-0.28"), Ok((Knob::D, Interval::new(-0.3, -0.28))));
-        for (text, expected) in [
-            ("r=0.1+-0.2", "r = -0.1 is outside its range 0 .. 1e150"),
-            ("r=1e-151..1", "r = 1e-151 is too close to 0; allowed: 0, or 1e-150 and more"),
-        ] {
-            let refused = assigned(text).unwrap_err();
-            assert!(refused.contains(expected), "{text}: {refused}");
-        }
+        let refused = assigned("r=0.1+-0.2").unwrap_err();
+        assert_eq!(refused, "r = -0.1 is outside its range 0 .. 1e150");
         assert_eq!(half_width("r=0.01"), Ok((Knob::R, 0.01)));
         for text in ["q0=1", "D=-1", "D"] {
             assert!(half_width(text).unwrap_err().to_lowercase().contains("half"), "{text}");

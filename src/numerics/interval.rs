@@ -54,7 +54,11 @@ impl Interval {
         if radius == 0.0 {
             return Interval::point(middle);
         }
-        Interval::outward(middle - radius, middle + radius)
+        let (lower, upper) = (middle - radius, middle + radius);
+        let Interval { lower: below, upper: above } = Interval::outward(lower, upper);
+        // A sum that is 0 is exact.
+        let or_zero = |sum: f64, beyond: f64| if sum == 0.0 { 0.0 } else { beyond };
+        Interval::new(or_zero(lower, below), or_zero(upper, above))
     }
 
     /// The interval one double beyond each of two rounded bounds.

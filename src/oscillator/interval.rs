@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::knob::Knob;
+use super::knob::{Knob, KnobSpec};
 use super::parameters::Parameters;
 pub use crate::numerics::Interval;
 
@@ -40,18 +40,31 @@ impl ParameterBox {
         for end in [interval.lower(), interval.upper()] {
             symbol.check(end).map_err(|refused| refused.to_string())?;
         }
-        *match symbol {
-            Knob::D => &mut self.d,
-            Knob::D2 => &mut self.d2,
-            Knob::D3 => &mut self.d3,
-            Knob::R => &mut self.r,
-            _ => {
-                return Err(format!(
-                    "{symbol} is the start of a motion; only D, D2, D3, r have intervals"
-                ));
-            }
-        } = interval;
+        *self.part(symbol).ok_or_else(|| {
+            format!("{symbol} is the start of a motion; only D, D2, D3, r have intervals")
+        })? = interval;
         Ok(())
+    }
+
+    /// Makes the interval of a parameter wider on both sides, within the range of the parameter. Its ends, unlike the
+    /// parameter, may be arbitrarily close to 0. The start of a motion has no interval.
+    pub fn widen(&mut self, symbol: Knob, half_width: f64) {
+        let KnobSpec { min, max, .. } = *symbol.spec();
+        if let Some(part) = self.part(symbol) {
+            let [lower, upper] =
+                [part.lower(), part.upper()].map(|end| Interval::around(end, half_width));
+            *part = Interval::new(lower.lower().max(min), upper.upper().min(max));
+        }
+    }
+
+    fn part(&mut self, symbol: Knob) -> Option<&mut Interval> {
+        match symbol {
+            Knob::D => Some(&mut self.d),
+            Knob::D2 => Some(&mut self.d2),
+            Knob::D3 => Some(&mut self.d3),
+            Knob::R => Some(&mut self.r),
+            _ => None,
+        }
     }
 
     /// The parameters halfway.

@@ -99,6 +99,9 @@ impl Knob {
         }
         let KnobSpec { min, max, .. } = *self.spec();
         let ends = Interval::new(read.ends.lower().max(min), read.ends.upper().min(max));
+        for end in [ends.lower(), ends.upper()] {
+            self.check(end).map_err(|refused| refused.to_string())?;
+        }
         Ok(Toleranced { middle, ends, ..read })
     }
 

@@ -1,6 +1,7 @@
 //! What the table promises.
 
 use super::*;
+use crate::oscillator::ParameterBox;
 use crate::oscillator::belt::FrictionLaw;
 use crate::oscillator::unit::Dimension;
 
@@ -126,11 +127,15 @@ fn values_are_read_with_their_unit_and_refused_in_the_same_words() {
 fn tolerances_stay_within_the_range() {
     let r = Knob::R.parse_toleranced("0.1+-0.1").unwrap();
     assert_eq!((r.middle.value, r.half_width, r.ends.lower()), (0.1, 0.1, 0.0));
+    let d2 = Knob::D2.parse_toleranced("-0.1+-0.1").unwrap();
+    assert_eq!(d2.ends.upper(), 0.0);
+    assert_eq!(ParameterBox::from(&Parameters::default()).set(Knob::D2, d2.ends), Ok(()));
     let d = Knob::D.parse_toleranced("-0.3..-0.28").unwrap();
     assert_eq!(d.ends, Interval::new(-0.3, -0.28));
     assert_eq!(Knob::D.parse_toleranced("0.2").unwrap().ends, Interval::point(0.2));
     for (text, words) in [
         ("0.1+-0.2", "r = -0.1 is outside its range 0 .. 1e150"),
+        ("1e-151..1", "r = 1e-151 is too close to 0"),
         ("0.1+-", "\"\" is not a number; r takes"),
         ("0.2..0.1", "LOW .. HIGH ascend"),
         ("0.1+--1", "a tolerance is 0 or more"),

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::machine::Tolerances;
-use crate::oscillator::{Belt, Interval, Knob, ParameterBox, Parameters};
+use crate::oscillator::{Belt, Knob, ParameterBox, Parameters};
 use crate::scene::Running;
 
 /// The largest deviations of the parameters from their values, and the bound on a force that varies in any way.
@@ -81,14 +81,8 @@ impl Doubt {
     /// The intervals of the parameters, limited to their ranges.
     pub fn known(&self, parameters: &Parameters) -> ParameterBox {
         let mut known = ParameterBox::from(parameters);
-        for symbol in Knob::PARAMETERS {
-            let spec = symbol.spec();
-            let value = symbol.get(parameters, &crate::oscillator::State { q: 0.0, v: 0.0 });
-            let around = Interval::around(value, self.half_width(symbol));
-            let interval =
-                Interval::new(around.lower().max(spec.min), around.upper().min(spec.max));
-            // Both ends are within the range of the parameter.
-            let _ = known.set(symbol, interval);
+        for (symbol, half_width) in Knob::PARAMETERS.into_iter().zip(self.half_widths) {
+            known.widen(symbol, half_width);
         }
         known
     }

@@ -3,7 +3,7 @@
 use super::Trial;
 use super::facts::refuses;
 use crate::machine::Tolerances;
-use crate::oscillator::{Interval, Knob};
+use crate::oscillator::{Interval, Knob, Parameters};
 use crate::question;
 use crate::question::answer;
 use crate::scene::{Answer, Request, Topic};
@@ -79,6 +79,12 @@ fn what_is_certain_is_asked_with_the_box_and_answers_the_reference() {
         panic!()
     };
     assert_eq!((known.d3, disturbance), (Interval::around(0.5, 0.1), 0.02));
+    // However close to 0 its ends are: a tolerance that were left out would promise too much.
+    for (d2, half) in [(0.2, 0.2), (3e-150, 2.5e-150)] {
+        let doubt = Doubt::default().with_half_width(Knob::D2, half).unwrap();
+        let known = doubt.known(&Parameters { d2, ..Parameters::default() });
+        assert_eq!(known.d2, Interval::around(d2, half));
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What some measures depend on beside the parameters and the start.
 
-use crate::oscillator::{Interval, Knob, ParameterBox, Parameters};
+use crate::oscillator::{Knob, ParameterBox, Parameters};
 use crate::study::basin::Window;
 use crate::study::kicks::RandomKick;
 
@@ -29,17 +29,7 @@ impl Conditions {
     pub fn around(&self, parameters: &Parameters) -> ParameterBox {
         let mut known = ParameterBox::from(parameters);
         for &(symbol, half_width) in &self.half_widths {
-            let around = |value: f64| Interval::around(value, half_width);
-            match symbol {
-                Knob::D => known.d = around(parameters.d),
-                Knob::D2 => known.d2 = around(parameters.d2),
-                Knob::D3 => known.d3 = around(parameters.d3),
-                Knob::R => {
-                    let r = around(parameters.r);
-                    known.r = Interval::new(r.lower().max(0.0), r.upper());
-                }
-                _ => {}
-            }
+            known.widen(symbol, half_width);
         }
         known
     }
