@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use hopfscope::flow::{Limits, Reason};
 use hopfscope::scene::find;
 use hopfscope::study::claims::{
-    Certainty, Examined, Finding, Sense, UNSAID, Verdict, claims, examine,
+    Certainty, ClaimResult, Finding, Sense, UNSAID, Verdict, claims, examine,
 };
 
 /// Change of energy of the piecewise linear motion with D = -0.1, r = 0.1 from rest at q = 1.5 until tau = 20,
@@ -13,13 +13,13 @@ use hopfscope::study::claims::{
 const CHANGE_OF_ENERGY: f64 = 21.673_075_535_168_95;
 
 /// All claims, examined once for all tests.
-static ALL: LazyLock<Vec<Examined>> =
+static ALL: LazyLock<Vec<ClaimResult>> =
     LazyLock::new(|| claims().map(|claim| examine(claim, &Limits::PATIENT).unwrap()).collect());
 
 /// The findings about an equation whose statement contains some words.
 fn about(equation: &str, words: &str) -> &'static Finding {
     let matching =
-        |one: &&Examined| one.claim.equation == equation && one.claim.statement.contains(words);
+        |one: &&ClaimResult| one.claim.equation == equation && one.claim.statement.contains(words);
     let found: Vec<_> = ALL.iter().filter(matching).collect();
     assert_eq!(found.len(), 1, "{equation} {words}");
     found[0].finding.as_ref().unwrap_or_else(|reason| panic!("{equation} {words}: {reason}"))

@@ -6,7 +6,7 @@ use hopfscope::numerics::elementary::sin;
 use hopfscope::numerics::random::Random;
 use hopfscope::oscillator::{Interval, ParameterBox, Parameters, State};
 use hopfscope::study::basin::basin;
-use hopfscope::study::guarantee::{Sided, guarantee, zones};
+use hopfscope::study::guarantee::{TwoSided, guarantee, zones};
 use hopfscope::study::{Edge, Margin};
 
 fn between(random: &mut Random, interval: Interval) -> f64 {
@@ -71,7 +71,7 @@ const STEP: f64 = 0.02;
 /// Follows a disturbed motion by the Runge-Kutta method, step by step and half swing by half swing. Returns how
 /// far its turning points go to the left and to the right, and whether it is at rest in the end.
 fn extent(
-    system: &Sided,
+    system: &TwoSided,
     bound: f64,
     force: Force,
     start: State,
@@ -171,7 +171,7 @@ fn leaving(known: &ParameterBox, w: f64, motions: usize, random: &mut Random) ->
         let ParameterBox { d, d2, d3, .. } = *known;
         let [d, d2, d3] = [d, d2, d3].map(|interval| corner(random, interval));
         let parameters = Parameters { d, d2, d3, r };
-        let system = Sided { upper: parameters, lower: parameters };
+        let system = TwoSided { upper: parameters, lower: parameters };
         let sign = if random.even() < 0.5 { 1.0 } else { -1.0 };
         // Where friction and the disturbance hold the mass.
         let rest = (2.0 * random.even() - 1.0).signum() * random.even().sqrt() * (r + w);
@@ -273,7 +273,7 @@ fn the_worst_disturbance_leads_out_from_just_beyond() {
     for (known, w) in cases() {
         let margin = guarantee(&known, w, &Limits::PATIENT).unwrap().guaranteed.margin;
         // The disturbance compensates for the friction that the worst system lacks.
-        let worst = Sided::worst(&known, 0.0);
+        let worst = TwoSided::worst(&known, 0.0);
         let (q, v) = (margin.displacement.unwrap(), margin.impulse.unwrap());
         let mut leaves_from = |rest: f64, part: f64, kick: State| {
             let start = State { q: rest + part * kick.q, v: part * kick.v };
@@ -321,7 +321,7 @@ fn no_rest_position_has_a_smaller_margin_and_one_attains_it() {
             continue;
         };
         looked += 1;
-        let system = Sided { upper: parameters, lower: parameters };
+        let system = TwoSided { upper: parameters, lower: parameters };
         let mut rests = |rest: f64, part: f64, kick: State| {
             let start = State { q: rest + part * kick.q, v: part * kick.v };
             extent(&system, 0.0, Force::Along, start, 400.0, &mut random).2

@@ -33,12 +33,12 @@ struct Machinery {
 /// The request that encodes a number.
 fn request(number: u32) -> Request {
     let parameters = Parameters { d: f64::from(number), d2: 0.0, d3: 0.0, r: 0.0 };
-    Request::Cycles(question::cycles::Asked { parameters })
+    Request::Cycles(question::cycles::Inputs { parameters })
 }
 
 /// The worker, which panics at 3.
 fn confirm(request: &Request, _: &Limits, _: &Tell) -> Result<Answer, Reason> {
-    let Request::Cycles(question::cycles::Asked { parameters, .. }) = *request else {
+    let Request::Cycles(question::cycles::Inputs { parameters, .. }) = *request else {
         return Err(Reason::OutOfRange);
     };
     assert!(parameters.d != 3.0, "three is too much");

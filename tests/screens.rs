@@ -47,10 +47,10 @@ impl Explorer {
             session: Session::new(scene.clone(), Size { width, height }),
             terminal: Terminal::new(Painter::new(line.clone(), size)).unwrap(),
             line,
-            look: Look::new(settings::Wishes {
+            look: Look::new(settings::DisplaySettings {
                 glyphs: Glyphs::Braille,
                 colors: Colors::Sixteen,
-                ..settings::Wishes::default()
+                ..settings::DisplaySettings::default()
             }),
         }
     }

@@ -14,7 +14,7 @@ use crate::proof::escape::enclose_escape;
 use crate::proof::fold::enclose_fold;
 use crate::proof::range::change_near;
 use crate::report::border as report;
-use crate::report::certified::{self, Bordered};
+use crate::report::certified::{self, BorderProof};
 use crate::study::fold::{Boundary as Found, BoundaryPoint, border};
 
 /// Continues the fold `D_F` and the escape point `D_c` in a second parameter
@@ -62,7 +62,7 @@ impl Arguments {
 }
 
 /// The fold and the escape point in D at each point of a border, enclosed.
-fn enclosed(found: &Found) -> Vec<Bordered> {
+fn enclosed(found: &Found) -> Vec<BorderProof> {
     let nowhere = State { q: 0.0, v: 0.0 };
     let at = |point: &BoundaryPoint| {
         let mut parameters = found.parameters;
@@ -78,7 +78,7 @@ fn enclosed(found: &Found) -> Vec<Bordered> {
         });
         let escape =
             point.escape.and_then(|d| enclose_escape(&known, Knob::D, d).or_else(|| changes(d)));
-        Bordered::new(point, fold, escape)
+        BorderProof::new(point, fold, escape)
     };
     found.points.par_iter().map(at).collect()
 }

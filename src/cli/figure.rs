@@ -35,14 +35,14 @@ pub struct Arguments {
     #[arg(long, requires = "output")]
     force: bool,
     /// Format on standard output, without --output
-    #[arg(long, value_enum, default_value_t = Printed::Text, value_name = "FORMAT",
+    #[arg(long, value_enum, default_value_t = PrintForm::Text, value_name = "FORMAT",
           conflicts_with = "output")]
-    format: Printed,
+    format: PrintForm,
 }
 
 /// The form of a figure on standard output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Printed {
+pub enum PrintForm {
     /// Drawn with characters.
     Text,
     /// One JSON document, all digits.
@@ -75,10 +75,10 @@ impl Arguments {
             return write(path, &content, self.force);
         }
         print(&match self.format {
-            Printed::Text => in_letters(&session),
-            Printed::Json => forms::json(&drawn()),
-            Printed::Csv => forms::csv(&drawn()),
-            Printed::Svg => forms::svg(&drawn()),
+            PrintForm::Text => in_letters(&session),
+            PrintForm::Json => forms::json(&drawn()),
+            PrintForm::Csv => forms::csv(&drawn()),
+            PrintForm::Svg => forms::svg(&drawn()),
         })
     }
 }

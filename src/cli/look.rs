@@ -3,7 +3,9 @@
 use clap::Args;
 
 use crate::session::config::Config;
-use crate::session::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, Wishes, named};
+use crate::session::settings::{
+    COLORS, Colors, DisplaySettings, GLYPHS, Glyphs, THEMES, Theme, named,
+};
 
 /// How the screen looks.
 #[derive(Clone, Copy, Debug, Args)]
@@ -27,8 +29,8 @@ pub struct Looks {
 
 impl Looks {
     /// The user's choice: from the options, else from the settings file, else the default.
-    pub fn wishes(self, config: &Config) -> Wishes {
-        Wishes {
+    pub fn wishes(self, config: &Config) -> DisplaySettings {
+        DisplaySettings {
             glyphs: self.glyphs.or(config.glyphs).unwrap_or_default(),
             colors: self.color.or(config.colors).unwrap_or_default(),
             fine: Colors::Auto,

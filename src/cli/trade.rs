@@ -44,7 +44,7 @@ impl Arguments {
             let row = &trade.rows[index];
             row.error().map(|_| trajectory(&row.problem, Detail::default(), &Limits::PATIENT))
         });
-        let timed = report::Timed { trade, seconds };
+        let timed = report::TimedTrade { trade, seconds };
         self.output.print(&match self.output.format {
             Format::Table => {
                 let plot = in_letters(&timed.trade, &timed.seconds);

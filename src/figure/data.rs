@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::content::{Area, Figure, FigureCurve};
 use crate::picture::map::{Map, MapCell};
-use crate::report::csv::Sheet;
+use crate::report::csv::CsvSheet;
 use crate::report::json::text;
 use crate::words::printable;
 
@@ -23,7 +23,7 @@ pub fn csv(figure: &Figure) -> String {
     // Only a map has values.
     let map = figure.panels.iter().any(|panel| panel.map.is_some());
     let value = map.then_some(MapCell::Number(0.0));
-    let mut sheet = Sheet::like(&PointRow { value, ..PointRow::default() }, &[]);
+    let mut sheet = CsvSheet::like(&PointRow { value, ..PointRow::default() }, &[]);
     for (panel, shown) in (1..).zip(&figure.panels) {
         if let Some(Map { name, x, y, values, .. }) = &shown.map {
             for (x, column) in x.iter().zip(values) {

@@ -17,7 +17,7 @@ use crate::numerics::elementary::powi;
 
 /// Damping and offset by averaging.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Averaged {
+pub struct AveragedDamping {
     /// Linear damping.
     pub d: f64,
     /// Asymmetric damping.
@@ -41,7 +41,7 @@ const TERMS: [&[usize]; 4] = [&[0, 1, 2], &[0, 1], &[1, 2], &[1]];
 
 /// Damping and offset from the turning points, one result for each of `TERMS` that can be fitted; of a single swing
 /// one for each of several intensities of friction. Empty for fewer than two turning points.
-pub fn regressions(extremes: &[Extreme]) -> Vec<Averaged> {
+pub fn regressions(extremes: &[Extreme]) -> Vec<AveragedDamping> {
     let largest =
         extremes.windows(2).map(|two| 0.5 * (two[1].x - two[0].x).abs()).fold(0.0, f64::max);
     if largest <= 0.0 || extremes.len() < 2 {
@@ -57,7 +57,7 @@ pub fn regressions(extremes: &[Extreme]) -> Vec<Averaged> {
     for terms in TERMS {
         let Some([r, d, d3]) = damping(&unit, terms) else { continue };
         let Some((offset, d2)) = middle(&unit, d) else { continue };
-        found.push(Averaged {
+        found.push(AveragedDamping {
             d,
             d2: d2 / largest,
             d3: d3 / (largest * largest),
@@ -69,7 +69,7 @@ pub fn regressions(extremes: &[Extreme]) -> Vec<Averaged> {
 }
 
 /// A single swing tells offset and friction only together: `x_0 + x_1 = 2 (offset + r)` if it begins on the right.
-fn of_one_swing(begin: f64, end: f64) -> Vec<Averaged> {
+fn of_one_swing(begin: f64, end: f64) -> Vec<AveragedDamping> {
     /// Intensities of friction as parts of the amplitude.
     const PARTS: [f64; 6] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3];
     /// Moderate damping.
@@ -77,7 +77,7 @@ fn of_one_swing(begin: f64, end: f64) -> Vec<Averaged> {
     let of = |part: f64| {
         let right = 0.5 * part * (begin - end);
         let offset = 0.5 * (begin + end) - right;
-        Averaged { d: D, r: right.abs(), offset, ..Averaged::default() }
+        AveragedDamping { d: D, r: right.abs(), offset, ..AveragedDamping::default() }
     };
     PARTS.map(of).to_vec()
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::decrements::{Averaged, regressions};
+use super::decrements::{AveragedDamping, regressions};
 use super::noise::{Noise, median, robust_deviation};
 use super::observation::{D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, StartKind, Unknowns};
 use super::search::Beginning;
@@ -58,7 +58,7 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
         (6.0 * noise.deviation / samples_within(t, period / 12.0).sqrt()).max(0.02 * (high - low));
     let mut with_rest = extremes.clone();
     with_rest.extend(rest(t, &cleaned, &extremes, period, tail));
-    let unknowns = |averaged: &Averaged, q0: f64, last: f64| {
+    let unknowns = |averaged: &AveragedDamping, q0: f64, last: f64| {
         let mut p: Unknowns = [0.0; 8];
         (p[OMEGA0], p[OFFSET]) = (2.0 * PI / period, averaged.offset);
         (p[D], p[D2], p[D3], p[R]) = (averaged.d, averaged.d2, averaged.d3, averaged.r);
@@ -66,7 +66,7 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
         p
     };
     let moving = || {
-        let guess = |averaged: &Averaged| {
+        let guess = |averaged: &AveragedDamping| {
             let (q0, v0) = first_state(t, &cleaned, &unknowns(averaged, 0.0, 0.0), period)?;
             Some(unknowns(averaged, q0, v0))
         };

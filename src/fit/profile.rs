@@ -66,7 +66,7 @@ pub enum Left {
 }
 
 /// The best point for a value of the unknown.
-struct Refitted {
+struct ProfilePoint {
     /// Distance from the minimum.
     step: f64,
     /// Rise of the loss above the least, as a fraction of that at the end of the interval.
@@ -161,7 +161,7 @@ impl Profile<'_> {
             return Ok(Some(center));
         }
         let risen = (self.optimum.cost - self.least) / rise;
-        let mut inside = Refitted { step: 0.0, risen, optimum: self.optimum.clone() };
+        let mut inside = ProfilePoint { step: 0.0, risen, optimum: self.optimum.clone() };
         let mut outside: Option<(f64, f64)> = None;
         let mut step = reach.min(farthest);
         for _ in 0..REFITS {
@@ -172,7 +172,7 @@ impl Profile<'_> {
             }
             match found.filter(|found| found.risen < 1.0) {
                 Some(_) if step >= farthest => return Ok(is_least.then_some(0.0)),
-                Some(found) => inside = Refitted { step, ..found },
+                Some(found) => inside = ProfilePoint { step, ..found },
                 None => outside = Some((step, risen)),
             }
             let root = |risen: f64| risen.sqrt();
@@ -196,10 +196,10 @@ impl Profile<'_> {
         &self,
         unknown: usize,
         value: f64,
-        from: &Refitted,
+        from: &ProfilePoint,
         rise: f64,
         runs: &mut Runs,
-    ) -> Result<Option<Refitted>, Left> {
+    ) -> Result<Option<ProfilePoint>, Left> {
         /// Fall of the loss, as a fraction of the rise at the end, that shows that the minimum was none.
         const LOWER: f64 = 0.02;
         let by = value - from.optimum.p[unknown];
@@ -212,7 +212,7 @@ impl Profile<'_> {
             }
             Ok(optimum) => {
                 let risen = (optimum.cost - self.least).max(0.0) / rise;
-                Ok(Some(Refitted { step: 0.0, risen, optimum }))
+                Ok(Some(ProfilePoint { step: 0.0, risen, optimum }))
             }
             Err(NoFit::Interrupted) => Err(Left::Interrupted),
             Err(NoFit::Lost) => Ok(None),

@@ -17,7 +17,7 @@ use crate::oscillator::{HalfPlane, Side};
 
 /// An arrival at `v = 0`, or the end of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Arrived {
+pub struct PreciseArrival {
     /// Time.
     pub tau: Twofold,
     /// Displacement.
@@ -30,9 +30,9 @@ pub struct Arrived {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PreciseEnd {
     /// At rest: the last arrival, or the start.
-    Captured(Arrived),
+    Captured(PreciseArrival),
     /// Still moving at the end time.
-    Moving(Arrived),
+    Moving(PreciseArrival),
     /// The velocity becomes infinite in finite time.
     Escaped {
         /// Time of the blow-up.
@@ -44,7 +44,7 @@ pub enum PreciseEnd {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Precise {
     /// Every arrival at `v = 0` after the start, the last one included.
-    pub turns: Vec<Arrived>,
+    pub turns: Vec<PreciseArrival>,
     /// How it ended.
     pub end: PreciseEnd,
     /// Cost; an evaluation takes a hundred times as long as one in doubles.
@@ -89,7 +89,7 @@ pub fn precise(problem: &Problem, grain: Grain, limits: &Limits) -> Result<Preci
     let Problem { parameters, initial, until, .. } = *problem;
     let r = parameters.r;
     let (mut tau, mut turns, mut cost) = (ZERO, Vec::new(), Cost::default());
-    let mark = |tau, q, v| Arrived { tau, q, v };
+    let mark = |tau, q, v| PreciseArrival { tau, q, v };
     let start = mark(ZERO, Twofold::of(initial.q), Twofold::of(initial.v));
     let Some(mut side) = Side::entered_from(initial, r).filter(|_| !rests(initial, r)) else {
         return Ok(Precise { turns, end: PreciseEnd::Captured(start), cost });

@@ -20,21 +20,21 @@ pub enum SignLaw {
 
 /// The field of the whole phase plane with friction by a [`SignLaw`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Regularized {
+pub struct SmoothField {
     /// Damping and restoring force.
     smooth: HalfPlane,
     r: f64,
     law: SignLaw,
 }
 
-impl Regularized {
+impl SmoothField {
     /// The field for these parameters.
     pub fn new(parameters: &Parameters, law: SignLaw) -> Self {
-        Regularized { smooth: HalfPlane::new(parameters, Side::Upper), r: parameters.r, law }
+        SmoothField { smooth: HalfPlane::new(parameters, Side::Upper), r: parameters.r, law }
     }
 }
 
-impl Field for Regularized {
+impl Field for SmoothField {
     fn acceleration(&self, x: f64, v: f64) -> f64 {
         let sign = match self.law {
             SignLaw::Tanh(epsilon) => tanh(v / epsilon),

@@ -6,7 +6,7 @@ use super::explicit::{Dop853, Dopri5, Rk4};
 use super::limits::{Limits, Reason};
 use super::method::Method;
 pub use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
-use super::regularized::{Regularized, SignLaw};
+use super::regularized::{SignLaw, SmoothField};
 use super::run::MotionRun;
 use super::stiff::Stiff;
 use super::taylor::Taylor;
@@ -42,11 +42,11 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
         Method::Rk4 => run(Method::Rk4).go(&mut Rk4::rk4(field, step), limits),
         Method::Stiff => run(Method::Stiff).go(&mut Stiff::new(field, tolerance), limits),
         Method::Smoothed => {
-            let field = Regularized::new(&parameters, SignLaw::Tanh(epsilon));
+            let field = SmoothField::new(&parameters, SignLaw::Tanh(epsilon));
             run(Method::Smoothed).walk(&mut Dop853::dop853(field, tolerance), false, limits)
         }
         Method::SignRk4 => {
-            let field = Regularized::new(&parameters, SignLaw::Sign);
+            let field = SmoothField::new(&parameters, SignLaw::Sign);
             run(Method::SignRk4).walk(&mut Rk4::rk4(field, step), false, limits)
         }
         Method::TimeStepping => {

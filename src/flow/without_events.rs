@@ -98,7 +98,7 @@ impl MotionRun {
 #[cfg(test)]
 mod tests {
     use super::super::explicit::Dop853;
-    use super::super::regularized::{Regularized, SignLaw};
+    use super::super::regularized::{SignLaw, SmoothField};
     use super::super::stiff::Stiff;
     use super::super::trajectory::{Detail, trajectory};
     use super::super::{Limits, Method, Outcome, Problem, Trajectory};
@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn an_implicit_method_creeps_to_the_same_place() {
         let problem = Problem { epsilon: 1e-4, ..from(0.4) };
-        let field = Regularized::new(&problem.parameters, SignLaw::Tanh(problem.epsilon));
+        let field = SmoothField::new(&problem.parameters, SignLaw::Tanh(problem.epsilon));
         let start = || MotionRun::new(&problem, Method::Smoothed, Detail::default());
         let explicit = start().walk(&mut Dop853::dop853(field, 1e-8), false, &Limits::PATIENT);
         let implicit = start().walk(&mut Stiff::new(field, 1e-8), false, &Limits::PATIENT);

@@ -17,7 +17,7 @@ use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 
 /// Why a motion was not followed to the end of its phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Unfollowed {
+pub enum LostMotion {
     /// The slip left the velocities for which the friction law is known and positive.
     OutsideLaw {
         /// The slip, in m/s.
@@ -31,17 +31,17 @@ pub enum Unfollowed {
     Steps,
 }
 
-impl fmt::Display for Unfollowed {
+impl fmt::Display for LostMotion {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Unfollowed::OutsideLaw { slip } => write!(
+            LostMotion::OutsideLaw { slip } => write!(
                 out,
                 "motions of this machine slip by more than {slip:.6} m/s, where the friction law ends or its \
                  coefficient falls below 0; it must be known and not negative there"
             ),
-            Unfollowed::Escaped => write!(out, "the motion grows without bound"),
-            Unfollowed::Settled => write!(out, "the motion turns no more"),
-            Unfollowed::Steps => write!(
+            LostMotion::Escaped => write!(out, "the motion grows without bound"),
+            LostMotion::Settled => write!(out, "the motion turns no more"),
+            LostMotion::Steps => write!(
                 out,
                 "the motion takes more than {STEPS} steps to turn: at the velocities that it reaches its damping is \
                  many times the critical one; less damping, or a smaller start, can be followed"
@@ -50,14 +50,14 @@ impl fmt::Display for Unfollowed {
     }
 }
 
-impl std::error::Error for Unfollowed {}
+impl std::error::Error for LostMotion {}
 
-impl From<Unfollowed> for Fate<Unfollowed> {
-    fn from(stop: Unfollowed) -> Self {
+impl From<LostMotion> for Fate<LostMotion> {
+    fn from(stop: LostMotion) -> Self {
         match stop {
-            Unfollowed::Settled => Fate::Rest,
-            Unfollowed::Escaped => Fate::Escapes,
-            Unfollowed::OutsideLaw { .. } | Unfollowed::Steps => Fate::Unknown(stop),
+            LostMotion::Settled => Fate::Rest,
+            LostMotion::Escaped => Fate::Escapes,
+            LostMotion::OutsideLaw { .. } | LostMotion::Steps => Fate::Unknown(stop),
         }
     }
 }
@@ -165,14 +165,14 @@ impl<'a> Flow<'a> {
     /// Follows a motion from `(x, y)` to the end of its phase, forward in time or backward.
     ///
     /// # Errors
-    /// [`Unfollowed`] where it does not get there.
+    /// [`LostMotion`] where it does not get there.
     pub fn arc(
         &mut self,
         phase: Phase,
         (x, y): (f64, f64),
         backward: bool,
         watch: &mut impl Watch,
-    ) -> Result<ArcEnd, Unfollowed> {
+    ) -> Result<ArcEnd, LostMotion> {
         let model = self.model;
         let (side, offset) = (model.side(phase), model.offset(phase));
         let (least, most) = model.range(phase);
@@ -180,7 +180,7 @@ impl<'a> Flow<'a> {
         let (mut x, mut y) = (x + offset, y);
         let started = x.abs().max(y.abs());
         if started < LEAST {
-            return Err(Unfollowed::Settled);
+            return Err(LostMotion::Settled);
         }
         // On the belt's line at the fold the acceleration vanishes exactly.
         let touching = phase == Phase::Between
@@ -202,9 +202,9 @@ impl<'a> Flow<'a> {
             if !(length > 0.0 && length.is_finite()) {
                 // Without terms nothing moves; with terms that overflow it moves beyond all bounds.
                 return Err(if length == f64::INFINITY {
-                    Unfollowed::Settled
+                    LostMotion::Settled
                 } else {
-                    Unfollowed::Escaped
+                    LostMotion::Escaped
                 });
             }
             let (low, high) = (piece.low.max(least), piece.high.min(most));
@@ -231,13 +231,13 @@ impl<'a> Flow<'a> {
             let end = if watch.follows() { NEAR * started } else { f64::INFINITY };
             let turns = size > end || !creeps(phase, side, (x, y), forward);
             if size < SETTLED * started || !turns || watch.is_done() {
-                return Err(Unfollowed::Settled);
+                return Err(LostMotion::Settled);
             }
             if size.is_nan() || size > ESCAPED * started {
-                return Err(Unfollowed::Escaped);
+                return Err(LostMotion::Escaped);
             }
         }
-        Err(Unfollowed::Steps)
+        Err(LostMotion::Steps)
     }
 
     /// Whether the velocity rises, along the direction of integration.
@@ -247,8 +247,8 @@ impl<'a> Flow<'a> {
         if rate == 0.0 { phase == Phase::Below } else { rate > 0.0 }
     }
 
-    fn outside(&self, y: f64) -> Unfollowed {
-        Unfollowed::OutsideLaw { slip: (self.model.speed - y).abs() * self.model.omega_0 }
+    fn outside(&self, y: f64) -> LostMotion {
+        LostMotion::OutsideLaw { slip: (self.model.speed - y).abs() * self.model.omega_0 }
     }
 }
 
@@ -265,7 +265,7 @@ fn creeps(phase: Phase, side: &ForceBranch, (x, y): (f64, f64), forward: f64) ->
 }
 
 /// Where a step turns, and where it first reaches a level.
-struct Reached {
+struct StepLevels {
     peak: Option<f64>,
     /// Time and level.
     hit: Option<(f64, f64)>,
@@ -273,7 +273,7 @@ struct Reached {
 
 /// The first of two levels that a step reaches, given that the speed turns at most once, from growing to
 /// falling.
-fn crossing(series: &Series, phase: Phase, end: f64, (low, high): (f64, f64)) -> Reached {
+fn crossing(series: &Series, phase: Phase, end: f64, (low, high): (f64, f64)) -> StepLevels {
     let sign = phase.sign();
     let (outer, inner) = if sign > 0.0 { (high, low) } else { (low, high) };
     let grows = |slope: f64| sign * slope > 0.0;
@@ -289,7 +289,10 @@ fn crossing(series: &Series, phase: Phase, end: f64, (low, high): (f64, f64)) ->
             (turn, series.velocity(turn).0)
         };
         if beyond(fastest, outer) >= 0.0 {
-            return Reached { peak, hit: Some((root(series, outer, (0.0, until), sign), outer)) };
+            return StepLevels {
+                peak,
+                hit: Some((root(series, outer, (0.0, until), sign), outer)),
+            };
         }
     }
     let falls = if beyond(velocity, inner) <= 0.0 && !grows(slope) {
@@ -297,7 +300,7 @@ fn crossing(series: &Series, phase: Phase, end: f64, (low, high): (f64, f64)) ->
     } else {
         None
     };
-    Reached { peak, hit: falls }
+    StepLevels { peak, hit: falls }
 }
 
 /// The time in a bracket on which y is monotone, with the given direction, at which it is at a level.

@@ -1,7 +1,7 @@
 //! The border of the basin of rest where it is not a cycle: followed backward in time from where the return map
 //! jumps.
 
-use super::arc::{ArcEnd, Flow, Unfollowed};
+use super::arc::{ArcEnd, Flow, LostMotion};
 use super::curve::{CurvePiece, MachineCurve};
 use super::landmarks::Landmarks;
 use super::model::Phase;
@@ -14,13 +14,13 @@ impl Flow<'_> {
         x: f64,
         landmarks: Option<&Landmarks>,
         curve: &mut MachineCurve,
-    ) -> Result<f64, Unfollowed> {
+    ) -> Result<f64, LostMotion> {
         let speed = self.model.speed;
-        let Some(marks) = landmarks else { return Err(Unfollowed::Steps) };
+        let Some(marks) = landmarks else { return Err(LostMotion::Steps) };
         // Where static friction holds what the orbit comes from, its way to the line is not on the border.
         match self.arc(Phase::Between, (x, 0.0), true, &mut ()) {
             Ok(ArcEnd { on_belt: true, .. }) => {}
-            Ok(_) | Err(Unfollowed::Settled) => return self.capture_border(x, landmarks, curve),
+            Ok(_) | Err(LostMotion::Settled) => return self.capture_border(x, landmarks, curve),
             Err(stop) => return Err(stop),
         }
         let corner =
@@ -43,10 +43,10 @@ impl Flow<'_> {
         x: f64,
         landmarks: Option<&Landmarks>,
         curve: &mut MachineCurve,
-    ) -> Result<f64, Unfollowed> {
+    ) -> Result<f64, LostMotion> {
         let (guide, speed) = (self.model.guide, self.model.speed);
         let mut left = match self.arc(Phase::Between, (x, 0.0), true, curve) {
-            Err(Unfollowed::Settled) => -guide,
+            Err(LostMotion::Settled) => -guide,
             end => {
                 let end = end?;
                 let lines = landmarks.map(|marks| marks.lines).filter(|_| end.on_belt);
@@ -58,7 +58,7 @@ impl Flow<'_> {
         };
         left = left.min(-self.model.guide_static);
         match self.arc(Phase::Below, (left, 0.0), true, curve) {
-            Ok(_) | Err(Unfollowed::Settled) => Ok(left),
+            Ok(_) | Err(LostMotion::Settled) => Ok(left),
             Err(stop) => Err(stop),
         }
     }

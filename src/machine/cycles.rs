@@ -1,6 +1,6 @@
 //! The limit cycles: the fixed points of the return map, each found and described.
 
-use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
+use super::arc::{Flow, LostMotion, SeriesStep, Watch};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
 use super::return_map::{Image, MachineReturn};
@@ -84,7 +84,7 @@ pub struct FixedPoints {
     /// The point up to which they were sought, and what ended the search.
     pub end: f64,
     /// See [`Self::end`].
-    pub stop: Option<Unfollowed>,
+    pub stop: Option<LostMotion>,
     /// Intervals in which the search did not settle.
     pub unresolved: Vec<(f64, f64)>,
     /// Right turning point up to which the guide catches the mass within one return, if motions from beyond it
@@ -100,7 +100,7 @@ const FAR: f64 = 1e3;
 
 impl Flow<'_> {
     /// `ln(image/x)` of the return map over `u = ln(x/unit)`.
-    pub(super) fn growth(&mut self, u: f64, unit: f64) -> Result<GrowthSample, Unfollowed> {
+    pub(super) fn growth(&mut self, u: f64, unit: f64) -> Result<GrowthSample, LostMotion> {
         let x = unit * exp(u);
         let lost = |f| Ok(GrowthSample { u, f, slope: 0.0 });
         match self.returned(x) {
@@ -109,7 +109,7 @@ impl Flow<'_> {
                 Ok(GrowthSample { u, f: ln(image.x / x), slope })
             }
             Ok(MachineReturn::Rests(_)) => lost(-FAR),
-            Err(Unfollowed::Escaped) => lost(FAR),
+            Err(LostMotion::Escaped) => lost(FAR),
             Err(stop) => Err(stop),
         }
     }
@@ -117,15 +117,15 @@ impl Flow<'_> {
     /// All fixed points of the return map.
     ///
     /// # Errors
-    /// [`Unfollowed`] if even the motions next to rest cannot be followed.
-    pub fn fixed_points(&mut self, marks: Option<&Landmarks>) -> Result<FixedPoints, Unfollowed> {
+    /// [`LostMotion`] if even the motions next to rest cannot be followed.
+    pub fn fixed_points(&mut self, marks: Option<&Landmarks>) -> Result<FixedPoints, LostMotion> {
         let mut found = FixedPoints::default();
         let touch = marks.and_then(|marks| marks.grazing.right);
         let scale = self.scale(marks);
         let at = |x: f64| ln(x / scale);
         let caught = match self.smallest(scale) {
             // Every motion comes to rest at once, or leaves the law.
-            Err(stop @ Unfollowed::OutsideLaw { .. }) => {
+            Err(stop @ LostMotion::OutsideLaw { .. }) => {
                 let held = GrowthSample { u: at(self.model.guide_static), f: -FAR, slope: 0.0 };
                 found.stop = Some(stop);
                 found.end = scale * exp(self.edge(held, at(scale), scale).u);
@@ -179,7 +179,7 @@ impl Flow<'_> {
                     found.points.push((released, image));
                 }
                 // What escapes is known.
-                Some((_, Err(stop))) if stop != Unfollowed::Escaped => found.stop = Some(stop),
+                Some((_, Err(stop))) if stop != LostMotion::Escaped => found.stop = Some(stop),
                 _ => {}
             }
             if let Some(beyond) = marks.beyond {
@@ -224,7 +224,7 @@ impl Flow<'_> {
 
     /// The right turning point below which every motion comes to rest; without friction of the guide, a point
     /// below which the map is linear.
-    fn smallest(&mut self, scale: f64) -> Result<f64, Unfollowed> {
+    fn smallest(&mut self, scale: f64) -> Result<f64, LostMotion> {
         /// Growth below this is about to be lost in rounding.
         const WEAK: f64 = 1e-9;
         let held = self.model.guide_static;
@@ -253,7 +253,7 @@ impl Flow<'_> {
         last: GrowthSample,
         scale: f64,
         found: &mut FixedPoints,
-    ) -> Result<Vec<f64>, Unfollowed> {
+    ) -> Result<Vec<f64>, LostMotion> {
         let zeros = zeros((first, last), &mut |u| self.growth(u, scale))?;
         let turn = |u: f64| scale * exp(u);
         found.unresolved.extend(zeros.unresolved.iter().map(|(from, to)| (turn(*from), turn(*to))));
@@ -262,7 +262,7 @@ impl Flow<'_> {
 
     /// The innermost cycle, if it repels so strongly that a few turns backward lead to it from rest and the map
     /// itself cannot resolve it.
-    fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, Unfollowed> {
+    fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, LostMotion> {
         /// Maximum number of turns.
         const TURNS: usize = 8;
         /// To rounding, a cycle that repels beyond all digits turns where the guide lets go.
@@ -291,7 +291,7 @@ impl Flow<'_> {
     }
 
     /// The fixed point near `x` with its image; if it repels strongly, by the inverse map.
-    fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, Unfollowed> {
+    fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, LostMotion> {
         let MachineReturn::Turns(image) = self.returned(x)? else { return Ok(None) };
         let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
         if !slips || image.log_slope < STRONG {
@@ -308,7 +308,7 @@ impl Flow<'_> {
         from: f64,
         scale: f64,
         found: &mut FixedPoints,
-    ) -> Result<GrowthSample, Unfollowed> {
+    ) -> Result<GrowthSample, LostMotion> {
         /// Factor by which it lies beyond.
         const DOUBLINGS: u32 = 10;
         /// Doublings after which the shrinking of motions counts.
@@ -325,7 +325,7 @@ impl Flow<'_> {
                 Err(stop) => {
                     found.stop = Some(stop);
                     // Where motions take too many steps, finding the first of them costs too much.
-                    let dear = stop == Unfollowed::Steps;
+                    let dear = stop == LostMotion::Steps;
                     return Ok(if dear { last } else { self.edge(last, at(x), scale) });
                 }
             }
@@ -351,7 +351,7 @@ impl Flow<'_> {
         first: GrowthSample,
         last: GrowthSample,
         unit: f64,
-    ) -> Result<bool, Unfollowed> {
+    ) -> Result<bool, LostMotion> {
         let middle = self.growth(0.5 * (first.u + last.u), unit)?;
         let other = self.growth(0.3 * first.u + 0.7 * last.u, unit)?;
         Ok([first, middle, other, last].iter().all(|sample| sample.f.abs() < NOTHING))
@@ -360,13 +360,13 @@ impl Flow<'_> {
     /// The description of the cycle through a right turning point.
     ///
     /// # Errors
-    /// [`Unfollowed`] if rounding carries the motion away.
+    /// [`LostMotion`] if rounding carries the motion away.
     pub fn describe(
         &mut self,
         x: f64,
         image: &Image,
         stable: bool,
-    ) -> Result<MachineCycle, Unfollowed> {
+    ) -> Result<MachineCycle, LostMotion> {
         let model = self.model;
         let sticks = image.sticks_from.is_some();
         let overtakes = image.overtakes_from.is_some();
@@ -390,13 +390,13 @@ impl Flow<'_> {
     /// Follows a motion once around from a right turning point; backward in time if that attracts.
     ///
     /// # Errors
-    /// [`Unfollowed`] if rounding carries the motion away.
+    /// [`LostMotion`] if rounding carries the motion away.
     pub fn around(
         &mut self,
         x: f64,
         backward: bool,
         watch: &mut impl Watch,
-    ) -> Result<f64, Unfollowed> {
+    ) -> Result<f64, LostMotion> {
         if backward {
             let left = self.arc(Phase::Between, (x, 0.0), true, watch)?.x;
             self.arc(Phase::Below, (left, 0.0), true, watch)?;

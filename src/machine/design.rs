@@ -10,7 +10,7 @@ use super::survey::Trouble;
 use super::tolerance::Tolerances;
 use crate::flow::Reason;
 use crate::numerics::elementary::ln;
-use crate::study::design::{Kick, Needed, least_friction};
+use crate::study::design::{FrictionNeeded, Kick, least_friction};
 
 /// The logarithm of the guaranteed margin of this kind, as a fraction of `wanted`.
 fn guaranteed_excess(
@@ -33,7 +33,7 @@ pub fn friction_for(
     known: &Tolerances,
     kick: Kick,
     wanted: f64,
-) -> Result<Option<Needed>, Trouble> {
+) -> Result<Option<FrictionNeeded>, Trouble> {
     let model = subject.model()?;
     let mut trouble = None;
     let machine = |held: f64| subject.with_friction(held * model.stiffness);
@@ -74,8 +74,10 @@ pub fn friction_for(
     }
     let force = |r: f64| r * model.stiffness;
     Ok(found.ok().map(|needed| match needed {
-        Needed::Any => Needed::Any,
-        Needed::Friction { r } => Needed::Friction { r: force(r) },
-        Needed::Fold { r, below } => Needed::Fold { r: force(r), below: below / length * wanted },
+        FrictionNeeded::Any => FrictionNeeded::Any,
+        FrictionNeeded::Friction { r } => FrictionNeeded::Friction { r: force(r) },
+        FrictionNeeded::Fold { r, below } => {
+            FrictionNeeded::Fold { r: force(r), below: below / length * wanted }
+        }
     }))
 }

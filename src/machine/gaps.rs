@@ -1,7 +1,7 @@
 //! The gaps between the right turning points at which the return map changes, and the fate of the motions in
 //! each gap.
 
-use super::arc::{Flow, Unfollowed};
+use super::arc::{Flow, LostMotion};
 use super::landmarks::Landmarks;
 use super::model::Model;
 use super::return_map::MachineReturn;
@@ -13,9 +13,9 @@ use crate::flow::Fate;
 pub(super) struct Gap {
     /// Its upper end.
     pub to: f64,
-    pub fate: Fate<Unfollowed>,
+    pub fate: Fate<LostMotion>,
     /// Fate of a motion that turns exactly at the upper end.
-    pub end: Fate<Unfollowed>,
+    pub end: Fate<LostMotion>,
 }
 
 /// A right turning point at which the return map changes.
@@ -46,7 +46,7 @@ pub(super) enum Tendency {
     /// They are periodic.
     Nowhere,
     /// They leave the known range.
-    Lost(Unfollowed),
+    Lost(LostMotion),
 }
 
 /// The direction of motions in each gap.
@@ -54,7 +54,7 @@ pub(super) fn ways(
     flow: &mut Flow,
     marks: &[(f64, Divide)],
     end: f64,
-) -> Result<Vec<Tendency>, Unfollowed> {
+) -> Result<Vec<Tendency>, LostMotion> {
     let mut ways = Vec::with_capacity(marks.len() + 1);
     let held = flow.model.guide_static;
     let mut low = held;
@@ -69,10 +69,10 @@ pub(super) fn ways(
         let x = low + 0.5 * (high - low);
         ways.push(match flow.returned(x) {
             Ok(MachineReturn::Turns(image)) => way(image.x, x),
-            Ok(MachineReturn::Rests(_)) | Err(Unfollowed::Settled) => Tendency::Inward,
-            Err(Unfollowed::Escaped) => Tendency::Outward,
-            Err(stop @ Unfollowed::OutsideLaw { .. }) => Tendency::Lost(stop),
-            Err(Unfollowed::Steps) => return Err(Unfollowed::Steps),
+            Ok(MachineReturn::Rests(_)) | Err(LostMotion::Settled) => Tendency::Inward,
+            Err(LostMotion::Escaped) => Tendency::Outward,
+            Err(stop @ LostMotion::OutsideLaw { .. }) => Tendency::Lost(stop),
+            Err(LostMotion::Steps) => return Err(LostMotion::Steps),
         });
         low = high;
     }
@@ -94,7 +94,7 @@ fn way(image: f64, x: f64) -> Tendency {
 pub(super) fn gaps(
     marks: &[(f64, Divide)],
     ways: &[Tendency],
-    stop: Option<Unfollowed>,
+    stop: Option<LostMotion>,
 ) -> Vec<Gap> {
     let fate = |gap: usize| {
         let mut here = gap;

@@ -108,7 +108,7 @@ pub fn kicks(corners: &Corners, portrait: &Portrait) -> Margin {
 }
 
 /// A portrait whose basin of rest is bordered by a cycle of slip.
-struct Bordered {
+struct SlipBorder {
     portrait: Portrait,
     /// The velocities along the border, divided by the natural frequency.
     velocities: (f64, f64),
@@ -153,13 +153,13 @@ impl Corners {
 
     /// The portrait of a worst machine whose border stays below the line of every belt, with as much friction
     /// as that allows, and the velocities along the border.
-    fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<Bordered>, Trouble> {
+    fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<SlipBorder>, Trouble> {
         const HALVINGS: u32 = 24;
         let slowest = self.slowest();
-        let at = |less: f64| -> Result<Option<Bordered>, Trouble> {
+        let at = |less: f64| -> Result<Option<SlipBorder>, Trouble> {
             let portrait = portrait(&self.worst(corner, less))?;
             let border = slip_border(&portrait).filter(|(_, high)| *high < slowest);
-            Ok(border.map(|velocities| Bordered { portrait, velocities }))
+            Ok(border.map(|velocities| SlipBorder { portrait, velocities }))
         };
         if let Some(found) = at(less)? {
             return Ok(Some(found));

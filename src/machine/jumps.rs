@@ -3,7 +3,7 @@
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
-use super::arc::Unfollowed;
+use super::arc::LostMotion;
 use super::model::Model;
 use super::portrait::{MachineBorder, Portrait};
 use crate::flow::Fate;
@@ -17,7 +17,7 @@ pub struct Jump {
     /// Largest displacement of the cycle that ends, in m; 0 for rest.
     pub from: f64,
     /// What its motions become.
-    pub to: Fate<Unfollowed>,
+    pub to: Fate<LostMotion>,
     /// Largest displacement of the cycle to which they tend, in m; 0 for rest, else infinite.
     pub x_max: f64,
 }

@@ -1,6 +1,6 @@
 //! The special motions at the belt's line: those that touch it, are released by it, or overtake it.
 
-use super::arc::{Flow, Unfollowed};
+use super::arc::{Flow, LostMotion};
 use super::model::{Lines, Phase};
 use super::return_map::Divergence;
 use super::turn::ContactState;
@@ -36,16 +36,16 @@ pub struct Landmarks {
 }
 
 impl Flow<'_> {
-    /// The landmarks; `None` without a belt, or without a law for small slips. Fails with [`Unfollowed`] if the
+    /// The landmarks; `None` without a belt, or without a law for small slips. Fails with [`LostMotion`] if the
     /// friction law ends before they are reached.
-    pub fn landmarks(&mut self) -> Result<Option<Landmarks>, Unfollowed> {
+    pub fn landmarks(&mut self) -> Result<Option<Landmarks>, LostMotion> {
         let model = self.model;
         let Some(lines) = model.lines else { return Ok(None) };
         let grazing = self.grazing(&lines)?;
         let released = match self.turn(ContactState::Sticks, (lines.release, model.speed), &mut ())
         {
             Ok(turn) => (!turn.rests).then_some(turn.x),
-            Err(Unfollowed::Settled) => None,
+            Err(LostMotion::Settled) => None,
             Err(stop) => return Err(stop),
         };
         let low_left = self.left_before(lines.low, model.speed, &mut ())?;
@@ -53,19 +53,19 @@ impl Flow<'_> {
         Ok(Some(Landmarks { lines, grazing, released, low_left, beyond }))
     }
 
-    fn grazing(&mut self, lines: &Lines) -> Result<Grazing, Unfollowed> {
+    fn grazing(&mut self, lines: &Lines) -> Result<Grazing, LostMotion> {
         let (guide, speed) = (self.model.guide, self.model.speed);
         let mut divergence = Divergence::default();
         let left = self.left_before(lines.fold, speed, &mut divergence)?;
         // If overdamped, it comes to rest without another turn.
         let after = match self.arc(Phase::Between, (lines.fold, speed), false, &mut divergence) {
             Ok(end) => end.x,
-            Err(Unfollowed::Settled) => -guide,
+            Err(LostMotion::Settled) => -guide,
             Err(stop) => return Err(stop),
         };
         let left = left.min(-self.model.guide_static);
         let before = match self.right_before(left, &mut divergence) {
-            Err(Unfollowed::OutsideLaw { .. }) => None,
+            Err(LostMotion::OutsideLaw { .. }) => None,
             before => before?,
         };
         let (right, ratio) = before.map_or((None, 0.0), |(right, ratio)| (Some(right), ratio));
@@ -79,12 +79,12 @@ impl Flow<'_> {
     }
 
     /// The right turning point beyond which motions overtake the belt instead of riding on it.
-    fn beyond(&mut self, lines: &Lines, low_left: f64) -> Result<Option<f64>, Unfollowed> {
+    fn beyond(&mut self, lines: &Lines, low_left: f64) -> Result<Option<f64>, LostMotion> {
         let speed = self.model.speed;
         // The last motion that comes down on the band is followed back to where it rose above the line.
         let back = |stop| match stop {
-            Unfollowed::Escaped | Unfollowed::Settled | Unfollowed::OutsideLaw { .. } => Ok(None),
-            Unfollowed::Steps => Err(Unfollowed::Steps),
+            LostMotion::Escaped | LostMotion::Settled | LostMotion::OutsideLaw { .. } => Ok(None),
+            LostMotion::Steps => Err(LostMotion::Steps),
         };
         let rose = match self.arc(Phase::Above, (lines.release, speed), true, &mut ()) {
             Ok(end) => end.x,

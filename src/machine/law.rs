@@ -13,13 +13,13 @@ type Stretch = (f64, f64, Vec<f64>);
 const LOST: f64 = 42.0;
 
 /// The law as pieces of polynomials in the slip, and its exponential part.
-pub(super) struct Scaled {
+pub(super) struct ScaledLaw {
     pieces: Vec<Stretch>,
     /// Drop, velocity and exponent.
     fall: Option<(f64, f64, f64)>,
 }
 
-impl Scaled {
+impl ScaledLaw {
     /// The law as a force: coefficients times `force`, velocities divided by `omega_0`.
     pub fn new(law: &FrictionLaw, force: f64, omega_0: f64) -> Self {
         let scaled = |coefficients: &[f64]| -> Vec<f64> {
@@ -32,14 +32,14 @@ impl Scaled {
             (from / omega_0, to / omega_0, coefficients)
         };
         match law {
-            FrictionLaw::Constant { mu } => Scaled { pieces: whole(&[*mu]), fall: None },
+            FrictionLaw::Constant { mu } => ScaledLaw { pieces: whole(&[*mu]), fall: None },
             FrictionLaw::Polynomial { coefficients } => {
-                Scaled { pieces: whole(coefficients), fall: None }
+                ScaledLaw { pieces: whole(coefficients), fall: None }
             }
             FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
                 let end = velocity * pow(LOST, 1.0 / exponent);
                 let drop = force * (rest - kinetic);
-                Scaled {
+                ScaledLaw {
                     pieces: vec![
                         straight(0.0, end, *kinetic, *viscous),
                         straight(end, f64::INFINITY, *kinetic, *viscous),
@@ -47,7 +47,7 @@ impl Scaled {
                     fall: (drop != 0.0).then_some((drop, velocity / omega_0, *exponent)),
                 }
             }
-            FrictionLaw::Table(spline) => Scaled {
+            FrictionLaw::Table(spline) => ScaledLaw {
                 pieces: spline
                     .polynomials()
                     .map(|(from, to, c)| (from / omega_0, to / omega_0, scaled(&c)))
@@ -75,7 +75,7 @@ fn added(mut one: Vec<f64>, other: impl Iterator<Item = f64>) -> Vec<f64> {
 
 /// The force at velocities up to the belt's: `T - x0` less the damper's.
 pub(super) fn slower(
-    law: &Scaled,
+    law: &ScaledLaw,
     damper: &[f64],
     speed: f64,
     pull: f64,
@@ -108,7 +108,7 @@ pub(super) fn slower(
 }
 
 /// The force at velocities above the belt's: `-T` less the damper's.
-pub(super) fn faster(law: &Scaled, damper: &[f64], speed: f64, reach: f64) -> ForceBranch {
+pub(super) fn faster(law: &ScaledLaw, damper: &[f64], speed: f64, reach: f64) -> ForceBranch {
     let piece = |(from, to, coefficients): &Stretch| {
         let to = to.min(reach);
         let center = speed + from;

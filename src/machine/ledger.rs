@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
+use super::arc::{Flow, LostMotion, SeriesStep, Watch};
 use super::cycles::MachineCycle;
 use super::model::{Model, Phase};
 use crate::numerics::polynomial::value;
@@ -97,8 +97,8 @@ impl Flow<'_> {
     /// The ledger of one turn of a cycle.
     ///
     /// # Errors
-    /// [`Unfollowed`], where rounding carries the motion off.
-    pub fn works_around(&mut self, cycle: &MachineCycle) -> Result<MachineLedger, Unfollowed> {
+    /// [`LostMotion`], where rounding carries the motion off.
+    pub fn works_around(&mut self, cycle: &MachineCycle) -> Result<MachineLedger, LostMotion> {
         let mut works = StepWorks::default();
         let start = (cycle.x.1, 0.0);
         self.around(cycle.x.1, cycle.is_followed_backward(), &mut works)?;

@@ -68,7 +68,7 @@ pub(crate) mod tolerance;
 pub mod turn;
 
 pub use crate::oscillator::Modal;
-pub use arc::{Flow, Unfollowed};
+pub use arc::{Flow, LostMotion};
 pub use cycles::MachineCycle;
 pub use ledger::MachineLedger;
 pub use margin::MachineMargin;

@@ -13,7 +13,7 @@
 use std::fmt;
 
 use super::force::{ForceBranch, ForcePiece};
-use super::law::{Scaled, faster, slower};
+use super::law::{ScaledLaw, faster, slower};
 use super::reach::first_below_zero;
 use super::series::FINEST;
 use crate::numerics::elementary::powi;
@@ -161,7 +161,7 @@ impl Model {
             belt.cubic_damping * powi(omega_0, 3) * per_stiffness,
         ];
         let speed = v0 / omega_0;
-        let law = Scaled::new(&belt.law, force, omega_0);
+        let law = ScaledLaw::new(&belt.law, force, omega_0);
         let pull = force * mu;
         let reach = belt.law.range().1.min(first_below_zero(&belt.law)) / omega_0;
         let mut model = Model {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
+use super::arc::{Flow, LostMotion, SeriesStep, Watch};
 use super::curve::{CurvePiece, MachineCurve};
 use super::ledger::{MachineLedger, StepWorks};
 use super::model::{Model, Phase};
@@ -41,7 +41,7 @@ pub struct MachineMotion {
     /// Where it ends, or how far it was followed.
     pub end: MachineState,
     /// How it ends.
-    pub outcome: Fate<Unfollowed>,
+    pub outcome: Fate<LostMotion>,
     /// Smallest and largest displacement, in m.
     pub x: (f64, f64),
     /// Smallest and largest velocity, in m/s.
@@ -138,7 +138,7 @@ impl MachineMotion {
                 break Fate::Moving;
             }
             if recorder.curve.pieces.len() > MOST_PIECES {
-                break Fate::Unknown(Unfollowed::Steps);
+                break Fate::Unknown(LostMotion::Steps);
             }
             legs.push(Leg { place, t: (whole - recorder.left) / omega_0, x });
             match flow.leg(place, (x, y), &mut recorder) {
@@ -197,7 +197,7 @@ impl Flow<'_> {
         place: ContactState,
         (x, y): (f64, f64),
         watch: &mut impl Watch,
-    ) -> Result<Option<(ContactState, f64, f64)>, Unfollowed> {
+    ) -> Result<Option<(ContactState, f64, f64)>, LostMotion> {
         let phase = match place {
             ContactState::Rests => return Ok(None),
             ContactState::Sticks => {
@@ -215,8 +215,8 @@ impl Flow<'_> {
     /// Where a motion from `(x, y)` that comes to rest does so, in m.
     ///
     /// # Errors
-    /// [`Unfollowed`] where it does not.
-    pub fn rest_of(&mut self, mut x: f64, mut y: f64) -> Result<f64, Unfollowed> {
+    /// [`LostMotion`] where it does not.
+    pub fn rest_of(&mut self, mut x: f64, mut y: f64) -> Result<f64, LostMotion> {
         /// Turns that a motion may take.
         const TURNS: usize = 200_000;
         if self.model.guide_static == 0.0 {
@@ -227,13 +227,13 @@ impl Flow<'_> {
             match self.turn(place, (x, y), &mut ()) {
                 Ok(turn) if turn.rests => return Ok(turn.x),
                 Ok(turn) => (x, y) = (turn.x, 0.0),
-                Err(Unfollowed::Settled) if place == ContactState::Slips(Phase::Below) => {
+                Err(LostMotion::Settled) if place == ContactState::Slips(Phase::Below) => {
                     return Ok(self.model.guide);
                 }
-                Err(Unfollowed::Settled) => return Ok(-self.model.guide),
+                Err(LostMotion::Settled) => return Ok(-self.model.guide),
                 Err(stop) => return Err(stop),
             }
         }
-        Err(Unfollowed::Steps)
+        Err(LostMotion::Steps)
     }
 }

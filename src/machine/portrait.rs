@@ -6,7 +6,7 @@
 
 use serde::Serialize;
 
-use super::arc::{Flow, Unfollowed};
+use super::arc::{Flow, LostMotion};
 use super::curve::{CurvePiece, MachineCurve, Rectangle};
 use super::cycles::MachineCycle;
 use super::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
@@ -101,7 +101,7 @@ pub struct Portrait {
     /// Where the line of the belt is met.
     pub landmarks: Option<Landmarks>,
     /// Why motions that turn beyond [`Self::known`] are unknown; `None` if all are known.
-    pub stop: Option<Unfollowed>,
+    pub stop: Option<LostMotion>,
     /// Right turning point up to which the return map was evaluated.
     pub known: f64,
     /// Intervals of right turning points in which the search for cycles did not settle: pairs of cycles may
@@ -116,8 +116,8 @@ impl Portrait {
     /// Computes the portrait of a machine.
     ///
     /// # Errors
-    /// [`Unfollowed`] if the motions near rest, or those that the belt releases, cannot be followed.
-    pub fn new(model: &Model) -> Result<Self, Unfollowed> {
+    /// [`LostMotion`] if the motions near rest, or those that the belt releases, cannot be followed.
+    pub fn new(model: &Model) -> Result<Self, LostMotion> {
         let basin = separatrix::basin_beside(model);
         if let Some(found) = basin.and_then(|basin| Portrait::beside_separatrix(model, basin)) {
             return Ok(found);
@@ -187,7 +187,7 @@ impl Portrait {
         &mut self,
         flow: &mut Flow,
         marks: &[(f64, Divide)],
-    ) -> Result<(), Unfollowed> {
+    ) -> Result<(), LostMotion> {
         let model = &self.model;
         let Some(first) = self.gaps.first() else { return Ok(()) };
         let inner = if self.neutral { Fate::Neutral } else { Fate::Rest };
@@ -202,7 +202,7 @@ impl Portrait {
         let last = self.gaps.iter().take_while(|gap| gap.fate == inner).count();
         let Some((x, mark)) = marks.get(last - 1).filter(|_| last < self.gaps.len()) else {
             let stops =
-                matches!(self.stop, Some(Unfollowed::OutsideLaw { .. } | Unfollowed::Steps));
+                matches!(self.stop, Some(LostMotion::OutsideLaw { .. } | LostMotion::Steps));
             if stops || model.law_ends() {
                 self.margin = Some(self.covered(model.guide_static));
             }
@@ -311,14 +311,14 @@ impl Portrait {
     /// The fate of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
     ///
     /// # Errors
-    /// [`Unfollowed`] if it does not reach its next right turning point.
-    pub fn fate(&self, x: f64, v: f64) -> Result<Fate<Unfollowed>, Unfollowed> {
+    /// [`LostMotion`] if it does not reach its next right turning point.
+    pub fn fate(&self, x: f64, v: f64) -> Result<Fate<LostMotion>, LostMotion> {
         let y = self.model.scaled_velocity(v);
         let mut flow = Flow::new(&self.model);
         let turn = match flow.to_the_right(x, y) {
             Ok(turn) => turn,
-            Err(Unfollowed::Settled) => return Ok(Fate::Rest),
-            Err(Unfollowed::Escaped) => return Ok(Fate::Escapes),
+            Err(LostMotion::Settled) => return Ok(Fate::Rest),
+            Err(LostMotion::Escaped) => return Ok(Fate::Escapes),
             Err(stop) => return Err(stop),
         };
         let Some(mut x) = turn else { return Ok(Fate::Rest) };
@@ -328,7 +328,7 @@ impl Portrait {
                 Ok(MachineReturn::Turns(image)) if image.x < x => x = image.x,
                 Ok(MachineReturn::Turns(_)) => break,
                 Ok(MachineReturn::Rests(_)) => return Ok(Fate::Rest),
-                Err(Unfollowed::Escaped) => return Ok(Fate::Escapes),
+                Err(LostMotion::Escaped) => return Ok(Fate::Escapes),
                 Err(stop) => return Err(stop),
             }
         }
@@ -337,15 +337,15 @@ impl Portrait {
 
     /// Why the portrait is incomplete: the friction law ends before all motions are known.
     #[must_use]
-    pub fn incomplete(&self) -> Option<Unfollowed> {
+    pub fn incomplete(&self) -> Option<LostMotion> {
         let outermost = self.gaps.last().map(|gap| gap.fate);
         let open = matches!(outermost, Some(Fate::Unknown(_)));
-        let stop = self.stop.filter(|stop| matches!(stop, Unfollowed::OutsideLaw { .. }));
+        let stop = self.stop.filter(|stop| matches!(stop, LostMotion::OutsideLaw { .. }));
         stop.filter(|_| open || matches!(self.border, MachineBorder::None))
     }
 
     /// The fate of a motion that turns on the right at `x`.
-    fn fate_of_turn(&self, x: f64) -> Fate<Unfollowed> {
+    fn fate_of_turn(&self, x: f64) -> Fate<LostMotion> {
         let gap = self.gaps.iter().find(|gap| x <= gap.to).or(self.gaps.last());
         gap.map_or(Fate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
     }
@@ -381,8 +381,8 @@ impl Flow<'_> {
     /// The next right turning point of any start; `None` if the mass comes to rest before it.
     ///
     /// # Errors
-    /// [`Unfollowed`] if it is not reached.
-    pub fn to_the_right(&mut self, mut x: f64, mut y: f64) -> Result<Option<f64>, Unfollowed> {
+    /// [`LostMotion`] if it is not reached.
+    pub fn to_the_right(&mut self, mut x: f64, mut y: f64) -> Result<Option<f64>, LostMotion> {
         if y == 0.0 && x > self.model.guide_static {
             return Ok(Some(x));
         }

@@ -4,7 +4,7 @@
 //! motions that come to ride on the belt leave it at the same place. So at most one cycle sticks to the belt, and its
 //! multiplier is exactly 0; the fixed points order everything else.
 
-use super::arc::{Flow, SeriesStep, Unfollowed, Watch};
+use super::arc::{Flow, LostMotion, SeriesStep, Watch};
 use super::model::{Model, Phase};
 use super::turn::{ContactState, Turn};
 use crate::numerics::polynomial::value;
@@ -48,13 +48,13 @@ pub enum MachineReturn {
 
 impl Flow<'_> {
     /// The next right turning point after the one at `x`, outside of what the guide holds. Fails with
-    /// [`Unfollowed`] if the motion does not turn; a motion that settles at an equilibrium counts as coming to rest.
-    pub fn returned(&mut self, x: f64) -> Result<MachineReturn, Unfollowed> {
+    /// [`LostMotion`] if the motion does not turn; a motion that settles at an equilibrium counts as coming to rest.
+    pub fn returned(&mut self, x: f64) -> Result<MachineReturn, LostMotion> {
         let mut divergence = Divergence::default();
         let left = match self.turn(ContactState::Slips(Phase::Below), (x, 0.0), &mut divergence) {
             Ok(Turn { x, rests: true, .. }) => return Ok(MachineReturn::Rests(x)),
             Ok(turn) => turn,
-            Err(Unfollowed::Settled) => return Ok(MachineReturn::Rests(self.model.guide)),
+            Err(LostMotion::Settled) => return Ok(MachineReturn::Rests(self.model.guide)),
             Err(stop) => return Err(stop),
         };
         match self.turn(ContactState::Slips(Phase::Between), (left.x, 0.0), &mut divergence) {
@@ -66,39 +66,39 @@ impl Flow<'_> {
                 sticks_from: way.sticks_from,
                 overtakes_from: way.overtakes_from,
             })),
-            Err(Unfollowed::Settled) => Ok(MachineReturn::Rests(-self.model.guide)),
+            Err(LostMotion::Settled) => Ok(MachineReturn::Rests(-self.model.guide)),
             Err(stop) => Err(stop),
         }
     }
 
     /// The right turning point before the left one at `left`, with the logarithm of (acceleration before the
-    /// arc's end / after its start); `None` if no motion comes from one. Fails with [`Unfollowed`] where the
+    /// arc's end / after its start); `None` if no motion comes from one. Fails with [`LostMotion`] where the
     /// friction law ends or the steps run out.
     pub(super) fn right_before(
         &mut self,
         left: f64,
         watch: &mut impl Watch,
-    ) -> Result<Option<(f64, f64)>, Unfollowed> {
+    ) -> Result<Option<(f64, f64)>, LostMotion> {
         let left = left.min(-self.model.guide_static);
         match self.arc(Phase::Below, (left, 0.0), true, watch) {
             Ok(end) => Ok(Some((end.x, end.log_ratio()))),
-            Err(Unfollowed::Escaped) => Ok(None),
-            Err(Unfollowed::Settled) => Ok(Some((self.model.guide, f64::NEG_INFINITY))),
+            Err(LostMotion::Escaped) => Ok(None),
+            Err(LostMotion::Settled) => Ok(Some((self.model.guide, f64::NEG_INFINITY))),
             Err(stop) => Err(stop),
         }
     }
 
     /// The inverse map at the right turning point `x`, for motions that always slip below the belt's speed:
     /// [`Image::x`] is the turning point before. It contracts where the map itself expands. `None` if no such motion
-    /// leads to `x`. Fails with [`Unfollowed`] where the friction law ends or the steps run out.
-    pub fn preimage(&mut self, x: f64) -> Result<Option<Image>, Unfollowed> {
+    /// leads to `x`. Fails with [`LostMotion`] where the friction law ends or the steps run out.
+    pub fn preimage(&mut self, x: f64) -> Result<Option<Image>, LostMotion> {
         let mut divergence = Divergence::default();
         let (left, entered) = match self.arc(Phase::Between, (x, 0.0), true, &mut divergence) {
             Ok(end) if end.on_belt => return Ok(None),
             Ok(end) => (end.x, end.log_ratio()),
-            Err(Unfollowed::Settled) => (-self.model.guide, f64::NEG_INFINITY),
+            Err(LostMotion::Settled) => (-self.model.guide, f64::NEG_INFINITY),
             // Backward in time, damping adds energy: however far away it comes from, a motion turns before `x`.
-            Err(Unfollowed::Escaped) => return Ok(None),
+            Err(LostMotion::Escaped) => return Ok(None),
             Err(stop) => return Err(stop),
         };
         let before = self.right_before(left, &mut divergence)?;
@@ -112,17 +112,17 @@ impl Flow<'_> {
     }
 
     /// The left turning point from which a motion between rest and the belt's speed reaches `(x, y)`; where
-    /// there is none, the edge of what the guide holds. Fails with [`Unfollowed`] where the friction law ends or the
+    /// there is none, the edge of what the guide holds. Fails with [`LostMotion`] where the friction law ends or the
     /// steps run out.
     pub fn left_before(
         &mut self,
         x: f64,
         y: f64,
         watch: &mut impl Watch,
-    ) -> Result<f64, Unfollowed> {
+    ) -> Result<f64, LostMotion> {
         match self.arc(Phase::Between, (x, y), true, watch) {
             Ok(end) => Ok(end.x),
-            Err(Unfollowed::Settled) => Ok(-self.model.guide),
+            Err(LostMotion::Settled) => Ok(-self.model.guide),
             Err(stop) => Err(stop),
         }
     }

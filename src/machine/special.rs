@@ -6,7 +6,7 @@
 
 use serde::Serialize;
 
-use super::arc::{Flow, Unfollowed};
+use super::arc::{Flow, LostMotion};
 use super::jumps::{Family, Jumps};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
@@ -70,8 +70,8 @@ pub struct Signs {
 }
 
 impl Signs {
-    /// Computes them. Fails with [`Unfollowed`] where the friction law ends before.
-    pub fn new(model: &Model) -> Result<Self, Unfollowed> {
+    /// Computes them. Fails with [`LostMotion`] where the friction law ends before.
+    pub fn new(model: &Model) -> Result<Self, LostMotion> {
         let mut flow = Flow::new(model);
         let signs =
             Signs { damping: model.damping, held: model.guide_static > 0.0, ..Self::default() };

@@ -1,7 +1,7 @@
 //! A motion by an explicit Runge-Kutta method in place of Taylor series: a second opinion that shares with the
 //! first the model and what happens at its lines, but neither the steps nor the search for the lines.
 
-use super::arc::Unfollowed;
+use super::arc::LostMotion;
 use super::model::{Model, Phase};
 use super::motion::{Leg, MachineState};
 use super::turn::ContactState;
@@ -53,11 +53,11 @@ impl SteppedMethod {
 
 /// The end of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stepped {
+pub struct SteppedEnd {
     /// Where it ends, or how far it was followed.
     pub end: MachineState,
     /// How it ends.
-    pub outcome: Fate<Unfollowed>,
+    pub outcome: Fate<LostMotion>,
     /// Evaluations of the force.
     pub evaluations: u64,
 }
@@ -94,13 +94,13 @@ const STEPS: u64 = 2_000_000;
 
 /// A motion as its steps.
 #[derive(Clone, Debug)]
-pub struct Traced {
+pub struct SteppedMotion {
     /// Its legs in their order.
     pub legs: Vec<Leg>,
     /// The states between its steps.
     pub samples: Vec<MachineState>,
     /// How it ends.
-    pub outcome: Fate<Unfollowed>,
+    pub outcome: Fate<LostMotion>,
     /// Evaluations of the force.
     pub evaluations: u64,
     /// Steps taken.
@@ -108,7 +108,7 @@ pub struct Traced {
 }
 
 /// Follows a motion from displacement `x` (m) and velocity `v` (m/s) for `until` seconds; each step has an
-/// estimated relative error below `tolerance`. Fails with [`Unfollowed`] where it leaves the law, escapes, or needs
+/// estimated relative error below `tolerance`. Fails with [`LostMotion`] where it leaves the law, escapes, or needs
 /// too many steps.
 pub fn stepped(
     model: &Model,
@@ -116,13 +116,14 @@ pub fn stepped(
     tolerance: f64,
     start: (f64, f64),
     until: f64,
-) -> Result<Stepped, Unfollowed> {
-    let Traced { samples, outcome, evaluations, .. } = traced(model, way, tolerance, start, until);
+) -> Result<SteppedEnd, LostMotion> {
+    let SteppedMotion { samples, outcome, evaluations, .. } =
+        traced(model, way, tolerance, start, until);
     match (outcome, samples.last()) {
         (Fate::Unknown(stop), _) => Err(stop),
-        (Fate::Escapes, _) => Err(Unfollowed::Escaped),
-        (_, Some(end)) => Ok(Stepped { end: *end, outcome, evaluations }),
-        (_, None) => Err(Unfollowed::Steps),
+        (Fate::Escapes, _) => Err(LostMotion::Escaped),
+        (_, Some(end)) => Ok(SteppedEnd { end: *end, outcome, evaluations }),
+        (_, None) => Err(LostMotion::Steps),
     }
 }
 
@@ -133,7 +134,7 @@ pub fn traced(
     tolerance: f64,
     (x, v): (f64, f64),
     until: f64,
-) -> Traced {
+) -> SteppedMotion {
     let start = (x, model.scaled_velocity(v));
     let field = Slope { model, phase: Phase::Between };
     match way {
@@ -167,7 +168,7 @@ fn follow<'a>(
     model: &'a Model,
     (mut x, mut y): (f64, f64),
     until: f64,
-) -> Traced {
+) -> SteppedMotion {
     let whole = until * model.omega_0;
     let mut trace = Trace { model, whole, left: whole, steps: 0, samples: Vec::new() };
     trace.comes(x, y);
@@ -199,7 +200,7 @@ fn follow<'a>(
         place = model.place(x, y);
     };
     let Trace { samples, steps, .. } = trace;
-    Traced { legs, samples, outcome, evaluations: stepper.evaluations(), steps }
+    SteppedMotion { legs, samples, outcome, evaluations: stepper.evaluations(), steps }
 }
 
 /// Follows a motion to the end of its phase, or until no time is left.
@@ -208,7 +209,7 @@ fn arc<'a>(
     field: Slope<'a>,
     (x, y): (f64, f64),
     trace: &mut Trace,
-) -> Result<(f64, f64), Unfollowed> {
+) -> Result<(f64, f64), LostMotion> {
     let Slope { model, phase } = field;
     let offset = model.offset(phase);
     let mut from = StepPoint { x: x + offset, v: y };
@@ -222,14 +223,14 @@ fn arc<'a>(
     while trace.left > 0.0 {
         trace.steps += 1;
         if trace.steps > STEPS {
-            return Err(Unfollowed::Steps);
+            return Err(LostMotion::Steps);
         }
-        let step = stepper.pass(from, LONGEST.min(trace.left)).map_err(|_| Unfollowed::Escaped)?;
+        let step = stepper.pass(from, LONGEST.min(trace.left)).map_err(|_| LostMotion::Escaped)?;
         let outer = if leaves { f64::INFINITY } else { most };
         let hit = hit(stepper, field, (from, &step), (least, outer));
         leaves = false;
         if let Some((time, level)) = hit {
-            let last = stepper.pass(from, time).map_err(|_| Unfollowed::Escaped)?;
+            let last = stepper.pass(from, time).map_err(|_| LostMotion::Escaped)?;
             trace.left -= last.duration;
             if last.duration >= time {
                 let end = (last.end.x - offset, level);
@@ -246,7 +247,7 @@ fn arc<'a>(
         trace.comes(from.x - offset, from.v);
         if !(low..=high).contains(&from.v) {
             let end = if from.v < low { low } else { high };
-            return Err(Unfollowed::OutsideLaw { slip: (model.speed - end).abs() * model.omega_0 });
+            return Err(LostMotion::OutsideLaw { slip: (model.speed - end).abs() * model.omega_0 });
         }
     }
     Ok((from.x - offset, from.v))

@@ -3,14 +3,14 @@
 
 use std::fmt;
 
-use super::arc::{Flow, Unfollowed};
+use super::arc::{Flow, LostMotion};
 use super::model::{Model, NoModel};
 use super::motion::MachineMotion;
 use super::portrait::Portrait;
-use super::stepped::{Stepped, SteppedMethod, stepped};
+use super::stepped::{SteppedEnd, SteppedMethod, stepped};
 use crate::flow::{Fate, Limits, Reason};
 use crate::oscillator::Belt;
-use crate::oscillator::belt::{BeltError, Reduced};
+use crate::oscillator::belt::{BeltError, ReducedBelt};
 use crate::study::cycle::{Cycles, cycles};
 
 /// A mass on a belt by the cubic expansion of its friction.
@@ -19,7 +19,7 @@ pub struct CubicExpansion {
     /// The machine.
     pub belt: Belt,
     /// Its dimensionless form.
-    pub reduced: Reduced,
+    pub reduced: ReducedBelt,
     /// Its cycles, or why the search gave up.
     pub cycles: Result<Cycles, Reason>,
 }
@@ -41,7 +41,7 @@ pub struct Course {
     /// The one that was asked for.
     pub motion: MachineMotion,
     /// What it ends as.
-    pub fate: Fate<Unfollowed>,
+    pub fate: Fate<LostMotion>,
     /// Where it comes to rest, in m.
     pub rest: Option<f64>,
     /// The same motion by another method, if asked for.
@@ -53,7 +53,7 @@ pub struct Course {
 pub struct Second {
     pub way: SteppedMethod,
     pub tolerance: f64,
-    pub found: Result<Stepped, Unfollowed>,
+    pub found: Result<SteppedEnd, LostMotion>,
 }
 
 impl Course {
@@ -63,7 +63,7 @@ impl Course {
         let portrait = Portrait::new(model)?;
         let (x, v) = start;
         let fate = match portrait.fate(x, v) {
-            Err(stop @ Unfollowed::OutsideLaw { .. }) => Fate::Unknown(stop),
+            Err(stop @ LostMotion::OutsideLaw { .. }) => Fate::Unknown(stop),
             fate => fate?,
         };
         let rest =
@@ -89,7 +89,7 @@ pub enum Trouble {
     /// It has no whole model.
     Unfit(NoModel),
     /// Its motions cannot be followed.
-    Stop(Unfollowed),
+    Stop(LostMotion),
 }
 
 impl Trouble {
@@ -97,7 +97,7 @@ impl Trouble {
     pub fn is_of_the_machine(&self) -> bool {
         !matches!(
             self,
-            Trouble::Stop(Unfollowed::Steps | Unfollowed::Settled | Unfollowed::Escaped)
+            Trouble::Stop(LostMotion::Steps | LostMotion::Settled | LostMotion::Escaped)
         )
     }
 }
@@ -126,8 +126,8 @@ impl From<NoModel> for Trouble {
     }
 }
 
-impl From<Unfollowed> for Trouble {
-    fn from(stop: Unfollowed) -> Self {
+impl From<LostMotion> for Trouble {
+    fn from(stop: LostMotion) -> Self {
         Trouble::Stop(stop)
     }
 }

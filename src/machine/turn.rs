@@ -3,7 +3,7 @@
 //! Where the inclusion leaves a choice, the mass is held: by the belt wherever static friction suffices, and
 //! likewise by the guide. An orbit that touches the belt's line tangentially sticks.
 
-use super::arc::{ArcEnd, Flow, Unfollowed, Watch};
+use super::arc::{ArcEnd, Flow, LostMotion, Watch};
 use super::model::{Model, Phase};
 
 /// The state of contact at a point of the phase plane.
@@ -67,13 +67,13 @@ impl Model {
 
 impl Flow<'_> {
     /// Follows a motion to its next turning point: the left one from `y < 0`, the right one otherwise. Fails with
-    /// [`Unfollowed`] if it does not turn.
+    /// [`LostMotion`] if it does not turn.
     pub fn turn(
         &mut self,
         place: ContactState,
         (mut x, mut y): (f64, f64),
         watch: &mut impl Watch,
-    ) -> Result<Turn, Unfollowed> {
+    ) -> Result<Turn, LostMotion> {
         /// Maximum number of contacts with the belt's line: three, and one more by rounding.
         const CONTACTS: usize = 8;
         let model = self.model;
@@ -103,7 +103,7 @@ impl Flow<'_> {
                 way.overtakes_from = Some(x);
             }
         }
-        Err(Unfollowed::Steps)
+        Err(LostMotion::Steps)
     }
 
     /// The phase that follows an arc, and its start. Only by rounding does a motion arrive where its own side

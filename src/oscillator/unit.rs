@@ -142,7 +142,7 @@ pub fn measured(text: &str) -> Result<Measured, String> {
 
 /// A number and its tolerance, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Toleranced {
+pub struct WithTolerance {
     /// The number in the middle.
     pub middle: Measured,
     /// Half the difference between both ends.
@@ -155,7 +155,7 @@ pub struct Toleranced {
 ///
 /// # Errors
 /// One line that says what could not be read.
-pub fn toleranced(text: &str) -> Result<Toleranced, String> {
+pub fn toleranced(text: &str) -> Result<WithTolerance, String> {
     let text = &text.replace('\u{b1}', "+-");
     let two = |one: &str, other: &str| {
         let (one, other) = (measured(one)?, measured(other)?);
@@ -185,7 +185,7 @@ pub fn toleranced(text: &str) -> Result<Toleranced, String> {
         around(measured(text)?, 0.0)
     };
     if half_width >= 0.0 {
-        Ok(Toleranced { middle, half_width, ends })
+        Ok(WithTolerance { middle, half_width, ends })
     } else {
         Err(format!("{text:?}: a tolerance is 0 or more, and LOW .. HIGH ascend"))
     }

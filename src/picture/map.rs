@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::numerics::elementary::{ln, pow};
-use crate::session::scan::Scanned;
+use crate::session::scan::ScanOnShow;
 use crate::study::measure::Value;
 use crate::study::scan::Sweep;
 
@@ -51,12 +51,12 @@ const OF_KICKS: [&str; 7] = [
 const SPREAD: f64 = 10.0;
 
 /// The name of what is plotted.
-pub fn measured(scanned: &Scanned) -> &'static str {
+pub fn measured(scanned: &ScanOnShow) -> &'static str {
     scanned.scan.measured().get(scanned.column).copied().unwrap_or_default()
 }
 
 /// What is plotted, with the unit of a length, a velocity or a time.
-pub fn with_unit(scanned: &Scanned) -> String {
+pub fn with_unit(scanned: &ScanOnShow) -> String {
     let name = measured(scanned);
     let is = |ends: &[&str]| ends.iter().any(|end| name.ends_with(end) || name.starts_with(end));
     let unit = match name {
@@ -71,7 +71,7 @@ pub fn with_unit(scanned: &Scanned) -> String {
 }
 
 /// What it means that there is no number at a point; `None` where there is one.
-pub fn nothing(scanned: &Scanned, index: usize) -> Option<&'static str> {
+pub fn nothing(scanned: &ScanOnShow, index: usize) -> Option<&'static str> {
     let row = scanned.rows.get(index)?;
     match (scanned.height(index), &row.reason) {
         (Some(_), _) => None,
@@ -94,7 +94,7 @@ pub struct Danger {
 
 impl Danger {
     /// The scale of what is plotted; `None` without a number.
-    pub fn of(scanned: &Scanned) -> Option<Self> {
+    pub fn of(scanned: &ScanOnShow) -> Option<Self> {
         let (low, high) = scanned.range()?;
         let name = measured(scanned);
         let row = DANGEROUS.iter().find(|(_, columns)| columns.contains(&name));
@@ -161,11 +161,11 @@ pub enum MapCell {
 
 impl Map {
     /// The map of a scan; of more than two parameters the others stay at their first values.
-    pub fn of(scanned: &Scanned) -> Option<Self> {
+    pub fn of(scanned: &ScanOnShow) -> Option<Self> {
         let [across, upward, rest @ ..] = scanned.scan.over() else { return None };
         let stride: usize = rest.iter().map(|sweep| sweep.count).product();
         let places = |sweep: &Sweep| -> Vec<f64> {
-            (0..sweep.count).map(|index| Scanned::coordinate(sweep, index)).collect()
+            (0..sweep.count).map(|index| ScanOnShow::coordinate(sweep, index)).collect()
         };
         let words = scanned.plots_words();
         let cell = |index: usize| match (nothing(scanned, index), scanned.height(index)) {
@@ -197,7 +197,7 @@ impl Map {
     }
 }
 
-fn word(scanned: &Scanned, index: usize) -> &'static str {
+fn word(scanned: &ScanOnShow, index: usize) -> &'static str {
     match scanned.rows[index].values.get(scanned.column) {
         Some(Value::Word(word)) => word,
         _ => "none",

@@ -6,18 +6,18 @@ use super::role::{Dash, Role};
 use super::ticks::Scale;
 use crate::scene::Point;
 use crate::session::Session;
-use crate::session::scan::Scanned;
+use crate::session::scan::ScanOnShow;
 use crate::study::scan::{Spacing, Sweep};
 
 /// The names of both axes.
-pub fn names(scanned: &Scanned) -> (&'static str, &'static str) {
+pub fn names(scanned: &ScanOnShow) -> (&'static str, &'static str) {
     let over = scanned.scan.over();
     let name = |sweep: &Sweep| sweep.symbol.spec().name;
     (name(&over[0]), over.get(1).map_or_else(|| measured(scanned), name))
 }
 
 /// What the numbers along both axes stand for.
-pub fn scales(scanned: &Scanned) -> [Scale; 2] {
+pub fn scales(scanned: &ScanOnShow) -> [Scale; 2] {
     let over = scanned.scan.over();
     [0, 1].map(|axis| match over.get(axis) {
         Some(Sweep { spacing: Spacing::Logarithmic, from, .. }) if *from < 0.0 => {

@@ -8,7 +8,7 @@ use super::role::{Dash, Mark, Role};
 use crate::flow::{METHODS, Method};
 use crate::scene::{Layer, Point};
 use crate::session::Session;
-use crate::study::trade::{Trade, Tried};
+use crate::study::trade::{Trade, TradePoint};
 use crate::words::number::{count, significant};
 
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
@@ -64,12 +64,12 @@ fn names(picture: &mut Picture, found: &Trade) {
 }
 
 /// Where a row lies; nowhere if it has no error, or none that can be told from zero.
-fn place(row: &Tried) -> Option<Point> {
+fn place(row: &TradePoint) -> Option<Point> {
     row.place().map(|(x, y)| Point { x, y })
 }
 
 /// The row under the cursor, in words.
-fn words(row: &Tried) -> String {
+fn words(row: &TradePoint) -> String {
     let error = row.error().map_or_else(String::new, |error| significant(error, 2));
     let (method, evaluations) = (row.problem.method, count(row.cost.evaluations));
     format!("{method} {:e}: error {error}, {evaluations} ev", row.problem.setting())

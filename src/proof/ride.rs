@@ -4,7 +4,7 @@ use super::field::{Field, scaled};
 use super::norm::Norm;
 use super::rounding::INFLATE;
 use super::series::Series;
-use super::step::Prepared;
+use super::step::StepField;
 use super::swing::{MOST_STEPS, StartBox, never_returns};
 use crate::numerics::Interval;
 use crate::numerics::elementary::cbrt;
@@ -18,7 +18,7 @@ const ATTEMPTS: usize = 12;
 
 /// A ball of motions in progress, in units in which its start is near 1.
 struct Ride {
-    local: Prepared,
+    local: StepField,
     norm: Norm,
     x: f64,
     v: f64,
@@ -35,7 +35,7 @@ impl Ride {
             return None;
         }
         let unit = exponent(size);
-        let local = Prepared::new(&field.in_units_of(unit));
+        let local = StepField::new(&field.in_units_of(unit));
         let [x, v] = [start.x, start.v].map(|it| scaled(it, -unit));
         Some(Ride {
             norm: Norm::fitting(local.field().a.middle()),

@@ -12,15 +12,15 @@ use crate::numerics::Interval;
 
 /// The integrals of `v^2`, `v^3` and `v^4` over time so far, weighted by `exp(-integral of f' from there on)`.
 #[derive(Clone, Copy, Debug)]
-pub struct Weighted(pub [Interval; 3]);
+pub struct WeightedIntegrals(pub [Interval; 3]);
 
-impl Default for Weighted {
+impl Default for WeightedIntegrals {
     fn default() -> Self {
-        Weighted([Interval::point(0.0); 3])
+        WeightedIntegrals([Interval::point(0.0); 3])
     }
 }
 
-impl Weighted {
+impl WeightedIntegrals {
     /// Adds a step of length `h`, over which the velocity is within `off` of the polynomial.
     pub fn after(&self, field: &Field, series: &Series, h: f64, off: f64) -> Option<Self> {
         let Field { a, b, c } = *field;
@@ -40,7 +40,7 @@ impl Weighted {
             *sum = (*sum + added) * survives;
             power = power.times(&v);
         }
-        Some(Weighted(sums))
+        Some(WeightedIntegrals(sums))
     }
 
     /// The integrals at a moment at most `lag` earlier or later, around which the velocity is at most `speed`
@@ -51,7 +51,7 @@ impl Weighted {
         let factor = (slope * late).exp();
         let speed = Interval::new(-speed, speed);
         let mut power = speed.square();
-        Weighted(self.0.map(|sum| {
+        WeightedIntegrals(self.0.map(|sum| {
             let moved = (sum + power * late * factor) * factor;
             power = power * speed;
             moved

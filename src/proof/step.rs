@@ -22,7 +22,7 @@ use crate::numerics::elementary::ln;
 
 /// A field prepared for stepping: middles, radii and largest magnitudes of its coefficients.
 #[derive(Clone, Copy, Debug)]
-pub struct Prepared {
+pub struct StepField {
     a: f64,
     b: f64,
     c: f64,
@@ -34,7 +34,7 @@ pub struct Prepared {
     field: Field,
 }
 
-impl Prepared {
+impl StepField {
     /// Prepares a field.
     #[must_use]
     pub fn new(field: &Field) -> Self {
@@ -42,7 +42,7 @@ impl Prepared {
         let spread = [a, b, c].map(Interval::radius);
         let most = [a, b, c].map(Interval::magnitude);
         let [a, b, c] = [a, b, c].map(Interval::middle);
-        Prepared { a, b, c, spread, most, field: *field }
+        StepField { a, b, c, spread, most, field: *field }
     }
 
     /// The middles of a, b, c, used to compute the coefficients.
@@ -99,7 +99,7 @@ impl Prepared {
 
 /// The result of a step.
 #[derive(Clone, Copy, Debug)]
-pub struct Reached {
+pub struct StepEnd {
     /// Position of the polynomial at the end of the step, rounded.
     pub x: f64,
     /// Velocity of the polynomial there.
@@ -270,7 +270,7 @@ const NEXT: [f64; LENGTH] = {
     table
 };
 
-impl Prepared {
+impl StepField {
     /// Carries a ball around the start of a series over a step of length h to its `end` by [`Series::at`];
     /// `None` where nothing can be stated, because the ball grows too much or the motion might cross `v = 0`
     /// and return unseen.
@@ -281,7 +281,7 @@ impl Prepared {
         series: &Series,
         (h, end): (f64, (f64, f64)),
         radius: f64,
-    ) -> Option<Reached> {
+    ) -> Option<StepEnd> {
         let sums = Sums::of(series, h);
         let [a, b, c] = self.most;
         let Sums { x, v, x_degree, v_degree, .. } = sums;
@@ -314,7 +314,7 @@ impl Prepared {
         // v^2 along the motion minus v^2 of the polynomial, the tail, and the roundings of coefficients and sum.
         let square_error =
             h * (off * (2.0 * v + off) + square_tail + sums.area_roundings() + UNDERFLOW);
-        Some(Reached {
+        Some(StepEnd {
             x: end.0,
             v: end.1,
             radius: (at_end + evaluation) * INFLATE,

@@ -5,9 +5,9 @@ use std::convert::Infallible;
 use super::field::{Field, scaled};
 use super::norm::Norm;
 use super::rounding::{INFLATE, UNIT};
-use super::sensitivity::Weighted;
+use super::sensitivity::WeightedIntegrals;
 use super::series::Series;
-use super::step::{Prepared, Reached};
+use super::step::{StepEnd, StepField};
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
 use crate::numerics::root::{Bracket, PlaceTolerance, illinois, newton};
@@ -117,7 +117,7 @@ pub fn swing_past_peak(field: &Field, start: &StartBox, ceiling: f64) -> Passage
 
 /// As [`swing`] with the derivatives by the coefficients of the field (lemma 21), at four times the cost.
 pub fn swing_with_derivatives(field: &Field, start: &StartBox) -> Passage {
-    run(field, start, f64::INFINITY, false, Some(Weighted::default()))
+    run(field, start, f64::INFINITY, false, Some(WeightedIntegrals::default()))
 }
 
 fn run(
@@ -125,7 +125,7 @@ fn run(
     start: &StartBox,
     ceiling: f64,
     wants_fastest: bool,
-    weighted: Option<Weighted>,
+    weighted: Option<WeightedIntegrals>,
 ) -> Passage {
     let size = start.x.magnitude().max(start.v.magnitude());
     if !(size > 0.0 && size.is_finite() && start.v.lower() >= 0.0) {
@@ -135,7 +135,7 @@ fn run(
         return Passage::Unknown;
     }
     let unit = exponent(size);
-    let local = Prepared::new(&field.in_units_of(unit));
+    let local = StepField::new(&field.in_units_of(unit));
     let start = StartBox { x: scaled(start.x, -unit), v: scaled(start.v, -unit) };
     let (x, v) = (start.x.middle(), start.v.middle());
     // The norm of a vector is at most the sum of the magnitudes of its components.
@@ -224,7 +224,7 @@ pub fn never_returns(field: &Field, x: f64, v: f64) -> bool {
 
 /// A half swing in progress, in units in which its start is near 1.
 struct SwingRun {
-    local: Prepared,
+    local: StepField,
     norm: Norm,
     x: f64,
     v: f64,
@@ -236,7 +236,7 @@ struct SwingRun {
     square_error: f64,
     fastest: Option<Interval>,
     /// Weighted integrals for the derivatives by the coefficients, if requested.
-    weighted: Option<Weighted>,
+    weighted: Option<WeightedIntegrals>,
     /// Velocity above which the computation stops.
     ceiling: f64,
 }
@@ -349,7 +349,7 @@ impl SwingRun {
     /// Where the acceleration vanishes its derivative is `-v < 0`, so there is one such moment in a half swing.
     /// Near it, with acceleration at most `d` in magnitude at velocity v, the remaining rise is at most
     /// `d^2/(v - d f)`, where f bounds the slope of the damping.
-    fn turn_of_speed(&self, series: &Series, h: f64, end: &Reached) -> Speed {
+    fn turn_of_speed(&self, series: &Series, h: f64, end: &StepEnd) -> Speed {
         /// An error in the moment costs only its square.
         const NEAR: f64 = 1e-10;
         let field = self.local.field();

@@ -1,23 +1,23 @@
 //! The cycles found by harmonic balance with N harmonics, beside the true ones.
 
 use super::kind::{Question, numbers};
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::Reason;
 use crate::oscillator::Parameters;
 use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     pub parameters: Parameters,
     /// Number N of harmonics.
     pub harmonics: usize,
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = HarmonicBalance;
 
-    fn answer(&self, means: &Means) -> Result<HarmonicBalance, Reason> {
-        let Asked { parameters, harmonics } = self;
+    fn answer(&self, means: &Resources) -> Result<HarmonicBalance, Reason> {
+        let Inputs { parameters, harmonics } = self;
         harmonic_balance(parameters, *harmonics, means.fineness.harmonic, means.limits)
     }
 

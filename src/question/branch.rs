@@ -1,7 +1,7 @@
 //! The cycles along a parameter.
 
 use super::kind::{Question, numbers};
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::Reason;
 use crate::flow::quality::DRAFT;
 use crate::oscillator::{Knob, Parameters};
@@ -9,7 +9,7 @@ use crate::study::Branch;
 use crate::study::branch::{Points, branch};
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     /// The parameters; the one that varies is set to 0, so that stepping it leaves the request unchanged.
     pub parameters: Parameters,
     /// The parameter that varies.
@@ -20,11 +20,11 @@ pub struct Asked {
     pub tolerance: f64,
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = Branch;
 
-    fn answer(&self, means: &Means) -> Result<Branch, Reason> {
-        let Asked { parameters, parameter, range, tolerance } = self;
+    fn answer(&self, means: &Resources) -> Result<Branch, Reason> {
+        let Inputs { parameters, parameter, range, tolerance } = self;
         let rough = *tolerance >= DRAFT.tolerance;
         let points = if rough { Points::Followed } else { Points::Even(means.fineness.branch) };
         branch(parameters, *parameter, *range, points, *tolerance, means.limits)
@@ -32,7 +32,7 @@ impl Question for Asked {
 
     fn draft(&self) -> Option<Self> {
         let finer = self.tolerance < DRAFT.tolerance;
-        finer.then(|| Asked { tolerance: DRAFT.tolerance, ..self.clone() })
+        finer.then(|| Inputs { tolerance: DRAFT.tolerance, ..self.clone() })
     }
 
     fn numbers(&self) -> [f64; 8] {

@@ -1,13 +1,13 @@
 //! The borders of the bands of capture.
 
 use super::kind::{Question, numbers};
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::{Cost, Reason};
 use crate::oscillator::{Parameters, State};
 use crate::study::capture::bands;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     pub parameters: Parameters,
     /// Largest clearance to which borders are followed.
     pub reach: f64,
@@ -24,10 +24,10 @@ pub struct Borders {
     pub cost: Cost,
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = Borders;
 
-    fn answer(&self, means: &Means) -> Result<Borders, Reason> {
+    fn answer(&self, means: &Resources) -> Result<Borders, Reason> {
         let found = bands(&self.parameters, self.reach, self.most, means.limits)?;
         let curves = found.curves(means.fineness.points_per_step);
         Ok(Borders { curves, cost: found.cost })

@@ -1,17 +1,17 @@
 //! The claims of the paper, checked by computation.
 
 use super::kind::Question;
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::Reason;
-use crate::study::claims::{Examined, examine_all};
+use crate::study::claims::{ClaimResult, examine_all};
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked;
+pub struct Inputs;
 
-impl Question for Asked {
-    type Found = Vec<Examined>;
+impl Question for Inputs {
+    type Found = Vec<ClaimResult>;
 
-    fn answer(&self, means: &Means) -> Result<Self::Found, Reason> {
+    fn answer(&self, means: &Resources) -> Result<Self::Found, Reason> {
         examine_all(means.limits)
     }
 }

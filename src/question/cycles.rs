@@ -1,21 +1,21 @@
 //! All cycles at given parameters, with their curves and the edge of the basin.
 
 use super::kind::{Question, numbers};
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::Reason;
 use crate::oscillator::Parameters;
 use crate::study::Cycles;
 use crate::study::cycle::cycles_drawn;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     pub parameters: Parameters,
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = Cycles;
 
-    fn answer(&self, means: &Means) -> Result<Cycles, Reason> {
+    fn answer(&self, means: &Resources) -> Result<Cycles, Reason> {
         cycles_drawn(&self.parameters, means.fineness.points_per_step, means.limits)
     }
 

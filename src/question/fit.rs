@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::means::Means;
+use super::resources::Resources;
 use crate::fit::curves::Curves;
 use crate::fit::dropped::{Dropped, dropped};
 use crate::fit::levenberg_marquardt::Runs;
@@ -86,14 +86,14 @@ impl std::ops::Deref for Recording {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     pub recording: Recording,
 }
 
-impl super::kind::Question for Asked {
+impl super::kind::Question for Inputs {
     type Found = Fit;
 
-    fn answer(&self, means: &Means) -> Result<Fit, Reason> {
+    fn answer(&self, means: &Resources) -> Result<Fit, Reason> {
         Fit::of(&self.recording, means.limits, &|_| ())
     }
 }

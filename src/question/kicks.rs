@@ -1,7 +1,7 @@
 //! What fraction of random kicks is lost.
 
 use super::kind::{Question, numbers};
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::{Cost, Reason};
 use crate::oscillator::Parameters;
 use crate::study::basin::basin;
@@ -9,7 +9,7 @@ use crate::study::kicks::RandomKick;
 use crate::study::stability::Share;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     pub parameters: Parameters,
     /// The density of the kicks.
     pub kicks: RandomKick,
@@ -24,10 +24,10 @@ pub struct LostShare {
     pub cost: Cost,
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = LostShare;
 
-    fn answer(&self, means: &Means) -> Result<LostShare, Reason> {
+    fn answer(&self, means: &Resources) -> Result<LostShare, Reason> {
         let found = basin(&self.parameters, self.kicks.reach(), means.limits)?;
         Ok(LostShare { share: self.kicks.lost(&found), cost: found.cost })
     }

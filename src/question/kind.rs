@@ -1,6 +1,6 @@
 //! The trait that every kind of question implements.
 
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::{Problem, Reason};
 use crate::oscillator::{Parameters, State};
 
@@ -10,7 +10,7 @@ pub trait Question: Sized + PartialEq {
     type Found;
 
     /// Computes the answer.
-    fn answer(&self, means: &Means) -> Result<Self::Found, Reason>;
+    fn answer(&self, means: &Resources) -> Result<Self::Found, Reason>;
 
     /// A rougher version of this question that is answered quickly and first; `None` where this one is rough
     /// already, or where roughness saves nothing.

@@ -3,24 +3,24 @@
 use std::sync::Arc;
 
 use super::kind::Question;
-use super::means::Means;
+use super::resources::Resources;
 use super::zones::{Zones, of_machine};
 use crate::flow::Reason;
 use crate::machine::Tolerances;
 use crate::oscillator::Belt;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     /// The machine.
     pub belt: Arc<Belt>,
     /// Tolerances of its numbers, and the bound on the disturbance.
     pub tolerances: Tolerances,
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = Zones;
 
-    fn answer(&self, means: &Means) -> Result<Zones, Reason> {
+    fn answer(&self, means: &Resources) -> Result<Zones, Reason> {
         of_machine(&self.belt, &self.tolerances, means.fineness.points_per_step)
     }
 

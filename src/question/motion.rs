@@ -1,18 +1,18 @@
 //! The motion on show, with points for drawing and its energy ledger.
 
 use super::kind::{Question, of_motion};
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::quality::DRAFT;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Method, Problem, Reason, Trajectory};
 
 /// The question is the motion itself.
-pub use crate::flow::Problem as Asked;
+pub use crate::flow::Problem as Inputs;
 
 impl Question for Problem {
     type Found = Trajectory;
 
-    fn answer(&self, means: &Means) -> Result<Trajectory, Reason> {
+    fn answer(&self, means: &Resources) -> Result<Trajectory, Reason> {
         // Without friction, nothing happens at v = 0, so crossings are not located.
         let crossings = self.parameters.r > 0.0;
         let samples_per_step = means.fineness.samples_per_step;

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use super::kind::{Question, numbers};
-use super::means::Means;
-use super::whole::{self, Kinds};
+use super::resources::Resources;
+use super::whole::{self, WholeCycles};
 use crate::flow::Reason;
 use crate::oscillator::{Belt, Parameters};
 use crate::study::Cycles;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     /// The machine.
     pub belt: Arc<Belt>,
     /// Its cubic expansion.
@@ -19,10 +19,10 @@ pub struct Asked {
     pub cubic: bool,
 }
 
-impl Question for Asked {
-    type Found = (Cycles, Option<Kinds>);
+impl Question for Inputs {
+    type Found = (Cycles, Option<WholeCycles>);
 
-    fn answer(&self, means: &Means) -> Result<Self::Found, Reason> {
+    fn answer(&self, means: &Resources) -> Result<Self::Found, Reason> {
         let points = means.fineness.points_per_step;
         whole::portrait(&self.belt, &self.parameters, self.cubic, points, means.limits)
     }

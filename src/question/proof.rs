@@ -1,20 +1,20 @@
 //! The proof of the number of cycles. Nothing waits for it; the screen shows it once it is there.
 
 use super::kind::{Question, numbers};
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::Reason;
 use crate::oscillator::Parameters;
 use crate::proof::{ParameterBox, Proof, prove};
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     pub parameters: Parameters,
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = Proof;
 
-    fn answer(&self, _means: &Means) -> Result<Proof, Reason> {
+    fn answer(&self, _means: &Resources) -> Result<Proof, Reason> {
         Ok(prove(&ParameterBox::from(&self.parameters), &[]))
     }
 

@@ -1,7 +1,7 @@
 //! The motion to more digits than any method yields: the reference against which errors are measured.
 
 use super::kind::{Motion, Question, of_motion};
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::{Limits, Reason};
 use crate::study::accuracy::Reference;
 
@@ -9,13 +9,13 @@ use crate::study::accuracy::Reference;
 const REFERENCE: u64 = 4_000_000;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked(pub Motion);
+pub struct Inputs(pub Motion);
 
-impl Question for Asked {
+impl Question for Inputs {
     /// The error says why there is no reference, for example because it would take too long.
     type Found = Result<Box<Reference>, Reason>;
 
-    fn answer(&self, Means { limits, .. }: &Means) -> Result<Self::Found, Reason> {
+    fn answer(&self, Resources { limits, .. }: &Resources) -> Result<Self::Found, Reason> {
         let limits = Limits { evaluations: limits.evaluations.min(REFERENCE), ..**limits };
         match Reference::of(&self.0.problem(), &limits) {
             Err(Reason::Interrupted) => Err(Reason::Interrupted),

@@ -2,11 +2,11 @@
 
 use super::fit::{Fit, Unsure};
 use super::kind::Question;
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::Reason;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     /// The fit with all numbers free.
     pub fit: Fit,
     /// Values at which D, D2, D3 and r are held.
@@ -15,10 +15,10 @@ pub struct Asked {
     pub drawn: Option<Unsure>,
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = Fit;
 
-    fn answer(&self, means: &Means) -> Result<Fit, Reason> {
+    fn answer(&self, means: &Resources) -> Result<Fit, Reason> {
         self.fit.held(self.held, self.drawn, means.limits)
     }
 

@@ -1,7 +1,7 @@
 //! The fate of kicks over two parameters.
 
 use super::kind::{Question, numbers};
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::Reason;
 use crate::oscillator::Parameters;
 use crate::study::chart::{Chart, Plane, Resolution, chart};
@@ -19,7 +19,7 @@ const BOUNDARY_TOLERANCE: f64 = 1e-13;
 const DRAFT_BOUNDARY_TOLERANCE: f64 = 1e-3;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     /// The parameters; the two that vary are set to 0, so that stepping them leaves the request unchanged.
     pub parameters: Parameters,
     /// The two varied parameters and their ranges.
@@ -28,10 +28,10 @@ pub struct Asked {
     pub rough: bool,
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = Chart;
 
-    fn answer(&self, means: &Means) -> Result<Chart, Reason> {
+    fn answer(&self, means: &Resources) -> Result<Chart, Reason> {
         let (lines, chord, tolerance) = if self.rough {
             (DRAFT_LINES, f64::INFINITY, DRAFT_BOUNDARY_TOLERANCE)
         } else {
@@ -42,7 +42,7 @@ impl Question for Asked {
     }
 
     fn draft(&self) -> Option<Self> {
-        (!self.rough).then(|| Asked { rough: true, ..self.clone() })
+        (!self.rough).then(|| Inputs { rough: true, ..self.clone() })
     }
 
     fn numbers(&self) -> [f64; 8] {

@@ -3,8 +3,8 @@
 use serde::{Serialize, Serializer};
 
 use super::kind::Question;
-use super::means::{Fineness, Means, Rows};
-use super::whole::{Course, Kinds};
+use super::resources::{Fineness, Resources, Rows};
+use super::whole::{Course, WholeCycles};
 use crate::flow::{Cost, Limits, Reason, Trajectory};
 use crate::study::Cycles;
 use crate::study::scan::Scan;
@@ -19,9 +19,9 @@ macro_rules! types {
         /// equal answers.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Request {
-            $($(#[$doc])* $topic(super::$module::Asked),
+            $($(#[$doc])* $topic(super::$module::Inputs),
             $(/// The same question about a machine, by the whole model.
-            $request(super::$its::Asked),)?)*
+            $request(super::$its::Inputs),)?)*
         }
 
         /// The subject of a request.
@@ -33,7 +33,7 @@ macro_rules! types {
         /// The answer of the worker.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Answer {
-            $($(#[$doc])* $topic(<super::$module::Asked as Question>::Found),)*
+            $($(#[$doc])* $topic(<super::$module::Inputs as Question>::Found),)*
             /// A motion or cycles by the whole model.
             Whole(Box<Whole>),
         }
@@ -94,7 +94,7 @@ macro_rules! types {
         }
 
         /// Answers a request: the only place where a question becomes a computation.
-        pub fn answer_by(request: &Request, means: &Means) -> Result<Answer, Reason> {
+        pub fn answer_by(request: &Request, means: &Resources) -> Result<Answer, Reason> {
             match request {
                 $(Request::$topic(asked) => asked.answer(means).map(Answer::$topic),
                 $(Request::$request(asked) => asked.answer(means).map($answer),)?)*
@@ -127,7 +127,7 @@ pub struct Whole {
     /// Fate of the motion, and where it rides on the belt.
     pub motion: Option<Course>,
     /// Properties of the cycles; `None` where the whole model has no answer and its expansion is drawn.
-    pub cycles: Option<Kinds>,
+    pub cycles: Option<WholeCycles>,
 }
 
 impl Whole {
@@ -138,7 +138,7 @@ impl Whole {
     }
 
     /// Wraps the answer to a question for cycles.
-    fn cycles((drawn, cycles): (Cycles, Option<Kinds>)) -> Answer {
+    fn cycles((drawn, cycles): (Cycles, Option<WholeCycles>)) -> Answer {
         let drawn = Answer::Cycles(drawn);
         Answer::Whole(Box::new(Whole { drawn, motion: None, cycles }))
     }
@@ -173,5 +173,5 @@ pub fn answer_for(
         let rows = (first..scan.points()).map(|index| scan.row(index, limits));
         Ok(Rows { first, rows: rows.collect::<Result<_, _>>()? })
     };
-    answer_by(request, &Means { fineness, limits, rows: &rows })
+    answer_by(request, &Resources { fineness, limits, rows: &rows })
 }

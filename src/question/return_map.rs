@@ -1,23 +1,23 @@
 //! The return map.
 
 use super::kind::{Question, numbers};
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::Reason;
 use crate::oscillator::Parameters;
 use crate::study::ReturnMap;
 use crate::study::return_map::return_map;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     pub parameters: Parameters,
     /// Smallest and largest displacement.
     pub range: (f64, f64),
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = ReturnMap;
 
-    fn answer(&self, means: &Means) -> Result<ReturnMap, Reason> {
+    fn answer(&self, means: &Resources) -> Result<ReturnMap, Reason> {
         return_map(&self.parameters, self.range, means.fineness.map, means.limits)
     }
 

@@ -3,21 +3,21 @@
 use std::sync::Arc;
 
 use super::kind::Question;
-use super::means::{Means, Rows};
+use super::resources::{Resources, Rows};
 use crate::flow::Reason;
 use crate::study::scan::Scan;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     pub scan: Arc<Scan>,
     /// Index of the first point wanted.
     pub from: usize,
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = Rows;
 
-    fn answer(&self, means: &Means) -> Result<Rows, Reason> {
+    fn answer(&self, means: &Resources) -> Result<Rows, Reason> {
         (means.rows)(&self.scan, self.from)
     }
 }

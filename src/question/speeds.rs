@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::kind::Question;
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::quality::DRAFT;
 use crate::flow::{Cost, Reason};
 use crate::machine::branch::{
@@ -45,7 +45,7 @@ const STEPS: u8 = 32;
 const FEW: usize = 7;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     /// The machine; its own belt speed is set to 1, so that stepping it leaves the request unchanged.
     pub belt: Arc<Belt>,
     /// Smallest and largest speed, in m/s; a speed without an answer is left out.
@@ -56,7 +56,7 @@ pub struct Asked {
 
 const VARIED: Knob = Knob::BeltSpeed;
 
-impl Asked {
+impl Inputs {
     /// The machine at all speeds of this question, and the changes between them.
     fn followed(&self, go: &dyn Fn() -> bool) -> Result<MachineBranch, String> {
         let subject = Subject::from(self.belt.as_ref());
@@ -84,10 +84,10 @@ fn near(value: f64, step: f64) -> impl Iterator<Item = f64> {
         .flat_map(move |part| [value - part * step, value + part * step])
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = Speeds;
 
-    fn answer(&self, means: &Means) -> Result<Speeds, Reason> {
+    fn answer(&self, means: &Resources) -> Result<Speeds, Reason> {
         let go = || !(means.limits.interrupted)();
         let lost = |_| Reason::NotApplicable { needs: "a belt that runs" };
         let found = self.followed(&go).map_err(lost)?;
@@ -110,7 +110,7 @@ impl Question for Asked {
     }
 
     fn draft(&self) -> Option<Self> {
-        (!self.rough).then(|| Asked { rough: true, ..self.clone() })
+        (!self.rough).then(|| Inputs { rough: true, ..self.clone() })
     }
 
     fn numbers(&self) -> [f64; 8] {

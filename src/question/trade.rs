@@ -1,7 +1,7 @@
 //! Accuracy against cost on a motion: every method over its tolerances.
 
 use super::kind::{Motion, Question, of_motion};
-use super::means::Means;
+use super::resources::Resources;
 use crate::flow::{Limits, Reason};
 use crate::study::trade::Trade;
 
@@ -9,12 +9,12 @@ use crate::study::trade::Trade;
 const ROW: u64 = 1_000_000;
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked(pub Motion);
+pub struct Inputs(pub Motion);
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = Box<Trade>;
 
-    fn answer(&self, Means { limits, .. }: &Means) -> Result<Self::Found, Reason> {
+    fn answer(&self, Resources { limits, .. }: &Resources) -> Result<Self::Found, Reason> {
         let limits = Limits { evaluations: limits.evaluations.min(ROW), ..**limits };
         Trade::of(&self.0.problem(), &limits).map(Box::new)
     }

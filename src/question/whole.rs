@@ -5,9 +5,9 @@ use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
 use crate::flow::{Cost, Fate, Limits, Method, Problem, Reason};
 use crate::machine::curve::{CurvePiece, MachineCurve};
 use crate::machine::motion::{self, MachineMotion};
-use crate::machine::stepped::{SteppedMethod, Traced, traced};
+use crate::machine::stepped::{SteppedMethod, SteppedMotion, traced};
 use crate::machine::turn::ContactState;
-use crate::machine::{BorderKind, Flow, MachineLedger, Model, Phase, Portrait, Unfollowed};
+use crate::machine::{BorderKind, Flow, LostMotion, MachineLedger, Model, Phase, Portrait};
 use crate::numerics::elementary::ln;
 use crate::oscillator::{Belt, Parameters, State};
 use crate::study::cycle::CycleErrors;
@@ -17,7 +17,7 @@ use crate::study::{Cycle, Cycles, Edge, Margin, cycle};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
     /// The fate; a cycle is given by its index in [`Self::cycles`].
-    pub fate: Fate<Unfollowed>,
+    pub fate: Fate<LostMotion>,
     /// The cycles of the machine, in SI units.
     pub cycles: Vec<crate::machine::MachineCycle>,
     /// Unit of displacement of the drawing, in m.
@@ -34,7 +34,7 @@ pub struct Course {
 
 /// Properties of a machine's cycles.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kinds {
+pub struct WholeCycles {
     /// The cycles by the whole model, in SI units.
     pub cycles: Vec<crate::machine::MachineCycle>,
     /// Sources and sinks of the energy over one turn of each cycle, in the units of the paper's oscillator.
@@ -49,7 +49,7 @@ pub struct Kinds {
     /// Whether all slipping motions are periodic.
     pub neutral: bool,
     /// Why motions further out are unknown.
-    pub stop: Option<Unfollowed>,
+    pub stop: Option<LostMotion>,
 }
 
 /// Units of the drawing, in SI units.
@@ -79,14 +79,14 @@ impl DrawingUnits {
 }
 
 /// Why the whole model has no answer.
-fn reason(stop: Unfollowed) -> Reason {
+fn reason(stop: LostMotion) -> Reason {
     Reason::NotApplicable {
         needs: match stop {
-            Unfollowed::OutsideLaw { .. } => {
+            LostMotion::OutsideLaw { .. } => {
                 "a friction law that reaches the slips of these motions"
             }
-            Unfollowed::Escaped | Unfollowed::Settled => "motions that turn",
-            Unfollowed::Steps => "motions that turn within some thousand steps",
+            LostMotion::Escaped | LostMotion::Settled => "motions that turn",
+            LostMotion::Steps => "motions that turn within some thousand steps",
         },
     }
 }
@@ -118,7 +118,7 @@ pub fn motion(
         None => Drawn::series(&found, between),
     };
     let fate = match portrait.fate(x, v) {
-        Err(stop @ Unfollowed::OutsideLaw { .. }) => Fate::Unknown(stop),
+        Err(stop @ LostMotion::OutsideLaw { .. }) => Fate::Unknown(stop),
         fate => fate.map_err(reason)?,
     };
     let course = Course {
@@ -139,7 +139,7 @@ struct Drawn {
     legs: Vec<motion::Leg>,
     samples: Vec<motion::MachineState>,
     end: motion::MachineState,
-    outcome: Fate<Unfollowed>,
+    outcome: Fate<LostMotion>,
     cost: Cost,
 }
 
@@ -157,8 +157,8 @@ impl Drawn {
     }
 
     /// By another method, at its steps.
-    fn stepped(found: Traced, way: SteppedMethod) -> Self {
-        let Traced { legs, samples, outcome, evaluations, steps } = found;
+    fn stepped(found: SteppedMotion, way: SteppedMethod) -> Self {
+        let SteppedMotion { legs, samples, outcome, evaluations, steps } = found;
         let end =
             samples.last().copied().unwrap_or(motion::MachineState { t: 0.0, x: 0.0, v: 0.0 });
         let cost = Cost { evaluations, steps, rejected: 0 };
@@ -218,12 +218,12 @@ pub fn portrait(
     cubic: bool,
     points: u16,
     limits: &Limits,
-) -> Result<(Cycles, Option<Kinds>), Reason> {
+) -> Result<(Cycles, Option<WholeCycles>), Reason> {
     let expansion = cycle::cycles_drawn(parameters, points, limits);
     let found = found(belt);
     let expanded = expansion.as_ref().ok().and_then(|found| found.picture.as_ref());
     let expanded = expanded.map(|picture| picture.margin);
-    let kinds = found.as_ref().ok().map(|found| Kinds {
+    let kinds = found.as_ref().ok().map(|found| WholeCycles {
         cycles: found.cycles.clone(),
         works: works(found),
         border: found.border.kind(),

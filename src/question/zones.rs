@@ -2,7 +2,7 @@
 //! disturbances, as the phase plane draws them and the pane states them.
 
 use super::kind::{Question, numbers};
-use super::means::Means;
+use super::resources::Resources;
 use super::whole;
 use crate::flow::{Cost, Limits, Reason};
 use crate::machine::guarantee::{best, kicks, worst};
@@ -14,17 +14,17 @@ use crate::study::cycle::PICTURE_REACH;
 use crate::study::guarantee::{guarantee, uncertain, zones};
 
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Inputs {
     /// Intervals of the parameters.
     pub known: ParameterBox,
     /// Bound on the disturbance.
     pub disturbance: f64,
 }
 
-impl Question for Asked {
+impl Question for Inputs {
     type Found = Zones;
 
-    fn answer(&self, means: &Means) -> Result<Zones, Reason> {
+    fn answer(&self, means: &Resources) -> Result<Zones, Reason> {
         of_oscillator(&self.known, self.disturbance, means.fineness.points_per_step, means.limits)
     }
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::certified::{Survived, survived};
+use super::certified::{KickEnclosures, survived};
 use super::csv;
 use super::json::{self, CountedCost};
 use super::table::{Table, parameters, rounded};
@@ -16,7 +16,7 @@ struct BasinDocument<'a> {
     #[serde(flatten)]
     found: &'a SurveyedBasin,
     #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<Survived>,
+    certified: Option<KickEnclosures>,
     cost: CountedCost,
 }
 
@@ -30,7 +30,7 @@ struct BasinRow {
     captured_part: f64,
     lyapunov_share: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<Survived>,
+    certified: Option<KickEnclosures>,
 }
 
 pub fn json(found: &SurveyedBasin, certified: Option<&ProvedKicks>, seconds: f64) -> String {
@@ -50,7 +50,7 @@ pub fn csv(found: &SurveyedBasin, certified: Option<&ProvedKicks>) -> String {
         lyapunov_share: found.lyapunov_share,
         certified,
     };
-    csv::sheet(&row(certified.map(|_| Survived::like())), [row(certified.map(survived))])
+    csv::sheet(&row(certified.map(|_| KickEnclosures::like())), [row(certified.map(survived))])
 }
 
 /// A line on the border of the basin of the sticking set.

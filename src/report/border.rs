@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::certified::{Bordered, IntervalDocument};
-use super::csv::Sheet;
+use super::certified::{BorderProof, IntervalDocument};
+use super::csv::CsvSheet;
 use super::json::{self, CountedCost};
 use super::table::{Table, parameters, rounded};
 use crate::numerics::Interval;
@@ -17,7 +17,7 @@ struct BorderDocument<'a> {
     parameter: Knob,
     points: &'a [BoundaryPoint],
     #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<&'a [Bordered]>,
+    certified: Option<&'a [BorderProof]>,
     cost: CountedCost,
 }
 
@@ -49,7 +49,7 @@ struct BorderBounds {
     open: String,
 }
 
-pub fn json(found: &Boundary, certified: Option<&[Bordered]>, seconds: f64) -> String {
+pub fn json(found: &Boundary, certified: Option<&[BorderProof]>, seconds: f64) -> String {
     json::text(&BorderDocument {
         parameters: &found.parameters,
         parameter: found.second,
@@ -60,7 +60,7 @@ pub fn json(found: &Boundary, certified: Option<&[Bordered]>, seconds: f64) -> S
 }
 
 /// One row for each value of the second parameter.
-pub fn csv(found: &Boundary, certified: Option<&[Bordered]>) -> String {
+pub fn csv(found: &Boundary, certified: Option<&[BorderProof]>) -> String {
     let all = || Some(Interval::ALL.into());
     let like = BorderRow {
         certified: certified.map(|_| BorderBounds {
@@ -71,7 +71,7 @@ pub fn csv(found: &Boundary, certified: Option<&[Bordered]>) -> String {
         }),
         ..BorderRow::default()
     };
-    let mut sheet = Sheet::like(&like, &[("value", found.second.spec().name)]);
+    let mut sheet = CsvSheet::like(&like, &[("value", found.second.spec().name)]);
     for (index, point) in found.points.iter().enumerate() {
         let certified = certified.and_then(|all| all.get(index)).map(|it| BorderBounds {
             fold: it.fold,

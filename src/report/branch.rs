@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::certified::{Decided, PieceBounds, decided};
-use super::csv::Sheet;
+use super::certified::{PieceBounds, ProvedRange, decided};
+use super::csv::CsvSheet;
 use super::cycles::{COLUMNS, cells};
 use super::json::{self, CountedCost};
 use super::table::{Table, digits, parameters, rounded};
@@ -40,7 +40,7 @@ struct BranchDocument<'a> {
     special: &'a [Special],
     vague: &'a [f64],
     #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<Decided>,
+    certified: Option<ProvedRange>,
     cost: CountedCost,
 }
 
@@ -65,7 +65,7 @@ pub fn csv(branch: &Branch, certified: Option<&Range>) -> String {
         certified: certified.map(|_| PieceBounds::like()),
         ..BranchRow::default()
     };
-    let mut sheet = Sheet::like(&like, &called);
+    let mut sheet = CsvSheet::like(&like, &called);
     rows(branch).for_each(|row| sheet.row(&row));
     let parts = certified.map(PieceBounds::of).unwrap_or_default();
     for part in parts {

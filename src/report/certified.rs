@@ -111,7 +111,7 @@ pub fn motion_line(motion: &ProvedMotion, until: f64) -> String {
 
 /// Enclosures of the smallest kicks that are not captured.
 #[derive(Serialize)]
-pub struct Survived {
+pub struct KickEnclosures {
     edge: Option<&'static str>,
     displacement: Option<IntervalDocument>,
     impulse: Option<IntervalDocument>,
@@ -129,8 +129,8 @@ fn name(edge: ProvedEdge) -> &'static str {
     }
 }
 
-pub fn survived(kicks: &ProvedKicks) -> Survived {
-    Survived {
+pub fn survived(kicks: &ProvedKicks) -> KickEnclosures {
+    KickEnclosures {
         edge: kicks.edge.map(name),
         displacement: kicks.displacement.map(IntervalDocument::from),
         impulse: kicks.impulse.map(IntervalDocument::from),
@@ -162,11 +162,11 @@ pub fn kicks_lines(kicks: &ProvedKicks) -> String {
     edge + &lines + &kicks.open.map(|why| format!("open: {why}\n")).unwrap_or_default()
 }
 
-impl Survived {
+impl KickEnclosures {
     /// An example with all columns, for the heading.
     pub fn like() -> Self {
         let all = Some(IntervalDocument::from(Interval::ALL));
-        Survived {
+        KickEnclosures {
             edge: None,
             displacement: all,
             impulse: all,
@@ -226,7 +226,7 @@ struct ChangeRow {
 
 /// The number of cycles over a range of a parameter, where it is proved.
 #[derive(Serialize)]
-pub struct Decided {
+pub struct ProvedRange {
     pieces: Vec<PieceRow>,
     changes: Vec<ChangeRow>,
     open: Vec<IntervalDocument>,
@@ -236,7 +236,7 @@ pub struct Decided {
 }
 
 /// The pieces and changes of a range, for documents.
-pub fn decided(range: &Range) -> Decided {
+pub fn decided(range: &Range) -> ProvedRange {
     let piece = |piece: &RangePiece| PieceRow {
         over: piece.over.into(),
         cycles: piece.cycles.as_ref().map(Vec::len),
@@ -250,7 +250,7 @@ pub fn decided(range: &Range) -> Decided {
     };
     let open = range.pieces.iter().filter(|piece| piece.cycles.is_none());
     let open: Vec<IntervalDocument> = open.map(|piece| piece.over.into()).collect();
-    Decided {
+    ProvedRange {
         pieces: range.pieces.iter().map(piece).collect(),
         changes: range.changes.iter().map(change).collect(),
         proved: open.is_empty(),
@@ -284,7 +284,7 @@ pub fn range_table(range: &Range, symbol: Knob) -> String {
 
 /// A value of a second parameter, and the values of D at which the cycles change there.
 #[derive(Serialize)]
-pub struct Bordered {
+pub struct BorderProof {
     pub value: f64,
     pub fold: Option<IntervalDocument>,
     pub escape: Option<IntervalDocument>,
@@ -294,7 +294,7 @@ pub struct Bordered {
     pub open: Vec<&'static str>,
 }
 
-impl Bordered {
+impl BorderProof {
     /// The enclosures at a point that the search found.
     pub fn new(point: &BoundaryPoint, fold: Option<Interval>, escape: Option<Interval>) -> Self {
         let missing = [
@@ -303,7 +303,7 @@ impl Bordered {
         ];
         let open: Vec<_> =
             missing.into_iter().filter_map(|(what, open)| open.then_some(what)).collect();
-        Bordered {
+        BorderProof {
             value: point.value,
             fold: fold.map(IntervalDocument::from),
             escape: escape.map(IntervalDocument::from),
@@ -313,7 +313,7 @@ impl Bordered {
     }
 }
 
-pub fn border_lines(points: &[Bordered], symbol: Knob) -> String {
+pub fn border_lines(points: &[BorderProof], symbol: Knob) -> String {
     let mut table = Table::new(&[symbol.spec().name, "D_F, proved", "D_c, proved"]);
     let cell = |it: Option<IntervalDocument>| {
         it.map_or("-".to_owned(), |it| certain(Interval::new(it.lower, it.upper), PLACES))

@@ -6,7 +6,7 @@ use super::csv;
 use super::json::{Seconds, text};
 use crate::flow::Reason;
 use crate::numerics::Interval;
-use crate::study::claims::{Certainty, Examined, Finding, Sense, Verdict};
+use crate::study::claims::{Certainty, ClaimResult, Finding, Sense, Verdict};
 use crate::words::claim;
 use crate::words::number::{duration, significant};
 
@@ -60,7 +60,7 @@ fn sense(sense: Sense) -> &'static str {
     }
 }
 
-fn row(examined: &Examined) -> ClaimRow<'_> {
+fn row(examined: &ClaimResult) -> ClaimRow<'_> {
     let claim = examined.claim;
     let finding = examined.finding.as_ref().ok();
     let verdict = finding.map(Finding::verdict);
@@ -90,20 +90,20 @@ fn row(examined: &Examined) -> ClaimRow<'_> {
 }
 
 /// One document with every claim.
-pub fn json(examined: &[Examined], seconds: f64) -> String {
-    let reason = |examined: &Examined| examined.finding.as_ref().err().map(Reason::to_string);
+pub fn json(examined: &[ClaimResult], seconds: f64) -> String {
+    let reason = |examined: &ClaimResult| examined.finding.as_ref().err().map(Reason::to_string);
     let claim = |examined| ReasonedClaim { row: row(examined), reason: reason(examined) };
     let claims = examined.iter().map(claim).collect();
     text(&ClaimDocument { claims, cost: Seconds { seconds } })
 }
 
 /// One row for each claim.
-pub fn csv(examined: &[Examined]) -> String {
+pub fn csv(examined: &[ClaimResult]) -> String {
     csv::sheet(&ClaimRow::default(), examined.iter().map(row))
 }
 
 /// A table with the numbers first and the claim last, as its length varies.
-pub fn table(examined: &[Examined], seconds: f64) -> String {
+pub fn table(examined: &[ClaimResult], seconds: f64) -> String {
     let titles =
         ["where", "basis", "sense", "verdict", "proof", "paper", "corrected", "computed", "claim"];
     let rows = examined.iter().map(|examined| {
@@ -144,7 +144,7 @@ fn mark(finding: Option<&Finding>) -> String {
 }
 
 /// The claim, and where it was tested.
-pub fn sentence(examined: &Examined) -> String {
+pub fn sentence(examined: &ClaimResult) -> String {
     let statement = examined.claim.statement;
     match &examined.finding {
         Ok(finding) if finding.place.is_empty() => statement.to_owned(),

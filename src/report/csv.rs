@@ -7,12 +7,12 @@ use serde_json::{Map, Value};
 
 /// Rows below a line of names.
 #[derive(Debug)]
-pub struct Sheet {
+pub struct CsvSheet {
     names: Vec<String>,
     out: Writer<Vec<u8>>,
 }
 
-impl Sheet {
+impl CsvSheet {
     /// A sheet without rows, with a column for each field of rows like `row`. A field that is a record or a
     /// list has no column, except [`FROM_REST`], whose fields have columns with its name before theirs, and
     /// [`CERTIFIED`]: each of its fields has one column, or two if it is a pair of bounds.
@@ -22,7 +22,7 @@ impl Sheet {
         let single = |(_, value): &(String, Value)| !value.is_object() && !value.is_array();
         let names: Vec<String> =
             fields(row).into_iter().filter(single).map(|(name, _)| name).collect();
-        let mut sheet = Sheet { names, out: Writer::from_writer(Vec::new()) };
+        let mut sheet = CsvSheet { names, out: Writer::from_writer(Vec::new()) };
         let shown = |name: &String| {
             let other = called.iter().find(|(field, _)| field == name);
             other.map_or(name.clone(), |(_, other)| (*other).to_owned())
@@ -53,7 +53,7 @@ impl Sheet {
 
 /// The rows, below a line with the names of the fields of `like`.
 pub fn sheet<R: Serialize>(like: &impl Serialize, rows: impl IntoIterator<Item = R>) -> String {
-    let mut sheet = Sheet::like(like, &[]);
+    let mut sheet = CsvSheet::like(like, &[]);
     rows.into_iter().for_each(|row| sheet.row(&row));
     sheet.into_text()
 }
@@ -112,7 +112,7 @@ fn exact(value: f64) -> String {
 
 /// Cells as a line; a cell that contains a separator or a quote is quoted.
 pub fn line(cells: &[String]) -> String {
-    let mut sheet = Sheet { names: Vec::new(), out: Writer::from_writer(Vec::new()) };
+    let mut sheet = CsvSheet { names: Vec::new(), out: Writer::from_writer(Vec::new()) };
     sheet.write(cells);
     sheet.into_text()
 }
@@ -171,7 +171,7 @@ mod tests {
 
     #[test]
     fn a_row_fills_the_columns_that_it_knows() {
-        let mut sheet = Sheet::like(&SampleRow::default(), &[("count", "how many")]);
+        let mut sheet = CsvSheet::like(&SampleRow::default(), &[("count", "how many")]);
         sheet.row(&More { count: 2, unknown: Some(1.0) });
         assert_eq!(sheet.into_text(), "name,number,how many,unknown\n,,2,1.0\n");
     }

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::csv;
 use super::table::{Table, rounded};
 use crate::closed_form::harmonics::HarmonicCycle;
-use crate::study::harmonic_error::{Balanced, HarmonicBalance};
+use crate::study::harmonic_error::{BalanceResult, HarmonicBalance};
 use crate::words::number::significant;
 use crate::words::stability;
 
@@ -33,7 +33,7 @@ pub struct BalanceRow {
 }
 
 impl BalanceRow {
-    fn new(harmonics: usize, balanced: &Balanced) -> Self {
+    fn new(harmonics: usize, balanced: &BalanceResult) -> Self {
         let cycle = balanced.cycle.as_ref();
         let of = |number: fn(&HarmonicCycle) -> f64| cycle.ok().map(number);
         BalanceRow {

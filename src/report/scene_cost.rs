@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::csv::Sheet;
+use super::csv::CsvSheet;
 use super::table::Table;
 use crate::flow::Cost;
 use crate::scene::{Scene, Topic};
@@ -113,7 +113,7 @@ pub fn csv(scenes: &[SceneCost]) -> String {
         cost: Cost::default(),
         seconds: 0.0,
     };
-    let mut sheet = Sheet::like(&SceneCostRow { scene: "", after: "", question }, &[]);
+    let mut sheet = CsvSheet::like(&SceneCostRow { scene: "", after: "", question }, &[]);
     for found in scenes {
         let steps = found.steps.iter().map(|step| (step.name, &step.recomputed));
         for (after, questions) in std::iter::once(("opening", &found.questions)).chain(steps) {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::csv::{self, Sheet};
+use super::csv::{self, CsvSheet};
 use super::table::{Table, motion};
 use crate::flow::method::Dial;
 use crate::flow::{METHODS, Method, MethodSpec, Outcome};
@@ -14,7 +14,7 @@ use crate::words::number::{count, duration, significant};
 
 /// A trade-off with the time of each row, measured by the caller.
 #[derive(Clone, Debug)]
-pub struct Timed {
+pub struct TimedTrade {
     pub trade: Trade,
     /// Seconds for each row.
     pub seconds: Vec<f64>,
@@ -74,14 +74,14 @@ struct TradeDocument<'a> {
 
 /// A row with all columns, including the reason of a row without an error.
 #[derive(Serialize)]
-struct Reasoned<'a> {
+struct RowWithReason<'a> {
     #[serde(flatten)]
     row: &'a TradeRow,
     reason: Option<&'a str>,
 }
 
 /// Tolerance, step and epsilon of a row; `None` for those that do not set the accuracy of its method.
-fn dials(row: &trade::Tried) -> [Option<f64>; 3] {
+fn dials(row: &trade::TradePoint) -> [Option<f64>; 3] {
     let problem = &row.problem;
     let dial = problem.method.spec().dial;
     let number = |wanted: Dial, value: f64| (dial == wanted).then_some(value);
@@ -89,7 +89,7 @@ fn dials(row: &trade::Tried) -> [Option<f64>; 3] {
     [tolerance, number(Dial::Step, problem.step), number(Dial::Epsilon, problem.epsilon)]
 }
 
-impl Timed {
+impl TimedTrade {
     /// The rows that have an error.
     fn rows(&self) -> Vec<TradeRow> {
         let trade = &self.trade;
@@ -155,13 +155,13 @@ pub fn reference(trade: &Trade) -> String {
     };
     let closed = trade.rows.iter().find(|row| row.problem.method == Method::Exact);
     let closed = closed.filter(|_| reference.source == Source::TwicePrecision);
-    let closed = closed.and_then(trade::Tried::error).map_or_else(String::new, |error| {
+    let closed = closed.and_then(trade::TradePoint::error).map_or_else(String::new, |error| {
         format!(", the closed form in doubles by {}", significant(error, 1))
     });
     format!("{first}; {second} {differs}{closed}")
 }
 
-pub fn json(timed: &Timed) -> String {
+pub fn json(timed: &TimedTrade) -> String {
     let Trade { problem, reference: known, .. } = &timed.trade;
     super::json::text(&TradeDocument {
         parameters: &problem.parameters,
@@ -177,10 +177,10 @@ pub fn json(timed: &Timed) -> String {
 }
 
 /// One line for each method and accuracy; those without an error come last.
-pub fn csv(timed: &Timed) -> String {
+pub fn csv(timed: &TimedTrade) -> String {
     let (rows, unanswered) = (timed.rows(), timed.unanswered());
     let Some(first) = rows.first() else { return csv::sheet(&unanswered.first(), &unanswered) };
-    let mut sheet = Sheet::like(&Reasoned { row: first, reason: None }, &[]);
+    let mut sheet = CsvSheet::like(&RowWithReason { row: first, reason: None }, &[]);
     for row in &rows {
         sheet.row(row);
     }
@@ -192,7 +192,7 @@ pub fn csv(timed: &Timed) -> String {
 
 /// A table of all rows, and a plot of them below it. The best choices are marked with `*`, the method in use
 /// with `<`.
-pub fn table(timed: &Timed, plot: &str) -> String {
+pub fn table(timed: &TimedTrade, plot: &str) -> String {
     let Trade { problem, reference: known, .. } = &timed.trade;
     let mut out = format!(
         "{}; until tau = {}\n{}\nreference: {}\n\n",
@@ -266,7 +266,7 @@ const LEVELS: [(f64, &str); 5] =
     [(1e-2, "1e-2"), (1e-4, "1e-4"), (1e-6, "1e-6"), (1e-9, "1e-9"), (1e-12, "1e-12")];
 
 /// The cost of accuracy: for each method the cheapest row within each error, and the factor for one more digit.
-pub fn digits(timed: &Timed) -> String {
+pub fn digits(timed: &TimedTrade) -> String {
     let mut titles = vec!["evaluations (time) for an error of"];
     titles.extend(LEVELS.map(|level| level.1));
     titles.extend(["a digit more", "ends right"]);

@@ -11,14 +11,14 @@ use ratatui::layout::{Position, Rect, Size};
 
 use super::application::Application;
 use super::figure_writer::Work;
-use super::headless::{self, Played};
+use super::headless::{self, ReplayResult};
 use super::launch::{Options, launch};
 use super::worker::Tell;
 use super::{print, provenance_file, scanning};
 use crate::figure::{self, FileForm};
 use crate::fit::Unfit;
 use crate::flow::{Limits, Reason};
-use crate::question::{self, Fineness, Fit, Means, Recording};
+use crate::question::{self, Fineness, Fit, Recording, Resources};
 use crate::scene::{Answer, Request};
 use crate::session::replay::Script;
 use crate::session::{Effect, Key, Msg, PointerTarget, Session, save, settings, update};
@@ -32,7 +32,7 @@ pub struct Explorer {
     session: Session,
     environment: Environment,
     /// The user's wishes from which `look` was made.
-    wishes: settings::Wishes,
+    wishes: settings::DisplaySettings,
     look: Look,
 }
 
@@ -126,7 +126,7 @@ pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Answer,
     if let Request::Fit(asked) = request {
         return fitted(&asked.recording, limits, tell).map(Answer::Fit);
     }
-    question::answer_by(request, &Means { fineness: Fineness::SCREEN, limits, rows: &rows })
+    question::answer_by(request, &Resources { fineness: Fineness::SCREEN, limits, rows: &rows })
 }
 
 /// Fits a record, and reports its progress from time to time.
@@ -161,6 +161,6 @@ pub fn replay(
     environment: Environment,
     script: Script,
     size: Size,
-) -> io::Result<Played<Explorer>> {
+) -> io::Result<ReplayResult<Explorer>> {
     headless::play(Explorer::new(session, environment), answer, script, size, false)
 }

@@ -25,7 +25,7 @@ use crate::view;
 
 /// The result of a keystroke file.
 #[derive(Clone, Debug)]
-pub struct Played<M> {
+pub struct ReplayResult<M> {
     /// The application at the end.
     pub application: M,
     /// The last picture; [`crate::view::screen::text`] has its characters.
@@ -49,7 +49,7 @@ pub fn play<M: Application>(
     script: Script,
     mut size: Size,
     may_write: bool,
-) -> io::Result<Played<M>> {
+) -> io::Result<ReplayResult<M>> {
     let (send, messages) = unbounded();
     let mut workers = Workers::start(answer, Notes::default(), move |msg| drop(send.send(msg)))?;
     let player = Player::new(script);
@@ -90,7 +90,7 @@ pub fn play<M: Application>(
     };
     let screen = picture::of(&replay.application, size);
     let Replay { application, unwritten, .. } = replay;
-    Ok(Played { application, screen, kept, unmet, unwritten })
+    Ok(ReplayResult { application, screen, kept, unmet, unwritten })
 }
 
 /// An application and the player of the file.
@@ -190,7 +190,7 @@ mod tests {
     const SIZE: Size = Size { width: 80, height: 24 };
 
     /// Plays a file on the plain scene.
-    fn played(file: &str) -> Played<Explorer> {
+    fn played(file: &str) -> ReplayResult<Explorer> {
         let size = crate::session::Size { width: SIZE.width, height: SIZE.height };
         let session = Session::new(find(PLAIN).unwrap(), size);
         let explorer = Explorer::new(session, Environment::default());

@@ -22,7 +22,7 @@ const REFINEMENT: u32 = 2;
 #[derive(Debug, Default)]
 pub struct Queue {
     /// The wanted requests, the most urgent first, including the one in progress.
-    wanted: Vec<Wanted>,
+    wanted: Vec<QueuedRequest>,
     /// The request in progress, unless it is no longer wanted.
     running: Option<Request>,
     /// Requests whose answers were reported but have not arrived at the session yet.
@@ -34,7 +34,7 @@ pub struct Queue {
 
 /// A request that waits or is in progress.
 #[derive(Debug)]
-struct Wanted {
+struct QueuedRequest {
     request: Request,
     turns: u32,
 }
@@ -52,14 +52,14 @@ impl Queue {
         let all = wanted.into_iter().zip(turns);
         self.wanted = all
             .filter(|(request, _)| !self.reported.contains(request))
-            .map(|(request, turns)| Wanted { request, turns })
+            .map(|(request, turns)| QueuedRequest { request, turns })
             .collect();
         let wanted = &self.wanted;
         let is_wanted = |running: &Request| wanted.iter().any(|it| it.request == *running);
         self.running.take_if(|running| !is_wanted(running)).is_some()
     }
 
-    fn waiting(&self) -> impl Iterator<Item = &Wanted> {
+    fn waiting(&self) -> impl Iterator<Item = &QueuedRequest> {
         self.wanted.iter().filter(|wanted| self.running.as_ref() != Some(&wanted.request))
     }
 
@@ -136,7 +136,7 @@ mod tests {
     use crate::question;
 
     fn cycles(d: f64) -> Request {
-        Request::Cycles(question::cycles::Asked {
+        Request::Cycles(question::cycles::Inputs {
             parameters: Parameters { d, d2: 0.0, d3: 0.0, r: 0.1 },
         })
     }

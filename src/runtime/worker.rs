@@ -180,12 +180,12 @@ mod tests {
     /// A request that can be told apart from others by its number.
     fn request(number: f64) -> Request {
         let parameters = Parameters { d: number, d2: 0.0, d3: 0.0, r: 0.1 };
-        Request::Cycles(question::cycles::Asked { parameters })
+        Request::Cycles(question::cycles::Inputs { parameters })
     }
 
     fn number(request: &Request) -> f64 {
         match request {
-            Request::Cycles(question::cycles::Asked { parameters, .. }) => parameters.d,
+            Request::Cycles(question::cycles::Inputs { parameters, .. }) => parameters.d,
             other => unreachable!("{other:?}"),
         }
     }

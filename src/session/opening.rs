@@ -11,7 +11,7 @@ use crate::scene::{Scene, find};
 use crate::session::replay::script::Instruction;
 use crate::session::save;
 use crate::session::state::session::Session;
-use crate::session::state::settings::{COLORS, GLYPHS, THEMES, Wishes};
+use crate::session::state::settings::{COLORS, DisplaySettings, GLYPHS, THEMES};
 
 /// The name under which a file embeds a session.
 const CARRIED: &str = "start.toml";
@@ -36,7 +36,7 @@ pub fn opening(session: &Session) -> Result<Vec<Instruction>, String> {
 }
 
 /// The steps that set the user's wishes for the screen, where they differ from the defaults.
-fn looks(look: Wishes) -> Vec<Instruction> {
+fn looks(look: DisplaySettings) -> Vec<Instruction> {
     fn line<T: Copy + PartialEq + Default>(
         name: &str,
         table: &[(T, &str)],

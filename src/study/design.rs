@@ -39,7 +39,7 @@ impl Kick {
 /// The friction that a margin needs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
-pub enum Needed {
+pub enum FrictionNeeded {
     /// Any, however small.
     Any,
     /// This much: the margin is then as wanted.
@@ -60,7 +60,7 @@ pub enum Needed {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Design {
     /// The friction.
-    pub needed: Needed,
+    pub needed: FrictionNeeded,
     /// Evaluations and steps.
     pub cost: Cost,
 }
@@ -109,11 +109,11 @@ pub fn least_friction(
     wanted: f64,
     any: Option<f64>,
     excess: &mut impl FnMut(f64) -> Result<f64, Reason>,
-) -> Result<Needed, Reason> {
+) -> Result<FrictionNeeded, Reason> {
     if let Some(r) = any
         && excess(r)? >= 0.0
     {
-        return Ok(Needed::Any);
+        return Ok(FrictionNeeded::Any);
     }
     smallest(wanted, excess)
 }
@@ -134,7 +134,7 @@ fn hardly_any(parameters: &Parameters, wanted: f64) -> Option<f64> {
 fn smallest(
     wanted: f64,
     excess: &mut impl FnMut(f64) -> Result<f64, Reason>,
-) -> Result<Needed, Reason> {
+) -> Result<FrictionNeeded, Reason> {
     let lost = Reason::NoConvergence { sought: "the friction for a margin", change: f64::NAN };
     // A displacement within the sticking set is kept: the first is high enough, or nearly so.
     let mut high = (wanted, excess(wanted)?);
@@ -170,12 +170,12 @@ fn smallest(
         return Err(reason);
     }
     if low.1 >= -WIDTH {
-        return Ok(Needed::Friction { r: low.0 });
+        return Ok(FrictionNeeded::Friction { r: low.0 });
     }
     Ok(if high.1.is_finite() {
-        Needed::Friction { r: high.0 }
+        FrictionNeeded::Friction { r: high.0 }
     } else {
-        Needed::Fold { r: high.0, below: wanted * exp(low.1) }
+        FrictionNeeded::Fold { r: high.0, below: wanted * exp(low.1) }
     })
 }
 
@@ -185,7 +185,7 @@ mod tests {
     use crate::closed_form::piecewise_linear::LinearCycle;
     use crate::study::fold::fold;
 
-    fn needed(d: f64, d2: f64, d3: f64, kick: Kick, wanted: f64) -> Needed {
+    fn needed(d: f64, d2: f64, d3: f64, kick: Kick, wanted: f64) -> FrictionNeeded {
         let parameters = Parameters { d, d2, d3, r: 7.0 };
         friction_for(&parameters, kick, wanted, &Limits::PATIENT).unwrap().needed
     }
@@ -198,7 +198,8 @@ mod tests {
     fn linear_margins_are_inverted_to_the_closed_form() {
         for d in [-0.9, -0.3, -0.01, -1e-6] {
             let unit = LinearCycle::new(d, 1.0).unwrap();
-            let Needed::Friction { r } = needed(d, 0.0, 0.0, Kick::Displacement, 0.3) else {
+            let FrictionNeeded::Friction { r } = needed(d, 0.0, 0.0, Kick::Displacement, 0.3)
+            else {
                 panic!("D = {d} needs some friction")
             };
             assert!((r * unit.q_max / 0.3 - 1.0).abs() < 1e-9, "D = {d}: {r}");
@@ -212,7 +213,9 @@ mod tests {
         {
             for kick in [Kick::Displacement, Kick::Impulse] {
                 let found = needed(d, d2, d3, kick, 0.25);
-                let Needed::Friction { r } = found else { panic!("{d} {d2} {d3}: {found:?}") };
+                let FrictionNeeded::Friction { r } = found else {
+                    panic!("{d} {d2} {d3}: {found:?}")
+                };
                 let margin = kick.margin(&margin(d, d2, d3, r));
                 assert!((margin / 0.25 - 1.0).abs() < 1e-9, "{d} {d2} {d3} {kick:?}: {margin}");
             }
@@ -222,7 +225,7 @@ mod tests {
     #[test]
     fn beyond_the_fold_every_kick_is_survived() {
         let found = needed(-0.1, 0.2, 0.4, Kick::Displacement, 5.0);
-        let Needed::Fold { r, below } = found else { panic!("{found:?}") };
+        let FrictionNeeded::Fold { r, below } = found else { panic!("{found:?}") };
         let parameters = Parameters { d: 0.0, d2: 0.2, d3: 0.4, r };
         let fold = fold(&parameters, &Limits::PATIENT).unwrap().0.unwrap();
         assert!((fold.d + 0.1).abs() < 1e-7, "{}", fold.d);
@@ -233,15 +236,18 @@ mod tests {
 
     #[test]
     fn a_damped_rest_needs_no_friction_for_what_it_keeps_by_itself() {
-        assert_eq!(needed(0.1, 0.0, 0.0, Kick::Displacement, 1e3), Needed::Any);
-        assert_eq!(needed(0.1, 0.3, 0.2, Kick::Impulse, 1e3), Needed::Any);
-        assert_eq!(needed(0.0, 0.0, 0.0, Kick::Impulse, 1.0), Needed::Any);
+        assert_eq!(needed(0.1, 0.0, 0.0, Kick::Displacement, 1e3), FrictionNeeded::Any);
+        assert_eq!(needed(0.1, 0.3, 0.2, Kick::Impulse, 1e3), FrictionNeeded::Any);
+        assert_eq!(needed(0.0, 0.0, 0.0, Kick::Impulse, 1.0), FrictionNeeded::Any);
         // Undamped with D2 alone: the parabola of escape begins at 1/(2 D2).
-        assert_eq!(needed(0.0, 0.5, 0.0, Kick::Displacement, 0.99), Needed::Any);
-        assert!(matches!(needed(0.0, 0.5, 0.0, Kick::Displacement, 1.01), Needed::Friction { .. }));
+        assert_eq!(needed(0.0, 0.5, 0.0, Kick::Displacement, 0.99), FrictionNeeded::Any);
+        assert!(matches!(
+            needed(0.0, 0.5, 0.0, Kick::Displacement, 1.01),
+            FrictionNeeded::Friction { .. }
+        ));
         // With D3 < 0 an unstable cycle borders the basin without friction too, near sqrt(-8 D/(3 D3)).
-        assert_eq!(needed(0.1, 0.0, -0.3, Kick::Displacement, 0.9), Needed::Any);
-        let Needed::Friction { r } = needed(0.1, 0.0, -0.3, Kick::Displacement, 1.2) else {
+        assert_eq!(needed(0.1, 0.0, -0.3, Kick::Displacement, 0.9), FrictionNeeded::Any);
+        let FrictionNeeded::Friction { r } = needed(0.1, 0.0, -0.3, Kick::Displacement, 1.2) else {
             panic!("some friction")
         };
         assert!((margin(0.1, 0.0, -0.3, r).displacement.unwrap() / 1.2 - 1.0).abs() < 1e-9);
@@ -274,7 +280,7 @@ mod tests {
 
     #[test]
     fn far_beyond_critical_damping_rest_itself_is_the_margin() {
-        let Needed::Friction { r } = needed(-1.5, 0.0, 0.0, Kick::Displacement, 0.3) else {
+        let FrictionNeeded::Friction { r } = needed(-1.5, 0.0, 0.0, Kick::Displacement, 0.3) else {
             panic!("some friction")
         };
         assert!((r / 0.3 - 1.0).abs() < 1e-12);

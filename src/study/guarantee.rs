@@ -7,7 +7,7 @@
 //! attained: the disturbance `w sign(v)` at the worst parameters keeps to the border. In the same way no motion
 //! enters the basin of the *best* system from outside.
 //!
-//! An extreme system has a D2 of its own on each side, so it is a [`Sided`] one; half maps and arcs are
+//! An extreme system has a D2 of its own on each side, so it is a [`TwoSided`] one; half maps and arcs are
 //! computed side by side anyway.
 
 use serde::Serialize;
@@ -30,14 +30,14 @@ use crate::oscillator::{HalfPlane, ParameterBox, Parameters, Side};
 
 /// An oscillator with parameters of its own on each side of `v = 0`, the friction being the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sided {
+pub struct TwoSided {
     /// Where `v > 0`.
     pub upper: Parameters,
     /// Where `v < 0`.
     pub lower: Parameters,
 }
 
-impl Sided {
+impl TwoSided {
     /// The system that keeps the smallest basin, for disturbances up to `disturbance`, which is less than the
     /// friction.
     #[must_use]
@@ -45,7 +45,7 @@ impl Sided {
         let ParameterBox { d, d2, d3, r } = *known;
         let r = if disturbance > 0.0 { (r.lower() - disturbance).next_down() } else { r.lower() };
         let upper = Parameters { d: d.lower(), d2: d2.lower(), d3: d3.lower(), r };
-        Sided { upper, lower: Parameters { d2: d2.upper(), ..upper } }
+        TwoSided { upper, lower: Parameters { d2: d2.upper(), ..upper } }
     }
 
     /// The system that keeps the largest basin.
@@ -54,7 +54,7 @@ impl Sided {
         let ParameterBox { d, d2, d3, r } = *known;
         let r = if disturbance > 0.0 { (r.upper() + disturbance).next_up() } else { r.upper() };
         let upper = Parameters { d: d.upper(), d2: d2.upper(), d3: d3.upper(), r };
-        Sided { upper, lower: Parameters { d2: d2.lower(), ..upper } }
+        TwoSided { upper, lower: Parameters { d2: d2.lower(), ..upper } }
     }
 
     fn on(&self, side: Side) -> &Parameters {
@@ -267,7 +267,7 @@ pub struct Guarantee {
 #[must_use]
 pub fn uncertain(known: &ParameterBox, disturbance: f64) -> Option<Uncertain> {
     let (d, r) = (known.d.lower(), known.r.lower());
-    let worst = Sided::worst(known, disturbance).upper;
+    let worst = TwoSided::worst(known, disturbance).upper;
     if disturbance > 0.0 && worst.r <= 0.0 {
         Some(Uncertain::Disturbance { w: disturbance, r })
     } else {
@@ -288,7 +288,7 @@ pub fn guarantee(
 ) -> Result<Guarantee, Reason> {
     let middle = known.middle();
     let nominal = if middle.d > -1.0 {
-        Sided { upper: middle, lower: middle }.basin(0.0, limits)?.0
+        TwoSided { upper: middle, lower: middle }.basin(0.0, limits)?.0
     } else {
         basin(&middle, 0.0, limits)?
     };
@@ -310,7 +310,7 @@ pub fn guaranteed(
     if let Some(reason) = uncertain(known, disturbance) {
         return Ok((Guaranteed { margin: Margin::ENDLESS, reason: Some(reason) }, Cost::default()));
     }
-    let worst = Sided::worst(known, disturbance);
+    let worst = TwoSided::worst(known, disturbance);
     let (basin, error) = worst.basin(0.0, limits)?;
     if error > 0.5 {
         return Err(Reason::NoConvergence {
@@ -370,9 +370,9 @@ pub fn zones(
 ) -> Result<Zones, Reason> {
     let safe = match uncertain(known, disturbance) {
         Some(_) => None,
-        None => Some(Sided::worst(known, disturbance).basin(reach, limits)?.0),
+        None => Some(TwoSided::worst(known, disturbance).basin(reach, limits)?.0),
     };
-    let best = Sided::best(known, disturbance);
+    let best = TwoSided::best(known, disturbance);
     let lost = (best.upper.d > -1.0).then(|| best.basin(reach, limits)).transpose()?;
     Ok(Zones { safe, lost: lost.map(|(basin, _)| basin) })
 }

@@ -23,7 +23,7 @@ pub struct HarmonicError {
 
 /// What became of a first-order answer with N harmonics.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Balanced {
+pub struct BalanceResult {
     /// The first-order answer.
     pub first: Harmonic,
     /// The cycle of N harmonics that begins there, or why there is none.
@@ -42,7 +42,7 @@ pub struct HarmonicBalance {
     /// Number N of harmonics.
     pub harmonics: usize,
     /// One for each first-order answer, in their order.
-    pub balanced: Vec<Balanced>,
+    pub balanced: Vec<BalanceResult>,
     /// Why the true cycles are not known, if they are not; then no error is.
     pub unknown: Option<Reason>,
     /// What the true cycles cost.
@@ -101,7 +101,7 @@ fn compare(
             Ok(cycle) if points > 0 => cycle.curve(points),
             _ => Vec::new(),
         };
-        Ok(Balanced { first, cycle, error, curve })
+        Ok(BalanceResult { first, cycle, error, curve })
     };
     let balanced = amplitudes(parameters).into_iter().map(balance).collect::<Result<_, _>>()?;
     let (parameters, cost) = (*parameters, Cost::default());
@@ -135,7 +135,7 @@ mod tests {
 
     use super::*;
 
-    fn balance(d: f64, d2: f64, d3: f64, r: f64, harmonics: usize) -> Vec<Balanced> {
+    fn balance(d: f64, d2: f64, d3: f64, r: f64, harmonics: usize) -> Vec<BalanceResult> {
         let parameters = Parameters { d, d2, d3, r };
         harmonic_balance(&parameters, harmonics, 0, &Limits::PATIENT).unwrap().balanced
     }

@@ -28,7 +28,7 @@ const MOST: u64 = 20_000_000;
 
 /// One method at one accuracy.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tried {
+pub struct TradePoint {
     /// The question, with method, tolerance, step and epsilon.
     pub problem: Problem,
     /// The method that answered; another than asked for only with `auto`.
@@ -50,7 +50,7 @@ pub struct Trade {
     /// What the errors are measured against.
     pub reference: Reference,
     /// The rows, by method and from coarse to fine.
-    pub rows: Vec<Tried>,
+    pub rows: Vec<TradePoint>,
 }
 
 /// The problem by a method at an accuracy.
@@ -82,10 +82,10 @@ fn ladder(problem: &Problem, method: Method) -> Vec<Problem> {
     rungs
 }
 
-impl Tried {
+impl TradePoint {
     /// Judges a computed motion.
     pub fn new(found: &Trajectory, reference: &Reference) -> Self {
-        Tried {
+        TradePoint {
             problem: found.problem,
             method: found.method,
             outcome: found.outcome,
@@ -125,7 +125,8 @@ impl Trade {
         let bounded = Limits { evaluations: limits.evaluations.min(MOST), ..*limits };
         for spec in METHODS {
             for rung in ladder(problem, spec.method) {
-                let row = Tried::new(&trajectory(&rung, Detail::default(), &bounded), &reference);
+                let row =
+                    TradePoint::new(&trajectory(&rung, Detail::default(), &bounded), &reference);
                 let reason = match row.deviation {
                     Err(NoComparison::GaveUp(reason)) => Some(reason),
                     _ => None,
@@ -142,13 +143,13 @@ impl Trade {
     }
 
     /// Which rows stand for the method and tolerance of the problem.
-    pub fn is_own(&self, row: &Tried) -> bool {
+    pub fn is_own(&self, row: &TradePoint) -> bool {
         row.problem.method == self.problem.method && row.problem.setting() == self.problem.setting()
     }
 
     /// The row of a problem's method whose accuracy is nearest to the problem's.
-    pub fn nearest_to(&self, problem: &Problem) -> Option<&Tried> {
-        let far = |row: &&Tried| ln(row.problem.setting() / problem.setting()).abs();
+    pub fn nearest_to(&self, problem: &Problem) -> Option<&TradePoint> {
+        let far = |row: &&TradePoint| ln(row.problem.setting() / problem.setting()).abs();
         let rows = self.rows.iter().filter(|row| row.problem.method == problem.method);
         rows.filter(|row| row.error().is_some())
             .min_by(|one, other| far(one).total_cmp(&far(other)))
@@ -207,7 +208,7 @@ mod tests {
         Trade::of(&problem, &Limits::PATIENT).unwrap()
     }
 
-    fn rows(trade: &Trade, method: Method) -> Vec<&Tried> {
+    fn rows(trade: &Trade, method: Method) -> Vec<&TradePoint> {
         trade.rows.iter().filter(|row| row.problem.method == method).collect()
     }
 
@@ -231,7 +232,7 @@ mod tests {
                 assert!(error < 400.0 * tolerance + 1e-13, "{method} {tolerance:e}: {error:e}");
             }
         }
-        let cost = |row: &Tried| row.cost.evaluations;
+        let cost = |row: &TradePoint| row.cost.evaluations;
         let taylor = rows(&trade, Method::Taylor);
         assert!(cost(taylor[13]) < 7 * cost(taylor[0]), "13 digits for 6 times the first");
         // Auto is never costlier than the series by a tenth at the same tolerance from three digits on.
@@ -278,7 +279,7 @@ mod tests {
         let trade = trade([-0.1, 0.0, 0.0, 0.5], 2.0, 50.0);
         let costs = trade.evaluations();
         let front = trade.front(&costs);
-        let chosen: Vec<&Tried> = trade
+        let chosen: Vec<&TradePoint> = trade
             .rows
             .iter()
             .zip(&front)
@@ -307,7 +308,7 @@ mod tests {
             ..Problem::default()
         };
         let trade = Trade::of(&problem, &Limits::PATIENT).unwrap();
-        let own: Vec<&Tried> = trade.rows.iter().filter(|row| trade.is_own(row)).collect();
+        let own: Vec<&TradePoint> = trade.rows.iter().filter(|row| trade.is_own(row)).collect();
         assert_eq!(own.len(), 1);
         assert_eq!(own[0].problem.tolerance, 3e-7);
         let dopri5 = rows(&trade, Method::Dopri5);

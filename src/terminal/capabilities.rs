@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use crate::session::settings::{Colors, Glyphs, Theme, Wishes};
+use crate::session::settings::{Colors, DisplaySettings, Glyphs, Theme};
 
 /// The environment variables that describe the terminal; an empty one counts as unset.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -97,7 +97,7 @@ impl Environment {
     }
 
     /// The user's wishes, with every `Auto` replaced by what suits this terminal.
-    pub fn fit(&self, wish: Wishes) -> Wishes {
+    pub fn fit(&self, wish: DisplaySettings) -> DisplaySettings {
         let glyphs = match wish.glyphs {
             Glyphs::Auto => self.glyphs(),
             wanted => wanted,
@@ -111,12 +111,12 @@ impl Environment {
             (Theme::Auto, _) => Theme::Dark,
             (wanted, _) => wanted,
         };
-        Wishes { glyphs, colors, fine, theme, ..wish }
+        DisplaySettings { glyphs, colors, fine, theme, ..wish }
     }
 
     /// Whether to ask the terminal for the colour of its background: the wishes depend on it, it is unknown,
     /// and the terminal is of a type that ignores sequences it does not understand.
-    pub fn asks_for_background(&self, wish: Wishes) -> bool {
+    pub fn asks_for_background(&self, wish: DisplaySettings) -> bool {
         let passes = self.term.as_deref().is_some_and(|term| term != "linux");
         let coloured = self.fit(wish).colors != Colors::Never;
         wish.theme == Theme::Auto && self.is_light.is_none() && passes && coloured
@@ -215,15 +215,15 @@ mod tests {
     #[test]
     fn a_wish_beats_what_the_terminal_says() {
         let environment = environment(&[("LANG", "C"), ("NO_COLOR", "1")]);
-        let wish = Wishes {
+        let wish = DisplaySettings {
             glyphs: Glyphs::Braille,
             colors: Colors::True,
             fine: Colors::True,
             theme: Theme::Contrast,
-            ..Wishes::default()
+            ..DisplaySettings::default()
         };
         assert_eq!(environment.fit(wish), wish);
-        let fitted = environment.fit(Wishes::default());
+        let fitted = environment.fit(DisplaySettings::default());
         assert_eq!((fitted.glyphs, fitted.colors), (Glyphs::Ascii, Colors::Never));
     }
 
@@ -239,7 +239,8 @@ mod tests {
             (&[("TERM", "xterm")], Colors::Indexed, Colors::Indexed),
         ];
         for (variables, colors, fine) in cases {
-            let fitted = environment(variables).fit(Wishes { colors, ..Wishes::default() });
+            let fitted = environment(variables)
+                .fit(DisplaySettings { colors, ..DisplaySettings::default() });
             assert_eq!(fitted.fine, fine, "{variables:?} {colors:?}");
         }
     }
@@ -247,8 +248,8 @@ mod tests {
     #[test]
     fn the_theme_follows_the_background_where_it_is_known_and_not_chosen() {
         let terminal = environment(&[("TERM", "xterm")]);
-        let [auto, chosen] =
-            [Theme::Auto, Theme::Contrast].map(|theme| Wishes { theme, ..Wishes::default() });
+        let [auto, chosen] = [Theme::Auto, Theme::Contrast]
+            .map(|theme| DisplaySettings { theme, ..DisplaySettings::default() });
         assert!(terminal.asks_for_background(auto) && !terminal.asks_for_background(chosen));
         for unasked in [&[("TERM", "linux")][..], &[("TERM", "xterm"), ("NO_COLOR", "1")], &[]] {
             assert!(!environment(unasked).asks_for_background(auto), "{unasked:?}");

@@ -14,7 +14,7 @@ use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Size};
 
 use super::pen::Pen;
-use super::strokes::{self, Cursor, Hand, Shown};
+use super::strokes::{self, Cursor, Shown, TerminalState};
 
 /// Holds back the picture until [`END`]: a synchronized update, private mode 2026.
 pub const BEGIN: &str = "\x1b[?2026h";
@@ -45,7 +45,7 @@ pub struct Painter<W: Write> {
     frame: Vec<u8>,
     /// Whether the next frame ends with [`REQUEST`].
     asking: bool,
-    hand: Hand,
+    hand: TerminalState,
     shown: Shown,
     cursor_shown: bool,
     written: u64,
@@ -59,7 +59,7 @@ impl<W: Write> Painter<W> {
             size,
             frame: Vec::with_capacity(FRAME_CAPACITY),
             asking: false,
-            hand: Hand::default(),
+            hand: TerminalState::default(),
             shown: Shown::blank(size),
             cursor_shown: false,
             written: 0,
@@ -85,7 +85,7 @@ impl<W: Write> Painter<W> {
     /// the frame begun for that state.
     pub fn forget(&mut self) {
         self.frame.clear();
-        self.hand = Hand::default();
+        self.hand = TerminalState::default();
         self.shown = Shown::default();
         self.cursor_shown = false;
     }

@@ -25,7 +25,7 @@ pub struct Cursor {
 
 /// The known state of the terminal between two strokes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Hand {
+pub struct TerminalState {
     /// The pen; `None` if unknown.
     pub pen: Option<Pen>,
     /// The cursor; `None` if unknown.
@@ -83,7 +83,7 @@ impl Shown {
 
 /// The strokes of a frame.
 #[derive(Debug, Default)]
-struct Sheet {
+struct StrokeSheet {
     strokes: Vec<Stroke>,
     text: String,
 }
@@ -91,7 +91,7 @@ struct Sheet {
 /// Length in bytes of the shortest cursor move to the right; a stroke may redraw cells that cost no more.
 const SHORT_MOVE: usize = 3;
 
-impl Sheet {
+impl StrokeSheet {
     /// Adds a cell to the last stroke if possible, else begins a new stroke with it.
     fn put(&mut self, x: u16, y: u16, cell: &Cell, shown: &Shown) {
         if !self.bridge(x, y, cell, shown) {
@@ -146,9 +146,14 @@ impl Sheet {
     }
 
     /// Draws the strokes in this order.
-    fn draw(&self, strokes: &[&Stroke], mut hand: Hand, size: Size) -> (String, Hand) {
+    fn draw(
+        &self,
+        strokes: &[&Stroke],
+        mut hand: TerminalState,
+        size: Size,
+    ) -> (String, TerminalState) {
         let mut out = String::with_capacity(2 * self.text.len());
-        let mut awaited = Awaited::of(strokes, size);
+        let mut awaited = PendingCells::of(strokes, size);
         for stroke in strokes {
             match hand.cursor.and_then(|cursor| awaited.blanks(cursor, stroke.start)) {
                 Some(blanks) => out.push_str(blanks),
@@ -164,7 +169,10 @@ impl Sheet {
             pen.take_up(present, &mut out);
             out.push_str(&self.text[stroke.text.clone()]);
             let at = Position { x: stroke.start.x + stroke.width, ..stroke.start };
-            hand = Hand { pen: Some(pen), cursor: Some(Cursor { at, certain: stroke.certain }) };
+            hand = TerminalState {
+                pen: Some(pen),
+                cursor: Some(Cursor { at, certain: stroke.certain }),
+            };
         }
         (out, hand)
     }
@@ -179,15 +187,16 @@ fn push_printable(symbol: &str, width: usize, text: &mut String) {
 }
 
 /// The cells of strokes that are not drawn yet: their present content does not matter.
-struct Awaited {
+struct PendingCells {
     width: usize,
     cells: Vec<bool>,
 }
 
-impl Awaited {
-    fn of(strokes: &[&Stroke], size: Size) -> Awaited {
+impl PendingCells {
+    fn of(strokes: &[&Stroke], size: Size) -> PendingCells {
         let width = usize::from(size.width);
-        let mut awaited = Awaited { width, cells: vec![false; width * usize::from(size.height)] };
+        let mut awaited =
+            PendingCells { width, cells: vec![false; width * usize::from(size.height)] };
         for stroke in strokes {
             awaited.range(stroke.start, stroke.width).fill(true);
         }
@@ -240,9 +249,9 @@ impl Stroke {
 pub fn draw<'a>(
     cells: impl Iterator<Item = (u16, u16, &'a Cell)>,
     shown: &mut Shown,
-    hand: Hand,
-) -> (String, Hand) {
-    let mut sheet = Sheet::default();
+    hand: TerminalState,
+) -> (String, TerminalState) {
+    let mut sheet = StrokeSheet::default();
     let cells: Vec<_> = cells.collect();
     for (x, y, cell) in &cells {
         sheet.put(*x, *y, cell, shown);
@@ -334,7 +343,7 @@ mod tests {
     /// A drawing board: the present and the wanted content of the terminal.
     struct Board {
         shown: Shown,
-        hand: Hand,
+        hand: TerminalState,
         before: Buffer,
         after: Buffer,
     }
@@ -345,7 +354,7 @@ mod tests {
             let cursor = Some(Cursor { at: Position::ORIGIN, certain: true });
             Board {
                 shown: Shown::blank(SIZE),
-                hand: Hand { pen: Some(Pen::PLAIN), cursor },
+                hand: TerminalState { pen: Some(Pen::PLAIN), cursor },
                 before: blank.clone(),
                 after: blank,
             }
@@ -439,7 +448,7 @@ mod tests {
     #[test]
     fn an_unknown_cursor_is_placed_absolutely() {
         let mut board = Board::new();
-        board.hand = Hand::default();
+        board.hand = TerminalState::default();
         board.put(4, 2, "a", Color::Reset);
         assert_eq!(board.draw(), "\x1b[3;5H\x1b[ma");
     }

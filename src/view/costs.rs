@@ -5,7 +5,7 @@ use super::look::Look;
 use crate::picture::role::Role;
 use crate::scene::{Answered, Layer, Topic};
 use crate::session::requirement::{CostRow, Requirement, named};
-use crate::session::{List, Session, Standing};
+use crate::session::{AnswerState, List, Session};
 use crate::words::number::{count, duration};
 
 /// Columns of what a row is about.
@@ -38,7 +38,7 @@ fn names(layers: &[Layer]) -> String {
 fn asked(session: &Session, requirement: &Requirement) -> (&'static str, String) {
     let topic = requirement.request.topic();
     let held = match session.answers.standing(&requirement.request) {
-        Standing::Fresh(held) => Some(held),
+        AnswerState::Fresh(held) => Some(held),
         _ => None,
     };
     let price = held.map_or_else(|| "not answered".to_owned(), price);

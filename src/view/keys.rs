@@ -41,9 +41,11 @@ mod tests {
 
     #[test]
     fn keys_have_short_names() {
-        let rich = Look::new(settings::Wishes::default());
-        let letters =
-            Look::new(settings::Wishes { glyphs: Glyphs::Ascii, ..settings::Wishes::default() });
+        let rich = Look::new(settings::DisplaySettings::default());
+        let letters = Look::new(settings::DisplaySettings {
+            glyphs: Glyphs::Ascii,
+            ..settings::DisplaySettings::default()
+        });
         let cases = [
             ("<left>", "←", "left"),
             ("<S-up>", "S-↑", "S-up"),

@@ -111,8 +111,8 @@ const FINE: [Role; 3] = [Role::Ghost, Role::GhostStable, Role::GhostUnstable];
 
 impl Look {
     /// The look that these settings ask for; what they leave open becomes braille in 16 colours.
-    pub fn new(settings: settings::Wishes) -> Self {
-        let settings::Wishes { glyphs, colors, fine, theme, .. } = settings;
+    pub fn new(settings: settings::DisplaySettings) -> Self {
+        let settings::DisplaySettings { glyphs, colors, fine, theme, .. } = settings;
         let theme = if colors == Colors::Never { Theme::Mono } else { theme };
         // A test reads every theme, so the plain look never serves.
         Look::from_text(text_of(theme), glyphs, [colors, fine]).unwrap_or(Look {
@@ -202,7 +202,12 @@ mod tests {
     use crate::view::colour::{Rgb, hue};
 
     fn look(theme: Theme, glyphs: Glyphs, colors: Colors) -> Look {
-        Look::new(settings::Wishes { glyphs, colors, theme, ..settings::Wishes::default() })
+        Look::new(settings::DisplaySettings {
+            glyphs,
+            colors,
+            theme,
+            ..settings::DisplaySettings::default()
+        })
     }
 
     #[test]
@@ -286,8 +291,10 @@ mod tests {
     #[test]
     fn grounds_of_maps_are_of_one_hue_and_the_stronger_the_more_dangerous() {
         for (theme, name) in THEMES.into_iter().filter(|(theme, _)| *theme != Theme::Mono) {
-            let settings = settings::Wishes { theme, ..settings::Wishes::default() };
-            let look = |colors, fine| Look::new(settings::Wishes { colors, fine, ..settings });
+            let settings =
+                settings::DisplaySettings { theme, ..settings::DisplaySettings::default() };
+            let look =
+                |colors, fine| Look::new(settings::DisplaySettings { colors, fine, ..settings });
             let ground = |look: &Look, step: u8| look.danger(f64::from(step) / 16.0).bg;
             let strengths =
                 (0..STEPS).map(|step| match ground(&look(Colors::Sixteen, Colors::True), step) {

@@ -9,7 +9,7 @@ use ratatui::widgets::{Clear, Widget};
 
 use super::look::Look;
 use crate::picture::role::Role;
-use crate::session::{Pane, Session, Standing};
+use crate::session::{AnswerState, Pane, Session};
 
 /// The middle of the screen above the footer, for what stands over the panes.
 pub fn centred(screen: Rect, width: u16, height: u16) -> Rect {
@@ -72,10 +72,10 @@ fn mark(session: &Session, plot: usize) -> Option<&'static str> {
     }
     let standings = asked.iter().map(|request| session.answers.standing(request));
     let worst = standings.map(|standing| match standing {
-        Standing::Fresh(_) => None,
-        Standing::Draft(_) => Some("draft"),
-        Standing::Stale(_) => Some("stale"),
-        Standing::None => Some("computing"),
+        AnswerState::Fresh(_) => None,
+        AnswerState::Draft(_) => Some("draft"),
+        AnswerState::Stale(_) => Some("stale"),
+        AnswerState::None => Some("computing"),
     });
     // The worse state comes later in the alphabet.
     worst.max().flatten()
@@ -227,7 +227,7 @@ mod tests {
 
     #[test]
     fn a_cut_text_has_a_mark_and_no_part_of_a_number() {
-        let look = Look::new(settings::Wishes::default());
+        let look = Look::new(settings::DisplaySettings::default());
         let text = "margin 0.0100305 of D = -0.25";
         for (width, expected) in [
             (29, text),

@@ -6,7 +6,7 @@ use super::content::{ListContent, TEXT};
 use super::look::Look;
 use crate::picture::role::Role;
 use crate::session::{List, Session};
-use crate::study::claims::{Claim, Examined, UNSAID, Verdict};
+use crate::study::claims::{Claim, ClaimResult, UNSAID, Verdict};
 use crate::words::claim;
 use crate::words::number::significant;
 
@@ -60,7 +60,7 @@ fn heading(section: &'static str) -> &'static str {
 }
 
 /// What holds is quiet, what does not is loud.
-fn role(examined: &Examined) -> Role {
+fn role(examined: &ClaimResult) -> Role {
     match examined.verdict() {
         Some(Verdict::Agrees | Verdict::Approximates { .. }) => Role::Text,
         Some(Verdict::Corrected { .. } | Verdict::InPart) => Role::Warning,
@@ -70,7 +70,7 @@ fn role(examined: &Examined) -> Role {
 }
 
 /// The claim in full, its numbers, and the scene that shows it.
-fn about(claim: &Claim, examined: Option<&Examined>, look: &Look) -> Vec<Line<'static>> {
+fn about(claim: &Claim, examined: Option<&ClaimResult>, look: &Look) -> Vec<Line<'static>> {
     let text = |text: String| Line::styled(text, look.style(Role::Text));
     let mut lines = vec![text(format!("{}: {}", claim.equation, claim.statement))];
     match examined.map(|examined| &examined.finding) {

@@ -19,7 +19,7 @@ use crate::picture::role::{CycleStyle, Role, cycle_style};
 use crate::picture::units;
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
-use crate::study::harmonic_error::Balanced;
+use crate::study::harmonic_error::BalanceResult;
 use crate::study::proved::compare;
 use crate::study::{Cycle, Cycles, Edge};
 use crate::words::cycles as cycles_in_words;
@@ -407,7 +407,7 @@ fn balance(session: &Session, width: usize) -> Vec<String> {
     };
     let lead = format!("N = {}: ", found.harmonics);
     let percent = |error: f64| significant(100.0 * error, 2);
-    let line = |balanced: &Balanced| match (&balanced.cycle, &balanced.error) {
+    let line = |balanced: &BalanceResult| match (&balanced.cycle, &balanced.error) {
         (Err(_), _) => format!("{lead}no such cycle"),
         (Ok(_), None) if found.unknown.is_some() => format!("{lead}error unknown"),
         (Ok(_), None) => format!("{lead}no true cycle"),

@@ -51,7 +51,7 @@ mod tests {
 
     #[test]
     fn what_goes_on_below_has_a_mark() {
-        let look = Look::new(settings::Wishes::default());
+        let look = Look::new(settings::DisplaySettings::default());
         let lines = || vec![Line::from("one two three four five"), Line::from("six")];
         assert_eq!(rows(&lines(), 9), 4);
         for (height, expected) in [

@@ -17,7 +17,7 @@ use crate::picture::map::{Danger, measured, nothing};
 use crate::picture::role::{Dash, Role};
 use crate::picture::scan::{names, scales};
 use crate::scene::{Point, View};
-use crate::session::scan::{Progress, Scanned, WORDS};
+use crate::session::scan::{Progress, ScanOnShow, WORDS};
 use crate::session::{Pane, Session};
 use crate::study::measure::Value;
 use crate::words::measured::rounded;
@@ -75,7 +75,7 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
 }
 
 /// How far a scan is: `120 of 400, 3 s left`.
-pub fn progress(scanned: &Scanned) -> String {
+pub fn progress(scanned: &ScanOnShow) -> String {
     let (rows, points) = (scanned.rows.len(), scanned.scan.points());
     let given_up = scanned.rows.iter().filter(|row| row.reason.is_some()).count();
     let given_up = if given_up > 0 { format!(" ({given_up} given up)") } else { String::new() };
@@ -91,7 +91,7 @@ pub fn progress(scanned: &Scanned) -> String {
 }
 
 /// What stands at the point that is looked at, to as many digits as fit.
-fn reading(scanned: &Scanned, width: usize) -> String {
+fn reading(scanned: &ScanOnShow, width: usize) -> String {
     let Some(row) = scanned.rows.get(scanned.at) else { return String::new() };
     let name = measured(scanned);
     let place = scanned.scan.place(scanned.at);
@@ -111,7 +111,7 @@ fn reading(scanned: &Scanned, width: usize) -> String {
 }
 
 /// The measured number over one parameter; where there is none the curve has a gap.
-fn curve(plot: &mut Canvas, scanned: &Scanned, look: &Look) {
+fn curve(plot: &mut Canvas, scanned: &ScanOnShow, look: &Look) {
     let point = |index| scanned.place(index).unwrap_or(Point::NOWHERE);
     let role = Role::Trajectory;
     let all = 0..scanned.rows.len();
@@ -127,7 +127,7 @@ fn curve(plot: &mut Canvas, scanned: &Scanned, look: &Look) {
 }
 
 /// What the heights of a curve mean: their range, or the words that they stand for.
-fn meaning(scanned: &Scanned, width: usize) -> String {
+fn meaning(scanned: &ScanOnShow, width: usize) -> String {
     let name = measured(scanned);
     if scanned.plots_words() {
         let meanings = WORDS.iter().enumerate().map(|(number, word)| format!("{number} {word}"));

@@ -13,7 +13,7 @@ use crate::numerics::count::{real, whole};
 use crate::picture::map::{Danger, Dangerous, measured, nothing};
 use crate::picture::role::Role;
 use crate::scene::Point;
-use crate::session::scan::{Scanned, WORDS};
+use crate::session::scan::{ScanOnShow, WORDS};
 use crate::session::settings::Glyphs;
 use crate::study::scan::Sweep;
 use crate::words::number::significant;
@@ -37,7 +37,7 @@ struct Ramp {
 }
 
 impl Ramp {
-    fn of(scanned: &Scanned, look: &Look) -> Option<Self> {
+    fn of(scanned: &ScanOnShow, look: &Look) -> Option<Self> {
         let scale = Danger::of(scanned)?;
         let plain = look.glyphs == Glyphs::Ascii;
         let mut shades: Vec<char> = if plain { LETTERS } else { SHADES }.chars().collect();
@@ -61,7 +61,7 @@ impl Ramp {
 }
 
 /// Fills each cell with the shade of the point nearest to it.
-pub fn draw(plot: &Canvas, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
+pub fn draw(plot: &Canvas, scanned: &ScanOnShow, look: &Look, buffer: &mut Buffer) {
     let words = scanned.plots_words();
     let ramp = Ramp::of(scanned, look);
     let quiet = look.style(Role::Quiet);
@@ -103,7 +103,7 @@ fn of_word(danger: Option<f64>, look: &Look) -> Style {
 }
 
 /// What the signs of a map mean where there is no number; of a curve, its gaps.
-pub fn without_numbers(scanned: &Scanned, width: usize) -> String {
+pub fn without_numbers(scanned: &ScanOnShow, width: usize) -> String {
     let mut meanings: Vec<&str> = Vec::new();
     for meaning in (0..scanned.rows.len()).filter_map(|index| nothing(scanned, index)) {
         if !meanings.contains(&meaning) {
@@ -122,7 +122,7 @@ pub fn without_numbers(scanned: &Scanned, width: usize) -> String {
 
 /// What the shades mean, whole in `width` columns: which end is the dangerous one, with the value at which each
 /// begins, else with the smallest and the largest alone.
-pub fn legend(scanned: &Scanned, width: usize, look: &Look) -> Line<'static> {
+pub fn legend(scanned: &ScanOnShow, width: usize, look: &Look) -> Line<'static> {
     let name = measured(scanned);
     let ramp = Ramp::of(scanned, look).filter(|_| !scanned.plots_words());
     let texts: Vec<String> = if scanned.plots_words() {
@@ -177,7 +177,7 @@ pub fn legend(scanned: &Scanned, width: usize, look: &Look) -> Line<'static> {
 /// Which value of a sweep a place on its axis belongs to; none beyond half a step of its ends.
 fn nearest(sweep: &Sweep, place: f64) -> Option<usize> {
     let last = sweep.count - 1;
-    let [from, to] = [0, last].map(|index| Scanned::coordinate(sweep, index));
+    let [from, to] = [0, last].map(|index| ScanOnShow::coordinate(sweep, index));
     let steps = (place - from) / (to - from) * real(last);
     let index = (steps >= -0.5 && steps.is_finite()).then_some(whole(steps + 0.5));
     index.filter(|index| *index <= last)

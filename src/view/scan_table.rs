@@ -9,7 +9,7 @@ use ratatui::text::Line;
 use super::look::Look;
 use super::pane;
 use crate::picture::role::Role;
-use crate::session::scan::Scanned;
+use crate::session::scan::ScanOnShow;
 use crate::study::measure::Value;
 use crate::study::scan::Sweep;
 use crate::words::measured::rounded;
@@ -19,7 +19,7 @@ const DIGITS: usize = 8;
 
 /// Draws the names and the rows around the one that is looked at. The column that is plotted comes
 /// first of those that are measured, and the others follow as far as they fit whole.
-pub fn draw(area: Rect, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
+pub fn draw(area: Rect, scanned: &ScanOnShow, look: &Look, buffer: &mut Buffer) {
     let Some(room) = usize::from(area.height).checked_sub(1).filter(|room| *room > 0) else {
         return;
     };
@@ -61,7 +61,7 @@ pub fn draw(area: Rect, scanned: &Scanned, look: &Look, buffer: &mut Buffer) {
 }
 
 /// The columns of these rows: each a name and its cells.
-fn columns(scanned: &Scanned, rows: Range<usize>) -> Vec<Vec<String>> {
+fn columns(scanned: &ScanOnShow, rows: Range<usize>) -> Vec<Vec<String>> {
     let (over, measured) = (scanned.scan.over(), scanned.scan.measured());
     let parameter = |(which, sweep): (usize, &Sweep)| {
         let value = |index: usize| sweep.value(scanned.scan.place(index)[which]);

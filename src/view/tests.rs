@@ -28,7 +28,7 @@ use std::sync::Arc;
 
 use by_hand::{circle, cycle, drawn_over, open, picture, press, settle};
 
-fn draw(session: &Session, look: settings::Wishes) -> Buffer {
+fn draw(session: &Session, look: settings::DisplaySettings) -> Buffer {
     let Size { width, height } = session.size;
     let screen = Rect::new(0, 0, width, height);
     let mut buffer = Buffer::empty(screen);
@@ -36,16 +36,20 @@ fn draw(session: &Session, look: settings::Wishes) -> Buffer {
     buffer
 }
 
-fn braille() -> settings::Wishes {
-    settings::Wishes {
+fn braille() -> settings::DisplaySettings {
+    settings::DisplaySettings {
         glyphs: Glyphs::Braille,
         colors: Colors::Sixteen,
-        ..settings::Wishes::default()
+        ..settings::DisplaySettings::default()
     }
 }
 
-fn letters() -> settings::Wishes {
-    settings::Wishes { glyphs: Glyphs::Ascii, colors: Colors::Never, ..settings::Wishes::default() }
+fn letters() -> settings::DisplaySettings {
+    settings::DisplaySettings {
+        glyphs: Glyphs::Ascii,
+        colors: Colors::Never,
+        ..settings::DisplaySettings::default()
+    }
 }
 
 fn settled(scene: &str, width: u16, height: u16, keys: &str) -> Session {
@@ -139,7 +143,7 @@ fn screens_look_as_they_were_approved() {
 }
 
 /// The screen without its last line, whose keys are the business of the command table.
-fn picture_of(session: &Session, look: settings::Wishes) -> String {
+fn picture_of(session: &Session, look: settings::DisplaySettings) -> String {
     let screen = text(&draw(session, look));
     let rows: Vec<&str> = screen.lines().collect();
     rows[..rows.len() - 1].join("\n")
@@ -241,10 +245,11 @@ fn without_colour_no_cell_has_any_and_stable_still_differs_from_unstable() {
     for (glyphs, _) in GLYPHS {
         for (theme, _) in THEMES {
             let colors = Colors::Never;
-            let look = settings::Wishes { glyphs, colors, theme, ..braille() };
+            let look = settings::DisplaySettings { glyphs, colors, theme, ..braille() };
             let session = settled("supercritical", 80, 24, "");
             let colourless = draw(&session, look);
-            let coloured = draw(&session, settings::Wishes { colors: Colors::Sixteen, ..look });
+            let coloured =
+                draw(&session, settings::DisplaySettings { colors: Colors::Sixteen, ..look });
             assert_eq!(text(&colourless), text(&coloured), "colour changes no character");
             for cell in &colourless.content {
                 assert_eq!((cell.fg, cell.bg), Default::default());
@@ -259,7 +264,7 @@ fn without_colour_no_cell_has_any_and_stable_still_differs_from_unstable() {
             found.cycles = vec![cycle(1.0, stable)];
             found.picture = Some(picture(Vec::new(), vec![circle(1.0)]));
         }
-        text(&draw(&session, settings::Wishes { colors: Colors::Never, ..braille() }))
+        text(&draw(&session, settings::DisplaySettings { colors: Colors::Never, ..braille() }))
     };
     assert_ne!(only(true), only(false));
 }
@@ -311,7 +316,7 @@ fn every_scene_fits_every_size() {
             for keys in ["", "?", "s", "<enter>"] {
                 let session = settled(&scene.name, width, height, keys);
                 let (glyphs, _) = *kinds.next().expect("kinds come again");
-                draw(&session, settings::Wishes { glyphs, ..braille() });
+                draw(&session, settings::DisplaySettings { glyphs, ..braille() });
             }
         }
     }
@@ -406,7 +411,7 @@ proptest! {
             session.plots.iter_mut().for_each(|plot| plot.window = Window { x: span, y: span });
         }
         for (glyphs, _) in GLYPHS {
-            draw(&session, settings::Wishes { glyphs, ..braille() });
+            draw(&session, settings::DisplaySettings { glyphs, ..braille() });
         }
     }
 }

@@ -40,10 +40,10 @@ pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
     let (Some(x), Some(y)) = (around(|point| point.x), around(|point| point.y)) else {
         return String::new();
     };
-    let look = Look::new(settings::Wishes {
+    let look = Look::new(settings::DisplaySettings {
         glyphs: Glyphs::Ascii,
         colors: Colors::Never,
-        ..settings::Wishes::default()
+        ..settings::DisplaySettings::default()
     });
     let mut buffer = Buffer::empty(AREA);
     let names = Names {

@@ -1,17 +1,17 @@
 //! The verdicts on the claims of the paper.
 
 use super::number::significant;
-use crate::study::claims::{Certainty, Examined, Finding, POOR, Sense, Verdict};
+use crate::study::claims::{Certainty, ClaimResult, Finding, POOR, Sense, Verdict};
 
 /// The name of the verdict if no number could be computed.
 const UNKNOWN: &str = "unknown";
 
 /// The name of the verdict in documents.
-pub fn name(examined: &Examined) -> &'static str {
+pub fn name(examined: &ClaimResult) -> &'static str {
     examined.finding.as_ref().map_or(UNKNOWN, |finding| Finding::verdict(finding).name())
 }
 
-pub fn verdict(examined: &Examined) -> String {
+pub fn verdict(examined: &ClaimResult) -> String {
     let percent = |part: f64| format!("{} %", significant(100.0 * part, 2));
     let Ok(finding) = &examined.finding else { return UNKNOWN.to_owned() };
     let counts = || format!("{} of {}", finding.held, finding.cases);
@@ -44,7 +44,7 @@ pub fn sense(sense: Sense) -> String {
 }
 
 /// A line that counts the claims by verdict and by mark.
-pub fn summary(examined: &[Examined]) -> String {
+pub fn summary(examined: &[ClaimResult]) -> String {
     const NAMES: [(&str, &str); 6] = [
         ("agrees", "agree"),
         ("approximates", "hold approximately"),
@@ -58,7 +58,8 @@ pub fn summary(examined: &[Examined]) -> String {
     let parts =
         counts.filter(|(count, _)| *count > 0).map(|(count, words)| format!("{count} {words}"));
     let marked = |mark: Certainty| {
-        let carries = |one: &&Examined| one.finding.as_ref().is_ok_and(|it| it.mark == Some(mark));
+        let carries =
+            |one: &&ClaimResult| one.finding.as_ref().is_ok_and(|it| it.mark == Some(mark));
         let count = examined.iter().filter(carries).count();
         (count > 0).then(|| format!("{count} {}", mark.name()))
     };

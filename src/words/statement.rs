@@ -51,7 +51,7 @@ pub struct StatementUnits {
 
 /// The sentence, and the conditions under which it holds.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Signed {
+pub struct SignedStatement {
     /// The sentence.
     pub statement: Statement,
     /// The conditions; the sentence is not to be relied on unless all essential ones hold.
@@ -59,7 +59,7 @@ pub struct Signed {
 }
 
 /// What may be signed after a fit.
-pub fn signed(fitted: &Fitted) -> Signed {
+pub fn signed(fitted: &Fitted) -> SignedStatement {
     let margins = &fitted.margins;
     let MarginQuestion { confidence, disturbance, .. } = margins.question;
     let velocity = |omega0: f64, margin: &Margin| Some(margin.from_rest.impulse? * omega0);
@@ -96,7 +96,7 @@ pub fn signed(fitted: &Fitted) -> Signed {
     } else {
         format!("Not to be relied on, as a condition fails ({}): {sentence}", failing.join(", "))
     };
-    Signed { statement, conditions }
+    SignedStatement { statement, conditions }
 }
 
 fn sentence(fitted: &Fitted, statement: &Statement) -> String {

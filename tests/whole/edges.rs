@@ -5,7 +5,7 @@ use super::portrait;
 use hopfscope::flow::Fate;
 use hopfscope::machine::return_map::MachineReturn;
 use hopfscope::machine::{
-    Body, BorderKind, Flow, MachineBorder, Modal, Portrait, Subject, Unfollowed,
+    Body, BorderKind, Flow, LostMotion, MachineBorder, Modal, Portrait, Subject,
 };
 use hopfscope::numerics::elementary::exp;
 use hopfscope::oscillator::Belt;
@@ -119,7 +119,7 @@ fn where_the_law_ends_it_is_not_said_that_every_kick_is_survived() {
     let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
     let margin = found.margin.unwrap();
     assert!(
-        matches!(found.stop, Some(Unfollowed::OutsideLaw { .. })) && found.incomplete().is_some()
+        matches!(found.stop, Some(LostMotion::OutsideLaw { .. })) && found.incomplete().is_some()
     );
     // A kick against the belt gets slightly faster at first.
     let fastest = 0.408_645_154 - 0.1379;
@@ -140,7 +140,7 @@ fn where_motions_take_too_many_steps_the_margin_is_what_was_followed() {
                 friction.polynomial.coefficients = [0.437, 2.72777, 2.16231, 57.38058, 272.78022]\n";
     let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
     let margin = found.margin.unwrap();
-    assert_eq!((found.stop, margin.displacement.0), (Some(Unfollowed::Steps), found.known));
+    assert_eq!((found.stop, margin.displacement.0), (Some(LostMotion::Steps), found.known));
     assert!(margin.displacement.0 > 10.0 && margin.velocity.1 > 10.0, "{margin:?}");
     assert!(found.steps < 100_000, "{} steps", found.steps);
 }

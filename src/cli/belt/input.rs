@@ -1,7 +1,7 @@
 //! Reading the options of `hopfscope belt`: values with units, ranges, windows.
 
 use crate::cli::input::{Over, named, over_of, sides};
-use crate::oscillator::unit::{Dimension, Toleranced, measured, quantity};
+use crate::oscillator::unit::{Dimension, WithTolerance, measured, quantity};
 use crate::oscillator::{Group, Knob};
 use crate::study::design::Kick;
 
@@ -27,7 +27,7 @@ pub struct WindowInUnits {
 const SET: &[Group] = &[Group::Machine, Group::Law, Group::Mode, Group::Course];
 
 /// `NAME=VALUE`, the value with or without a unit.
-pub fn assignment(text: &str) -> Result<(Knob, Toleranced), String> {
+pub fn assignment(text: &str) -> Result<(Knob, WithTolerance), String> {
     let (knob, value) = named(text, SET, "expected NAME=VALUE, such as \"v0=0.2 m/s\"")?;
     let read = knob.parse_toleranced(value)?;
     if read.half_width > 0.0 && knob.spec().group == Group::Course {

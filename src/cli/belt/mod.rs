@@ -27,11 +27,11 @@ use crate::machine::guarantee::guaranteed;
 use crate::machine::stepped::{ALLOWED, SteppedMethod};
 use crate::machine::survey::{Course, CubicExpansion, Trouble};
 use crate::machine::{Portrait, Subject, Tolerances};
-use crate::oscillator::unit::Toleranced;
+use crate::oscillator::unit::WithTolerance;
 use crate::oscillator::{Belt, Knob};
-use crate::report::belt::branch::{Borders, Branched};
+use crate::report::belt::branch::{Borders, BranchAnswer};
 use crate::report::belt::{
-    self, Designed, Head, MachineAnswer, MachineSweep, OnBelt, RestShare, SweepPoint,
+    self, DesignAnswer, Head, MachineAnswer, MachineSweep, OnBelt, RestShare, SweepPoint,
 };
 use crate::runtime::print::figure;
 use crate::runtime::provenance_file;
@@ -50,7 +50,7 @@ pub struct Arguments {
     /// Sets a quantity of the machine or its friction law, such as "v0=0.2 m/s", or with a tolerance "R=1 N +- 0.2 N";
     /// repeatable; also the start x, v
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
-    set: Vec<(Knob, Toleranced)>,
+    set: Vec<(Knob, WithTolerance)>,
     /// Bound on a force that disturbs the mass in any way, such as "0.1 N": also reports the margin that is guaranteed under it
     #[arg(long, value_name = "FORCE", value_parser = disturbance, allow_hyphen_values = true)]
     disturbance: Option<f64>,
@@ -112,7 +112,7 @@ impl Arguments {
     /// The machine and the motion, with the values set on the command line.
     fn case(&self) -> Result<MachineCase, Failure> {
         let mut case = MachineCase::named(&self.machine)?;
-        for &(knob, Toleranced { middle, half_width, .. }) in &self.set {
+        for &(knob, WithTolerance { middle, half_width, .. }) in &self.set {
             match knob {
                 Knob::X => case.start.0 = middle.value,
                 Knob::V => case.start.1 = middle.value,
@@ -252,7 +252,7 @@ impl Arguments {
         }
         let (found, seconds) =
             timed(self.output.repeat, || branch(subject.clone(), varied, ends, count));
-        let found = Branched { head, varied, branch: found.map_err(Failure::Usage)?, seconds };
+        let found = BranchAnswer { head, varied, branch: found.map_err(Failure::Usage)?, seconds };
         self.output.print(&match self.output.format {
             Format::Table => belt::branch::table(&found),
             Format::Json => belt::branch::json(&found),
@@ -270,12 +270,16 @@ impl Arguments {
     }
 
     /// The friction needed for the margin, if asked for.
-    fn designed(&self, subject: &Subject, known: &Tolerances) -> Result<Option<Designed>, Trouble> {
+    fn designed(
+        &self,
+        subject: &Subject,
+        known: &Tolerances,
+    ) -> Result<Option<DesignAnswer>, Trouble> {
         let Some((kick, wanted)) = self.design else { return Ok(None) };
         let needed = friction_for(subject, known, kick, wanted)?;
         let at = subject.of_belt().map(|belt| belt.belt_speed);
         let has = subject.friction();
-        Ok(needed.map(|needed| Designed { kick, wanted, needed, at, has }))
+        Ok(needed.map(|needed| DesignAnswer { kick, wanted, needed, at, has }))
     }
 
     /// The sweep, with the friction needed for the margin at each point if asked for.

@@ -17,7 +17,7 @@ pub mod taylor;
 
 pub use friction::{Derivatives, FrictionLaw};
 pub use mass::Belt;
-pub use reduce::{BeltError, Reduced, Units};
+pub use reduce::{BeltError, ReducedBelt, Units};
 pub use taylor::TaylorError;
 
 #[cfg(test)]

@@ -28,7 +28,7 @@ pub struct Units {
 
 /// The dimensionless oscillator that a belt is, with its units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reduced {
+pub struct ReducedBelt {
     /// D, D2, D3 and r.
     pub parameters: Parameters,
     /// What 1 stands for.
@@ -96,7 +96,7 @@ impl Belt {
     /// # Errors
     /// [`BeltError`] where the law does not reach, where it has no derivatives, where friction does not
     /// pull, or where a parameter is beyond the range of numbers.
-    pub fn reduce(&self) -> Result<Reduced, BeltError> {
+    pub fn reduce(&self) -> Result<ReducedBelt, BeltError> {
         self.reduce_at(self.belt_speed)
     }
 
@@ -104,7 +104,7 @@ impl Belt {
     ///
     /// # Errors
     /// Those of [`Self::reduce`].
-    pub fn reduce_at(&self, v0: f64) -> Result<Reduced, BeltError> {
+    pub fn reduce_at(&self, v0: f64) -> Result<ReducedBelt, BeltError> {
         let Belt { mass, stiffness, normal_force, .. } = *self;
         let mu = self.law.at(v0);
         let mu = mu.ok_or(BeltError::OutsideLaw { v0, range: self.law.range() })?;
@@ -125,7 +125,7 @@ impl Belt {
             knob.check(knob.get(&parameters, &State::default())).map_err(BeltError::OutOfRange)?;
         }
         let velocity = omega_0 * x0;
-        Ok(Reduced {
+        Ok(ReducedBelt {
             parameters,
             units: Units {
                 omega_0,

@@ -63,7 +63,7 @@ fn acceleration(belt: &Belt, units: &Units, q: f64, v: f64) -> f64 {
 #[test]
 fn the_parameters_are_the_derivatives_of_the_equation_of_motion() {
     let belt = stribeck();
-    let Reduced { parameters, units, .. } = belt.reduce().unwrap();
+    let ReducedBelt { parameters, units, .. } = belt.reduce().unwrap();
     // q'' = -q - 2 D v - D2 v^2 - D3 v^3 - ..., differentiated numerically.
     let damping = differences(|v| acceleration(&belt, &units, 0.0, v), 0.0, 0.2);
     assert!((damping.value).abs() < 1e-15);
@@ -80,7 +80,7 @@ fn the_parameters_are_the_derivatives_of_the_equation_of_motion() {
 #[test]
 fn at_rest_the_spring_holds_the_pull_of_the_belt() {
     let belt = stribeck();
-    let Reduced { units, mu, .. } = belt.reduce().unwrap();
+    let ReducedBelt { units, mu, .. } = belt.reduce().unwrap();
     let pull = belt.normal_force * belt.law.mu(belt.belt_speed).unwrap();
     assert!((belt.stiffness * units.displacement / pull - 1.0).abs() < 1e-15);
     assert!((units.force / pull - 1.0).abs() < 1e-15 && mu.value > 0.0);
@@ -120,7 +120,7 @@ fn a_straight_characteristic_has_neither_asymmetry_nor_cubic_damping() {
 fn a_cubic_characteristic_is_the_scaled_field_itself() {
     let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.4, 0.3, 0.7] };
     let belt = Belt { law, ..stribeck() };
-    let Reduced { parameters, units, sticking_velocity, .. } = belt.reduce().unwrap();
+    let ReducedBelt { parameters, units, sticking_velocity, .. } = belt.reduce().unwrap();
     let field = HalfPlane::new(&parameters, Side::Upper);
     for q in [-1.5, 0.0, 0.3] {
         for part in [-2.0, -0.5, 0.0, 0.5, 1.0] {
@@ -136,7 +136,7 @@ fn a_cubic_characteristic_is_the_scaled_field_itself() {
 #[test]
 fn the_fields_differ_by_no_more_than_the_taylor_error() {
     let belt = stribeck();
-    let Reduced { parameters, units, .. } = belt.reduce().unwrap();
+    let ReducedBelt { parameters, units, .. } = belt.reduce().unwrap();
     let field = HalfPlane::new(&parameters, Side::Upper);
     let range = (-0.4, 0.25);
     let error = belt.taylor_error(range).unwrap();

@@ -11,7 +11,7 @@ pub use self::table::{Group, KNOBS, Knob, KnobSpec};
 use super::belt::mass::Belt;
 use super::modal::Modal;
 use super::parameters::{Parameters, State};
-use super::unit::{Measured, Toleranced, measured, toleranced};
+use super::unit::{Measured, WithTolerance, measured, toleranced};
 use crate::numerics::Interval;
 use crate::numerics::decimal::{brief, shortest};
 use crate::numerics::similar::most_similar;
@@ -87,12 +87,12 @@ impl Knob {
     ///
     /// # Errors
     /// One line that says what is wrong, and what is allowed.
-    pub fn parse_toleranced(self, text: &str) -> Result<Toleranced, String> {
+    pub fn parse_toleranced(self, text: &str) -> Result<WithTolerance, String> {
         let read = toleranced(text).map_err(|why| self.unread(text, why))?;
         let value = self.accept(text, read.middle)?;
         let middle = Measured { value, ..read.middle };
         if read.half_width == 0.0 {
-            return Ok(Toleranced { middle, ends: Interval::point(value), ..read });
+            return Ok(WithTolerance { middle, ends: Interval::point(value), ..read });
         }
         for end in [value - read.half_width, value + read.half_width] {
             self.check(end).map_err(|refused| refused.to_string())?;
@@ -102,7 +102,7 @@ impl Knob {
         for end in [ends.lower(), ends.upper()] {
             self.check(end).map_err(|refused| refused.to_string())?;
         }
-        Ok(Toleranced { middle, ends, ..read })
+        Ok(WithTolerance { middle, ends, ..read })
     }
 
     /// A measured value in the unit and the range of this number; zero has one sign.

@@ -234,7 +234,7 @@ fn errors_of_a_linear_spiral_grow_as_it_does() {
         };
         let point = Interval::point;
         let field = Field { a: point(a), b: point(0.0), c: point(0.0) };
-        let rate = Prepared::new(&field).growth(Norm::fitting(a), Interval::new(0.9, 1.1));
+        let rate = StepField::new(&field).growth(Norm::fitting(a), Interval::new(0.9, 1.1));
         assert!(rate >= low && rate <= high + 1e-9, "{a}: {rate} {high}");
     }
 }
@@ -248,7 +248,7 @@ fn growth_bounds_every_direction_and_every_slope() {
         for (a, b, c) in [(-0.4, 0.3, 0.5), (1.0, -2.0, 0.0), (0.2, 0.0, -3.0)] {
             let field = Field { a: point(a), b: point(b), c: point(c) };
             let (v0, reach) = (0.7, 0.4);
-            let bound = Prepared::new(&field).growth(norm, Interval::around(v0, reach));
+            let bound = StepField::new(&field).growth(norm, Interval::around(v0, reach));
             let mut most = f64::NEG_INFINITY;
             for i in 0..=20 {
                 for j in 0..=20 {
@@ -276,7 +276,7 @@ fn growth_bounds_every_direction_and_every_slope() {
 fn nothing_is_said_of_what_is_not_a_number() {
     let point = Interval::point;
     let field = Field { a: point(-0.2), b: point(0.1), c: point(0.5) };
-    let local = Prepared::new(&field);
+    let local = StepField::new(&field);
     let mut series = Series::<f64>::EMPTY;
     series.expand(local.middles(), -0.5, 0.2);
     let norm = Norm::new(0.0);
@@ -285,7 +285,7 @@ fn nothing_is_said_of_what_is_not_a_number() {
     assert!(local.carry(norm, &series, (f64::NAN, series.at(f64::NAN)), 1e-15).is_none());
     assert!(local.carry(norm, &series, (5.0, series.at(5.0)), 1e-15).is_none());
     // Zero times infinity is NaN.
-    let linear = Prepared::new(&Field { a: point(-0.2), b: point(0.0), c: point(0.0) });
+    let linear = StepField::new(&Field { a: point(-0.2), b: point(0.0), c: point(0.0) });
     assert_eq!(linear.growth(norm, Interval::ALL), f64::INFINITY);
     series.v[7] = f64::NAN;
     assert!(local.carry(norm, &series, (0.2, series.at(0.2)), 1e-15).is_none());
@@ -306,7 +306,7 @@ fn exponentials_are_bounded_from_above() {
 #[test]
 fn no_step_is_longer_than_a_turn() {
     let point = Interval::point;
-    let local = Prepared::new(&Field { a: point(0.0), b: point(0.0), c: point(0.0) });
+    let local = StepField::new(&Field { a: point(0.0), b: point(0.0), c: point(0.0) });
     let mut series = Series::<f64>::EMPTY;
     series.expand(local.middles(), -0.9, 0.2);
     for (h, held) in [(3.1, true), (3.13, true), (3.15, false), (3.4, false)] {
@@ -317,14 +317,14 @@ fn no_step_is_longer_than_a_turn() {
         );
     }
     // Damping makes the angle turn faster, by at most half of its slope.
-    let damped = Prepared::new(&Field { a: point(1.0), b: point(0.0), c: point(0.0) });
+    let damped = StepField::new(&Field { a: point(1.0), b: point(0.0), c: point(0.0) });
     series.expand(damped.middles(), -0.9, 0.2);
     for (h, held) in [(2.05, true), (2.12, false)] {
         let found = damped.carry(Norm::fitting(1.0), &series, (h, series.at(h)), 1e-12);
         assert_eq!(found.is_some(), held, "{h}");
     }
     // Where the velocity is certainly positive throughout, the bound on the angle does not matter.
-    let fast = Prepared::new(&Field { a: point(0.0), b: point(-50.0), c: point(0.0) });
+    let fast = StepField::new(&Field { a: point(0.0), b: point(-50.0), c: point(0.0) });
     series.expand(fast.middles(), 0.0, 1.0);
     assert!(fast.carry(Norm::new(0.0), &series, (1e-3, series.at(1e-3)), 1e-12).is_some());
 }
@@ -369,7 +369,7 @@ fn truncation_is_bounded_by_all_terms_that_are_cut_off() {
 #[test]
 fn a_step_holds_what_its_polynomial_leaves_out() {
     let point = Interval::point;
-    let local = Prepared::new(&Field { a: point(10.0), b: point(0.0), c: point(0.0) });
+    let local = StepField::new(&Field { a: point(10.0), b: point(0.0), c: point(0.0) });
     let (h, root) = (0.5, 24.0_f64.sqrt());
     let mut series = Series::<f64>::EMPTY;
     series.expand(local.middles(), -1.0, 0.0);
@@ -380,7 +380,7 @@ fn a_step_holds_what_its_polynomial_leaves_out() {
     let off = (end.v - velocity).abs();
     assert!(off > 1e-13 && off <= norm.stretch * end.radius, "{off:e} {:e}", end.radius);
     // Without damping, displaced in velocity by the radius of the ball.
-    let local = Prepared::new(&Field { a: point(0.0), b: point(0.0), c: point(0.0) });
+    let local = StepField::new(&Field { a: point(0.0), b: point(0.0), c: point(0.0) });
     let (h, ball) = (0.1, 1e-3);
     series.expand(local.middles(), 0.0, 1.0);
     let end = local.carry(Norm::new(0.0), &series, (h, series.at(h)), ball).unwrap();
@@ -417,7 +417,7 @@ fn a_step_holds_the_motions_of_all_coefficients() {
         let mut coefficients = [Interval::point(0.0); 3];
         coefficients[wide] = Interval::around(0.0, spread);
         let [a, b, c] = coefficients;
-        let local = Prepared::new(&Field { a, b, c });
+        let local = StepField::new(&Field { a, b, c });
         let mut series = Series::<f64>::EMPTY;
         series.expand(local.middles(), 0.0, 1.0);
         let end = local.carry(Norm::new(0.0), &series, (h, series.at(h)), 0.0).unwrap();

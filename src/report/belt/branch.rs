@@ -10,13 +10,13 @@ use crate::machine::branch::MachineBranch;
 use crate::machine::jumps::Jump;
 use crate::machine::special::{MachineSpecial, MachineSpecialKind};
 use crate::oscillator::Knob;
-use crate::report::csv::Sheet;
+use crate::report::csv::CsvSheet;
 use crate::report::json::{Seconds, text};
 use crate::report::table::Table;
 use crate::words::number::duration;
 use crate::words::quantity::with_unit;
 
-pub struct Branched<'a> {
+pub struct BranchAnswer<'a> {
     /// The machine.
     pub head: &'a Head<'a>,
     /// The number that varies.
@@ -57,7 +57,7 @@ struct BranchedPoint {
     cycle: Option<MachineCycleDocument>,
 }
 
-fn points(branched: &Branched) -> Vec<BranchedPoint> {
+fn points(branched: &BranchAnswer) -> Vec<BranchedPoint> {
     let mut points = Vec::new();
     for point in &branched.branch.points {
         let row = |reason, cycle| BranchedPoint { value: point.value, reason, cycle };
@@ -74,7 +74,7 @@ fn points(branched: &Branched) -> Vec<BranchedPoint> {
 }
 
 /// The branch as a document.
-pub fn json(branched: &Branched) -> String {
+pub fn json(branched: &BranchAnswer) -> String {
     let found = branched.branch.points.iter().filter_map(|point| point.found.as_ref().ok());
     text(&BeltBranchDocument {
         machine: branched.head.name,
@@ -126,7 +126,7 @@ fn jumps(special: &MachineSpecial) -> String {
 }
 
 /// The branch as a table.
-pub fn table(branched: &Branched) -> String {
+pub fn table(branched: &BranchAnswer) -> String {
     let (name, unit) = (branched.varied.spec().name, branched.varied.spec().unit);
     let mut rows = Table::new(&[&[name, "cycle"], CYCLE].concat());
     for point in &branched.branch.points {
@@ -170,9 +170,9 @@ struct BeltBranchRow {
 }
 
 /// One row for each cycle, then one for each change, in SI units.
-pub fn csv(branched: &Branched) -> String {
+pub fn csv(branched: &BranchAnswer) -> String {
     let called = [("value", branched.varied.spec().name), ("kind", "what")];
-    let mut sheet = Sheet::like(&BeltBranchRow::default(), &called);
+    let mut sheet = CsvSheet::like(&BeltBranchRow::default(), &called);
     for point in &branched.branch.points {
         for cycle in point.found.iter().flat_map(|found| &found.cycles) {
             sheet.row(&BeltBranchRow {
@@ -254,7 +254,7 @@ pub fn borders_csv(borders: &Borders) -> String {
     let (along, against) = borders.varied;
     let called = [("against", against.spec().name), ("value", along.spec().name), ("kind", "what")];
     let row = |against, value, kind, x_max| BordersRow { against, value, kind, x_max };
-    let mut sheet = Sheet::like(&row(0.0, 0.0, MachineSpecialKind::Fold, None), &called);
+    let mut sheet = CsvSheet::like(&row(0.0, 0.0, MachineSpecialKind::Fold, None), &called);
     for (against, special) in &borders.rows {
         for special in special {
             sheet.row(&row(*against, special.value, special.kind, special.x_max));

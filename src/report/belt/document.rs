@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::expansion::Expansion;
-use super::{Designed, MachineAnswer, OnBelt, RestShare};
+use super::{DesignAnswer, MachineAnswer, OnBelt, RestShare};
 use crate::flow::Fate;
 use crate::machine::guarantee::MachineUncertain;
 use crate::machine::motion::MachineState;
@@ -16,7 +16,7 @@ use crate::oscillator::belt::{Derivatives, FrictionLaw, Units};
 use crate::oscillator::{Belt, Group, Interval, Parameters};
 use crate::report::json::text;
 use crate::study::Margin;
-use crate::study::design::{Kick, Needed};
+use crate::study::design::{FrictionNeeded, Kick};
 
 #[derive(Serialize)]
 struct MachineDocument<'a> {
@@ -373,12 +373,12 @@ pub(super) struct DesignDocument {
     /// In N.
     #[serde(rename = "R")]
     force: Option<f64>,
-    needed: Needed,
+    needed: FrictionNeeded,
     message: String,
 }
 
 impl DesignDocument {
-    pub(super) fn new(designed: &Designed) -> Self {
+    pub(super) fn new(designed: &DesignAnswer) -> Self {
         DesignDocument {
             kick: designed.kick,
             margin: designed.wanted,

@@ -22,7 +22,7 @@ use crate::machine::survey::{Course, CubicExpansion};
 use crate::machine::{Body, Modal, Tolerances};
 use crate::oscillator::{Belt, Group, Interval, Knob};
 use crate::study::Margin;
-use crate::study::design::{Kick, Needed};
+use crate::study::design::{FrictionNeeded, Kick};
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
 
@@ -79,7 +79,7 @@ pub struct MachineAnswer<'a> {
     pub course: Course,
     pub rest_share: RestShare,
     /// The friction needed for a margin, if asked for.
-    pub design: Option<Designed>,
+    pub design: Option<DesignAnswer>,
     /// `None` for a mode.
     pub on_belt: Option<OnBelt<'a>>,
     pub seconds: f64,
@@ -102,13 +102,13 @@ impl OnBelt<'_> {
 
 /// The friction needed for a margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Designed {
+pub struct DesignAnswer {
     /// The kick that is to be survived.
     pub kick: Kick,
     /// Its size: m for a displacement, N s for an impulse.
     pub wanted: f64,
     /// The friction needed, in N.
-    pub needed: Needed,
+    pub needed: FrictionNeeded,
     /// Speed of the belt in m/s; `None` for a mode.
     pub at: Option<f64>,
     /// The friction that the machine has, in N.
@@ -144,12 +144,12 @@ impl<'a> Head<'a> {
 /// Significant digits of a physical quantity in text.
 const PLACES: usize = 5;
 
-impl Designed {
+impl DesignAnswer {
     /// The friction needed, in N; `None` if any suffices.
     fn force(&self) -> Option<f64> {
         match self.needed {
-            Needed::Any => None,
-            Needed::Friction { r } | Needed::Fold { r, .. } => Some(r),
+            FrictionNeeded::Any => None,
+            FrictionNeeded::Friction { r } | FrictionNeeded::Fold { r, .. } => Some(r),
         }
     }
 
@@ -165,9 +165,13 @@ impl Designed {
         let lead = format!("for a margin of {wanted} ({name}){}: ", at.unwrap_or_default());
         let force = self.force().map(|force| with_unit(force, 10, "N")).unwrap_or_default();
         lead + &match self.needed {
-            Needed::Any => "any R suffices, however small; damping alone keeps it".to_owned(),
-            Needed::Friction { .. } => format!("R = {force} is needed (the machine has {has})"),
-            Needed::Fold { below, .. } => format!(
+            FrictionNeeded::Any => {
+                "any R suffices, however small; damping alone keeps it".to_owned()
+            }
+            FrictionNeeded::Friction { .. } => {
+                format!("R = {force} is needed (the machine has {has})")
+            }
+            FrictionNeeded::Fold { below, .. } => format!(
                 "R above {force} is needed (the machine has {has}); every kick is survived then, while just \
                  below the margin is {}",
                 with_unit(below, PLACES, unit)

@@ -109,6 +109,6 @@ fn remarks(answer: &MachineAnswer) -> Vec<String> {
     let mut all: Vec<String> = fate.lines().map(str::to_owned).collect();
     all.extend(answer.rest_share.line().lines().map(str::to_owned));
     all.extend(answer.on_belt.as_ref().map(|it| by_expansion(&it.expansion, portrait)));
-    all.extend(answer.design.as_ref().map(super::Designed::sentence));
+    all.extend(answer.design.as_ref().map(super::DesignAnswer::sentence));
     all
 }

@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use super::document::{DesignDocument, MachineCost, PortraitDocument};
-use super::{Designed, Head, PLACES, RestShare};
+use super::{DesignAnswer, Head, PLACES, RestShare};
 use crate::machine::{BorderKind, MachineBorder, Portrait};
 use crate::oscillator::Knob;
-use crate::report::csv::Sheet;
+use crate::report::csv::CsvSheet;
 use crate::report::json::text;
 use crate::report::table::Table;
 use crate::study::margin::{Margin, RestMargin};
@@ -20,7 +20,7 @@ pub struct SweepPoint {
     pub found: Result<Portrait, String>,
     pub rest_share: RestShare,
     /// The friction needed for a margin, if asked for.
-    pub design: Option<Designed>,
+    pub design: Option<DesignAnswer>,
 }
 
 /// A sweep over one number of a machine.
@@ -176,7 +176,8 @@ struct BeltSweepRow {
 
 /// One row for each point, in SI units.
 pub fn csv(sweep: &MachineSweep) -> String {
-    let mut sheet = Sheet::like(&BeltSweepRow::default(), &[("value", sweep.varied.spec().name)]);
+    let mut sheet =
+        CsvSheet::like(&BeltSweepRow::default(), &[("value", sweep.varied.spec().name)]);
     for point in &sweep.points {
         let value = point.value;
         let Ok(found) = &point.found else {
@@ -198,7 +199,7 @@ pub fn csv(sweep: &MachineSweep) -> String {
             impulse_margin,
             from_rest,
             rest_share: point.rest_share.known(),
-            needed: point.design.as_ref().and_then(Designed::force),
+            needed: point.design.as_ref().and_then(DesignAnswer::force),
         });
     }
     sheet.into_text()

@@ -8,7 +8,7 @@ use super::{MachineAnswer, OnBelt, PLACES};
 use crate::flow::Fate;
 use crate::machine::guarantee::MachineUncertain;
 use crate::machine::motion::MachineState;
-use crate::machine::stepped::Stepped;
+use crate::machine::stepped::SteppedEnd;
 use crate::machine::survey::{Course, CubicExpansion, Second};
 use crate::machine::{MachineBorder, MachineCycle, Portrait};
 use crate::oscillator::Interval;
@@ -329,7 +329,7 @@ fn by(Second { way, tolerance, found }: &Second, course: &Course) -> String {
     let MachineState { t, x, v } = course.motion.end;
     let lead = format!("\nby {} at {tolerance:e}: ", way.name());
     lead + &match found {
-        Ok(Stepped { end, .. }) => format!(
+        Ok(SteppedEnd { end, .. }) => format!(
             "at t = {} x = {}, v = {}; Taylor series differ by {} and {}",
             with_unit(t, PLACES, "s"),
             with_unit(end.x, 12, "m"),

@@ -17,10 +17,10 @@ use crate::fit::separable::combinations;
 use crate::report::csv;
 use crate::report::json;
 use crate::words::fit::sentences;
-use crate::words::statement::{Signed, Statement, signed};
+use crate::words::statement::{SignedStatement, Statement, signed};
 
 #[derive(Serialize)]
-struct Estimated {
+struct EstimateDocument {
     value: f64,
     standard_error: f64,
     lower: Option<f64>,
@@ -61,7 +61,7 @@ struct Draws {
 struct FitDocument<'a> {
     file: &'a str,
     unit: Option<&'a str>,
-    parameters: BTreeMap<&'static str, Estimated>,
+    parameters: BTreeMap<&'static str, EstimateDocument>,
     held: BTreeMap<&'static str, f64>,
     start: BTreeMap<&'static str, serde_json::Value>,
     correlations: BTreeMap<String, f64>,
@@ -106,7 +106,7 @@ pub fn json(fitted: &Fitted) -> String {
         })
         .collect();
     let (with_derivatives, without) = fitted.motions();
-    let Signed { statement, conditions } = signed(fitted);
+    let SignedStatement { statement, conditions } = signed(fitted);
     json::text(&FitDocument {
         file: &fitted.name,
         unit: record.unit.as_deref(),
@@ -137,10 +137,10 @@ pub fn json(fitted: &Fitted) -> String {
     })
 }
 
-fn estimated(fitted: &Fitted, place: usize) -> Estimated {
+fn estimated(fitted: &Fitted, place: usize) -> EstimateDocument {
     let estimate = &fitted.estimate;
     let interval = estimate.intervals[place];
-    Estimated {
+    EstimateDocument {
         value: estimate.p[place],
         standard_error: estimate.covariance.error(place),
         lower: interval.lower,
@@ -197,7 +197,8 @@ fn physical(fitted: &Fitted) -> Option<Physical> {
 /// One row for each estimated number, then the margins.
 pub fn csv(fitted: &Fitted) -> String {
     let numbers = fitted.estimate.wanted().map(|row| {
-        let Estimated { value, standard_error, lower, upper, .. } = estimated(fitted, row.place);
+        let EstimateDocument { value, standard_error, lower, upper, .. } =
+            estimated(fitted, row.place);
         EstimateRow {
             name: row.name.to_owned(),
             value: Some(value),

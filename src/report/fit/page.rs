@@ -9,7 +9,7 @@ use crate::report::table::Table;
 use crate::words::fit::{broken, left_out as counts, sentences};
 use crate::words::number::significant;
 use crate::words::provenance::Provenance;
-use crate::words::statement::{Signed, signed};
+use crate::words::statement::{SignedStatement, signed};
 
 /// The page of a fit: with its pictures, what computed it, and the file of the record.
 pub fn page(
@@ -18,7 +18,7 @@ pub fn page(
     provenance: &Provenance,
     source: &Source,
 ) -> String {
-    let Signed { statement, conditions } = signed(fitted);
+    let SignedStatement { statement, conditions } = signed(fitted);
     let broken = broken(fitted);
     let counts = counts(fitted);
     let remarks = sentences(fitted)

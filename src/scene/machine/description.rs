@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::machine::Tolerances;
 use crate::oscillator::Belt;
-use crate::oscillator::belt::{BeltError, Reduced};
+use crate::oscillator::belt::{BeltError, ReducedBelt};
 
 /// A machine: a mass on a belt, and the start of the motion on show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,7 +29,7 @@ pub struct Machine {
 impl Machine {
     /// The dimensionless oscillator and its units. Fails with [`BeltError`] where the machine has no dimensionless
     /// form.
-    pub fn reduce(&self) -> Result<Reduced, BeltError> {
+    pub fn reduce(&self) -> Result<ReducedBelt, BeltError> {
         self.belt.reduce()
     }
 }

@@ -7,7 +7,7 @@
 use super::Machine;
 use crate::flow::Problem;
 use crate::numerics::elementary::powi;
-use crate::oscillator::belt::Reduced;
+use crate::oscillator::belt::ReducedBelt;
 use crate::oscillator::{Knob, Parameters, State};
 
 /// A machine with its belt at a speed.
@@ -17,7 +17,7 @@ pub struct Running<'a> {
     /// Speed v0 of the belt, in m/s.
     pub speed: f64,
     /// The dimensionless form of the machine at that speed.
-    pub reduced: Reduced,
+    pub reduced: ReducedBelt,
 }
 
 impl<'a> Running<'a> {
@@ -63,7 +63,7 @@ impl<'a> Running<'a> {
     ///
     /// `None` for D2, which no single part of the machine determines.
     pub fn meaning(&self, symbol: Knob, value: f64) -> Option<(Knob, f64)> {
-        let Reduced { mu, .. } = &self.reduced;
+        let ReducedBelt { mu, .. } = &self.reduced;
         let force = self.machine.belt.normal_force;
         let whole = value * self.scale(symbol);
         Some(match symbol {

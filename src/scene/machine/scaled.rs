@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::description::Machine;
 use super::running::Running;
 use crate::flow::Problem;
-use crate::oscillator::belt::{BeltError, Reduced};
+use crate::oscillator::belt::{BeltError, ReducedBelt};
 use crate::oscillator::{Knob, State};
 
 /// A machine with its dimensionless form.
@@ -15,7 +15,7 @@ use crate::oscillator::{Knob, State};
 #[serde(try_from = "Machine", into = "Machine")]
 pub struct ScaledMachine {
     pub machine: Machine,
-    pub reduced: Reduced,
+    pub reduced: ReducedBelt,
 }
 
 impl TryFrom<Machine> for ScaledMachine {

@@ -12,7 +12,7 @@ use crate::session::read::fit::{fitted, is_pending};
 use crate::session::state::plot::Framing;
 use crate::session::state::rows::Steps;
 use crate::session::state::scan::{Progress, SCANNING};
-use crate::session::state::session::{Recomputed, Session};
+use crate::session::state::session::{Recomputation, Session};
 use crate::words::fit::sentences;
 
 impl Session {
@@ -27,7 +27,7 @@ impl Session {
             let (cost, seconds) = (answer.cost(), answered.seconds);
             // No key waits for a proof.
             if topic != Topic::Proof {
-                self.price.recomputed.push(Recomputed { topic, cost, seconds });
+                self.price.recomputed.push(Recomputation { topic, cost, seconds });
             }
             if let Answer::Fit(fit) = answer
                 && asked

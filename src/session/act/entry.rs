@@ -8,11 +8,11 @@ use crate::session::act::parameters::put;
 use crate::session::effect::Effect;
 use crate::session::message::key::Key;
 use crate::session::read::numbers::{typed, with_number};
-use crate::session::state::doubt::{Doubt, symbol_of};
 use crate::session::state::overlay::{Entry, Overlay};
 use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
+use crate::session::state::uncertainty::{Uncertainty, symbol_of};
 
 /// Opens the line with the value of the selected row.
 pub fn edit(session: &mut Session) -> Vec<Effect> {
@@ -93,7 +93,7 @@ fn disturbed(session: &Session, setup: &Setup, text: &str) -> Result<Setup, Stri
     } else {
         Knob::Disturbance.parse(text)?
     };
-    Ok(Setup { doubt: Doubt { disturbance, ..setup.doubt }, ..*setup })
+    Ok(Setup { doubt: Uncertainty { disturbance, ..setup.doubt }, ..*setup })
 }
 
 /// The setup with the typed value of a parameter, which may have a half width; without one, it is known

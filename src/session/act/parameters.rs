@@ -11,13 +11,13 @@ use crate::scene::{Running, Setting, View};
 use crate::session::act::notice::{inform, refuse};
 use crate::session::effect::Effect;
 use crate::session::read::numbers::{number, with_number};
-use crate::session::state::doubt::Doubt;
 use crate::session::state::history::Before;
 use crate::session::state::plot::{Framing, Plot};
 use crate::session::state::rows::{Row, Steps};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
 use crate::session::state::step_size::StepSize;
+use crate::session::state::uncertainty::Uncertainty;
 
 /// Changes the motion on show, as one change that can be undone; the belt keeps its speed. Returns whether
 /// anything differs.
@@ -119,7 +119,7 @@ fn step_disturbance(session: &mut Session, count: i32) -> Vec<Effect> {
     let Some(size) = session.steps.of_row(Row::Disturbance) else { return Vec::new() };
     let present = session.setup();
     let (disturbance, why) = stepped(Knob::Disturbance, size, present.doubt.disturbance, count);
-    let doubt = Doubt { disturbance, ..present.doubt };
+    let doubt = Uncertainty { disturbance, ..present.doubt };
     if !put(session, &Setup { doubt, ..present }) {
         refuse(session, why);
     }
@@ -174,7 +174,7 @@ pub fn reset_row(session: &mut Session) -> Vec<Effect> {
         }
         Row::Disturbance => {
             let disturbance = Setup::of_scene(&session.scene).doubt.disturbance;
-            Ok(Setup { doubt: Doubt { disturbance, ..present.doubt }, ..present })
+            Ok(Setup { doubt: Uncertainty { disturbance, ..present.doubt }, ..present })
         }
         Row::Parameter(symbol) if session.scene.recording.is_some() => {
             let mut doubt = present.doubt.with_half_width(symbol, 0.0).unwrap_or(present.doubt);

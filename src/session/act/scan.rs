@@ -16,7 +16,7 @@ use crate::session::state::input::Input;
 use crate::session::state::overlay::Overlay;
 use crate::session::state::plot::Pane;
 use crate::session::state::rows::Row;
-use crate::session::state::scan::{Progress, SCANNING, Scanned};
+use crate::session::state::scan::{Progress, SCANNING, ScanOnShow};
 use crate::session::state::scan_form::ScanForm;
 use crate::session::state::session::Session;
 use crate::study::scan::Scan;
@@ -111,7 +111,7 @@ pub fn accept(session: &mut Session) -> Vec<Effect> {
 
 /// Starts a scan and shows it in a plot that already shows scans, otherwise beside the phase plane.
 pub fn start(session: &mut Session, scan: Scan) -> Vec<Effect> {
-    session.scanned = Some(Scanned::begun(scan));
+    session.scanned = Some(ScanOnShow::begun(scan));
     let mut shown = session.on_show().filter(|index| session.plots[*index].view == View::Scan);
     match shown.next() {
         Some(index) => focus_on(session, Pane::Plot(index)),

@@ -8,12 +8,12 @@ use crate::flow::Problem;
 use crate::machine::Body;
 use crate::oscillator::{Belt, Knob, Parameters, State};
 use crate::question::Whole;
-use crate::question::whole::{Course, Kinds};
+use crate::question::whole::{Course, WholeCycles};
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Answer, Layer, Machine, Running, Setting, Topic};
-use crate::session::state::doubt::{Doubt, ON_A_MACHINE, symbol_of};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
+use crate::session::state::uncertainty::{ON_A_MACHINE, Uncertainty, symbol_of};
 
 impl Session {
     /// The present setup: the motions on show, the setting of the machine, and what is not known exactly.
@@ -78,7 +78,7 @@ impl Session {
     }
 
     /// The whole model's answer about the cycles; `None` while it is not known.
-    pub fn kinds(&self) -> Option<&Kinds> {
+    pub fn kinds(&self) -> Option<&WholeCycles> {
         self.whole(Topic::Cycles)?.cycles.as_ref()
     }
 
@@ -109,7 +109,7 @@ impl Session {
         setup: &Setup,
         quantity: Knob,
         half_width: f64,
-    ) -> Result<Doubt, String> {
+    ) -> Result<Uncertainty, String> {
         let name = quantity.spec().name;
         let symbol = symbol_of(quantity).ok_or_else(|| {
             format!(

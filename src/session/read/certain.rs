@@ -20,11 +20,11 @@ impl Session {
     pub(in crate::session) fn zones_request(&self, parameters: &Parameters) -> Option<Request> {
         let running = self.running().filter(|_| self.draws_whole());
         Some(match running.zip(self.machine()) {
-            Some((running, belt)) => Request::MachineZones(question::machine_zones::Asked {
+            Some((running, belt)) => Request::MachineZones(question::machine_zones::Inputs {
                 tolerances: self.doubt.on_machine(&running, &belt).ok()?,
                 belt: Arc::new(belt),
             }),
-            None => Request::Zones(question::zones::Asked {
+            None => Request::Zones(question::zones::Inputs {
                 known: self.doubt.known(parameters),
                 disturbance: self.doubt.disturbance,
             }),

@@ -12,9 +12,9 @@ use crate::question::fit::Measured;
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Answer, Axes, Layer, Point, Request, Span, Topic, View, Window};
 use crate::session::state::plot::Framing;
-use crate::session::state::scan::Scanned;
+use crate::session::state::scan::ScanOnShow;
 use crate::session::state::session::Session;
-use crate::study::trade::Tried;
+use crate::study::trade::TradePoint;
 
 /// Width of a fitted window, relative to its content.
 const ROOM: f64 = 1.1;
@@ -64,7 +64,7 @@ pub(in crate::session) fn fitted(session: &Session, index: usize) -> Option<Wind
             extent(fit.curves.residual_extent(fit.estimate.covariance.deviation)?)
         }
         View::Spread => extent(session.fitted()?.fit.curves.spread_extent),
-        View::Scan => session.scanned.as_ref().map(Scanned::window),
+        View::Scan => session.scanned.as_ref().map(ScanOnShow::window),
         #[allow(
             unreachable_patterns,
             reason = "a view without a rule of its own shows its usual window"
@@ -105,7 +105,7 @@ fn speeds(session: &Session, plot: usize) -> Option<Window> {
 
 /// All rows of the trade.
 fn trade(session: &Session) -> Option<Window> {
-    let places: Vec<_> = session.trade()?.rows.iter().filter_map(Tried::place).collect();
+    let places: Vec<_> = session.trade()?.rows.iter().filter_map(TradePoint::place).collect();
     let x = Span::covering(places.iter().map(|place| place.0))?;
     let y = Span::covering(places.iter().map(|place| place.1))?;
     Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })

@@ -6,9 +6,9 @@ use crate::question;
 use crate::question::fit::Unsure;
 use crate::question::{Fit, Fitted};
 use crate::scene::{Answer, Request, Topic};
-use crate::session::state::answers::Standing;
-use crate::session::state::doubt::Doubt;
+use crate::session::state::answers::AnswerState;
 use crate::session::state::session::Session;
+use crate::session::state::uncertainty::Uncertainty;
 
 impl Session {
     /// The fit of the record on show with the held numbers; until it is there, the most similar one.
@@ -18,7 +18,7 @@ impl Session {
         let held = drawn
             .filter(|standing| standing.is_fresh())
             .or_else(|| self.refit_request(false).map(|request| self.answers.standing(&request)));
-        let held = held.and_then(Standing::answer).and_then(|answer| match answer {
+        let held = held.and_then(AnswerState::answer).and_then(|answer| match answer {
             Answer::Refit(fit) => fit.found().ok(),
             _ => None,
         });
@@ -28,7 +28,7 @@ impl Session {
     /// The fit only if the distribution of its margin is that for the held numbers and for what is unsure.
     pub fn drawn(&self) -> Option<&Fitted> {
         let drawn = self.refit_request(true).map(|request| self.answers.standing(&request));
-        self.fitted().filter(|_| drawn.is_none_or(Standing::is_fresh))
+        self.fitted().filter(|_| drawn.is_none_or(AnswerState::is_fresh))
     }
 
     /// The fit only if it is up to date with the held numbers.
@@ -54,9 +54,9 @@ impl Session {
             Knob::PARAMETERS.map(|symbol| self.doubt.holds(symbol).then(|| self.value(symbol)));
         let asks = held.iter().any(Option::is_some) || (drawn && !self.doubt.is_certain());
         let fit = self.fit_of_all().filter(|_| asks)?.clone();
-        let Doubt { half_widths, disturbance, .. } = self.doubt;
+        let Uncertainty { half_widths, disturbance, .. } = self.doubt;
         let drawn = drawn.then_some(Unsure { disturbance, half_widths });
-        Some(Request::Refit(question::refit::Asked { fit, held, drawn }))
+        Some(Request::Refit(question::refit::Inputs { fit, held, drawn }))
     }
 
     /// Whether the record on show is being fitted.

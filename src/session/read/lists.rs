@@ -8,7 +8,7 @@ use crate::session::read::search;
 use crate::session::state::kept::Kept;
 use crate::session::state::overlay::{List, Listed, Overlay};
 use crate::session::state::session::Session;
-use crate::study::claims::{Claim, Examined, Verdict, claims};
+use crate::study::claims::{Claim, ClaimResult, Verdict, claims};
 
 impl List {
     /// The rank of a row with these names and this meaning: the best matches for the search come first.
@@ -55,11 +55,11 @@ impl Session {
     }
 
     /// The claims that the page of the paper lists, each with the result of its examination, if known.
-    pub fn claim_rows(&self, list: &List) -> Vec<(&'static Claim, Option<&Examined>)> {
+    pub fn claim_rows(&self, list: &List) -> Vec<(&'static Claim, Option<&ClaimResult>)> {
         let examined = self.examined();
         let rows = claims().enumerate().map(|(index, claim)| (claim, examined.get(index)));
-        let matches = |(claim, examined): &(&'static Claim, Option<&Examined>)| {
-            let verdict = examined.and_then(Examined::verdict).map_or("", Verdict::name);
+        let matches = |(claim, examined): &(&'static Claim, Option<&ClaimResult>)| {
+            let verdict = examined.and_then(ClaimResult::verdict).map_or("", Verdict::name);
             list.matches(&[claim.equation, claim.section, claim.statement, verdict])
         };
         rows.filter(matches).collect()

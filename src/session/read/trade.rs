@@ -3,15 +3,15 @@
 use crate::numerics::elementary::hypot;
 use crate::scene::{Point, View, Window};
 use crate::session::state::session::Session;
-use crate::study::trade::Tried;
+use crate::study::trade::TradePoint;
 
 impl Session {
     /// The row that is nearest to the cursor of a plot on the screen.
-    pub fn row_under_cursor(&self, plot: usize) -> Option<&Tried> {
+    pub fn row_under_cursor(&self, plot: usize) -> Option<&TradePoint> {
         let plot = self.plots.get(plot).filter(|plot| plot.view == View::Trade)?;
         let Point { x, y } = plot.cursor?;
         let Window { x: across, y: up } = plot.window;
-        let distance = |row: &&Tried| {
+        let distance = |row: &&TradePoint| {
             row.place().map_or(f64::INFINITY, |(right, high)| {
                 hypot((right - x) / across.width(), (high - y) / up.width())
             })

@@ -8,7 +8,7 @@ use crate::flow::Problem;
 use crate::oscillator::Knob;
 use crate::question;
 use crate::scene::{Answer, Height, Request, Topic, Variant};
-use crate::session::state::answers::Standing;
+use crate::session::state::answers::AnswerState;
 use crate::session::state::session::Session;
 use crate::study::Branch;
 
@@ -90,9 +90,9 @@ impl Session {
         let asked = self.requests(Topic::Branch, plot).into_iter();
         let asked = asked.into_iter().find(|(index, _)| *index == variant);
         let standing = asked.map(|(_, request)| self.answers.standing(&request));
-        let answered = standing.and_then(Standing::answered);
+        let answered = standing.and_then(AnswerState::answered);
         let friction = match answered.map(|found| &found.request) {
-            Some(Request::Branch(question::branch::Asked { parameters, .. })) => parameters.r,
+            Some(Request::Branch(question::branch::Inputs { parameters, .. })) => parameters.r,
             _ => self.problem.parameters.r,
         };
         self.plots.get(plot).map(|plot| plot.axes).unwrap_or_default().height(friction)

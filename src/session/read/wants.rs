@@ -14,14 +14,14 @@ use crate::proof::Proof;
 use crate::question;
 use crate::question::{Motion, NoAnswer};
 use crate::scene::{Answer, Axes, Layer, Request, Span, TOPICS, Topic, View, Window};
-use crate::session::state::answers::Standing;
+use crate::session::state::answers::AnswerState;
 use crate::session::state::overlay::{Listed, Overlay};
 use crate::session::state::plot::{Framing, Pane};
 use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
 use crate::study::accuracy::{Deviation, NoComparison, Reference};
 use crate::study::chart::{Chart, Plane};
-use crate::study::claims::Examined;
+use crate::study::claims::ClaimResult;
 
 /// Number of evaluations above which answers on a topic may take longer than a quarter of a frame: further
 /// questions on it are first answered by drafts.
@@ -35,7 +35,7 @@ const MOST_BANDS: usize = 24;
 
 /// Why a motion has no measured error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unmeasured {
+pub enum NoErrorReason {
     /// Its reference takes too long.
     TighterGaveUp,
     /// The motion itself was not computed to its end.
@@ -77,7 +77,7 @@ impl Session {
         let awaited = self.waiting.iter().map(|waiting| waiting.request.clone());
         let all = awaited
             .chain(self.refit_request(false))
-            .chain(claims.then_some(Request::Claims(question::claims::Asked)))
+            .chain(claims.then_some(Request::Claims(question::claims::Inputs)))
             .chain(each.map(|each| each.1));
         let mut asked = Vec::new();
         let proof = || self.request(Topic::Proof, self.plot);
@@ -109,7 +109,7 @@ impl Session {
     /// The answers for the point that was left.
     pub fn answers_left(&self) -> impl Iterator<Item = &Answer> {
         self.compared().filter_map(|request| match self.answers.standing(request) {
-            Standing::Fresh(found) => found.result.as_ref().ok(),
+            AnswerState::Fresh(found) => found.result.as_ref().ok(),
             _ => None,
         })
     }
@@ -165,14 +165,14 @@ impl Session {
             Motion { parameters, initial, until }
         };
         Some(match topic {
-            Topic::Claims => Request::Claims(question::claims::Asked),
+            Topic::Claims => Request::Claims(question::claims::Inputs),
             Topic::Fit => {
-                Request::Fit(question::fit::Asked { recording: self.scene.recording.clone()? })
+                Request::Fit(question::fit::Inputs { recording: self.scene.recording.clone()? })
             }
             Topic::Refit => self.refit_request(false)?,
             Topic::Trajectory => match self.machine().filter(|_| self.draws_whole()) {
                 Some(belt) => {
-                    Request::Machine(question::machine::Asked { belt: Arc::new(belt), problem })
+                    Request::Machine(question::machine::Inputs { belt: Arc::new(belt), problem })
                 }
                 None => Request::Trajectory(problem),
             },
@@ -181,31 +181,32 @@ impl Session {
                 // The error of the expansion is stated beside it.
                 Some(belt) => {
                     let cubic = !self.draws_whole();
-                    Request::Portrait(question::portrait::Asked {
+                    Request::Portrait(question::portrait::Inputs {
                         belt: Arc::new(belt),
                         parameters,
                         cubic,
                     })
                 }
-                None => Request::Cycles(question::cycles::Asked { parameters }),
+                None => Request::Cycles(question::cycles::Inputs { parameters }),
             },
-            Topic::Balance => {
-                Request::Balance(question::balance::Asked { parameters, harmonics: self.harmonics })
-            }
-            Topic::Trade => Request::Trade(question::trade::Asked(motion())),
-            Topic::Reference => Request::Reference(question::reference::Asked(motion())),
+            Topic::Balance => Request::Balance(question::balance::Inputs {
+                parameters,
+                harmonics: self.harmonics,
+            }),
+            Topic::Trade => Request::Trade(question::trade::Inputs(motion())),
+            Topic::Reference => Request::Reference(question::reference::Inputs(motion())),
             // The whole model of a machine has no proof, and its basin is no graph over which kicks could be
             // integrated.
             Topic::Proof | Topic::Kicks if self.draws_whole() => return None,
-            Topic::Proof => Request::Proof(question::proof::Asked { parameters }),
+            Topic::Proof => Request::Proof(question::proof::Inputs { parameters }),
             Topic::Zones => self.zones_request(&parameters)?,
             Topic::Kicks => {
-                Request::Kicks(question::kicks::Asked { parameters, kicks: self.kicks })
+                Request::Kicks(question::kicks::Inputs { parameters, kicks: self.kicks })
             }
             Topic::Capture if parameters.r == 0.0 => return None,
             Topic::Capture => {
                 let reach = reach(own(View::Phase)?.window);
-                Request::Capture(question::capture::Asked { parameters, reach, most: MOST_BANDS })
+                Request::Capture(question::capture::Inputs { parameters, reach, most: MOST_BANDS })
             }
             Topic::Branch => {
                 let plot = own(View::Diagram)?;
@@ -214,7 +215,7 @@ impl Session {
                 let range = plot.window.x.within(spec.min, spec.max)?;
                 let mut others = parameters;
                 parameter.set(&mut others, &mut { initial }, 0.0);
-                Request::Branch(question::branch::Asked {
+                Request::Branch(question::branch::Inputs {
                     parameters: others,
                     parameter,
                     range: (range.from(), range.to()),
@@ -226,7 +227,7 @@ impl Session {
                 let spec = Knob::BeltSpeed.spec();
                 let range = plot.window.x.within(spec.min, spec.max)?;
                 let belt = Arc::new(Belt { belt_speed: 1.0, ..self.machine()? });
-                Request::Speeds(question::speeds::Asked {
+                Request::Speeds(question::speeds::Inputs {
                     belt,
                     range: (range.from(), range.to()),
                     rough: false,
@@ -236,7 +237,7 @@ impl Session {
                 // Until the window is known, there is nothing to ask.
                 let plot = own(View::ReturnMap)?;
                 let range = (plot.framing != Framing::Fitting).then_some(plot.window.x)?;
-                Request::ReturnMap(question::return_map::Asked {
+                Request::ReturnMap(question::return_map::Inputs {
                     parameters,
                     range: (range.from(), range.to()),
                 })
@@ -262,13 +263,17 @@ impl Session {
         for symbol in [abscissa, against] {
             symbol.set(&mut others, &mut { self.problem.initial }, 0.0);
         }
-        Some(Request::Regimes(question::regimes::Asked { parameters: others, plane, rough: false }))
+        Some(Request::Regimes(question::regimes::Inputs {
+            parameters: others,
+            plane,
+            rough: false,
+        }))
     }
 
     /// The state of the answer on this topic for the present problem, as a plot asks it.
-    pub fn standing(&self, topic: Topic, plot: usize) -> Standing<'_> {
+    pub fn standing(&self, topic: Topic, plot: usize) -> AnswerState<'_> {
         let request = self.request(topic, plot);
-        request.map_or(Standing::None, |request| self.answers.standing(&request))
+        request.map_or(AnswerState::None, |request| self.answers.standing(&request))
     }
 
     /// The answer on this topic for the present problem, as a plot asks it, stale or not.
@@ -289,7 +294,7 @@ impl Session {
 
     /// Whether the answer to the draft of this question is there to be shown meanwhile.
     pub fn is_refinement(&self, request: &Request) -> bool {
-        matches!(self.answers.standing(request), Standing::Draft(_))
+        matches!(self.answers.standing(request), AnswerState::Draft(_))
     }
 
     /// Whether a question has neither an answer nor a failure.
@@ -318,12 +323,12 @@ impl Session {
     }
 
     /// Why the motion on show has no measured error; `None` while it may still get one.
-    pub fn unmeasured(&self) -> Option<Unmeasured> {
+    pub fn unmeasured(&self) -> Option<NoErrorReason> {
         self.comparison()?.err()
     }
 
     /// The comparison of the motion on show with its reference; `None` until both are computed.
-    fn comparison(&self) -> Option<Result<(Deviation, &Reference), Unmeasured>> {
+    fn comparison(&self) -> Option<Result<(Deviation, &Reference), NoErrorReason>> {
         let stale = |topic| self.is_stale(topic, self.plot);
         if !self.measures() || stale(Topic::Reference) {
             return None;
@@ -331,12 +336,12 @@ impl Session {
         let Answer::Reference(reference) = self.answer(Topic::Reference, self.plot)? else {
             return None;
         };
-        let Ok(reference) = reference else { return Some(Err(Unmeasured::TighterGaveUp)) };
+        let Ok(reference) = reference else { return Some(Err(NoErrorReason::TighterGaveUp)) };
         let motion = self.trajectory().filter(|_| !stale(Topic::Trajectory))?;
         Some(match reference.compare(motion) {
             Ok(deviation) => Ok((deviation, reference)),
-            Err(NoComparison::GaveUp(_)) => Err(Unmeasured::GaveUp),
-            Err(NoComparison::OtherFate) => Err(Unmeasured::OtherFate),
+            Err(NoComparison::GaveUp(_)) => Err(NoErrorReason::GaveUp),
+            Err(NoComparison::OtherFate) => Err(NoErrorReason::OtherFate),
         })
     }
 
@@ -347,7 +352,7 @@ impl Session {
     }
 
     /// The examined claims of the paper; empty until they are there.
-    pub fn examined(&self) -> &[Examined] {
+    pub fn examined(&self) -> &[ClaimResult] {
         match self.answer(Topic::Claims, self.plot) {
             Some(Answer::Claims(examined)) => examined,
             _ => &[],

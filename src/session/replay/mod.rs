@@ -14,4 +14,4 @@ mod write;
 pub use parse::{BadScript, parse};
 pub use player::{Action, Player, Unmet};
 pub use recorder::{HEADER, Recorder, comment, heading, lines, text};
-pub use script::{Instruction, LONGEST, Located, Script};
+pub use script::{Instruction, LONGEST, Script, ScriptStep};

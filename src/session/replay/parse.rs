@@ -7,7 +7,7 @@ use crate::numerics::similar::most_similar;
 use crate::oscillator::{Group, Knob};
 use crate::session::message::key::{self, Code, Key};
 use crate::session::message::pointer::Gesture;
-use crate::session::replay::script::{self, Instruction, LONGEST, Located, Script, too_long};
+use crate::session::replay::script::{self, Instruction, LONGEST, Script, ScriptStep, too_long};
 use crate::words::printable;
 
 /// Why a text is not a keystroke file.
@@ -89,7 +89,7 @@ pub fn parse(text: &str) -> Result<Script, BadScript> {
             if whole > script::MOST {
                 return Err(BadScript { line, column, message: too_long() });
             }
-            steps.push(Located { line, column, step });
+            steps.push(ScriptStep { line, column, step });
         }
     }
     Ok(Script { steps })

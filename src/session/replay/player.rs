@@ -5,7 +5,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::session::message::Msg;
-use crate::session::replay::script::{Instruction, Located, MOST, Script, too_long};
+use crate::session::replay::script::{Instruction, MOST, Script, ScriptStep, too_long};
 
 /// The next action.
 #[derive(Clone, Debug)]
@@ -46,7 +46,7 @@ impl std::error::Error for Unmet {}
 #[derive(Clone, Debug)]
 pub struct Player {
     /// The remaining steps, each with whether it is from another file.
-    steps: VecDeque<(Located, bool)>,
+    steps: VecDeque<(ScriptStep, bool)>,
     /// Line and column of the last step that is not.
     place: (usize, usize),
     /// Number of steps given so far and of those that remain, presses of a key one by one.
@@ -107,7 +107,7 @@ impl Player {
     /// text; the player is then after that step.
     pub fn next(&mut self, idle: bool, screen: impl Fn() -> String) -> Result<Action, Unmet> {
         loop {
-            let Some((Located { line, column, step }, inserted)) = self.steps.front().cloned()
+            let Some((ScriptStep { line, column, step }, inserted)) = self.steps.front().cloned()
             else {
                 return Ok(if idle { Action::Done } else { Action::Wait });
             };
@@ -148,7 +148,7 @@ impl Player {
 
     /// Moves past the first step, or past one press of it.
     fn advance(&mut self) {
-        if let Some((Located { step: Instruction::Key { count, .. }, .. }, _)) =
+        if let Some((ScriptStep { step: Instruction::Key { count, .. }, .. }, _)) =
             self.steps.front_mut()
             && *count > 1
         {

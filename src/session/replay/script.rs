@@ -107,7 +107,7 @@ impl Instruction {
 
 /// A step and its place in the file, counted from 1.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Located {
+pub struct ScriptStep {
     pub line: usize,
     pub column: usize,
     pub step: Instruction,
@@ -117,13 +117,13 @@ pub struct Located {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Script {
     /// Its steps, in order.
-    pub steps: Vec<Located>,
+    pub steps: Vec<ScriptStep>,
 }
 
 impl Script {
     /// A file of these steps.
     pub fn of(steps: Vec<Instruction>) -> Self {
-        let located = (1..).zip(steps).map(|(column, step)| Located { line: 1, column, step });
+        let located = (1..).zip(steps).map(|(column, step)| ScriptStep { line: 1, column, step });
         Script { steps: located.collect() }
     }
 
@@ -134,7 +134,7 @@ impl Script {
 
     /// Number of key presses.
     pub fn keys(&self) -> u64 {
-        let presses = |located: &Located| match located.step {
+        let presses = |located: &ScriptStep| match located.step {
             Instruction::Key { count, .. } => u64::from(count),
             _ => 0,
         };

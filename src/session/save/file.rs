@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 use crate::flow::Problem;
 use crate::oscillator::State;
 use crate::scene::{Arrangement, Axes, Layer, PlotSetup, Point, Scene, Setting, View, Window};
-use crate::session::state::doubt::Doubt;
 use crate::session::state::plot::Framing;
 use crate::session::state::rows::Steps;
+use crate::session::state::uncertainty::Uncertainty;
 use crate::study::kicks::RandomKick;
 
 /// The format that this program writes; it reads this and all earlier formats.
@@ -46,15 +46,15 @@ pub struct SavedSession {
     pub beside: BTreeMap<char, Vec<State>>,
     /// What is not known exactly at marks.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub doubts: BTreeMap<char, Doubt>,
+    pub doubts: BTreeMap<char, Uncertainty>,
     /// The motion of the point that was left last.
     pub left: Option<Problem>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_beside: Vec<State>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left_belt: Option<Setting>,
-    #[serde(default, skip_serializing_if = "Doubt::is_none")]
-    pub left_doubt: Doubt,
+    #[serde(default, skip_serializing_if = "Uncertainty::is_none")]
+    pub left_doubt: Uncertainty,
     /// Recorded keys of earlier versions, which are dropped.
     #[serde(default, skip_serializing)]
     #[expect(dead_code, reason = "a file that has them is still read")]
@@ -86,8 +86,8 @@ pub struct Show {
     pub beside: Vec<State>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub belt: Option<Setting>,
-    #[serde(default, skip_serializing_if = "Doubt::is_none")]
-    pub doubt: Doubt,
+    #[serde(default, skip_serializing_if = "Uncertainty::is_none")]
+    pub doubt: Uncertainty,
     pub scene: SavedScene,
 }
 
@@ -117,8 +117,8 @@ pub enum SavedChange {
         motion: Problem,
         beside: Vec<State>,
         belt: Option<Setting>,
-        #[serde(default, skip_serializing_if = "Doubt::is_none")]
-        doubt: Doubt,
+        #[serde(default, skip_serializing_if = "Uncertainty::is_none")]
+        doubt: Uncertainty,
     },
     Plots {
         arrangement: Arrangement,

@@ -11,7 +11,6 @@ use crate::oscillator::{Knob, State};
 use crate::scene::misread::{self, Misread};
 use crate::scene::{MOST_PLOTS, PlotSetup, Scene, Setting, find};
 use crate::session::read::numbers::difference;
-use crate::session::state::doubt::Doubt;
 use crate::session::state::history::{Before, History, ScreenSetup, Snapshot};
 use crate::session::state::marks::{Bookmark, Marks};
 use crate::session::state::plot::{Pane, Plot};
@@ -19,6 +18,7 @@ use crate::session::state::rows::Row;
 use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::{MOST_MOTIONS, Starts};
+use crate::session::state::uncertainty::Uncertainty;
 
 /// Changes a session to that of a file. Appearance, keys and size stay, and so do answers that fit. Fails with
 /// one line that says what is wrong; the session is then unchanged.
@@ -47,7 +47,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
         return Err(format!("harmonics = {}, not 1 to {most}", file.harmonics));
     }
     let mark = |problem, beside: &[State], belt, doubt| {
-        let doubt = Doubt::checked(doubt)?;
+        let doubt = Uncertainty::checked(doubt)?;
         checked(problem, beside, belt).map(|it| Bookmark::new(&Setup { doubt, ..it }))
     };
     let doubt = |name: &char| file.doubts.get(name).copied().unwrap_or_default();
@@ -152,7 +152,7 @@ fn checked(problem: Problem, beside: &[State], setting: Option<Setting>) -> Resu
     {
         symbol.check(value).map_err(|refused| refused.to_string())?;
     }
-    Ok(Setup { problem, others, setting, doubt: Doubt::default() })
+    Ok(Setup { problem, others, setting, doubt: Uncertainty::default() })
 }
 
 /// Converts plots, if their number is allowed on a screen.

@@ -7,12 +7,12 @@ use serde::de::IgnoredAny;
 
 use super::file::{SavedChange, SavedPlot, SavedScene, SavedSession, Show, VERSION};
 use crate::scene::{Scene, find};
-use crate::session::state::doubt::Doubt;
 use crate::session::state::history::{Before, ScreenSetup};
 use crate::session::state::overlay::Overlay;
 use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
+use crate::session::state::uncertainty::Uncertainty;
 
 /// The session as the text of a file. Fails with one line if the text cannot be made; no such session is known.
 pub fn text(session: &Session) -> Result<String, String> {
@@ -51,7 +51,7 @@ pub fn text(session: &Session) -> Result<String, String> {
         left: left.map(|setup| setup.problem),
         left_beside: left.map_or_else(Vec::new, |setup| setup.others.all().to_vec()),
         left_belt: left.and_then(|setup| setup.setting),
-        left_doubt: left.map_or_else(Doubt::default, |setup| setup.doubt),
+        left_doubt: left.map_or_else(Uncertainty::default, |setup| setup.doubt),
         registers: IgnoredAny,
         past: past.iter().map(change).collect(),
         future: future.iter().map(change).collect(),

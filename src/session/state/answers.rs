@@ -18,7 +18,7 @@ const MOST: usize = 64;
 
 /// The state of the answer to a question.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Standing<'a> {
+pub enum AnswerState<'a> {
     Fresh(&'a Answered),
     /// Only the answer to the draft is there.
     Draft(&'a Answered),
@@ -28,12 +28,14 @@ pub enum Standing<'a> {
     None,
 }
 
-impl<'a> Standing<'a> {
+impl<'a> AnswerState<'a> {
     /// The answer that is there, with its question.
     pub fn answered(self) -> Option<&'a Answered> {
         match self {
-            Standing::Fresh(found) | Standing::Draft(found) | Standing::Stale(found) => Some(found),
-            Standing::None => None,
+            AnswerState::Fresh(found) | AnswerState::Draft(found) | AnswerState::Stale(found) => {
+                Some(found)
+            }
+            AnswerState::None => None,
         }
     }
 
@@ -44,7 +46,7 @@ impl<'a> Standing<'a> {
     }
 
     pub fn is_fresh(self) -> bool {
-        matches!(self, Standing::Fresh(_))
+        matches!(self, AnswerState::Fresh(_))
     }
 }
 
@@ -59,16 +61,16 @@ pub struct Answers {
 
 impl Answers {
     /// The state of the answer to a question.
-    pub fn standing(&self, request: &Request) -> Standing<'_> {
+    pub fn standing(&self, request: &Request) -> AnswerState<'_> {
         if let Some(found) = self.good(request) {
-            return Standing::Fresh(found);
+            return AnswerState::Fresh(found);
         }
         if let Some(draft) = request.draft().and_then(|draft| self.good(&draft)) {
-            return Standing::Draft(draft);
+            return AnswerState::Draft(draft);
         }
         // The answer to another present question does not stand in.
         let others = |held: &&Arc<Answered>| !self.asked.contains(&held.request);
-        self.nearest(request, others).map_or(Standing::None, Standing::Stale)
+        self.nearest(request, others).map_or(AnswerState::None, AnswerState::Stale)
     }
 
     /// Evaluations that the answer to this question took, or that to the most similar one that has a draft; 0

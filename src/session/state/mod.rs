@@ -3,7 +3,6 @@
 pub mod answers;
 pub mod command;
 pub mod context;
-pub mod doubt;
 pub mod history;
 pub mod input;
 pub mod kept;
@@ -22,4 +21,5 @@ pub mod setup;
 pub mod starts;
 pub mod step_size;
 pub mod stop;
+pub mod uncertainty;
 pub mod waiting;

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use crate::flow::Problem;
 use crate::oscillator::{Group, KNOBS, Knob};
 use crate::scene::{ScaledMachine, Scene};
-use crate::session::state::doubt::symbol_of;
 use crate::session::state::step_size::StepSize;
+use crate::session::state::uncertainty::symbol_of;
 
 /// A row of the parameter pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -32,7 +32,7 @@ pub enum Progress {
 
 /// A scan and its results.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scanned {
+pub struct ScanOnShow {
     pub scan: Arc<Scan>,
     /// The rows so far, in order, beginning with the first point.
     pub rows: Vec<ScanRow>,
@@ -47,10 +47,10 @@ pub struct Scanned {
     pub at: usize,
 }
 
-impl Scanned {
+impl ScanOnShow {
     /// A scan that is beginning.
     pub fn begun(scan: Scan) -> Self {
-        Scanned {
+        ScanOnShow {
             scan: Arc::new(scan),
             rows: Vec::new(),
             progress: Progress::Running { from: 0 },
@@ -65,7 +65,7 @@ impl Scanned {
     pub fn request(&self) -> Option<Request> {
         match self.progress {
             Progress::Running { from } => {
-                Some(Request::Scan(question::scan::Asked { scan: Arc::clone(&self.scan), from }))
+                Some(Request::Scan(question::scan::Inputs { scan: Arc::clone(&self.scan), from }))
             }
             Progress::Stopped | Progress::Done => None,
         }

@@ -14,7 +14,6 @@ use crate::scene::{Arrangement, Layer, Machine, Scene, Setting, Topic};
 use crate::session::message::Notice;
 use crate::session::message::key::Key;
 use crate::session::state::answers::Answers;
-use crate::session::state::doubt::Doubt;
 use crate::session::state::history::History;
 use crate::session::state::kept::Kept;
 use crate::session::state::keymap::Keymap;
@@ -24,12 +23,13 @@ use crate::session::state::pending::Pending;
 use crate::session::state::playback::Playback;
 use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::rows::{Row, Steps};
-use crate::session::state::scan::Scanned;
+use crate::session::state::scan::ScanOnShow;
 use crate::session::state::scan_form::ScanForm;
-use crate::session::state::settings::Wishes;
+use crate::session::state::settings::DisplaySettings;
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::Starts;
 use crate::session::state::stop::BranchStop;
+use crate::session::state::uncertainty::Uncertainty;
 use crate::session::state::waiting::Waiting;
 use crate::study::kicks::RandomKick;
 
@@ -41,7 +41,7 @@ const HARMONICS: usize = 3;
 
 /// A recomputation caused by a key press.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Recomputed {
+pub struct Recomputation {
     pub topic: Topic,
     /// Counted cost.
     pub cost: Cost,
@@ -55,7 +55,7 @@ pub struct Price {
     /// The key; `None` for the computations of the first picture.
     pub key: Option<Key>,
     /// The recomputations, in the order of their answers.
-    pub recomputed: Vec<Recomputed>,
+    pub recomputed: Vec<Recomputation>,
 }
 
 impl Price {
@@ -104,7 +104,7 @@ pub struct Session {
     /// The machine with these numbers, if numbers other than the speed of its belt may differ from its file.
     pub rebuilt: Option<Arc<Machine>>,
     /// Half widths of the parameters, held numbers, and the disturbance.
-    pub doubt: Doubt,
+    pub doubt: Uncertainty,
     /// Step sizes of the parameter pane.
     pub steps: Steps,
     /// The selected row of the parameter pane, always one of [`Session::rows`].
@@ -153,7 +153,7 @@ pub struct Session {
     pub lines: Vec<String>,
     pub answers: Answers,
     /// The last scan, if any.
-    pub scanned: Option<Scanned>,
+    pub scanned: Option<ScanOnShow>,
     /// The form with which the last scan was started.
     pub scan_form: Option<ScanForm>,
     /// Number of motions that a fit has computed so far.
@@ -167,7 +167,7 @@ pub struct Session {
     /// The bindings of keys to commands.
     pub keymap: Arc<Keymap>,
     /// The user's wishes for the screen.
-    pub look: Wishes,
+    pub look: DisplaySettings,
     /// The size of the screen.
     pub size: Size,
     /// Whether the user has quit.
@@ -215,7 +215,7 @@ impl Session {
             measuring: false,
             notice: None,
             keymap,
-            look: Wishes::default(),
+            look: DisplaySettings::default(),
             size,
             quit: false,
             scene,

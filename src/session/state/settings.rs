@@ -74,7 +74,7 @@ pub const THEMES: [(Theme, &str); 5] = [
 
 /// Everything about the appearance that the user can choose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Wishes {
+pub struct DisplaySettings {
     /// The characters that form the dots of plots.
     pub glyphs: Glyphs,
     /// Colour depth.

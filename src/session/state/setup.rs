@@ -2,8 +2,8 @@
 
 use crate::flow::Problem;
 use crate::scene::{ScaledMachine, Scene, Setting};
-use crate::session::state::doubt::Doubt;
 use crate::session::state::starts::Starts;
+use crate::session::state::uncertainty::Uncertainty;
 
 /// Everything that a change of a number can affect: the motions, the machine that determines their units, and
 /// what is not known exactly.
@@ -16,7 +16,7 @@ pub struct Setup {
     /// The setting of the machine; `None` if the scene has no machine.
     pub setting: Option<Setting>,
     /// Half widths of the parameters, held numbers, and the disturbance.
-    pub doubt: Doubt,
+    pub doubt: Uncertainty,
 }
 
 impl Setup {
@@ -24,13 +24,13 @@ impl Setup {
     pub fn of_scene(scene: &Scene) -> Self {
         let scaled = scene.machine.as_deref();
         let setting = |scaled: &ScaledMachine| Setting::of_speed(scaled.machine.belt.belt_speed);
-        let doubt =
-            scaled.map_or_else(Doubt::default, |scaled| Doubt::of_machine(&scaled.running()));
+        let doubt = scaled
+            .map_or_else(Uncertainty::default, |scaled| Uncertainty::of_machine(&scaled.running()));
         Setup { setting: scaled.map(setting), doubt, ..Setup::alone(scene.problem) }
     }
 
     /// A single motion without a machine, known exactly.
     pub fn alone(problem: Problem) -> Self {
-        Setup { problem, others: Starts::default(), setting: None, doubt: Doubt::default() }
+        Setup { problem, others: Starts::default(), setting: None, doubt: Uncertainty::default() }
     }
 }

@@ -3,12 +3,12 @@
 use super::Trial;
 use super::facts::refuses;
 use crate::oscillator::Knob;
-use crate::oscillator::belt::Reduced;
+use crate::oscillator::belt::ReducedBelt;
 use crate::scene::{Layer, ScaledMachine};
 use crate::session::{Effect, Msg, Purpose, Row, save};
 
 /// The textbook machine at a speed of its belt, reduced without a session.
-fn at(speed: f64) -> Reduced {
+fn at(speed: f64) -> ReducedBelt {
     let mut machine = crate::scene::machine::library::find("textbook").unwrap().clone();
     machine.belt.belt_speed = speed;
     machine.reduce().unwrap()

@@ -4,8 +4,8 @@ use super::{COST, Trial, answered, by_hand};
 use crate::flow::{Limits, Method, Reason};
 use crate::question::{NoAnswer, answer};
 use crate::scene::{Answer, Request, TOPICS, Topic, find};
-use crate::session::read::wants::Unmeasured;
-use crate::session::{Msg, Standing, update};
+use crate::session::read::wants::NoErrorReason;
+use crate::session::{AnswerState, Msg, update};
 use crate::study::accuracy::Reference;
 
 #[test]
@@ -80,8 +80,9 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
     let Request::Trajectory(problem) = &draft else { panic!("{draft:?}") };
     assert_eq!(problem.quality().unwrap().name, "draft");
     update(&mut trial.session, costly(draft.clone(), 1_000));
-    let is_draft =
-        |trial: &Trial| matches!(trial.session.standing(Topic::Trajectory, 0), Standing::Draft(_));
+    let is_draft = |trial: &Trial| {
+        matches!(trial.session.standing(Topic::Trajectory, 0), AnswerState::Draft(_))
+    };
     assert!(is_draft(&trial) && trial.session.is_busy());
     assert_eq!(open(&trial), [(Topic::Trajectory, false), (Topic::Cycles, false)]);
     // The cost of a draft says nothing about that of the full answer.
@@ -198,7 +199,7 @@ fn why_there_is_no_measured_error_is_known() {
     trial.press("<down*5>");
     let mut session = trial.session.clone();
     for (problem, why) in
-        [(find("escape").unwrap().problem, Some(Unmeasured::OtherFate)), (session.problem, None)]
+        [(find("escape").unwrap().problem, Some(NoErrorReason::OtherFate)), (session.problem, None)]
     {
         for topic in [Topic::Trajectory, Topic::Reference] {
             let request = session.request(topic, 0).unwrap();

@@ -5,8 +5,8 @@ mod axes;
 mod belt;
 mod dependence;
 mod dial;
-mod doubt;
 mod screen_setup;
+mod uncertainty;
 
 mod drafts;
 mod entries;
@@ -46,7 +46,7 @@ use crate::study::accuracy::{Deviation, Ending, Reference, Source};
 use crate::study::chart::Chart;
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::stability::Share;
-use crate::study::trade::{Trade, Tried};
+use crate::study::trade::{Trade, TradePoint};
 use crate::study::{
     BasinPicture, Branch, BranchPoint, Cycle, Cycles, Edge, Margin, ReturnMap, Special, SpecialKind,
 };
@@ -185,7 +185,7 @@ fn cycle(stable: bool, r: f64) -> Cycle {
 /// Two methods, the second more accurate and more expensive.
 fn trade(cost: Cost) -> Trade {
     let problem = Problem::default();
-    let row = |method, tolerance, evaluations, error| Tried {
+    let row = |method, tolerance, evaluations, error| TradePoint {
         problem: Problem { method, tolerance, ..problem },
         method,
         outcome: Outcome::Moving { tau: problem.until, q: 0.0, v: 0.0 },
@@ -231,7 +231,7 @@ pub fn by_hand(request: &Request) -> Answer {
     let cost = Cost { evaluations: COST, steps: 1, rejected: 0 };
     match request {
         Request::Trajectory(problem)
-        | Request::Machine(question::machine::Asked { problem, .. }) => {
+        | Request::Machine(question::machine::Inputs { problem, .. }) => {
             let Problem { initial: State { q, v }, until, .. } = *problem;
             Answer::Trajectory(Trajectory {
                 problem: *problem,
@@ -244,8 +244,8 @@ pub fn by_hand(request: &Request) -> Answer {
                 cost,
             })
         }
-        Request::Cycles(question::cycles::Asked { parameters })
-        | Request::Portrait(question::portrait::Asked { parameters, .. }) => {
+        Request::Cycles(question::cycles::Inputs { parameters })
+        | Request::Portrait(question::portrait::Inputs { parameters, .. }) => {
             Answer::Cycles(Cycles {
                 parameters: *parameters,
                 cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
@@ -271,7 +271,7 @@ pub fn by_hand(request: &Request) -> Answer {
             Answer::Kicks(question::kicks::LostShare { share, cost })
         }
         Request::Capture(_) => Answer::Capture(Borders { curves: Vec::new(), cost }),
-        Request::Balance(question::balance::Asked { parameters, harmonics }) => {
+        Request::Balance(question::balance::Inputs { parameters, harmonics }) => {
             Answer::Balance(HarmonicBalance {
                 parameters: *parameters,
                 harmonics: *harmonics,
@@ -280,38 +280,38 @@ pub fn by_hand(request: &Request) -> Answer {
                 cost,
             })
         }
-        Request::ReturnMap(question::return_map::Asked { parameters, .. }) => {
+        Request::ReturnMap(question::return_map::Inputs { parameters, .. }) => {
             Answer::ReturnMap(ReturnMap {
                 parameters: *parameters,
                 sides: [Vec::new(), Vec::new()],
                 cost,
             })
         }
-        Request::Proof(question::proof::Asked { parameters }) => Answer::Proof(Proof {
+        Request::Proof(question::proof::Inputs { parameters }) => Answer::Proof(Proof {
             parameters: ParameterBox::from(parameters),
             theorem: None,
             cycles: Vec::new(),
             open: Vec::new(),
             swings: 0,
         }),
-        Request::Claims(question::claims::Asked) => Answer::Claims(Vec::new()),
-        Request::Fit(question::fit::Asked { recording }) => {
+        Request::Claims(question::claims::Inputs) => Answer::Claims(Vec::new()),
+        Request::Fit(question::fit::Inputs { recording }) => {
             Answer::Fit(Fit::of(recording, &Limits::PATIENT, &|_| ()).expect("nobody interrupts"))
         }
-        Request::Refit(question::refit::Asked { fit, held, drawn }) => {
+        Request::Refit(question::refit::Inputs { fit, held, drawn }) => {
             Answer::Refit(fit.held(*held, *drawn, &Limits::PATIENT).expect("nobody interrupts"))
         }
         Request::Speeds(_) => {
             Answer::Speeds(Speeds { points: Vec::new(), special: Vec::new(), cost })
         }
-        Request::Regimes(question::regimes::Asked { plane, .. }) => {
+        Request::Regimes(question::regimes::Inputs { plane, .. }) => {
             let along = plane.along();
             Answer::Regimes(Chart { plane: *plane, along, lines: Vec::new(), cost })
         }
-        Request::Scan(question::scan::Asked { scan, from }) => {
+        Request::Scan(question::scan::Inputs { scan, from }) => {
             Answer::Scan(Rows { first: *from, rows: scan::rows(scan, *from..scan.points()) })
         }
-        Request::Branch(question::branch::Asked {
+        Request::Branch(question::branch::Inputs {
             parameter,
             range: (from, to),
             parameters,

@@ -13,12 +13,12 @@ use crate::scene::machine::library::machines;
 use crate::scene::{ScaledMachine, Scene, library};
 use crate::session::opening::opening;
 use crate::session::replay::{Recorder, text};
-use crate::session::settings::{COLORS, GLYPHS, THEMES, Wishes};
+use crate::session::settings::{COLORS, DisplaySettings, GLYPHS, THEMES};
 use crate::session::state::answers::Answers;
 use crate::session::{Effect, Msg, Notice, Session, Size, save};
 
 /// A session as options of the command line start it, with its recording.
-fn started(scene: Arc<Scene>, look: Wishes) -> (Trial, Recorder) {
+fn started(scene: Arc<Scene>, look: DisplaySettings) -> (Trial, Recorder) {
     let mut session = Session::new(scene, Size { width: 80, height: 24 });
     session.look = look;
     recording(session)
@@ -86,13 +86,13 @@ fn a_recording_begins_with_the_lines_that_lead_to_its_start() {
         set(scene, Knob::Q0, 0.5);
         set(scene, Knob::D2, 0.0);
     });
-    let look = Wishes { theme: THEMES[1].0, ..Wishes::default() };
+    let look = DisplaySettings { theme: THEMES[1].0, ..DisplaySettings::default() };
     let begun = text("", started(scene, look).1.steps());
     assert_eq!(
         begun,
         "<run \"theme light\"> <run \"scene supercritical\"> <run \"set q0=0.5\">\n<start D2>\n"
     );
-    let begun = text("", started(crate::scene::plain(), Wishes::default()).1.steps());
+    let begun = text("", started(crate::scene::plain(), DisplaySettings::default()).1.steps());
     assert_eq!(begun, "<run \"scene plain\"> <start>\n");
 }
 
@@ -101,7 +101,7 @@ fn a_machine_and_a_saved_session_begin_as_they_were() {
     for machine in machines() {
         let scene = Arc::new(ScaledMachine::new(machine.clone()).unwrap().scene());
         let scene = with_numbers(&scene, |scene| set(scene, Knob::Q0, 0.5));
-        let (live, recorder) = started(scene, Wishes::default());
+        let (live, recorder) = started(scene, DisplaySettings::default());
         let begun = text("", recorder.steps());
         assert_alike(&live.session, &replayed(&begun, "fig17").session, &begun);
     }
@@ -152,7 +152,7 @@ proptest! {
         keys in prop::collection::vec(any_key(), 0..60),
         before in 0..library().len(),
     ) {
-        let look = Wishes {
+        let look = DisplaySettings {
             fine: crate::session::settings::Colors::Auto,
             glyphs: GLYPHS[glyphs].0,
             colors: COLORS[color].0,
@@ -178,7 +178,7 @@ proptest! {
         }
         let recorded = recorder.text("hopfscope");
         let mut other = Trial::open(&library()[before].name);
-        other.session.look = Wishes::default();
+        other.session.look = DisplaySettings::default();
         other.press(&recorded);
         assert_alike(&live.session, &other.session, &recorded);
     }

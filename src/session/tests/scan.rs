@@ -9,7 +9,7 @@ use crate::question;
 use crate::question::Rows;
 use crate::scene::{Answer, Answered, Request, Topic, View};
 use crate::session::scan::Progress;
-use crate::session::{Effect, Msg, Pane, Scanned, Session, update};
+use crate::session::{Effect, Msg, Pane, ScanOnShow, Session, update};
 use crate::study::measure::Value;
 use crate::study::scan::{Scan, ScanRow};
 
@@ -23,13 +23,13 @@ pub fn rows(scan: &Scan, points: Range<usize>) -> Vec<ScanRow> {
     points.map(row).collect()
 }
 
-fn scanned(session: &Session) -> &Scanned {
+fn scanned(session: &Session) -> &ScanOnShow {
     session.scanned.as_ref().expect("a scan")
 }
 
 /// Gives rows to the session as the worker does.
 fn piece(session: &mut Session, request: &Request, points: Range<usize>) {
-    let Request::Scan(question::scan::Asked { scan, .. }) = request else { panic!("{request:?}") };
+    let Request::Scan(question::scan::Inputs { scan, .. }) = request else { panic!("{request:?}") };
     let complete = points.end == scan.points();
     let rows = Rows { first: points.start, rows: rows(scan, points) };
     let (request, result) = (request.clone(), Ok(Answer::Scan(rows)));
@@ -137,7 +137,10 @@ fn escape_stops_a_scan_and_keeps_what_is_done_and_a_key_goes_on() {
     let again = session.scan_request().expect("a question");
     assert_eq!(
         again,
-        Request::Scan(question::scan::Asked { scan: Arc::clone(&scanned(&session).scan), from: 4 })
+        Request::Scan(question::scan::Inputs {
+            scan: Arc::clone(&scanned(&session).scan),
+            from: 4
+        })
     );
     piece(&mut session, &again, 4..6);
     assert_eq!(scanned(&session).progress, Progress::Done);

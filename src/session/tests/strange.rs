@@ -40,7 +40,7 @@ pub(super) fn check(session: &Session) {
         assert_eq!(knob.check(value), Ok(value));
     }
     for request in session.wants() {
-        if let Request::Branch(question::branch::Asked { range: (from, to), parameter, .. }) =
+        if let Request::Branch(question::branch::Inputs { range: (from, to), parameter, .. }) =
             request
         {
             let spec = parameter.spec();

@@ -3,7 +3,7 @@ use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Problem};
 use crate::oscillator::Belt;
-use crate::oscillator::belt::{FrictionLaw, Reduced, TaylorError};
+use crate::oscillator::belt::{FrictionLaw, ReducedBelt, TaylorError};
 use crate::study::claims::belt::machine as paper;
 use crate::study::cycle::cycles;
 
@@ -13,7 +13,7 @@ fn belt() -> Belt {
 
 /// The motion of the oscillator that the machine reduces to, and its velocities up to the belt's, in m/s.
 fn motion(belt: &Belt, start: (f64, f64), until: f64) -> (Trajectory, FollowedOnBelt, Units) {
-    let Reduced { parameters, units, sticking_velocity, .. } = belt.reduce().unwrap();
+    let ReducedBelt { parameters, units, sticking_velocity, .. } = belt.reduce().unwrap();
     let problem = Problem {
         parameters,
         initial: State { q: start.0 / units.displacement, v: start.1 / units.velocity },
@@ -134,7 +134,7 @@ fn a_motion_that_overtakes_the_belt_is_told_with_its_time() {
 fn cycles_and_margins_come_back_in_physical_units() {
     let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.4] };
     let linear = Belt { law, cubic_damping: 0.0, ..belt() };
-    let Reduced { parameters, units, .. } = linear.reduce().unwrap();
+    let ReducedBelt { parameters, units, .. } = linear.reduce().unwrap();
     let found = cycles(&parameters, true, &Limits::PATIENT).unwrap();
     let margin = PhysicalMargin::new(&found.picture.unwrap().margin, &units);
     // A_q = r coth(x/2), x = -pi D/omega (equation 32); in metres R/c takes the place of r.

@@ -9,7 +9,7 @@ use crate::closed_form::harmonic::amplitudes;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Problem, Reason};
 use crate::numerics::root::try_bisect;
-use crate::oscillator::belt::{FrictionLaw, Reduced};
+use crate::oscillator::belt::{FrictionLaw, ReducedBelt};
 use crate::oscillator::{Belt, State};
 use crate::study::belt::FollowedOnBelt;
 
@@ -46,7 +46,7 @@ pub(in crate::study) fn machine() -> Belt {
 }
 
 /// The machine at a speed of its belt.
-fn at(speed: f64) -> Result<Reduced, Reason> {
+fn at(speed: f64) -> Result<ReducedBelt, Reason> {
     let lost = |_| Reason::NotApplicable { needs: "a machine at this speed of its belt" };
     machine().reduce_at(speed).map_err(lost)
 }
@@ -56,7 +56,7 @@ fn at(speed: f64) -> Result<Reduced, Reason> {
 pub fn stays_slower(limits: &Limits) -> Result<Finding, Reason> {
     let mut cases = Vec::new();
     for speed in SPEEDS {
-        let Reduced { parameters, sticking_velocity, .. } = at(speed)?;
+        let ReducedBelt { parameters, sticking_velocity, .. } = at(speed)?;
         let below = largest(&parameters, limits)?.v_max < sticking_velocity;
         let q = OUTSIDE * smallest(&parameters, limits)?.q_max;
         let problem = Problem {
@@ -77,12 +77,12 @@ pub fn stays_slower(limits: &Limits) -> Result<Finding, Reason> {
 /// [`Reason`] why a cycle was not found.
 pub fn contact(limits: &Limits) -> Result<Finding, Reason> {
     let harmonic = root(|speed| {
-        let Reduced { parameters, sticking_velocity, .. } = at(speed)?;
+        let ReducedBelt { parameters, sticking_velocity, .. } = at(speed)?;
         let found = amplitudes(&parameters).into_iter().rfind(|answer| answer.stable);
         Ok(found.map_or(0.0, |answer| answer.amplitude) - sticking_velocity)
     })?;
     let computed = root(|speed| {
-        let Reduced { parameters, sticking_velocity, .. } = at(speed)?;
+        let ReducedBelt { parameters, sticking_velocity, .. } = at(speed)?;
         Ok(largest(&parameters, limits)?.v_max - sticking_velocity)
     })?;
     let place = "m = 2 kg, c = 5 kN/m, F = 100 N, R = 1 N; in m/s";

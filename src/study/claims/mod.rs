@@ -49,19 +49,19 @@ pub const UNSAID: &str = "-";
 
 /// A claim and what became of it.
 #[derive(Clone, Debug)]
-pub struct Examined {
+pub struct ClaimResult {
     pub claim: &'static Claim,
     /// The numbers, or why there are none.
     pub finding: Result<Finding, Reason>,
 }
 
-impl PartialEq for Examined {
+impl PartialEq for ClaimResult {
     fn eq(&self, other: &Self) -> bool {
         std::ptr::eq(self.claim, other.claim) && self.finding == other.finding
     }
 }
 
-impl Examined {
+impl ClaimResult {
     /// What the numbers say; `None` where they could not be computed.
     pub fn verdict(&self) -> Option<Verdict> {
         self.finding.as_ref().ok().map(Finding::verdict)
@@ -86,18 +86,18 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
 }
 
 /// Puts all claims to the test. Fails with [`Reason::Interrupted`] and no other.
-pub fn examine_all(limits: &Limits) -> Result<Vec<Examined>, Reason> {
+pub fn examine_all(limits: &Limits) -> Result<Vec<ClaimResult>, Reason> {
     claims().map(|claim| examine(claim, limits)).collect()
 }
 
 /// Puts one claim to the test. Fails with [`Reason::Interrupted`] and no other: any other reason belongs to the
 /// answer.
-pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<Examined, Reason> {
+pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<ClaimResult, Reason> {
     match (claim.check)(limits) {
         Err(Reason::Interrupted) => Err(Reason::Interrupted),
         Ok(finding) if claim.section == UNSAID => {
-            Ok(Examined { claim, finding: Ok(finding.unsaid()) })
+            Ok(ClaimResult { claim, finding: Ok(finding.unsaid()) })
         }
-        finding => Ok(Examined { claim, finding }),
+        finding => Ok(ClaimResult { claim, finding }),
     }
 }

@@ -10,7 +10,10 @@ use crate::session::settings;
 const SOLID: Pen = Pen { role: Role::Trajectory, dash: Dash::Solid };
 
 fn painted(dots: &Dots) -> Vec<String> {
-    let look = Look::new(settings::Wishes { glyphs: dots.glyphs, ..settings::Wishes::default() });
+    let look = Look::new(settings::DisplaySettings {
+        glyphs: dots.glyphs,
+        ..settings::DisplaySettings::default()
+    });
     let mut buffer = Buffer::empty(dots.area);
     dots.paint(&mut buffer, &look);
     let rows = buffer.content.chunks(usize::from(dots.area.width.max(1)));
@@ -97,7 +100,7 @@ fn curves_hide_guides_even_in_the_gaps_of_their_dashes() {
 
 #[test]
 fn a_later_stroke_takes_the_colour_of_a_shared_cell() {
-    let look = Look::new(settings::Wishes::default());
+    let look = Look::new(settings::DisplaySettings::default());
     let mut dots = Dots::new(Rect::new(0, 0, 1, 1), Glyphs::Braille);
     dots.stroke([(0.0, 0.0)], SOLID);
     dots.stroke([(1.0, 3.0)], Pen { role: Role::Stable, dash: Dash::Solid });
@@ -108,7 +111,7 @@ fn a_later_stroke_takes_the_colour_of_a_shared_cell() {
 
 #[test]
 fn a_curve_and_an_area_in_one_cell_have_the_colour_of_the_curve() {
-    let look = Look::new(settings::Wishes::default());
+    let look = Look::new(settings::DisplaySettings::default());
     let area = Pen { role: Role::Sticking, dash: Dash::Thick };
     let curve = Pen { role: Role::Unstable, dash: Dash::Dashed };
     for pens in [[area, curve], [curve, area]] {

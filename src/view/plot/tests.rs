@@ -6,10 +6,10 @@ use super::*;
 use crate::numerics::count::real;
 use crate::picture::items::Caption;
 use crate::scene::Span;
-use crate::session::settings::{GLYPHS, Glyphs, Wishes};
+use crate::session::settings::{DisplaySettings, GLYPHS, Glyphs};
 
 fn look(glyphs: Glyphs) -> Look {
-    Look::new(Wishes { glyphs, ..Wishes::default() })
+    Look::new(DisplaySettings { glyphs, ..DisplaySettings::default() })
 }
 
 /// A canvas with unnamed axes.

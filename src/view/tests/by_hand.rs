@@ -56,11 +56,11 @@ pub(super) fn drawn_over(layer: Layer) -> bool {
 pub(super) fn by_hand(request: &Request) -> Answer {
     match request {
         Request::Trajectory(problem)
-        | Request::Machine(question::machine::Asked { problem, .. }) => {
+        | Request::Machine(question::machine::Inputs { problem, .. }) => {
             Answer::Trajectory(spiral(*problem))
         }
-        Request::Cycles(question::cycles::Asked { parameters })
-        | Request::Portrait(question::portrait::Asked { parameters, .. }) => {
+        Request::Cycles(question::cycles::Inputs { parameters })
+        | Request::Portrait(question::portrait::Inputs { parameters, .. }) => {
             let cycles = vec![cycle(0.5, false), cycle(1.2, true)];
             let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];
             Answer::Cycles(Cycles {
@@ -72,7 +72,7 @@ pub(super) fn by_hand(request: &Request) -> Answer {
                 picture: Some(picture(curves[0].clone(), curves)),
             })
         }
-        Request::Scan(question::scan::Asked { scan, from }) => {
+        Request::Scan(question::scan::Inputs { scan, from }) => {
             let measured = scan.measured().len();
             let row = |index: usize| ScanRow {
                 // A slope with a hole in it.
@@ -102,16 +102,18 @@ pub(super) fn by_hand(request: &Request) -> Answer {
             curves: vec![circle(0.2), circle(0.35)],
             cost: Cost { evaluations: 800, steps: 40, rejected: 0 },
         }),
-        Request::Branch(question::branch::Asked { parameter, .. }) => {
+        Request::Branch(question::branch::Inputs { parameter, .. }) => {
             Answer::Branch(folded(*parameter))
         }
-        Request::ReturnMap(question::return_map::Asked { parameters, .. }) => {
+        Request::ReturnMap(question::return_map::Inputs { parameters, .. }) => {
             Answer::ReturnMap(halving(*parameters))
         }
-        Request::Regimes(question::regimes::Asked { plane, .. }) => Answer::Regimes(parted(*plane)),
+        Request::Regimes(question::regimes::Inputs { plane, .. }) => {
+            Answer::Regimes(parted(*plane))
+        }
         Request::Trade(_) => Answer::Trade(compared()),
         // Of the cycles made up above.
-        Request::Proof(question::proof::Asked { parameters }) => {
+        Request::Proof(question::proof::Inputs { parameters }) => {
             let known = |low, high, stable| ProvedCycle {
                 within: Interval::new(low, high),
                 stable,

@@ -12,7 +12,7 @@ use crate::picture::legend::entries;
 use crate::picture::ticks::{Scale, Ticks};
 use crate::scene::library::{find, library};
 use crate::scene::{Span, VIEWS};
-use crate::session::settings::Wishes;
+use crate::session::settings::DisplaySettings;
 use crate::session::{Session, Size};
 use crate::view::layout::layout;
 use crate::view::plot::shown;
@@ -81,7 +81,7 @@ fn whole(session: &Session) -> Vec<String> {
 fn found(
     mut session: Session,
     about: &str,
-    looks: fn(u16) -> Vec<Wishes>,
+    looks: fn(u16) -> Vec<DisplaySettings>,
     parts: impl Fn(&Session, &str) -> Vec<String>,
 ) -> Vec<String> {
     let mut found = Vec::new();

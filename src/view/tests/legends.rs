@@ -7,7 +7,7 @@ use crate::picture;
 use crate::picture::legend::{LegendEntry, entries};
 use crate::scene::LAYERS;
 use crate::scene::library::library;
-use crate::session::settings::{Colors, Wishes};
+use crate::session::settings::{Colors, DisplaySettings};
 use crate::session::tests::fitting::record;
 use crate::session::{Msg, Purpose, Session, update};
 use crate::view::look::Look;
@@ -15,7 +15,7 @@ use crate::view::screen::text;
 
 /// Pairs in the legend of a session that nothing but colour tells apart.
 fn alike(session: &Session) -> Vec<[String; 2]> {
-    let look = Look::new(Wishes { colors: Colors::Never, ..braille() });
+    let look = Look::new(DisplaySettings { colors: Colors::Never, ..braille() });
     let appearance = |entry: &LegendEntry| (entry.sample, look.style(entry.role).add_modifier);
     let entries = entries(&picture::all(session));
     assert!(entries.len() > 1, "{}", session.scene.name);

@@ -53,7 +53,7 @@ fn the_roundings_of_an_area_are_held() {
 /// A ball measured in another norm keeps its members: tested on one along the shortest direction of the new norm.
 #[test]
 fn a_ball_in_another_norm_keeps_its_members() {
-    let damped = Prepared::new(&Field {
+    let damped = StepField::new(&Field {
         a: Interval::point(1.9),
         b: Interval::point(0.0),
         c: Interval::point(0.0),

@@ -9,7 +9,7 @@ use crate::scene::Running;
 /// The largest deviations of the parameters from their values, and the bound on a force that varies in any way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Doubt {
+pub struct Uncertainty {
     /// Half widths of D, D2, D3 and r.
     pub half_widths: [f64; 4],
     /// Bound w on the disturbance, in the unit of r.
@@ -28,7 +28,7 @@ pub fn symbol_of(quantity: Knob) -> Option<Knob> {
     ON_A_MACHINE.iter().find(|row| row.1 == quantity).map(|row| row.0)
 }
 
-impl Doubt {
+impl Uncertainty {
     /// Whether nothing is uncertain, disturbed or held.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
@@ -90,13 +90,13 @@ impl Doubt {
     /// The tolerances from a machine's file, in the units of its oscillator.
     pub fn of_machine(running: &Running) -> Self {
         let Tolerances { half_widths, disturbance } = &running.machine.tolerances;
-        let mut doubt = Doubt::default();
+        let mut doubt = Uncertainty::default();
         for (symbol, quantity) in ON_A_MACHINE {
             let half = half_widths.get(quantity.spec().name).copied().unwrap_or(0.0);
             let half = half / running.scale(symbol);
             doubt = doubt.with_half_width(symbol, half).unwrap_or(doubt);
         }
-        Doubt { disturbance: disturbance / running.reduced.units.force, ..doubt }
+        Uncertainty { disturbance: disturbance / running.reduced.units.force, ..doubt }
     }
 
     /// The tolerances of the machine on show that correspond to this; those of its other numbers are from its
@@ -127,6 +127,6 @@ impl Doubt {
             moved = moved.with_half_width(symbol, half).unwrap_or(moved);
         }
         let force = from.reduced.units.force / to.reduced.units.force;
-        Doubt { disturbance: self.disturbance * force, ..moved }
+        Uncertainty { disturbance: self.disturbance * force, ..moved }
     }
 }

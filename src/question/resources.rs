@@ -21,7 +21,7 @@ impl Rows {
 
 /// The means by which a question is answered.
 #[derive(Clone, Copy)]
-pub struct Means<'a> {
+pub struct Resources<'a> {
     /// Number of points on curves.
     pub fineness: Fineness,
     /// When to stop.
@@ -30,7 +30,7 @@ pub struct Means<'a> {
     pub rows: &'a dyn Fn(&Scan, usize) -> Result<Rows, Reason>,
 }
 
-impl std::fmt::Debug for Means<'_> {
+impl std::fmt::Debug for Resources<'_> {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         out.debug_struct("Means").field("fineness", &self.fineness).finish_non_exhaustive()
     }

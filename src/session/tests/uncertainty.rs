@@ -7,7 +7,7 @@ use crate::oscillator::{Interval, Knob, Parameters};
 use crate::question;
 use crate::question::answer;
 use crate::scene::{Answer, Request, Topic};
-use crate::session::{Doubt, Row, save};
+use crate::session::{Row, Uncertainty, save};
 
 fn certainty(trial: &Trial) -> Option<Request> {
     trial.session.wants().into_iter().find(|request| request.topic() == Topic::Zones)
@@ -19,14 +19,18 @@ fn a_half_width_is_typed_stepped_undone_and_saved() {
     assert_eq!(certainty(&trial), None, "nothing is in doubt");
     trial.press(":set<space>r=0.10+-0.01<space>w=0.02<enter>");
     assert_eq!(trial.session.value(Knob::R), 0.1);
-    let doubt = Doubt { half_widths: [0.0, 0.0, 0.0, 0.01], disturbance: 0.02, ..Doubt::default() };
+    let doubt = Uncertainty {
+        half_widths: [0.0, 0.0, 0.0, 0.01],
+        disturbance: 0.02,
+        ..Uncertainty::default()
+    };
     assert_eq!(trial.session.doubt, doubt);
     let text = save::text(&trial.session).unwrap();
     let mut other = Trial::open("plain").session;
     save::open(&mut other, &text).unwrap();
     assert_eq!((other.doubt, &other.history), (doubt, &trial.session.history));
     trial.press("u");
-    assert_eq!(trial.session.doubt, Doubt::default());
+    assert_eq!(trial.session.doubt, Uncertainty::default());
     trial.press("U");
     assert_eq!(trial.session.doubt, doubt);
     // Keys change the half width of the selected row, and reset it to the scene's.
@@ -40,7 +44,7 @@ fn a_half_width_is_typed_stepped_undone_and_saved() {
     trial.press("<right>");
     assert_eq!(trial.session.doubt.disturbance, 0.03);
     trial.press("<backspace>");
-    assert_eq!(trial.session.doubt, Doubt::default());
+    assert_eq!(trial.session.doubt, Uncertainty::default());
 }
 
 #[test]
@@ -49,7 +53,7 @@ fn an_interval_is_taken_by_its_middle_and_a_bare_value_is_exact() {
     trial.goes(&[(": set D=-0.3..-0.25", "D -0.275")]);
     assert!((trial.session.doubt.half_width(Knob::D) - 0.025).abs() < 1e-16);
     trial.goes(&[(": set D=-0.3", "D -0.3")]);
-    assert_eq!(trial.session.doubt, Doubt::default());
+    assert_eq!(trial.session.doubt, Uncertainty::default());
     refuses(
         "plain",
         &[
@@ -74,14 +78,14 @@ fn what_is_certain_is_asked_with_the_box_and_answers_the_reference() {
     assert!((margin - 0.1743).abs() < 5e-5, "{margin}");
     assert!((found.nominal.displacement.unwrap() - 0.2190).abs() < 5e-5);
     trial.press(":set<space>D3=0.5+-0.1<enter>");
-    let Some(Request::Zones(question::zones::Asked { known, disturbance })) = certainty(&trial)
+    let Some(Request::Zones(question::zones::Inputs { known, disturbance })) = certainty(&trial)
     else {
         panic!()
     };
     assert_eq!((known.d3, disturbance), (Interval::around(0.5, 0.1), 0.02));
     // However close to 0 its ends are: a tolerance that were left out would promise too much.
     for (d2, half) in [(0.2, 0.2), (3e-150, 2.5e-150)] {
-        let doubt = Doubt::default().with_half_width(Knob::D2, half).unwrap();
+        let doubt = Uncertainty::default().with_half_width(Knob::D2, half).unwrap();
         let known = doubt.known(&Parameters { d2, ..Parameters::default() });
         assert_eq!(known.d2, Interval::around(d2, half));
     }
