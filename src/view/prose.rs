@@ -19,13 +19,18 @@ pub fn write(area: Rect, lines: Vec<Line<'static>>, look: &Look, buffer: &mut Bu
         let mark = look.symbols().more;
         if let Some(last) = rows.last_mut() {
             let room = width.saturating_sub(mark.chars().count() + 1);
-            *last = pane::fitted(std::mem::take(last), room, look);
+            *last = up_to(std::mem::take(last), room);
             last.push_span(format!(" {mark}"));
         }
     }
     for (row, line) in (0..area.height).zip(rows) {
         pane::line(area, row, line, look, buffer);
     }
+}
+
+/// As many words of a line as fit.
+fn up_to(line: Line<'static>, width: usize) -> Line<'static> {
+    broken(line, width).into_iter().next().unwrap_or_default()
 }
 
 fn broken(line: Line<'static>, width: usize) -> Vec<Line<'static>> {
@@ -54,10 +59,9 @@ mod tests {
         let look = Look::new(settings::DisplaySettings::default());
         let lines = || vec![Line::from("one two three four five"), Line::from("six")];
         assert_eq!(rows(&lines(), 9), 4);
-        for (height, expected) in [
-            (4, "one two\nthree\nfour five\nsix\n"),
-            (3, "one two\nthree\nfour f\u{2026} \u{2026}\n"),
-        ] {
+        for (height, expected) in
+            [(4, "one two\nthree\nfour five\nsix\n"), (3, "one two\nthree\nfour \u{2026}\n")]
+        {
             let mut buffer = Buffer::empty(Rect::new(0, 0, 9, height));
             write(buffer.area, lines(), &look, &mut buffer);
             assert_eq!(text(&buffer), expected);
