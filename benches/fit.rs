@@ -7,7 +7,7 @@ use divan::{Bencher, black_box};
 use hopfscope::fit::levenberg_marquardt::Runs;
 use hopfscope::fit::observation::{Data, Observation, R, StartKind, Unknowns};
 use hopfscope::fit::refit::refitted;
-use hopfscope::fit::{Question, Record, estimate};
+use hopfscope::fit::{Question, Record, Signal, estimate};
 use hopfscope::numerics::random::Random;
 
 fn main() {
@@ -16,15 +16,20 @@ fn main() {
 
 /// omega0, offset, D, D2, D3, r, q0, and the time of release or the velocity: a decay to rest, and a long ringing.
 const DECAY: (Unknowns, StartKind, f64) =
-    ([10.0, 0.5, 0.02, 0.005, 0.0005, 0.15, 6.0, 0.3], StartKind::Release, 6.0);
+    ([10.0, 0.5, 0.02, 0.005, 0.0005, 0.15, 6.0, 0.3, 0.0, 0.0], StartKind::Release, 6.0);
 const RINGING: (Unknowns, StartKind, f64) =
-    ([31.4, 0.0, 0.0008, 0.0, 2e-5, 0.001, 6.0, 0.5], StartKind::Moving, 30.0);
+    ([31.4, 0.0, 0.0008, 0.0, 2e-5, 0.001, 6.0, 0.5, 0.0, 0.0], StartKind::Moving, 30.0);
 
 fn observation((_, start, seconds): (Unknowns, StartKind, f64), samples: u32) -> Observation {
     let at = |index: u32| seconds * f64::from(index) / f64::from(samples);
     let t: Vec<f64> = (0..samples).map(at).collect();
     let x = vec![0.0; t.len()];
-    Observation { data: Data::Samples { t, x }, start, linear: false, reach: 1e9 }
+    Observation {
+        data: Data::Samples { t, x, signal: Signal::Displacement },
+        start,
+        linear: false,
+        reach: 1e9,
+    }
 }
 
 fn record(motion: (Unknowns, StartKind, f64), samples: u32) -> Record {

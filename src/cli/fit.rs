@@ -17,9 +17,10 @@ use crate::fit::curves::Curves;
 use crate::fit::levenberg_marquardt::Runs;
 use crate::fit::names::{Choice, NameSpec, assigned, listed};
 use crate::fit::observation::{D, R};
+use crate::fit::signal::quantity;
 use crate::fit::{
     Column, DRAWS, Estimate, Fitted, Inertia, LENGTHS, LossName, MarginQuestion, Question, Reading,
-    Record, Unfit, estimate, length_in_metres, margins, parse,
+    Record, Signal, Unfit, estimate, length_in_metres, margins, parse,
 };
 use crate::flow::Limits;
 use crate::oscillator::Knob;
@@ -56,8 +57,11 @@ pub struct Arguments {
     /// Stiffness of the spring, such as "800 N/m", instead of the mass
     #[arg(long, value_name = "STIFFNESS", value_parser = |text: &str| Knob::Stiffness.parse(text))]
     stiffness: Option<f64>,
-    /// Unit of the displacements, if the file does not name it
-    #[arg(long, value_name = "UNIT", value_parser = length)]
+    /// What the second column holds, if the file does not tell it by a unit
+    #[arg(long, value_enum, value_name = "SIGNAL")]
+    signal: Option<Signal>,
+    /// Unit of the displacements, velocities or accelerations, if the file does not name it, such as mm or m/s^2
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
     unit: Option<String>,
     /// Largest force that may act beside the kick, such as "0.5 N"; without --mass or --stiffness over the stiffness, as a
     /// length
@@ -137,11 +141,14 @@ fn confidence(text: &str) -> Result<f64, String> {
     Knob::Confidence.parse(text)
 }
 
-fn length(text: &str) -> Result<String, String> {
+fn unit(text: &str) -> Result<String, String> {
     let known = || {
-        format!("{text:?} is not a unit of length; there are {}", LENGTHS.map(|it| it.0).join(", "))
+        let lengths = LENGTHS.map(|it| it.0).join(", ");
+        format!(
+            "{text:?} is not a unit of length; there are {lengths}, each also with /s or /s^2, and g"
+        )
     };
-    length_in_metres(text).map(|_| text.to_owned()).ok_or_else(known)
+    quantity(text).map(|_| text.to_owned()).ok_or_else(known)
 }
 
 fn draws(text: &str) -> Result<usize, String> {
@@ -177,10 +184,10 @@ impl Arguments {
     fn fitted(&self, bytes: &[u8]) -> Result<Fitted, Failure> {
         let name = self.file.display().to_string();
         let (time, displacement) = self.columns.clone().unwrap_or_default();
-        let reading = Reading { time, displacement, peaks: self.peaks };
+        let (peaks, signal, unit) = (self.peaks, self.signal, self.unit.clone());
+        let reading = Reading { time, displacement, peaks, signal, unit };
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
-        let mut record = parse(bytes, &reading).map_err(|error| bad(&error))?;
-        record.unit = self.unit.clone().or(record.unit);
+        let record = parse(bytes, &reading).map_err(|error| bad(&error))?;
         let asked = self.margin_question(&record).map_err(|problem| bad(&problem))?;
         let inertia = asked.inertia;
         let question = self.question()?;
@@ -249,8 +256,8 @@ impl Arguments {
                 "without times there is no frequency: leave out --mass and --stiffness".to_owned()
             );
         }
+        let known = LENGTHS.map(|it| record.signal.unit(it.0)).join(", ");
         let unit = record.unit.as_deref();
-        let known = LENGTHS.map(|it| it.0).join(", ");
         let unit =
             unit.ok_or_else(|| format!("the file names no unit of length; --unit one of {known}"))?;
         let metres = length_in_metres(unit).ok_or_else(|| {

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::dropped::{Dropped, dropped_of_fitted};
 use super::estimate::{Estimate, Rival};
 use super::levenberg_marquardt::Runs;
 use super::margin::Margins;
@@ -55,9 +56,8 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
         _ => "correlated as filtered noise is",
     };
     let ratio = estimate.covariance.deviation / estimate.noise.deviation;
-    let run = longest_run(estimate.used.iter().zip(&estimate.residuals).map(|(used, residual)| {
-        !used && residual.abs() > IMPOSSIBLE * estimate.covariance.deviation
-    }));
+    let is_outlier = |index| dropped_of_fitted(estimate, index) == Some(Dropped::Outlier);
+    let run = longest_run((0..estimate.used.len()).map(is_outlier));
     let freedom = estimate
         .wanted()
         .map(|row| estimate.covariance.independent(row.place))
@@ -85,10 +85,19 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
             format!("{:.0} effective draws", margins.effective),
         ),
     ];
-    let drift = estimate.drift;
-    if drift.is_seen() {
-        let detail = format!("the zero drifts by {:.2e} over the record", drift.change);
+    let left = estimate.left_drift;
+    if left.is_seen() {
+        let detail = format!("the zero drifts by {:.2e} over the record", left.change);
         all.push(state("zero", false, detail));
+    } else if let Some(drift) = estimate.drift() {
+        let detail = format!("it drifts by {:.2e} over the record, which is fitted", drift.change);
+        all.push(state("zero", !whiteness.systematic, detail));
+    } else if left.moved > IMPOSSIBLE {
+        let detail = format!(
+            "a drift by {:.2e}, too small to be seen, would move a number by {:.1} standard errors",
+            left.change, left.moved
+        );
+        all.push(Condition { essential: false, ..state("zero", false, detail) });
     } else {
         all.push(state("zero", true, "no drift is seen".to_owned()));
     }
@@ -166,12 +175,12 @@ fn simulated(estimate: &Estimate) -> Record {
             measured.iter().enumerate().map(value).collect::<Vec<f64>>()
         };
     let (t, x) = match &estimate.data {
-        Data::Samples { t, x } => (Some(t.clone()), fitted(x, 0, 1.0, &mut noise)),
+        Data::Samples { t, x, .. } => (Some(t.clone()), fitted(x, 0, 1.0, &mut noise)),
         Data::Peaks { t, x, ratio } => {
             let displacements = fitted(x, 0, 1.0, &mut noise);
             let times = t.as_ref().map(|t| fitted(t, x.len(), *ratio, &mut noise));
             (times, displacements)
         }
     };
-    Record { t, x, ..Record::default() }
+    Record { t, x, signal: estimate.data.signal(), ..Record::default() }
 }

@@ -9,6 +9,7 @@ use super::motion::{Way, follow};
 use super::observation::{Data, OFFSET, OMEGA0, parameters};
 use super::residuals::autocorrelations;
 use super::sampled::Sampled;
+use super::signal::Signal;
 use crate::numerics::count::{real, whole};
 use crate::oscillator::{Parameters, State};
 
@@ -63,7 +64,7 @@ impl Curves {
             (Some(seen), _) => seen.motion.iter().map(|[_, q, _]| q.abs()).fold(0.0, f64::max),
             // What was measured at a peak less its residual is how far the fitted motion goes.
             (None, data) => data
-                .displacements()
+                .values()
                 .iter()
                 .zip(&estimate.residuals)
                 .map(|(x, residual)| (x - residual - estimate.p[OFFSET]).abs())
@@ -94,7 +95,8 @@ fn pair(q: &[f64]) -> Option<PlotPoint> {
 
 /// The exact damping, computed from a motion released at a displacement in the same way as from a record.
 fn exact(parameters: &Parameters, from: f64) -> Option<PlotPoint> {
-    let way = Way { linear: false, with_derivatives: false, reach: 1e3 * from, turns: 3 };
+    let signal = Signal::Displacement;
+    let way = Way { linear: false, with_derivatives: false, reach: 1e3 * from, turns: 3, signal };
     let found = follow(parameters, State { q: from, v: 0.0 }, &[40.0], way, |_, _| {}).ok()?;
     let turns: Vec<f64> =
         std::iter::once(from).chain(found.turns.iter().map(|turn| turn.q)).collect();

@@ -123,7 +123,7 @@ fn middle(extremes: &[Extreme], d: f64) -> Option<(f64, f64)> {
 }
 
 /// Linear regression with iterated Cauchy weights, since one wrong extreme spoils three decrements.
-fn robust(rows: &[(Vec<f64>, f64)]) -> Option<DVector<f64>> {
+pub fn robust(rows: &[(Vec<f64>, f64)]) -> Option<DVector<f64>> {
     const ROUNDS: usize = 12;
     let width = rows.first()?.0.len();
     let mut weights = vec![1.0; rows.len()];

@@ -16,6 +16,8 @@ pub enum Dropped {
     Before,
     /// The mass had been excited again.
     After,
+    /// It lies next to a jump of an acceleration.
+    Jump,
     /// At rest, it only repeats the rounding error of others.
     Alike,
 }
@@ -24,7 +26,11 @@ pub enum Dropped {
 pub fn dropped_of_fitted(estimate: &Estimate, index: usize) -> Option<Dropped> {
     let limit = IMPOSSIBLE * estimate.covariance.deviation;
     let alike = estimate.alike > 0 && estimate.residuals[index].abs() <= limit;
-    let why = if alike { Dropped::Alike } else { Dropped::Outlier };
+    let why = match alike {
+        _ if estimate.jumps.binary_search(&index).is_ok() => Dropped::Jump,
+        true => Dropped::Alike,
+        false => Dropped::Outlier,
+    };
     (!estimate.used[index]).then_some(why)
 }
 

@@ -2,19 +2,21 @@
 
 use serde::Serialize;
 
-use super::drift::Drift;
+use super::drift::{FittedDrift, LeftDrift};
 use super::levenberg_marquardt::{Optimum, Runs, Task};
 use super::names::{Choice, NAMES, NameSpec};
 use super::noise::Noise;
-use super::observation::{Data, OMEGA0, R, StartKind, UNKNOWNS, Unknowns};
+use super::observation::{BEND, Data, OMEGA0, R, SLOPE, StartKind, UNKNOWNS, Unknowns};
 use super::problem::{HIDDEN, LeastSquares};
 use super::profile::{Left, Profile, ProfileInterval};
 use super::question::Unfit;
 use super::residuals::{Whiteness, whiteness};
 use super::search::Minima;
+use super::signal::Signal;
 use super::turning_points::Extreme;
 use super::uncertainty::{Covariance, left_over};
 use crate::numerics::count::real;
+use crate::oscillator::State;
 
 /// A minimum that competes with the best one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -69,12 +71,14 @@ pub struct Estimate {
     pub after: usize,
     /// Number of samples at rest that repeat the rounding error of others, left out.
     pub alike: usize,
+    /// Indices of the samples next to the jumps of an acceleration, left out.
+    pub jumps: Vec<usize>,
     /// Number of motions computed with and without derivatives.
     pub motions: (u64, u64),
     /// Displacement beyond which a motion counts as escaped.
     pub reach: f64,
-    /// A drift of the zero beside the motion.
-    pub drift: Drift,
+    /// A drift of the zero beside the motion that is not fitted.
+    pub left_drift: LeftDrift,
     /// How far a fit of a record simulated from this estimate comes off it, in standard errors; `None` if not tested.
     pub repeated: Option<f64>,
 }
@@ -83,7 +87,8 @@ impl Estimate {
     /// Number of samples left out because they do not belong to the motion.
     #[must_use]
     pub fn outliers(&self) -> usize {
-        self.used.iter().filter(|used| !**used).count() - self.alike
+        let left_out = self.used.iter().filter(|used| !**used).count();
+        left_out.saturating_sub(self.alike + self.jumps.len())
     }
 
     /// The residuals that count.
@@ -91,9 +96,35 @@ impl Estimate {
         self.residuals.iter().zip(&self.used).filter(|(_, used)| **used).map(|(it, _)| *it)
     }
 
+    /// The drift of the zero, if one is fitted.
+    #[must_use]
+    pub fn drift(&self) -> Option<FittedDrift> {
+        /// What the ends of a parabola of height 1 are above its middle.
+        const ENDS: f64 = 0.25;
+        let error = |place| self.covariance.error(place);
+        self.free[SLOPE].then(|| FittedDrift {
+            change: self.p[SLOPE],
+            standard_error: error(SLOPE),
+            bend: ENDS * self.p[BEND],
+            bend_standard_error: ENDS * error(BEND),
+        })
+    }
+
     /// The rows of the numbers that were asked for and could be estimated.
     pub fn wanted(&self) -> impl Iterator<Item = &'static NameSpec> + '_ {
         NAMES.iter().filter(|row| self.choice.is_wanted(row) && self.free[row.place])
+    }
+
+    /// The place of a sample in the phase plane: what is measured of it, and the rest of it by the fitted state at this
+    /// time; `None` for an acceleration, of which nothing is seen there.
+    #[must_use]
+    pub fn measured(&self, t: f64, x: f64, fitted: State) -> Option<State> {
+        let seen = x - self.data.zero(&self.p, t);
+        match self.data.signal() {
+            Signal::Displacement => Some(State { q: seen, ..fitted }),
+            Signal::Velocity => Some(State { v: seen / self.p[OMEGA0], ..fitted }),
+            Signal::Acceleration => None,
+        }
     }
 
     /// Smallest and largest half peak-to-peak amplitude in the record.
@@ -188,6 +219,7 @@ fn assessed(
         })
         .collect();
     let (intervals, lower) = intervals(&task, found, covariance.variance, &whiteness, runs)?;
+    let left_drift = LeftDrift::of(&task, best, &covariance);
     let estimate = Estimate {
         choice: Choice::default(),
         data: problem.data.clone(),
@@ -208,9 +240,10 @@ fn assessed(
         after: 0,
         before: 0,
         alike: 0,
+        jumps: Vec::new(),
         motions: (runs.with_derivatives, runs.plain),
         reach: problem.reach,
-        drift: Drift::of(&task, best),
+        left_drift,
         repeated: None,
     };
     Ok((estimate, lower))

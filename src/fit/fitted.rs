@@ -2,10 +2,12 @@
 
 use super::curves::Curves;
 use super::estimate::Estimate;
-use super::inertia::{Inertia, length_in_metres};
+use super::inertia::Inertia;
 use super::margin::Margins;
-use super::observation::OMEGA0;
+use super::names::NameSpec;
+use super::observation::{OFFSET, OMEGA0};
 use super::record::Record;
+use super::signal::length_in_metres;
 use crate::oscillator::belt::Units;
 
 /// The whole result of a fit.
@@ -51,9 +53,22 @@ impl Fitted {
         (with, without + self.margins.motions)
     }
 
-    /// The unit of the displacements as written after numbers; empty if unknown.
+    /// The unit of lengths as written after numbers; empty if unknown.
     #[must_use]
     pub fn unit(&self) -> &str {
         self.record.unit.as_deref().unwrap_or("")
+    }
+
+    /// The unit of the signal.
+    #[must_use]
+    pub fn signal_unit(&self) -> String {
+        self.record.signal.unit(self.unit())
+    }
+
+    /// The unit of a number: the offset is one of the signal.
+    #[must_use]
+    pub fn unit_of(&self, row: &NameSpec) -> String {
+        let length = row.unit(self.unit());
+        if row.place == OFFSET { self.record.signal.unit(&length) } else { length }
     }
 }

@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use super::decrements::{AveragedDamping, regressions};
 use super::noise::{Noise, median, robust_deviation};
-use super::observation::{D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, StartKind, Unknowns};
+use super::observation::{D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, StartKind, UNKNOWNS, Unknowns};
 use super::search::Beginning;
+use super::signal::Signal;
 use super::spectrum::dominant_frequency;
 use super::turning_points::{Extreme, smoothed, turning_points, without_jumps};
 use crate::numerics::count::real;
@@ -26,7 +27,11 @@ pub struct Guess {
 
 /// Makes first guesses from a record; `None` if fewer than two turning points, including a hold and a rest, can
 /// be distinguished from noise.
-pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
+///
+/// A velocity is divided by the frequency, an acceleration by its square and its sign changed. Both are then swings of
+/// the size of the displacement that lose as much per half swing, but begin a quarter or half a period earlier, and
+/// are zero while the mass is held or rests.
+pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Guess> {
     /// Periods by which the release may be earlier or later.
     const PERIODS: [f64; 7] = [0.0, -0.2, 0.2, -1.0, 1.0, -2.0, 2.0];
     let cleaned = if noise.has_outliers { without_jumps(x) } else { x.to_vec() };
@@ -47,27 +52,42 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
     }
     let again = excited_again(t, &cleaned, &extremes);
     let first = *extremes.first()?;
-    let begins = begins(t, &cleaned, noise, first, period);
-    let begin = first.t - 0.5 * period;
+    let is_displacement = signal.is_displacement();
+    // From the release to the first extreme.
+    let lead = 0.5 - 0.25 * real(signal.order());
+    let begins = begins(t, &cleaned, noise, first, (period, lead));
+    let begin = first.t - lead * period;
     let level_before =
         |begin: f64| median(cleaned[..t.partition_point(|&t| t < begin).max(1)].to_vec());
     let hold = level_before(begin);
     let struck = Some(hold).filter(|_| begins == Begins::Held);
-    let struck = struck.and_then(|hold| struck_at(t, &cleaned, noise, hold, &extremes));
+    let struck = struck.and_then(|hold| {
+        if is_displacement {
+            struck_at(t, &cleaned, noise, hold, &extremes)
+        } else {
+            Some(t.partition_point(|&t| t < first.t + 0.25 * period))
+        }
+    });
     let tail =
         (6.0 * noise.deviation / samples_within(t, period / 12.0).sqrt()).max(0.02 * (high - low));
     let mut with_rest = extremes.clone();
-    with_rest.extend(rest(t, &cleaned, &extremes, period, tail));
+    if is_displacement {
+        with_rest.extend(rest(t, &cleaned, &extremes, period, tail));
+    }
     let unknowns = |averaged: &AveragedDamping, q0: f64, last: f64| {
-        let mut p: Unknowns = [0.0; 8];
+        let mut p: Unknowns = [0.0; UNKNOWNS];
         (p[OMEGA0], p[OFFSET]) = (2.0 * PI / period, averaged.offset);
-        (p[D], p[D2], p[D3], p[R]) = (averaged.d, averaged.d2, averaged.d3, averaged.r);
+        // The middles of the swings of a velocity are not shifted.
+        let d2 = if is_displacement { averaged.d2 } else { 0.0 };
+        (p[D], p[D2], p[D3], p[R]) = (averaged.d, d2, averaged.d3, averaged.r);
         (p[Q0], p[LAST]) = (q0, last);
         p
     };
     let moving = || {
         let guess = |averaged: &AveragedDamping| {
-            let (q0, v0) = first_state(t, &cleaned, &unknowns(averaged, 0.0, 0.0), period)?;
+            let (cosine, sine) = first_state(t, &cleaned, &unknowns(averaged, 0.0, 0.0), period)?;
+            let is_velocity = signal == Signal::Velocity;
+            let (q0, v0) = if is_velocity { (-sine, cosine) } else { (cosine, sine) };
             Some(unknowns(averaged, q0, v0))
         };
         regressions(&with_rest).iter().filter_map(guess).collect()
@@ -79,11 +99,15 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
         let guesses = begins.into_iter().filter(|begin| t[0] < *begin && *begin < t[t.len() - 1]);
         let at = |begin: f64| {
             let hold = level_before(begin);
-            let swings = with_rest.iter().filter(|extreme| extreme.t > begin + 0.25 * period);
-            let swings: Vec<Extreme> =
-                std::iter::once(Extreme { t: begin, x: hold }).chain(swings.copied()).collect();
+            let next = begin + if signal == Signal::Velocity { 0.1 } else { 0.25 } * period;
+            let swings = with_rest.iter().filter(|extreme| extreme.t > next);
+            let held = is_displacement.then_some(Extreme { t: begin, x: hold });
+            let swings: Vec<Extreme> = held.into_iter().chain(swings.copied()).collect();
             let found = regressions(&swings);
-            found.iter().map(|it| unknowns(it, hold - it.offset, begin)).collect::<Vec<_>>()
+            found
+                .iter()
+                .map(|it| unknowns(it, held_at(&swings, it, signal), begin))
+                .collect::<Vec<_>>()
         };
         guesses.flat_map(at).collect()
     };
@@ -102,16 +126,29 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise) -> Option<Guess> {
             beginning(StartKind::Release, false, released()),
         ],
         Begins::Moving => vec![
-            beginning(StartKind::Moving, true, moving()),
+            beginning(StartKind::Moving, is_displacement, moving()),
             beginning(StartKind::Release, false, released()),
         ],
     };
-    if begins == Begins::Held {
+    if begins == Begins::Held && is_displacement {
         with_rest.insert(0, Extreme { t: begin, x: hold });
     }
     let extremes = with_rest;
     let is_guessed = beginnings.iter().any(|beginning| !beginning.guesses.is_empty());
     is_guessed.then_some(Guess { beginnings, extremes, struck, again })
+}
+
+/// Where the mass was held, from the offset. In other signals than the displacement, of which the hold is the first
+/// extreme, it is not seen: it follows from the next swing and what was lost since.
+fn held_at(swings: &[Extreme], averaged: &AveragedDamping, signal: Signal) -> f64 {
+    let first = swings[0].x - averaged.offset;
+    let half_swings = match signal {
+        Signal::Displacement => return first,
+        Signal::Velocity => 0.5,
+        Signal::Acceleration => 1.0,
+    };
+    let lost = half_swings * (2.0 * averaged.r + PI * averaged.d * first.abs());
+    -first - first.signum() * lost
 }
 
 /// Average number of samples in a stretch of time, at least one.
@@ -165,12 +202,18 @@ enum Begins {
 
 /// A moving mass turns within half a period. If the first turn comes later and the record before it scatters no
 /// more than the noise, the mass was held. The scatter is checked because a growing motion begins small and looks
-/// like a hold.
-fn begins(t: &[f64], x: &[f64], noise: &Noise, first: Extreme, period: f64) -> Begins {
+/// like a hold. The first extreme of a held mass comes `lead` periods after its release.
+fn begins(
+    t: &[f64],
+    x: &[f64],
+    noise: &Noise,
+    first: Extreme,
+    (period, lead): (f64, f64),
+) -> Begins {
     /// Fewest samples that show a hold.
     const FEWEST: usize = 5;
     let natural = (first.t - t[0]) / period;
-    let begin = &x[..t.partition_point(|&time| time < first.t - 0.55 * period)];
+    let begin = &x[..t.partition_point(|&time| time < first.t - (0.05 + lead) * period)];
     let level = median(begin.to_vec());
     let spread = robust_deviation(begin.iter().map(|x| x - level));
     match natural {

@@ -1,5 +1,7 @@
 //! The header lines above the numbers: names of columns and their units.
 
+use super::signal::{Quantity, Signal, quantity};
+
 /// Units of time and their values in seconds.
 pub const TIME_UNITS: [(&str, f64); 7] = [
     ("s", 1.0),
@@ -10,22 +12,6 @@ pub const TIME_UNITS: [(&str, f64); 7] = [
     ("h", 3600.0),
     ("sec", 1.0),
 ];
-
-/// Units of quantities that are no displacements.
-const OTHERS: [(&str, &[&str]); 5] = [
-    ("velocity", &["m/s", "mm/s", "um/s", "cm/s", "in/s"]),
-    ("acceleration", &["m/s^2", "m/s2", "m/s\u{b2}", "mm/s^2", "mm/s2", "mm/s\u{b2}", "g"]),
-    ("force", &["N", "mN", "kN", "lbf"]),
-    ("voltage", &["V", "mV", "uV"]),
-    ("current", &["A", "mA"]),
-];
-
-/// The quantity that a unit belongs to, if it is known not to be a length.
-pub fn other_dimension(unit: &str) -> Option<&'static str> {
-    let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u");
-    let found = OTHERS.iter().find(|(_, units)| units.contains(&plain.as_str()));
-    found.map(|(quantity, _)| *quantity)
-}
 
 /// Parts of the names of time columns, in lower case.
 const TIMES: [&str; 5] = ["time", "zeit", "temps", "tiempo", "seconds"];
@@ -44,6 +30,12 @@ const DISPLACEMENTS: [&str; 11] = [
     "distance",
     "x",
     "q",
+];
+
+/// Parts of the names of columns that hold other signals, in lower case.
+const SIGNALS: [(Signal, [&str; 3]); 2] = [
+    (Signal::Velocity, ["velocity", "geschw", "vitesse"]),
+    (Signal::Acceleration, ["accel", "beschl", "acc\u{e9}l"]),
 ];
 
 /// Names and units of the columns.
@@ -74,6 +66,19 @@ impl ColumnHeader {
                 let unit = (!unit.is_empty() && unit != "-").then(|| unit.to_owned());
                 return ColumnHeader { name: name.trim().to_owned(), unit };
             }
+        }
+        // The longest unit that is known: after the first sign of `v/mm/s`.
+        let signs = ["/", " in ", ", "];
+        let splits = signs.iter().flat_map(|sign| cell.match_indices(sign));
+        let known = splits.filter_map(|(at, sign)| {
+            let unit = cell[at + sign.len()..].trim();
+            (seconds(unit).is_some() || quantity(unit).is_some()).then_some((at, unit))
+        });
+        if let Some((at, unit)) = known.min_by_key(|(at, _)| *at) {
+            return ColumnHeader {
+                name: cell[..at].trim().to_owned(),
+                unit: Some(unit.to_owned()),
+            };
         }
         for sign in ["/", " in ", ", ", "_"] {
             if let Some((name, unit)) = cell.rsplit_once(sign)
@@ -147,6 +152,24 @@ impl Header {
     pub fn time(&self) -> Option<usize> {
         let called = |name: &str| TIMES.iter().any(|time| name.to_lowercase().contains(time));
         self.find(called, None).or_else(|| self.find(|name| name == "t", None))
+    }
+
+    /// The signal that the name of a column suggests.
+    pub fn suggested(&self, column: usize) -> Option<Signal> {
+        let name = self.columns.get(column)?.name.to_lowercase();
+        let has = |parts: &[&str]| parts.iter().any(|part| name.contains(part));
+        SIGNALS.iter().find(|(_, parts)| has(parts)).map(|(signal, _)| *signal)
+    }
+
+    /// The first column with a unit of a signal, or else with a name that suggests it.
+    pub fn measuring(&self, signal: Signal, time: Option<usize>) -> Option<usize> {
+        let columns = || (0..self.columns.len()).filter(|column| Some(*column) != time);
+        let has_unit = |column: &usize| {
+            let unit = self.unit(*column).and_then(|unit| quantity(&unit));
+            matches!(unit, Some(Quantity::Signal(known, ..)) if known == signal)
+        };
+        let by_name = || columns().find(|column| self.suggested(*column) == Some(signal));
+        columns().find(has_unit).or_else(by_name)
     }
 
     /// The column of displacements; `time` is the column of times, which is skipped.

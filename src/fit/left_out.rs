@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
+use super::dropped::dropped;
 use super::estimate::Estimate;
-use super::observation::Data;
 use super::record::Record;
 
 /// Samples that do not count, with at most one between two of them that does.
@@ -20,18 +20,19 @@ pub struct LeftOut {
 /// All samples of a record that do not count, in the order of their times; none for a list of peaks.
 #[must_use]
 pub fn left_out(record: &Record, estimate: &Estimate) -> Vec<LeftOut> {
-    let Data::Samples { t, .. } = &estimate.data else { return Vec::new() };
-    let counted = t.iter().zip(&estimate.used).filter(|(_, used)| **used).map(|(t, _)| *t);
-    between(record.t.as_deref().unwrap_or_default(), counted)
+    if estimate.data.has_peaks() {
+        return Vec::new();
+    }
+    let counts = dropped(record, estimate).into_iter().map(|why| why.is_none());
+    stretches(record.t.iter().flatten().copied().zip(counts))
 }
 
-/// Stretches of the times `all` that are not `counted`.
-fn between(all: &[f64], counted: impl Iterator<Item = f64>) -> Vec<LeftOut> {
-    let mut counted = counted.peekable();
+/// Stretches of the times of samples that do not count.
+fn stretches(samples: impl Iterator<Item = (f64, bool)>) -> Vec<LeftOut> {
     let mut found: Vec<LeftOut> = Vec::new();
     let mut since = 0;
-    for &t in all {
-        if counted.next_if_eq(&t).is_some() {
+    for (t, counts) in samples {
+        if counts {
             since += 1;
             continue;
         }
@@ -50,16 +51,15 @@ mod tests {
 
     #[test]
     fn samples_that_do_not_count_are_found_in_stretches() {
-        let all: Vec<f64> = (0..12).map(f64::from).collect();
-        let counted = [2, 3, 5, 8, 9, 10, 11].map(f64::from);
+        let of =
+            |counted: &[u8]| stretches((0..12_u8).map(|t| (f64::from(t), counted.contains(&t))));
         let stretch = |from: i32, to: i32, samples| LeftOut {
             from: f64::from(from),
             to: f64::from(to),
             samples,
         };
-        let found = between(&all, counted.into_iter());
-        assert_eq!(found, [stretch(0, 1, 2), stretch(4, 7, 3)]);
-        assert_eq!(between(&all, all.iter().copied()), []);
-        assert_eq!(between(&all, [].into_iter()), [stretch(0, 11, 12)]);
+        assert_eq!(of(&[2, 3, 5, 8, 9, 10, 11]), [stretch(0, 1, 2), stretch(4, 7, 3)]);
+        assert_eq!(of(&(0..12).collect::<Vec<u8>>()), []);
+        assert_eq!(of(&[]), [stretch(0, 11, 12)]);
     }
 }

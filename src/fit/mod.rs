@@ -42,6 +42,7 @@ pub(crate) mod curves;
 pub(crate) mod decrements;
 #[doc(hidden)]
 pub mod drift;
+pub(crate) mod drifting;
 #[doc(hidden)]
 pub mod dropped;
 #[doc(hidden)]
@@ -51,6 +52,7 @@ pub(crate) mod guess;
 pub(crate) mod half_swing;
 pub(crate) mod header;
 pub(crate) mod inertia;
+pub(crate) mod jumps;
 pub(crate) mod left_out;
 #[doc(hidden)]
 pub mod levenberg_marquardt;
@@ -77,6 +79,7 @@ pub(crate) mod sampled;
 pub(crate) mod samples;
 pub(crate) mod search;
 pub(crate) mod separable;
+pub(crate) mod signal;
 pub(crate) mod spectrum;
 pub(crate) mod triangle;
 pub(crate) mod turning_points;
@@ -85,11 +88,12 @@ pub(crate) mod valley;
 
 pub use estimate::Estimate;
 pub use fitted::Fitted;
-pub use inertia::{Inertia, LENGTHS, length_in_metres};
+pub use inertia::Inertia;
 pub use margin::{DRAWS, MarginQuestion, Margins, margins};
 pub use observation::parameters;
 pub use question::{LOSSES, LossName, Question, Unfit};
 pub use record::{BadRecord, Column, Reading, Record, parse};
+pub use signal::{LENGTHS, Signal, length_in_metres};
 
 use std::cell::Cell;
 

@@ -7,6 +7,7 @@
 //! Inside a half swing a later start only delays the motion: `dq` contains `-v dtau`.
 
 use super::half_swing::{Jet, Stretch};
+use super::signal::Signal;
 use crate::numerics::elementary::hypot;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
 
@@ -32,8 +33,20 @@ pub struct MotionPoint {
     pub q: f64,
     /// Velocity.
     pub v: f64,
-    /// Derivatives of the displacement at a fixed time.
+    /// The signal: displacement, velocity or acceleration.
+    pub signal: f64,
+    /// Its derivative by the time.
+    pub rate: f64,
+    /// Its derivatives at a fixed time.
     pub by: Gradient,
+}
+
+impl MotionPoint {
+    /// A mass at rest.
+    fn resting(q: f64, by: Gradient, signal: Signal) -> Self {
+        let point = MotionPoint { q, ..MotionPoint::default() };
+        if signal.is_displacement() { MotionPoint { signal: q, by, ..point } } else { point }
+    }
 }
 
 /// A turning point.
@@ -69,6 +82,8 @@ pub struct Way {
     pub reach: f64,
     /// Maximum number of turning points; no points are computed after that.
     pub turns: usize,
+    /// What is measured.
+    pub signal: Signal,
 }
 
 /// The motion grew beyond its reach, or took too many half swings or steps.
@@ -99,7 +114,8 @@ pub fn follow(
     let mut next = 0;
     let Some(mut side) = Side::entered_from(start, r) else {
         let by = [0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-        (0..times.len()).for_each(|index| see(index, MotionPoint { q: start.q, v: 0.0, by }));
+        let point = MotionPoint::resting(start.q, by, way.signal);
+        (0..times.len()).for_each(|index| see(index, point));
         followed.rests = true;
         return Ok(followed);
     };
@@ -123,7 +139,7 @@ pub fn follow(
         x = 2.0 * r - end;
         v = 0.0;
         if x >= 0.0 {
-            let point = MotionPoint { q: turn.q, v: 0.0, by: turn.q_by };
+            let point = MotionPoint::resting(turn.q, turn.q_by, way.signal);
             (next..times.len()).for_each(|index| see(index, point));
             followed.rests = true;
             return Ok(followed);
@@ -195,7 +211,6 @@ impl<'a> HalfSwing<'a> {
         way: Way,
         see: &mut impl FnMut(usize, MotionPoint),
     ) -> Result<(Option<FittedTurn>, f64), MotionLost> {
-        let (sign, r) = (self.side.sign(), self.parameters.r);
         let Way { linear, with_derivatives, reach, .. } = way;
         let mut stretch =
             Stretch::new(self.field, self.start, linear, with_derivatives).ok_or(MotionLost)?;
@@ -205,17 +220,14 @@ impl<'a> HalfSwing<'a> {
             while let Some(&time) = times.get(*next)
                 && time - tau <= until
             {
-                let (x, v, ways) = stretch.at(time - tau - passed);
-                let mut point = MotionPoint { q: sign * (x - r), v: sign * v, by: [0.0; NUMBERS] };
-                if with_derivatives {
-                    point.by = self.combined(&ways);
-                    point.by[R] -= 1.0;
-                    for p in 0..NUMBERS {
-                        let delay = self.along[p] - self.chain.tau[p];
-                        point.by[p] = sign * (point.by[p] + delay * v);
-                    }
-                }
-                see(*next, point);
+                let passing = time - tau - passed;
+                let jet = if with_derivatives && !way.signal.is_displacement() {
+                    stretch.jet(passing)
+                } else {
+                    let (x, v, y) = stretch.at(passing);
+                    Jet { x, v, y, ..Jet::default() }
+                };
+                see(*next, self.point(&jet, way));
                 *next += 1;
             }
             if *next >= times.len() {
@@ -235,6 +247,42 @@ impl<'a> HalfSwing<'a> {
             }
         }
         Err(MotionLost)
+    }
+
+    /// A point of the motion. The derivatives of the acceleration follow from the equation of motion.
+    fn point(&self, jet: &Jet, way: Way) -> MotionPoint {
+        let (sign, Jet { x, v, .. }) = (self.side.sign(), *jet);
+        let force = self.field.acceleration(x, v);
+        let slope = self.field.divergence(v);
+        let (signal, rate) = match way.signal {
+            Signal::Displacement => (x - self.parameters.r, v),
+            Signal::Velocity => (v, force),
+            Signal::Acceleration => (force, slope * force - v),
+        };
+        let mut by = [0.0; NUMBERS];
+        if way.with_derivatives {
+            by = match way.signal {
+                Signal::Displacement => {
+                    let mut by = self.combined(&jet.y);
+                    by[R] -= 1.0;
+                    by
+                }
+                Signal::Velocity => self.combined(&jet.w),
+                Signal::Acceleration => {
+                    let (moved, sped) = (self.combined(&jet.y), self.combined(&jet.w));
+                    let mut by: Gradient = std::array::from_fn(|p| slope * sped[p] - moved[p]);
+                    by[0] -= 2.0 * v;
+                    by[1] -= sign * v * v;
+                    by[2] -= v * v * v;
+                    by
+                }
+            };
+            for (p, by) in by.iter_mut().enumerate() {
+                *by = sign * (*by + (self.along[p] - self.chain.tau[p]) * rate);
+            }
+        }
+        let q = sign * (x - self.parameters.r);
+        MotionPoint { q, v: sign * v, signal: sign * signal, rate: sign * rate, by }
     }
 
     fn turn(&self, tau: f64, end: &Jet) -> FittedTurn {
@@ -268,7 +316,8 @@ mod tests {
     ];
 
     fn way(linear: bool, with_derivatives: bool) -> Way {
-        Way { linear, with_derivatives, reach: 1e4, turns: usize::MAX }
+        let signal = Signal::Displacement;
+        Way { linear, with_derivatives, reach: 1e4, turns: usize::MAX, signal }
     }
 
     fn points(parameters: &Parameters, start: State, times: &[f64], way: Way) -> Vec<MotionPoint> {
@@ -298,16 +347,23 @@ mod tests {
         }
     }
 
+    const SIGNALS: [Signal; 3] = [Signal::Displacement, Signal::Velocity, Signal::Acceleration];
+
+    /// Velocity and acceleration are differentiated in the same way as the displacement. Where a turning point lies
+    /// between the two sides of a difference the acceleration jumps, and there is none.
     #[test]
     fn derivatives_are_those_of_differences_through_every_event() {
         const STEP: f64 = 1e-6;
-        for (parameters, start) in MOTIONS {
+        for ((parameters, start), signal) in
+            MOTIONS.into_iter().flat_map(|motion| SIGNALS.map(|signal| (motion, signal)))
+        {
             let numbers =
                 [parameters.d, parameters.d2, parameters.d3, parameters.r, start.q, start.v];
             let at = |numbers: [f64; NUMBERS], with_derivatives: bool| {
                 let [d, d2, d3, r, q, v] = numbers;
                 let parameters = Parameters { d, d2, d3, r };
-                points(&parameters, State { q, v }, &times(), way(false, with_derivatives))
+                let way = Way { signal, ..way(false, with_derivatives) };
+                points(&parameters, State { q, v }, &times(), way)
             };
             let exact = at(numbers, true);
             for p in (0..NUMBERS).filter(|&p| p != 5 || start.v != 0.0) {
@@ -319,10 +375,36 @@ mod tests {
                 let (above, below) = (moved(STEP), moved(-STEP));
                 let largest = exact.iter().map(|point| point.by[p].abs()).fold(0.0, f64::max);
                 for ((exact, above), below) in exact.iter().zip(&above).zip(&below) {
-                    let difference = (above.q - below.q) / (2.0 * STEP);
+                    if above.v.signum() != below.v.signum() {
+                        continue;
+                    }
+                    let difference = (above.signal - below.signal) / (2.0 * STEP);
                     let off = (exact.by[p] - difference).abs();
-                    assert!(off < 1e-6 * largest, "{parameters:?}: number {p}: {off} of {largest}");
+                    assert!(
+                        off < 1e-6 * largest,
+                        "{signal}, {parameters:?}: number {p}: {off} of {largest}"
+                    );
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn each_signal_is_the_rate_of_the_one_before_and_a_mass_at_rest_shows_none() {
+        for (parameters, start) in MOTIONS {
+            let [q, v, a] = SIGNALS.map(|signal| {
+                points(&parameters, start, &times(), Way { signal, ..way(false, true) })
+            });
+            // A mass that is released is in motion from the first moment on, without velocity.
+            for ((q, v), a) in q.iter().zip(&v).zip(&a).skip(1) {
+                assert_eq!((q.signal, q.rate, v.rate), (q.q, v.signal, a.signal));
+                let friction = if v.v == 0.0 { 0.0 } else { parameters.r * v.v.signum() };
+                let Parameters { d, d2, d3, .. } = parameters;
+                let force = 2.0 * d * v.v + d2 * v.v * v.v + d3 * v.v * v.v * v.v;
+                let moves = v.v != 0.0;
+                let is = if moves { -force - q.q - friction } else { 0.0 };
+                assert!((a.signal - is).abs() < 1e-12 * start.q.abs(), "{parameters:?} {a:?}");
+                assert!(moves || (v.signal, a.by, v.by) == (0.0, [0.0; NUMBERS], [0.0; NUMBERS]));
             }
         }
     }

@@ -139,6 +139,7 @@ impl Choice {
     /// The values at which unknowns are held; `None` for the free ones.
     pub fn unknowns(&self) -> [Option<f64>; UNKNOWNS] {
         let mut held = [None; UNKNOWNS];
+        (held[observation::SLOPE], held[observation::BEND]) = (Some(0.0), Some(0.0));
         for row in &NAMES {
             held[row.place] = self.held(row);
         }

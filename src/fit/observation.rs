@@ -2,15 +2,17 @@
 //!
 //! `x(t) = offset + q(omega0 (t - t0); D, D2, D3, r, q0, v0)` in the unit of the record. The mass is either
 //! held until an unknown time of release, or in motion from the first sample on; the two cases differ only in
-//! the last of the eight unknowns. Turning points, with or without times, are the same motion observed only
-//! where `v = 0`.
+//! one of the unknowns. Of a velocity or an acceleration, `q` is replaced by `omega0 q'` or `omega0^2 q''`, and the
+//! offset is that of the signal. It may drift along a parabola, whose two numbers are held at zero unless the
+//! record shows a drift. Turning points, with or without times, are the same motion observed only where `v = 0`.
 
 use super::motion::{FittedTurn, Gradient, MotionLost, Way, follow};
+use super::signal::Signal;
 use crate::numerics::count::real;
 use crate::oscillator::{Parameters, State};
 
 /// Number of unknowns.
-pub const UNKNOWNS: usize = 8;
+pub const UNKNOWNS: usize = 10;
 
 /// Places of the unknowns.
 pub const OMEGA0: usize = 0;
@@ -28,6 +30,10 @@ pub const R: usize = 5;
 pub const Q0: usize = 6;
 /// The time of release, of the first peak, or the velocity at the first sample.
 pub const LAST: usize = 7;
+/// The change of the offset from the beginning to the end of the record.
+pub const SLOPE: usize = 8;
+/// Four times the height of the ends of the record above its middle, by which the offset bends; its mean is zero.
+pub const BEND: usize = 9;
 
 /// Values of the unknowns: angular frequency in 1/s, lengths in the unit of the record, times in s, the initial
 /// velocity as `velocity/omega0`.
@@ -45,12 +51,14 @@ pub enum StartKind {
 /// What was measured.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Data {
-    /// Displacements at ascending times.
+    /// A signal at ascending times.
     Samples {
         /// Times in s.
         t: Vec<f64>,
-        /// Displacements.
+        /// The signal.
         x: Vec<f64>,
+        /// What was measured.
+        signal: Signal,
     },
     /// Successive turning points.
     Peaks {
@@ -79,13 +87,42 @@ impl Data {
         matches!(self, Data::Peaks { .. })
     }
 
-    /// The displacements.
+    /// The displacements, or whatever the signal is.
     #[must_use]
-    pub fn displacements(&self) -> &[f64] {
+    pub fn values(&self) -> &[f64] {
         match self {
             Data::Samples { x, .. } | Data::Peaks { x, .. } => x,
         }
     }
+
+    /// What was measured.
+    #[must_use]
+    pub fn signal(&self) -> Signal {
+        match self {
+            Data::Samples { signal, .. } => *signal,
+            Data::Peaks { .. } => Signal::Displacement,
+        }
+    }
+
+    /// The offset at a time.
+    #[must_use]
+    pub fn zero(&self, p: &Unknowns, time: f64) -> f64 {
+        match self {
+            Data::Samples { t, .. } => zero(p, drift(t, time)),
+            Data::Peaks { .. } => p[OFFSET],
+        }
+    }
+}
+
+/// The derivatives of the offset by [`SLOPE`] and [`BEND`] at a time.
+pub fn drift(t: &[f64], time: f64) -> [f64; 2] {
+    let (first, last) = (t[0], t[t.len() - 1]);
+    let part = if last > first { (time - first) / (last - first) - 0.5 } else { 0.0 };
+    [part, part * part - 1.0 / 12.0]
+}
+
+fn zero(p: &Unknowns, [slope, bend]: [f64; 2]) -> f64 {
+    p[OFFSET] + p[SLOPE] * slope + p[BEND] * bend
 }
 
 /// A residual, with the derivatives of the computed value.
@@ -173,33 +210,66 @@ impl Observation {
             with_derivatives,
             reach: self.reach,
             turns: usize::MAX,
+            signal: self.data.signal(),
         };
         match &self.data {
-            Data::Samples { t, x } => self.samples(p, t, x, way),
+            Data::Samples { t, x, .. } => self.samples(p, t, x, way),
             Data::Peaks { t, x, ratio } => peaks(p, t.as_deref(), x, *ratio, way),
         }
     }
 
-    fn samples(&self, p: &Unknowns, t: &[f64], x: &[f64], way: Way) -> Result<Seen, MotionLost> {
-        let (held, origin, velocity) = match self.start {
+    /// The number of samples before the motion, the time of its beginning, and its first state.
+    fn begun(&self, p: &Unknowns, t: &[f64]) -> (usize, f64, State) {
+        let (held, origin, v) = match self.start {
             StartKind::Release => (t.partition_point(|&t| t < p[LAST]), p[LAST], 0.0),
             StartKind::Moving => (0, t.first().copied().unwrap_or(0.0), p[LAST]),
         };
+        (held, origin, State { q: p[Q0], v })
+    }
+
+    /// Displacement and velocity over `omega0` at each sample; none for peaks, or if the motion escapes.
+    pub fn states(&self, p: &Unknowns) -> Vec<State> {
+        let Data::Samples { t, .. } = &self.data else { return Vec::new() };
+        let (held, origin, start) = self.begun(p, t);
+        let mut states = vec![State { q: p[Q0], v: 0.0 }; held];
+        let times: Vec<f64> = t[held..].iter().map(|t| p[OMEGA0] * (t - origin)).collect();
+        let way = Way {
+            linear: false,
+            with_derivatives: false,
+            reach: self.reach,
+            turns: usize::MAX,
+            signal: Signal::Displacement,
+        };
+        let followed = follow(&parameters(p), start, &times, way, |_, point| {
+            states.push(State { q: point.q, v: point.v });
+        });
+        if followed.is_ok() { states } else { Vec::new() }
+    }
+
+    fn samples(&self, p: &Unknowns, t: &[f64], x: &[f64], way: Way) -> Result<Seen, MotionLost> {
+        let (held, origin, start) = self.begun(p, t);
+        let order = way.signal.order();
+        let scale = (0..order).fold(1.0, |scale, _| scale * p[OMEGA0]);
         let mut residuals = Vec::with_capacity(x.len());
-        for &x in &x[..held] {
+        let mut push = |index: usize, mut by: Unknowns, motion: f64| {
+            let drift = drift(t, t[index]);
+            (by[OFFSET], by[SLOPE], by[BEND]) = (1.0, drift[0], drift[1]);
+            residuals.push(Residual { value: x[index] - zero(p, drift) - motion, by });
+        };
+        let still = if way.signal.is_displacement() { 1.0 } else { 0.0 };
+        for index in 0..held {
             let mut by = [0.0; UNKNOWNS];
-            (by[OFFSET], by[Q0]) = (1.0, 1.0);
-            residuals.push(Residual { value: x - p[OFFSET] - p[Q0], by });
+            by[Q0] = still;
+            push(index, by, still * p[Q0]);
         }
         let times: Vec<f64> = t[held..].iter().map(|t| p[OMEGA0] * (t - origin)).collect();
-        let start = State { q: p[Q0], v: velocity };
         let moving = self.start == StartKind::Moving;
         let followed = follow(&parameters(p), start, &times, way, |index, point| {
-            let mut by = unknowns(&point.by);
-            by[OMEGA0] = point.v * (t[held + index] - origin);
-            by[OFFSET] = 1.0;
-            by[LAST] = if moving { point.by[5] } else { -p[OMEGA0] * point.v };
-            residuals.push(Residual { value: x[held + index] - p[OFFSET] - point.q, by });
+            let mut by = unknowns(&point.by).map(|by| scale * by);
+            let passed = t[held + index] - origin;
+            by[OMEGA0] = scale * (point.rate * passed + real(order) * point.signal / p[OMEGA0]);
+            by[LAST] = scale * if moving { point.by[5] } else { -p[OMEGA0] * point.rate };
+            push(held + index, by, scale * point.signal);
         })?;
         let region = followed.rests.then_some(followed.turns.len());
         Ok(Seen { residuals, turns: followed.turns, rests: followed.rests, region })

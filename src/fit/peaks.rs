@@ -83,7 +83,7 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
 
 /// The least-squares problem with all residuals; the noise is not known beforehand.
 fn asked(data: &Data, free: [bool; UNKNOWNS]) -> LeastSquares<'_> {
-    let reach = reach(data.displacements());
+    let reach = reach(data.values());
     LeastSquares { data, free, loss: Loss::Linear, used: &[], noise: 0.0, reach }
 }
 

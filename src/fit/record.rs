@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::cells::{Cell, NumberedLine, Separator, lines, read};
 use super::clock;
 use super::header::{self, Header};
+use super::signal::{Measure, Signal, measure};
 
 /// A column of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,6 +30,10 @@ pub struct Reading {
     pub displacement: Option<Column>,
     /// Whether rows are successive turning points, with or without times.
     pub peaks: bool,
+    /// What was measured; `None` to tell it by the unit.
+    pub signal: Option<Signal>,
+    /// Unit of the signal, if the file does not name it.
+    pub unit: Option<String>,
 }
 
 /// The content of a file.
@@ -36,9 +41,12 @@ pub struct Reading {
 pub struct Record {
     /// Times in s; `None` for a list of peaks without times.
     pub t: Option<Vec<f64>>,
-    /// Displacements in the unit of the file.
+    /// The signal, in the unit of length and s; displacements in the unit of the file.
     pub x: Vec<f64>,
-    /// Unit of the displacements, if the file names one.
+    /// What was measured.
+    #[serde(default, skip_serializing_if = "Signal::is_displacement")]
+    pub signal: Signal,
+    /// Unit of length, if the file names one.
     pub unit: Option<String>,
     /// Number of rows without a usable number.
     pub missing: usize,
@@ -143,18 +151,23 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
             ),
         })?,
     };
-    let unit = header.unit(chosen.displacement);
-    if let Some(other) = unit.as_deref().and_then(header::other_dimension) {
-        return Err(BadRecord {
-            line: lines[first.saturating_sub(1)].number,
-            column: chosen.displacement + 1,
-            problem: format!(
-                "{:?} is a unit of {other}; expected displacements in a unit of length",
-                unit.unwrap_or_default()
-            ),
-        });
+    let column = chosen.displacement;
+    let bad = |problem: String| BadRecord {
+        line: lines[first.saturating_sub(1)].number,
+        column: column + 1,
+        problem,
+    };
+    let written = header.unit(column);
+    let suggested = header.suggested(column);
+    let Measure { signal, length, scale } =
+        measure(written.as_deref(), reading.unit.as_deref(), reading.signal, suggested)
+            .map_err(bad)?;
+    if reading.peaks && !signal.is_displacement() {
+        return Err(bad(format!(
+            "peaks are turning points, those of a displacement, not of a {signal}"
+        )));
     }
-    let mut record = Record { unit, ..Record::default() };
+    let mut record = Record { unit: length, signal, ..Record::default() };
     let mut rows: Vec<(f64, f64)> = Vec::new();
     for index in first..=last {
         let cell = |column: usize| -> Result<Cell, BadRecord> {
@@ -178,7 +191,7 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
         let t = chosen.time.map_or(Ok(Cell::Number(0.0)), &cell)?;
         let x = cell(chosen.displacement)?;
         match (t, x) {
-            (Cell::Number(t), Cell::Number(x)) => rows.push((seconds * t, x)),
+            (Cell::Number(t), Cell::Number(x)) => rows.push((seconds * t, scale * x)),
             _ => record.missing += 1,
         }
     }
@@ -217,7 +230,10 @@ fn columns(
     let mut time = reading.time.as_ref().map(place).transpose()?;
     let mut displacement = reading.displacement.as_ref().map(place).transpose()?;
     time = time.or_else(|| header.time().filter(|&column| Some(column) != displacement));
-    displacement = displacement.or_else(|| header.displacement(time));
+    let other = reading.signal.filter(|signal| !signal.is_displacement());
+    displacement = displacement
+        .or_else(|| other.and_then(|signal| header.measuring(signal, time)))
+        .or_else(|| header.displacement(time));
     let free = |taken: Option<usize>| (0..width).find(|&column| Some(column) != taken);
     if time.is_none() && reading.time.is_none() && (!reading.peaks || header.is_empty()) {
         let first = if displacement == Some(0) { None } else { Some(0) };
@@ -305,8 +321,11 @@ mod tests {
     fn columns_can_be_named_or_numbered() {
         let text = "a,b,c\n0,5,1\n1,6,2\n";
         let choose = |time, displacement| {
-            let reading =
-                Reading { time: Some(time), displacement: Some(displacement), peaks: false };
+            let reading = Reading {
+                time: Some(time),
+                displacement: Some(displacement),
+                ..Reading::default()
+            };
             parse(text.as_bytes(), &reading)
         };
         let record = choose(Column::Number(1), Column::Number(3)).unwrap();
@@ -347,7 +366,7 @@ mod tests {
             ("t,x\n0,1\n1,abc\n2,3\n", "line 3, column 2: \"abc\" is not a number"),
             ("t,x\n0,1\n1\n2,3\n", "line 3, column 2: 1 of at least 2 cells"),
             ("t [frames],x\n0,1\n1,2\n", "line 1, column 1: times in \"frames\"; allowed are s, "),
-            ("t [s],v [mm/s]\n0,1\n1,2\n", "line 1, column 2: \"mm/s\" is a unit of velocity"),
+            ("t [s],u [mV]\n0,1\n1,2\n", "line 1, column 2: \"mV\" is a unit of voltage"),
             ("t [s],force [N]\n0,1\n1,2\n", "line 1, column 2: \"N\" is a unit of force"),
             ("1\n2\n", "line 1: one column only"),
             ("", "the file holds no rows"),

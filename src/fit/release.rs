@@ -11,11 +11,13 @@ use super::observation::{
 use super::problem::LeastSquares;
 use super::question::placed;
 use super::search::{Beginning, Minima};
+use super::signal::Signal;
 use super::turning_points::Extreme;
 use crate::oscillator::State;
 
 /// The minima from guesses that release the held mass so that it comes into the motion after its first swings.
-/// `extremes` are the hold and the turning points. `None` if there is no such motion; fails with [`NoFit::Interrupted`].
+/// `extremes` are the hold and the turning points. `None` if there is no such motion, or if the
+/// signal does not show where the mass was held; fails with [`NoFit::Interrupted`].
 pub fn released_before(
     problem: &LeastSquares,
     held: &[Option<f64>; UNKNOWNS],
@@ -28,16 +30,21 @@ pub fn released_before(
     const PART: usize = 4;
     /// Number of swings between the release and the fitted motion, at most.
     const SWINGS: usize = 60;
-    let Data::Samples { t, x } = problem.data else { return Ok(None) };
+    let signal = Signal::Displacement;
+    let Data::Samples { t, x, signal: Signal::Displacement } = problem.data else {
+        return Ok(None);
+    };
     let first = extremes[FIRST.min(extremes.len() / PART)];
     let from = t.partition_point(|&t| t < first.t);
     let (later, times) = (&x[from..], &t[from..]);
-    let Some(Guess { mut beginnings, .. }) = guess(times, later, noise) else { return Ok(None) };
+    let Some(Guess { mut beginnings, .. }) = guess(times, later, noise, signal) else {
+        return Ok(None);
+    };
     beginnings.retain(|beginning| beginning.start == StartKind::Moving);
     for guess in beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
         *guess = placed(held, *guess);
     }
-    let data = Data::Samples { t: times.to_vec(), x: later.to_vec() };
+    let data = Data::Samples { t: times.to_vec(), x: later.to_vec(), signal };
     let part = LeastSquares { data: &data, ..*problem };
     let Ok(found) = interrupted(part.search(&beginnings, runs))? else { return Ok(None) };
     let optimum = &found.valleys[0].optimum;
@@ -46,7 +53,8 @@ pub fn released_before(
     };
     let p = &optimum.p;
     let begin = State { q: extremes[0].x - p[OFFSET], v: 0.0 };
-    let way = Way { linear: false, with_derivatives: false, reach: problem.reach, turns: SWINGS };
+    let way =
+        Way { linear: false, with_derivatives: false, reach: problem.reach, turns: SWINGS, signal };
     let Ok(motion) = follow(&parameters(p), begin, &[f64::MAX], way, |_, _| {}) else {
         return Ok(None);
     };

@@ -1,11 +1,14 @@
 //! Fits a sampled motion.
 
+use std::f64::consts::TAU;
+
+use super::drift;
 use super::estimate::{Estimate, judged};
 use super::guess::{Guess, guess};
 use super::levenberg_marquardt::{NoFit, Runs};
 use super::loss::Loss;
 use super::noise::{IMPOSSIBLE, Noise, robust_deviation, within_scale};
-use super::observation::{Data, LAST, OMEGA0, StartKind};
+use super::observation::{BEND, Data, LAST, OFFSET, OMEGA0, SLOPE, StartKind};
 use super::problem::LeastSquares;
 use super::question::{LossName, Question, Unfit, placed, reach};
 use super::record::Record;
@@ -18,7 +21,8 @@ use crate::numerics::elementary::powi;
 /// Fits a record of samples. Fails with [`Unfit`].
 pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
     let all = record.t.as_deref().unwrap_or_default();
-    let per_period = dominant_frequency(all, &record.x).map_or(f64::INFINITY, |frequency| {
+    let frequency = dominant_frequency(all, &record.x);
+    let per_period = frequency.map_or(f64::INFINITY, |frequency| {
         real(all.len()) / ((all[all.len() - 1] - all[0]) * frequency)
     });
     let within = within_scale(&record.x, &Noise::of(&record.x, per_period));
@@ -33,49 +37,72 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
         return Err(Unfit::TooFew { measured: x.len(), unknowns });
     }
     let noise = Noise::of(&x, per_period);
-    let Guess { mut beginnings, extremes, struck, again } =
-        guess(&t, &x, &noise).ok_or(Unfit::NoSwings)?;
+    let signal = record.signal;
+    let omega0 = TAU * frequency.unwrap_or(1.0);
+    let factor = signal.as_displacement(omega0);
+    let swinging: Vec<f64> = x.iter().map(|x| factor * x).collect();
+    let quiet = Noise {
+        deviation: factor.abs() * noise.deviation,
+        step: factor.abs() * noise.step,
+        ..noise
+    };
+    let guessed = |[slope, bend]: [f64; 2]| {
+        let level = drift::without(&t, &swinging, [factor * slope, factor * bend]);
+        let mut guess = guess(&t, &level, &quiet, signal)?;
+        for p in guess.beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
+            p[OFFSET] /= factor;
+            *p = placed(&held, *p);
+            (p[SLOPE], p[BEND]) = (slope, bend);
+        }
+        Some(guess)
+    };
+    let Guess { beginnings, mut extremes, struck, again } =
+        guessed([0.0; 2]).ok_or(Unfit::NoSwings)?;
     let saturated = all.len() - x.len();
-    let mut part = |t: &[f64], x: &[f64]| {
-        let part = Record { t: Some(t.to_vec()), x: x.to_vec(), ..Record::default() };
+    let part = |t: &[f64], x: &[f64], runs: &mut Runs| {
+        let part = Record { t: Some(t.to_vec()), x: x.to_vec(), signal, ..Record::default() };
         samples(&part, question, runs).ok().filter(|found| !found.whiteness.systematic)
     };
     if let Some(until) = again
-        && let Some(found) = part(&t[..until], &x[..until])
+        && let Some(found) = part(&t[..until], &x[..until], runs)
     {
         return Ok(Estimate { after: x.len() - until, saturated, ..found });
     }
-    if let Some(from) = struck
-        && let Some(found) = part(&t[from..], &x[from..])
+    if let Some(from) = struck.filter(|_| signal.is_displacement())
+        && let Some(found) = part(&t[from..], &x[from..], runs)
     {
         return Ok(Estimate { before: from, saturated, ..found });
     }
-    for guess in beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
-        *guess = placed(&held, *guess);
-    }
-    let scale = 3.0 * noise.deviation;
-    let loss = match question.loss {
-        LossName::Auto if noise.has_outliers => Loss::SoftL1 { scale },
-        LossName::Auto | LossName::Linear => Loss::Linear,
-        LossName::SoftL1 => Loss::SoftL1 { scale },
-        LossName::Cauchy => Loss::Cauchy { scale },
-    };
-    let reach = reach(&x);
-    let data = Data::Samples { t, x };
+    let loss = loss_of(question.loss, &noise);
+    let reach = reach(&swinging);
+    let data = Data::Samples { t: t.clone(), x: x.clone(), signal };
     let mut problem =
         LeastSquares { data: &data, free, loss, used: &[], noise: noise.deviation, reach };
     let mut found = problem.search(&beginnings, runs)?;
-    let is_held = beginnings[0].start == StartKind::Release;
-    if is_held && !problem.explains(&found.valleys[0].optimum) {
+    if beginnings[0].start == StartKind::Release && !problem.explains(&found.valleys[0].optimum) {
         let other = released_before(&problem, &held, &noise, &extremes, runs)?;
         let cost = |of: &Minima| of.valleys[0].optimum.cost;
         found = other.filter(|other| cost(other) < cost(&found)).unwrap_or(found);
     }
-    let mut used = vec![true; data.residuals()];
-    let mut alike = used.clone();
+    let swings = drift::of_swings(&t, &extremes).map(|drift| drift / factor);
+    let drifting = || guessed(swings).map(|guess| guess.beginnings).unwrap_or_default();
+    if let Some((minima, free)) = problem.drifting(&found, drifting, runs)? {
+        (found, problem.free) = (minima, free);
+        let p = &found.valleys[0].optimum.p;
+        extremes = guessed([p[SLOPE], p[BEND]]).map_or(extremes, |guess| guess.extremes);
+    }
+    if let Some(from) = struck.filter(|_| !signal.is_displacement())
+        && !problem.explains(&found.valleys[0].optimum)
+        && let Some(found) = part(&t[from..], &x[from..], runs)
+    {
+        return Ok(Estimate { before: from, saturated, ..found });
+    }
+    let smooth = problem.smooth(&mut found, runs)?;
+    let mut used = smooth.clone();
+    let mut alike = vec![true; data.residuals()];
     if question.loss == LossName::Auto {
         problem.loss = Loss::Linear;
-        used = refined(&problem, loss.is_robust(), &mut found, runs)?;
+        used = refined(&problem, &smooth, loss.is_robust(), &mut found, runs)?;
         // If no motion fits, it is not known where the mass rests.
         if (LeastSquares { used: &used, ..problem }).comes_near(&found.valleys[0].optimum) {
             alike = telling(&problem, &noise, &mut used, &mut found, runs)?;
@@ -83,10 +110,27 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     }
     let count = |flags: &[bool]| flags.iter().filter(|flag| !**flag).count();
     let mut estimate = judged(&problem, &used, &found, runs)?;
-    (estimate.alike, estimate.saturated) = (count(&alike), count(&within));
+    let both: Vec<bool> = alike.iter().zip(&smooth).map(|(one, other)| *one && *other).collect();
+    (estimate.alike, estimate.saturated) = (count(&both) - count(&smooth), count(&within));
+    estimate.jumps = (0..smooth.len()).filter(|index| !smooth[*index]).collect();
+    let scale = (signal.as_displacement(estimate.p[OMEGA0]) / factor).abs();
+    for extreme in &mut extremes {
+        extreme.x *= scale;
+    }
     (estimate.choice, estimate.extremes, estimate.noise) =
         (question.choice.clone(), extremes, noise);
     Ok(estimate)
+}
+
+/// The loss with this name; by itself it is robust where there are outliers.
+fn loss_of(name: LossName, noise: &Noise) -> Loss {
+    let scale = 3.0 * noise.deviation;
+    match name {
+        LossName::Auto if noise.has_outliers => Loss::SoftL1 { scale },
+        LossName::Auto | LossName::Linear => Loss::Linear,
+        LossName::SoftL1 => Loss::SoftL1 { scale },
+        LossName::Cauchy => Loss::Cauchy { scale },
+    }
 }
 
 /// Leaves out readings of a mass at rest that only repeat the rounding error of others, and fits again. Returns
@@ -155,6 +199,7 @@ fn some_at_rest(problem: &LeastSquares, found: &Minima, enough: f64) -> Vec<bool
 /// Leaves out samples that cannot belong to the motion and fits again, until nothing changes.
 fn refined(
     problem: &LeastSquares,
+    smooth: &[bool],
     robust: bool,
     found: &mut Minima,
     runs: &mut Runs,
@@ -162,16 +207,18 @@ fn refined(
     /// A model that leaves out more than this fraction of the record does not describe it.
     const MOST: f64 = 0.15;
     const ROUNDS: usize = 4;
-    let mut used = vec![true; problem.data.residuals()];
+    let mut used = smooth.to_vec();
     // If the search used a robust loss, even an unchanged selection is fitted again.
     let mut settled = !robust;
     for _ in 0..ROUNDS {
         let seen = &found.valleys[0].optimum.seen;
         let values = seen.residuals.iter().map(|residual| residual.value);
         let limit = limit_of(&values.clone().collect::<Vec<_>>());
-        let possible: Vec<bool> = values.map(|value| value.abs() <= limit).collect();
-        let share = real(possible.iter().filter(|used| !**used).count()) / real(used.len());
-        let now = if share > MOST { vec![true; used.len()] } else { possible };
+        let possible: Vec<bool> =
+            values.zip(smooth).map(|(value, smooth)| *smooth && value.abs() <= limit).collect();
+        let left_out = possible.iter().zip(smooth).filter(|(used, smooth)| **smooth && !**used);
+        let share = real(left_out.count()) / real(used.len());
+        let now = if share > MOST { smooth.to_vec() } else { possible };
         if settled && now == used {
             break;
         }

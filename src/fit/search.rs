@@ -184,7 +184,7 @@ impl LeastSquares<'_> {
 
     /// For each way of beginning, the guess that is closest to the record before any descent. Guesses without D2 and
     /// D3 are also tried, since with wrong values of these every motion may escape.
-    fn ranked(
+    pub fn ranked(
         &self,
         guesses: &[Beginning],
         runs: &mut Runs,

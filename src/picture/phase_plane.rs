@@ -11,6 +11,7 @@ use super::kicks;
 use super::role::{CycleStyle, Dash, Mark, Role, cycle_style};
 use super::units::{self, said};
 use crate::closed_form::lyapunov;
+use crate::fit::Signal;
 use crate::flow::{Outcome, Problem, Trajectory};
 use crate::machine;
 use crate::numerics::elementary::hypot;
@@ -123,8 +124,12 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     }
 }
 
-/// What was measured; the velocities are those of the fit.
+/// What was measured; the velocities are those of the fit, or if they were measured the displacements. Of an
+/// acceleration nothing is seen here.
 fn record(picture: &mut Picture, fitted: &Fitted) {
+    if fitted.fit.record.signal == Signal::Acceleration {
+        return;
+    }
     let counted = fitted.points.iter().filter(|point| point.dropped.is_none());
     let points = counted.map(|point| Point { x: point.q, y: point.v });
     let line = LineStyle::new("record", Role::Ghost, Dash::Dotted);

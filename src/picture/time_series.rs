@@ -9,6 +9,7 @@ use super::phase_plane::{motion, number_curve};
 use super::role::{Dash, Mark, Role};
 use super::ticks::Scale;
 use super::units::{self, said};
+use crate::fit::Signal;
 use crate::flow::{Outcome, Sample, Trajectory};
 use crate::oscillator::State;
 use crate::oscillator::energy::energy;
@@ -49,10 +50,24 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     });
     picture.level(LineStyle::guide(), 0.0);
     if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Record)) {
-        let all = || fitted.points.iter().map(|it| (Point { x: it.tau, y: it.q }, it.dropped));
-        let line = LineStyle::new("record", Role::Ghost, Dash::Solid).briefly("measured");
-        picture.curve(line, all().filter(|(_, why)| why.is_none()).map(|(at, _)| at));
-        dropped::mark(picture, all().filter_map(|(at, why)| Some((at, why?))));
+        // An acceleration is none of the quantities on show.
+        let (layer, name) = match fitted.fit.record.signal {
+            Signal::Displacement => (Some(Layer::Position), "record"),
+            Signal::Velocity => (Some(Layer::Velocity), "record of v"),
+            Signal::Acceleration => (None, ""),
+        };
+        if layer.is_some_and(shows) {
+            let signal = fitted.fit.record.signal;
+            let all = || {
+                fitted
+                    .points
+                    .iter()
+                    .filter_map(|it| Some((Point { x: it.tau, y: it.shown(signal)? }, it.dropped)))
+            };
+            let line = LineStyle::new(name, Role::Ghost, Dash::Solid).briefly("measured");
+            picture.curve(line, all().filter(|(_, why)| why.is_none()).map(|(at, _)| at));
+            dropped::mark(picture, all().filter_map(|(at, why)| Some((at, why?))));
+        }
     }
     for (place, beside) in session.motions().into_iter().filter(|(place, _)| *place > 0) {
         let line = motion(session, place);

@@ -10,13 +10,11 @@ use crate::fit::curves::Curves;
 use crate::fit::dropped::{Dropped, dropped};
 use crate::fit::levenberg_marquardt::Runs;
 use crate::fit::names::Choice;
-use crate::fit::observation::{
-    D, D2, D3, Data, LAST, OFFSET, OMEGA0, Observation, Q0, R, StartKind,
-};
+use crate::fit::observation::{D, D2, D3, Data, LAST, OMEGA0, Observation, Q0, R, StartKind};
 use crate::fit::{self, refit};
 use crate::fit::{
-    Estimate, Inertia, LossName, MarginQuestion, Margins, Question, Record, Unfit, estimate,
-    length_in_metres, margins, parameters,
+    Estimate, Inertia, LossName, MarginQuestion, Margins, Question, Record, Signal, Unfit,
+    estimate, length_in_metres, margins, parameters,
 };
 use crate::flow::{Limits, Problem, Reason};
 use crate::oscillator::{Knob, State};
@@ -103,12 +101,24 @@ impl super::kind::Question for Inputs {
 pub struct Measured {
     /// Time since the release, or since the first sample.
     pub tau: f64,
-    /// Displacement from the offset, as measured.
+    /// Displacement from the offset, as measured; of a velocity from the fit, of an acceleration NaN.
     pub q: f64,
-    /// Velocity divided by omega0, from the fit; 0 if the fit does not know it.
+    /// Velocity divided by omega0, from the fit, and 0 if the fit does not know it; as measured if it was, of an
+    /// acceleration NaN.
     pub v: f64,
     /// Why it does not count in the fit; `None` if it does.
     pub dropped: Option<Dropped>,
+}
+
+impl Measured {
+    /// What was measured, if a time series can show it.
+    pub fn shown(&self, signal: Signal) -> Option<f64> {
+        match signal {
+            Signal::Displacement => Some(self.q),
+            Signal::Velocity => Some(self.v),
+            Signal::Acceleration => None,
+        }
+    }
 }
 
 /// A fitted record.
@@ -252,22 +262,16 @@ fn points(record: &Record, estimate: &Estimate) -> Vec<Measured> {
         linear: false,
         reach: estimate.reach,
     };
-    // The derivative of a displacement by omega0 is v times the time since the origin.
-    let mut seen = match &estimate.data {
-        Data::Samples { .. } => observation.compare(p, true).unwrap_or_default().residuals,
-        Data::Peaks { .. } => Vec::new(),
-    }
-    .into_iter();
-    let mut velocity = |passed: f64| {
-        let by = seen.next().map_or(0.0, |residual| residual.by[OMEGA0]);
-        if passed > 0.0 { by / passed } else { 0.0 }
-    };
+    let mut states = observation.states(p).into_iter();
     let all = record.t.iter().flatten().zip(&record.x).zip(dropped(record, estimate));
-    all.map(|((t, x), dropped)| {
+    all.map(|((&t, &x), dropped)| {
         // These are no part of what was fitted.
         let outside = [Dropped::Saturated, Dropped::Before, Dropped::After].map(Some);
-        let v = if outside.contains(&dropped) { 0.0 } else { velocity(t - origin) };
-        Measured { tau: p[OMEGA0] * (t - origin), q: x - p[OFFSET], v, dropped }
+        let fitted = if outside.contains(&dropped) { None } else { states.next() };
+        let unseen = State { q: f64::NAN, v: f64::NAN };
+        let fitted = fitted.unwrap_or(State { q: 0.0, v: 0.0 });
+        let State { q, v } = estimate.measured(t, x, fitted).unwrap_or(unseen);
+        Measured { tau: p[OMEGA0] * (t - origin), q, v, dropped }
     })
     .collect()
 }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::machine::ScaledMachine;
 use super::plot_setup::{Arrangement, PlotSetup};
 use super::views::{Layer, View};
-use crate::fit::length_in_metres;
+use crate::fit::{Signal, length_in_metres};
 use crate::flow::Problem;
 use crate::oscillator::Knob;
 use crate::question::Recording;
@@ -118,13 +118,18 @@ impl Recording {
     /// A scene of the record: decrements, time series, phase plane and the distribution of the margin, with the
     /// motion that the fit will find.
     pub fn scene(self) -> Scene {
+        let signal = self.record.signal;
+        let shown = match signal {
+            Signal::Velocity => Layer::Velocity,
+            Signal::Displacement | Signal::Acceleration => Layer::Position,
+        };
         let layers = [
             Layer::Damping,
             Layer::Residuals,
             Layer::Spread,
             Layer::Record,
             Layer::Recorded,
-            Layer::Position,
+            shown,
             Layer::Trajectory,
             Layer::Sticking,
             Layer::Cycles,
@@ -138,12 +143,17 @@ impl Recording {
             }
             _ => reduced,
         };
+        let seen = match signal {
+            Signal::Displacement => "Dots are what was measured,",
+            Signal::Velocity => "Dots are the velocities measured,",
+            Signal::Acceleration => "The accelerations measured are seen in the residuals only;",
+        };
         Scene {
             name: self.name.clone(),
             also: None,
             title: format!("{}, fitted", self.name),
             look: format!(
-                "Dots are what was measured, the line is the motion that fits best; {units}. \
+                "{seen} the line is the motion that fits best; {units}. \
                  A number whose error is as large as itself is not known from this record."
             ),
             press: "{step-up} and {step-down} hold a number beside its best value, and all others are fitted again; \

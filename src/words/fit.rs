@@ -2,15 +2,17 @@
 
 use crate::fit::Fitted;
 use crate::fit::conditions::conditions;
+use crate::fit::drift::FittedDrift;
 use crate::fit::names::NAMES;
 use crate::fit::observation::R;
 use crate::fit::separable::{Combination, combinations};
-use crate::words::number::significant;
+use crate::words::number::{resolved, significant};
 use crate::words::statement::signed;
 
 pub fn sentences(fitted: &Fitted) -> Vec<String> {
     let mut all: Vec<String> = broken(fitted).into_iter().collect();
     all.extend(left_out(fitted));
+    all.extend(drift(fitted));
     all.extend(combinations(&fitted.estimate).iter().map(|one| inseparable(fitted, one)));
     all.extend(bounds(fitted));
     all.extend(rivals(fitted));
@@ -56,6 +58,11 @@ pub fn left_out(fitted: &Fitted) -> Vec<String> {
             "after the mass was excited again: fit them as a file of their own",
         ),
         (fitted.estimate.saturated, "sample", "flattened at full scale"),
+        (
+            fitted.estimate.jumps.len(),
+            "sample",
+            "next to the turning points, where an acceleration jumps",
+        ),
         (fitted.estimate.alike, "sample", "at rest that the steps of the converter round alike"),
         (
             fitted.estimate.outliers(),
@@ -65,6 +72,25 @@ pub fn left_out(fitted: &Fitted) -> Vec<String> {
     ];
     let said = counts.iter().filter(|(count, ..)| *count > 0);
     said.map(|(count, what, why)| format!("left out: {} {why}", counted(*count, what))).collect()
+}
+
+/// How far the zero drifts.
+fn drift(fitted: &Fitted) -> Option<String> {
+    let FittedDrift { change, standard_error, bend, bend_standard_error } =
+        fitted.estimate.drift()?;
+    let unit = fitted.signal_unit();
+    let number = |value: f64, error: f64| {
+        format!("{} +- {} {unit}", resolved(value, 0.05 * error), significant(error, 2))
+            .trim_end()
+            .to_owned()
+    };
+    let along = if bend == 0.0 {
+        "along a line".to_owned()
+    } else {
+        format!("its ends {} above its middle", number(bend, bend_standard_error))
+    };
+    let change = number(change, standard_error);
+    Some(format!("the zero drifts by {change} over the record, {along}: the offset is its mean"))
 }
 
 /// `D + 0.069 r`.

@@ -12,16 +12,16 @@ use super::simulator::{KINDS, Simulation, simulated};
 use super::*;
 
 /// What a fit says about a record.
-struct Outcome {
-    kind: &'static str,
-    seed: u64,
+pub struct Outcome {
+    pub kind: &'static str,
+    pub seed: u64,
     /// For each estimated number whether its interval holds the truth, and the distance of the truth in errors by
     /// the interval.
-    numbers: Vec<(&'static str, bool, f64)>,
+    pub numbers: Vec<(&'static str, bool, f64)>,
     /// Whether a condition fails, which the first line says.
-    warns: bool,
+    pub warns: bool,
     /// Whether the lower end of the margin is above the true margin, if that exists.
-    too_large: Option<bool>,
+    pub too_large: Option<bool>,
 }
 
 fn outcome(kind: &'static str, seed: u64, draws: usize) -> Option<Outcome> {
@@ -58,7 +58,7 @@ fn true_margin(truth: &[f64; 6], reach: f64) -> Option<f64> {
 }
 
 /// The outcomes of the records with these numbers, of each kind.
-fn outcomes(
+pub fn outcomes(
     kinds: &[&'static str],
     seeds: std::ops::RangeInclusive<u64>,
     draws: usize,
@@ -69,7 +69,7 @@ fn outcomes(
 }
 
 /// The answers that are wrong by more than 4.5 errors and do not say that a condition fails.
-fn silent_errors(outcomes: &[Outcome]) -> Vec<String> {
+pub fn silent_errors(outcomes: &[Outcome]) -> Vec<String> {
     outcomes
         .iter()
         .filter(|it| !it.warns && it.numbers.iter().any(|number| number.2 > 4.5))
@@ -78,7 +78,7 @@ fn silent_errors(outcomes: &[Outcome]) -> Vec<String> {
 }
 
 /// The percentage of the intervals without a warning that hold the truth.
-fn percentage<'a>(outcomes: impl Iterator<Item = &'a Outcome>, name: Option<&str>) -> f64 {
+pub fn percentage<'a>(outcomes: impl Iterator<Item = &'a Outcome>, name: Option<&str>) -> f64 {
     let numbers = outcomes.filter(|it| !it.warns).flat_map(|it| &it.numbers);
     let (count, inside) = numbers
         .filter(|number| name.is_none_or(|name| number.0 == name))

@@ -12,7 +12,7 @@ use super::simulator::{Simulation, simulated};
 use super::*;
 
 /// The smallest kicks that are lost from the worst rest position under a disturbance.
-fn rest_margin(known: &ParameterBox, disturbance: f64) -> RestMargin {
+pub fn rest_margin(known: &ParameterBox, disturbance: f64) -> RestMargin {
     guaranteed(known, disturbance, &Limits::PATIENT).unwrap().0.margin.from_rest
 }
 

@@ -3,8 +3,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use hopfscope::fit::Record;
-use hopfscope::numerics::elementary::{cos, exp, ln, sin};
+use hopfscope::fit::{Record, Signal};
+use hopfscope::numerics::elementary::{cos, exp, ln, powi, sin};
 use hopfscope::numerics::random::Random;
 
 /// A simulated record with its truth.
@@ -38,14 +38,24 @@ pub const KINDS: [&str; 15] = [
     "untimed",
 ];
 
+/// Records of other signals.
+pub const SIGNALS: [&str; 4] =
+    ["velocity", "acceleration", "velocity in motion", "acceleration in motion"];
+
+/// Records with a drift of the zero.
+pub const DRIFTS: [&str; 3] = ["line", "parabola", "released line"];
+
 /// D, D2, D3, r.
 type Law = [f64; 4];
 
+/// Velocity and acceleration with friction of sign `s`.
+fn rate(law: &Law, s: f64, [q, v]: [f64; 2]) -> [f64; 2] {
+    [v, -2.0 * law[0] * v - law[1] * v * v - law[2] * v * v * v - q - s * law[3]]
+}
+
 /// The state after a time `h` with friction of sign `s`.
 fn stepped(law: &Law, s: f64, [q, v]: [f64; 2], h: f64) -> [f64; 2] {
-    let rate = |[q, v]: [f64; 2]| {
-        [v, -2.0 * law[0] * v - law[1] * v * v - law[2] * v * v * v - q - s * law[3]]
-    };
+    let rate = |state: [f64; 2]| rate(law, s, state);
     let add = |k: [f64; 2], h: f64| [q + h * k[0], v + h * k[1]];
     let one = rate([q, v]);
     let two = rate(add(one, 0.5 * h));
@@ -54,15 +64,16 @@ fn stepped(law: &Law, s: f64, [q, v]: [f64; 2], h: f64) -> [f64; 2] {
     [0, 1].map(|i| [q, v][i] + h / 6.0 * (one[i] + 2.0 * (two[i] + three[i]) + four[i]))
 }
 
-/// Displacements at ascending times until the mass escapes, and the turning points as times and displacements.
-fn motion(law: &Law, start: [f64; 2], times: &[f64]) -> (Vec<f64>, Vec<[f64; 2]>) {
+/// Displacements, velocities and accelerations at ascending times until the mass escapes, and the turning points as
+/// times and displacements.
+fn motion(law: &Law, start: [f64; 2], times: &[f64]) -> (Vec<[f64; 3]>, Vec<[f64; 2]>) {
     const STEP: f64 = 0.01;
     const FAR: f64 = 1e6;
     let (mut seen, mut turns) = (Vec::new(), Vec::new());
     let (mut at, mut t) = (start, 0.0);
     while seen.len() < times.len() && at[0].abs() < FAR {
         if at[1] == 0.0 && at[0].abs() <= law[3] {
-            seen.resize(times.len(), at[0]);
+            seen.resize(times.len(), [at[0], 0.0, 0.0]);
             break;
         }
         let s = if at[1] == 0.0 { -at[0].signum() } else { at[1].signum() };
@@ -77,7 +88,8 @@ fn motion(law: &Law, start: [f64; 2], times: &[f64]) -> (Vec<f64>, Vec<[f64; 2]>
             }
         }
         while times.get(seen.len()).is_some_and(|time| *time <= t + h) {
-            seen.push(stepped(law, s, at, times[seen.len()] - t)[0]);
+            let [q, v] = stepped(law, s, at, times[seen.len()] - t);
+            seen.push([q, v, rate(law, s, [q, v])[1]]);
         }
         (at, t) = (stepped(law, s, at, h), t + h);
         if arrives {
@@ -143,24 +155,30 @@ pub fn simulated(kind: &str, seed: u64) -> Simulation {
     let release = hold * TAU / omega0;
     let held = t.iter().filter(|t| **t < release).count();
     let times: Vec<f64> = t[held..].iter().map(|t| omega0 * (t - release)).collect();
-    let mut q = vec![start[0]; held];
-    q.extend(motion(&law, start, &times).0);
+    let mut seen = vec![[start[0], 0.0, 0.0]; held];
+    seen.extend(motion(&law, start, &times).0);
+    let signal = measured(kind);
+    let order = signal.order();
+    let unit = powi(omega0, i32::try_from(order).unwrap());
+    let (a, offset, noise) = (unit * a, unit * offset, unit * noise);
+    let drift = drift(kind, &t, a, noise, &mut chance);
     let memory = if kind == "filtered" { chance.between(0.3, 0.8) } else { 0.0 };
     let step = noise * chance.log(0.5, 5.0);
     let full = a * chance.between(0.5, 0.85);
     let mut error = 0.0;
-    let read = |q: f64| {
+    let read = |(index, seen): (usize, [f64; 3])| {
         let fresh = if kind == "heavy" { chance.heavy() } else { chance.0.normal() };
         error = memory * error + (1.0 - memory * memory).sqrt() * fresh;
-        let x = offset + q + noise * error;
+        let x = offset + drift[index] + unit * seen[order] + noise * error;
         match kind {
             "quant" => (x / step).round() * step,
             "clip" => x.clamp(-full, full),
             _ => x,
         }
     };
-    let x: Vec<f64> = q.into_iter().map(read).collect();
-    let record = Record { t: Some(t), x, ..Record::default() };
+    let x: Vec<f64> = seen.into_iter().enumerate().map(read).collect();
+    let record = Record { t: Some(t), x, signal, ..Record::default() };
+    let a = a / unit;
     let truth = [omega0, offset, law[0], law[1], law[2], law[3]];
     Simulation { truth, amplitude: a, record, peaks: false }
 }
@@ -224,9 +242,33 @@ fn planned(kind: &str, a: f64, chance: &mut Chance) -> Plan {
             let law = [law[0], 0.0, 0.0, 0.002 * a];
             Plan { law, periods: Some(chance.between(8.0, 16.0)), ..in_motion }
         }
-        "release" | "heavy" | "filtered" => released,
+        "release" | "heavy" | "filtered" | "velocity" | "acceleration" | "released line" => {
+            released
+        }
         _ => in_motion,
     }
+}
+
+/// What a record of a kind measures.
+fn measured(kind: &str) -> Signal {
+    let name = kind.split(' ').next().unwrap_or_default();
+    Signal::named(name).unwrap_or_default()
+}
+
+/// A drift of the zero between three deviations of the noise and a fifth of the swing, about its mean.
+fn drift(kind: &str, t: &[f64], a: f64, noise: f64, chance: &mut Chance) -> Vec<f64> {
+    let [bends, slopes] = [kind == "parabola", kind.ends_with("line")];
+    if !bends && !slopes {
+        return vec![0.0; t.len()];
+    }
+    let sign = if chance.0.even() < 0.5 { -1.0 } else { 1.0 };
+    let height = sign * chance.log(3.0 * noise, 0.4 * a);
+    let bend = if bends { chance.between(0.5, 2.0) * height } else { 0.0 };
+    let span = t[t.len() - 1] - t[0];
+    t.iter()
+        .map(|time| (time - t[0]) / span - 0.5)
+        .map(|s| height * s + bend * (s * s - 1.0 / 12.0))
+        .collect()
 }
 
 /// A list of 9 to 12 turning points of a decay, or of 7 to 9 of them.

@@ -6,9 +6,10 @@ use crate::picture::role::{Mark, Role};
 use crate::scene::Point;
 
 /// How samples that do not count are marked, and what legends call them.
-const MARKS: [(Dropped, Mark, Role, &str); 5] = [
+const MARKS: [(Dropped, Mark, Role, &str); 6] = [
     (Dropped::Before, Mark::Aside, Role::Bands, "before the stroke, left out"),
     (Dropped::After, Mark::Aside, Role::Bands, "after a second stroke, left out"),
+    (Dropped::Jump, Mark::Aside, Role::Bands, "at jumps, left out"),
     (Dropped::Alike, Mark::Aside, Role::Harmonic, "alike at rest, left out"),
     (Dropped::Saturated, Mark::Saturated, Role::Danger, "saturated, left out"),
     (Dropped::Outlier, Mark::Outlier, Role::Danger, "outliers, left out"),

@@ -5,15 +5,16 @@ use super::damping::damping;
 use super::dropped::mark;
 use super::pieces::{StyledPoints, at, curve, picture, points, window, with_unit};
 use crate::fit::Fitted;
+use crate::fit::Signal;
 use crate::fit::curves::memory as memory_of;
 use crate::fit::dropped::{Dropped, dropped, dropped_of_fitted};
-use crate::fit::observation::{D, Data, OFFSET, Q0, R, parameters};
+use crate::fit::observation::{D, Data, Q0, R, parameters};
 use crate::flow::Limits;
 use crate::numerics::count::real;
-use crate::oscillator::Parameters;
+use crate::oscillator::{Parameters, State};
 use crate::picture::items::{Item, LineStyle, Marks, Picture};
 use crate::picture::role::{Dash, Mark, Role};
-use crate::scene::{Span, Window};
+use crate::scene::{Point, Span, Window};
 use crate::study::basin::{Basin, basin};
 use crate::study::cycle::Edge;
 
@@ -29,14 +30,14 @@ pub fn pictures(fitted: &Fitted) -> Vec<Picture<'static>> {
 
 fn record(fitted: &Fitted) -> Option<Picture<'static>> {
     let seen = fitted.curves.sampled.as_ref()?;
-    let offset = fitted.estimate.p[OFFSET];
     let measured = seen.t.iter().zip(&seen.x).map(|(t, x)| at(*t, *x)).collect();
-    let fit = seen.motion.iter().map(|[t, q, _]| at(*t, q + offset)).collect();
+    let fit = seen.motion.iter().zip(&seen.fitted).map(|([t, ..], x)| at(*t, *x)).collect();
     let curves = vec![
         curve("record", Role::Ghost, Dash::Solid, measured),
         curve("fitted motion", Role::Trajectory, Dash::Solid, fit),
     ];
-    let names = ("t [s]".to_owned(), with_unit("x", fitted.unit()));
+    let name = ["x", "x'", "x''"][fitted.record.signal.order()];
+    let names = ("t [s]".to_owned(), with_unit(name, &fitted.signal_unit()));
     let mut picture = picture("record and fit", names, curves, None)?;
     let record = &fitted.record;
     // What lies before and after the motion is seen, too.
@@ -59,15 +60,15 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
         curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(2.0 * deviation)),
         curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(-2.0 * deviation)),
     ];
-    let names = ("t [s]".to_owned(), with_unit("measured - fitted", fitted.unit()));
+    let names = ("t [s]".to_owned(), with_unit("measured - fitted", &fitted.signal_unit()));
     let mut picture = picture("residuals", names, curves, None)?;
     if let Data::Samples { t, .. } = &fitted.estimate.data {
         let all = t.iter().zip(&fitted.estimate.residuals).enumerate();
-        let outliers = all.filter_map(|(index, (t, e))| {
+        let apart = all.filter_map(|(index, (t, e))| {
             let why = dropped_of_fitted(&fitted.estimate, index)?;
-            (why == Dropped::Outlier).then(|| (at(*t, *e), why))
+            matches!(why, Dropped::Outlier | Dropped::Jump).then(|| (at(*t, *e), why))
         });
-        mark(&mut picture, outliers);
+        mark(&mut picture, apart);
     }
     Some(picture)
 }
@@ -118,12 +119,18 @@ fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
         let mut data = Vec::new();
         for (t, x) in seen.t.iter().zip(&seen.x) {
             while motion.next_if(|point| point[0] < *t).is_some() {}
-            if let Some([_, _, v]) = motion.peek() {
-                data.push(at(x - p[OFFSET], *v));
+            if let Some([_, q, v]) = motion.peek() {
+                data.extend(estimate.measured(*t, *x, State { q: *q, v: *v }).map(Point::from));
             }
         }
         let fit = seen.motion.iter().map(|[_, q, v]| at(*q, *v)).collect();
-        curves.push(curve("record (velocity by the fit)", Role::Field, Dash::Dotted, data));
+        let name = match estimate.data.signal() {
+            Signal::Displacement => "record (velocity by the fit)",
+            _ => "record (displacement by the fit)",
+        };
+        if !data.is_empty() {
+            curves.push(curve(name, Role::Field, Dash::Dotted, data));
+        }
         curves.push(curve("fitted motion", Role::Trajectory, Dash::Solid, fit));
     }
     let reach = 1.3 * largest.max(p[Q0].abs());

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::fit::Fitted;
 use crate::fit::conditions::Condition;
+use crate::fit::drift::FittedDrift;
 use crate::fit::estimate::Rival;
 use crate::fit::left_out::{LeftOut, left_out};
 use crate::fit::margin::{KickSpreads, Margins, Spread};
@@ -14,6 +14,7 @@ use crate::fit::observation::{LAST, Q0, StartKind};
 use crate::fit::physical::{EstimatedNumber, kicks, rows};
 use crate::fit::residuals::Whiteness;
 use crate::fit::separable::combinations;
+use crate::fit::{Fitted, Signal};
 use crate::report::csv;
 use crate::report::json;
 use crate::words::fit::sentences;
@@ -61,9 +62,12 @@ struct Draws {
 struct FitDocument<'a> {
     file: &'a str,
     unit: Option<&'a str>,
+    signal: Signal,
     parameters: BTreeMap<&'static str, EstimateDocument>,
     held: BTreeMap<&'static str, f64>,
     start: BTreeMap<&'static str, serde_json::Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drift: Option<FittedDrift>,
     correlations: BTreeMap<String, f64>,
     noise: f64,
     samples: usize,
@@ -110,12 +114,14 @@ pub fn json(fitted: &Fitted) -> String {
     json::text(&FitDocument {
         file: &fitted.name,
         unit: record.unit.as_deref(),
+        signal: record.signal,
         parameters,
         held,
         start: start(fitted),
+        drift: estimate.drift(),
         correlations: correlations(fitted),
         noise: estimate.covariance.deviation,
-        samples: estimate.data.displacements().len(),
+        samples: estimate.data.values().len(),
         half_swings: estimate.half_swings,
         rests: estimate.rests,
         separable,

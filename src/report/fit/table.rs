@@ -57,7 +57,7 @@ pub(super) fn numbers(fitted: &Fitted) -> Table {
             significant(error, 2),
             end(interval.lower),
             end(interval.upper),
-            row.unit(fitted.unit()),
+            fitted.unit_of(row),
         ]);
     }
     numbers
@@ -74,7 +74,10 @@ pub(super) fn subject(fitted: &Fitted) -> String {
                 StartKind::Moving if estimate.before > 0 => "since the mass was struck",
                 StartKind::Moving => "in motion from its beginning",
             };
-            format!("{} samples over {} s, {begin}", t.len(), significant(span, 4))
+            let signal = fitted.record.signal;
+            let of =
+                if signal.is_displacement() { String::new() } else { format!(" of a {signal}") };
+            format!("{} samples{of} over {} s, {begin}", t.len(), significant(span, 4))
         }
         Data::Peaks { t, x, .. } => {
             let times = if t.is_some() { "with" } else { "without" };
@@ -102,7 +105,8 @@ pub(super) fn start(fitted: &Fitted) -> String {
         });
     }
     let noise = significant(estimate.covariance.deviation, 3);
-    format!("start: {}; noise {noise} {unit}", parts.join(", ")).trim_end().to_owned()
+    let line = format!("start: {}; noise {noise} {}", parts.join(", "), fitted.signal_unit());
+    line.trim_end().to_owned()
 }
 
 /// The correlations between the estimated numbers; empty for a single one.

@@ -3,20 +3,22 @@
 use std::path::{Path, PathBuf};
 
 use crate::fit::names::{Choice, NAMES, assigned, listed, named};
-use crate::fit::{Column, Inertia, LENGTHS, LOSSES, LossName, Reading, length_in_metres, parse};
+use crate::fit::{
+    Column, Inertia, LENGTHS, LOSSES, LossName, Reading, Signal, length_in_metres, parse,
+};
 use crate::oscillator::Knob;
 use crate::question::Opened;
 use crate::session::effect::{Done, Effect};
 use crate::session::message::Purpose;
 
 /// Words that may follow the name of the file.
-const WORDS: [&str; 7] = ["mass", "stiffness", "unit", "columns", "peaks", "loss", "free"];
+const WORDS: [&str; 8] =
+    ["mass", "stiffness", "unit", "signal", "columns", "peaks", "loss", "free"];
 
 /// Details that the file does not contain.
 #[derive(Debug, Default)]
 struct Said {
     inertia: Option<Inertia>,
-    unit: Option<String>,
     reading: Reading,
     choice: Choice,
     loss: LossName,
@@ -54,7 +56,8 @@ fn said(words: &str) -> Result<Said, String> {
             "stiffness" => {
                 said.inertia = Some(Inertia::Stiffness(Knob::Stiffness.parse(&value)?));
             }
-            "unit" => said.unit = Some(value),
+            "unit" => said.reading.unit = Some(value),
+            "signal" => said.reading.signal = Some(signal(&value)?),
             "columns" => (said.reading.time, said.reading.displacement) = columns(&value)?,
             "peaks" => said.reading.peaks = true,
             "loss" => said.loss = loss(&value)?,
@@ -82,6 +85,10 @@ fn loss(text: &str) -> Result<LossName, String> {
     found.ok_or_else(|| format!("loss={text}; allowed are {names}"))
 }
 
+fn signal(text: &str) -> Result<Signal, String> {
+    Signal::named(text).ok_or_else(|| format!("signal={text}; allowed are {}", Signal::names()))
+}
+
 /// The columns of times and displacements, by number from 1 or by name.
 fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
     let (time, displacement) =
@@ -96,9 +103,8 @@ fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
 
 /// Reads the record. Fails with one line that says what is wrong, where, and what is allowed.
 pub(in crate::session) fn opened(path: &Path, words: &str, text: &str) -> Result<Opened, String> {
-    let Said { inertia, unit, reading, choice, loss } = said(words)?;
-    let mut record = parse(text.as_bytes(), &reading).map_err(|error| error.to_string())?;
-    record.unit = unit.or(record.unit);
+    let Said { inertia, reading, choice, loss } = said(words)?;
+    let record = parse(text.as_bytes(), &reading).map_err(|error| error.to_string())?;
     let known = record.unit.as_deref().is_some_and(|unit| length_in_metres(unit).is_some());
     if inertia.is_some() && !known {
         let lengths = LENGTHS.map(|it| it.0).join(", ");

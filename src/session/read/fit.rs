@@ -1,6 +1,7 @@
 //! Windows fitted to what is on show.
 
 use crate::closed_form::lyapunov;
+use crate::fit::Signal;
 use crate::fit::curves::Extent;
 use crate::fit::dropped::Dropped;
 use crate::flow::{Outcome, Trajectory};
@@ -223,12 +224,15 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     };
     let end = motions.iter().map(|(_, motion)| end(motion)).fold(0.0, f64::max);
     let record = session.fitted().filter(|_| shown(Layer::Record));
+    let signal = record.map_or(Signal::default(), |fitted| fitted.fit.record.signal);
     let record: &[Measured] = record.map_or(&[], |fitted| &fitted.points);
     let swinging = values.iter().fold(r, |far, value| far.max(value.abs()));
     // Outliers far away are shown at the edge.
-    let near =
-        |at: &&Measured| at.dropped != Some(Dropped::Outlier) || at.q.abs() < ESCAPE * swinging;
-    values.extend(record.iter().filter(near).map(|at| at.q));
+    let near = |at: &Measured| {
+        let y = at.shown(signal)?;
+        (at.dropped != Some(Dropped::Outlier) || y.abs() < ESCAPE * swinging).then_some(y)
+    };
+    values.extend(record.iter().filter_map(near));
     let y = Span::covering(values)?;
     let x = Span::covering(record.iter().map(|at| at.tau).chain([0.0, end]))?;
     Some(Window { x, y: y.scaled(y.center(), ROOM) })

@@ -1,6 +1,7 @@
 //! A recorded motion: opened, fitted, with numbers held, and stopped.
 
 use super::Trial;
+use crate::fit::Signal;
 use crate::numerics::elementary::{cos, exp, sin};
 use crate::oscillator::Knob;
 use crate::picture::items::Item;
@@ -214,12 +215,77 @@ fn escape_stops_a_fit_and_what_was_there_is_back() {
     assert_eq!(trial.notice(), "the fit was stopped");
 }
 
+/// The velocities or the accelerations of the decay of [`record`], in mm/s or mm/s^2 without a header that says so.
+fn decay_of(signal: Signal) -> String {
+    let (mut from, mut side, mut t, mut text) = (3.0_f64, 1.0, 0.0, String::new());
+    let root = (1.0_f64 - 0.02 * 0.02).sqrt();
+    while from > 0.05 {
+        for step in 0..20 {
+            let tau = std::f64::consts::PI / root * f64::from(step) / 20.0;
+            let swing = -side * (from - 0.05) * exp(-0.02 * tau);
+            let (v, a) = (sin(root * tau) / root, cos(root * tau) - 0.02 * sin(root * tau) / root);
+            let seen = swing * if signal == Signal::Velocity { 10.0 * v } else { 100.0 * a };
+            text += &format!("{:.5},{seen:.2}\n", (t + tau) / 10.0);
+        }
+        t += std::f64::consts::PI / root;
+        (from, side) = ((from - 0.05) * exp(-0.02 * std::f64::consts::PI / root) - 0.05, -side);
+    }
+    text
+}
+
+#[test]
+fn a_record_of_velocities_is_shown_as_velocities_and_kept_as_such() {
+    let mut trial = Trial::open("plain");
+    let words = "signal=velocity unit=mm/s";
+    trial.give(Msg::Run(format!("fit decay.csv {words}")));
+    let purpose = Purpose::Fit(words.to_owned());
+    trial.give(Msg::Read {
+        path: "decay.csv".into(),
+        purpose,
+        result: Ok(decay_of(Signal::Velocity)),
+    });
+    let best = trial.session.problem;
+    assert!((best.parameters.d - 0.02).abs() < 1e-3 && (best.parameters.r - 0.05).abs() < 1e-2);
+    let found = trial.session.fitted().unwrap();
+    // The fastest point: 3 mm released, nearly a quarter of a swing later.
+    let fastest = found.points.iter().map(|point| point.v.abs()).fold(0.0, f64::max);
+    assert!((fastest - 2.86).abs() < 0.02, "{fastest}");
+    let drawn = crate::picture::of(&trial.session, 1);
+    let names = drawn.items.iter().filter_map(|item| match item {
+        Item::Curve(line, _) => Some(line.name.to_string()),
+        _ => None,
+    });
+    let names: Vec<String> = names.collect();
+    assert!(
+        ["record of v", "velocity v"].iter().all(|name| names.contains(&(*name).to_owned())),
+        "{names:?}"
+    );
+    let text = save::text(&trial.session).unwrap();
+    assert!(text.contains("signal = \"velocity\""), "{text}");
+    let mut other = Trial::open("plain");
+    save::open(&mut other.session, &text).unwrap();
+    assert_eq!(other.session.scene.recording, trial.session.scene.recording);
+}
+
+#[test]
+fn the_jumps_of_an_acceleration_are_marked_as_such_among_its_residuals() {
+    let trial = &mut opened(decay_of(Signal::Acceleration), "signal=acceleration unit=mm/s^2");
+    let jumps = trial.session.fitted().unwrap().fit.estimate.jumps.len();
+    assert!(jumps > 10, "{jumps}");
+    // The accelerations themselves are none of the quantities over time.
+    assert_eq!(marked(trial, 1), []);
+    trial.press("<run \"view residuals\">");
+    let index = trial.session.plots.iter().position(|plot| plot.view == View::Residuals).unwrap();
+    assert_eq!(marked(trial, index), [("at jumps, left out".to_owned(), jumps)]);
+}
+
 #[test]
 fn what_stands_behind_the_file_is_checked_before_it_is_read() {
     for (line, why) in [
         ("fit a.csv mass=-2 kg", "m = -2 kg is outside its range 1e-12 .. 1e12 kg"),
         ("fit a.csv columns=0,1", "columns are counted from 1"),
         ("fit a.csv loss=huber", "loss=huber; allowed are auto, linear, soft-l1, cauchy"),
+        ("fit a.csv signal=force", "allowed are displacement, velocity, acceleration"),
         ("fit a.csv r=-1", "r = -1 is outside its range 0 .. 1e150"),
         ("fit a.csv free=D,q", "no number \"q\"; there are omega0, offset, D"),
         ("fit a.csv mass=2 m", "m = 2 m has the wrong unit; it takes one such as kg"),

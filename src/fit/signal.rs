@@ -1,0 +1,226 @@
+//! What a sensor measures, and its units: a displacement, a velocity or an acceleration.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// A measured quantity: the displacement, differentiated so many times by the time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "explorer", derive(clap::ValueEnum))]
+#[serde(rename_all = "kebab-case")]
+pub enum Signal {
+    /// The displacement itself.
+    #[default]
+    Displacement,
+    /// Its derivative.
+    Velocity,
+    /// Its second derivative.
+    Acceleration,
+}
+
+/// The signals with what follows the unit of length in theirs; that of a record comes first.
+const SIGNALS: [(Signal, &str, &[&str]); 3] = [
+    (Signal::Displacement, "displacement", &[""]),
+    (Signal::Velocity, "velocity", &["/s"]),
+    (Signal::Acceleration, "acceleration", &["/s^2", "/s2", "/s\u{b2}", "/s**2", "/s/s"]),
+];
+
+/// Units of quantities that are none of these.
+const OTHERS: [(&str, &[&str]); 3] = [
+    ("force", &["N", "mN", "kN", "lbf"]),
+    ("voltage", &["V", "mV", "uV"]),
+    ("current", &["A", "mA"]),
+];
+
+/// Standard gravity in m/s^2, the unit `g` of accelerometers.
+const GRAVITY: f64 = 9.806_65;
+
+impl fmt::Display for Signal {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(SIGNALS[self.order()].1)
+    }
+}
+
+impl Signal {
+    /// Whether the displacement itself is measured.
+    #[must_use]
+    pub fn is_displacement(&self) -> bool {
+        *self == Signal::Displacement
+    }
+
+    /// How often the displacement is differentiated.
+    #[must_use]
+    pub fn order(self) -> usize {
+        self as usize
+    }
+
+    /// The factor that makes the signal of an oscillation with this frequency swing as its displacement does.
+    #[must_use]
+    pub fn as_displacement(self, omega0: f64) -> f64 {
+        match self {
+            Signal::Displacement => 1.0,
+            Signal::Velocity => 1.0 / omega0,
+            Signal::Acceleration => -1.0 / (omega0 * omega0),
+        }
+    }
+
+    /// The signal with this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        SIGNALS.iter().find(|(_, known, _)| *known == name).map(|(signal, ..)| *signal)
+    }
+
+    /// The names of all signals.
+    #[must_use]
+    pub fn names() -> String {
+        SIGNALS.map(|(_, name, _)| name).join(", ")
+    }
+
+    /// The unit of the signal of a record with this unit of length; empty if that is unknown.
+    #[must_use]
+    pub fn unit(self, length: &str) -> String {
+        let per_time = SIGNALS[self.order()].2[0];
+        if length.is_empty() { String::new() } else { format!("{length}{per_time}") }
+    }
+}
+
+/// Units of length and their values in metres.
+pub const LENGTHS: [(&str, f64); 8] = [
+    ("m", 1.0),
+    ("mm", 1e-3),
+    ("um", 1e-6),
+    ("cm", 1e-2),
+    ("nm", 1e-9),
+    ("in", 0.0254),
+    ("inch", 0.0254),
+    ("km", 1e3),
+];
+
+/// The value of a unit of length in metres; `None` if it is unknown.
+#[must_use]
+pub fn length_in_metres(unit: &str) -> Option<f64> {
+    let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u");
+    LENGTHS.iter().find(|(name, _)| *name == plain).map(|(_, metres)| *metres)
+}
+
+/// What a unit says about a column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Quantity {
+    /// A signal, the unit of length that belongs to it, and the value of the unit in units of that.
+    Signal(Signal, String, f64),
+    /// Another quantity, by its name.
+    Other(&'static str),
+}
+
+/// The quantity that a unit belongs to; `None` for unknown units.
+#[must_use]
+pub fn quantity(unit: &str) -> Option<Quantity> {
+    let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u").replace(' ', "");
+    if plain == "g" {
+        return Some(Quantity::Signal(Signal::Acceleration, "m".into(), GRAVITY));
+    }
+    for (signal, _, endings) in SIGNALS {
+        for ending in endings {
+            if let Some(length) = plain.strip_suffix(ending)
+                && length_in_metres(length).is_some()
+            {
+                return Some(Quantity::Signal(signal, length.to_owned(), 1.0));
+            }
+        }
+    }
+    let found = OTHERS.iter().find(|(_, units)| units.contains(&plain.as_str()));
+    found.map(|(quantity, _)| Quantity::Other(quantity))
+}
+
+/// What the column of a record holds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Measure {
+    /// The signal.
+    pub signal: Signal,
+    /// The unit of length that belongs to its unit, if that is known; for a displacement the unit as it is written.
+    pub length: Option<String>,
+    /// What numbers are multiplied by to be in that unit of length and in s.
+    pub scale: f64,
+}
+
+/// Combines the unit in the header, the unit and the signal that the user names, and the signal that the name of the
+/// column suggests.
+///
+/// # Errors
+/// One line if they contradict each other, or if the quantity is none of the signals.
+pub fn measure(
+    written: Option<&str>,
+    said: Option<&str>,
+    signal: Option<Signal>,
+    suggested: Option<Signal>,
+) -> Result<Measure, String> {
+    let mut found = Measure { signal: signal.unwrap_or_default(), length: None, scale: 1.0 };
+    let mut certain = signal.is_some();
+    for unit in [written, said].into_iter().flatten() {
+        match quantity(unit) {
+            Some(Quantity::Other(other)) => {
+                return Err(format!(
+                    "{unit:?} is a unit of {other}; expected one of {}, such as mm, mm/s or m/s^2",
+                    Signal::names()
+                ));
+            }
+            Some(Quantity::Signal(known, ..)) if certain && known != found.signal => {
+                return Err(format!("{unit:?} is a unit of {known}, not of {}", found.signal));
+            }
+            Some(Quantity::Signal(known, length, scale)) => {
+                certain = true;
+                // The unit of a displacement stays as it is written.
+                let length = if known.is_displacement() { unit.to_owned() } else { length };
+                found = Measure { signal: known, length: Some(length), scale };
+            }
+            None => found.length = Some(unit.to_owned()),
+        }
+    }
+    if !certain {
+        found.signal = suggested.unwrap_or_default();
+    }
+    if !found.signal.is_displacement() {
+        found.length = found.length.filter(|length| length_in_metres(length).is_some());
+    }
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_tell_signal_length_and_scale() {
+        for (unit, signal, length, scale) in [
+            ("mm", Signal::Displacement, "mm", 1.0),
+            ("\u{b5}m/s", Signal::Velocity, "um", 1.0),
+            ("m/s\u{b2}", Signal::Acceleration, "m", 1.0),
+            ("mm / s^2", Signal::Acceleration, "mm", 1.0),
+            ("g", Signal::Acceleration, "m", 9.806_65),
+        ] {
+            assert_eq!(quantity(unit), Some(Quantity::Signal(signal, length.into(), scale)));
+        }
+        assert_eq!(quantity("mV"), Some(Quantity::Other("voltage")));
+        assert_eq!(quantity("counts"), None);
+    }
+
+    #[test]
+    fn what_contradicts_is_refused_and_what_is_unknown_is_left_to_the_user() {
+        let velocity = Some(Signal::Velocity);
+        let refused = |written, said, signal| measure(written, said, signal, None).unwrap_err();
+        assert_eq!(
+            refused(Some("mm"), None, velocity),
+            "\"mm\" is a unit of displacement, not of velocity"
+        );
+        assert_eq!(
+            refused(Some("m/s"), Some("mm"), None),
+            "\"mm\" is a unit of displacement, not of velocity"
+        );
+        assert!(refused(Some("N"), None, velocity).starts_with("\"N\" is a unit of force; "));
+        let told = |written, said| measure(written, said, velocity, None).unwrap().length;
+        assert_eq!(told(Some("counts"), None), None);
+        assert_eq!(told(Some("counts"), Some("mm/s")), Some("mm".into()));
+        let suggested = measure(None, None, None, velocity).unwrap();
+        assert_eq!((suggested.signal, suggested.length), (Signal::Velocity, None));
+    }
+}
