@@ -79,17 +79,17 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     let mut problem =
         LeastSquares { data: &data, free, loss, used: &[], noise: noise.deviation, reach };
     let mut found = problem.search(&beginnings, runs)?;
-    if beginnings[0].start == StartKind::Release && !problem.explains(&found.valleys[0].optimum) {
-        let other = released_before(&problem, &held, &noise, &extremes, runs)?;
-        let cost = |of: &Minima| of.valleys[0].optimum.cost;
-        found = other.filter(|other| cost(other) < cost(&found)).unwrap_or(found);
-    }
     let swings = drift::of_swings(&t, &extremes).map(|drift| drift / factor);
     let drifting = || guessed(swings).map(|guess| guess.beginnings).unwrap_or_default();
     if let Some((minima, free)) = problem.drifting(&found, drifting, runs)? {
         (found, problem.free) = (minima, free);
         let p = &found.valleys[0].optimum.p;
         extremes = guessed([p[SLOPE], p[BEND]]).map_or(extremes, |guess| guess.extremes);
+    }
+    if beginnings[0].start == StartKind::Release && !problem.explains(&found.valleys[0].optimum) {
+        let other = released_before(&problem, &held, &noise, &extremes, runs)?;
+        let cost = |of: &Minima| of.valleys[0].optimum.cost;
+        found = other.filter(|other| cost(other) < cost(&found)).unwrap_or(found);
     }
     if let Some(from) = struck.filter(|_| !signal.is_displacement())
         && !problem.explains(&found.valleys[0].optimum)
