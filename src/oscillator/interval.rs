@@ -38,7 +38,7 @@ impl ParameterBox {
     /// What is wrong: an end outside the range of the parameter, or a number that is not a parameter.
     pub fn set(&mut self, symbol: Knob, interval: Interval) -> Result<(), String> {
         for end in [interval.lower(), interval.upper()] {
-            symbol.check(end).map_err(|refused| refused.to_string())?;
+            symbol.check(end)?;
         }
         *self.part(symbol).ok_or_else(|| {
             format!("{symbol} is the start of a motion; only D, D2, D3, r have intervals")

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use crate::session::message::Purpose;
 use crate::session::replay::script::Script;
 
-/// The effects of a line, or one line that says why it was refused.
-pub type Done = Result<Vec<Effect>, String>;
+/// Nothing, or one line that says why a command was refused.
+pub type Done = Result<(), String>;
 
 /// An effect for the outer rings; `update` itself touches nothing outside the session.
 #[derive(Clone, Debug, PartialEq)]

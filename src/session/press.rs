@@ -2,11 +2,11 @@
 
 use crate::numerics::similar::most_similar;
 use crate::session::act::focus::focus_on;
-use crate::session::act::notice::{inform, refuse, with_keys};
+use crate::session::act::notice::{attempt, inform, refuse, with_keys};
 use crate::session::act::{general, marks, typing};
 use crate::session::command_row::CommandAction;
 use crate::session::commands;
-use crate::session::effect::{Done, Effect};
+use crate::session::effect::Done;
 use crate::session::lines;
 use crate::session::message::key::{Code, Key};
 use crate::session::read::completion::names;
@@ -22,7 +22,7 @@ use crate::words::printable;
 pub(super) const ENTER: Key = Key::plain(Code::Enter);
 
 /// Handles a key press.
-pub(super) fn press(session: &mut Session, key: Key) -> Vec<Effect> {
+pub(super) fn press(session: &mut Session, key: Key) {
     session.notice = None;
     session.measuring = false;
     session.price = Price { key: Some(key), recomputed: Vec::new() };
@@ -33,7 +33,7 @@ pub(super) fn press(session: &mut Session, key: Key) -> Vec<Effect> {
 }
 
 /// Does what the key means in the present contexts.
-fn act(session: &mut Session, key: Key) -> Vec<Effect> {
+fn act(session: &mut Session, key: Key) {
     let contexts = session.contexts();
     if let Some(command) = session.keymap.command(contexts, key) {
         return run(session, command, key);
@@ -41,17 +41,16 @@ fn act(session: &mut Session, key: Key) -> Vec<Effect> {
     if let Some(char) = key.typed().filter(|_| contexts[0].takes_text()) {
         typing::insert(session, &char.to_string());
     } else if let Some(command) = elsewhere(session, key) {
-        return run_where_it_belongs(session, command, key);
+        run_where_it_belongs(session, command, key);
     } else {
         let text = format!("{} has no meaning here; {{help}} lists the keys", key.said());
         let text = with_keys(session, &text);
         inform(session, text);
     }
-    Vec::new()
 }
 
 /// Handles the key that completes a count or a letter.
-fn resolve(session: &mut Session, pending: Pending, key: Key) -> Vec<Effect> {
+fn resolve(session: &mut Session, pending: Pending, key: Key) {
     let context = match pending {
         Pending::Count(_) => Context::Count,
         Pending::Letter(_) => Context::Letter,
@@ -68,17 +67,16 @@ fn resolve(session: &mut Session, pending: Pending, key: Key) -> Vec<Effect> {
 
 /// Presses a key `count` times as one change. Stops early if a press is refused, opens something, quits, or
 /// asks for a letter.
-fn repeat(session: &mut Session, key: Key, count: u32) -> Vec<Effect> {
+fn repeat(session: &mut Session, key: Key, count: u32) {
     let depth = session.history.depth().0;
     let overlay = session.overlay.clone();
-    let mut effects = Vec::new();
     for _ in 0..count {
         if !session.means(key) {
-            effects.extend(act(session, key));
+            act(session, key);
             break;
         }
         session.notice = None;
-        effects.extend(act(session, key));
+        act(session, key);
         let refused = session.notice.as_ref().is_some_and(|notice| notice.error);
         let opened = match (&session.overlay, &overlay) {
             (Some(now), Some(before)) => now.differs(before),
@@ -89,11 +87,10 @@ fn repeat(session: &mut Session, key: Key, count: u32) -> Vec<Effect> {
         }
     }
     session.history.merge(depth);
-    effects
 }
 
 /// Uses a letter for its purpose. The key that asked for the letter, pressed again, means the last point.
-fn letter(session: &mut Session, what: Letter, key: Key) -> Vec<Effect> {
+fn letter(session: &mut Session, what: Letter, key: Key) {
     let asks =
         |name| session.keymap.command(session.contexts(), key).is_some_and(|c| c.name == name);
     let name = match key.typed() {
@@ -102,15 +99,17 @@ fn letter(session: &mut Session, what: Letter, key: Key) -> Vec<Effect> {
     };
     match (what, name) {
         (Letter::Mark, Some(name)) => marks::set(session, name),
-        (Letter::GoTo, Some(name)) => marks::go_to(session, name),
-        (Letter::GoTo, None) if asks("go-to-mark") => marks::go_back(session),
+        (Letter::GoTo, Some(name)) => attempt(session, |session| marks::go_to(session, name)),
+        (Letter::GoTo, None) if asks("go-to-mark") => {
+            attempt(session, marks::go_back);
+        }
         (_, None) if session.keymap.command(&[Context::Always], key).is_some() => act(session, key),
         (_, None) => refuse(session, format!("{} is not a letter from a to z", key.said())),
     }
 }
 
 /// Runs a command here or in the pane where it applies, which then gets the focus.
-fn run_where_it_belongs(session: &mut Session, command: &Command, key: Key) -> Vec<Effect> {
+fn run_where_it_belongs(session: &mut Session, command: &Command, key: Key) {
     match place(session, command) {
         Ok(Some(pane)) => focus_on(session, pane),
         Ok(None) => {}
@@ -118,7 +117,7 @@ fn run_where_it_belongs(session: &mut Session, command: &Command, key: Key) -> V
             return refuse(session, format!("{} {}", command.name, missing(session, place)));
         }
     }
-    run(session, command, key)
+    run(session, command, key);
 }
 
 /// Why a command cannot be run: what it needs, and how to get there.
@@ -140,28 +139,29 @@ fn missing(session: &Session, place: Context) -> String {
 }
 
 /// Runs a command, or the command that it chooses.
-fn run(session: &mut Session, command: &Command, key: Key) -> Vec<Effect> {
+fn run(session: &mut Session, command: &Command, key: Key) {
     match commands::run(command.name) {
         Some(CommandAction::Act(act)) => act(session, key),
+        Some(CommandAction::Try(act)) => attempt(session, act),
         Some(CommandAction::Toggle(layer)) => general::toggle(session, layer),
         Some(CommandAction::Choose(choose)) => match choose(session) {
-            Some(Chosen::Command(command)) => run_where_it_belongs(session, command, key),
-            Some(Chosen::Line(text)) => run_typed(session, &text),
-            None => Vec::new(),
+            Ok(Some(Chosen::Command(command))) => run_where_it_belongs(session, command, key),
+            Ok(Some(Chosen::Line(text))) => run_typed(session, &text),
+            Ok(None) => {}
+            Err(why) => refuse(session, why),
         },
-        None => Vec::new(),
+        None => {}
     }
 }
 
 /// Runs the text of the command line; if it is refused, the line stays open with the reason.
-fn run_typed(session: &mut Session, text: &str) -> Vec<Effect> {
+fn run_typed(session: &mut Session, text: &str) {
     let open = session.overlay.take();
-    run_line(session, text).unwrap_or_else(|why| {
+    if let Err(why) = run_line(session, text) {
         let Some(Overlay::Prompt(prompt)) = open else { return refuse(session, why) };
         let refused = Prompt { refused: Some(why), completion: None, back: 0, ..prompt };
         session.overlay = Some(Overlay::Prompt(refused));
-        Vec::new()
-    })
+    }
 }
 
 /// Runs a line while nothing is open. Fails with one line that says what is wrong and what is allowed; the
@@ -171,12 +171,15 @@ pub fn run_line(session: &mut Session, text: &str) -> Done {
     let (name, rest) = (full_name(name), rest.trim());
     let (line, command) = (session.keymap.line(name), session.keymap.named(name));
     match (line, command) {
-        (_, Some(command)) if rest.is_empty() => Ok(run_where_it_belongs(session, command, ENTER)),
+        (_, Some(command)) if rest.is_empty() => {
+            run_where_it_belongs(session, command, ENTER);
+            Ok(())
+        }
         (Some(line), _) if rest.is_empty() => {
             Err(format!("{name} needs {}: {}", line.arguments, line.doc))
         }
         (Some(_), _) => {
-            let run = lines::run(name).map_or(Ok(Vec::new()), |run| run(session, rest));
+            let run = lines::run(name).map_or(Ok(()), |run| run(session, rest));
             run.map_err(|why| printable::line(&format!("{name}: {why}")).into())
         }
         (None, Some(_)) => Err(format!("{name} takes no words, but there are {rest:?}")),
@@ -188,7 +191,7 @@ pub fn run_line(session: &mut Session, text: &str) -> Done {
 }
 
 /// Runs a line that was not typed.
-pub(super) fn run_untyped(session: &mut Session, text: &str) -> Vec<Effect> {
+pub(super) fn run_untyped(session: &mut Session, text: &str) {
     (session.overlay, session.pending, session.notice) = (None, None, None);
-    run_line(session, text).unwrap_or_else(|why| refuse(session, why))
+    attempt(session, |session| run_line(session, text));
 }

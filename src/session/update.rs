@@ -7,7 +7,7 @@
 use crate::flow::Reason;
 use crate::question::NoAnswer;
 use crate::scene::{Answered, Request};
-use crate::session::act::notice::{inform, refuse, with_keys};
+use crate::session::act::notice::{attempt, inform, refuse, with_keys};
 use crate::session::act::{answers, files, history, mouse, typing, walk};
 use crate::session::effect::Effect;
 use crate::session::message::Msg;
@@ -35,11 +35,11 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
             return Vec::new();
         }
     }
-    let mut effects = take_in(session, message);
+    take_in(session, message);
     if let Some(message) = released(session) {
-        effects.extend(take_in(session, message));
+        take_in(session, message);
     }
-    effects
+    std::mem::take(&mut session.effects)
 }
 
 /// Maximum rounds of questions, in case a session never stops asking: windows are fitted after the first round,
@@ -61,33 +61,24 @@ pub fn settle(session: &mut Session, mut answer: impl FnMut(&Session, &Request) 
 }
 
 /// Takes a message in that does not have to wait.
-fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
+fn take_in(session: &mut Session, message: Msg) {
     session.chord += u32::from(is_press(&message));
-    let effects = match message {
+    match message {
         Msg::Key(key) => press(session, key),
         Msg::Paste(text) => paste(session, &text),
         Msg::Pointed(pointed) => {
             session.notice = None;
             session.price = Price::default();
             session.measuring = false;
-            mouse::pointed(session, pointed)
+            attempt(session, |session| mouse::pointed(session, pointed));
         }
-        Msg::Resize { width, height } => {
-            session.size = Size { width, height };
-            Vec::new()
-        }
-        Msg::Answered(answered) => {
-            take(session, *answered);
-            Vec::new()
-        }
+        Msg::Resize { width, height } => session.size = Size { width, height },
+        Msg::Answered(answered) => take(session, *answered),
         Msg::Run(line) => {
             session.price = Price { key: Some(ENTER), recomputed: Vec::new() };
-            run_untyped(session, &line)
+            run_untyped(session, &line);
         }
-        Msg::Start(names) => {
-            history::begin(session, names);
-            Vec::new()
-        }
+        Msg::Start(names) => history::begin(session, names),
         Msg::Say(caption, place) => {
             // An empty caption says that a replay is over.
             session.caption = if caption.is_empty() {
@@ -95,23 +86,17 @@ fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
             } else {
                 SessionCaption::Tour(caption, place)
             };
-            Vec::new()
         }
-        Msg::Read { path, purpose, result } => files::read(session, &path, purpose, result),
+        Msg::Read { path, purpose, result } => {
+            attempt(session, |session| files::read(session, &path, purpose, result));
+        }
         Msg::Written(notice) => {
             (session.writing, session.notice) = (None, Some(notice));
-            Vec::new()
         }
-        Msg::Told(notice) => {
-            session.notice = Some(notice);
-            Vec::new()
-        }
-        Msg::Elapsed { seconds } => {
-            session.elapse(seconds);
-            Vec::new()
-        }
-        Msg::Idle => Vec::new(),
-    };
+        Msg::Told(notice) => session.notice = Some(notice),
+        Msg::Elapsed { seconds } => session.elapse(seconds),
+        Msg::Idle => {}
+    }
     answers::follow_fit(session);
     keep_selection(session);
     let asked = session.asks().into_iter().chain(session.compared().cloned()).collect();
@@ -121,7 +106,6 @@ fn take_in(session: &mut Session, message: Msg) -> Vec<Effect> {
     if session.chord > 0 && session.overlay.is_none() && session.pending.is_none() {
         session.asked = std::mem::take(&mut session.chord);
     }
-    effects
 }
 
 /// Whether a message is input of the user.
@@ -130,17 +114,17 @@ fn is_press(message: &Msg) -> bool {
 }
 
 /// Pasted text goes into the open line, a number into a new line; keystrokes are offered as a replay.
-fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
+fn paste(session: &mut Session, text: &str) {
     session.notice = None;
     if session.contexts()[0].takes_text() {
         typing::insert(session, text);
-        return Vec::new();
+        return;
     }
     let number = text.trim().parse::<f64>().is_ok();
     if number && session.overlay.is_none() && session.focus == Pane::Parameters {
         let entry = Entry::new(session.selected, text.trim().to_owned());
         session.overlay = Some(Overlay::Entry(entry));
-        return Vec::new();
+        return;
     }
     // Text that names no key in angle brackets was probably pasted by mistake.
     if !text.contains('<') && !text.trim_start().starts_with('#') {
@@ -152,7 +136,6 @@ fn paste(session: &mut Session, text: &str) -> Vec<Effect> {
     match parse(text) {
         Ok(script) if script.keys() > 0 => {
             session.overlay = Some(Overlay::Offer(script));
-            Vec::new()
         }
         Ok(_) => inform(session, "the pasted text presses no key"),
         Err(error) => refuse(session, format!("the pasted text is not a keystroke file: {error}")),

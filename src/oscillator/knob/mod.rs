@@ -50,6 +50,13 @@ impl fmt::Display for OutOfRange {
 
 impl std::error::Error for OutOfRange {}
 
+impl From<OutOfRange> for String {
+    /// The refusal in one line.
+    fn from(refused: OutOfRange) -> Self {
+        refused.to_string()
+    }
+}
+
 impl Knob {
     /// The number of these groups with this name, compared exactly.
     ///
@@ -95,12 +102,12 @@ impl Knob {
             return Ok(WithTolerance { middle, ends: Interval::point(value), ..read });
         }
         for end in [value - read.half_width, value + read.half_width] {
-            self.check(end).map_err(|refused| refused.to_string())?;
+            self.check(end)?;
         }
         let KnobSpec { min, max, .. } = *self.spec();
         let ends = Interval::new(read.ends.lower().max(min), read.ends.upper().min(max));
         for end in [ends.lower(), ends.upper()] {
-            self.check(end).map_err(|refused| refused.to_string())?;
+            self.check(end)?;
         }
         Ok(WithTolerance { middle, ends, ..read })
     }
@@ -109,7 +116,7 @@ impl Knob {
     fn accept(self, text: &str, read: Measured) -> Result<f64, String> {
         let value = read.in_unit(self.spec().unit);
         let value = value.map_err(|refused| format!("{self} = {} {refused}", text.trim()))?;
-        self.check(value + 0.0).map_err(|refused| refused.to_string())
+        Ok(self.check(value + 0.0)?)
     }
 
     fn unread(self, text: &str, why: String) -> String {

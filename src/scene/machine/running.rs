@@ -24,7 +24,7 @@ impl<'a> Running<'a> {
     /// The machine with its belt at `speed` m/s instead of its own speed. Fails with one line that says what is
     /// allowed: the range of speeds, or what the friction law lacks there.
     pub fn at(machine: &'a Machine, speed: f64) -> Result<Self, String> {
-        let speed = Knob::BeltSpeed.check(speed).map_err(|refused| refused.to_string())?;
+        let speed = Knob::BeltSpeed.check(speed)?;
         let reduced = machine.belt.reduce_at(speed).map_err(|refused| refused.to_string())?;
         Ok(Running { machine, speed, reduced })
     }

@@ -49,7 +49,7 @@ impl Session {
     fn show_fit(&mut self, fit: &Fit) {
         let found = match fit.found() {
             Ok(found) => found,
-            Err(unfit) => return drop(refuse(self, unfit.to_string())),
+            Err(unfit) => return refuse(self, unfit.to_string()),
         };
         let problem = found.problem(self.scene.problem);
         let errors = Knob::MOTION.into_iter().filter_map(|knob| Some((knob, found.error(knob)?)));
@@ -68,8 +68,8 @@ impl Session {
         }
         let doubtful = found.fit.estimate.whiteness.systematic;
         match said.into_iter().find(|text| !doubtful || text.starts_with("the residuals")) {
-            Some(text) if doubtful => drop(refuse(self, text)),
-            Some(text) => drop(inform(self, text)),
+            Some(text) if doubtful => refuse(self, text),
+            Some(text) => inform(self, text),
             None => {}
         }
     }

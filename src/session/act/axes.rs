@@ -3,8 +3,8 @@
 use crate::oscillator::Knob;
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Axes, ORDINATES, PlotSetup, Span, Unit, View, Window};
-use crate::session::act::notice::{inform, refuse};
-use crate::session::effect::Effect;
+use crate::session::act::notice::inform;
+use crate::session::effect::Done;
 use crate::session::state::plot::Plot;
 use crate::session::state::session::Session;
 
@@ -17,17 +17,17 @@ fn after(parameter: Knob, places: usize) -> Knob {
 }
 
 /// Draws the diagram in focus over the next parameter, cycling; this needs another branch.
-pub fn next_abscissa(session: &mut Session) -> Vec<Effect> {
-    let Some(plot) = session.focused() else { return Vec::new() };
+pub fn next_abscissa(session: &mut Session) {
+    let Some(plot) = session.focused() else { return };
     let axes = plot.axes;
     let symbol = after(axes.abscissa, 1);
     set(session, Axes { abscissa: symbol, ..axes });
-    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning))
+    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
 }
 
 /// Draws the chart in focus over the next parameter to the right or upwards; both axes always differ.
-pub fn next_of_chart(session: &mut Session, upwards: bool) -> Vec<Effect> {
-    let Some(plot) = session.focused_mut() else { return Vec::new() };
+pub fn next_of_chart(session: &mut Session, upwards: bool) {
+    let Some(plot) = session.focused_mut() else { return };
     let Axes { abscissa, against, .. } = plot.axes;
     let (present, other) = if upwards { (against, abscissa) } else { (abscissa, against) };
     let next = after(present, 1);
@@ -39,7 +39,7 @@ pub fn next_of_chart(session: &mut Session, upwards: bool) -> Vec<Effect> {
     plot.fit_from(
         PlotSetup { view: plot.view, axes: plot.axes, window: None, family: plot.family }.opening(),
     );
-    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning))
+    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
 }
 
 /// Gives the diagram in focus these axes.
@@ -60,26 +60,27 @@ pub fn set(session: &mut Session, axes: Axes) {
 }
 
 /// Shows the next property of the cycles, cycling; the branch stays.
-pub fn next_ordinate(session: &mut Session) -> Vec<Effect> {
-    let Some(plot) = session.focused() else { return Vec::new() };
+pub fn next_ordinate(session: &mut Session) {
+    let Some(plot) = session.focused() else { return };
     let row = &ORDINATES[(plot.axes.ordinate as usize + 1) % ORDINATES.len()];
     let axes = Axes { ordinate: row.ordinate, ..plot.axes };
     set(session, axes);
-    inform(session, format!("{}: {}", axes.label(), row.meaning))
+    inform(session, format!("{}: {}", axes.label(), row.meaning));
 }
 
 /// Switches lengths of the cycles between units of r and those of the equation; the branch stays.
-pub fn next_unit(session: &mut Session) -> Vec<Effect> {
-    let Some(plot) = session.focused() else { return Vec::new() };
+pub fn next_unit(session: &mut Session) -> Done {
+    let plot = &session.plots[session.plot];
     let (spec, unit) = (plot.axes.ordinate.spec(), plot.axes.unit);
     if spec.ratio.is_none() {
-        return refuse(session, format!("{} is not a length and has no unit", spec.label));
+        return Err(format!("{} is not a length and has no unit", spec.label));
     }
     let unit = if unit == Unit::One { Unit::Friction } else { Unit::One };
     let axes = Axes { unit, ..plot.axes };
     set(session, axes);
     let units = if unit == Unit::One { "" } else { ", in units of r" };
-    inform(session, format!("{}: {}{units}", axes.label(), spec.meaning))
+    inform(session, format!("{}: {}{units}", axes.label(), spec.meaning));
+    Ok(())
 }
 
 /// The scene's setup for the diagram in focus.

@@ -6,8 +6,7 @@ use crate::flow::method::Dial;
 use crate::numerics::decimal::shortest;
 use crate::oscillator::Knob;
 use crate::scene::{Axes, View};
-use crate::session::act::notice::refuse;
-use crate::session::effect::Effect;
+use crate::session::effect::{Done, Effect};
 use crate::session::read::numbers;
 use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
@@ -17,19 +16,18 @@ use crate::study::measure::Value;
 const BRANCH_POINTS: usize = 200;
 
 /// Copies the shell command that prints the numbers of the pane in focus.
-pub fn command(session: &mut Session) -> Vec<Effect> {
-    vec![Effect::Copy(command_line(session))]
+pub fn command(session: &mut Session) {
+    session.effects.push(Effect::Copy(command_line(session)));
 }
 
 /// Copies the number or the point under consideration.
-pub fn number(session: &mut Session) -> Vec<Effect> {
-    let looked_at = point(session);
-    let words: Vec<String> = looked_at.into_iter().map(|(_, value)| value).collect();
+pub fn number(session: &mut Session) -> Done {
+    let words: Vec<String> = point(session).into_iter().map(|(_, value)| value).collect();
     copied(session, &words)
 }
 
 /// Copies the number or the point with everything that belongs to it, in the syntax of `set`.
-pub fn row(session: &mut Session) -> Vec<Effect> {
+pub fn row(session: &mut Session) -> Done {
     let mut named = point(session);
     if !named.is_empty() {
         named.extend(belonging(session));
@@ -41,11 +39,12 @@ pub fn row(session: &mut Session) -> Vec<Effect> {
     copied(session, &words)
 }
 
-fn copied(session: &mut Session, words: &[String]) -> Vec<Effect> {
+fn copied(session: &mut Session, words: &[String]) -> Done {
     if words.is_empty() {
-        return refuse(session, "nothing is pointed at: arrows show a cursor");
+        return Err("nothing is pointed at: arrows show a cursor".to_owned());
     }
-    vec![Effect::Copy(words.join(" "))]
+    session.effects.push(Effect::Copy(words.join(" ")));
+    Ok(())
 }
 
 /// A number, with its name.

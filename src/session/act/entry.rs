@@ -5,7 +5,6 @@ use crate::oscillator::Knob;
 use crate::oscillator::unit::measured;
 use crate::session::act::notice::warn_of_units;
 use crate::session::act::parameters::put;
-use crate::session::effect::Effect;
 use crate::session::message::key::Key;
 use crate::session::read::numbers::{typed, with_number};
 use crate::session::state::overlay::{Entry, Overlay};
@@ -15,7 +14,7 @@ use crate::session::state::setup::Setup;
 use crate::session::state::uncertainty::{Uncertainty, symbol_of};
 
 /// Opens the line with the value of the selected row.
-pub fn edit(session: &mut Session) -> Vec<Effect> {
+pub fn edit(session: &mut Session) {
     let row = session.selected;
     let text = match row {
         Row::Method => session.problem.method.to_string(),
@@ -25,24 +24,22 @@ pub fn edit(session: &mut Session) -> Vec<Effect> {
         }
     };
     session.overlay = Some(Overlay::Entry(Entry::new(row, text)));
-    Vec::new()
 }
 
 /// Opens the line with the character that was typed.
-pub fn begin(session: &mut Session, key: Key) -> Vec<Effect> {
+pub fn begin(session: &mut Session, key: Key) {
     let text = key.typed().map(String::from).unwrap_or_default();
     session.overlay = Some(Overlay::Entry(Entry::new(session.selected, text)));
-    Vec::new()
 }
 
 /// Accepts the typed value, or says in the line why it is refused.
-pub fn accept(session: &mut Session) -> Vec<Effect> {
-    let Some(Overlay::Entry(entry)) = &session.overlay else { return Vec::new() };
+pub fn accept(session: &mut Session) {
+    let Some(Overlay::Entry(entry)) = &session.overlay else { return };
     match read(session, &session.setup(), entry.row, entry.input.text()) {
         Ok(setup) => {
             session.overlay = None;
             put(session, &setup);
-            return warn_of_units(session);
+            warn_of_units(session);
         }
         Err(why) => {
             if let Some(Overlay::Entry(entry)) = &mut session.overlay {
@@ -50,7 +47,6 @@ pub fn accept(session: &mut Session) -> Vec<Effect> {
             }
         }
     }
-    Vec::new()
 }
 
 /// The setup with the typed value in a row. Fails with one line that says what is allowed.

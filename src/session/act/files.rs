@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::scene::machine::file::parse;
 use crate::scene::machine::mode::{NO_BELT, is_mode};
 use crate::scene::{Recording, ScaledMachine};
-use crate::session::act::notice::{inform, refuse, warn_of_units, with_keys};
+use crate::session::act::notice::{inform, warn_of_units, with_keys};
 use crate::session::act::{history, measurement, prompt};
 use crate::session::effect::{Done, Effect};
 use crate::session::message::Purpose;
@@ -21,18 +21,26 @@ const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
 
 pub(in crate::session) fn write(session: &mut Session, path: &str, replace: bool) -> Done {
     let text = save::text(session)?;
-    Ok(vec![Effect::Write { path: PathBuf::from(path), text, replace }])
+    session.effects.push(Effect::Write { path: PathBuf::from(path), text, replace });
+    Ok(())
 }
 
 /// Writes the recording since the start, without the presses that asked for that.
-pub(in crate::session) fn record(session: &mut Session, path: &str, replace: bool) -> Vec<Effect> {
+#[expect(clippy::unnecessary_wraps, reason = "as the functions of all lines")]
+pub(in crate::session) fn record(session: &mut Session, path: &str, replace: bool) -> Done {
     let forget = session.chord;
-    vec![Effect::Record { path: PathBuf::from(path), forget, replace }]
+    session.effects.push(Effect::Record { path: PathBuf::from(path), forget, replace });
+    Ok(())
 }
 
-pub(in crate::session) fn ask(path: &str, purpose: Purpose) -> Vec<Effect> {
-    vec![Effect::Read { path: PathBuf::from(path), purpose }]
+#[expect(clippy::unnecessary_wraps, reason = "as the functions of all lines")]
+pub(in crate::session) fn ask(session: &mut Session, path: &str, purpose: Purpose) -> Done {
+    session.effects.push(Effect::Read { path: PathBuf::from(path), purpose });
+    Ok(())
 }
+
+/// Said where there is no interrupted session.
+const NONE_INTERRUPTED: &str = "no session was interrupted";
 
 /// File extensions of figures.
 const FIGURES: [&str; 4] = ["svg", "png", "csv", "json"];
@@ -52,7 +60,8 @@ pub(in crate::session) fn figure(
             return Err(format!("{} is still being written; {stops}", other.display()));
         }
         session.writing = Some(path.clone());
-        Ok(vec![Effect::Figure { path, plot, replace }])
+        session.effects.push(Effect::Figure { path, plot, replace });
+        Ok(())
     } else {
         let given = path.display().to_string();
         Err(format!("a figure ends in .svg, .png, .csv or .json, not {given:?}"))
@@ -60,23 +69,14 @@ pub(in crate::session) fn figure(
 }
 
 /// Offers to write the plot in use: opens the line with a command and a file name, to be edited or accepted.
-pub fn offer_figure(session: &mut Session) -> Vec<Effect> {
+pub fn offer_figure(session: &mut Session) {
     let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
     let scene: String = session.scene.name.chars().map(plain).collect();
-    prompt::open_with(session, format!("figure-pane {scene}-{}.svg", session.plot + 1))
+    prompt::open_with(session, format!("figure-pane {scene}-{}.svg", session.plot + 1));
 }
 
 /// Takes a file in, or says what is wrong with it and changes nothing.
 pub(in crate::session) fn read(
-    session: &mut Session,
-    path: &Path,
-    purpose: Purpose,
-    result: Result<String, String>,
-) -> Vec<Effect> {
-    take(session, path, purpose, result).unwrap_or_else(|why| refuse(session, why))
-}
-
-fn take(
     session: &mut Session,
     path: &Path,
     purpose: Purpose,
@@ -100,7 +100,7 @@ fn take(
                 count => with_keys(session, &format!("; {{restore}} lists {count} others")),
             };
             inform(session, format!("the interrupted session is back{others}"));
-            return Ok(vec![Effect::PutAside(path.to_owned())]);
+            session.effects.push(Effect::PutAside(path.to_owned()));
         }
         Purpose::Fit(words) => {
             let opened = measurement::opened(path, &words, &text).map_err(of_file)?;
@@ -111,10 +111,10 @@ fn take(
         Purpose::Table { .. } => {}
         Purpose::Play => {
             let script = replay::parse(&text).map_err(|error| of_file(error.to_string()))?;
-            return Ok(vec![Effect::Play(script)]);
+            session.effects.push(Effect::Play(script));
         }
     }
-    Ok(Vec::new())
+    Ok(())
 }
 
 /// Opens the machine of a file; asks for the table of friction first if the file names one.
@@ -138,33 +138,37 @@ fn open_machine(
     });
     if let Some(table) = wanted {
         let purpose = Purpose::Table { path: path.to_owned(), machine: text };
-        return Ok(vec![Effect::Read { path: table, purpose }]);
+        session.effects.push(Effect::Read { path: table, purpose });
+        return Ok(());
     }
     let machine = found.map_err(|error| error.to_string())?;
     let scaled = ScaledMachine::new(machine).map_err(|error| format!("{file}: {error}"))?;
     history::open_scene(session, Arc::new(scaled.scene()));
-    Ok(warn_of_units(session))
+    warn_of_units(session);
+    Ok(())
 }
 
 /// Continues the interrupted session, or lists the sessions if there are several.
-pub fn restore(session: &mut Session) -> Vec<Effect> {
+pub fn restore(session: &mut Session) -> Done {
     match session.interrupted.len() {
-        0 => return none_interrupted(session),
-        1 => return restore_number(session, 0),
+        0 => return Err(NONE_INTERRUPTED.to_owned()),
+        1 => restore_number(session, 0),
         _ => session.overlay = Some(Overlay::List(Listed::Interrupted, List::default())),
     }
-    Vec::new()
+    Ok(())
 }
 
 /// Continues the selected interrupted session.
-pub(in crate::session) fn restore_selected(session: &mut Session) -> Vec<Effect> {
-    selected(session).map_or_else(Vec::new, |number| restore_number(session, number))
+pub(in crate::session) fn restore_selected(session: &mut Session) {
+    if let Some(number) = selected(session) {
+        restore_number(session, number);
+    }
 }
 
-fn restore_number(session: &mut Session, number: usize) -> Vec<Effect> {
+fn restore_number(session: &mut Session, number: usize) {
     session.overlay = None;
     let path = session.interrupted.remove(number).path;
-    vec![Effect::Read { path, purpose: Purpose::Restore }]
+    session.effects.push(Effect::Read { path, purpose: Purpose::Restore });
 }
 
 /// Index of the selected session among all interrupted ones.
@@ -174,8 +178,8 @@ fn selected(session: &Session) -> Option<usize> {
 }
 
 /// Stops offering the selected interrupted session.
-pub fn forget_selected(session: &mut Session) -> Vec<Effect> {
-    let Some(number) = selected(session) else { return Vec::new() };
+pub fn forget_selected(session: &mut Session) -> Done {
+    let Some(number) = selected(session) else { return Ok(()) };
     if session.interrupted.len() == 1 {
         return forget(session);
     }
@@ -184,24 +188,22 @@ pub fn forget_selected(session: &mut Session) -> Vec<Effect> {
     if let Some(list) = session.list_mut() {
         list.selected = list.selected.min(last);
     }
-    vec![Effect::PutAside(path)]
+    session.effects.push(Effect::PutAside(path));
+    Ok(())
 }
 
 /// Stops offering all interrupted sessions.
-pub fn forget(session: &mut Session) -> Vec<Effect> {
+pub fn forget(session: &mut Session) -> Done {
     let all = std::mem::take(&mut session.interrupted);
     session.overlay = None;
     match all.len() {
-        0 => return none_interrupted(session),
+        0 => return Err(NONE_INTERRUPTED.to_owned()),
         1 => inform(session, "the interrupted session is not offered again"),
         count => inform(session, format!("{count} interrupted sessions are not offered again")),
-    };
+    }
     // The most recent one is put aside last, so that it remains.
-    all.into_iter().rev().map(|kept| Effect::PutAside(kept.path)).collect()
-}
-
-fn none_interrupted(session: &mut Session) -> Vec<Effect> {
-    refuse(session, "no session was interrupted")
+    session.effects.extend(all.into_iter().rev().map(|kept| Effect::PutAside(kept.path)));
+    Ok(())
 }
 
 /// The built-in tour as a keystroke file. Fails with one line; a test plays the tour.
@@ -209,11 +211,7 @@ pub fn tour_script() -> Result<Script, String> {
     replay::parse(TOUR).map_err(|error| format!("the tour: {error}"))
 }
 
-pub fn tour(session: &mut Session) -> Vec<Effect> {
-    match tour_script() {
-        Ok(script) => {
-            vec![Effect::Play(script)]
-        }
-        Err(why) => refuse(session, why),
-    }
+pub fn tour(session: &mut Session) -> Done {
+    session.effects.push(Effect::Play(tour_script()?));
+    Ok(())
 }

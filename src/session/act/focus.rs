@@ -1,11 +1,10 @@
 //! Commands that move the focus between panes.
 
-use crate::session::effect::Effect;
 use crate::session::state::plot::Pane;
 use crate::session::state::session::Session;
 
 /// Gives the focus to another pane.
-pub fn focus(session: &mut Session, by: isize) -> Vec<Effect> {
+pub fn focus(session: &mut Session, by: isize) {
     // If a plot is enlarged, the next plot takes its space.
     let panes = session.plots.len() + 1;
     let at = match session.focus {
@@ -14,7 +13,6 @@ pub fn focus(session: &mut Session, by: isize) -> Vec<Effect> {
     };
     let next = at.checked_add_signed(by).unwrap_or(panes - 1) % panes;
     focus_on(session, next.checked_sub(1).map_or(Pane::Parameters, Pane::Plot));
-    Vec::new()
 }
 
 pub(in crate::session) fn focus_on(session: &mut Session, pane: Pane) {
@@ -25,7 +23,6 @@ pub(in crate::session) fn focus_on(session: &mut Session, pane: Pane) {
 }
 
 /// Gives one plot the space of all, or lets all share it again.
-pub fn enlarge(session: &mut Session) -> Vec<Effect> {
+pub fn enlarge(session: &mut Session) {
     session.enlarged = !session.enlarged;
-    Vec::new()
 }

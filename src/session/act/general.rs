@@ -1,15 +1,15 @@
 //! Commands that belong to no pane: layers, harmonics, the scene's caption, appearance, retry, quitting.
 
 use crate::scene::Layer;
-use crate::session::act::notice::{inform, refuse, with_keys};
-use crate::session::effect::Effect;
+use crate::session::act::notice::{inform, with_keys};
+use crate::session::effect::{Done, Effect};
 use crate::session::state::overlay::{Overlay, SessionCaption};
 use crate::session::state::session::{MOST_HARMONICS, Session};
 use crate::session::state::settings::{GLYPHS, THEMES, next_of};
 use crate::study::harmonic_error::ladder;
 
 /// Shows or hides a layer.
-pub fn toggle(session: &mut Session, layer: Layer) -> Vec<Effect> {
+pub fn toggle(session: &mut Session, layer: Layer) {
     let on = !session.layers.remove(&layer);
     if on {
         session.layers.insert(layer);
@@ -29,11 +29,11 @@ pub fn toggle(session: &mut Session, layer: Layer) -> Vec<Effect> {
         _ => format!("{} {state}: {}", spec.name, spec.meaning),
     };
     let text = with_keys(session, &text);
-    inform(session, text)
+    inform(session, text);
 }
 
 /// Shows the cycles with the next number of harmonics on a ladder of numbers.
-pub fn harmonics(session: &mut Session, more: bool) -> Vec<Effect> {
+pub fn harmonics(session: &mut Session, more: bool) -> Done {
     let ladder = ladder(MOST_HARMONICS);
     let now = session.harmonics;
     let next = if more {
@@ -42,86 +42,78 @@ pub fn harmonics(session: &mut Session, more: bool) -> Vec<Effect> {
         ladder.iter().rev().find(|count| **count < now)
     };
     session.layers.insert(Layer::Balance);
-    if let Some(next) = next {
-        session.harmonics = *next;
-        return inform(session, format!("harmonic balance with N = {next}"));
-    }
     let way = if more { "more" } else { "fewer" };
-    refuse(session, format!("{now} harmonics: there are no {way}"))
+    session.harmonics = *next.ok_or_else(|| format!("{now} harmonics: there are no {way}"))?;
+    inform(session, format!("harmonic balance with N = {}", session.harmonics));
+    Ok(())
 }
 
 /// Shows or hides the caption of the scene: what there is to see, and what to press.
-pub fn explain(session: &mut Session) -> Vec<Effect> {
+pub fn explain(session: &mut Session) {
     session.caption = if session.caption == SessionCaption::Scene {
         SessionCaption::Nothing
     } else {
         SessionCaption::Scene
     };
-    Vec::new()
 }
 
 /// Draws with the next set of characters.
-pub fn glyphs(session: &mut Session) -> Vec<Effect> {
+pub fn glyphs(session: &mut Session) {
     let (glyphs, name) = next_of(&GLYPHS, session.look.glyphs);
     session.look.glyphs = glyphs;
-    inform(session, format!("glyphs: {name}"))
+    inform(session, format!("glyphs: {name}"));
 }
 
 /// Uses the next theme.
-pub fn theme(session: &mut Session) -> Vec<Effect> {
+pub fn theme(session: &mut Session) {
     let (theme, name) = next_of(&THEMES, session.look.theme);
     session.look.theme = theme;
-    inform(session, format!("theme: {name}"))
+    inform(session, format!("theme: {name}"));
 }
 
 /// Switches phase planes between equal units and filling their whole space.
-pub fn equal(session: &mut Session) -> Vec<Effect> {
+pub fn equal(session: &mut Session) {
     session.look.stretched = !session.look.stretched;
     let text = if session.look.stretched {
         "phase planes fill their panes: a circle need not look like one"
     } else {
         "equal units: a circle looks like one"
     };
-    inform(session, text)
+    inform(session, text);
 }
 
 /// Shows axes of machines with or without units.
-pub fn units(session: &mut Session) -> Vec<Effect> {
+pub fn units(session: &mut Session) {
     session.look.dimensionless = !session.look.dimensionless;
     let text = if session.look.dimensionless {
         "axes without units: q, v and tau"
     } else {
         "axes of machines in their units"
     };
-    inform(session, text)
+    inform(session, text);
 }
 
 /// Closes the overlay.
-pub fn back(session: &mut Session) -> Vec<Effect> {
+pub fn back(session: &mut Session) {
     session.overlay = None;
-    Vec::new()
 }
 
 /// Asks questions that have no answer again.
-pub fn retry(session: &mut Session) -> Vec<Effect> {
+pub fn retry(session: &mut Session) {
     if !session.answers.forget_failures() {
         inform(session, "nothing has failed");
     }
-    Vec::new()
 }
 
 /// Plays the pasted keys after confirmation.
-pub fn accept_offer(session: &mut Session) -> Vec<Effect> {
+pub fn accept_offer(session: &mut Session) {
     match session.overlay.take() {
-        Some(Overlay::Offer(script)) => vec![Effect::Play(script)],
-        other => {
-            session.overlay = other;
-            Vec::new()
-        }
+        Some(Overlay::Offer(script)) => session.effects.push(Effect::Play(script)),
+        other => session.overlay = other,
     }
 }
 
-pub fn quit(session: &mut Session) -> Vec<Effect> {
+pub fn quit(session: &mut Session) {
     session.quit = true;
-    vec![Effect::Quit]
+    session.effects.push(Effect::Quit);
 }

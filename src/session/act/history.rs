@@ -5,9 +5,9 @@ use std::sync::Arc;
 use crate::fit::Unfit;
 use crate::oscillator::Knob;
 use crate::scene::{Answer, Answered, Scene, Topic};
-use crate::session::act::notice::{inform, refuse};
+use crate::session::act::notice::inform;
 use crate::session::act::screen_setup::set_up;
-use crate::session::effect::Effect;
+use crate::session::effect::Done;
 use crate::session::read::numbers::difference;
 use crate::session::state::history::{Before, ScreenSetup, Snapshot};
 use crate::session::state::playback::Playback;
@@ -17,7 +17,7 @@ use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
 
 /// Undoes the last change.
-pub fn undo(session: &mut Session) -> Vec<Effect> {
+pub fn undo(session: &mut Session) -> Done {
     let mut history = std::mem::take(&mut session.history);
     let found = history.undo(|before| present(session, before));
     session.history = history;
@@ -25,10 +25,10 @@ pub fn undo(session: &mut Session) -> Vec<Effect> {
 }
 
 /// Stops fitting the record on show: restores the state before.
-pub fn stop_fitting(session: &mut Session) -> Vec<Effect> {
+pub fn stop_fitting(session: &mut Session) {
     let recording = session.scene.recording.clone();
     while session.scene.recording == recording && session.history.depth().0 > 0 {
-        undo(session);
+        let _ = undo(session);
     }
     if session.scene.recording == recording
         && let Some(request) = session.request(Topic::Fit, session.plot)
@@ -37,11 +37,11 @@ pub fn stop_fitting(session: &mut Session) -> Vec<Effect> {
         session.answers.keep(Answered { request, result, seconds: 0.0, complete: true });
     }
     session.fitting = 0;
-    inform(session, "the fit was stopped")
+    inform(session, "the fit was stopped");
 }
 
 /// Redoes the change that was undone last.
-pub fn redo(session: &mut Session) -> Vec<Effect> {
+pub fn redo(session: &mut Session) -> Done {
     let mut history = std::mem::take(&mut session.history);
     let found = history.redo(|after| present(session, after));
     session.history = history;
@@ -79,25 +79,24 @@ fn opening(scene: Arc<Scene>) -> Snapshot {
     }
 }
 
-fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Vec<Effect> {
-    match found {
-        None => return refuse(session, format!("nothing to {name}")),
-        Some(Before::Setup(setup)) => {
+fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Done {
+    match found.ok_or_else(|| format!("nothing to {name}"))? {
+        Before::Setup(setup) => {
             inform(session, format!("{name}: {}", difference(&session.setup(), &setup)));
             session.set_setup(&setup);
         }
-        Some(Before::ScreenSetup(screen_setup)) => {
+        Before::ScreenSetup(screen_setup) => {
             let titles: Vec<_> =
                 screen_setup.plots.iter().map(|plot| plot.view.spec().title).collect();
             inform(session, format!("{name}: {}", titles.join(", ")));
             set_up(session, &screen_setup);
         }
-        Some(Before::Scene(snapshot)) => {
+        Before::Scene(snapshot) => {
             inform(session, format!("{name}: scene {}", snapshot.scene.name));
             restore(session, *snapshot);
         }
     }
-    Vec::new()
+    Ok(())
 }
 
 fn restore(session: &mut Session, snapshot: Snapshot) {
@@ -140,9 +139,8 @@ pub(in crate::session) fn begin(session: &mut Session, names: Vec<Knob>) {
 }
 
 /// Restores the scene as it opens.
-pub fn reset_scene(session: &mut Session) -> Vec<Effect> {
+pub fn reset_scene(session: &mut Session) {
     let scene = Arc::clone(&session.scene);
     inform(session, format!("scene {} as it was opened", scene.name));
     open_scene(session, scene);
-    Vec::new()
 }

@@ -7,7 +7,7 @@ use crate::session::act::general::toggle;
 use crate::session::act::history::open_scene;
 use crate::session::act::notice::{inform, refuse};
 use crate::session::act::screen_setup::show_from_list;
-use crate::session::effect::Effect;
+use crate::session::effect::Done;
 use crate::session::message::key::Key;
 use crate::session::state::overlay::{List, Listed, Overlay};
 use crate::session::state::session::Session;
@@ -17,28 +17,24 @@ use crate::study::claims::Claim;
 pub const PAGE: isize = 10;
 
 /// Opens the scene picker, with the present scene selected.
-pub fn open_scenes(session: &mut Session) -> Vec<Effect> {
+pub fn open_scenes(session: &mut Session) {
     let name = session.scene.name.as_str();
     let rows = session.scene_rows(&List::default());
     let present = rows.iter().position(|scene| scene.name == name);
     let list = List { selected: present.unwrap_or(0), ..List::default() };
     session.overlay = Some(Overlay::List(Listed::Scenes, list));
-    Vec::new()
 }
 
-pub fn open_layers(session: &mut Session) -> Vec<Effect> {
+pub fn open_layers(session: &mut Session) {
     session.overlay = Some(Overlay::List(Listed::Layers, List::default()));
-    Vec::new()
 }
 
 /// Switches the layer with this letter in the view of the plot in use.
-pub fn toggle_letter(session: &mut Session, key: Key) -> Vec<Effect> {
+pub fn toggle_letter(session: &mut Session, key: Key) {
     let view = session.view_in_use();
     let Some((_, layer)) = letters(view).find(|(letter, _)| key.typed() == Some(*letter)) else {
-        return refuse(
-            session,
-            format!("{} is not a layer of the {}", key.said(), view.spec().title),
-        );
+        let text = format!("{} is not a layer of the {}", key.said(), view.spec().title);
+        return refuse(session, text);
     };
     if let Some(Overlay::List(Listed::Layers, list)) = &session.overlay {
         let place = session.layer_rows(list).iter().position(|row| row.layer == layer);
@@ -46,97 +42,86 @@ pub fn toggle_letter(session: &mut Session, key: Key) -> Vec<Effect> {
             list.selected = place;
         }
     }
-    toggle(session, layer)
+    toggle(session, layer);
 }
 
 /// Opens the picker of views, with the view of the plot in use selected.
-pub fn open_views(session: &mut Session) -> Vec<Effect> {
+pub fn open_views(session: &mut Session) {
     let selected = session.plots[session.plot].view as usize;
     session.overlay = Some(Overlay::List(Listed::Views, List { selected, ..List::default() }));
-    Vec::new()
 }
 
 /// Opens the list of the picture's costs.
-pub fn open_cost(session: &mut Session) -> Vec<Effect> {
+pub fn open_cost(session: &mut Session) {
     session.overlay = Some(Overlay::List(Listed::Cost, List::default()));
-    Vec::new()
 }
 
 /// Opens the page of the paper with its claims, which are examined when this is first asked for.
-pub fn open_paper(session: &mut Session) -> Vec<Effect> {
+pub fn open_paper(session: &mut Session) {
     session.overlay = Some(Overlay::List(Listed::Paper, List::default()));
-    Vec::new()
 }
 
 /// Opens the scene that shows a claim.
-pub fn show_claim(session: &mut Session, claim: &Claim) {
+pub fn show_claim(session: &mut Session, claim: &Claim) -> Done {
     session.overlay = None;
-    match claim.scene.and_then(|name| find(name).ok()) {
-        Some(scene) => {
-            open_scene(session, scene);
-            inform(session, format!("{}: {}", claim.equation, claim.statement));
-        }
-        None => {
-            refuse(session, format!("no scene shows {}: it is a formula alone", claim.equation));
-        }
-    }
+    let scene = claim.scene.and_then(|name| find(name).ok());
+    let scene =
+        scene.ok_or_else(|| format!("no scene shows {}: it is a formula alone", claim.equation))?;
+    open_scene(session, scene);
+    inform(session, format!("{}: {}", claim.equation, claim.statement));
+    Ok(())
 }
 
 /// Moves the selection of the open list, within its rows.
-pub fn move_by(session: &mut Session, by: isize) -> Vec<Effect> {
+pub fn move_by(session: &mut Session, by: isize) {
     let last = session.list_length().saturating_sub(1);
     if let Some(list) = session.list_mut() {
         list.selected = list.selected.saturating_add_signed(by).min(last);
     }
-    Vec::new()
 }
 
 /// Directs typed characters to the search.
-pub fn search(session: &mut Session) -> Vec<Effect> {
+pub fn search(session: &mut Session) {
     if let Some(list) = session.list_mut() {
         list.searching = true;
     }
-    Vec::new()
 }
 
 /// Ends the search and keeps the rows found; in a picker, picks the selected one at once.
-pub fn search_done(session: &mut Session) -> Vec<Effect> {
+pub fn search_done(session: &mut Session) -> Done {
     if let Some(list) = session.list_mut() {
         list.searching = false;
     }
     match session.overlay {
         Some(Overlay::List(Listed::Scenes | Listed::Views, _)) => choose(session),
-        _ => Vec::new(),
+        _ => Ok(()),
     }
 }
 
 /// Ends the search and shows all rows.
-pub fn search_drop(session: &mut Session) -> Vec<Effect> {
+pub fn search_drop(session: &mut Session) {
     if let Some(list) = session.list_mut() {
         *list = List::default();
     }
-    Vec::new()
 }
 
 /// Deletes the last character of the search.
-pub fn search_delete(session: &mut Session) -> Vec<Effect> {
+pub fn search_delete(session: &mut Session) {
     if let Some(list) = session.list_mut() {
         list.search.pop();
         list.selected = 0;
     }
-    Vec::new()
 }
 
-pub fn search_clear(session: &mut Session) -> Vec<Effect> {
+pub fn search_clear(session: &mut Session) {
     if let Some(list) = session.list_mut() {
         list.search.clear();
         list.selected = 0;
     }
-    Vec::new()
 }
 
 /// Opens the selected scene, switches the selected layer, or shows the selected view.
-pub fn choose(session: &mut Session) -> Vec<Effect> {
+pub fn choose(session: &mut Session) -> Done {
     match &session.overlay {
         Some(Overlay::List(Listed::Scenes, list)) => {
             if let Some(scene) = session.scene_rows(list).get(list.selected) {
@@ -146,7 +131,7 @@ pub fn choose(session: &mut Session) -> Vec<Effect> {
         }
         Some(Overlay::List(Listed::Layers, list)) => {
             if let Some(row) = session.layer_rows(list).get(list.selected) {
-                return toggle(session, row.layer);
+                toggle(session, row.layer);
             }
         }
         Some(Overlay::List(Listed::Views, list)) => {
@@ -157,10 +142,10 @@ pub fn choose(session: &mut Session) -> Vec<Effect> {
         }
         Some(Overlay::List(Listed::Paper, list)) => {
             if let Some((claim, _)) = session.claim_rows(list).get(list.selected) {
-                show_claim(session, claim);
+                return show_claim(session, claim);
             }
         }
         _ => {}
     }
-    Vec::new()
+    Ok(())
 }

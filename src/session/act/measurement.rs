@@ -1,6 +1,6 @@
 //! Opening a recorded motion: its file, and details that the file does not contain.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::fit::names::{Choice, NAMES, assigned, listed, named};
 use crate::fit::{
@@ -10,6 +10,7 @@ use crate::oscillator::Knob;
 use crate::question::Opened;
 use crate::session::effect::{Done, Effect};
 use crate::session::message::Purpose;
+use crate::session::state::session::Session;
 
 /// Words that may follow the name of the file.
 const WORDS: [&str; 8] =
@@ -25,7 +26,7 @@ struct Said {
 }
 
 /// Asks for the file that a line names: `FILE mass=2 kg columns=1,3 peaks`.
-pub fn ask(rest: &str) -> Done {
+pub fn ask(session: &mut Session, rest: &str) -> Done {
     let begins = |word: &str| {
         let name = word.split_once('=').map_or(word, |(name, _)| name);
         let known = WORDS.contains(&name) || named(name).is_some();
@@ -35,8 +36,9 @@ pub fn ask(rest: &str) -> Done {
     let end = blanks.find(|at| begins(rest[at + 1..].split(' ').next().unwrap_or_default()));
     let (file, words) = rest.split_at(end.unwrap_or(rest.len()));
     said(words)?;
-    let (path, purpose) = (PathBuf::from(file.trim()), Purpose::Fit(words.trim().to_owned()));
-    Ok(vec![Effect::Read { path, purpose }])
+    let (path, purpose) = (file.trim().into(), Purpose::Fit(words.trim().to_owned()));
+    session.effects.push(Effect::Read { path, purpose });
+    Ok(())
 }
 
 fn said(words: &str) -> Result<Said, String> {

@@ -3,7 +3,7 @@
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::inform;
 use crate::session::act::{lists, plots};
-use crate::session::effect::Effect;
+use crate::session::effect::{Done, Effect};
 use crate::session::message::pointer::{Gesture, Pointed, PointerTarget};
 use crate::session::state::plot::Pane;
 use crate::session::state::session::Session;
@@ -12,7 +12,7 @@ use crate::session::state::session::Session;
 const NOTCH: isize = 3;
 
 /// Turns the mouse on or off.
-pub fn toggle(session: &mut Session) -> Vec<Effect> {
+pub fn toggle(session: &mut Session) {
     session.look.mouse = !session.look.mouse;
     let text = if session.look.mouse {
         "mouse on: click to start or point, turn the wheel to zoom, hold shift to select text"
@@ -20,17 +20,18 @@ pub fn toggle(session: &mut Session) -> Vec<Effect> {
         "mouse off: the terminal selects text"
     };
     inform(session, text);
-    vec![Effect::Mouse(session.look.mouse)]
+    session.effects.push(Effect::Mouse(session.look.mouse));
 }
 
 /// Handles an action of the mouse. Over an overlay, the wheel moves its list and clicks are ignored.
-pub fn pointed(session: &mut Session, Pointed { gesture, place }: Pointed) -> Vec<Effect> {
+pub fn pointed(session: &mut Session, Pointed { gesture, place }: Pointed) -> Done {
     if session.overlay.is_some() {
-        return match gesture {
-            Gesture::Click => Vec::new(),
+        match gesture {
+            Gesture::Click => {}
             Gesture::Nearer => lists::move_by(session, -NOTCH),
             Gesture::Farther => lists::move_by(session, NOTCH),
-        };
+        }
+        return Ok(());
     }
     match place {
         PointerTarget::Row(index) => {
@@ -38,16 +39,16 @@ pub fn pointed(session: &mut Session, Pointed { gesture, place }: Pointed) -> Ve
                 session.selected = *row;
                 session.focus = Pane::Parameters;
             }
-            Vec::new()
         }
-        PointerTarget::Plot(index, _) if !session.on_show().contains(&index) => Vec::new(),
+        PointerTarget::Plot(index, _) if !session.on_show().contains(&index) => {}
         PointerTarget::Plot(index, point) => {
             focus_on(session, Pane::Plot(index));
             match gesture {
-                Gesture::Click => plots::point_at(session, point),
+                Gesture::Click => return plots::point_at(session, point),
                 Gesture::Nearer => plots::zoom_about(session, |_| point, true),
                 Gesture::Farther => plots::zoom_about(session, |_| point, false),
             }
         }
     }
+    Ok(())
 }

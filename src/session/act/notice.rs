@@ -1,14 +1,13 @@
 //! Notices to the user.
 
-use crate::session::effect::Effect;
+use crate::session::effect::Done;
 use crate::session::message::Notice;
 use crate::session::message::key::Key;
 use crate::session::state::session::Session;
 
-/// Shows a notice that reports no refusal. Returns no effects, so that a command can end with it.
-pub(in crate::session) fn inform(session: &mut Session, text: impl Into<String>) -> Vec<Effect> {
+/// Shows a notice that reports no refusal.
+pub(in crate::session) fn inform(session: &mut Session, text: impl Into<String>) {
     session.notice = Some(Notice { error: false, text: text.into() });
-    Vec::new()
 }
 
 /// A sentence in which each `{command}` is replaced by the key of that command.
@@ -16,13 +15,21 @@ pub(in crate::session) fn with_keys(session: &Session, sentence: &str) -> String
     session.keymap.fill(sentence, Key::said)
 }
 
-/// Shows a notice that says what was refused. Returns no effects, like [`inform`].
-pub(in crate::session) fn refuse(session: &mut Session, text: impl Into<String>) -> Vec<Effect> {
+/// Shows a notice that says what was refused.
+pub(in crate::session) fn refuse(session: &mut Session, text: impl Into<String>) {
     session.notice = Some(Notice { error: true, text: text.into() });
-    Vec::new()
+}
+
+/// Does something, or says why it was refused.
+pub(in crate::session) fn attempt(session: &mut Session, act: impl FnOnce(&mut Session) -> Done) {
+    if let Err(why) = act(session) {
+        refuse(session, why);
+    }
 }
 
 /// Shows what is unlikely about the numbers of the machine that was just read or typed.
-pub(in crate::session) fn warn_of_units(session: &mut Session) -> Vec<Effect> {
-    session.unlikely_number().map_or_else(Vec::new, |line| inform(session, line))
+pub(in crate::session) fn warn_of_units(session: &mut Session) {
+    if let Some(line) = session.unlikely_number() {
+        inform(session, line);
+    }
 }

@@ -9,7 +9,6 @@ use crate::numerics::elementary::log10;
 use crate::oscillator::{Knob, KnobSpec};
 use crate::scene::{Running, Setting, View};
 use crate::session::act::notice::{inform, refuse};
-use crate::session::effect::Effect;
 use crate::session::read::numbers::{number, with_number};
 use crate::session::state::history::Before;
 use crate::session::state::plot::{Framing, Plot};
@@ -55,15 +54,14 @@ fn holding(session: &Session, before: &Setup, mut setup: Setup) -> Setup {
 }
 
 /// Moves the selection among the rows that the pane shows.
-pub fn select(session: &mut Session, by: isize) -> Vec<Effect> {
+pub fn select(session: &mut Session, by: isize) {
     let rows = session.rows();
     let at = rows.iter().position(|row| *row == session.selected).unwrap_or(0);
     session.selected = rows[at.saturating_add_signed(by).min(rows.len() - 1)];
-    Vec::new()
 }
 
 /// Steps the selected value.
-pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
+pub fn step(session: &mut Session, count: i32) {
     match session.selected {
         Row::Method => return next_method(session, count.signum() as isize),
         Row::Tolerance => return turn(session, count.signum()),
@@ -72,7 +70,7 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
         Row::Parameter(_) | Row::Until => {}
     }
     let row = session.selected;
-    let Some(size) = session.steps.of_row(row) else { return Vec::new() };
+    let Some(size) = session.steps.of_row(row) else { return };
     let knob = row.knob_in(&session.problem);
     let value = number(&session.setup(), row);
     let (stepped, why) = stepped(knob, size, value, count);
@@ -83,7 +81,6 @@ pub fn step(session: &mut Session, count: i32) -> Vec<Effect> {
     if !change(session, changed) {
         refuse(session, why);
     }
-    Vec::new()
 }
 
 /// A value after some steps, within its range, and why it stays where it does.
@@ -101,11 +98,11 @@ fn stepped(knob: Knob, size: StepSize, value: f64, count: i32) -> (f64, String) 
 /// Steps a number of the machine; if the parameters are off the belt, this leads back onto it. A value out of
 /// range is refused and not clamped: the end of the range of speeds, far below that of any belt, would be no
 /// useful place to stop.
-fn step_machine(session: &mut Session, quantity: Knob, count: i32) -> Vec<Effect> {
-    let Some(size) = session.steps.of_row(Row::Quantity(quantity)) else { return Vec::new() };
+fn step_machine(session: &mut Session, quantity: Knob, count: i32) {
+    let Some(size) = session.steps.of_row(Row::Quantity(quantity)) else { return };
     let value = size.from(session.quantity(quantity), count);
     match session.with_quantity(&session.setup(), quantity, value) {
-        Ok(setup) if put(session, &setup) => Vec::new(),
+        Ok(setup) if put(session, &setup) => {}
         Ok(_) => {
             let (_, why) = stepped(quantity, size, session.quantity(quantity), count);
             refuse(session, why)
@@ -115,43 +112,41 @@ fn step_machine(session: &mut Session, quantity: Knob, count: i32) -> Vec<Effect
 }
 
 /// Steps the bound on the disturbance, which stays at least 0.
-fn step_disturbance(session: &mut Session, count: i32) -> Vec<Effect> {
-    let Some(size) = session.steps.of_row(Row::Disturbance) else { return Vec::new() };
+fn step_disturbance(session: &mut Session, count: i32) {
+    let Some(size) = session.steps.of_row(Row::Disturbance) else { return };
     let present = session.setup();
     let (disturbance, why) = stepped(Knob::Disturbance, size, present.doubt.disturbance, count);
     let doubt = Uncertainty { disturbance, ..present.doubt };
     if !put(session, &Setup { doubt, ..present }) {
         refuse(session, why);
     }
-    Vec::new()
 }
 
 /// Makes the half width of the selected parameter wider or narrower by a step.
-pub fn half_width(session: &mut Session, count: i32) -> Vec<Effect> {
+pub fn half_width(session: &mut Session, count: i32) {
     let present = session.setup();
     let Row::Parameter(symbol) = session.selected else {
         return refuse(session, "only D, D2, D3 and r have a half width");
     };
-    let Some(step) = session.steps.of_row(session.selected) else { return Vec::new() };
+    let Some(step) = session.steps.of_row(session.selected) else { return };
     let half = step.from(present.doubt.half_width(symbol), count).max(0.0);
     match present.doubt.with_half_width(symbol, half) {
-        Ok(doubt) if put(session, &Setup { doubt, ..present }) => Vec::new(),
+        Ok(doubt) if put(session, &Setup { doubt, ..present }) => {}
         Ok(_) => refuse(session, format!("{symbol} has no half width")),
         Err(why) => refuse(session, why),
     }
 }
 
 /// Makes the step size of the selected row larger or smaller.
-pub fn step_size(session: &mut Session, larger: bool) -> Vec<Effect> {
+pub fn step_size(session: &mut Session, larger: bool) {
     let Some(size) = session.steps.of_row_mut(session.selected) else {
         return refuse(session, format!("{} has no step size", session.selected.name()));
     };
     *size = if larger { size.larger() } else { size.smaller() };
-    Vec::new()
 }
 
 /// Resets the selected row to the scene's value and step size.
-pub fn reset_row(session: &mut Session) -> Vec<Effect> {
+pub fn reset_row(session: &mut Session) {
     let row = session.selected;
     let (scene, present) = (session.scene.problem, session.setup());
     let steps = Steps::of_scene(&session.scene);
@@ -197,17 +192,15 @@ pub fn reset_row(session: &mut Session) -> Vec<Effect> {
     if !put(session, &reset) {
         inform(session, format!("{} has the scene's value", row.name_in(&session.problem)));
     }
-    Vec::new()
 }
 
 /// Shows or hides the parameters that the scene does not declare.
-pub fn unfold(session: &mut Session) -> Vec<Effect> {
+pub fn unfold(session: &mut Session) {
     session.unfolded = !session.unfolded;
-    Vec::new()
 }
 
 /// Changes the accuracy to its next stop: draft, normal, fine, reference.
-pub fn dial(session: &mut Session, finer: bool) -> Vec<Effect> {
+pub fn dial(session: &mut Session, finer: bool) {
     session.measuring = true;
     match session.problem.next_quality(finer) {
         Some(quality) => {
@@ -226,7 +219,7 @@ fn end_of_dial(finer: bool) -> String {
 }
 
 /// Multiplies the number that sets the accuracy by a power of ten.
-fn turn(session: &mut Session, decades: i32) -> Vec<Effect> {
+fn turn(session: &mut Session, decades: i32) {
     let knob = session.problem.method.spec().dial.knob();
     let KnobSpec { min, max, .. } = *knob.spec();
     let exponent = log10(session.problem.setting()).round() + f64::from(decades);
@@ -236,11 +229,10 @@ fn turn(session: &mut Session, decades: i32) -> Vec<Effect> {
     if !change(session, turned) {
         refuse(session, knob.at_end(setting));
     }
-    Vec::new()
 }
 
 /// Selects the next method of the list, cycling.
-pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
+pub fn next_method(session: &mut Session, by: isize) {
     // Without a closed form, that method could only give up.
     let nonlinear = session.problem.parameters.d2 != 0.0 || session.problem.parameters.d3 != 0.0;
     let whole = session.draws_whole();
@@ -257,7 +249,7 @@ pub fn next_method(session: &mut Session, by: isize) -> Vec<Effect> {
     let row = rows[next];
     session.measuring = true;
     change(session, Problem { method: row.method, ..session.problem });
-    inform(session, format!("{}: {}", row.name, row.guarantee))
+    inform(session, format!("{}: {}", row.name, row.guarantee));
 }
 
 impl Session {

@@ -1,37 +1,32 @@
 //! Keys that need another key: a count before a key, and the letter of a mark.
 
-use crate::session::effect::Effect;
 use crate::session::message::key::Key;
 use crate::session::state::pending::MOST;
 use crate::session::state::pending::{Letter, Pending};
 use crate::session::state::session::Session;
 
 /// Adds the digit of this key to a count, and waits for more.
-pub fn count(session: &mut Session, key: Key) -> Vec<Effect> {
+pub fn count(session: &mut Session, key: Key) {
     let before = match session.pending {
         Some(Pending::Count(before)) => before,
         _ => 0,
     };
     let digit = key.typed().and_then(|char| char.to_digit(10)).unwrap_or(0);
     session.pending = Some(Pending::Count((10 * before + digit).min(MOST)));
-    Vec::new()
 }
 
 /// Deletes the last digit of a count.
-pub fn delete_digit(session: &mut Session) -> Vec<Effect> {
+pub fn delete_digit(session: &mut Session) {
     if let Some(Pending::Count(count)) = &mut session.pending {
         *count /= 10;
     }
-    Vec::new()
 }
 
 /// Waits for a letter.
-pub fn ask(session: &mut Session, what: Letter) -> Vec<Effect> {
+pub fn ask(session: &mut Session, what: Letter) {
     session.pending = Some(Pending::Letter(what));
-    Vec::new()
 }
 
-pub fn forget(session: &mut Session) -> Vec<Effect> {
+pub fn forget(session: &mut Session) {
     session.pending = None;
-    Vec::new()
 }

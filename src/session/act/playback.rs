@@ -3,18 +3,20 @@
 use std::f64::consts::TAU;
 
 use crate::scene::{Layer, Topic};
-use crate::session::act::notice::{inform, refuse};
-use crate::session::effect::Effect;
+use crate::session::act::notice::inform;
+use crate::session::effect::Done;
 use crate::session::state::playback::PACES;
 use crate::session::state::playback::Pace;
 use crate::session::state::session::Session;
 
+const NO_MOTION: &str = "there is no motion on show to play";
+
 /// Plays or pauses the motion; at its end, starts again.
-pub fn play(session: &mut Session) -> Vec<Effect> {
+pub fn play(session: &mut Session) -> Done {
     let shown = session.shows(Layer::Trajectory) || session.shows(Layer::Mass);
     let given_up = session.failure(Topic::Trajectory, session.plot).is_some();
     if !shown || given_up || session.trajectory().is_none() {
-        return refuse(session, "there is no motion on show to play");
+        return Err(NO_MOTION.to_owned());
     }
     let at_end = session.playback.at.is_some_and(|at| at >= session.last_moment());
     session.playback.playing = !session.playback.playing;
@@ -26,23 +28,21 @@ pub fn play(session: &mut Session) -> Vec<Effect> {
     } else {
         "held".to_owned()
     };
-    inform(session, text)
+    inform(session, text);
+    Ok(())
 }
 
 /// Moves the head forward or back by some steps.
-pub fn step(session: &mut Session, steps: f64) -> Vec<Effect> {
-    if session.trajectory().is_some() {
-        session.step_head(steps);
-    } else {
-        refuse(session, "there is no motion on show to play");
-    }
-    Vec::new()
+pub fn step(session: &mut Session, steps: f64) -> Done {
+    session.trajectory().ok_or(NO_MOTION)?;
+    session.step_head(steps);
+    Ok(())
 }
 
 /// Selects the next pace.
-pub fn pace(session: &mut Session) -> Vec<Effect> {
+pub fn pace(session: &mut Session) {
     session.next_pace();
-    inform(session, format!("pace: {}", session.pace()))
+    inform(session, format!("pace: {}", session.pace()));
 }
 
 /// Number of steps of a key per period.

@@ -8,8 +8,8 @@ use crate::scene::{PlotSetup, Point, Span, View, Window};
 use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::parameters::{change, put};
 use crate::session::act::starts::start;
-use crate::session::effect::Effect;
-use crate::session::state::plot::{Framing, Pane, Plot};
+use crate::session::effect::{Done, Effect};
+use crate::session::state::plot::{Framing, Plot};
 use crate::session::state::session::Session;
 use crate::session::state::step_size::StepSize;
 
@@ -50,14 +50,13 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
 }
 
 /// Moves the cursor of the plot in focus; the first move shows it.
-pub fn move_cursor(session: &mut Session, right: i32, up: i32) -> Vec<Effect> {
+pub fn move_cursor(session: &mut Session, right: i32, up: i32) {
     let origin = session.focused().map(|plot| cursor_origin(session, plot));
     if let Some((plot, origin)) = session.focused_mut().zip(origin) {
         let Point { x, y } = plot.cursor.unwrap_or(origin);
         let Window { x: across, y: along } = plot.window;
         plot.cursor = Some(Point { x: moved(across, x, right), y: moved(along, y, up) });
     }
-    Vec::new()
 }
 
 /// A coordinate moved by some steps to a round number, within the window.
@@ -79,57 +78,49 @@ fn moved(span: Span, value: f64, count: i32) -> f64 {
 
 /// Handles a click on a point of the plot in focus: in the phase plane it starts a motion there, elsewhere it
 /// moves the cursor there.
-pub fn point_at(session: &mut Session, point: Point) -> Vec<Effect> {
-    let Some(plot) = session.focused_mut() else { return Vec::new() };
+pub fn point_at(session: &mut Session, point: Point) -> Done {
+    let Some(plot) = session.focused_mut() else { return Ok(()) };
     plot.cursor = Some(point);
-    if plot.view == View::Phase { start_here(session) } else { Vec::new() }
+    if plot.view == View::Phase { start_here(session) } else { Ok(()) }
 }
 
 /// Removes the cursor of the plot in focus.
-pub fn drop_cursor(session: &mut Session) -> Vec<Effect> {
+pub fn drop_cursor(session: &mut Session) {
     if session.writing.is_some() {
-        return vec![Effect::StopWriting];
-    }
-    if session.is_fitting() {
-        return super::history::stop_fitting(session);
-    }
-    if session.focuses_scan() {
-        return super::scan::stop(session);
-    }
-    if let Some(plot) = session.focused_mut() {
+        session.effects.push(Effect::StopWriting);
+    } else if session.is_fitting() {
+        super::history::stop_fitting(session);
+    } else if session.focuses_scan() {
+        super::scan::stop(session);
+    } else if let Some(plot) = session.focused_mut() {
         plot.cursor = None;
     }
-    Vec::new()
 }
 
 /// Zooms the plot in focus about its cursor, or about its center.
-pub fn zoom(session: &mut Session, closer: bool) -> Vec<Effect> {
-    zoom_about(session, |plot| plot.cursor.unwrap_or(plot.window.center()), closer)
+pub fn zoom(session: &mut Session, closer: bool) {
+    zoom_about(session, |plot| plot.cursor.unwrap_or(plot.window.center()), closer);
 }
 
 /// Zooms the plot in focus about a point.
-pub fn zoom_about(
-    session: &mut Session,
-    about: impl FnOnce(&Plot) -> Point,
-    closer: bool,
-) -> Vec<Effect> {
+pub fn zoom_about(session: &mut Session, about: impl FnOnce(&Plot) -> Point, closer: bool) {
     let factor = if closer { 1.0 / ZOOM } else { ZOOM };
     frame(session, |plot| {
         let (Window { x, y }, about) = (plot.window, about(plot));
         Window { x: x.scaled(about.x, factor), y: y.scaled(about.y, factor) }
-    })
+    });
 }
 
 /// Moves the window of the plot in focus.
-pub fn pan(session: &mut Session, right: i32, up: i32) -> Vec<Effect> {
+pub fn pan(session: &mut Session, right: i32, up: i32) {
     frame(session, |plot| {
         let Window { x, y } = plot.window;
         Window { x: x.shifted(PAN * f64::from(right)), y: y.shifted(PAN * f64::from(up)) }
-    })
+    });
 }
 
 /// Gives the plot in focus a window chosen by the user.
-fn frame(session: &mut Session, window: impl FnOnce(&Plot) -> Window) -> Vec<Effect> {
+fn frame(session: &mut Session, window: impl FnOnce(&Plot) -> Window) {
     let framed = session.focused_mut().map(|plot| {
         let (before, after) = (plot.window, window(plot));
         (plot.window, plot.framing) = (after, Framing::User);
@@ -138,21 +129,19 @@ fn frame(session: &mut Session, window: impl FnOnce(&Plot) -> Window) -> Vec<Eff
     if framed == Some(false) {
         refuse(session, "the window ends here: numbers closer or farther cannot be told apart");
     }
-    Vec::new()
 }
 
 /// Fits the window of the plot in focus as soon as its content is computed.
-pub fn fit(session: &mut Session) -> Vec<Effect> {
+pub fn fit(session: &mut Session) {
     if let Some(plot) = session.focused_mut() {
         plot.framing = Framing::Fitting;
     }
-    Vec::new()
 }
 
 /// Resets the plot in focus to the scene's window and axes.
-pub fn home(session: &mut Session) -> Vec<Effect> {
+pub fn home(session: &mut Session) {
     let index = session.plot;
-    let Some(plot) = session.focused() else { return Vec::new() };
+    let Some(plot) = session.focused() else { return };
     let usual = PlotSetup { view: plot.view, axes: plot.axes, window: None, family: None };
     let plot_setup = session.plot_of_scene(index, plot.view).unwrap_or(usual);
     if let Some(plot) = session.focused_mut() {
@@ -160,61 +149,48 @@ pub fn home(session: &mut Session) -> Vec<Effect> {
         *plot = Plot::opened(&plot_setup);
         plot.cursor = cursor;
     }
-    Vec::new()
 }
 
-/// The cursor of the plot in focus; without one, shows a notice on how to get it.
-fn cursor(session: &mut Session) -> Option<Point> {
+/// The cursor of the plot in focus. Fails with a line on how to get one.
+fn cursor(session: &Session) -> Result<Point, String> {
+    let text = "no cursor yet: {cursor-left}, {cursor-up} and so on show it";
     let cursor = session.focused().and_then(|plot| plot.cursor);
-    if cursor.is_none() {
-        let text = "no cursor yet: {cursor-left}, {cursor-up} and so on show it";
-        refuse(session, with_keys(session, text));
-    }
-    cursor
+    cursor.ok_or_else(|| with_keys(session, text))
 }
 
 /// Selects the method and the accuracy of the row nearest to the cursor.
-pub fn use_method(session: &mut Session) -> Vec<Effect> {
-    let Pane::Plot(index) = session.focus else { return Vec::new() };
-    if cursor(session).is_none() {
-        return Vec::new();
-    }
-    let Some(row) = session.row_under_cursor(index).map(|row| row.problem) else {
-        return refuse(session, "no method is compared here yet");
-    };
+pub fn use_method(session: &mut Session) -> Done {
+    cursor(session)?;
+    let row = session.row_under_cursor(session.plot).ok_or("no method is compared here yet")?;
+    let row = row.problem;
     let taken = Problem { method: row.method, ..session.problem };
     session.measuring = true;
     change(session, taken.with_setting(row.setting()));
-    Vec::new()
+    Ok(())
 }
 
 /// Sets the belt to the speed under the cursor.
-pub fn take_speed(session: &mut Session) -> Vec<Effect> {
-    let Some(Point { x, .. }) = cursor(session) else { return Vec::new() };
-    match session.with_quantity(&session.setup(), Knob::BeltSpeed, x) {
-        Ok(setup) => {
-            put(session, &setup);
-            Vec::new()
-        }
-        Err(why) => refuse(session, why),
-    }
+pub fn take_speed(session: &mut Session) -> Done {
+    let Point { x, .. } = cursor(session)?;
+    let setup = session.with_quantity(&session.setup(), Knob::BeltSpeed, x)?;
+    put(session, &setup);
+    Ok(())
 }
 
 /// Starts a motion at the cursor, in the phase plane beside the present ones: at the state under the cursor, at
 /// the state of the motion at that time, at rest at that displacement, or on that cycle.
-pub fn start_here(session: &mut Session) -> Vec<Effect> {
-    let Some(Point { x, y }) = cursor(session) else { return Vec::new() };
+pub fn start_here(session: &mut Session) -> Done {
+    let Point { x, y } = cursor(session)?;
     let initial = match session.focused().map(|plot| plot.view) {
         Some(View::TimeSeries) => session.state_at(x),
         Some(View::EnergyLedger) => session.start_of_line(y),
         Some(View::ReturnMap | View::Belt) => Some(State { q: x, v: 0.0 }),
         Some(View::EnergyRate) => Some(State { v: x, ..session.problem.initial }),
         Some(View::Phase) => Some(State { q: x, v: y }),
-        _ => return Vec::new(),
+        _ => return Ok(()),
     };
-    let Some(initial @ State { q, v }) = initial else {
-        return refuse(session, "there is no motion to start from here");
-    };
+    let initial = initial.ok_or("there is no motion to start from here")?;
+    let State { q, v } = initial;
     // The phase plane shows motions beside each other; from another view, the other motions may be out of
     // sight.
     if session.focused().is_some_and(|plot| plot.view == View::Phase) {
@@ -222,23 +198,18 @@ pub fn start_here(session: &mut Session) -> Vec<Effect> {
     } else if change(session, Problem { initial, ..session.problem }) {
         inform(session, format!("q0 = {}, v0 = {}", shortest(q), shortest(v)));
     }
-    Vec::new()
+    Ok(())
 }
 
 /// Sets the parameter of a diagram, or both of a chart, to the values under the cursor.
-pub fn jump_here(session: &mut Session) -> Vec<Effect> {
-    let Some(cursor) = cursor(session) else { return Vec::new() };
-    let Some((view, axes)) = session.focused().map(|plot| (plot.view, plot.axes)) else {
-        return Vec::new();
-    };
+pub fn jump_here(session: &mut Session) -> Done {
+    let cursor = cursor(session)?;
+    let Plot { view, axes, .. } = session.plots[session.plot];
     let upwards = (view == View::Regimes).then_some((axes.against, cursor.y));
     let mut problem = session.problem;
     for (symbol, value) in [(axes.abscissa, cursor.x)].into_iter().chain(upwards) {
-        match symbol.check(value) {
-            Ok(value) => symbol.set(&mut problem.parameters, &mut problem.initial, value),
-            Err(refused) => return refuse(session, refused.to_string()),
-        }
+        symbol.set(&mut problem.parameters, &mut problem.initial, symbol.check(value)?);
     }
     change(session, problem);
-    Vec::new()
+    Ok(())
 }

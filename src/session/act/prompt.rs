@@ -1,6 +1,5 @@
 //! The command line: opening, completing, remembering and running.
 
-use crate::session::effect::Effect;
 use crate::session::read::completion::completion;
 use crate::session::state::command::{Chosen, full_name};
 use crate::session::state::input::Input;
@@ -11,14 +10,13 @@ use crate::session::state::session::Session;
 const REMEMBERED: usize = 200;
 
 /// Opens an empty line.
-pub fn open(session: &mut Session) -> Vec<Effect> {
-    open_with(session, String::new())
+pub fn open(session: &mut Session) {
+    open_with(session, String::new());
 }
 
 /// Opens the line with an initial text.
-pub fn open_with(session: &mut Session, text: String) -> Vec<Effect> {
+pub fn open_with(session: &mut Session, text: String) {
     session.overlay = Some(Overlay::Prompt(Prompt::new(text)));
-    Vec::new()
 }
 
 /// The typed command, to be run. An empty line closes. A line that begins with no command is searched for in
@@ -58,12 +56,12 @@ fn remember(session: &mut Session, text: &str) {
 }
 
 /// Shows an older or a newer line; the newest is the one that was being typed.
-pub fn recall(session: &mut Session, by: isize) -> Vec<Effect> {
+pub fn recall(session: &mut Session, by: isize) {
     let lines = session.lines.clone();
-    let Some(Overlay::Prompt(prompt)) = &mut session.overlay else { return Vec::new() };
+    let Some(Overlay::Prompt(prompt)) = &mut session.overlay else { return };
     let back = prompt.back.saturating_add_signed(by).min(lines.len());
     if back == prompt.back {
-        return Vec::new();
+        return;
     }
     if prompt.back == 0 {
         prompt.input.text().clone_into(&mut prompt.draft);
@@ -74,12 +72,11 @@ pub fn recall(session: &mut Session, by: isize) -> Vec<Effect> {
     };
     let draft = std::mem::take(&mut prompt.draft);
     *prompt = Prompt { back, draft, ..Prompt::new(text) };
-    Vec::new()
 }
 
 /// Completes the word before the caret; pressed again, shows the next candidate.
-pub fn complete(session: &mut Session, by: isize) -> Vec<Effect> {
-    let Some(Overlay::Prompt(prompt)) = &session.overlay else { return Vec::new() };
+pub fn complete(session: &mut Session, by: isize) {
+    let Some(Overlay::Prompt(prompt)) = &session.overlay else { return };
     let found = match &prompt.completion {
         Some(Completion { stem, words, at }) => {
             let next = at.checked_add_signed(by).unwrap_or(words.len() - 1) % words.len();
@@ -87,10 +84,10 @@ pub fn complete(session: &mut Session, by: isize) -> Vec<Effect> {
         }
         None => completion(session, prompt.input.halves().0),
     };
-    let Some(Overlay::Prompt(prompt)) = &mut session.overlay else { return Vec::new() };
+    let Some(Overlay::Prompt(prompt)) = &mut session.overlay else { return };
     let Some(completion) = found else {
         prompt.refused = Some("nothing to complete here".to_owned());
-        return Vec::new();
+        return;
     };
     let after = prompt.input.halves().1.to_owned();
     let Completion { stem, words, at } = &completion;
@@ -106,5 +103,4 @@ pub fn complete(session: &mut Session, by: isize) -> Vec<Effect> {
     }
     prompt.input.move_caret(-isize::try_from(after.chars().count()).unwrap_or(0));
     (prompt.refused, prompt.completion) = (None, (!only).then_some(completion));
-    Vec::new()
 }

@@ -1,17 +1,13 @@
 //! Scans: the form, starting and stopping, moving over the points, and using one of them.
 
-use std::path::PathBuf;
-
-use crate::flow::Problem;
 use crate::numerics::decimal::shortest;
 use crate::scene::View;
 use crate::session::act::focus::focus_on;
-use crate::session::act::notice::{inform, refuse, with_keys};
+use crate::session::act::notice::{inform, with_keys};
 use crate::session::act::parameters::change;
 use crate::session::act::screen_setup::{add, show};
 use crate::session::effect::{Done, Effect};
-use crate::session::read::scan::scan_of;
-use crate::session::read::scan::typed;
+use crate::session::read::scan::{scan_of, typed};
 use crate::session::state::input::Input;
 use crate::session::state::overlay::Overlay;
 use crate::session::state::plot::Pane;
@@ -19,8 +15,7 @@ use crate::session::state::rows::Row;
 use crate::session::state::scan::{Progress, SCANNING, ScanOnShow};
 use crate::session::state::scan_form::ScanForm;
 use crate::session::state::session::Session;
-use crate::study::scan::Scan;
-use crate::study::scan::Sweep;
+use crate::study::scan::{Scan, Sweep};
 
 /// The file in which a key saves the rows; the command line takes any name.
 pub const FILE: &str = "scan.csv";
@@ -29,10 +24,9 @@ pub const FILE: &str = "scan.csv";
 pub const PAGE: isize = 10;
 
 /// Opens the form as it was last filled in, or a new one.
-pub fn open(session: &mut Session) -> Vec<Effect> {
+pub fn open(session: &mut Session) {
     let form = session.scan_form.clone().unwrap_or_else(|| fresh(session));
     session.overlay = Some(Overlay::Scan(ScanForm { refused: None, ..form }));
-    Vec::new()
 }
 
 /// A new form, over the parameter of a diagram on show, otherwise over the selected parameter around its value.
@@ -61,17 +55,16 @@ fn form(session: &mut Session) -> Option<&mut ScanForm> {
 }
 
 /// Goes to another field, cycling.
-pub fn go_to_field(session: &mut Session, by: isize) -> Vec<Effect> {
+pub fn go_to_field(session: &mut Session, by: isize) {
     if let Some(form) = form(session) {
         let count = form.inputs.len();
         form.at = form.at.checked_add_signed(by).unwrap_or(count - 1) % count;
     }
-    Vec::new()
 }
 
 /// Selects the next choice of a field that has choices; otherwise moves the caret.
-pub fn sideways(session: &mut Session, by: isize) -> Vec<Effect> {
-    let Some(form) = form(session) else { return Vec::new() };
+pub fn sideways(session: &mut Session, by: isize) {
+    let Some(form) = form(session) else { return };
     let mut choices = ScanForm::choices(form.at);
     // Both sweeps need different parameters.
     let other =
@@ -79,7 +72,7 @@ pub fn sideways(session: &mut Session, by: isize) -> Vec<Effect> {
     choices.retain(|choice| choice.is_empty() || *choice != other);
     if choices.is_empty() {
         form.input_mut().move_caret(by);
-        return Vec::new();
+        return;
     }
     form.refused = None;
     let now = choices.iter().position(|choice| *choice == form.input_mut().text());
@@ -88,29 +81,27 @@ pub fn sideways(session: &mut Session, by: isize) -> Vec<Effect> {
         None => 0,
     };
     *form.input_mut() = Input::new(choices[next]);
-    Vec::new()
 }
 
 /// Starts the scan described by the form, or says in the form why it cannot.
-pub fn accept(session: &mut Session) -> Vec<Effect> {
-    let Some(Overlay::Scan(filled)) = session.overlay.clone() else { return Vec::new() };
+pub fn accept(session: &mut Session) {
+    let Some(Overlay::Scan(filled)) = session.overlay.clone() else { return };
     match typed(&filled, session) {
         Ok(scan) => {
             session.overlay = None;
             session.scan_form = Some(filled);
-            start(session, scan)
+            start(session, scan);
         }
         Err(why) => {
             if let Some(form) = form(session) {
                 form.refused = Some(why);
             }
-            Vec::new()
         }
     }
 }
 
 /// Starts a scan and shows it in a plot that already shows scans, otherwise beside the phase plane.
-pub fn start(session: &mut Session, scan: Scan) -> Vec<Effect> {
+pub fn start(session: &mut Session, scan: Scan) {
     session.scanned = Some(ScanOnShow::begun(scan));
     let mut shown = session.on_show().filter(|index| session.plots[*index].view == View::Scan);
     match shown.next() {
@@ -118,7 +109,7 @@ pub fn start(session: &mut Session, scan: Scan) -> Vec<Effect> {
         None => beside(session),
     }
     refit(session);
-    inform(session, SCANNING)
+    inform(session, SCANNING);
 }
 
 /// Shows the scan beside the phase plane to which its points are applied: in the plot in use, in another one,
@@ -138,8 +129,8 @@ fn beside(session: &mut Session) {
 }
 
 /// Stops the scan, and keeps the rows so far.
-pub fn stop(session: &mut Session) -> Vec<Effect> {
-    let Some(scanned) = &mut session.scanned else { return Vec::new() };
+pub fn stop(session: &mut Session) {
+    let Some(scanned) = &mut session.scanned else { return };
     if scanned.request().is_some() {
         scanned.progress = Progress::Stopped;
         let (rows, points) = (scanned.rows.len(), scanned.scan.points());
@@ -147,40 +138,41 @@ pub fn stop(session: &mut Session) -> Vec<Effect> {
         let text = with_keys(session, &text);
         inform(session, text);
     }
-    Vec::new()
+}
+
+/// The scan on show. Fails with one line if there is none.
+fn scanned(session: &mut Session) -> Result<&mut ScanOnShow, String> {
+    session.scanned.as_mut().ok_or_else(|| "there is no scan".to_owned())
 }
 
 /// Stops a running scan, or continues a stopped one.
-pub fn pause(session: &mut Session) -> Vec<Effect> {
-    let Some(scanned) = &mut session.scanned else { return none(session) };
+pub fn pause(session: &mut Session) -> Done {
+    let scanned = scanned(session)?;
     match scanned.progress {
         Progress::Running { .. } => stop(session),
         Progress::Stopped => {
             scanned.progress = Progress::Running { from: scanned.rows.len() };
-            inform(session, SCANNING)
+            inform(session, SCANNING);
         }
         Progress::Done => inform(session, "the scan is done"),
     }
-}
-
-fn none(session: &mut Session) -> Vec<Effect> {
-    refuse(session, "there is no scan")
+    Ok(())
 }
 
 /// Plots the next measured column.
-pub fn next_column(session: &mut Session, by: isize) -> Vec<Effect> {
-    let Some(scanned) = &mut session.scanned else { return none(session) };
+pub fn next_column(session: &mut Session, by: isize) -> Done {
+    let scanned = scanned(session)?;
     let count = scanned.scan.measured().len();
     scanned.column = scanned.column.checked_add_signed(by).unwrap_or(count - 1) % count;
     refit(session);
-    Vec::new()
+    Ok(())
 }
 
 /// Switches between the table of the rows and their plot.
-pub fn table(session: &mut Session) -> Vec<Effect> {
-    let Some(scanned) = &mut session.scanned else { return none(session) };
+pub fn table(session: &mut Session) -> Done {
+    let scanned = scanned(session)?;
     scanned.table = !scanned.table;
-    Vec::new()
+    Ok(())
 }
 
 fn refit(session: &mut Session) {
@@ -193,13 +185,13 @@ fn refit(session: &mut Session) {
 
 /// Moves over the points, computed or not: `right` along the axis to the right, `up` along the other axis of a
 /// grid. In a table and along a line, both move along the rows.
-pub fn go(session: &mut Session, right: isize, up: isize) -> Vec<Effect> {
-    let Some(scanned) = &mut session.scanned else { return none(session) };
+pub fn go(session: &mut Session, right: isize, up: isize) -> Done {
+    let scanned = scanned(session)?;
     let last = scanned.scan.points().saturating_sub(1);
     let over = scanned.scan.over();
     if scanned.table || !scanned.is_grid() {
         scanned.at = scanned.at.saturating_add_signed(right.saturating_sub(up)).min(last);
-        return Vec::new();
+        return Ok(());
     }
     let columns: usize = over[1..].iter().map(|sweep| sweep.count).product();
     let step: usize = over[2..].iter().map(|sweep| sweep.count).product();
@@ -207,29 +199,30 @@ pub fn go(session: &mut Session, right: isize, up: isize) -> Vec<Effect> {
     let column = column.saturating_add_signed(right).min(over[0].count - 1);
     let row = row.saturating_add_signed(up.saturating_mul(step.cast_signed())).min(columns - 1);
     scanned.at = (column * columns + row).min(last);
-    Vec::new()
+    Ok(())
 }
 
 /// Sets the motion on show to the parameters of the selected point.
-pub fn take(session: &mut Session) -> Vec<Effect> {
-    let Some(scanned) = &session.scanned else { return none(session) };
-    let Problem { parameters, initial, .. } = scanned.scan.problem(scanned.at);
+pub fn take(session: &mut Session) -> Done {
     let mut problem = session.problem;
+    let scanned = scanned(session)?;
+    let taken = scanned.scan.problem(scanned.at);
     let mut said = Vec::new();
-    for sweep in scanned.scan.over() {
-        let value = sweep.symbol.get(&parameters, &initial);
-        sweep.symbol.set(&mut problem.parameters, &mut problem.initial, value);
-        said.push(format!("{} = {}", sweep.symbol, shortest(value)));
+    for Sweep { symbol, .. } in scanned.scan.over() {
+        let value = taken.get(*symbol);
+        problem.set(*symbol, value);
+        said.push(format!("{symbol} = {}", shortest(value)));
     }
     change(session, problem);
-    inform(session, said.join(", "))
+    inform(session, said.join(", "));
+    Ok(())
 }
 
-/// Writes the rows so far to a file, in the form of the command `scan`.
-pub fn save(session: &mut Session, path: PathBuf) -> Vec<Effect> {
-    let Some(scanned) = &session.scanned else { return none(session) };
-    let (scan, rows) = (std::sync::Arc::clone(&scanned.scan), scanned.rows.clone());
-    vec![Effect::SaveScan { path, scan, rows }]
+/// Writes the rows so far to a file, in the form of the command `scan`. Fails with one line if there is no scan.
+pub fn save(session: &mut Session, path: &str) -> Done {
+    let ScanOnShow { scan, rows, .. } = scanned(session)?.clone();
+    session.effects.push(Effect::SaveScan { path: path.into(), scan, rows });
+    Ok(())
 }
 
 /// Starts the scan `NAME=FROM:TO:COUNT .. MEASURE,..`. Fails with one line that says what is wrong and what is
@@ -240,13 +233,6 @@ pub fn scan(session: &mut Session, rest: &str) -> Done {
     let over = sweeps.into_iter().map(str::parse).collect::<Result<Vec<Sweep>, _>>()?;
     let measures = if measures.is_empty() { "from-rest".to_owned() } else { measures.join(",") };
     let scan = scan_of(session, over, &measures)?;
-    Ok(start(session, scan))
-}
-
-/// Writes the rows to the named file. Fails with one line if there is no scan.
-pub fn save_to(session: &mut Session, rest: &str) -> Done {
-    if session.scanned.is_none() {
-        return Err("there is no scan".to_owned());
-    }
-    Ok(save(session, rest.into()))
+    start(session, scan);
+    Ok(())
 }

@@ -3,8 +3,8 @@
 
 use crate::scene::{ARRANGEMENTS, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
 use crate::session::act::focus::focus_on;
-use crate::session::act::notice::{inform, refuse, with_keys};
-use crate::session::effect::Effect;
+use crate::session::act::notice::{inform, with_keys};
+use crate::session::effect::Done;
 use crate::session::state::history::{Before, ScreenSetup};
 use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::session::Session;
@@ -60,7 +60,7 @@ fn switch_on(session: &mut Session, view: View) {
 }
 
 /// Changes the view of the plot in use.
-pub fn show(session: &mut Session, view: View) -> Vec<Effect> {
+pub fn show(session: &mut Session, view: View) {
     let index = session.plot;
     if session.plots[index].view != view {
         let plot_setup = plot_setup(session, index, view);
@@ -70,23 +70,21 @@ pub fn show(session: &mut Session, view: View) -> Vec<Effect> {
     }
     focus_on(session, Pane::Plot(index));
     let spec = view.spec();
-    inform(session, format!("{}: {}", spec.title, spec.meaning))
+    inform(session, format!("{}: {}", spec.title, spec.meaning));
 }
 
 /// Changes the view of the plot in use, unless the new one could show nothing: of a list, one knows that only
 /// afterwards.
-pub fn show_from_list(session: &mut Session, view: View) -> Vec<Effect> {
-    match session.lacks(view) {
-        Some(lacks) => {
-            let text = format!("{} {}", view.spec().title, with_keys(session, lacks));
-            refuse(session, text)
-        }
-        None => show(session, view),
+pub fn show_from_list(session: &mut Session, view: View) -> Done {
+    if let Some(lacks) = session.lacks(view) {
+        return Err(format!("{} {}", view.spec().title, with_keys(session, lacks)));
     }
+    show(session, view);
+    Ok(())
 }
 
 /// Changes the plot in use to the next view of the list that can show anything, cycling.
-pub fn next_view(session: &mut Session, by: isize) -> Vec<Effect> {
+pub fn next_view(session: &mut Session, by: isize) {
     let can: Vec<View> =
         VIEWS.iter().map(|row| row.view).filter(|view| session.lacks(*view).is_none()).collect();
     let present = session.plots[session.plot].view;
@@ -94,13 +92,13 @@ pub fn next_view(session: &mut Session, by: isize) -> Vec<Effect> {
     // From a view that is not among them, the next one is the first behind it.
     let from = if can.get(before) == Some(&present) || by < 0 { by } else { by - 1 };
     let next = before.checked_add_signed(from).unwrap_or(can.len() - 1) % can.len();
-    show(session, can[next])
+    show(session, can[next]);
 }
 
 /// Adds a plot beside the one in use: with the first view that is not on show, otherwise with the same view.
-pub fn add(session: &mut Session) -> Vec<Effect> {
+pub fn add(session: &mut Session) -> Done {
     if session.plots.len() >= MOST_PLOTS {
-        return refuse(session, format!("there are {MOST_PLOTS} plots already; no more fit"));
+        return Err(format!("there are {MOST_PLOTS} plots already; no more fit"));
     }
     let index = session.plot;
     let absent = |view: &View| {
@@ -116,16 +114,15 @@ pub fn add(session: &mut Session) -> Vec<Effect> {
     switch_on(session, plot_setup.view);
     session.enlarged = false;
     focus_on(session, Pane::Plot(index + 1));
-    inform(
-        session,
-        format!("{} more: {}", plot_setup.view.spec().title, plot_setup.view.spec().meaning),
-    )
+    let spec = plot_setup.view.spec();
+    inform(session, format!("{} more: {}", spec.title, spec.meaning));
+    Ok(())
 }
 
 /// Removes the plot in use.
-pub fn remove(session: &mut Session) -> Vec<Effect> {
+pub fn remove(session: &mut Session) -> Done {
     if session.plots.len() < 2 {
-        return refuse(session, "the last plot cannot be removed");
+        return Err("the last plot cannot be removed".to_owned());
     }
     record(session);
     let removed = session.plots.remove(session.plot);
@@ -133,25 +130,26 @@ pub fn remove(session: &mut Session) -> Vec<Effect> {
     if session.focus != Pane::Parameters {
         focus_on(session, Pane::Plot(session.plot));
     }
-    inform(session, format!("{} removed", removed.view.spec().title))
+    inform(session, format!("{} removed", removed.view.spec().title));
+    Ok(())
 }
 
 /// Swaps the plot in use with the next one.
-pub fn move_on(session: &mut Session) -> Vec<Effect> {
+pub fn move_on(session: &mut Session) -> Done {
     if session.plots.len() < 2 {
-        return refuse(session, "there is only one plot");
+        return Err("there is only one plot".to_owned());
     }
     record(session);
     let (from, to) = (session.plot, (session.plot + 1) % session.plots.len());
     session.plots.swap(from, to);
     focus_on(session, Pane::Plot(to));
-    Vec::new()
+    Ok(())
 }
 
 /// Selects the next arrangement of the plots.
-pub fn arrange(session: &mut Session) -> Vec<Effect> {
+pub fn arrange(session: &mut Session) {
     record(session);
     let (arrangement, name) = crate::session::settings::next_of(&ARRANGEMENTS, session.arrangement);
     session.arrangement = arrangement;
-    inform(session, format!("arrangement: {name}"))
+    inform(session, format!("arrangement: {name}"));
 }

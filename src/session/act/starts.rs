@@ -4,9 +4,9 @@ use crate::flow::Problem;
 use crate::numerics::decimal::shortest;
 use crate::oscillator::State;
 use crate::scene::Topic;
-use crate::session::act::notice::{inform, refuse};
+use crate::session::act::notice::inform;
 use crate::session::act::parameters::put;
-use crate::session::effect::Effect;
+use crate::session::effect::Done;
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::{MOST_MOTIONS, Starts};
@@ -19,6 +19,9 @@ pub const INSIDE: f64 = 0.95;
 
 /// Like [`INSIDE`], on the other side.
 pub const OUTSIDE: f64 = 1.05;
+
+/// Why a motion is not removed.
+const ONLY: &str = "the only motion cannot be removed";
 
 /// Starts a motion beside the present ones; if there are too many, the oldest is removed.
 pub(in crate::session) fn start(session: &mut Session, initial: State) {
@@ -36,35 +39,30 @@ pub(in crate::session) fn start(session: &mut Session, initial: State) {
 }
 
 /// Removes the newest motion; the previous one becomes the present one.
-pub fn drop_newest(session: &mut Session) -> Vec<Effect> {
-    let Some(initial) = session.others.all().last().copied() else {
-        return refuse(session, "the only motion cannot be removed");
-    };
+pub fn drop_newest(session: &mut Session) -> Done {
+    let initial = *session.others.all().last().ok_or(ONLY)?;
     let problem = Problem { initial, ..session.problem };
     put(session, &Setup { problem, others: session.others.without(initial), ..session.setup() });
     let State { q, v } = initial;
     let count = session.problems().len();
     let motions = if count == 1 { "motion" } else { "motions" };
     let place = format!("q0 = {}, v0 = {}", shortest(q), shortest(v));
-    inform(session, format!("{count} {motions} on show; {place}"))
+    inform(session, format!("{count} {motions} on show; {place}"));
+    Ok(())
 }
 
 /// Removes all motions but the newest.
-pub fn drop_others(session: &mut Session) -> Vec<Effect> {
-    if !put(session, &Setup { others: Starts::default(), ..session.setup() }) {
-        refuse(session, "the only motion cannot be removed");
-    }
-    Vec::new()
+pub fn drop_others(session: &mut Session) -> Done {
+    let differs = put(session, &Setup { others: Starts::default(), ..session.setup() });
+    if differs { Ok(()) } else { Err(ONLY.to_owned()) }
 }
 
 /// Starts a motion at rest beside a turning point of the border: the right one of the smallest unstable cycle,
 /// or that of the separatrix.
-pub fn beside_edge(session: &mut Session, factor: f64) -> Vec<Effect> {
-    match beside(session, factor) {
-        Ok(q) => start(session, State { q, v: 0.0 }),
-        Err(why) => return refuse(session, why),
-    }
-    Vec::new()
+pub fn beside_edge(session: &mut Session, factor: f64) -> Done {
+    let q = beside(session, factor)?;
+    start(session, State { q, v: 0.0 });
+    Ok(())
 }
 
 /// The clearance of the border from the sticking set, and the side (1 or -1) of its turning point.

@@ -1,13 +1,12 @@
 //! Typing into the open line, whether it is for a value, a command or a search.
 
-use crate::session::effect::Effect;
 use crate::session::state::input::Input;
 use crate::session::state::overlay::Overlay;
 use crate::session::state::session::Session;
 use crate::words::printable::is_printable;
 
 /// Applies an edit to the open line, and drops what was said about its old text.
-pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) -> Vec<Effect> {
+pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) {
     match &mut session.overlay {
         Some(Overlay::Entry(entry)) => {
             entry.refused = None;
@@ -23,7 +22,6 @@ pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) -> Vec<Effect> 
         }
         _ => {}
     }
-    Vec::new()
 }
 
 /// Types a text into the open line, if there is one; what is not printable is dropped.

@@ -54,20 +54,22 @@ pub fn set(session: &mut Session, rest: &str) -> Done {
         setup = entry::read(session, &setup, row_named(session, name)?, &value)?;
     }
     parameters::put(session, &setup);
-    Ok(warn_of_units(session))
+    warn_of_units(session);
+    Ok(())
 }
 
 pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
     let row = row_named(session, row)?;
     let setup = entry::read(session, &session.setup(), row, value)?;
     parameters::put(session, &setup);
-    Ok(warn_of_units(session))
+    warn_of_units(session);
+    Ok(())
 }
 
 pub fn scene(session: &mut Session, name: &str) -> Done {
     let scene = find(name)?;
     history::open_scene(session, Arc::clone(&scene));
-    Ok(Vec::new())
+    Ok(())
 }
 
 /// Opens a built-in machine.
@@ -77,7 +79,7 @@ pub fn belt(session: &mut Session, name: &str) -> Done {
     let machine = machine.ok_or_else(|| format!("no machine {name:?}; there are {}", names()))?;
     let scaled = ScaledMachine::new(machine.clone()).map_err(|error| format!("{name}: {error}"))?;
     history::open_scene(session, Arc::new(scaled.scene()));
-    Ok(Vec::new())
+    Ok(())
 }
 
 /// Shows a view in the plot in use.
@@ -86,7 +88,8 @@ pub fn view(session: &mut Session, name: &str) -> Done {
     let row = row.ok_or_else(|| {
         format!("no view {name:?}; there are {}", listed(VIEWS.iter().map(|row| row.name)))
     })?;
-    Ok(screen_setup::show(session, row.view))
+    screen_setup::show(session, row.view);
+    Ok(())
 }
 
 /// Switches a layer on or off, or toggles it.
@@ -102,7 +105,10 @@ pub fn layer(session: &mut Session, rest: &str) -> Done {
         "off" => false,
         other => return Err(format!("{name} can be on or off, not {other:?}")),
     };
-    Ok(if wanted == is_on { Vec::new() } else { general::toggle(session, layer) })
+    if wanted != is_on {
+        general::toggle(session, layer);
+    }
+    Ok(())
 }
 
 /// Sets the window of the plot in use.
@@ -118,7 +124,7 @@ pub fn window(session: &mut Session, rest: &str) -> Done {
     let index = session.plot;
     let plot = &mut session.plots[index];
     (plot.window, plot.framing) = (window, Framing::User);
-    Ok(Vec::new())
+    Ok(())
 }
 
 /// Sets the axes of the diagram in use: a parameter, and optionally a property of the cycles.
@@ -136,7 +142,7 @@ pub fn axes(session: &mut Session, rest: &str) -> Done {
     };
     focus::focus_on(session, Pane::Plot(index));
     axis::set(session, Axes { abscissa, ordinate, unit, ..axes });
-    Ok(Vec::new())
+    Ok(())
 }
 
 /// The property with this name, and its unit.
@@ -164,7 +170,8 @@ pub fn harmonics(session: &mut Session, rest: &str) -> Done {
     session.harmonics =
         count.ok_or_else(|| format!("{rest:?} is not a number of harmonics from 1 to {most}"))?;
     session.layers.insert(crate::scene::Layer::Balance);
-    Ok(inform(session, format!("harmonic balance with N = {rest}")))
+    inform(session, format!("harmonic balance with N = {rest}"));
+    Ok(())
 }
 
 /// Shows random kicks over the basin.
@@ -177,7 +184,8 @@ pub fn kicks(session: &mut Session, rest: &str) -> Done {
     }
     session.kicks = kicks;
     session.layers.insert(crate::scene::Layer::Kicks);
-    Ok(inform(session, format!("{} kicks {kicks}, in q and v", kicks.law.name())))
+    inform(session, format!("{} kicks {kicks}, in q and v", kicks.law.name()));
+    Ok(())
 }
 
 /// The letter of a mark.
@@ -190,12 +198,13 @@ pub fn letter(text: &str) -> Result<char, String> {
 }
 
 pub fn mark(session: &mut Session, rest: &str) -> Done {
-    Ok(marks::set(session, letter(rest)?))
+    marks::set(session, letter(rest)?);
+    Ok(())
 }
 
 /// Goes to a mark.
 pub fn go_to(session: &mut Session, rest: &str) -> Done {
-    Ok(marks::go_to(session, letter(rest)?))
+    marks::go_to(session, letter(rest)?)
 }
 
 fn look<T: Copy>(table: &[(T, &'static str)], name: &str) -> Result<T, String> {
@@ -205,13 +214,13 @@ fn look<T: Copy>(table: &[(T, &'static str)], name: &str) -> Result<T, String> {
 
 pub fn theme(session: &mut Session, name: &str) -> Done {
     session.look.theme = look(&THEMES, name)?;
-    Ok(Vec::new())
+    Ok(())
 }
 
 /// Selects a set of characters.
 pub fn glyphs(session: &mut Session, name: &str) -> Done {
     session.look.glyphs = look(&GLYPHS, name)?;
-    Ok(Vec::new())
+    Ok(())
 }
 
 fn is_on(what: &str, state: &str) -> Result<bool, String> {
@@ -225,17 +234,17 @@ fn is_on(what: &str, state: &str) -> Result<bool, String> {
 /// Shows axes of machines with or without units.
 pub fn units(session: &mut Session, state: &str) -> Done {
     session.look.dimensionless = !is_on("units", state)?;
-    Ok(Vec::new())
+    Ok(())
 }
 
 /// Switches equal units of phase planes on or off.
 pub fn equal(session: &mut Session, state: &str) -> Done {
     session.look.stretched = !is_on("equal units", state)?;
-    Ok(Vec::new())
+    Ok(())
 }
 
 /// Selects a colour depth.
 pub fn color(session: &mut Session, name: &str) -> Done {
     session.look.colors = look(&COLORS, name)?;
-    Ok(Vec::new())
+    Ok(())
 }

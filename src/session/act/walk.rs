@@ -4,9 +4,9 @@ use crate::numerics::decimal::shortest;
 use crate::numerics::elementary::hypot;
 use crate::oscillator::State;
 use crate::scene::{Axes, Layer, Topic};
-use crate::session::act::notice::{inform, refuse, with_keys};
+use crate::session::act::notice::{inform, with_keys};
 use crate::session::act::parameters::change;
-use crate::session::effect::Effect;
+use crate::session::effect::Done;
 use crate::session::read::walk::Way;
 use crate::session::state::plot::{Pane, Plot};
 use crate::session::state::session::Session;
@@ -16,12 +16,10 @@ use crate::session::state::stop::BranchStop;
 pub const FAR: isize = 10;
 
 /// Begins a walk on the branch: at the cursor of the diagram if there is one, otherwise at the present value.
-pub fn take_hold(session: &mut Session) -> Vec<Effect> {
-    match first(session) {
-        Ok(stop) => session.held = Some(stop),
-        Err(why) => return refuse(session, with_keys(session, why)),
-    }
-    Vec::new()
+pub fn take_hold(session: &mut Session) -> Done {
+    let stop = first(session).map_err(|why| with_keys(session, why))?;
+    session.held = Some(stop);
+    Ok(())
 }
 
 fn first(session: &Session) -> Result<BranchStop, &'static str> {
@@ -55,19 +53,17 @@ fn first(session: &Session) -> Result<BranchStop, &'static str> {
 }
 
 /// Moves `count` points along the held piece of the branch.
-pub fn go(session: &mut Session, count: isize) -> Vec<Effect> {
+pub fn go(session: &mut Session, count: isize) {
     let further = |way: &Way, held: &BranchStop| way.further(held, count);
     if !moved(session, further) {
         let text = "the branch ends here; {walk-to-next} leads to the next special point or end";
         inform(session, with_keys(session, text));
     }
-    Vec::new()
 }
 
 /// Moves to the next special point or end of a piece.
-pub fn go_to_landmark(session: &mut Session, onward: bool) -> Vec<Effect> {
+pub fn go_to_landmark(session: &mut Session, onward: bool) {
     moved(session, |way, held| way.landmark(held, onward));
-    Vec::new()
 }
 
 /// Holds another point; returns whether it differs.
@@ -80,15 +76,12 @@ fn moved(session: &mut Session, choose: impl Fn(&Way, &BranchStop) -> Option<Bra
 
 /// Sets the parameter to the value at the held point and starts the motion on its cycle, as one change. On the
 /// branch of a variant, this also sets the values that the variant holds.
-pub fn take(session: &mut Session) -> Vec<Effect> {
-    let Some(held) = session.held else { return Vec::new() };
+pub fn take(session: &mut Session) -> Done {
+    let Some(held) = session.held else { return Ok(()) };
     let abscissa = session.plots[session.plot].axes.abscissa;
-    let value = match abscissa.check(held.value) {
-        Ok(value) => value,
-        Err(refused) => return refuse(session, refused.to_string()),
-    };
+    let value = abscissa.check(held.value)?;
     let shown = session.shown(session.plot);
-    let Some(variant) = shown.get(held.variant) else { return Vec::new() };
+    let Some(variant) = shown.get(held.variant) else { return Ok(()) };
     let mut problem = variant.problem;
     abscissa.set(&mut problem.parameters, &mut problem.initial, value);
     // A cycle at infinity has no start on it: the present start stays.
@@ -99,13 +92,13 @@ pub fn take(session: &mut Session) -> Vec<Effect> {
     let start = held.cycle.map(|_| ", and the motion starts on its cycle").unwrap_or_default();
     let also = if variant.label.is_empty() { "" } else { ", " };
     let label = &variant.label;
-    inform(session, format!("{abscissa} = {}{also}{label}{start}", shortest(value)))
+    inform(session, format!("{abscissa} = {}{also}{label}{start}", shortest(value)));
+    Ok(())
 }
 
 /// Ends the walk.
-pub fn let_go(session: &mut Session) -> Vec<Effect> {
+pub fn let_go(session: &mut Session) {
     session.held = None;
-    Vec::new()
 }
 
 /// Keeps the held point when the branch is computed again, and ends the walk when there is no branch any more.

@@ -151,7 +151,7 @@ impl Session {
         quantity: Knob,
         value: f64,
     ) -> Result<Setup, String> {
-        let value = quantity.check(value).map_err(|refused| refused.to_string())?;
+        let value = quantity.check(value)?;
         let was = self.set_machine(setup)?;
         let setting = setup.setting.unwrap_or(Setting::of_speed(was.belt.belt_speed));
         let setting = setting.with(quantity, value);

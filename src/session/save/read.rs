@@ -140,17 +140,16 @@ fn scene(named: SavedScene) -> Result<Arc<Scene>, String> {
 fn checked(problem: Problem, beside: &[State], setting: Option<Setting>) -> Result<Setup, String> {
     let accuracy = [Knob::Until, Knob::Tolerance, Knob::Step, Knob::Epsilon];
     for knob in Knob::MOTION.into_iter().chain(accuracy) {
-        knob.check(problem.get(knob)).map_err(|refused| refused.to_string())?;
+        knob.check(problem.get(knob))?;
     }
-    let setting = setting.map(Setting::checked).transpose();
-    let setting = setting.map_err(|refused| refused.to_string())?;
+    let setting = setting.map(Setting::checked).transpose()?;
     let others = Starts::of(beside).ok_or_else(|| {
         format!("{} motions beside another; there can be {}", beside.len(), MOST_MOTIONS - 1)
     })?;
     for (symbol, value) in
         beside.iter().flat_map(|start| [(Knob::Q0, start.q), (Knob::V0, start.v)])
     {
-        symbol.check(value).map_err(|refused| refused.to_string())?;
+        symbol.check(value)?;
     }
     Ok(Setup { problem, others, setting, doubt: Uncertainty::default() })
 }

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use crate::flow::{Cost, Problem};
 use crate::oscillator::Knob;
 use crate::scene::{Arrangement, Layer, Machine, Scene, Setting, Topic};
+use crate::session::effect::Effect;
 use crate::session::message::Notice;
 use crate::session::message::key::Key;
 use crate::session::state::answers::Answers;
@@ -170,6 +171,8 @@ pub struct Session {
     pub look: DisplaySettings,
     /// The size of the screen.
     pub size: Size,
+    /// What the outer rings shall do after this message.
+    pub effects: Vec<Effect>,
     /// Whether the user has quit.
     pub quit: bool,
 }
@@ -217,6 +220,7 @@ impl Session {
             keymap,
             look: DisplaySettings::default(),
             size,
+            effects: Vec::new(),
             quit: false,
             scene,
         }
