@@ -8,7 +8,6 @@ use crate::flow::Limits;
 use crate::question::answer;
 use crate::report::scene_cost::{QuestionCost, SceneCost, StepCost};
 use crate::scene::{Scene, library};
-use crate::session::act::parameters;
 use crate::session::{self, Msg, Row, Session, Size, update};
 
 /// Number of times that a quickly answered question is measured for the median of its times.
@@ -27,9 +26,7 @@ fn of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
     let questions = settle(&mut session, scene)?;
     let rows = session.rows().into_iter().filter(|row| *row != Row::Method);
     let step = |row: Row| {
-        let mut stepped = session.clone();
-        stepped.selected = row;
-        parameters::step(&mut stepped, 1);
+        let mut stepped = session.stepped(row, 1);
         update(&mut stepped, Msg::Idle);
         let kept = stepped.requirements().into_iter().map(|part| part.request);
         let reused = kept.filter(|request| !stepped.is_open(request));

@@ -159,8 +159,8 @@ fn take(session: &mut Session, answered: Answered) {
 fn keep_selection(session: &mut Session) {
     let rows = session.rows();
     if !rows.contains(&session.selected) {
-        let after = rows.iter().copied().find(|row| *row > session.selected);
-        session.selected = after.or(rows.last().copied()).unwrap_or(Row::Tolerance);
+        let mut after = Row::all().skip_while(|row| *row != session.selected);
+        session.selected = after.find(|row| rows.contains(row)).unwrap_or(Row::Tolerance);
     }
 }
 

@@ -14,7 +14,7 @@ use crate::words::statement::signed;
 
 /// What a fitted number stands for with its standard error, and the error alone; or that it is held.
 pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
-    let (Row::Parameter(symbol), Some(found)) = (row, session.fitted()) else { return Vec::new() };
+    let (Row::Number(symbol), Some(found)) = (row, session.fitted()) else { return Vec::new() };
     let sign = look.symbols().plus_minus;
     let error = found.error(symbol);
     let told = match error {

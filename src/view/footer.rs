@@ -9,6 +9,7 @@ use super::keys;
 use super::look::Look;
 use super::pane;
 use crate::flow::QUALITIES;
+use crate::oscillator::Knob;
 use crate::picture::role::Role;
 use crate::session::Hint;
 use crate::session::read::completion::described;
@@ -105,22 +106,20 @@ fn entry(entry: &Entry, session: &Session, look: &Look) -> Vec<Span<'static>> {
 /// What can be typed as the value of a row.
 fn allowed(row: Row, session: &Session) -> String {
     match row {
-        Row::Parameter(symbol) => {
-            format!("{}, {}", symbol.range(), symbol.spec().meaning)
-        }
         Row::Tolerance => {
             let names = QUALITIES.map(|quality| quality.name).join(", ");
             format!("{}, or {names}", row.knob_in(&session.problem).range())
         }
         Row::BELT => "speed of the belt, such as 0.3 m/s or 30 cm/s".to_owned(),
-        Row::Quantity(quantity) => {
-            let spec = quantity.spec();
+        Row::Number(knob) if row.is_of_machine() => {
+            let spec = knob.spec();
             format!("{}, in {} or with its unit", spec.meaning, spec.unit)
         }
-        Row::Disturbance => {
+        Row::Number(Knob::Disturbance) => {
             "bound on a force that varies in any way, in the unit of r or in N".to_owned()
         }
-        Row::Until | Row::Method => String::new(),
+        Row::Number(Knob::Until) | Row::Method => String::new(),
+        Row::Number(knob) => format!("{}, {}", knob.range(), knob.spec().meaning),
     }
 }
 

@@ -114,7 +114,7 @@ fn row_line(
     let (value, of_scene) = (text(&session.setup()), text(&Setup::of_scene(&session.scene)));
     let changed = value != of_scene;
     // Numbers changed by hand are those of no belt speed: its row is out of use until it is set again.
-    let off = matches!(row, Row::Quantity(_)) && session.is_on_the_belt() == Some(false);
+    let off = row.is_of_machine() && session.is_on_the_belt() == Some(false);
     let value = if off { format!("({value})") } else { value };
     let gap = end.saturating_sub(name.len() + value.chars().count() + 1).max(1);
     let style = look.style(role);
@@ -163,10 +163,10 @@ fn tail(session: &Session, row: Row, step: Option<String>, width: u16, look: &Lo
 fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
     let units = session.units();
     let (name, value, unit) = match (row, units) {
-        (Row::Disturbance, Some(units)) if units.force.is_finite() => {
+        (Row::Number(Knob::Disturbance), Some(units)) if units.force.is_finite() => {
             ("w", session.doubt.disturbance * units.force, "N")
         }
-        (Row::Until, Some(units)) => ("t", session.problem.until * units.time, "s"),
+        (Row::Number(Knob::Until), Some(units)) => ("t", session.problem.until * units.time, "s"),
         _ => return on_its_belt(session, row),
     };
     Some((name, with_unit(value, 4, unit)))
@@ -179,28 +179,19 @@ fn on_its_belt(session: &Session, row: Row) -> Option<(&'static str, String)> {
         Row::BELT if session.is_on_the_belt() == Some(false) => {
             return Some(("v0", "off the belt".to_owned()));
         }
-        Row::Quantity(knob) => (knob, session.quantity(knob)),
-        Row::Parameter(symbol) => running.meaning(symbol, session.value(symbol))?,
-        Row::Disturbance | Row::Until | Row::Method | Row::Tolerance => return None,
+        Row::Number(knob) if row.is_of_machine() => (knob, session.value(knob)),
+        Row::Number(knob) => running.meaning(knob, session.value(knob))?,
+        Row::Method | Row::Tolerance => return None,
     };
     Some((knob.spec().name, with_unit(value, 4, knob.spec().unit)))
 }
 
 fn value(session: &Session, setup: &Setup, row: Row, width: usize, sign: &str) -> String {
-    let Setup { problem, setting, doubt, .. } = setup;
+    let Setup { problem, doubt, .. } = setup;
     match row {
-        Row::Quantity(quantity) => {
-            let of_file = session
-                .scene
-                .machine
-                .as_ref()
-                .and_then(|scaled| quantity.of_belt(&scaled.machine.belt));
-            let value = setting.and_then(|it| it.get(quantity)).or(of_file);
-            value.map_or_else(String::new, |value| exact(value, width))
-        }
-        Row::Parameter(symbol) => {
-            let value = problem.get(symbol);
-            let half = doubt.half_width(symbol);
+        Row::Number(knob) if row.is_of_machine() => exact(session.value_in(setup, knob), width),
+        Row::Number(knob) => {
+            let (value, half) = (session.value_in(setup, knob), doubt.half_width(knob));
             if half == 0.0 {
                 return number(session, value, width);
             }
@@ -208,8 +199,6 @@ fn value(session: &Session, setup: &Setup, row: Row, width: usize, sign: &str) -
                 format!(" {sign}{}", number(session, half, width.div_ceil(2).saturating_sub(1)));
             number(session, value, width.saturating_sub(half.chars().count())) + &half
         }
-        Row::Disturbance => number(session, doubt.disturbance, width),
-        Row::Until => number(session, problem.until, width),
         Row::Method => problem.method.to_string(),
         Row::Tolerance => exact(problem.setting(), width),
     }
@@ -246,7 +235,7 @@ fn folded(session: &Session) -> Option<String> {
     let shown = session.rows();
     let hidden: Vec<&str> = Knob::PARAMETERS
         .into_iter()
-        .filter(|symbol| !shown.contains(&Row::Parameter(*symbol)))
+        .filter(|symbol| !shown.contains(&Row::Number(*symbol)))
         .map(|symbol| symbol.spec().name)
         .collect();
     (!hidden.is_empty()).then(|| format!("{} = 0", hidden.join(" = ")))

@@ -7,8 +7,7 @@ use crate::numerics::decimal::shortest;
 use crate::oscillator::Knob;
 use crate::scene::{Axes, View};
 use crate::session::effect::{Done, Effect};
-use crate::session::read::numbers;
-use crate::session::state::rows::Row;
+use crate::session::read::numbers::plain_value;
 use crate::session::state::session::Session;
 use crate::study::measure::Value;
 
@@ -68,10 +67,7 @@ fn measured(value: &Value) -> String {
 fn point(session: &Session) -> Vec<NamedNumber> {
     let Some(plot) = session.focused() else {
         let row = session.selected;
-        return vec![match row {
-            Row::Method => (row.name().to_owned(), session.problem.method.to_string()),
-            row => named(row.name(), numbers::number(&session.setup(), row)),
-        }];
+        return vec![(row.name().to_owned(), plain_value(session, row))];
     };
     let Axes { abscissa, against, ordinate, .. } = plot.axes;
     if let Some(held) = session.held {

@@ -6,17 +6,15 @@ use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::machine::stepped::SteppedMethod;
 use crate::numerics::decimal::shortest;
 use crate::numerics::elementary::log10;
-use crate::oscillator::{Knob, KnobSpec};
+use crate::oscillator::{Group, Knob, KnobSpec};
 use crate::scene::{Running, Setting, View};
-use crate::session::act::notice::{inform, refuse};
-use crate::session::read::numbers::{number, with_number};
+use crate::session::act::notice::inform;
+use crate::session::effect::Done;
 use crate::session::state::history::Before;
 use crate::session::state::plot::{Framing, Plot};
 use crate::session::state::rows::{Row, Steps};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
-use crate::session::state::step_size::StepSize;
-use crate::session::state::uncertainty::Uncertainty;
 
 /// Changes the motion on show, as one change that can be undone; the belt keeps its speed. Returns whether
 /// anything differs.
@@ -61,134 +59,82 @@ pub fn select(session: &mut Session, by: isize) {
 }
 
 /// Steps the selected value.
-pub fn step(session: &mut Session, count: i32) {
+pub fn step(session: &mut Session, count: i32) -> Done {
     match session.selected {
-        Row::Method => return next_method(session, count.signum() as isize),
-        Row::Tolerance => return turn(session, count.signum()),
-        Row::Quantity(quantity) => return step_machine(session, quantity, count),
-        Row::Disturbance => return step_disturbance(session, count),
-        Row::Parameter(_) | Row::Until => {}
-    }
-    let row = session.selected;
-    let Some(size) = session.steps.of_row(row) else { return };
-    let knob = row.knob_in(&session.problem);
-    let value = number(&session.setup(), row);
-    let (stepped, why) = stepped(knob, size, value, count);
-    if let Err(refused) = knob.check(stepped) {
-        return refuse(session, refused.to_string());
-    }
-    let changed = with_number(session.problem, row, stepped);
-    if !change(session, changed) {
-        refuse(session, why);
-    }
-}
-
-/// A value after some steps, within its range, and why it stays where it does.
-fn stepped(knob: Knob, size: StepSize, value: f64, count: i32) -> (f64, String) {
-    let KnobSpec { symbol, min, max, .. } = *knob.spec();
-    let wanted = size.from(value, count);
-    let why = if (min..=max).contains(&wanted) {
-        format!("the step is too small to change {symbol} = {}", knob.print(value))
-    } else {
-        knob.at_end(value)
-    };
-    (wanted.clamp(min, max), why)
-}
-
-/// Steps a number of the machine; if the parameters are off the belt, this leads back onto it. A value out of
-/// range is refused and not clamped: the end of the range of speeds, far below that of any belt, would be no
-/// useful place to stop.
-fn step_machine(session: &mut Session, quantity: Knob, count: i32) {
-    let Some(size) = session.steps.of_row(Row::Quantity(quantity)) else { return };
-    let value = size.from(session.quantity(quantity), count);
-    match session.with_quantity(&session.setup(), quantity, value) {
-        Ok(setup) if put(session, &setup) => {}
-        Ok(_) => {
-            let (_, why) = stepped(quantity, size, session.quantity(quantity), count);
-            refuse(session, why)
+        Row::Number(knob) => step_number(session, knob, count),
+        Row::Method => {
+            next_method(session, count.signum() as isize);
+            Ok(())
         }
-        Err(why) => refuse(session, why),
+        Row::Tolerance => turn(session, count.signum()),
     }
 }
 
-/// Steps the bound on the disturbance, which stays at least 0.
-fn step_disturbance(session: &mut Session, count: i32) {
-    let Some(size) = session.steps.of_row(Row::Disturbance) else { return };
-    let present = session.setup();
-    let (disturbance, why) = stepped(Knob::Disturbance, size, present.doubt.disturbance, count);
-    let doubt = Uncertainty { disturbance, ..present.doubt };
-    if !put(session, &Setup { doubt, ..present }) {
-        refuse(session, why);
+/// Steps a number, within its range. One of the machine leads back onto its belt; out of range it is refused: the
+/// end of the range of speeds, far below that of any belt, would be no useful place to stop.
+fn step_number(session: &mut Session, knob: Knob, count: i32) -> Done {
+    let KnobSpec { symbol, min, max, group, .. } = *knob.spec();
+    let value = session.value(knob);
+    let wanted = session.steps.of(knob).from(value, count);
+    let within = if group == Group::Machine { wanted } else { wanted.clamp(min, max) };
+    let stepped = session.with(&session.setup(), knob, within)?;
+    if put(session, &stepped) {
+        Ok(())
+    } else if (min..=max).contains(&wanted) {
+        Err(format!("the step is too small to change {symbol} = {}", knob.print(value)))
+    } else {
+        Err(knob.at_end(value))
     }
 }
 
 /// Makes the half width of the selected parameter wider or narrower by a step.
-pub fn half_width(session: &mut Session, count: i32) {
+pub fn half_width(session: &mut Session, count: i32) -> Done {
     let present = session.setup();
-    let Row::Parameter(symbol) = session.selected else {
-        return refuse(session, "only D, D2, D3 and r have a half width");
-    };
-    let Some(step) = session.steps.of_row(session.selected) else { return };
-    let half = step.from(present.doubt.half_width(symbol), count).max(0.0);
-    match present.doubt.with_half_width(symbol, half) {
-        Ok(doubt) if put(session, &Setup { doubt, ..present }) => {}
-        Ok(_) => refuse(session, format!("{symbol} has no half width")),
-        Err(why) => refuse(session, why),
-    }
+    let knob = session.selected.knob_in(&session.problem);
+    let half = session.steps.of(knob).from(present.doubt.half_width(knob), count).max(0.0);
+    let doubt = present.doubt.with_half_width(knob, half)?;
+    let differs = put(session, &Setup { doubt, ..present });
+    if differs { Ok(()) } else { Err(format!("{knob} has no half width")) }
 }
 
 /// Makes the step size of the selected row larger or smaller.
-pub fn step_size(session: &mut Session, larger: bool) {
-    let Some(size) = session.steps.of_row_mut(session.selected) else {
-        return refuse(session, format!("{} has no step size", session.selected.name()));
-    };
+pub fn step_size(session: &mut Session, larger: bool) -> Done {
+    let row = session.selected;
+    let size = session.steps.of_row_mut(row);
+    let size = size.ok_or_else(|| format!("{} has no step size", row.name()))?;
     *size = if larger { size.larger() } else { size.smaller() };
+    Ok(())
 }
 
 /// Resets the selected row to the scene's value and step size.
 pub fn reset_row(session: &mut Session) {
     let row = session.selected;
-    let (scene, present) = (session.scene.problem, session.setup());
+    let (of_scene, present) = (Setup::of_scene(&session.scene), session.setup());
     let steps = Steps::of_scene(&session.scene);
     if let (Some(size), Some(wanted)) = (session.steps.of_row_mut(row), steps.of_row(row)) {
         *size = wanted;
     }
+    let Setup { mut problem, mut doubt, .. } = present;
     let reset = match row {
-        Row::Quantity(quantity) => session.scene.machine.as_ref().map_or_else(
-            || Ok(present),
-            |scaled| {
-                session.with_quantity(
-                    &present,
-                    quantity,
-                    quantity.of_belt(&scaled.machine.belt).unwrap_or(0.0),
-                )
-            },
-        ),
         Row::Method => {
-            Ok(Setup { problem: Problem { method: scene.method, ..session.problem }, ..present })
+            problem.method = of_scene.problem.method;
+            Setup { problem, ..present }
         }
-        Row::Disturbance => {
-            let disturbance = Setup::of_scene(&session.scene).doubt.disturbance;
-            Ok(Setup { doubt: Uncertainty { disturbance, ..present.doubt }, ..present })
+        Row::Tolerance => {
+            Setup { problem: problem.with_setting(of_scene.problem.setting()), ..present }
         }
-        Row::Parameter(symbol) if session.scene.recording.is_some() => {
-            let mut doubt = present.doubt.with_half_width(symbol, 0.0).unwrap_or(present.doubt);
-            doubt.held[symbol as usize] = false;
-            Ok(Setup { doubt, ..present })
+        Row::Number(knob) if session.scene.recording.is_some() && Knob::MOTION.contains(&knob) => {
+            doubt = doubt.with_half_width(knob, 0.0).unwrap_or(doubt);
+            doubt.held[knob as usize] = false;
+            Setup { doubt, ..present }
         }
-        Row::Parameter(symbol) => {
-            let value = number(&Setup::alone(scene), row);
-            let half = Setup::of_scene(&session.scene).doubt.half_width(symbol);
-            let doubt = present.doubt.with_half_width(symbol, half).unwrap_or(present.doubt);
-            let problem = with_number(session.problem, row, value);
-            Ok(Setup { problem, doubt, ..present })
-        }
-        Row::Until | Row::Tolerance => {
-            let value = number(&Setup::alone(scene), row);
-            Ok(Setup { problem: with_number(session.problem, row, value), ..present })
+        Row::Number(knob) => {
+            let half = of_scene.doubt.half_width(knob);
+            doubt = doubt.with_half_width(knob, half).unwrap_or(doubt);
+            let value = session.value_in(&of_scene, knob);
+            session.with(&Setup { doubt, ..present }, knob, value).unwrap_or(present)
         }
     };
-    let reset = reset.unwrap_or(present);
     if !put(session, &reset) {
         inform(session, format!("{} has the scene's value", row.name_in(&session.problem)));
     }
@@ -200,17 +146,16 @@ pub fn unfold(session: &mut Session) {
 }
 
 /// Changes the accuracy to its next stop: draft, normal, fine, reference.
-pub fn dial(session: &mut Session, finer: bool) {
+pub fn dial(session: &mut Session, finer: bool) -> Done {
     session.measuring = true;
-    match session.problem.next_quality(finer) {
-        Some(quality) => {
-            change(session, session.problem.at(quality));
-            let (dial, meaning) = (session.problem.method.spec().dial, quality.meaning);
-            let setting = shortest(session.problem.setting());
-            inform(session, format!("{}: {} {setting}; {meaning}", quality.name, dial.knob()))
-        }
-        None => refuse(session, format!("the accuracy is at its {}", end_of_dial(finer))),
-    }
+    let quality = session.problem.next_quality(finer);
+    let quality =
+        quality.ok_or_else(|| format!("the accuracy is at its {}", end_of_dial(finer)))?;
+    change(session, session.problem.at(quality));
+    let (knob, setting) = (Row::Tolerance.knob_in(&session.problem), session.problem.setting());
+    let (name, meaning) = (quality.name, quality.meaning);
+    inform(session, format!("{name}: {knob} {}; {meaning}", shortest(setting)));
+    Ok(())
 }
 
 fn end_of_dial(finer: bool) -> String {
@@ -219,16 +164,14 @@ fn end_of_dial(finer: bool) -> String {
 }
 
 /// Multiplies the number that sets the accuracy by a power of ten.
-fn turn(session: &mut Session, decades: i32) {
+fn turn(session: &mut Session, decades: i32) -> Done {
     let knob = session.problem.method.spec().dial.knob();
     let KnobSpec { min, max, .. } = *knob.spec();
     let exponent = log10(session.problem.setting()).round() + f64::from(decades);
     // Parsed, because the power of ten must be exact to the last bit, which powi does not guarantee.
     let setting = format!("1e{exponent}").parse().unwrap_or(max).clamp(min, max);
     let turned = session.problem.with_setting(setting);
-    if !change(session, turned) {
-        refuse(session, knob.at_end(setting));
-    }
+    if change(session, turned) { Ok(()) } else { Err(knob.at_end(setting)) }
 }
 
 /// Selects the next method of the list, cycling.
@@ -253,6 +196,20 @@ pub fn next_method(session: &mut Session, by: isize) {
 }
 
 impl Session {
+    /// The session after some steps of a row; where these are refused, nothing has changed but the selection.
+    pub fn stepped(&self, row: Row, count: i32) -> Session {
+        let mut stepped = self.clone();
+        stepped.selected = row;
+        let _ = step(&mut stepped, count);
+        stepped
+    }
+
+    /// The session after a step of a row; at the end of its range, in the other direction.
+    pub fn stepped_once(&self, row: Row) -> Session {
+        let up = self.stepped(row, 1);
+        if up.setup() == self.setup() { self.stepped(row, -1) } else { up }
+    }
+
     /// Makes this setup the present one. There is a setting of the machine if and only if there is a machine.
     pub(in crate::session) fn set_setup(&mut self, setup: &Setup) {
         let Setup { problem, others, setting, doubt } = *setup;

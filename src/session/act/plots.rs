@@ -172,7 +172,7 @@ pub fn use_method(session: &mut Session) -> Done {
 /// Sets the belt to the speed under the cursor.
 pub fn take_speed(session: &mut Session) -> Done {
     let Point { x, .. } = cursor(session)?;
-    let setup = session.with_quantity(&session.setup(), Knob::BeltSpeed, x)?;
+    let setup = session.with(&session.setup(), Knob::BeltSpeed, x)?;
     put(session, &setup);
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Scans: the form, starting and stopping, moving over the points, and using one of them.
 
 use crate::numerics::decimal::shortest;
+use crate::oscillator::Knob;
 use crate::scene::View;
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::{inform, with_keys};
@@ -11,7 +12,6 @@ use crate::session::read::scan::{scan_of, typed};
 use crate::session::state::input::Input;
 use crate::session::state::overlay::Overlay;
 use crate::session::state::plot::Pane;
-use crate::session::state::rows::Row;
 use crate::session::state::scan::{Progress, SCANNING, ScanOnShow};
 use crate::session::state::scan_form::ScanForm;
 use crate::session::state::session::Session;
@@ -39,9 +39,10 @@ fn fresh(session: &Session) -> ScanForm {
             return ScanForm::new(symbol, (span.from(), span.to()));
         }
     }
-    let Row::Parameter(symbol) = session.selected else {
-        return ScanForm::new(crate::oscillator::Knob::D, (-0.9, 0.0));
-    };
+    let symbol = session.selected.knob_in(&session.problem);
+    if !Knob::MOTION.contains(&symbol) {
+        return ScanForm::new(Knob::D, (-0.9, 0.0));
+    }
     let (spec, value) = (symbol.spec(), session.value(symbol));
     let reach = 10.0 * spec.step;
     ScanForm::new(symbol, ((value - reach).max(spec.min), (value + reach).min(spec.max)))

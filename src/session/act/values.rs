@@ -34,7 +34,8 @@ fn row_named(session: &Session, name: &str) -> Result<Row, String> {
 
 /// Whether the value of this name may have a unit.
 fn takes_unit(session: &Session, name: &str) -> bool {
-    row_named(session, name).is_ok_and(|row| matches!(row, Row::Quantity(_) | Row::Disturbance))
+    row_named(session, name)
+        .is_ok_and(|row| row.is_of_machine() || row == Row::Number(Knob::Disturbance))
 }
 
 /// Runs `NAME=VALUE ..` as one change. A word without `=` is the unit of the value before it.

@@ -6,7 +6,7 @@
 
 use crate::flow::Problem;
 use crate::machine::Body;
-use crate::oscillator::{Belt, Knob, Parameters, State};
+use crate::oscillator::{Belt, Group, Knob, Parameters, State};
 use crate::question::Whole;
 use crate::question::whole::{Course, WholeCycles};
 use crate::scene::machine::unlikely::unlikely;
@@ -16,12 +16,6 @@ use crate::session::state::setup::Setup;
 use crate::session::state::uncertainty::{ON_A_MACHINE, Uncertainty, symbol_of};
 
 impl Session {
-    /// The present setup: the motions on show, the setting of the machine, and what is not known exactly.
-    pub fn setup(&self) -> Setup {
-        let Session { problem, others, setting, doubt, .. } = *self;
-        Setup { problem, others, setting, doubt }
-    }
-
     /// The machine of the scene with its present setting.
     pub fn running(&self) -> Option<Running<'_>> {
         let scaled = self.scene.machine.as_ref()?;
@@ -94,26 +88,20 @@ impl Session {
         move |symbol| symbol.get(&parameters, &State { q: 0.0, v: 0.0 })
     }
 
-    /// A number of the machine with its present setting, in SI units; 0 without a machine.
-    pub fn quantity(&self, quantity: Knob) -> f64 {
-        self.running().map_or(0.0, |running| match quantity {
-            Knob::BeltSpeed => running.speed,
-            other => other.of_belt(&running.machine.belt).unwrap_or(0.0),
-        })
-    }
-
-    /// The uncertainty of `setup` with another tolerance of a number of the machine, in SI units. Fails with
-    /// one line if no parameter corresponds to that number.
+    /// The uncertainty of `setup` with another half width of a parameter, or tolerance of a number of the
+    /// machine, in SI units. Fails with one line if no parameter corresponds to that number.
     pub(in crate::session) fn with_tolerance(
         &self,
         setup: &Setup,
-        quantity: Knob,
+        knob: Knob,
         half_width: f64,
     ) -> Result<Uncertainty, String> {
-        let name = quantity.spec().name;
-        let symbol = symbol_of(quantity).ok_or_else(|| {
+        if knob.spec().group != Group::Machine {
+            return setup.doubt.with_half_width(knob, half_width);
+        }
+        let symbol = symbol_of(knob).ok_or_else(|| {
             format!(
-                "{name} has no tolerance here; R, d1 and d3 have, all of them in a machine's file"
+                "{knob} has no tolerance here; R, d1 and d3 have, all of them in a machine's file"
             )
         })?;
         let machine = self.set_machine(setup)?;
@@ -143,18 +131,28 @@ impl Session {
             .map_or_else(|| scaled.machine.clone(), |setting| setting.on(&scaled.machine)))
     }
 
-    /// The setup of the machine with another value of one number: from the same start in metres, with the same
-    /// disturbance in newtons. Fails with one line if there is no machine, or none with that number.
-    pub(in crate::session) fn with_quantity(
+    /// The setup with another value of a number; one of the machine leaves the start in metres and the
+    /// disturbance in newtons. Fails with one line if the number is outside its range, or there is no machine.
+    pub(in crate::session) fn with(
         &self,
         setup: &Setup,
-        quantity: Knob,
+        knob: Knob,
         value: f64,
     ) -> Result<Setup, String> {
-        let value = quantity.check(value)?;
+        let value = knob.check(value)?;
+        let mut changed = *setup;
+        match knob {
+            Knob::Disturbance => changed.doubt.disturbance = value,
+            _ if knob.spec().group == Group::Machine => return self.rebuilt(setup, knob, value),
+            _ => changed.problem.set(knob, value),
+        }
+        Ok(changed)
+    }
+
+    fn rebuilt(&self, setup: &Setup, knob: Knob, value: f64) -> Result<Setup, String> {
         let was = self.set_machine(setup)?;
         let setting = setup.setting.unwrap_or(Setting::of_speed(was.belt.belt_speed));
-        let setting = setting.with(quantity, value);
+        let setting = setting.with(knob, value);
         let is = setting.on(&was);
         let running = Running::at(&was, was.belt.belt_speed)?;
         let other = Running::at(&is, setting.speed)?;

@@ -6,7 +6,7 @@ use crate::oscillator::Knob;
 use crate::scene::machine::library::machines;
 use crate::scene::ordinate::OrdinateSpec;
 use crate::scene::{LAYERS, ORDINATES, VIEWS, Window, library};
-use crate::session::read::numbers::number;
+use crate::session::read::numbers::plain_value;
 use crate::session::state::command::{Command, Words};
 use crate::session::state::keymap::Keymap;
 use crate::session::state::overlay::Completion;
@@ -43,7 +43,7 @@ fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
 /// The rows to which a line can assign a value; without a machine, none of a machine.
 pub fn rows(session: &Session) -> impl Iterator<Item = Row> + use<> {
     let belt = session.running().is_some();
-    Row::all().filter(move |row| belt || !matches!(row, Row::Quantity(_)))
+    Row::all().filter(move |row| belt || !row.is_of_machine())
 }
 
 /// The names of the properties; those that are lengths also in units of r.
@@ -59,19 +59,10 @@ fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
         Some(("method", _)) => methods().iter().map(|name| format!("method={name}")).collect(),
         Some((name, "")) => {
             let row = rows(session).find(|row| row.name() == name);
-            row.map(|row| format!("{name}={}", typed(session, row))).into_iter().collect()
+            row.map(|row| format!("{name}={}", plain_value(session, row))).into_iter().collect()
         }
         Some(_) => Vec::new(),
         None => rows(session).map(|row| format!("{}=", row.name())).collect(),
-    }
-}
-
-/// The value of a row in a form that can be typed.
-fn typed(session: &Session, row: Row) -> String {
-    match row {
-        Row::Method => session.problem.method.to_string(),
-        Row::Quantity(quantity) => shortest(session.quantity(quantity)),
-        row => shortest(number(&session.setup(), row)),
     }
 }
 

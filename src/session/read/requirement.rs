@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use crate::scene::{Layer, Request, Topic};
-use crate::session::act::parameters;
 use crate::session::state::overlay::List;
 use crate::session::state::rows::Row;
 use crate::session::state::session::Session;
@@ -74,21 +73,11 @@ impl Session {
 
     /// The questions after a step of this row: first those that are asked at present, too, then the new ones.
     pub fn after_a_step(&self, row: Row) -> (Vec<Request>, Vec<Request>) {
-        let mut stepped = self.clone();
-        stepped.selected = row;
-        // At the end of a range, steps in the other direction.
-        for count in [1, -1] {
-            if stepped.setup() == self.setup() {
-                parameters::step(&mut stepped, count);
-            }
-        }
-        let present: Vec<Request> =
-            self.requirements().into_iter().map(|requirement| requirement.request).collect();
-        stepped
-            .requirements()
-            .into_iter()
-            .map(|requirement| requirement.request)
-            .partition(|request| present.contains(request))
+        let asked = |session: &Session| -> Vec<Request> {
+            session.requirements().into_iter().map(|requirement| requirement.request).collect()
+        };
+        let present = asked(self);
+        asked(&self.stepped_once(row)).into_iter().partition(|request| present.contains(request))
     }
 }
 

@@ -13,14 +13,8 @@ use crate::session::state::uncertainty::symbol_of;
 /// A row of the parameter pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Row {
-    /// A number of a machine, in SI units, which changes D, D2, D3 and r together.
-    Quantity(Knob),
-    /// One of the six numbers that define a motion.
-    Parameter(Knob),
-    /// Bound w on the disturbance, a force that varies in any way.
-    Disturbance,
-    /// Time at which the motion stops.
-    Until,
+    /// A number of the motion; or one of a machine, in SI units, which changes D, D2, D3 and r together.
+    Number(Knob),
     Method,
     /// The number that sets the accuracy of the method: relative error of a step, step length, or width.
     Tolerance,
@@ -40,29 +34,21 @@ const MACHINE: [Knob; Group::Machine.count()] = [
 impl Row {
     /// All rows, from top to bottom.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
-        let parameters = Knob::PARAMETERS.map(Row::Parameter);
-        let start = [Knob::Q0, Knob::V0].map(Row::Parameter);
-        MACHINE
-            .map(Row::Quantity)
-            .into_iter()
-            .chain(parameters)
-            .chain([Row::Disturbance])
-            .chain(start)
-            .chain([Row::Until, Row::Method, Row::Tolerance])
+        let others = [Knob::Disturbance, Knob::Q0, Knob::V0, Knob::Until];
+        let numbers = MACHINE.into_iter().chain(Knob::PARAMETERS).chain(others);
+        numbers.map(Row::Number).chain([Row::Method, Row::Tolerance])
     }
 
     /// The row that is selected initially.
-    pub const FIRST: Self = Row::Parameter(Knob::D);
+    pub const FIRST: Self = Row::Number(Knob::D);
 
     /// The speed of the belt. The name of its quantity, v0, already names the initial velocity of the motion.
-    pub const BELT: Self = Row::Quantity(Knob::BeltSpeed);
+    pub const BELT: Self = Row::Number(Knob::BeltSpeed);
 
     /// The number that it is; for the method and its accuracy, the number that sets the accuracy of `problem`.
     pub fn knob_in(self, problem: &Problem) -> Knob {
         match self {
-            Row::Quantity(knob) | Row::Parameter(knob) => knob,
-            Row::Disturbance => Knob::Disturbance,
-            Row::Until => Knob::Until,
+            Row::Number(knob) => knob,
             Row::Method | Row::Tolerance => problem.method.spec().dial.knob(),
         }
     }
@@ -78,9 +64,13 @@ impl Row {
     }
 
     /// The number, if keys change it by a step; not so the tolerance, whose step is a factor of ten.
-    fn stepped(self) -> Option<Knob> {
-        let knob = self.knob_in(&Problem::default());
-        (!matches!(self, Row::Method | Row::Tolerance)).then_some(knob)
+    pub fn stepped(self) -> Option<Knob> {
+        if let Row::Number(knob) = self { Some(knob) } else { None }
+    }
+
+    /// Whether it is a number of a machine.
+    pub fn is_of_machine(self) -> bool {
+        self.stepped().is_some_and(|knob| knob.spec().group == Group::Machine)
     }
 }
 
@@ -112,7 +102,7 @@ impl From<Steps> for BTreeMap<&'static str, StepSize> {
 
 impl From<SavedSteps> for Steps {
     fn from(saved: SavedSteps) -> Self {
-        let mut steps = Steps::of(|knob| knob.spec().step);
+        let mut steps = Steps::from_each(|knob| knob.spec().step);
         let mut put = |knob: Knob, step: Option<StepSize>| {
             steps.0[knob as usize] = step.unwrap_or(steps.0[knob as usize]);
         };
@@ -134,13 +124,18 @@ impl From<SavedSteps> for Steps {
 }
 
 impl Steps {
-    fn of(step: impl Fn(Knob) -> f64) -> Self {
+    fn from_each(step: impl Fn(Knob) -> f64) -> Self {
         Steps(std::array::from_fn(|row| StepSize::near(step(KNOBS[row].knob))))
+    }
+
+    /// The step of a number.
+    pub fn of(&self, knob: Knob) -> StepSize {
+        self.0[knob as usize]
     }
 
     /// The step of a row; `None` for the method, which is no number, and for the tolerance.
     pub fn of_row(&self, row: Row) -> Option<StepSize> {
-        row.stepped().map(|knob| self.0[knob as usize])
+        row.stepped().map(|knob| self.of(knob))
     }
 
     /// The step of a row, mutable.
@@ -150,7 +145,7 @@ impl Steps {
 
     /// The steps with which a scene opens.
     pub fn of_scene(scene: &Scene) -> Self {
-        Steps::of(|knob| {
+        Steps::from_each(|knob| {
             let usual = scene.steps.get(&knob).copied().unwrap_or(knob.spec().step);
             match (knob, &scene.machine) {
                 (Knob::Disturbance, _) => step_of_disturbance(scene),

@@ -226,31 +226,39 @@ impl Session {
         }
     }
 
-    /// The value of one of the six numbers.
-    pub fn value(&self, symbol: Knob) -> f64 {
-        self.problem.get(symbol)
+    /// The present value of a number.
+    pub fn value(&self, knob: Knob) -> f64 {
+        self.value_in(&self.setup(), knob)
+    }
+
+    /// The value of a number in a setup, 0 if there is none; one of the machine that is not set is that of its file.
+    pub fn value_in(&self, setup: &Setup, knob: Knob) -> f64 {
+        let of_file = || knob.of_belt(&self.scene.machine.as_ref()?.machine.belt);
+        setup.get(knob).or_else(of_file).unwrap_or(0.0)
+    }
+
+    /// The present setup: the motions on show, the setting of the machine, and what is not known exactly.
+    pub fn setup(&self) -> Setup {
+        let Session { problem, others, setting, doubt, .. } = *self;
+        Setup { problem, others, setting, doubt }
     }
 
     /// The rows of the parameter pane: those that the scene declares and those that are not zero; all rows if
     /// unfolded.
     pub fn rows(&self) -> Vec<Row> {
         let stands = |row: &Row| match *row {
-            Row::Quantity(quantity) => {
-                self.scene.machine.is_some() && {
-                    let is_set = self.setting.is_some_and(|it| it.get(quantity).is_some());
-                    self.unfolded || is_set
-                }
+            Row::Number(_) if row.is_of_machine() && self.scene.machine.is_none() => false,
+            Row::Number(_) if self.unfolded => true,
+            Row::Number(knob) if row.is_of_machine() => {
+                self.setting.is_some_and(|it| it.get(knob).is_some())
             }
-            Row::Parameter(symbol) => {
-                self.unfolded || self.scene.declares(symbol) || self.value(symbol) != 0.0
-            }
-            Row::Disturbance => {
-                self.unfolded
-                    || self.scene.recording.is_some()
+            Row::Number(Knob::Disturbance) => {
+                self.scene.recording.is_some()
                     || !self.doubt.is_certain()
                     || [Layer::Safe, Layer::Lost].iter().any(|it| self.layers.contains(it))
             }
-            Row::Until | Row::Method | Row::Tolerance => true,
+            Row::Number(knob) => self.scene.declares(knob) || self.value(knob) != 0.0,
+            Row::Method | Row::Tolerance => true,
         };
         Row::all().filter(stands).collect()
     }

@@ -1,6 +1,7 @@
 //! The motions on show, the numbers of the machine and what is not known exactly: they change together.
 
 use crate::flow::Problem;
+use crate::oscillator::{Group, Knob};
 use crate::scene::{ScaledMachine, Scene, Setting};
 use crate::session::state::starts::Starts;
 use crate::session::state::uncertainty::Uncertainty;
@@ -27,6 +28,15 @@ impl Setup {
         let doubt = scaled
             .map_or_else(Uncertainty::default, |scaled| Uncertainty::of_machine(&scaled.running()));
         Setup { setting: scaled.map(setting), doubt, ..Setup::alone(scene.problem) }
+    }
+
+    /// A number; `None` for one of a machine that is as in its file.
+    pub fn get(&self, knob: Knob) -> Option<f64> {
+        match knob {
+            Knob::Disturbance => Some(self.doubt.disturbance),
+            _ if knob.spec().group == Group::Machine => self.setting?.get(knob),
+            _ => Some(self.problem.get(knob)),
+        }
     }
 
     /// A single motion without a machine, known exactly.

@@ -68,12 +68,12 @@ impl Uncertainty {
             .map_or(0.0, |place| self.half_widths[place])
     }
 
-    /// This doubt with another half width of a parameter. Fails with one line if `symbol` is the start of a
-    /// motion.
+    /// This doubt with another half width of a parameter. Fails with one line if `symbol` is none.
     pub fn with_half_width(mut self, symbol: Knob, half: f64) -> Result<Self, String> {
-        let place = Knob::PARAMETERS.iter().position(|it| *it == symbol).ok_or_else(|| {
-            format!("{symbol} is the start of a motion; only D, D2, D3, r have half widths")
-        })?;
+        let place = Knob::PARAMETERS
+            .iter()
+            .position(|it| *it == symbol)
+            .ok_or_else(|| format!("{symbol} has no half width; only D, D2, D3 and r have one"))?;
         self.half_widths[place] = half;
         Ok(self)
     }

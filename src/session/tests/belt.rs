@@ -239,7 +239,7 @@ fn numbers_of_a_machine_are_typed_with_units_stepped_undone_and_saved() {
     assert_eq!(session.machine().unwrap(), machine.belt, "what the whole model answers for");
     let x = session.problem.initial.q * expected.units.displacement;
     assert!((x / 1e-3 - 1.0).abs() < 1e-15, "the start is 1 mm, whatever the unit of length");
-    assert!(session.rows().contains(&Row::Quantity(Knob::Mass)));
+    assert!(session.rows().contains(&Row::Number(Knob::Mass)));
     // A saved session has the same state and the same history.
     let text = save::text(session).unwrap();
     let mut other = Trial::open("plain").session;
@@ -247,7 +247,7 @@ fn numbers_of_a_machine_are_typed_with_units_stepped_undone_and_saved() {
     assert_eq!(other.setup(), session.setup());
     assert_eq!(other.machine(), session.machine());
     // A step of the row, and undo.
-    trial.session.selected = Row::Quantity(Knob::Friction);
+    trial.session.selected = Row::Number(Knob::Friction);
     trial.press("<right>");
     assert!(trial.session.machine().unwrap().friction > 2.0);
     trial.press("u");
@@ -256,7 +256,7 @@ fn numbers_of_a_machine_are_typed_with_units_stepped_undone_and_saved() {
     assert_eq!(trial.notice(), "undo: R = as in its file, m = as in its file");
     assert_eq!(trial.session.setup(), before);
     trial.press("U");
-    trial.session.selected = Row::Quantity(Knob::Friction);
+    trial.session.selected = Row::Number(Knob::Friction);
     trial.press("<backspace>");
     assert_eq!(trial.session.machine().unwrap().friction, 1.0, "reset to its file's");
 }

@@ -8,7 +8,6 @@ use std::collections::BTreeSet;
 use super::Trial;
 use crate::oscillator::Knob;
 use crate::scene::{Axes, Request, Topic, library};
-use crate::session::act::parameters;
 use crate::session::{Row, Session};
 
 /// Whether an answer on this topic changes with a number, regardless of the plots. The columns are the four
@@ -33,23 +32,24 @@ const DEPENDS: [(Topic, &str); 12] = [
 fn depends(topic: Topic, row: Row) -> bool {
     let (_, letters) = DEPENDS.iter().find(|(of, _)| *of == topic).unwrap();
     let mut letters = letters.chars().filter(|letter| *letter != ' ');
-    if matches!(row, Row::Quantity(_)) {
+    if row.is_of_machine() {
         // A number of the machine changes the equation and, with the unit of length, the start.
         return letters.take(7).any(|letter| letter == 'x');
     }
     // The rows are D, D2, D3, r, w, q0, v0, until, method, tolerance.
-    let mut rows = Row::all().filter(|row| !matches!(row, Row::Quantity(_)));
+    let mut rows = Row::all().filter(|row| !row.is_of_machine());
     let column = rows.position(|other| other == row).unwrap();
     letters.nth(column).unwrap() == 'x'
 }
 
 /// Whether a number is an input of this topic's questions in a plot: one that the plot itself varies is not.
 fn is_free(session: &Session, topic: Topic, plot: usize, row: Row) -> bool {
-    let Row::Parameter(symbol) = row else { return row != Row::BELT || topic != Topic::Speeds };
+    let Row::Number(symbol) = row else { return true };
     let Axes { abscissa, against, .. } = session.plots[plot].axes;
     let along = match topic {
         Topic::Branch => symbol == abscissa,
         Topic::Regimes => symbol == abscissa || symbol == against,
+        Topic::Speeds => symbol == Knob::BeltSpeed,
         _ => false,
     };
     !along
@@ -57,7 +57,7 @@ fn is_free(session: &Session, topic: Topic, plot: usize, row: Row) -> bool {
 
 /// Whether the problem with this index in a plot holds a number.
 fn is_held(session: &Session, plot: usize, index: usize, row: Row) -> bool {
-    let Row::Parameter(symbol) = row else { return false };
+    let Row::Number(symbol) = row else { return false };
     let variant = session.variants(plot).and_then(|variants| variants.get(index));
     variant.is_some_and(|variant| variant.held.contains_key(&symbol))
 }
@@ -87,22 +87,15 @@ fn in_every_scene_a_key_recomputes_exactly_what_depends_on_it() {
         trial.session.unfolded = true;
         // Of the numbers of the machine, only the speed of the belt is kept: the others differ in the
         // parameters they move.
-        let fixed = |row: &Row| !matches!(row, Row::Quantity(it) if *it != Knob::BeltSpeed);
+        let fixed = |row: &Row| !row.is_of_machine() || *row == Row::BELT;
         for row in trial.session.rows().into_iter().filter(fixed) {
-            let mut stepped =
-                Trial { session: trial.session.clone(), asked: Vec::new(), effects: Vec::new() };
-            stepped.session.selected = row;
-            // At the end of a range, steps in the other direction.
-            for count in [1, -1] {
-                if stepped.session.setup() == trial.session.setup() {
-                    parameters::step(&mut stepped.session, count);
-                }
-            }
+            let session = trial.session.stepped_once(row);
+            let mut stepped = Trial { session, asked: Vec::new(), effects: Vec::new() };
             // With constant friction, the speed of the belt changes no parameter of the expansion, but it
             // changes the setup.
             assert!(stepped.session.setup() != trial.session.setup(), "{} {row:?}", scene.name);
             // The reference is asked only while the row of the accuracy is selected.
-            stepped.session.selected = Row::Until;
+            stepped.session.selected = Row::Number(Knob::Until);
             stepped.session.measuring = false;
             stepped.settle();
             // The proof is asked together with the cycles.
@@ -122,7 +115,7 @@ fn in_every_scene_a_key_recomputes_exactly_what_depends_on_it() {
     }
     assert!(several);
     assert!(
-        !expected(&Trial::open("supercritical").session, Row::Parameter(Knob::Q0))
+        !expected(&Trial::open("supercritical").session, Row::Number(Knob::Q0))
             .iter()
             .any(|request| request.topic() == Topic::Branch)
     );
@@ -142,7 +135,7 @@ fn a_step_asks_again_only_the_variants_that_depend_on_it() {
     ] {
         let mut trial = Trial::open(scene);
         assert_eq!(trial.session.asks().len(), opening, "{scene}");
-        trial.session.selected = Row::Parameter(row);
+        trial.session.selected = Row::Number(row);
         assert_eq!(trial.press("<right>"), asked, "{scene}: a step of {row}");
         assert_eq!(trial.press("<left>"), [], "{scene}: the way back is known");
     }

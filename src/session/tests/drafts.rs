@@ -9,7 +9,6 @@ use crate::oscillator::Knob;
 use crate::question;
 use crate::question::{NoAnswer, answer};
 use crate::scene::{Answer, Request, TOPICS, Topic, library};
-use crate::session::act::parameters;
 use crate::session::{Msg, Row, Session, Size, update};
 use crate::study::Branch;
 
@@ -46,10 +45,8 @@ fn at_draft_quality_every_key_takes_half_a_frame_at_most() {
             }
         }
         for (row, count) in session.rows().into_iter().flat_map(|row| [(row, 1), (row, -1)]) {
-            let mut stepped = session.clone();
-            stepped.selected = row;
-            parameters::step(&mut stepped, count);
-            stepped.selected = Row::Until;
+            let mut stepped = session.stepped(row, count);
+            stepped.selected = Row::Number(Knob::Until);
             stepped.measuring = false;
             let mut evaluations = 0;
             let wanted = open(&stepped);
@@ -80,11 +77,12 @@ fn what_has_no_draft_needs_none() {
     const UNDRAFTED: [Topic; 4] = [Topic::Cycles, Topic::Capture, Topic::Balance, Topic::ReturnMap];
     for scene in library() {
         let session = Session::new(Arc::clone(scene), SIZE);
-        let rows = session.rows().into_iter().filter(|row| matches!(row, Row::Parameter(_)));
+        let rows = session
+            .rows()
+            .into_iter()
+            .filter(|row| row.stepped().is_some_and(|knob| Knob::MOTION.contains(&knob)));
         for (row, count) in rows.flat_map(|row| [(row, 1), (row, -1), (row, 10)]) {
-            let mut stepped = session.clone();
-            stepped.selected = row;
-            parameters::step(&mut stepped, count);
+            let mut stepped = session.stepped(row, count);
             let plots = 0..stepped.plots.len();
             let asked =
                 UNDRAFTED.iter().flat_map(|topic| plots.clone().map(move |plot| (topic, plot)));

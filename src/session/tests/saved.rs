@@ -177,8 +177,14 @@ fn steps_are_saved_by_name_and_those_of_former_sessions_in_the_order_of_the_tabl
     let listed = r#"{"parameters": [0.02, 0.05, 0.05, 0.01, 0.05, 0.2], "until": 5, "belt": 0.05,
         "machine": [0.1, 50.0, 0.2, 2.0, 5.0, 0.5], "disturbance": 0.001}"#;
     let steps: Steps = serde_json::from_str(listed).unwrap();
-    let rows = [Row::FIRST, Row::Parameter(Knob::V0), Row::Until, Row::BELT, Row::Disturbance];
-    let machine = [Knob::Mass, Knob::Friction].map(Row::Quantity);
+    let rows = [
+        Row::FIRST,
+        Row::Number(Knob::V0),
+        Row::Number(Knob::Until),
+        Row::BELT,
+        Row::Number(Knob::Disturbance),
+    ];
+    let machine = [Knob::Mass, Knob::Friction].map(Row::Number);
     let found = rows.into_iter().chain(machine).map(|row| steps.of_row(row).unwrap().value());
     assert_eq!(found.collect::<Vec<_>>(), [0.02, 0.2, 5.0, 0.05, 0.001, 0.1, 0.5]);
     let named = serde_json::to_value(steps).unwrap();
@@ -189,7 +195,7 @@ fn steps_are_saved_by_name_and_those_of_former_sessions_in_the_order_of_the_tabl
     assert_eq!(serde_json::from_value::<Steps>(named).unwrap(), steps);
     let few: Steps = serde_json::from_str(r#"{"D": 0.5}"#).unwrap();
     assert_eq!(few.of_row(Row::FIRST).unwrap().value(), 0.5);
-    assert_eq!(few.of_row(Row::Until).unwrap().value(), 10.0);
+    assert_eq!(few.of_row(Row::Number(Knob::Until)).unwrap().value(), 10.0);
 }
 
 #[test]

@@ -34,13 +34,13 @@ fn a_half_width_is_typed_stepped_undone_and_saved() {
     trial.press("U");
     assert_eq!(trial.session.doubt, doubt);
     // Keys change the half width of the selected row, and reset it to the scene's.
-    trial.session.selected = Row::Parameter(Knob::R);
+    trial.session.selected = Row::Number(Knob::R);
     trial.press(">");
     assert_eq!(trial.session.doubt.half_width(Knob::R), 0.02);
     trial.press("<lt><lt><lt>");
     assert_eq!(trial.session.doubt.half_width(Knob::R), 0.0);
     trial.press("<down>");
-    assert_eq!(trial.session.selected, Row::Disturbance);
+    assert_eq!(trial.session.selected, Row::Number(Knob::Disturbance));
     trial.press("<right>");
     assert_eq!(trial.session.doubt.disturbance, 0.03);
     trial.press("<backspace>");
@@ -59,7 +59,7 @@ fn an_interval_is_taken_by_its_middle_and_a_bare_value_is_exact() {
         &[
             (": set r=0.1+--1", "..a tolerance is 0 or more"),
             (": set r=0.1+-0.2", "..r = -0.1"),
-            (": set q0=1+-0.1", "..only D, D2, D3, r have half widths"),
+            (": set q0=1+-0.1", "..q0 has no half width; only D, D2, D3 and r have one"),
             (": set w=-1", "..disturbance = -1 is outside its range 0 .. 1e150"),
         ],
     );
