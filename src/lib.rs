@@ -24,6 +24,7 @@
 //!   every motion is a graph over q ([`study::arc`]), so basins, margins and bands of capture are comparisons
 //!   ([`study::basin`], [`study::margin`], [`study::capture`]). [`study::claims`] puts the paper's own equations and
 //!   sentences to the test.
+//! - [`portrait`] has what they find in common: a cycle, the border of a basin, a margin.
 //! - [`machine`] is the mass on its belt by the whole model: friction by its own law, two switching lines,
 //!   riding on the belt and overtaking it. One return map, which never decreases, orders all cycles; what
 //!   a start ends as is read off the next turning point ([`machine::Portrait`]).
@@ -63,6 +64,8 @@ pub mod machine;
 pub mod numerics;
 #[warn(clippy::missing_errors_doc)]
 pub mod oscillator;
+#[warn(clippy::missing_errors_doc)]
+pub mod portrait;
 #[warn(clippy::missing_errors_doc)]
 pub mod proof;
 pub mod study;

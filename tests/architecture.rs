@@ -16,7 +16,7 @@ const RINGS: [&[&str]; 14] = [
     &["oscillator", "closed_form"],
     &["flow"],
     &["proof"],
-    &["study", "machine"],
+    &["study", "machine", "portrait"],
     &["fit"],
     &["words"],
     &["question"],

@@ -4,7 +4,7 @@ use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Fate, Limits, Outcome, Problem, Reason};
 use hopfscope::numerics::elementary::pow;
 use hopfscope::oscillator::{Parameters, State};
-use hopfscope::study::Edge;
+use hopfscope::portrait::Border;
 use hopfscope::study::basin::{Basin, SurveyedBasin, Window, basin};
 use hopfscope::study::cycle::cycles;
 use hopfscope::study::measure::{Measure, Value, measure};
@@ -291,7 +291,7 @@ proptest! {
     ) {
         let parameters = Parameters { d, d2, d3, r };
         let Ok(found) = basin(&parameters, 10.0 * r, &LIMITS) else { return Ok(()) };
-        if found.edge == Edge::None {
+        if found.border == Border::None {
             return Ok(());
         }
         let margin = found.margin();

@@ -5,9 +5,9 @@ use hopfscope::flow::Limits;
 use hopfscope::numerics::elementary::sin;
 use hopfscope::numerics::random::Random;
 use hopfscope::oscillator::{Interval, ParameterBox, Parameters, State};
+use hopfscope::portrait::{Border, Margin};
 use hopfscope::study::basin::basin;
 use hopfscope::study::guarantee::{TwoSided, guarantee, zones};
-use hopfscope::study::{Edge, Margin};
 
 fn between(random: &mut Random, interval: Interval) -> f64 {
     let (low, high) = (interval.lower(), interval.upper());
@@ -317,7 +317,7 @@ fn no_rest_position_has_a_smaller_margin_and_one_attains_it() {
         let found = basin(&parameters, 0.0, &Limits::PATIENT).unwrap();
         let from_rest = found.margin().from_rest;
         let Some((shift, push)) = from_rest.displacement.zip(from_rest.impulse) else {
-            assert_eq!(found.edge, Edge::None, "{parameters:?}");
+            assert_eq!(found.border, Border::None, "{parameters:?}");
             continue;
         };
         looked += 1;

@@ -6,7 +6,7 @@ use data::references;
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem, Trajectory};
 use hopfscope::oscillator::{Parameters, State};
-use hopfscope::study::Cycle;
+use hopfscope::portrait::Cycle;
 use hopfscope::study::cycle::cycles;
 use serde::Deserialize;
 

@@ -10,12 +10,13 @@ use std::time::Duration;
 
 use hopfscope::flow::{Cost, Limits, Reason};
 use hopfscope::oscillator::Parameters;
+use hopfscope::portrait::Border;
 use hopfscope::question;
 use hopfscope::runtime::worker::Tell;
 use hopfscope::runtime::{Application, Options, launch};
 use hopfscope::scene::{Answer, Answered, Request};
 use hopfscope::session::{Code, Effect, Key, Msg};
-use hopfscope::study::{Cycles, Edge};
+use hopfscope::study::Cycles;
 use ratatui::Frame;
 use rustix::process::Signal;
 use support::{Answers, Terminal};
@@ -46,7 +47,7 @@ fn confirm(request: &Request, _: &Limits, _: &Tell) -> Result<Answer, Reason> {
         parameters,
         cycles: Vec::new(),
         harmonic: Vec::new(),
-        edge: Edge::None,
+        border: Border::None,
         picture: None,
         cost: Cost::default(),
     }))

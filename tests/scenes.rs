@@ -2,14 +2,14 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Reason};
-use hopfscope::machine::BorderKind;
 use hopfscope::numerics::elementary::hypot;
 use hopfscope::oscillator::{Group, Knob};
+use hopfscope::portrait::{Border, Cycle};
 use hopfscope::question::answer;
 use hopfscope::scene::{Answer, Request, Topic, find};
 use hopfscope::session::replay::{Action, Player, parse};
 use hopfscope::session::{Msg, Session, Size, run_line, settle, update};
-use hopfscope::study::{Cycle, Edge, Return};
+use hopfscope::study::Return;
 
 /// A scene with its motion and cycles computed; diagrams are ignored here.
 struct Stage(Session);
@@ -54,15 +54,15 @@ impl Stage {
         &self.0.cycles().unwrap().cycles
     }
 
-    fn edge(&self) -> Edge {
-        self.0.cycles().unwrap().edge
+    fn edge(&self) -> Border {
+        self.0.cycles().unwrap().border
     }
 }
 
 #[test]
 fn plain_five_steps_of_damping_bring_the_start_into_the_basin() {
     let stage = Stage::open("plain");
-    assert_eq!(stage.edge(), Edge::Cycle);
+    assert_eq!(stage.edge(), Border::Cycle);
     let Outcome::Moving { q, v, .. } = stage.outcome() else { panic!("the swings grow") };
     assert!(hypot(q, v) > 2.0);
     assert!(!Stage::open("plain").press("<right*2>").is_captured());
@@ -72,7 +72,7 @@ fn plain_five_steps_of_damping_bring_the_start_into_the_basin() {
 #[test]
 fn every_border_that_is_a_cycle_has_two_sides() {
     for scene in ["plain", "linear", "marginal", "supercritical", "subcritical", "asymmetry"] {
-        assert_eq!(Stage::open(scene).edge(), Edge::Cycle);
+        assert_eq!(Stage::open(scene).edge(), Border::Cycle);
         assert!(Stage::open(scene).press("i").is_captured(), "inside of {scene}");
         assert!(!Stage::open(scene).press("o").is_captured(), "outside of {scene}");
     }
@@ -136,7 +136,7 @@ fn hopf_without_friction_every_motion_tends_to_the_cycle() {
     assert!((cycle.q_max / smaller - 2.0).abs() < 0.01);
     assert!(Stage::open("hopf").press("<right*11>").cycles().is_empty());
     let friction = Stage::open("hopf").press("x<down*3><right>");
-    assert!(friction.0.problem.parameters.r > 0.0 && friction.edge() == Edge::Cycle);
+    assert!(friction.0.problem.parameters.r > 0.0 && friction.edge() == Border::Cycle);
 }
 
 #[test]
@@ -168,22 +168,22 @@ fn asymmetry_moves_the_mean_to_the_left_and_ends_the_cycle() {
     let stage = Stage::open("asymmetry");
     assert!(stage.is_captured());
     assert!(stage.cycles()[0].q_min + stage.cycles()[0].q_max < -0.3);
-    assert_eq!(Stage::open("asymmetry").press("<right*12>").edge(), Edge::Cycle);
+    assert_eq!(Stage::open("asymmetry").press("<right*12>").edge(), Border::Cycle);
     let beyond = Stage::open("asymmetry").press("<right*13>");
     assert!(beyond.cycles().is_empty());
-    assert_eq!(beyond.edge(), Edge::Separatrix);
+    assert_eq!(beyond.edge(), Border::Separatrix);
 }
 
 #[test]
 fn escape_in_finite_time_until_the_start_is_slow_enough() {
     let stage = Stage::open("escape");
     assert!(matches!(stage.outcome(), Outcome::Escaped { tau } if tau < 2.0));
-    assert_eq!(stage.edge(), Edge::Separatrix);
+    assert_eq!(stage.edge(), Border::Separatrix);
     let slow = Stage::open("escape").press("<down*4><right*5>");
     assert_eq!(slow.0.problem.initial.v, -1.0);
     assert!(slow.is_captured());
-    assert_eq!(Stage::open("escape").press("<left>").edge(), Edge::Separatrix);
-    assert_eq!(Stage::open("escape").press("<left*3>").edge(), Edge::Cycle);
+    assert_eq!(Stage::open("escape").press("<left>").edge(), Border::Separatrix);
+    assert_eq!(Stage::open("escape").press("<left*3>").edge(), Border::Cycle);
 }
 
 #[test]
@@ -234,22 +234,22 @@ const CLAIMS: [Claim; 24] = [
     ("From here it swings up", |stage| !stage.rests_in_the_end()),
     ("What the motion gains", |stage| !stage.rests_in_the_end()),
     ("The motion climbs", |stage| !stage.rests_in_the_end()),
-    ("is the unstable cycle that borders", |stage| stage.edge() == Edge::Cycle),
-    ("it is the border of the basin", |stage| stage.edge() == Edge::Cycle),
+    ("is the unstable cycle that borders", |stage| stage.edge() == Border::Cycle),
+    ("it is the border of the basin", |stage| stage.edge() == Border::Cycle),
     ("the two make the unstable cycle", |stage| stage.kinds().0),
     ("There is one cycle, unstable", |stage| stage.kinds() == (true, false)),
     ("no cycle is left", |stage| stage.cycles().is_empty()),
     ("no cycle exists", |stage| stage.cycles().is_empty()),
-    ("Here nothing borders", |stage| stage.edge() == Edge::None),
+    ("Here nothing borders", |stage| stage.edge() == Border::None),
     ("every other motion tends to the stable cycle", |stage| stage.kinds() == (false, true)),
     ("the outer one is shifted", |stage| stage.kinds() == (true, true)),
-    ("Here no cycle exists", |stage| stage.edge() == Edge::Separatrix),
-    ("Here the cycle has gone to infinity", |stage| stage.edge() == Edge::Separatrix),
+    ("Here no cycle exists", |stage| stage.edge() == Border::Separatrix),
+    ("Here the cycle has gone to infinity", |stage| stage.edge() == Border::Separatrix),
     ("A cycle sticks to the belt", |stage| sticking(stage).0 > 0),
     ("Once stuck", |stage| sticking(stage).0 > 0),
     ("has reached the belt's line", |stage| sticking(stage).0 > 0),
-    ("Rest is stable too", |stage| stage.border() == Some(BorderKind::Cycle)),
-    ("just touches the belt", |stage| stage.border() == Some(BorderKind::Grazing)),
+    ("Rest is stable too", |stage| stage.border() == Some(Border::Cycle)),
+    ("just touches the belt", |stage| stage.border() == Some(Border::Grazing)),
 ];
 
 impl Stage {
@@ -260,7 +260,7 @@ impl Stage {
     }
 
     /// What borders the basin in the whole model.
-    fn border(&self) -> Option<BorderKind> {
+    fn border(&self) -> Option<Border> {
         self.0.kinds().map(|kinds| kinds.border)
     }
 
@@ -327,7 +327,7 @@ fn no_text_contradicts_what_is_on_show_anywhere_in_the_ranges_of_its_scene() {
 /// Number of cycles of the whole model that stick to the belt, and of those that only slip.
 fn sticking(stage: &Stage) -> (usize, usize) {
     let cycles = &stage.0.kinds().unwrap().cycles;
-    let sticks = cycles.iter().filter(|cycle| cycle.sticks).count();
+    let sticks = cycles.iter().filter(|cycle| cycle.sticks()).count();
     (sticks, cycles.len() - sticks)
 }
 
@@ -335,15 +335,15 @@ fn sticking(stage: &Stage) -> (usize, usize) {
 fn benchmark_rest_and_stick_slip_are_parted_by_a_cycle_until_the_belt_is_fast() {
     let stage = Stage::open("benchmark");
     let kinds = stage.0.kinds().unwrap();
-    assert_eq!((kinds.border, sticking(&stage)), (BorderKind::Cycle, (1, 1)));
-    let [whole, cubic] = kinds.margins.map(|margin| margin.unwrap().displacement.unwrap());
+    assert_eq!((kinds.border, sticking(&stage)), (Border::Cycle, (1, 1)));
+    let [whole, cubic] = kinds.margins.map(|margin| margin.displacement.unwrap());
     assert!(cubic > 1.1 * whole, "{cubic} {whole}");
     assert_eq!(stage.0.course().unwrap().fate, Fate::Cycle(1));
     assert!(stage.0.course().unwrap().rides.len() > 3);
     let end = Stage::open("benchmark").press(":set<space>belt=1.836<enter>");
     assert_eq!(sticking(&end), (1, 1));
     let beyond = Stage::open("benchmark").press(":set<space>belt=1.837<enter>");
-    assert_eq!((beyond.0.kinds().unwrap().border, sticking(&beyond)), (BorderKind::None, (0, 0)));
+    assert_eq!((beyond.0.kinds().unwrap().border, sticking(&beyond)), (Border::None, (0, 0)));
     assert_eq!(beyond.0.course().unwrap().fate, Fate::Rest);
     // One key switches to the expansion: the question is a different one, and so is the answer.
     let cubic = Stage::open("benchmark").press("|");
@@ -355,9 +355,9 @@ fn benchmark_rest_and_stick_slip_are_parted_by_a_cycle_until_the_belt_is_fast() 
 fn groan_needs_no_cycle_to_be_parted_from_rest() {
     let stage = Stage::open("groan");
     let kinds = stage.0.kinds().unwrap();
-    assert_eq!((kinds.border, sticking(&stage)), (BorderKind::Grazing, (1, 0)));
+    assert_eq!((kinds.border, sticking(&stage)), (Border::Grazing, (1, 0)));
     assert_eq!(stage.0.course().unwrap().fate, Fate::Cycle(0));
-    assert_eq!(kinds.margins[1].and_then(|margin| margin.displacement), None);
+    assert_eq!(kinds.margins[1].displacement, None);
     assert!(Stage::open("groan").press("i").is_captured());
     let fast = Stage::open("groan").press(":set<space>belt=0.5<enter>");
     assert_eq!(sticking(&fast), (0, 0));
@@ -374,7 +374,7 @@ fn slow_belt_the_stable_cycle_grows_into_the_line() {
 
 #[test]
 fn inside_both_models_agree_about_rest() {
-    let [whole, cubic] = Stage::open("inside").0.kinds().unwrap().margins.map(Option::unwrap);
+    let [whole, cubic] = Stage::open("inside").0.kinds().unwrap().margins;
     let ratio = |one: Option<f64>, other: Option<f64>| (one.unwrap() / other.unwrap() - 1.0).abs();
     assert!(ratio(whole.displacement, cubic.displacement) < 1e-12);
     assert!(ratio(whole.impulse, cubic.impulse) < 1e-12);

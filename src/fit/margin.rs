@@ -19,12 +19,12 @@ use super::refit::following;
 use crate::flow::{Limits, Reason};
 use crate::numerics::count::{real, whole};
 use crate::oscillator::{Interval, ParameterBox, Parameters};
+use crate::portrait::Margin;
 use crate::study::basin::Basin;
 use crate::study::closing::Equation;
 use crate::study::closings::all_closings;
 use crate::study::fold::fold;
 use crate::study::guarantee::guaranteed;
-use crate::study::margin::Margin;
 
 /// What is asked of the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]

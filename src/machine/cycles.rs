@@ -1,4 +1,4 @@
-//! The limit cycles: the fixed points of the return map, each found and described.
+//! The limit cycles of a machine: the fixed points of the return map, each found and described.
 
 use super::arc::{Flow, LostMotion, SeriesStep, Watch};
 use super::landmarks::Landmarks;
@@ -9,39 +9,7 @@ use super::turn::ContactState;
 use crate::numerics::elementary::{exp, ln, pow};
 use crate::numerics::root::bisect;
 use crate::numerics::scaling::{exponent, times_power};
-
-/// A limit cycle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MachineCycle {
-    /// Whether it sticks to the belt for part of the time.
-    pub sticks: bool,
-    /// Whether it overtakes the belt.
-    pub overtakes: bool,
-    /// Whether it attracts.
-    pub stable: bool,
-    /// Smallest and largest displacement, in m.
-    pub x: (f64, f64),
-    /// Smallest and largest velocity, in m/s.
-    pub v: (f64, f64),
-    /// Period, in s.
-    pub period: f64,
-    /// Time per period during which the mass rides on the belt, in s.
-    pub stick_duration: f64,
-    /// Floquet multiplier; 0 if it sticks, infinite beyond the range of doubles.
-    pub multiplier: f64,
-    /// Logarithm of the multiplier; minus infinity if it sticks.
-    pub log_multiplier: f64,
-    /// Displacements at which the ride on the belt begins and ends, in m.
-    pub ride: Option<(f64, f64)>,
-}
-
-impl MachineCycle {
-    /// Whether it is followed backward in time, in which direction it attracts.
-    #[must_use]
-    pub fn is_followed_backward(&self) -> bool {
-        !self.stable && !self.sticks && !self.overtakes
-    }
-}
+use crate::portrait::{Cycle, Ride};
 
 /// Extremes of the velocity, and durations, along a motion.
 #[derive(Clone, Copy, Debug, Default)]
@@ -50,10 +18,8 @@ pub struct Extremes {
     pub y: (f64, f64),
     /// Total time.
     pub duration: f64,
-    /// Time spent on the belt.
-    pub stick: f64,
-    /// Ends of the last ride.
-    pub ride: Option<(f64, f64)>,
+    /// The last ride on the belt, with the time spent on all.
+    pub ride: Option<Ride>,
 }
 
 impl Watch for Extremes {
@@ -68,9 +34,9 @@ impl Watch for Extremes {
     fn stick(&mut self, model: &Model, from: f64, to: f64) {
         let duration = (to - from) / model.speed;
         self.duration += duration;
-        self.stick += duration;
         self.y.1 = self.y.1.max(model.speed);
-        self.ride = Some((from, to));
+        let before = self.ride.map_or(0.0, |ride| ride.duration);
+        self.ride = Some(Ride { from, to, duration: before + duration });
     }
 }
 
@@ -361,29 +327,30 @@ impl Flow<'_> {
     ///
     /// # Errors
     /// [`LostMotion`] if rounding carries the motion away.
-    pub fn describe(
-        &mut self,
-        x: f64,
-        image: &Image,
-        stable: bool,
-    ) -> Result<MachineCycle, LostMotion> {
-        let model = self.model;
+    pub fn describe(&mut self, x: f64, image: &Image, stable: bool) -> Result<Cycle, LostMotion> {
+        let Model { omega_0, guide, .. } = *self.model;
         let sticks = image.sticks_from.is_some();
         let overtakes = image.overtakes_from.is_some();
         let mut extremes = Extremes::default();
         self.around(x, !stable && !sticks && !overtakes, &mut extremes)?;
-        let speed = model.omega_0;
-        Ok(MachineCycle {
-            sticks,
-            overtakes,
+        let Extremes { y: (slowest, fastest), duration, ride } = extremes;
+        let log_multiplier = if sticks { f64::NEG_INFINITY } else { image.log_slope };
+        let ride = ride.map(|ride| Ride { duration: ride.duration / omega_0, ..ride });
+        Ok(Cycle {
             stable,
-            x: (image.left, x),
-            v: (extremes.y.0 * speed, extremes.y.1 * speed),
-            period: extremes.duration / speed,
-            stick_duration: extremes.stick / speed,
-            multiplier: if sticks { 0.0 } else { exp(image.log_slope) },
-            log_multiplier: if sticks { f64::NEG_INFINITY } else { image.log_slope },
-            ride: extremes.ride,
+            q_min: image.left,
+            q_max: x,
+            v_min: slowest * omega_0,
+            v_max: fastest * omega_0,
+            period: duration / omega_0,
+            multiplier: Some(exp(log_multiplier)).filter(|multiplier| multiplier.is_finite()),
+            log_multiplier,
+            clearance: x - guide,
+            log_clearance: ln(x - guide),
+            error: None,
+            errors: None,
+            ride: ride.filter(|_| sticks),
+            overtakes,
         })
     }
 

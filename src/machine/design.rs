@@ -4,12 +4,12 @@
 //! inwards wherever the mass moves, so that the basin of rest grows with it.
 
 use super::guarantee::guaranteed;
-use super::portrait::MachineBorder;
 use super::subject::{Body, Subject};
 use super::survey::Trouble;
 use super::tolerance::Tolerances;
 use crate::flow::Reason;
 use crate::numerics::elementary::ln;
+use crate::portrait::Border;
 use crate::study::design::{FrictionNeeded, Kick, least_friction};
 
 /// The logarithm of the guaranteed margin of this kind, as a fraction of `wanted`.
@@ -49,8 +49,8 @@ pub fn friction_for(
         }
         let found = machine.portrait()?;
         Ok(match found.border {
-            MachineBorder::NoBasin => f64::MIN,
-            _ => ln(kick.margin(&found.least_kicks()) / wanted).max(f64::MIN),
+            Border::NoBasin => f64::MIN,
+            _ => ln(kick.margin(&found.margin) / wanted).max(f64::MIN),
         })
     };
     if !known.is_none() {

@@ -11,12 +11,12 @@
 
 use std::fmt;
 
-use super::portrait::{MachineBorder, Portrait};
+use super::portrait::Portrait;
 use super::survey::{Trouble, portrait};
 use super::tolerance::{Corners, MOST, Tolerances, TooMany};
 use crate::numerics::root::try_bisect;
 use crate::oscillator::Belt;
-use crate::study::Margin;
+use crate::portrait::Margin;
 
 /// Why no kick is survived for certain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,8 +103,7 @@ pub fn best(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Trouble
 /// The kicks within the basin of a machine that bounds those of all others, in m and N s.
 pub fn kicks(corners: &Corners, portrait: &Portrait) -> Margin {
     let lightest = corners.lightest() / portrait.model.omega_0;
-    let margin = portrait.margin_within(corners.farthest_rest);
-    margin.map_or(Margin::ENDLESS, |margin| margin.least(lightest))
+    portrait.margin_within(corners.farthest_rest, lightest)
 }
 
 /// A portrait whose basin of rest is bordered by a cycle of slip.
@@ -116,10 +115,9 @@ struct SlipBorder {
 
 /// The velocities along the border of the basin, if it is a cycle of slip; divided by the natural frequency.
 fn slip_border(portrait: &Portrait) -> Option<(f64, f64)> {
-    let MachineBorder::Cycle(index, _) = &portrait.border else { return None };
-    let cycle = &portrait.cycles[*index];
+    let cycle = portrait.bordering_cycle()?;
     let omega_0 = portrait.model.omega_0;
-    (!cycle.sticks && !cycle.overtakes).then_some((cycle.v.0 / omega_0, cycle.v.1 / omega_0))
+    (!cycle.sticks() && !cycle.overtakes).then_some((cycle.v_min / omega_0, cycle.v_max / omega_0))
 }
 
 impl Corners {

@@ -5,8 +5,9 @@ use serde::{Serialize, Serializer};
 
 use super::arc::LostMotion;
 use super::model::Model;
-use super::portrait::{MachineBorder, Portrait};
+use super::portrait::Portrait;
 use crate::flow::Fate;
+use crate::portrait::Border;
 
 /// The model along a number: `None` where there is none.
 pub type Family<'a> = &'a dyn Fn(f64) -> Option<Model>;
@@ -86,15 +87,15 @@ fn jump(from: &Portrait, to: &Portrait) -> Option<Jump> {
     const MOVED: f64 = 1e-3;
     /// The kick that shows whether rest holds, as a fraction of the same.
     const KICK: f64 = 1e-9;
-    let cycles = from.cycles.iter().chain(&to.cycles).map(|cycle| cycle.x.1);
+    let cycles = from.cycles.iter().chain(&to.cycles).map(|cycle| cycle.q_max);
     let size = cycles.fold(0.0, f64::max);
-    let rests = !from.neutral && !matches!(from.border, MachineBorder::NoBasin);
-    let stable = from.cycles.iter().filter(|cycle| cycle.stable).map(|cycle| cycle.x.1);
+    let rests = !from.neutral && from.border != Border::NoBasin;
+    let stable = from.cycles.iter().filter(|cycle| cycle.stable).map(|cycle| cycle.q_max);
     rests.then_some(0.0).into_iter().chain(stable).find_map(|state| {
         let fate = to.fate(state.max(KICK * size), 0.0).unwrap_or_else(Fate::Unknown);
         let x_max = match fate {
             Fate::Rest => 0.0,
-            Fate::Cycle(index) => to.cycles[index].x.1,
+            Fate::Cycle(index) => to.cycles[index].q_max,
             Fate::Neutral => return None,
             Fate::Moving | Fate::Escapes | Fate::Unknown(_) => f64::INFINITY,
         };

@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use super::arc::{Flow, LostMotion, SeriesStep, Watch};
-use super::cycles::MachineCycle;
 use super::model::{Model, Phase};
 use crate::numerics::polynomial::value;
 use crate::numerics::quadrature::GAUSS;
+use crate::portrait::Cycle;
 
 /// Works along a motion, in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -98,10 +98,10 @@ impl Flow<'_> {
     ///
     /// # Errors
     /// [`LostMotion`], where rounding carries the motion off.
-    pub fn works_around(&mut self, cycle: &MachineCycle) -> Result<MachineLedger, LostMotion> {
+    pub fn works_around(&mut self, cycle: &Cycle) -> Result<MachineLedger, LostMotion> {
         let mut works = StepWorks::default();
-        let start = (cycle.x.1, 0.0);
-        self.around(cycle.x.1, cycle.is_followed_backward(), &mut works)?;
+        let start = (cycle.q_max, 0.0);
+        self.around(cycle.q_max, cycle.is_followed_backward(), &mut works)?;
         Ok(works.ledger(self.model, start, start))
     }
 }

@@ -21,7 +21,7 @@
 //! let lines = model.lines.unwrap();
 //! assert!((lines.release - 0.2).abs() < 1e-15);
 //! let portrait = Portrait::new(&model).unwrap();
-//! assert!(portrait.cycles.iter().any(|cycle| cycle.stable && cycle.sticks));
+//! assert!(portrait.cycles.iter().any(|cycle| cycle.stable && cycle.sticks()));
 //! ```
 
 #[warn(clippy::missing_errors_doc)]
@@ -42,7 +42,6 @@ pub mod jumps;
 pub(crate) mod landmarks;
 pub(crate) mod law;
 pub(crate) mod ledger;
-mod margin;
 mod modal;
 #[warn(clippy::missing_errors_doc)]
 pub(crate) mod model;
@@ -69,12 +68,10 @@ pub mod turn;
 
 pub use crate::oscillator::Modal;
 pub use arc::{Flow, LostMotion};
-pub use cycles::MachineCycle;
 pub use ledger::MachineLedger;
-pub use margin::MachineMargin;
 pub use model::{Lines, Model, NoModel, Phase};
 pub use motion::MachineMotion;
-pub use portrait::{BorderKind, MachineBorder, Portrait};
+pub use portrait::Portrait;
 pub use series::ORDER;
 pub use subject::{Body, Subject};
 pub use tolerance::Tolerances;

@@ -4,84 +4,27 @@
 //! motions go one way, to the next cycle on that side. One evaluation in each gap therefore settles the fate of
 //! all starts; a start itself is followed only to its next right turning point.
 
-use serde::Serialize;
-
 use super::arc::{Flow, LostMotion};
 use super::curve::{CurvePiece, MachineCurve, Rectangle};
-use super::cycles::MachineCycle;
 use super::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
 use super::landmarks::Landmarks;
-use super::margin::MachineMargin;
 use super::model::{Model, Phase};
 use super::return_map::MachineReturn;
 use super::separatrix;
 use super::turn::ContactState;
 use crate::flow::Fate;
 use crate::numerics::root::bisect;
+use crate::portrait::{Border, Cycle, Margin, Reach, RestMargin};
 use crate::study::basin::{Basin, Window};
-use crate::study::margin::Margin;
 
-/// What borders the basin of rest.
+/// The border of the basin of rest, as it was traced.
 #[derive(Clone, Debug)]
-pub enum MachineBorder {
-    /// The unstable cycle with this index.
-    Cycle(usize, MachineCurve),
-    /// An orbit that touches the belt's line, with a piece of that line; or one that just reaches the end of
-    /// what the guide holds.
-    Grazing(MachineCurve),
-    /// A motion that just escapes.
-    Separatrix(Box<Basin>),
-    /// Nothing: everything comes to rest.
-    None,
-    /// Rest itself repels.
-    NoBasin,
-}
-
-/// The kind of a [`MachineBorder`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum BorderKind {
-    /// An unstable cycle.
-    Cycle,
-    /// An orbit that touches the belt's line or the end of what the guide holds.
-    Grazing,
-    /// A motion that just escapes.
-    Separatrix,
-    /// Everything comes to rest.
-    None,
-    /// Rest repels.
-    NoBasin,
-}
-
-impl MachineBorder {
-    /// Its kind.
-    #[must_use]
-    pub fn kind(&self) -> BorderKind {
-        match self {
-            MachineBorder::Cycle(..) => BorderKind::Cycle,
-            MachineBorder::Grazing(_) => BorderKind::Grazing,
-            MachineBorder::Separatrix(_) => BorderKind::Separatrix,
-            MachineBorder::None => BorderKind::None,
-            MachineBorder::NoBasin => BorderKind::NoBasin,
-        }
-    }
-
-    /// Whether the border touches the belt's line; otherwise a cycle or the end of what the guide holds borders
-    /// the basin.
-    #[must_use]
-    pub fn touches(&self) -> bool {
-        let line = |piece: &CurvePiece| matches!(piece, CurvePiece::Line { .. });
-        matches!(self, MachineBorder::Grazing(curve) if curve.pieces.iter().any(line))
-    }
-
-    /// The closed curve, if there is one.
-    #[must_use]
-    pub fn curve(&self) -> Option<&MachineCurve> {
-        match self {
-            MachineBorder::Cycle(_, curve) | MachineBorder::Grazing(curve) => Some(curve),
-            MachineBorder::Separatrix(_) | MachineBorder::None | MachineBorder::NoBasin => None,
-        }
-    }
+enum Traced {
+    Nothing,
+    /// A closed curve.
+    Curve(MachineCurve),
+    /// The separatrix of the paper's oscillator.
+    Basin(Box<Basin>),
 }
 
 /// All possible motions of a machine.
@@ -90,14 +33,16 @@ pub struct Portrait {
     /// Its model.
     pub model: Model,
     /// The cycles, by amplitude.
-    pub cycles: Vec<MachineCycle>,
+    pub cycles: Vec<Cycle>,
     /// Whether there is a family of periodic orbits.
     pub neutral: bool,
     /// The border of the basin of rest; of the neutral family, if rest belongs to one.
-    pub border: MachineBorder,
-    /// The kicks that are survived; `None` if every kick is. If all motions that the law covers come to rest,
-    /// these are the kicks that it covers.
-    pub margin: Option<MachineMargin>,
+    pub border: Border,
+    /// The kicks that are survived in each direction; `None` if every kick is. If all motions that the law covers come
+    /// to rest, these are the kicks that it covers.
+    pub reach: Option<Reach>,
+    /// The smallest kicks that are not survived, in m and N s.
+    pub margin: Margin,
     /// Where the line of the belt is met.
     pub landmarks: Option<Landmarks>,
     /// Why motions that turn beyond [`Self::known`] are unknown; `None` if all are known.
@@ -110,6 +55,7 @@ pub struct Portrait {
     /// Number of integration steps.
     pub steps: u64,
     gaps: Vec<Gap>,
+    traced: Traced,
 }
 
 impl Portrait {
@@ -149,14 +95,16 @@ impl Portrait {
             model: model.clone(),
             cycles,
             neutral: found.neutral,
-            border: MachineBorder::None,
-            margin: None,
+            border: Border::None,
+            reach: None,
+            margin: Margin::ENDLESS,
             landmarks,
             stop: found.stop,
             known: found.end,
             unresolved: found.unresolved,
             steps: 0,
             gaps: gaps(&marks, &ways, found.stop),
+            traced: Traced::Nothing,
         };
         portrait.settle_border(&mut flow, &marks)?;
         portrait.steps = flow.steps;
@@ -165,22 +113,26 @@ impl Portrait {
 
     /// The portrait of a machine without cycles whose basin of rest a separatrix borders.
     fn beside_separatrix(model: &Model, basin: Basin) -> Option<Self> {
-        let margin = separatrix::margin(&basin, model, model.guide_static)?;
+        let reach = separatrix::reach(&basin, model)?;
         let escapes = Gap { to: f64::INFINITY, fate: Fate::Escapes, end: Fate::Escapes };
-        let rests = Gap { to: margin.displacement.0, fate: Fate::Rest, ..escapes };
-        Some(Portrait {
+        let rests = Gap { to: reach.displacement.0, fate: Fate::Rest, ..escapes };
+        let mut portrait = Portrait {
             model: model.clone(),
             cycles: Vec::new(),
             neutral: false,
             steps: basin.cost.steps,
-            border: MachineBorder::Separatrix(Box::new(basin)),
-            margin: Some(margin),
+            border: Border::Separatrix,
+            reach: Some(reach),
+            margin: Margin::ENDLESS,
             landmarks: None,
             stop: None,
             known: f64::INFINITY,
             unresolved: Vec::new(),
             gaps: vec![rests, escapes],
-        })
+            traced: Traced::Basin(Box::new(basin)),
+        };
+        portrait.margin = portrait.margin_within(model.guide_static, model.mass);
+        Some(portrait)
     }
 
     fn settle_border(
@@ -188,123 +140,125 @@ impl Portrait {
         flow: &mut Flow,
         marks: &[(f64, Divide)],
     ) -> Result<(), LostMotion> {
-        let model = &self.model;
         let Some(first) = self.gaps.first() else { return Ok(()) };
         let inner = if self.neutral { Fate::Neutral } else { Fate::Rest };
         if let Fate::Unknown(stop) = first.fate {
             return Err(stop);
         }
-        if first.fate != inner {
-            self.border = MachineBorder::NoBasin;
-            self.margin = Some(MachineMargin::ZERO);
-            return Ok(());
-        }
         let last = self.gaps.iter().take_while(|gap| gap.fate == inner).count();
-        let Some((x, mark)) = marks.get(last - 1).filter(|_| last < self.gaps.len()) else {
-            let stops =
-                matches!(self.stop, Some(LostMotion::OutsideLaw { .. } | LostMotion::Steps));
-            if stops || model.law_ends() {
-                self.margin = Some(self.covered(model.guide_static));
+        let divide = last.checked_sub(1).and_then(|last| marks.get(last));
+        let landmarks = self.landmarks.as_ref();
+        if last == 0 {
+            self.border = Border::NoBasin;
+            self.reach = Some(Reach::default());
+        } else if let Some((x, mark)) = divide.filter(|_| last < self.gaps.len()) {
+            let mut curve = MachineCurve::default();
+            let left = match mark {
+                Divide::Cycle(index) => {
+                    self.border = Border::Cycle;
+                    let cycle = &self.cycles[*index];
+                    flow.around(*x, !cycle.sticks() && !cycle.overtakes, &mut curve)?
+                }
+                Divide::Jump => flow.jump_border(*x, landmarks, &mut curve)?,
+                Divide::Capture => flow.capture_border(*x, landmarks, &mut curve)?,
+            };
+            if !matches!(mark, Divide::Cycle(_)) {
+                let touches = |piece: &CurvePiece| matches!(piece, CurvePiece::Line { .. });
+                let touches = curve.pieces.iter().any(touches);
+                self.border = if touches { Border::Grazing } else { Border::Capture };
             }
-            return Ok(());
-        };
-        let mut curve = MachineCurve::default();
-        let left = match mark {
-            Divide::Cycle(index) => {
-                let cycle = &self.cycles[*index];
-                let left = flow.around(*x, !cycle.sticks && !cycle.overtakes, &mut curve)?;
-                self.border = MachineBorder::Cycle(*index, curve.clone());
-                left
-            }
-            Divide::Jump => {
-                let left = flow.jump_border(*x, self.landmarks.as_ref(), &mut curve)?;
-                self.border = MachineBorder::Grazing(curve.clone());
-                left
-            }
-            Divide::Capture => {
-                let left = flow.capture_border(*x, self.landmarks.as_ref(), &mut curve)?;
-                self.border = MachineBorder::Grazing(curve.clone());
-                left
-            }
-        };
-        let mut margin = MachineMargin { displacement: (*x, -left), ..MachineMargin::ZERO };
-        margin.velocity = self.velocities_lost(&curve, 0.0);
-        self.margin = Some(margin);
-        self.margin = self.margin_within(model.guide_static);
+            let velocity = velocities_lost(&self.model, &curve, 0.0);
+            self.reach = Some(Reach { displacement: (*x, -left), velocity });
+            self.traced = Traced::Curve(curve);
+        } else if let Some(stop) = self.open_end() {
+            self.border = Border::Unknown(stop);
+            self.reach = Some(self.covered(0.0));
+        }
+        self.margin = self.margin_within(self.model.guide_static, self.model.mass);
         Ok(())
     }
 
-    /// The smallest kicks that are not survived, in m and N s.
+    /// What hides a border farther out, where none was met.
+    fn open_end(&self) -> Option<LostMotion> {
+        let Model { omega_0, speed, .. } = self.model;
+        let slip = (speed - self.model.least_velocity()) * omega_0;
+        let ends = self.model.law_ends().then_some(LostMotion::OutsideLaw { slip });
+        let hides = |stop: &LostMotion| !matches!(stop, LostMotion::Escaped | LostMotion::Settled);
+        self.stop.filter(hides).or(ends)
+    }
+
+    /// The closed curve that borders the basin, if there is one.
     #[must_use]
-    pub fn least_kicks(&self) -> Margin {
-        self.margin.map_or(Margin::ENDLESS, |margin| margin.least(self.model.mass))
+    pub fn border_curve(&self) -> Option<&MachineCurve> {
+        match &self.traced {
+            Traced::Curve(curve) => Some(curve),
+            Traced::Nothing | Traced::Basin(_) => None,
+        }
     }
 
-    /// The velocities with and against the belt, in m/s, at which a motion from rest at a displacement meets the
-    /// border.
-    fn velocities_lost(&self, border: &MachineCurve, x: f64) -> (f64, f64) {
-        let (up, down) = border.velocities_at(x, self.model.speed);
-        // A border that does not pass there begins at a node that repels, or the mass rests outside of it.
-        let speed = |y: Option<f64>| y.map_or(0.0, |y| (y * self.model.omega_0).abs());
-        (speed(up), speed(down))
+    /// The cycle that borders the basin of rest.
+    #[must_use]
+    pub fn bordering_cycle(&self) -> Option<&Cycle> {
+        let x = self.reach.filter(|_| self.border == Border::Cycle)?.displacement.0;
+        self.cycles.iter().find(|cycle| cycle.q_max == x)
     }
 
-    /// The margin if the mass may rest up to a `farthest` place on either side, in m.
+    /// The margin if the mass, of this size, may rest up to a `farthest` place on either side, in m.
     ///
     /// Above `v = 0` the border has no minimum of its speed between its ends, below it likewise
     /// ([`crate::study::margin`]), so over the places of rest it is lowest at one of the ends.
     #[must_use]
-    pub fn margin_within(&self, farthest: f64) -> Option<MachineMargin> {
-        let margin = self.margin?;
-        let border = match &self.border {
-            MachineBorder::Cycle(_, curve) | MachineBorder::Grazing(curve) => curve,
-            MachineBorder::NoBasin => return Some(margin),
-            MachineBorder::Separatrix(basin) => {
-                return separatrix::margin(basin, &self.model, farthest);
+    pub fn margin_within(&self, farthest: f64, mass: f64) -> Margin {
+        let Some(reach) = self.reach else { return Margin::ENDLESS };
+        let ends = [farthest, -farthest];
+        let (gap, [one, other]) = match &self.traced {
+            Traced::Basin(basin) => {
+                let speed = |speed: f64| mass * (speed * self.model.omega_0);
+                return reach
+                    .margin(mass, basin.margin_within(farthest).from_rest.map(|x| x, speed));
             }
-            MachineBorder::None => return Some(self.covered(farthest)),
+            Traced::Curve(border) => {
+                let least = reach.displacement.0.min(reach.displacement.1);
+                let ends = ends.map(|x| velocities_lost(&self.model, border, x));
+                ((least - farthest).max(0.0), ends)
+            }
+            Traced::Nothing if self.border == Border::NoBasin => return Margin::ZERO,
+            Traced::Nothing => {
+                let [right, left] = ends.map(|x| self.covered(x));
+                (right.displacement.0.min(left.displacement.1), [right.velocity, left.velocity])
+            }
         };
-        let gap = (margin.least_displacement() - farthest).max(0.0);
-        let ends = [farthest, -farthest].map(|x| self.velocities_lost(border, x));
-        let lowest = ends.iter().map(|(up, down)| up.min(*down)).fold(f64::INFINITY, f64::min);
-        Some(MachineMargin {
-            rest_displacement: gap,
-            rest_velocity: if gap > 0.0 { lowest } else { 0.0 },
-            ..margin
-        })
+        let lowest = one.0.min(one.1).min(other.0).min(other.1);
+        let impulse = if gap > 0.0 { mass * lowest } else { 0.0 };
+        reach.margin(mass, RestMargin { displacement: Some(gap), impulse: Some(impulse) })
     }
 
-    /// The kicks that certainly come to rest, if motions that slip faster than the law covers are unknown, or some
-    /// could not be followed; `farthest` as for [`Self::margin_within`]. Motions do not cross, so in each direction
-    /// these are all kicks up to a largest one. It is sought beyond [`Self::known`] only where the law ends.
-    fn covered(&self, farthest: f64) -> MachineMargin {
+    /// The kicks from rest at `from` that certainly come to rest, if motions that slip faster than the law covers are
+    /// unknown, or some could not be followed. Motions do not cross, so in each direction these are all kicks up to a
+    /// largest one. It is sought beyond [`Self::known`] only where the law ends.
+    fn covered(&self, from: f64) -> Reach {
         /// Halvings down to rounding.
         const HALVINGS: u32 = 60;
         let model = &self.model;
-        let rests = |x: f64, y: f64| self.fate(x, y * model.omega_0) == Ok(Fate::Rest);
-        let most = |far: f64, rests: &dyn Fn(f64) -> bool| {
-            if rests(far) { far } else { bisect(0.0, far, HALVINGS, |kick| !rests(kick)).0 }
+        let most = |far: f64, start: &dyn Fn(f64) -> (f64, f64)| {
+            let lost = |kick: f64| {
+                let (x, y) = start(kick);
+                self.fate(x, y * model.omega_0) != Ok(Fate::Rest)
+            };
+            if lost(far) { bisect(0.0, far, HALVINGS, lost).0 } else { far }
         };
         let (x, y) = if model.law_ends() {
             (4.0 * self.known, 4.0 * self.known.max(-model.least_velocity()))
         } else {
             (self.known, self.known)
         };
-        let shifts = |from: f64| {
-            let right = most(self.known, &|kick| rests(from + kick, 0.0));
-            (right, most(x, &|kick| rests(-from - kick, 0.0)))
-        };
-        let pushes = |from: f64| {
-            let with = most(y, &|kick| rests(from, kick)) * model.omega_0;
-            (with, most(y, &|kick| rests(from, -kick)) * model.omega_0)
-        };
-        let [(right, left), (one, other), (third, last)] =
-            [shifts(farthest), pushes(farthest), pushes(-farthest)];
-        MachineMargin {
-            displacement: shifts(0.0),
-            velocity: pushes(0.0),
-            rest_displacement: right.min(left),
-            rest_velocity: one.min(other).min(third).min(last),
+        let speed = |y: f64| y * model.omega_0;
+        Reach {
+            displacement: (
+                most(self.known, &|kick| (from + kick, 0.0)),
+                most(x, &|kick| (from - kick, 0.0)),
+            ),
+            velocity: (speed(most(y, &|kick| (from, kick))), speed(most(y, &|kick| (from, -kick)))),
         }
     }
 
@@ -341,7 +295,8 @@ impl Portrait {
         let outermost = self.gaps.last().map(|gap| gap.fate);
         let open = matches!(outermost, Some(Fate::Unknown(_)));
         let stop = self.stop.filter(|stop| matches!(stop, LostMotion::OutsideLaw { .. }));
-        stop.filter(|_| open || matches!(self.border, MachineBorder::None))
+        let borderless = matches!(self.border, Border::None | Border::Unknown(_));
+        stop.filter(|_| open || borderless)
     }
 
     /// The fate of a motion that turns on the right at `x`.
@@ -356,25 +311,33 @@ impl Portrait {
     pub fn rest_share(&self, x: (f64, f64), v: (f64, f64)) -> Option<f64> {
         let y = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
         let window = Rectangle { x, y };
-        match &self.border {
+        match &self.traced {
+            Traced::Basin(basin) => {
+                separatrix::rest_share(basin, &Window { q: window.x, v: window.y })
+            }
+            Traced::Curve(curve) => {
+                Some(curve.area_within(&window, self.model.speed) / window.area())
+            }
+            Traced::Nothing if self.border == Border::NoBasin => Some(0.0),
             // Above v = 0, motions do not cross, and those from the upper end of a vertical edge go farther out than
             // those from below. Along a horizontal edge, dv/dt changes sign once, because the spring is linear:
             // motions that rise through it fall through it farther right, so the outermost ones pass a corner. The
             // same holds below v = 0.
-            MachineBorder::None => {
+            Traced::Nothing => {
                 let rests = |x: f64, v: f64| self.fate(x, v) == Ok(Fate::Rest);
                 let all = || [x.0, x.1].iter().all(|x| [v.0, v.1].iter().all(|v| rests(*x, *v)));
-                (self.margin.is_none() || all()).then_some(1.0)
-            }
-            MachineBorder::NoBasin => Some(0.0),
-            MachineBorder::Separatrix(basin) => {
-                separatrix::rest_share(basin, &Window { q: window.x, v: window.y })
-            }
-            MachineBorder::Cycle(_, curve) | MachineBorder::Grazing(curve) => {
-                Some(curve.area_within(&window, self.model.speed) / window.area())
+                (self.border == Border::None || all()).then_some(1.0)
             }
         }
     }
+}
+
+/// The velocities with and against the belt, in m/s, at which a motion from rest at a displacement meets the border.
+fn velocities_lost(model: &Model, border: &MachineCurve, x: f64) -> (f64, f64) {
+    let (up, down) = border.velocities_at(x, model.speed);
+    // A border that does not pass there begins at a node that repels, or the mass rests outside of it.
+    let speed = |y: Option<f64>| y.map_or(0.0, |y| (y * model.omega_0).abs());
+    (speed(up), speed(down))
 }
 
 impl Flow<'_> {

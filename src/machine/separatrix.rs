@@ -1,13 +1,12 @@
 //! Rest whose basin only a motion that just escapes borders.
 //!
 //! Asymmetric damping feeds the motion in one direction the more the faster it is. Without a cycle, the escape
-//! separatrix parts what comes to rest from what grows without bound ([`crate::study::border`]); it may turn on one
+//! separatrix parts what comes to rest from what grows without bound ([`crate::study::orbit`]); it may turn on one
 //! side only, or on neither, so that right turning points do not show it.
 
-use super::margin::MachineMargin;
 use super::model::Model;
 use crate::flow::Limits;
-use crate::study::Edge;
+use crate::portrait::{Border, Reach};
 use crate::study::arc::Arc;
 use crate::study::basin::{Basin, Window, basin};
 
@@ -23,11 +22,11 @@ pub fn basin_beside(model: &Model) -> Option<Basin> {
         return None;
     }
     let found = basin(&parameters, REACH / parameters.d2.abs(), &Limits::PATIENT).ok()?;
-    (found.edge == Edge::Separatrix && found.borders.len() == 1).then_some(found)
+    (found.border == Border::Separatrix && found.borders.len() == 1).then_some(found)
 }
 
-/// The margin that a separatrix leaves if the mass may rest up to a `farthest` place on either side.
-pub fn margin(basin: &Basin, model: &Model, farthest: f64) -> Option<MachineMargin> {
+/// How far kicks may go within a separatrix.
+pub fn reach(basin: &Basin, model: &Model) -> Option<Reach> {
     let border = basin.borders.first()?;
     // What turns within the places that the guide holds rests there.
     let turn = |arc: &Arc| {
@@ -35,13 +34,9 @@ pub fn margin(basin: &Basin, model: &Model, farthest: f64) -> Option<MachineMarg
         turn.max(model.guide_static)
     };
     let (low, high) = border.span_at(0.0)?;
-    let from_rest = basin.margin_within(farthest).from_rest;
-    let speed = |y: f64| y * model.omega_0;
-    Some(MachineMargin {
+    Some(Reach {
         displacement: (turn(&border.lower), turn(&border.upper)),
-        velocity: (speed(high), speed(-low)),
-        rest_displacement: from_rest.displacement.unwrap_or(f64::INFINITY),
-        rest_velocity: from_rest.impulse.map_or(f64::INFINITY, speed),
+        velocity: (high * model.omega_0, -low * model.omega_0),
     })
 }
 

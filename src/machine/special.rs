@@ -10,11 +10,12 @@ use super::arc::{Flow, LostMotion};
 use super::jumps::{Family, Jumps};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
-use super::portrait::{MachineBorder, Portrait};
+use super::portrait::Portrait;
 use super::search::GrowthSample;
 use super::turn::ContactState;
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::{PlaceTolerance, illinois, try_bisect};
+use crate::portrait::{Border, Cycle};
 
 /// A kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -202,7 +203,7 @@ fn zero(function: &dyn Fn(f64) -> Option<f64>, left: (f64, f64), right: (f64, f6
 /// How many cycles there are, of each kind; a fold takes one of each stability.
 fn count(portrait: &Portrait) -> (usize, usize, bool) {
     let stable = portrait.cycles.iter().filter(|cycle| cycle.stable).count();
-    (stable, portrait.cycles.len() - stable, matches!(portrait.border, MachineBorder::NoBasin))
+    (stable, portrait.cycles.len() - stable, portrait.border == Border::NoBasin)
 }
 
 /// The fold between two places where the numbers of stable and of unstable cycles both differ by one.
@@ -227,10 +228,10 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
     let pairs = nearest
         .cycles
         .windows(2)
-        .filter(|pair| pair[0].stable != pair[1].stable && !pair.iter().any(|cycle| cycle.sticks));
-    let gap = |pair: &&[super::MachineCycle]| pair[1].x.1 / pair[0].x.1;
+        .filter(|pair| pair[0].stable != pair[1].stable && !pair.iter().any(Cycle::sticks));
+    let gap = |pair: &&[Cycle]| pair[1].q_max / pair[0].q_max;
     let pair = pairs.min_by(|one, other| gap(one).total_cmp(&gap(other)))?;
-    let (low, high) = (pair[0].x.1, pair[1].x.1);
+    let (low, high) = (pair[0].q_max, pair[1].q_max);
     let extremum = |value: f64| -> Option<GrowthSample> {
         steepest(&family(value)?, (low * high).sqrt(), ln(high / low))
     };

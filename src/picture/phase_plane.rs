@@ -13,15 +13,15 @@ use super::units::{self, said};
 use crate::closed_form::lyapunov;
 use crate::fit::Signal;
 use crate::flow::{Outcome, Problem, Trajectory};
-use crate::machine;
 use crate::numerics::elementary::hypot;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
+use crate::portrait::{Border, Cycle, Ride};
 use crate::question::Fitted;
 use crate::question::zones::Extent;
 use crate::scene::{Answer, Layer, Point, Topic};
 use crate::session::starts::MOST_MOTIONS;
 use crate::session::{Session, Shown};
-use crate::study::{Cycles, Edge};
+use crate::study::Cycles;
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     picture.axes("q", "v");
@@ -159,7 +159,9 @@ fn rides(picture: &mut Picture, session: &Session, y: f64) {
     let Some(running) = session.running() else { return };
     let unit = running.reduced.units.displacement;
     let cycles = session.kinds().filter(|_| session.layers.contains(&Layer::Cycles));
-    for (from, to) in cycles.iter().flat_map(|it| &it.cycles).filter_map(|cycle| cycle.ride) {
+    for Ride { from, to, .. } in
+        cycles.iter().flat_map(|it| &it.cycles).filter_map(|cycle| cycle.ride)
+    {
         let [from, to] = [from, to].map(|x| Point { x: x / unit, y });
         picture.bar(LineStyle::new("cycle on the belt", Role::Stable, Dash::Solid), from, to);
     }
@@ -171,8 +173,8 @@ fn rides(picture: &mut Picture, session: &Session, y: f64) {
 }
 
 /// The kind of a cycle in the words of the legend, and as its own caption where it is not a plain slip.
-fn kind(cycle: &machine::MachineCycle) -> (&'static str, &'static str) {
-    match (cycle.stable, cycle.sticks, cycle.overtakes) {
+fn kind(cycle: &Cycle) -> (&'static str, &'static str) {
+    match (cycle.stable, cycle.sticks(), cycle.overtakes) {
         (_, true, false) => ("stick-slip cycle", "stick-slip"),
         (_, true, true) => ("overtaking stick-slip cycle", "stick-slip, overtaking"),
         (true, false, false) => ("stable slip cycle", "slip"),
@@ -279,11 +281,13 @@ fn flow(parameters: &Parameters, Point { x: q, y: v }: Point) -> Point {
 /// The shaded basin of the sticking set, if it has an edge; an edge that is one of the cycles is drawn
 /// with these, where they are, so that its dashes are those of one curve.
 fn basin(picture: &mut Picture, found: &Cycles, variant: &VariantTag, with_cycles: bool) {
-    let Some(drawn) = found.picture.as_ref().filter(|drawn| !drawn.edge.is_empty()) else { return };
-    let edge = points(&drawn.edge);
+    let Some(drawn) = found.picture.as_ref().filter(|drawn| !drawn.border.is_empty()) else {
+        return;
+    };
+    let edge = points(&drawn.border);
     let area = LineStyle::new("basin of the sticking set", Role::Basin, Dash::Solid).of(variant);
     picture.items.push(Item::Shade(area.briefly("comes to rest"), edge.clone()));
-    if with_cycles && found.edge == Edge::Cycle {
+    if with_cycles && found.border == Border::Cycle {
         return;
     }
     let line = LineStyle::new("border of the basin", Role::Unstable, Dash::Dashed);
@@ -327,12 +331,7 @@ fn circle(picture: &mut Picture, parameters: &Parameters, variant: &VariantTag) 
     }
 }
 
-fn cycles(
-    picture: &mut Picture,
-    found: &Cycles,
-    variant: &VariantTag,
-    kinds: &[machine::MachineCycle],
-) {
+fn cycles(picture: &mut Picture, found: &Cycles, variant: &VariantTag, kinds: &[Cycle]) {
     let curves = found.picture.iter().flat_map(|picture| &picture.curves);
     for (index, (cycle, curve)) in found.cycles.iter().zip(curves).enumerate() {
         let CycleStyle { role, dash, name: plain, .. } = cycle_style(cycle.stable);

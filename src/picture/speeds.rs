@@ -6,33 +6,33 @@ use super::items::{LineStyle, Picture};
 use super::phase_plane::AT_REST;
 use super::reading::reading;
 use super::role::{Dash, Role};
-use crate::machine::MachineCycle;
 use crate::machine::jumps::Jump;
 use crate::machine::special::{MachineSpecial, MachineSpecialKind};
+use crate::portrait::Cycle;
 use crate::question::speeds::SpeedPoint;
 use crate::scene::{Layer, Point};
 use crate::session::Session;
 use crate::words::quantity::with_unit;
 
 /// A kind of cycle: what it is called, also by the legend of the screen, how it is drawn, and which cycles are of it.
-type CycleKind = ([&'static str; 2], Role, Dash, fn(&MachineCycle) -> bool);
+type CycleKind = ([&'static str; 2], Role, Dash, fn(&Cycle) -> bool);
 
 /// All kinds.
 const KINDS: [CycleKind; 5] = [
     (["stable slip cycle", "stable cycle"], Role::Stable, Dash::Solid, |it| {
-        it.stable && !it.sticks && !it.overtakes
+        it.stable && !it.sticks() && !it.overtakes
     }),
     (["unstable slip cycle", "unstable cycle"], Role::Unstable, Dash::Dashed, |it| {
-        !it.stable && !it.sticks && !it.overtakes
+        !it.stable && !it.sticks() && !it.overtakes
     }),
     (["branch of stick-slip cycles", "cycle on the belt"], Role::Stable, Dash::Thick, |it| {
-        it.sticks
+        it.sticks()
     }),
     (["stable overtaking cycle"; 2], Role::Velocity, Dash::Dotted, |it| {
-        it.stable && it.overtakes && !it.sticks
+        it.stable && it.overtakes && !it.sticks()
     }),
     (["unstable overtaking cycle"; 2], Role::Unstable, Dash::Sparse, |it| {
-        !it.stable && it.overtakes && !it.sticks
+        !it.stable && it.overtakes && !it.sticks()
     }),
 ];
 
@@ -72,7 +72,7 @@ fn cycles(
     for rank in 0..most.unwrap_or(0) {
         let place = |at: &SpeedPoint| {
             let cycle = at.cycles.iter().filter(|it| is(it)).nth(rank);
-            Point { x: at.v0, y: cycle.map_or(f64::NAN, |cycle| cycle.x.1) }
+            Point { x: at.v0, y: cycle.map_or(f64::NAN, |cycle| cycle.q_max) }
         };
         let places: Vec<Point> = points.iter().map(place).collect();
         picture.curve(LineStyle::new(name, role, dash).briefly(brief), places);

@@ -10,9 +10,10 @@ use crate::machine::branch::{
     MachineBranch, MachineBranchPoint, branch_while, points_while, spaced,
 };
 use crate::machine::special::MachineSpecial;
-use crate::machine::{BorderKind, MachineCycle, ORDER, Subject};
+use crate::machine::{ORDER, Subject};
 use crate::oscillator::Belt;
 use crate::oscillator::Knob;
+use crate::portrait::{Border, Cycle};
 
 /// The cycles over the speed of the belt, and where they change.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +32,7 @@ pub struct SpeedPoint {
     /// Speed of the belt, in m/s.
     pub v0: f64,
     /// The cycles, ordered by amplitude.
-    pub cycles: Vec<MachineCycle>,
+    pub cycles: Vec<Cycle>,
     /// Largest displacement to the right from which the mass comes to rest, in m; `None` unless the motion that
     /// touches the belt's line is the border of the basin.
     pub touching: Option<f64>,
@@ -96,10 +97,9 @@ impl Question for Inputs {
         }
         let point = |MachineBranchPoint { value, found }: &MachineBranchPoint| {
             let found = found.as_ref().ok()?;
-            let (kind, margin) = (found.border.kind(), found.margin);
-            let touching =
-                margin.filter(|_| kind == BorderKind::Grazing).map(|margin| margin.displacement.0);
-            let rests = kind != BorderKind::NoBasin;
+            let touches = matches!(found.border, Border::Grazing | Border::Capture);
+            let touching = found.reach.filter(|_| touches).map(|reach| reach.displacement.0);
+            let rests = found.border != Border::NoBasin;
             Some(SpeedPoint { v0: *value, cycles: found.cycles.clone(), touching, rests })
         };
         let steps = found.points.iter().filter_map(|point| point.found.as_ref().ok());

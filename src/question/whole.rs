@@ -7,11 +7,11 @@ use crate::machine::curve::{CurvePiece, MachineCurve};
 use crate::machine::motion::{self, MachineMotion};
 use crate::machine::stepped::{SteppedMethod, SteppedMotion, traced};
 use crate::machine::turn::ContactState;
-use crate::machine::{BorderKind, Flow, LostMotion, MachineLedger, Model, Phase, Portrait};
+use crate::machine::{Flow, LostMotion, MachineLedger, Model, Phase, Portrait};
 use crate::numerics::elementary::ln;
 use crate::oscillator::{Belt, Parameters, State};
-use crate::study::cycle::CycleErrors;
-use crate::study::{Cycle, Cycles, Edge, Margin, cycle};
+use crate::portrait::{Border, Cycle, Margin};
+use crate::study::{Cycles, cycle};
 
 /// Fate and course of a machine's motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,13 +19,11 @@ pub struct Course {
     /// The fate; a cycle is given by its index in [`Self::cycles`].
     pub fate: Fate<LostMotion>,
     /// The cycles of the machine, in SI units.
-    pub cycles: Vec<crate::machine::MachineCycle>,
+    pub cycles: Vec<Cycle>,
     /// Unit of displacement of the drawing, in m.
     pub unit: f64,
     /// Kind of the border of the basin.
-    pub border: BorderKind,
-    /// Whether the border touches the belt's line.
-    pub touches: bool,
+    pub border: Border,
     /// First and last point of each stretch on which the mass rides on the belt.
     pub rides: Vec<[Sample; 2]>,
     /// Sources and sinks of its energy, in the units of the paper's oscillator.
@@ -36,16 +34,14 @@ pub struct Course {
 #[derive(Clone, Debug, PartialEq)]
 pub struct WholeCycles {
     /// The cycles by the whole model, in SI units.
-    pub cycles: Vec<crate::machine::MachineCycle>,
+    pub cycles: Vec<Cycle>,
     /// Sources and sinks of the energy over one turn of each cycle, in the units of the paper's oscillator.
     pub works: Vec<MachineLedger>,
     /// Kind of the border of the basin.
-    pub border: BorderKind,
-    /// Whether the border touches the belt's line.
-    pub touches: bool,
-    /// The kicks that are survived by the whole model and by the cubic expansion, without units; `None` where
-    /// every kick is survived, or where the model concerned has no answer.
-    pub margins: [Option<Margin>; 2],
+    pub border: Border,
+    /// The kicks that are survived by the whole model and by the cubic expansion, without units; every kick where the
+    /// expansion has no answer.
+    pub margins: [Margin; 2],
     /// Whether all slipping motions are periodic.
     pub neutral: bool,
     /// Why motions further out are unknown.
@@ -125,8 +121,7 @@ pub fn motion(
         fate,
         cycles: portrait.cycles.clone(),
         unit: units.x,
-        border: portrait.border.kind(),
-        touches: portrait.border.touches(),
+        border: portrait.border,
         rides: rides(&drawn, model.speed * model.omega_0, units),
         ledger: units.ledger(&found.ledger, &model),
     };
@@ -226,9 +221,8 @@ pub fn portrait(
     let kinds = found.as_ref().ok().map(|found| WholeCycles {
         cycles: found.cycles.clone(),
         works: works(found),
-        border: found.border.kind(),
-        touches: found.border.touches(),
-        margins: [margin(found), expanded],
+        border: found.border,
+        margins: [margin(found), expanded.unwrap_or(Margin::ENDLESS)],
         neutral: found.neutral,
         stop: found.stop,
     });
@@ -248,9 +242,9 @@ pub fn found(belt: &Belt) -> Result<Portrait, Reason> {
     model(belt).and_then(|model| Portrait::new(&model).map_err(reason))
 }
 
-/// The kicks that a machine survives, without units; `None` where it survives every kick.
-pub fn margin(found: &Portrait) -> Option<Margin> {
-    found.margin.map(|_| margin_of(&found.model, &found.least_kicks()))
+/// The kicks that a machine survives, without units.
+pub fn margin(found: &Portrait) -> Margin {
+    margin_of(&found.model, &found.margin)
 }
 
 /// A margin given in m and N s, converted to numbers without units.
@@ -265,28 +259,23 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
     let mut curves = Vec::new();
     for cycle in &found.cycles {
         let mut curve = MachineCurve::default();
-        flow.around(cycle.x.1, cycle.is_followed_backward(), &mut curve).map_err(reason)?;
+        flow.around(cycle.q_max, cycle.is_followed_backward(), &mut curve).map_err(reason)?;
         curves.push(places(&curve, model, points));
     }
-    let edge = found.border.curve().map(|curve| places(curve, model, points));
-    let margin = margin(found).unwrap_or(Margin::ENDLESS);
+    let border = found.border_curve().map(|curve| places(curve, model, points));
     let picture = cycle::BasinPicture {
         curves,
         works: Vec::new(),
-        edge: edge.unwrap_or_default(),
-        margin,
+        border: border.unwrap_or_default(),
+        margin: margin(found),
         area: None,
         lyapunov_share: None,
     };
     Ok(Cycles {
         parameters: *parameters,
-        cycles: found.cycles.iter().map(|cycle| scaled(cycle, model, units)).collect(),
+        cycles: found.cycles.iter().map(|cycle| scaled(cycle, units)).collect(),
         harmonic: Vec::new(),
-        edge: match found.border.kind() {
-            BorderKind::Cycle => Edge::Cycle,
-            BorderKind::Grazing | BorderKind::Separatrix => Edge::Separatrix,
-            BorderKind::None | BorderKind::NoBasin => Edge::None,
-        },
+        border: found.border,
         picture: Some(picture),
         cost: cost(found.steps),
     })
@@ -311,22 +300,18 @@ pub(super) fn places(curve: &MachineCurve, model: &Model, points: u16) -> Vec<St
     found
 }
 
-fn scaled(cycle: &crate::machine::MachineCycle, model: &Model, units: DrawingUnits) -> Cycle {
-    /// A generous bound on the error of all numbers of the reference machines.
-    const ERROR: f64 = 1e-12;
-    let clearance = (cycle.x.1 - model.guide) / units.x;
+/// A cycle in drawing units.
+fn scaled(cycle: &Cycle, units: DrawingUnits) -> Cycle {
+    let DrawingUnits { x, v, t } = units;
+    let clearance = cycle.clearance / x;
     Cycle {
-        stable: cycle.stable,
-        q_min: cycle.x.0 / units.x,
-        q_max: cycle.x.1 / units.x,
-        v_min: cycle.v.0 / units.v,
-        v_max: cycle.v.1 / units.v,
-        period: cycle.period / units.t,
-        multiplier: Some(cycle.multiplier).filter(|it| it.is_finite()),
-        log_multiplier: cycle.log_multiplier,
+        q_min: cycle.q_min / x,
+        q_max: cycle.q_max / x,
+        v_min: cycle.v_min / v,
+        v_max: cycle.v_max / v,
+        period: cycle.period / t,
         clearance,
         log_clearance: ln(clearance),
-        error: ERROR,
-        errors: CycleErrors::default(),
+        ..*cycle
     }
 }

@@ -8,7 +8,7 @@ use crate::flow::{Cost, Limits, Reason};
 use crate::machine::guarantee::{best, kicks, worst};
 use crate::machine::{Portrait, Tolerances};
 use crate::oscillator::{Belt, ParameterBox, State};
-use crate::study::Margin;
+use crate::portrait::Margin;
 use crate::study::basin::Basin;
 use crate::study::cycle::PICTURE_REACH;
 use crate::study::guarantee::{guarantee, uncertain, zones};
@@ -95,7 +95,7 @@ pub fn of_machine(belt: &Belt, known: &Tolerances, points: u16) -> Result<Zones,
     let needs = "a friction law that reaches the slips of all machines within the tolerances";
     let trouble = |_| Reason::NotApplicable { needs };
     let nominal = whole::found(belt)?;
-    let drawn = |portrait: &Portrait| match portrait.border.curve() {
+    let drawn = |portrait: &Portrait| match portrait.border_curve() {
         Some(curve) => Extent::Within(whole::places(curve, &nominal.model, points)),
         None => Extent::Everything,
     };
@@ -107,6 +107,6 @@ pub fn of_machine(belt: &Belt, known: &Tolerances, points: u16) -> Result<Zones,
         }
     };
     let hopeful = best(belt, known).map_err(trouble)?.as_ref().map_or(Extent::Everything, drawn);
-    let nominal = whole::margin(&nominal).unwrap_or(Margin::ENDLESS);
+    let nominal = whole::margin(&nominal);
     Ok(Zones { safe, hopeful, nominal, guaranteed, cost: Cost::default() })
 }

@@ -6,9 +6,9 @@ use super::certified::{KickEnclosures, survived};
 use super::csv;
 use super::json::{self, CountedCost};
 use super::table::{Table, parameters, rounded};
+use crate::portrait::{Border, Margin};
 use crate::proof::kicks::ProvedKicks;
 use crate::study::basin::{Counts, SurveyedBasin};
-use crate::study::{Edge, Margin};
 use crate::words::number::{duration, significant};
 
 #[derive(Serialize)]
@@ -54,18 +54,18 @@ pub fn csv(found: &SurveyedBasin, certified: Option<&ProvedKicks>) -> String {
 }
 
 /// A line on the border of the basin of the sticking set.
-pub(super) fn edge(edge: Edge) -> &'static str {
-    match edge {
-        Edge::None => "border of the basin of the sticking set: none\n",
-        Edge::Cycle => "border of the basin of the sticking set: the smallest cycle\n",
-        Edge::Separatrix => "border of the basin of the sticking set: a separatrix\n",
+pub(super) fn border(border: Border) -> &'static str {
+    match border {
+        Border::Cycle => "border of the basin of the sticking set: the smallest cycle\n",
+        Border::Separatrix => "border of the basin of the sticking set: a separatrix\n",
+        _ => "border of the basin of the sticking set: none\n",
     }
 }
 
 /// The counts, the margins and the area.
 pub fn table(found: &SurveyedBasin, seconds: f64) -> String {
     const PLACES: usize = 10;
-    let mut out = format!("{}\n{}\n", parameters(&found.parameters, None), edge(found.edge));
+    let mut out = format!("{}\n{}\n", parameters(&found.parameters, None), border(found.border));
     let Counts { captured, cycle, escaped, undecided } = found.counts;
     let mut counts = Table::new(&["starts that", "count"]);
     for (fate, count) in [

@@ -117,7 +117,8 @@ pub fn table(branch: &Branch, base: &Parameters, tolerance: f64, seconds: f64) -
 mod tests {
     use super::*;
     use crate::closed_form::piecewise_linear::LinearCycle;
-    use crate::study::{Cycle, SpecialKind};
+    use crate::portrait::Cycle;
+    use crate::study::SpecialKind;
 
     #[test]
     fn a_branch_ends_where_two_cycles_meet_or_where_one_grazes_the_rest() {

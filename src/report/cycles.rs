@@ -9,16 +9,17 @@ use super::table::{Table, parameters};
 use super::{basin, harmonic_balance};
 use crate::closed_form::harmonic::Harmonic;
 use crate::oscillator::Parameters;
+use crate::portrait::{Border, Cycle, CycleErrors};
 use crate::proof::cycles::Proof;
 use crate::proof::enclose::Enclosure;
+use crate::study::Cycles;
 use crate::study::harmonic_error::HarmonicBalance;
-use crate::study::{Cycle, Cycles, Edge};
 use crate::words::number::{duration, significant};
 use crate::words::stability;
 
 #[derive(Serialize)]
 struct Basin {
-    edge: Edge,
+    edge: Border,
 }
 
 #[derive(Serialize)]
@@ -46,7 +47,7 @@ pub fn json(
         count: proof::count(proof),
         harmonic: &found.harmonic,
         balance: rungs.map(harmonic_balance::rows),
-        basin: Basin { edge: found.edge },
+        basin: Basin { edge: found.border },
         cost: CountedCost { counted: found.cost, seconds },
     })
 }
@@ -64,7 +65,10 @@ pub fn csv(found: &Cycles, proof: &Proof) -> String {
         certified: CycleBounds::of(enclosure(proof, cycle)),
     });
     let open = CycleBounds::open(proof).map(|certified| CycleRow { cycle: None, certified });
-    let like = CycleRow { cycle: Some(&Cycle::default()), certified: CycleBounds::like() };
+    let like = CycleRow {
+        cycle: Some(&Cycle { errors: Some(CycleErrors::default()), ..Cycle::default() }),
+        certified: CycleBounds::like(),
+    };
     csv::sheet(&like, cycles.chain(open))
 }
 
@@ -137,7 +141,7 @@ pub fn table(found: &Cycles, proof: &Proof, seconds: f64) -> String {
     if !found.harmonic.is_empty() {
         out.push('\n');
     }
-    out += basin::edge(found.edge);
+    out += basin::border(found.border);
     out += &format!("{} evaluations, {}\n", found.cost.evaluations, duration(seconds));
     out
 }

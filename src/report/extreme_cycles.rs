@@ -6,7 +6,7 @@ use super::csv;
 use super::json;
 use super::table::Table;
 use crate::oscillator::Parameters;
-use crate::study::Cycle;
+use crate::portrait::{Cycle, CycleErrors};
 use crate::study::extremes::sets::{BUDGET, LatticeCycle, SetAnswer, SetVerdict};
 use crate::words::number::{exact as short, significant};
 use crate::words::stability;
@@ -69,7 +69,7 @@ pub fn csv(verdicts: &[SetVerdict]) -> String {
         reason: None,
         evaluations: 0,
         residual: None,
-        cycle: Some(Cycle::default()),
+        cycle: Some(Cycle { errors: Some(CycleErrors::default()), ..Cycle::default() }),
     };
     csv::sheet(&like, rows)
 }

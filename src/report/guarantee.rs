@@ -6,7 +6,7 @@ use super::csv;
 use super::json::{CountedCost, text};
 use super::table::Table;
 use crate::oscillator::{Interval, Knob, ParameterBox};
-use crate::study::Margin;
+use crate::portrait::Margin;
 use crate::study::guarantee::{Guarantee, Guaranteed};
 use crate::words::number::{duration, significant};
 

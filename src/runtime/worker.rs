@@ -174,8 +174,9 @@ mod tests {
     use super::*;
     use crate::flow::Cost;
     use crate::oscillator::Parameters;
+    use crate::portrait::Border;
     use crate::question;
-    use crate::study::{Cycles, Edge};
+    use crate::study::Cycles;
 
     /// A request that can be told apart from others by its number.
     fn request(number: f64) -> Request {
@@ -195,7 +196,7 @@ mod tests {
             parameters: Parameters { d: number(request), d2: 0.0, d3: 0.0, r: 0.1 },
             cycles: Vec::new(),
             harmonic: Vec::new(),
-            edge: Edge::None,
+            border: Border::None,
             picture: None,
             cost: Cost::default(),
         })

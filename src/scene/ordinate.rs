@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::window::Span;
 use crate::oscillator::Knob;
-use crate::study::Cycle;
+use crate::portrait::Cycle;
 
 /// A property of a cycle that the diagram can show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -209,8 +209,7 @@ mod tests {
             log_multiplier: ln(0.01),
             clearance: 0.9,
             log_clearance: ln(0.9),
-            error: 0.0,
-            errors: crate::study::cycle::CycleErrors::default(),
+            ..Cycle::default()
         }
     }
 

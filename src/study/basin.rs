@@ -18,15 +18,15 @@
 
 use serde::Serialize;
 
-use super::border::Border;
 use super::closed_pair::Closing;
 use super::closing::{Equation, first_side};
 use super::closings::{STEP, all_closings};
-use super::limit_cycle::{Edge, Margin};
+use super::orbit::Orbit;
 use crate::closed_form::harmonic::is_centre;
 use crate::flow::{Cost, Fate, Limits, Reason};
 use crate::oscillator::sticking::rests;
 use crate::oscillator::{Parameters, State};
+use crate::portrait::{Border, Margin};
 
 /// The borders of the plane, innermost first, and the fates of the regions between them.
 #[derive(Clone, Debug)]
@@ -34,9 +34,9 @@ pub struct Basin {
     /// The parameters.
     pub parameters: Parameters,
     /// What borders the basin of the sticking set.
-    pub edge: Edge,
+    pub border: Border,
     /// The borders, innermost first.
-    pub borders: Vec<Border>,
+    pub borders: Vec<Orbit>,
     /// Fates inside the first border, between the first and the second, ..., outside the last.
     pub fates: Vec<Fate>,
     /// What it cost.
@@ -135,15 +135,15 @@ impl Basin {
         let side = first_side(parameters);
         let stable: Vec<bool> =
             found.iter().map(|closing| closing.log_multiplier(parameters) < 0.0).collect();
-        let edge = Edge::around(parameters, &stable);
+        let border = Border::around(parameters, &stable);
         let mut borders = Vec::new();
         let mut fates = Vec::new();
-        if edge == Edge::Separatrix {
-            borders.push(Border::separatrix(parameters, reach, limits)?);
+        if border == Border::Separatrix {
+            borders.push(Orbit::separatrix(parameters, reach, limits)?);
             fates.push(if is_centre(parameters) { Fate::Neutral } else { Fate::Rest });
         }
         for closing in found {
-            borders.push(Border::of_cycle(parameters, side, closing, limits)?);
+            borders.push(Orbit::of_cycle(parameters, side, closing, limits)?);
         }
         fates.extend(fates_between(parameters, &stable, fates.is_empty()));
         let mut cost = Cost::default();
@@ -151,7 +151,7 @@ impl Basin {
             cost += border.upper.cost;
             cost += border.lower.cost;
         }
-        Ok(Basin { parameters: *parameters, edge, borders, fates, cost })
+        Ok(Basin { parameters: *parameters, border, borders, fates, cost })
     }
 
     /// Where a start ends.
@@ -160,7 +160,7 @@ impl Basin {
         if self.rests(start) {
             return Fate::Rest;
         }
-        let inside = |border: &Border| {
+        let inside = |border: &Orbit| {
             border.span_at(start.q).is_some_and(|(low, high)| start.v > low && start.v < high)
         };
         let region = self.borders.iter().position(inside).unwrap_or(self.borders.len());
@@ -216,7 +216,8 @@ pub struct SurveyedBasin {
     /// The parameters.
     pub parameters: Parameters,
     /// What borders the basin of the sticking set.
-    pub edge: Edge,
+    #[serde(rename = "edge")]
+    pub border: Border,
     /// How many of the starts end where.
     pub counts: Counts,
     /// The kicks that are survived.
@@ -250,7 +251,7 @@ impl SurveyedBasin {
         let captured = counts.captured as f64 / (columns * rows) as f64;
         Ok(SurveyedBasin {
             parameters: *parameters,
-            edge: basin.edge,
+            border: basin.border,
             counts,
             margin: basin.margin(),
             area: basin.area(),

@@ -3,12 +3,12 @@
 
 use serde::Serialize;
 
-use super::margin::{Margin, RestMargin};
 use crate::flow::Trajectory;
 use crate::numerics::hermite::Hermite;
 use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::oscillator::belt::Units;
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
+use crate::portrait::{Margin, RestMargin};
 
 /// Margins in physical units; `None` where every kick is survived.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

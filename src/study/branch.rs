@@ -26,7 +26,6 @@ use serde::Serialize;
 use super::closing::{Equation, Route, first_side};
 use super::closings::{STEP, other_closings};
 use super::continuation::{CurvePlace, CurvePoint, CycleCurve, covers, is_beside, passes};
-use super::cycle::Cycle;
 use super::escape::{escape_point, escape_product};
 use super::polish::polish_near;
 use super::special::{Special, SpecialKind, VANISHING};
@@ -36,6 +35,7 @@ use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{cbrt, ln, pow, powi};
 use crate::oscillator::{Knob, Parameters, Side};
+use crate::portrait::Cycle;
 
 /// A cycle and the parameter value at which it lives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

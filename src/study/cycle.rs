@@ -4,13 +4,14 @@
 //! ```
 //! use hopfscope::flow::Limits;
 //! use hopfscope::oscillator::Parameters;
-//! use hopfscope::study::{Edge, cycle::cycles};
+//! use hopfscope::portrait::Border;
+//! use hopfscope::study::cycle::cycles;
 //!
 //! let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
 //! let found = cycles(&parameters, false, &Limits::PATIENT)?;
 //! let [inner, outer] = &found.cycles[..] else { panic!("two cycles") };
 //! assert!(!inner.stable && outer.stable && inner.q_max < outer.q_max);
-//! assert_eq!(found.edge, Edge::Cycle);
+//! assert_eq!(found.border, Border::Cycle);
 //! # Ok::<(), hopfscope::flow::Reason>(())
 //! ```
 
@@ -18,12 +19,13 @@ use super::basin::Basin;
 use super::closed_pair::{Closing, share};
 use super::closing::Equation;
 use super::closings::{STEP, all_closings};
-pub use super::limit_cycle::{BasinPicture, Cycle, CycleErrors, Cycles, Edge};
+pub use super::limit_cycle::{BasinPicture, Cycles};
 use super::works::works as works_over;
 use crate::closed_form::harmonic::amplitudes;
 use crate::flow::{Limits, Reason};
 use crate::numerics::elementary::exp;
 use crate::oscillator::{Parameters, Side, State};
+use crate::portrait::{Border, Cycle, CycleErrors};
 
 /// Points drawn on each integration step of a curve.
 const CURVE_POINTS: u16 = 12;
@@ -82,7 +84,7 @@ pub(super) fn cycles_and_closings(
         parameters: *parameters,
         cycles: closings.iter().map(describe).collect(),
         harmonic: amplitudes(parameters),
-        edge: Edge::around(parameters, &stable),
+        border: Border::around(parameters, &stable),
         picture: None,
         cost: equation.cost(),
     };
@@ -93,17 +95,17 @@ impl BasinPicture {
     fn of(basin: &Basin, points: u16) -> Self {
         let mut curves: Vec<Vec<State>> =
             basin.borders.iter().map(|border| border.curve(points)).collect();
-        let works = basin.borders.iter().skip(usize::from(basin.edge == Edge::Separatrix));
+        let works = basin.borders.iter().skip(usize::from(basin.border == Border::Separatrix));
         let works = works.filter_map(|border| works_over(border, &basin.parameters)).collect();
-        let edge = match basin.edge {
-            Edge::None => Vec::new(),
-            Edge::Cycle => curves.first().cloned().unwrap_or_default(),
-            Edge::Separatrix => curves.remove(0),
+        let border = match basin.border {
+            Border::Cycle => curves.first().cloned().unwrap_or_default(),
+            Border::Separatrix => curves.remove(0),
+            _ => Vec::new(),
         };
         BasinPicture {
             curves,
             works,
-            edge,
+            border,
             margin: basin.margin(),
             area: basin.area(),
             lyapunov_share: basin.lyapunov_share(),
@@ -139,20 +141,19 @@ impl Closing {
             log_multiplier,
             clearance: right.0.value,
             log_clearance: right.0.log,
-            error: 0.0,
-            errors: CycleErrors {
-                q_min: left.1 * left.0.value,
-                q_max: right.1 * right.0.value,
-                v_min: down.1,
-                v_max: up.1,
-                period: spread.duration,
-                log_multiplier: unshared[0]
-                    + unshared[1]
-                    + dampings
-                    + f64::EPSILON * self.log_terms(parameters),
-                log_clearance: right.1,
-            },
+            ..Cycle::default()
         }
-        .rounded()
+        .rounded(CycleErrors {
+            q_min: left.1 * left.0.value,
+            q_max: right.1 * right.0.value,
+            v_min: down.1,
+            v_max: up.1,
+            period: spread.duration,
+            log_multiplier: unshared[0]
+                + unshared[1]
+                + dampings
+                + f64::EPSILON * self.log_terms(parameters),
+            log_clearance: right.1,
+        })
     }
 }

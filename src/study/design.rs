@@ -8,11 +8,11 @@
 use serde::Serialize;
 
 use super::basin::basin;
-use super::margin::Margin;
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::{PlaceTolerance, illinois};
 use crate::oscillator::Parameters;
+use crate::portrait::Margin;
 
 /// A kick out of rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

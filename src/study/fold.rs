@@ -213,7 +213,11 @@ mod tests {
             assert!(!count(1.0 + 1e-4).cycles.is_empty(), "D2 = {d2}, D3 = {d3}: D_F = {d}");
             let above = count(1.0 - 1e-4);
             assert!(above.cycles.is_empty(), "D2 = {d2}, D3 = {d3}: D_F = {d}");
-            assert_eq!(above.edge, crate::study::Edge::None, "D2 = {d2}, D3 = {d3}: D_F = {d}");
+            assert_eq!(
+                above.border,
+                crate::portrait::Border::None,
+                "D2 = {d2}, D3 = {d3}: D_F = {d}"
+            );
         }
     }
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::extended::FoldCycle;
-use super::limit_cycle::Cycle;
+use crate::portrait::Cycle;
 
 /// The fold at given D2, D3 and r.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -14,19 +14,18 @@ use serde::Serialize;
 
 use super::arc::{Arc, Direction};
 use super::basin::{Basin, basin};
-use super::border::Border;
 use super::closed_pair::Closing;
 use super::closing::{Equation, Route};
 use super::closings::{STEP, innermost_bracket};
-use super::cycle::Edge;
 use super::half_map::{HalfMap, Length};
-use super::margin::{Margin, RestMargin};
+use super::orbit::Orbit;
 use super::search::Bracket;
 use super::weak::has_cycle;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Fate, Limits, Reason};
 use crate::numerics::root::{PlaceTolerance, illinois};
 use crate::oscillator::{HalfPlane, ParameterBox, Parameters, Side};
+use crate::portrait::{Border, Margin, RestMargin};
 
 /// An oscillator with parameters of its own on each side of `v = 0`, the friction being the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,30 +82,30 @@ impl TwoSided {
             Arc::new(self.on(side), side, Direction::Backward, next, limits)
         };
         let escaping = self.field(second).d2;
-        let (edge, border, error) =
+        let (border, orbit, error) =
             if let Some((closing, error)) = self.closing(&mut equation, limits)? {
                 let own = [self.on(first), self.on(second)];
-                let border = Border::of_closing(own, first, &closing, true, limits)?;
-                (Edge::Cycle, Some(border), error)
+                let orbit = Orbit::of_closing(own, first, &closing, true, limits)?;
+                (Border::Cycle, Some(orbit), error)
             } else if self.upper.d3 == 0.0 && escaping < 0.0 {
                 // Run backward, the motion that goes out along the parabola forever attracts, to rounding after
                 // this clearance in units of 1/abs(D2).
                 const FORGETS: f64 = 40.0;
                 let out = arc(second, Length::new(reach + FORGETS / escaping.abs()))?;
                 let before = arc(first, out.clearance().unwrap_or(Length::ZERO))?;
-                (Edge::Separatrix, Some(Border::of(first, [before, out], false)), NOISE)
+                (Border::Separatrix, Some(Orbit::of(first, [before, out], false)), NOISE)
             } else {
-                (Edge::None, None, 0.0)
+                (Border::None, None, 0.0)
             };
         let mut cost = equation.cost();
         let mut fates = vec![Fate::Rest];
-        if let Some(border) = &border {
-            cost += border.upper.cost;
-            cost += border.lower.cost;
+        if let Some(orbit) = &orbit {
+            cost += orbit.upper.cost;
+            cost += orbit.lower.cost;
             fates.push(Fate::Escapes);
         }
-        let borders = border.into_iter().collect();
-        Ok((Basin { parameters: self.upper, edge, borders, fates, cost }, error))
+        let borders = orbit.into_iter().collect();
+        Ok((Basin { parameters: self.upper, border, borders, fates, cost }, error))
     }
 
     /// The innermost closed pair of swings, and the relative error of its clearances: from the closed form where

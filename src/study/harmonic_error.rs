@@ -5,12 +5,13 @@
 
 use serde::Serialize;
 
-use super::cycle::{Cycle, cycles};
+use super::cycle::cycles;
 use crate::closed_form::harmonic::{Harmonic, amplitudes};
 use crate::closed_form::harmonics::{HarmonicCycle, Lost, harmonic_cycle};
 use crate::flow::{Cost, Limits, Reason};
 use crate::numerics::elementary::ln;
 use crate::oscillator::{Parameters, State};
+use crate::portrait::Cycle;
 
 /// How far a cycle of N harmonics is from the true one; relative, positive where it is too large.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -24,13 +24,12 @@
 
 use super::arc::Arc;
 use super::basin::Basin;
-use super::limit_cycle::Edge;
-pub use super::limit_cycle::{Margin, RestMargin};
 use crate::closed_form::lyapunov;
 use crate::flow::Fate;
 use crate::numerics::elementary::hypot;
 use crate::numerics::root::maximum;
 use crate::oscillator::{Parameters, State};
+use crate::portrait::{Border, Margin, RestMargin};
 
 impl Basin {
     /// The margins.
@@ -47,10 +46,7 @@ impl Basin {
             // Neither friction nor damping: nothing comes to rest, however small the kick.
             return Margin::ZERO;
         }
-        let edge = match self.edge {
-            Edge::None => None,
-            Edge::Cycle | Edge::Separatrix => self.borders.first(),
-        };
+        let edge = self.borders.first().filter(|_| self.border != Border::None);
         let Some(edge) = edge else { return Margin::ENDLESS };
         let clearances = [&edge.upper, &edge.lower].into_iter().filter_map(Arc::clearance);
         let clearance = clearances.map(|clearance| clearance.value).reduce(f64::min);
@@ -86,7 +82,7 @@ impl Basin {
         /// the distance is flat.
         const POINTS: u16 = 24;
         const FLAT: f64 = 1e-9;
-        if self.edge == Edge::None {
+        if self.border == Border::None {
             return None;
         }
         let edge = self.borders.first()?;
@@ -117,7 +113,7 @@ impl Basin {
     /// where it is infinite, or where there is no basin.
     #[must_use]
     pub fn area(&self) -> Option<f64> {
-        let captured = self.fates.first() == Some(&Fate::Rest) && self.edge != Edge::None;
+        let captured = self.fates.first() == Some(&Fate::Rest) && self.border != Border::None;
         let edge = self.borders.first().filter(|edge| captured && edge.is_closed())?;
         Some(edge.upper.area() + edge.lower.area())
     }

@@ -6,7 +6,6 @@ pub(crate) mod balance;
 #[warn(clippy::missing_errors_doc)]
 pub mod basin;
 pub(crate) mod belt;
-pub(crate) mod border;
 #[warn(clippy::missing_errors_doc)]
 pub mod branch;
 #[doc(hidden)]
@@ -48,6 +47,7 @@ pub(crate) mod limit_cycle;
 pub mod margin;
 #[doc(hidden)]
 pub mod measure;
+pub(crate) mod orbit;
 #[doc(hidden)]
 pub mod polish;
 pub(crate) mod precise_closing;
@@ -70,6 +70,6 @@ pub(crate) mod works;
 
 pub use branch::{Branch, BranchPoint};
 pub use harmonic_error::HarmonicBalance;
-pub use limit_cycle::{BasinPicture, Cycle, Cycles, Edge, Margin};
+pub use limit_cycle::{BasinPicture, Cycles};
 pub use return_map::{Return, ReturnMap};
 pub use special::{Special, SpecialKind};

@@ -6,8 +6,9 @@
 use std::fmt;
 
 use super::basin::SurveyedBasin;
-use super::cycle::{Cycle, Cycles, Edge};
+use super::cycle::Cycles;
 use crate::numerics::Interval;
+use crate::portrait::{Border, Cycle};
 use crate::proof::cycles::{Open, Proof, ProvedCycle, prove};
 use crate::proof::field::ParameterBox;
 use crate::proof::kicks::{ProvedEdge, ProvedKicks};
@@ -73,9 +74,9 @@ pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
 pub fn agreed(proved: ProvedKicks, found: &SurveyedBasin) -> ProvedKicks {
     const DIFFERENT: &str = "not proved, because the proof contradicts the numbers above";
     let edge = match proved.edge {
-        Some(ProvedEdge::None) => Some(Edge::None),
-        Some(ProvedEdge::Cycle) => Some(Edge::Cycle),
-        Some(ProvedEdge::Separatrix) => Some(Edge::Separatrix),
+        Some(ProvedEdge::None) => Some(Border::None),
+        Some(ProvedEdge::Cycle) => Some(Border::Cycle),
+        Some(ProvedEdge::Separatrix) => Some(Border::Separatrix),
         None => None,
     };
     let (margin, from_rest) = (&found.margin, &found.margin.from_rest);
@@ -88,7 +89,7 @@ pub fn agreed(proved: ProvedKicks, found: &SurveyedBasin) -> ProvedKicks {
     let agree = |(bounds, value): (Option<Interval>, Option<f64>)| {
         bounds.zip(value).is_none_or(|(bounds, value)| is_near(bounds, value))
     };
-    if edge.is_none_or(|edge| edge == found.edge) && pairs.into_iter().all(agree) {
+    if edge.is_none_or(|edge| edge == found.border) && pairs.into_iter().all(agree) {
         return proved;
     }
     ProvedKicks { open: Some(DIFFERENT), ..ProvedKicks::default() }

@@ -125,7 +125,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::study::Edge;
+    use crate::portrait::Border;
     use crate::study::cycle::{Cycles, cycles};
 
     fn oscillator(d: f64, d2: f64, d3: f64, r: f64) -> Parameters {
@@ -135,12 +135,13 @@ mod tests {
     /// The regime as the search for cycles sees it; with friction.
     fn by_search(found: &Cycles) -> Regime {
         let stable_outside = found.cycles.last().is_some_and(|cycle| cycle.stable);
-        match (found.edge, stable_outside) {
-            (Edge::None, false) => Regime::Global,
-            (Edge::None, true) => Regime::Cycle,
+        match (found.border, stable_outside) {
+            (Border::None, false) => Regime::Global,
+            (Border::None, true) => Regime::Cycle,
             (_, true) => Regime::Coexisting,
-            (Edge::Cycle, false) => Regime::Finite,
-            (Edge::Separatrix, false) => Regime::Escape,
+            (Border::Cycle, false) => Regime::Finite,
+            (Border::Separatrix, false) => Regime::Escape,
+            (other, false) => panic!("{other:?} borders no basin of the paper's oscillator"),
         }
     }
 
@@ -183,7 +184,7 @@ mod tests {
             };
             let parameters = oscillator(d, d2, d3, r);
             let found = cycles(&parameters, false, &Limits::PATIENT).unwrap();
-            let seen = if found.edge == Edge::None { Regime::Global } else { by_search(&found) };
+            let seen = if found.border == Border::None { Regime::Global } else { by_search(&found) };
             prop_assert_eq!(regime(&parameters, &Limits::PATIENT).unwrap(), seen);
         }
     }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::cycle::{Cycle, CycleErrors};
+use crate::portrait::{Cycle, CycleErrors};
 
 /// What makes a point of a branch special.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -74,8 +74,8 @@ pub(super) const VANISHING: Cycle = Cycle {
     log_multiplier: 0.0,
     clearance: 0.0,
     log_clearance: f64::NEG_INFINITY,
-    error: 0.0,
-    errors: CycleErrors {
+    error: Some(0.0),
+    errors: Some(CycleErrors {
         q_min: 0.0,
         q_max: 0.0,
         v_min: 0.0,
@@ -83,5 +83,7 @@ pub(super) const VANISHING: Cycle = Cycle {
         period: 0.0,
         log_multiplier: 0.0,
         log_clearance: 0.0,
-    },
+    }),
+    ride: None,
+    overtakes: false,
 };

@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 use serde::Serialize;
 
 use super::basin::{Basin, Window};
-use super::border::Border;
+use super::orbit::Orbit;
 use crate::flow::Fate;
 use crate::numerics::elementary::{asin, cos, powi, sin};
 use crate::numerics::quadrature::{Integral, integrate};
@@ -81,7 +81,7 @@ pub(super) fn over_scales(density: impl Fn(f64) -> f64, left: f64, right: f64) -
 }
 
 /// The displacements of a range at which some start lies inside the border: around the sticking set.
-pub(super) fn support(edge: &Border, (from, to): (f64, f64)) -> Option<(f64, f64)> {
+pub(super) fn support(edge: &Orbit, (from, to): (f64, f64)) -> Option<(f64, f64)> {
     let inside = |q: f64| edge.span_at(q).is_some();
     // Inside lies an interval with 0 in it.
     let nearest = 0.0_f64.clamp(from, to);

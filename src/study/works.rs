@@ -4,7 +4,7 @@
 //! cancel. They are integrals over the arcs with which the cycle is drawn anyway, each with its full
 //! relative precision, so that their sum says how well the cycle is closed.
 
-use super::border::Border;
+use super::orbit::Orbit;
 use crate::flow::Trajectory;
 use crate::flow::step::Powers;
 use crate::oscillator::energy::energy;
@@ -13,7 +13,7 @@ use crate::oscillator::{Ledger, Parameters, State};
 /// The ledger of one turn of a cycle; `residual` is what the works fail to cancel by.
 ///
 /// `None` for a border that is not closed.
-pub fn works(border: &Border, parameters: &Parameters) -> Option<Ledger> {
+pub fn works(border: &Orbit, parameters: &Parameters) -> Option<Ledger> {
     let Parameters { d, d2, d3, r } = *parameters;
     let [left, right] = [border.upper.clearance()?.value, border.lower.clearance()?.value];
     let path = 2.0 * (left + right + 2.0 * r);

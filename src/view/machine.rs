@@ -1,7 +1,7 @@
 //! What becomes of the motion of a machine, in its own units, by the whole model.
 
 use crate::flow::{Fate, Outcome, Trajectory};
-use crate::machine::{BorderKind, MachineCycle};
+use crate::portrait::{Border, Cycle};
 use crate::session::Session;
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
@@ -15,11 +15,11 @@ pub fn outcome(session: &Session, motion: &Trajectory) -> String {
     };
     let units = &running.reduced.units;
     let within = match course.border {
-        BorderKind::Cycle => " (inside the unstable cycle)",
-        BorderKind::Grazing if course.touches => " (inside the motion that touches the belt)",
-        BorderKind::Grazing => " (inside the motion that ends where the guide just holds)",
-        BorderKind::Separatrix => " (inside the separatrix)",
-        BorderKind::None | BorderKind::NoBasin => "",
+        Border::Cycle => " (inside the unstable cycle)",
+        Border::Grazing => " (inside the motion that touches the belt)",
+        Border::Capture => " (inside the motion that ends where the guide just holds)",
+        Border::Separatrix => " (inside the separatrix)",
+        Border::None | Border::NoBasin | Border::Unknown(_) => "",
     };
     match (course.fate, motion.outcome) {
         (Fate::Rest, Outcome::Captured { tau, q }) => {
@@ -37,12 +37,12 @@ pub fn outcome(session: &Session, motion: &Trajectory) -> String {
 }
 
 /// The cycle to which a motion tends.
-fn onto(cycle: &MachineCycle) -> String {
-    let size = with_unit(cycle.x.1, PLACES, "m");
+fn onto(cycle: &Cycle) -> String {
+    let size = with_unit(cycle.q_max, PLACES, "m");
     let over = if cycle.overtakes { "overtaking " } else { "" };
-    if !cycle.sticks {
+    if !cycle.sticks() {
         return format!("tends to the {over}slip cycle, x up to {size}");
     }
-    let part = significant(100.0 * cycle.stick_duration / cycle.period, 3);
+    let part = significant(100.0 * cycle.stick_duration() / cycle.period, 3);
     format!("tends to {over}stick-slip, x up to {size}; it sticks for {part} % of the time")
 }

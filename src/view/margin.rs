@@ -4,9 +4,9 @@
 use super::fitted::statement;
 use super::pane;
 use crate::oscillator::Knob;
+use crate::portrait::{Border, Margin};
 use crate::scene::Topic;
 use crate::session::Session;
-use crate::study::{Edge, Margin};
 use crate::words::number::{rounded_down, significant};
 use crate::words::quantity::with_unit;
 
@@ -178,7 +178,7 @@ fn oscillator(session: &Session, width: usize) -> Option<String> {
     if found.parameters.r == 0.0 {
         return None;
     }
-    if found.edge == Edge::None {
+    if found.border == Border::None {
         return Some(EVERY.to_owned());
     }
     let picture = found.picture.as_ref()?;
@@ -206,7 +206,7 @@ fn machine(session: &Session, width: usize) -> Option<String> {
     let fresh = !session.is_stale(Topic::Cycles, session.plot);
     let kinds = session.kinds().filter(|_| fresh)?;
     session.running()?;
-    let [whole, cubic] = kinds.margins.map(|margin| margin.unwrap_or(Margin::ENDLESS));
+    let [whole, cubic] = kinds.margins;
     let error = match (whole.from_rest.displacement, cubic.from_rest.displacement) {
         (Some(own), Some(other)) if own > 0.0 => {
             let percent = 100.0 * (other / own - 1.0);

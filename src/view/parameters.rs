@@ -12,16 +12,16 @@ use super::paint::symbol;
 use super::pane::{self, Heading};
 use super::prose;
 use crate::flow::Problem;
-use crate::machine::BorderKind;
 use crate::oscillator::Knob;
 use crate::oscillator::belt::Units;
 use crate::picture::role::{CycleStyle, Role, cycle_style};
 use crate::picture::units;
+use crate::portrait::{Border, Cycle};
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
+use crate::study::Cycles;
 use crate::study::harmonic_error::BalanceResult;
 use crate::study::proved::compare;
-use crate::study::{Cycle, Cycles, Edge};
 use crate::words::cycles as cycles_in_words;
 use crate::words::number::{exact, significant};
 use crate::words::quantity::with_unit;
@@ -271,8 +271,9 @@ fn cycle_columns(units: Option<Units>) -> [CycleColumn; 5] {
         Some(multiplier) => significant(multiplier, 4),
         None => format!("e^{}", significant(cycle.log_multiplier, 4)),
     };
+    let error = |cycle: &Cycle| cycle.error.map_or_else(String::new, |error| significant(error, 1));
     let multiplier = ("multiplier", 12, Box::new(multiplier) as Box<_>);
-    [size, period, speed, multiplier, ("error", 8, own(1, |cycle| cycle.error))]
+    [size, period, speed, multiplier, ("error", 8, Box::new(error) as Box<_>)]
 }
 
 /// What the cycles are, in numbers, and what borders the basin; returns the rows that it took.
@@ -340,23 +341,25 @@ fn counted(session: &Session, found: &Cycles, width: usize) -> (String, Role) {
 /// What borders the basin of the sticking set, and which kicks it survives.
 fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<String> {
     let kinds = session.kinds().filter(|_| session.draws_whole());
-    let edge = match found.edge {
-        _ if kinds.is_some_and(|kinds| kinds.border == BorderKind::NoBasin) => "rest repels",
-        Edge::Separatrix if kinds.is_some_and(|kinds| kinds.touches) => "border: touches the belt",
-        Edge::Separatrix if kinds.is_some() => "border: where the guide holds",
-        Edge::None if kinds.is_some_and(|kinds| kinds.neutral) => "all motions periodic",
-        Edge::None if kinds.is_some() => "all motions come to rest",
-        Edge::None if found.parameters.r == 0.0 => "no sticking set",
-        Edge::None => "all motions captured",
-        Edge::Cycle => "border: unstable cycle",
-        Edge::Separatrix => "border: separatrix",
+    let border = match found.border {
+        Border::NoBasin => "rest repels",
+        Border::Grazing => "border: touches the belt",
+        Border::Capture => "border: where the guide holds",
+        Border::None | Border::Unknown(_) if kinds.is_some_and(|kinds| kinds.neutral) => {
+            "all motions periodic"
+        }
+        Border::None | Border::Unknown(_) if kinds.is_some() => "all motions come to rest",
+        Border::None if found.parameters.r == 0.0 => "no sticking set",
+        Border::None | Border::Unknown(_) => "all motions captured",
+        Border::Cycle => "border: unstable cycle",
+        Border::Separatrix => "border: separatrix",
     };
     // Without friction there is no set of rests that could survive anything.
     let rests = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
     let kicks = rests.and_then(|picture| margin::brief(session, &picture.margin, width));
     // Where there is a second status line, it says what kicks are survived.
     let low = !session.size.tells_margin();
-    let mut lines = vec![edge.to_owned()];
+    let mut lines = vec![border.to_owned()];
     // In the units of a machine they stand below.
     let physical = units::shown(session).is_some();
     // Of a record the distribution of the margin is told.

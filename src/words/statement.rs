@@ -12,7 +12,7 @@ use crate::fit::margin::{MarginQuestion, Margins};
 use crate::fit::names::NAMES;
 use crate::fit::observation::{D, Data, StartKind};
 use crate::numerics::count::real;
-use crate::study::margin::Margin;
+use crate::portrait::Margin;
 
 /// The sentence with its numbers.
 #[derive(Clone, Debug, PartialEq, Serialize)]

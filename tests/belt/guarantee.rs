@@ -6,8 +6,8 @@ use hopfscope::machine::guarantee::{MachineUncertain, guaranteed};
 use hopfscope::machine::survey::portrait;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::{Group, Knob};
+use hopfscope::portrait::Margin;
 use hopfscope::scene::machine::library::find;
-use hopfscope::study::Margin;
 
 fn machine(name: &str) -> Belt {
     find(name).unwrap().belt.clone()
@@ -55,7 +55,7 @@ fn no_draw_is_below(draws: u32) {
     for (belt, known) in cases() {
         let found = guaranteed(&belt, &known).unwrap();
         let found = found.unwrap_or_else(|reason| panic!("{known:?}: {reason}"));
-        let (found, nominal) = (kicks(&found), kicks(&portrait(&belt).unwrap().least_kicks()));
+        let (found, nominal) = (kicks(&found), kicks(&portrait(&belt).unwrap().margin));
         // A guarantee of nothing would also hold.
         let says = found.iter().zip(nominal).all(|(found, nominal)| *found > 0.3 * nominal);
         assert!(says, "{known:?}: {found:?} of {nominal:?}");
@@ -68,7 +68,7 @@ fn no_draw_is_below(draws: u32) {
             }
             // The worst disturbance acts like reduced friction.
             drawn.friction -= known.disturbance;
-            let mut own = kicks(&portrait(&drawn).unwrap().least_kicks());
+            let mut own = kicks(&portrait(&drawn).unwrap().margin);
             // Before the kick it may have pushed the other way.
             own[2] -= 2.0 * known.disturbance / drawn.stiffness;
             let kept = own.iter().zip(found).all(|(own, found)| *own >= found * (1.0 - 1e-9));
@@ -97,14 +97,14 @@ fn tolerances_of_friction_and_damping_and_a_disturbance_are_those_of_one_machine
     let worst = Belt { friction, damping: 0.9 * belt.damping, ..belt.clone() };
     let portrait = portrait(&worst).unwrap();
     let [displacement, impulse, shift, push] = kicks(&found);
-    let [exact, exact_impulse, ..] = kicks(&portrait.least_kicks());
+    let [exact, exact_impulse, ..] = kicks(&portrait.margin);
     assert!((displacement / exact - 1.0).abs() < 1e-12);
     assert!((impulse / exact_impulse - 1.0).abs() < 1e-12);
     // The mass rests where friction and the disturbance hold it together.
     let farthest = (0.8 * belt.friction + 0.1) / belt.stiffness;
-    let from_rest = portrait.margin_within(farthest).unwrap();
+    let from_rest = portrait.margin_within(farthest, belt.mass).from_rest;
     assert!((shift / (exact - farthest) - 1.0).abs() < 1e-12);
-    assert!((push / (belt.mass * from_rest.rest_velocity) - 1.0).abs() < 1e-12);
+    assert!((push / (from_rest.impulse.unwrap()) - 1.0).abs() < 1e-12);
     let refused = guaranteed(&belt, &tolerances(&[], &belt, belt.friction)).unwrap();
     assert!(matches!(refused, Err(MachineUncertain::Disturbance { .. })), "{refused:?}");
 }

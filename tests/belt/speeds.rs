@@ -2,7 +2,6 @@
 //! where the motions of the machine leave the end of a stable state.
 
 use hopfscope::flow::{Fate, Limits};
-use hopfscope::machine::MachineCycle;
 use hopfscope::machine::branch::branch;
 use hopfscope::machine::jumps::Jump;
 use hopfscope::machine::special::{MachineSpecial, MachineSpecialKind};
@@ -11,6 +10,7 @@ use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
 use hopfscope::oscillator::{Group, Knob};
 use hopfscope::picture::items::Item;
+use hopfscope::portrait::Cycle;
 use hopfscope::question::answer;
 use hopfscope::scene::machine::library::machines;
 use hopfscope::scene::{Answer, Topic, View, find};
@@ -42,8 +42,8 @@ fn rest_and_stick_slip_end_at_different_speeds() {
         // The stick-slip cycle at that speed.
         let there = Belt { belt_speed: hopf.value, ..machine("bstab") };
         let cycles = portrait(&there).unwrap().cycles;
-        let stuck = cycles.iter().find(|cycle| cycle.sticks).unwrap();
-        assert!((x_max / stuck.x.1 - 1.0).abs() < 1e-6, "{x_max} {stuck:?}");
+        let stuck = cycles.iter().find(|cycle| cycle.sticks()).unwrap();
+        assert!((x_max / stuck.q_max - 1.0).abs() < 1e-6, "{x_max} {stuck:?}");
         let Some(Jump { from, to: Fate::Rest, .. }) = end.jumps.up else { panic!("{end:?}") };
         assert!((from / end.x_max.unwrap() - 1.0).abs() < 0.01, "{end:?}");
     }
@@ -172,12 +172,12 @@ fn a_draft_is_quick_and_shows_every_kind_where_the_whole_answer_does() {
         let mut compared = 0;
         for at in &draft.points {
             let exact = portrait(&Belt { belt_speed: at.v0, ..belt.clone() }).unwrap().cycles;
-            let kinds = |cycles: &[MachineCycle]| -> Vec<_> {
-                cycles.iter().map(|cycle| (cycle.sticks, cycle.stable)).collect()
+            let kinds = |cycles: &[Cycle]| -> Vec<_> {
+                cycles.iter().map(|cycle| (cycle.sticks(), cycle.stable)).collect()
             };
             assert_eq!(kinds(&at.cycles), kinds(&exact), "{scene} at {}", at.v0);
             for (rough, exact) in at.cycles.iter().zip(&exact) {
-                assert!((rough.x.1 / exact.x.1 - 1.0).abs() < 1e-2, "{scene} at {}", at.v0);
+                assert!((rough.q_max / exact.q_max - 1.0).abs() < 1e-2, "{scene} at {}", at.v0);
                 compared += 1;
             }
         }

@@ -145,7 +145,7 @@ fn no_cycles(path: &Path, found: &Branch, points: Points) -> Option<String> {
             Ok(found) => found.cycles,
         };
         let same = all.iter().any(|it| {
-            let errors = it.errors.log_clearance + row.cycle.errors.log_clearance;
+            let errors = it.errors.unwrap().log_clearance + row.cycle.errors.unwrap().log_clearance;
             (it.log_clearance - row.cycle.log_clearance).abs() <= errors + slack
         });
         (!same).then(|| format!("no such cycle: {row:?} among {all:?}"))

@@ -3,7 +3,7 @@
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Outcome, Problem};
 use hopfscope::oscillator::{Parameters, State};
-use hopfscope::study::Edge;
+use hopfscope::portrait::Border;
 use hopfscope::study::basin::basin;
 use rayon::prelude::*;
 
@@ -45,13 +45,13 @@ fn judged(parameters: &Parameters) -> Option<Result<(), String>> {
     let found = basin(parameters, parameters.r, &limits).ok()?;
     let r = parameters.r;
     let mut tried = Vec::new();
-    match (found.edge, found.borders.first()) {
-        (Edge::None, _) if r > 0.0 => {
+    match (found.border, found.borders.first()) {
+        (Border::None, _) if r > 0.0 => {
             tried.extend([3.0, 1e3, 1e100, 1e200].map(|far| (r * far, true)));
             tried.extend([1e-100, 1.0, 1e10, 1e100, 1e200, 1e290].map(|far| (r + far, true)));
             tried.extend(tried.clone().iter().map(|(q, inside)| (-q, *inside)));
         }
-        (Edge::Cycle | Edge::Separatrix, Some(border)) => {
+        (Border::Cycle | Border::Separatrix, Some(border)) => {
             let left = border.upper.clearance().map(|it| starts(r, it.value));
             let right = border.lower.clearance().map(|it| starts(r, it.value));
             tried.extend(left.into_iter().flatten().map(|(q, inside)| (-q, inside)));
@@ -66,7 +66,7 @@ fn judged(parameters: &Parameters) -> Option<Result<(), String>> {
         None => Ok(()),
         Some((q, inside)) => {
             let margin = found.margin();
-            Err(format!("{parameters:?}: {:?} {margin:?}, from {q:e}: {inside}", found.edge))
+            Err(format!("{parameters:?}: {:?} {margin:?}, from {q:e}: {inside}", found.border))
         }
     })
 }

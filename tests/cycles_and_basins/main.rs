@@ -74,7 +74,7 @@ fn no_cycle_is_missed_against_a_dense_scan() {
         .into_par_iter()
         .filter_map(|parameters| {
             let found = cycles(&parameters, false, &LIMITS).expect("a search within the budget");
-            let inside = |cycle: &&hopfscope::study::Cycle| {
+            let inside = |cycle: &&hopfscope::portrait::Cycle| {
                 -cycle.q_min - parameters.r < 59.0 && -cycle.q_min - parameters.r > 1e-8
             };
             let expected = scanned_cycles(&parameters, 600);
@@ -249,7 +249,7 @@ fn every_cycle_lies_between_motions_that_come_closer_and_motions_that_go_further
     /// above which their difference exceeds their error.
     const BESIDE: f64 = 1e-4;
     const CLEAR: f64 = 1e-3;
-    let wrong = |parameters: &Parameters| -> Vec<hopfscope::study::Cycle> {
+    let wrong = |parameters: &Parameters| -> Vec<hopfscope::portrait::Cycle> {
         let found = cycles(parameters, false, &LIMITS).expect("a search within the budget");
         let mut grows = turn_is_larger(*parameters, [Side::Lower, Side::Upper], 1e-13);
         let clear = found.cycles.into_iter().filter(|cycle| cycle.log_multiplier.abs() > CLEAR);

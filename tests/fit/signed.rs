@@ -5,8 +5,8 @@ use hopfscope::fit::conditions::conditions;
 use hopfscope::fit::{MarginQuestion, Margins, margins};
 use hopfscope::flow::Limits;
 use hopfscope::oscillator::{Interval, ParameterBox, Parameters};
+use hopfscope::portrait::RestMargin;
 use hopfscope::study::guarantee::{Uncertain, guaranteed};
-use hopfscope::study::margin::RestMargin;
 
 use super::simulator::{Simulation, simulated};
 use super::*;

@@ -23,7 +23,7 @@ fn compared(parameters: &Parameters) -> usize {
         assert!(!matched.contains(&proved.within.lower()), "{parameters:?}: {cycle:?} {proof:?}");
         matched.push(proved.within.lower());
         if let Some(bounds) = proved.enclosure {
-            let near = bounds.q_max.widened(cycle.errors.q_max);
+            let near = bounds.q_max.widened(cycle.errors.unwrap().q_max);
             assert!(near.contains(cycle.q_max), "{parameters:?}: {} {cycle:?}", bounds.q_max);
         }
     }

@@ -4,12 +4,11 @@
 use super::portrait;
 use hopfscope::flow::Fate;
 use hopfscope::machine::return_map::MachineReturn;
-use hopfscope::machine::{
-    Body, BorderKind, Flow, LostMotion, MachineBorder, Modal, Portrait, Subject,
-};
+use hopfscope::machine::{Body, Flow, LostMotion, Modal, Portrait, Subject};
 use hopfscope::numerics::elementary::exp;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
+use hopfscope::portrait::{Border, Cycle};
 use hopfscope::scene::machine::file::parse;
 
 /// A clutch whose friction feeds a small swing: without static friction an unstable cycle borders rest, from
@@ -34,9 +33,9 @@ fn clutch(held: f64) -> Belt {
 fn a_guide_that_holds_one_turning_point_of_a_cycle_leaves_no_cycle() {
     let held = 5.45e-3;
     let found = portrait(&clutch(held));
-    assert!(found.cycles.iter().all(|cycle| cycle.sticks), "{:?}", found.cycles);
-    assert!(matches!(found.border, MachineBorder::Grazing(_)) && !found.border.touches());
-    let margin = found.margin.unwrap();
+    assert!(found.cycles.iter().all(Cycle::sticks), "{:?}", found.cycles);
+    assert!(found.border == Border::Capture);
+    let margin = found.reach.unwrap();
     assert!((margin.displacement.1 / held - 1.0).abs() < 1e-12, "{margin:?}");
     for (x, v) in [
         (margin.displacement.0, 0.0),
@@ -54,7 +53,7 @@ fn a_guide_that_holds_one_turning_point_of_a_cycle_leaves_no_cycle() {
         }
     }
     // A guide that holds neither turning point leaves the cycle; one that holds both removes it.
-    let cycles = |held| portrait(&clutch(held)).cycles.iter().filter(|it| !it.sticks).count();
+    let cycles = |held| portrait(&clutch(held)).cycles.iter().filter(|it| !it.sticks()).count();
     assert_eq!([5.4e-3, 5.45e-3, 5.51e-3].map(cycles), [1, 0, 0]);
 }
 
@@ -86,10 +85,10 @@ fn where_no_cycle_repels_the_basin_ends_where_the_guide_just_holds() {
     for guide_static in [1.0, 2.0, 4.0] {
         let belt = node(guide_static);
         let found = portrait(&belt);
-        assert!(matches!(found.border, MachineBorder::Grazing(_)) && !found.border.touches());
-        assert!(found.cycles.iter().all(|cycle| cycle.sticks), "{:?}", found.cycles);
+        assert!(found.border == Border::Capture);
+        assert!(found.cycles.iter().all(Cycle::sticks), "{:?}", found.cycles);
         let held = guide_static * belt.friction / belt.stiffness;
-        let margin = found.margin.unwrap();
+        let margin = found.reach.unwrap();
         for size in [margin.displacement.0, margin.displacement.1] {
             assert!((size / held - 1.0).abs() < 1e-15, "{guide_static}: {size} {held}");
         }
@@ -117,7 +116,7 @@ fn where_the_law_ends_it_is_not_said_that_every_kick_is_survived() {
     let text = "m = 0.415\nc = 1.735\nd1 = 0.25665\nd3 = 0.233634\nF = 0.1876\nR = 0.008091\nv0 = 0.1379\n\
                 friction.polynomial.coefficients = [0.62, -1.11435, -0.98584]\n";
     let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
-    let margin = found.margin.unwrap();
+    let margin = found.reach.unwrap();
     assert!(
         matches!(found.stop, Some(LostMotion::OutsideLaw { .. })) && found.incomplete().is_some()
     );
@@ -139,7 +138,7 @@ fn where_motions_take_too_many_steps_the_margin_is_what_was_followed() {
     let text = "m = 0.767\nc = 3.325\nd3 = 97.188237\nF = 7.9579\nv0 = 0.0539\nfriction.static = 0.982\n\
                 friction.polynomial.coefficients = [0.437, 2.72777, 2.16231, 57.38058, 272.78022]\n";
     let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
-    let margin = found.margin.unwrap();
+    let margin = found.reach.unwrap();
     assert_eq!((found.stop, margin.displacement.0), (Some(LostMotion::Steps), found.known));
     assert!(margin.displacement.0 > 10.0 && margin.velocity.1 > 10.0, "{margin:?}");
     assert!(found.steps < 100_000, "{} steps", found.steps);
@@ -165,8 +164,8 @@ fn an_overdamped_mass_rests_after_every_kick_that_the_law_covers() {
     let end = 0.2;
     let found = portrait(&measured(40.0, 0.05, end));
     assert!(found.model.damping > 2.0 && found.cycles.is_empty());
-    assert!(matches!(found.border, MachineBorder::None) && found.stop.is_some());
-    let margin = found.margin.unwrap();
+    assert!(matches!(found.border, Border::Unknown(_)) && found.stop.is_some());
+    let margin = found.reach.unwrap();
     // A kick against the belt slips fastest at the start.
     assert!((margin.velocity.1 - (end - 0.02)).abs() < 1e-12, "{margin:?}");
     for (x, v) in [
@@ -184,16 +183,16 @@ fn an_overdamped_mass_rests_after_every_kick_that_the_law_covers() {
 fn what_the_belt_releases_is_on_its_cycle_even_where_all_beyond_is_unknown() {
     // The cycle slips by less than 0.1 m/s, where the law ends.
     let long = portrait(&measured(0.5, 0.02, 1.0));
-    let cycle = long.cycles.iter().find(|cycle| cycle.sticks).unwrap();
-    let end = 0.02 - 1.0001 * cycle.v.0;
+    let cycle = long.cycles.iter().find(|cycle| cycle.sticks()).unwrap();
+    let end = 0.02 - 1.0001 * cycle.v_min;
     let short = portrait(&measured(0.5, 0.02, end));
     let last = short.cycles.len() - 1;
-    assert!(short.cycles[last].sticks);
+    assert!(short.cycles[last].sticks());
     let release = short.model.lines.unwrap().release;
     for part in [0.0, 0.3, 0.9] {
-        assert_eq!(short.fate(release - part * cycle.x.1, 0.02), Ok(Fate::Cycle(last)));
+        assert_eq!(short.fate(release - part * cycle.q_max, 0.02), Ok(Fate::Cycle(last)));
     }
-    assert_eq!(short.fate(cycle.x.1, 0.0), Ok(Fate::Cycle(last)));
+    assert_eq!(short.fate(cycle.q_max, 0.0), Ok(Fate::Cycle(last)));
 }
 
 /// A tool whose cut feeds energy into its mode at small velocities.
@@ -205,8 +204,8 @@ fn tool(friction: f64) -> Portrait {
 
 #[test]
 fn however_much_friction_a_mode_has_it_has_an_answer() {
-    use BorderKind::{Cycle, NoBasin, None};
-    let kinds = [0.0, 1.0, 20.0, 1e2, 1e3, 1e4].map(|force| tool(force).border.kind());
+    use Border::{Cycle, NoBasin, None};
+    let kinds = [0.0, 1.0, 20.0, 1e2, 1e3, 1e4].map(|force| tool(force).border);
     assert_eq!(kinds, [NoBasin, Cycle, Cycle, None, None, None]);
 }
 
@@ -215,10 +214,10 @@ fn a_loosened_tolerance_changes_no_margin_by_more_than_it_allows() {
     for speed in [0.1, 0.2, 0.3] {
         let textbook = hopfscope::scene::machine::library::find("textbook").unwrap();
         let belt = Belt { belt_speed: speed, ..textbook.belt.clone() };
-        let exact = portrait(&belt).margin.unwrap();
+        let exact = portrait(&belt).reach.unwrap();
         for tolerance in [1e-12, 1e-8, 1e-6, 1e-4] {
             let subject = Subject { tolerance: Some(tolerance), ..(&belt).into() };
-            let margin = subject.portrait().unwrap().margin.unwrap();
+            let margin = subject.portrait().unwrap().reach.unwrap();
             for (one, other) in [
                 (margin.displacement.0, exact.displacement.0),
                 (margin.displacement.1, exact.displacement.1),
@@ -254,7 +253,7 @@ fn where_motions_run_away_the_search_for_cycles_settles() {
                 friction.stribeck = { rest = 1, kinetic = 0.5, velocity = 0.5 }\n";
     let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
     assert_eq!(found.unresolved, []);
-    let outermost = found.cycles.last().unwrap().x.1;
+    let outermost = found.cycles.last().unwrap().q_max;
     assert_eq!(found.fate(outermost * (1.0 + 1e-9), 0.0), Ok(Fate::Escapes));
     assert!(found.steps < 4000, "{} steps", found.steps);
 }
@@ -272,10 +271,10 @@ fn where_everything_is_carried_off_that_is_the_answer() {
     for damping in [-2.5, -5.0, -50.0] {
         let held = carried_off(damping, 0.05);
         assert_eq!(held.stop, None, "{damping}");
-        assert_eq!(held.margin.unwrap().displacement, (0.05, 0.05), "{damping}");
+        assert_eq!(held.reach.unwrap().displacement, (0.05, 0.05), "{damping}");
         assert_eq!(held.fate(0.05 * (1.0 + 1e-9), 0.0), Ok(Fate::Escapes), "{damping}");
         let free = carried_off(damping, 0.0);
-        assert!(matches!(free.border, MachineBorder::NoBasin) && free.stop.is_none(), "{damping}");
+        assert!(free.border == Border::NoBasin && free.stop.is_none(), "{damping}");
         assert_eq!(free.fate(1e-6, 0.0), Ok(Fate::Escapes), "{damping}");
     }
 }
@@ -292,11 +291,7 @@ fn relaxing(ratio: f64) -> Portrait {
 fn a_mode_far_beyond_critical_damping_has_an_answer() {
     // Overdamped at rest: everything creeps there.
     let found = relaxing(10.0);
-    assert!(
-        found.cycles.is_empty() && matches!(found.border, MachineBorder::None),
-        "{:?}",
-        found.cycles
-    );
+    assert!(found.cycles.is_empty() && found.border == Border::None, "{:?}", found.cycles);
     assert_eq!(found.fate(1e-3, 0.0), Ok(Fate::Rest));
     // Fed as strongly, it relaxes to a cycle: it creeps until feeding and damping cancel at the knee, and then jumps.
     for ratio in [-5.0_f64, -10.0] {
@@ -304,7 +299,7 @@ fn a_mode_far_beyond_critical_damping_has_an_answer() {
         let cycle = found.cycles.iter().find(|cycle| cycle.stable).unwrap();
         // Rayleigh: the knee of 2 ratio w - 2 c w^3 is where w^2 is a third of the value at which both cancel.
         let knee = (-ratio / 2000.0 / 3.0).sqrt();
-        let size = cycle.x.1 / (4.0 / 3.0 * -ratio * knee / found.model.omega_0);
+        let size = cycle.q_max / (4.0 / 3.0 * -ratio * knee / found.model.omega_0);
         assert!((1.0..1.2).contains(&size), "{ratio}: {size}");
     }
 }
@@ -315,8 +310,8 @@ fn what_static_friction_alone_holds_survives_no_kick_along_the_belt() {
     let text = "m = 1\nc = 1\nd1 = 0.08\nF = 4.7\nv0 = 0.06\nR_static = 0.05\n\
                 friction.stribeck = { rest = 0.5, kinetic = 0.2, velocity = 0.1 }\n";
     let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
-    let margin = found.margin.unwrap();
-    assert!(margin.least_velocity() == 0.0 && margin.velocity.0 < 1e-9, "{margin:?}");
+    let margin = found.reach.unwrap();
+    assert!(margin.velocity.1 == 0.0 && margin.velocity.0 < 1e-9, "{margin:?}");
     for displacement in [margin.displacement.0, margin.displacement.1] {
         assert!((displacement / 0.05 - 1.0).abs() < 1e-15, "{margin:?}");
     }
@@ -345,11 +340,11 @@ fn a_mode_that_asymmetric_damping_drives_away_survives_what_the_paper_says() {
                 static_guide: Some(mass * omega * omega * held),
             };
             let found = Subject::from(Body::Mode(mode)).portrait().unwrap();
-            assert_eq!(found.border.kind(), BorderKind::Separatrix, "{d} {d2} {r}");
+            assert_eq!(found.border, Border::Separatrix, "{d} {d2} {r}");
             let parameters = Parameters { d, d2, d3: 0.0, r };
             let paper = basin(&parameters, 20.0 / d2.abs(), &Limits::PATIENT).unwrap();
             let expected = paper.margin_within(held).map(|length| length, |v| mass * omega * v);
-            let least = found.least_kicks();
+            let least = found.margin;
             let close = |one: Option<f64>, other: Option<f64>| {
                 let (one, other) = (one.unwrap(), other.unwrap());
                 (one - other).abs() <= 1e-12 * other.max(r)
@@ -361,7 +356,7 @@ fn a_mode_that_asymmetric_damping_drives_away_survives_what_the_paper_says() {
             assert!(close(rest.displacement, from.displacement), "{rest:?} {from:?}");
             assert!(close(rest.impulse, from.impulse), "{rest:?} {from:?}");
             // Each motion says the same, followed by itself.
-            let margin = found.margin.unwrap();
+            let margin = found.reach.unwrap();
             let (right, left) = margin.displacement;
             for (x, v) in
                 [(right, 0.0), (-left, 0.0), (0.0, margin.velocity.0), (0.0, -margin.velocity.1)]

@@ -2,12 +2,12 @@
 //! of machines, which share no code but elementary functions, are the same within the errors that are told.
 
 use hopfscope::flow::Limits;
-use hopfscope::machine::{BorderKind, Model, Portrait};
+use hopfscope::machine::{Model, Portrait};
 use hopfscope::numerics::random::Random;
 use hopfscope::oscillator::Parameters;
+use hopfscope::portrait::Margin;
 use hopfscope::study::basin::basin;
 use hopfscope::study::cycle::cycles;
-use hopfscope::study::{Edge, Margin};
 
 fn margins(margin: &Margin) -> [Option<f64>; 4] {
     let Margin { displacement, impulse, from_rest } = *margin;
@@ -27,12 +27,12 @@ fn the_oscillator_of_the_paper_and_a_machine_without_a_belt_have_the_same_cycles
         let portrait = Portrait::new(&model.unwrap()).unwrap();
         assert_eq!(found.cycles.len(), portrait.cycles.len(), "{parameters:?}");
         for (one, other) in found.cycles.iter().zip(&portrait.cycles) {
-            let errors = &one.errors;
+            let errors = one.errors.unwrap();
             let numbers = [
-                (one.q_min, other.x.0, errors.q_min),
-                (one.q_max, other.x.1, errors.q_max),
-                (one.v_min, other.v.0, errors.v_min),
-                (one.v_max, other.v.1, errors.v_max),
+                (one.q_min, other.q_min, errors.q_min),
+                (one.q_max, other.q_max, errors.q_max),
+                (one.v_min, other.v_min, errors.v_min),
+                (one.v_max, other.v_max, errors.v_max),
                 (one.period, other.period, errors.period),
             ];
             for (value, same, error) in numbers {
@@ -44,14 +44,9 @@ fn the_oscillator_of_the_paper_and_a_machine_without_a_belt_have_the_same_cycles
             assert_eq!(one.stable, other.stable, "{parameters:?}");
             compared[0] += 1;
         }
-        let border = match found.edge {
-            Edge::None => BorderKind::None,
-            Edge::Cycle => BorderKind::Cycle,
-            Edge::Separatrix => BorderKind::Grazing,
-        };
-        assert_eq!(border, portrait.border.kind(), "{parameters:?}");
+        assert_eq!(found.border, portrait.border, "{parameters:?}");
         let margin = basin(&parameters, 10.0, &Limits::PATIENT).unwrap().margin();
-        for (one, other) in margins(&margin).into_iter().zip(margins(&portrait.least_kicks())) {
+        for (one, other) in margins(&margin).into_iter().zip(margins(&portrait.margin)) {
             assert_eq!(one.is_some(), other.is_some(), "{parameters:?}");
             compared[1 + usize::from(one.is_none())] += 1;
             // From rest, they are differences of lengths of the size of r.

@@ -1,6 +1,7 @@
 //! Properties of all machines, tested on random ones.
 
 use hopfscope::numerics::random::Random;
+use hopfscope::portrait::RestMargin;
 
 use super::*;
 
@@ -76,10 +77,10 @@ fn any_start_ends_where_its_motion_goes() {
             let late = motion.samples(0).into_iter().filter(|state| state.t > 380.0);
             let size = late.map(|state| state.x).fold(0.0, f64::max);
             match (fate, motion.outcome) {
-                (Fate::Cycle(index), Fate::Moving) if found.cycles[index].sticks => {
+                (Fate::Cycle(index), Fate::Moving) if found.cycles[index].sticks() => {
                     let cycle = &found.cycles[index];
                     assert!(
-                        close(size, cycle.x.1, 1e-9),
+                        close(size, cycle.q_max, 1e-9),
                         "{belt:?} from {x}, {v}: {size} {cycle:?}"
                     );
                     followed += 1;
@@ -162,10 +163,13 @@ fn any_kick_below_the_smallest_one_is_survived_from_wherever_the_mass_rests() {
         let Ok(model) = Model::new(&belt) else { continue };
         let Ok(found) = Portrait::new(&model) else { continue };
         let held = model.guide_static;
-        let Some(margin) = found.margin.filter(|_| held > 0.0 && found.stop.is_none()) else {
+        if found.reach.is_none() || held == 0.0 || found.stop.is_some() {
             continue;
-        };
-        let (shift, push) = (margin.rest_displacement, margin.rest_velocity);
+        }
+        let RestMargin { displacement, impulse } = found.margin.from_rest;
+        let infinite = f64::INFINITY;
+        let (shift, push) =
+            (displacement.unwrap_or(infinite), impulse.map_or(infinite, |it| it / model.mass));
         let rests = |from: f64, x: f64, v: f64| {
             MachineMotion::new(&model, from + x, v, 2000.0).outcome == Fate::Rest
         };
@@ -188,7 +192,7 @@ fn any_kick_below_the_smallest_one_is_survived_from_wherever_the_mass_rests() {
                 }
             }
         }
-        assert!(lost.iter().all(|count| *count > 0), "{belt:?}: {margin:?} {lost:?}");
+        assert!(lost.iter().all(|count| *count > 0), "{belt:?}: {:?} {lost:?}", found.margin);
         looked += 1;
     }
     assert!(looked >= 20, "{looked}");

@@ -14,9 +14,9 @@ use crate::numerics::count::real;
 use crate::oscillator::{Parameters, State};
 use crate::picture::items::{Item, LineStyle, Marks, Picture};
 use crate::picture::role::{Dash, Mark, Role};
+use crate::portrait::Border;
 use crate::scene::{Point, Span, Window};
 use crate::study::basin::{Basin, basin};
-use crate::study::cycle::Edge;
 
 /// Draws whose edge of the basin is drawn.
 const EDGES: usize = 20;
@@ -91,7 +91,7 @@ fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
 /// The first border of a basin, thinned, as a curve.
 fn border(found: &Basin, name: &'static str, role: Role, dash: Dash) -> Option<StyledPoints> {
     const COUNT: u16 = 24;
-    if found.edge == Edge::None {
+    if found.border == Border::None {
         return None;
     }
     let points = found.borders.first()?.curve(COUNT);

@@ -11,11 +11,11 @@ use crate::machine::guarantee::MachineUncertain;
 use crate::machine::motion::MachineState;
 use crate::machine::survey::{Course, CubicExpansion, Second};
 use crate::machine::turn::ContactState;
-use crate::machine::{BorderKind, MachineCycle, MachineLedger, Portrait};
+use crate::machine::{MachineLedger, Portrait};
 use crate::oscillator::belt::{Derivatives, FrictionLaw, Units};
 use crate::oscillator::{Belt, Group, Interval, Parameters};
+use crate::portrait::{Border, Cycle, Margin};
 use crate::report::json::text;
-use crate::study::Margin;
 use crate::study::design::{FrictionNeeded, Kick};
 
 #[derive(Serialize)]
@@ -181,23 +181,23 @@ pub(super) struct CycleNumbers {
     multiplier: Option<f64>,
 }
 
-impl From<&MachineCycle> for CycleNumbers {
-    fn from(cycle: &MachineCycle) -> Self {
+impl From<&Cycle> for CycleNumbers {
+    fn from(cycle: &Cycle) -> Self {
         CycleNumbers {
-            x_min: cycle.x.0,
-            x_max: cycle.x.1,
-            v_min: cycle.v.0,
-            v_max: cycle.v.1,
+            x_min: cycle.q_min,
+            x_max: cycle.q_max,
+            v_min: cycle.v_min,
+            v_max: cycle.v_max,
             period: cycle.period,
-            stick_duration: cycle.stick_duration,
-            multiplier: Some(cycle.multiplier).filter(|it| it.is_finite()),
+            stick_duration: cycle.stick_duration(),
+            multiplier: cycle.multiplier,
         }
     }
 }
 
 #[derive(Serialize)]
 struct MachineBorderDocument {
-    kind: BorderKind,
+    kind: Border,
 }
 
 #[derive(Serialize)]
@@ -213,15 +213,14 @@ struct Margins {
 
 impl PortraitDocument {
     pub(super) fn new(portrait: &Portrait) -> Self {
-        let margin = portrait.margin;
         PortraitDocument {
             cycles: portrait.cycles.iter().map(MachineCycleDocument::new).collect(),
             neutral: portrait.neutral,
-            border: MachineBorderDocument { kind: portrait.border.kind() },
+            border: MachineBorderDocument { kind: portrait.border },
             margin: Margins {
-                least: portrait.least_kicks(),
-                displacements: margin.map(|margin| margin.displacement),
-                velocities: margin.map(|margin| margin.velocity),
+                least: portrait.margin,
+                displacements: portrait.reach.map(|reach| reach.displacement),
+                velocities: portrait.reach.map(|reach| reach.velocity),
             },
             limit: portrait
                 .stop
@@ -232,7 +231,7 @@ impl PortraitDocument {
 }
 
 impl MachineCycleDocument {
-    pub(super) fn new(cycle: &MachineCycle) -> Self {
+    pub(super) fn new(cycle: &Cycle) -> Self {
         MachineCycleDocument {
             kind: kind(cycle),
             overtakes: cycle.overtakes,
@@ -244,8 +243,8 @@ impl MachineCycleDocument {
 }
 
 /// `stick-slip` or `slip`.
-pub(super) fn kind(cycle: &MachineCycle) -> &'static str {
-    if cycle.sticks { "stick-slip" } else { "slip" }
+pub(super) fn kind(cycle: &Cycle) -> &'static str {
+    if cycle.sticks() { "stick-slip" } else { "slip" }
 }
 
 #[derive(Serialize)]

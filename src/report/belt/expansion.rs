@@ -3,12 +3,12 @@
 
 use serde::Serialize;
 
+use crate::machine::Portrait;
 use crate::machine::survey::CubicExpansion;
-use crate::machine::{MachineCycle, Portrait};
 use crate::oscillator::Parameters;
 use crate::oscillator::belt::TaylorError;
+use crate::portrait::{Border, Cycle, Margin};
 use crate::study::belt::PhysicalMargin;
-use crate::study::{Cycle, Edge, Margin};
 
 /// The answer of the expansion.
 #[derive(Serialize)]
@@ -18,7 +18,7 @@ pub(super) struct Expansion<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     pub cycles: Vec<ExpandedCycle<'a>>,
-    edge: Option<Edge>,
+    edge: Option<Border>,
     pub margin: Option<ExpandedMargin>,
 }
 
@@ -83,7 +83,7 @@ impl<'a> Expansion<'a> {
         };
         let margin = found.picture.as_ref().map(|picture| {
             let physical = PhysicalMargin::new(&picture.margin, &expansion.reduced.units);
-            let Margin { displacement, impulse, .. } = portrait.least_kicks();
+            let Margin { displacement, impulse, .. } = portrait.margin;
             let excess = |own: Option<f64>, whole: Option<f64>| Some(own? - whole?);
             let error = MarginError {
                 displacement: excess(physical.displacement, displacement),
@@ -93,7 +93,7 @@ impl<'a> Expansion<'a> {
         });
         let cycles = found.cycles.iter();
         let cycles = cycles.map(|cycle| expanded(cycle, expansion, portrait)).collect();
-        Expansion { parameters, reason: None, cycles, edge: Some(found.edge), margin }
+        Expansion { parameters, reason: None, cycles, edge: Some(found.border), margin }
     }
 }
 
@@ -107,13 +107,13 @@ fn expanded<'a>(
     let (v_min, v_max) = (cycle.v_min * units.velocity, cycle.v_max * units.velocity);
     let period = cycle.period * units.time;
     let alike = portrait.cycles.iter().filter(|whole| whole.stable == cycle.stable);
-    let distance = |whole: &MachineCycle| (whole.x.1 - x_max).abs();
+    let distance = |whole: &Cycle| (whole.q_max - x_max).abs();
     let nearest = alike.min_by(|one, other| distance(one).total_cmp(&distance(other)));
     let error = nearest.map(|whole| CycleError {
-        x_min: x_min - whole.x.0,
-        x_max: x_max - whole.x.1,
-        v_min: v_min - whole.v.0,
-        v_max: v_max - whole.v.1,
+        x_min: x_min - whole.q_min,
+        x_max: x_max - whole.q_max,
+        v_min: v_min - whole.v_min,
+        v_max: v_max - whole.v_max,
         period: period - whole.period,
     });
     ExpandedCycle {

@@ -21,7 +21,7 @@ use crate::machine::guarantee::MachineUncertain;
 use crate::machine::survey::{Course, CubicExpansion};
 use crate::machine::{Body, Modal, Tolerances};
 use crate::oscillator::{Belt, Group, Interval, Knob};
-use crate::study::Margin;
+use crate::portrait::Margin;
 use crate::study::design::{FrictionNeeded, Kick};
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;

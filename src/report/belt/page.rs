@@ -73,7 +73,7 @@ pub fn page(
 fn statement<'a>(answer: &MachineAnswer) -> Part<'a> {
     let belt = answer.on_belt.as_ref();
     let certain = belt.and_then(|belt| Some((belt, belt.certain.as_ref()?)));
-    let nominal = answer.course.portrait.least_kicks();
+    let nominal = answer.course.portrait.margin;
     let margin = match certain {
         Some((belt, Err(reason))) => {
             let text = format!("No kick is survived for certain, for {}: {reason}.", allowed(belt));

@@ -4,12 +4,12 @@ use serde::Serialize;
 
 use super::document::{DesignDocument, MachineCost, PortraitDocument};
 use super::{DesignAnswer, Head, PLACES, RestShare};
-use crate::machine::{BorderKind, MachineBorder, Portrait};
+use crate::machine::Portrait;
 use crate::oscillator::Knob;
+use crate::portrait::{Border, Cycle, Margin, RestMargin};
 use crate::report::csv::CsvSheet;
 use crate::report::json::text;
 use crate::report::table::Table;
-use crate::study::margin::{Margin, RestMargin};
 use crate::words::number::duration;
 use crate::words::quantity::with_unit;
 
@@ -82,17 +82,17 @@ pub fn json(sweep: &MachineSweep) -> String {
 /// Where motions end, in a few words.
 fn regime(found: &Portrait) -> String {
     let rest = match found.border {
-        MachineBorder::NoBasin => "no basin",
+        Border::NoBasin => "no basin",
         _ if found.neutral => "periodic",
-        MachineBorder::None if found.margin.is_some() => "all that are known come to rest",
-        MachineBorder::None => "all come to rest",
-        MachineBorder::Separatrix(_) => "basin up to escape",
-        MachineBorder::Cycle(..) => "basin within a cycle",
-        MachineBorder::Grazing(_) if found.border.touches() => "basin up to the belt",
-        MachineBorder::Grazing(_) => "basin up to what the guide holds",
+        Border::Unknown(_) => "all that are known come to rest",
+        Border::None => "all come to rest",
+        Border::Separatrix => "basin up to escape",
+        Border::Cycle => "basin within a cycle",
+        Border::Grazing => "basin up to the belt",
+        Border::Capture => "basin up to what the guide holds",
     };
     let stable = found.cycles.iter().filter(|cycle| cycle.stable);
-    let kinds = stable.map(|cycle| match (cycle.sticks, cycle.overtakes) {
+    let kinds = stable.map(|cycle| match (cycle.sticks(), cycle.overtakes) {
         (false, false) => "slip",
         (true, false) => "stick-slip",
         (false, true) => "overtaking slip",
@@ -123,10 +123,10 @@ pub fn table(sweep: &MachineSweep) -> String {
         let mut cells = vec![with_unit(point.value, PLACES, unit)];
         match &point.found {
             Ok(found) => {
-                let RestMargin { displacement, impulse } = found.least_kicks().from_rest;
-                let sizes = found.cycles.iter().map(|cycle| with_unit(cycle.x.1, PLACES, "m"));
-                let rides = found.cycles.iter().find(|cycle| cycle.sticks);
-                let ride = rides.map(|cycle| with_unit(cycle.stick_duration, PLACES, "s"));
+                let RestMargin { displacement, impulse } = found.margin.from_rest;
+                let sizes = found.cycles.iter().map(|cycle| with_unit(cycle.q_max, PLACES, "m"));
+                let rides = found.cycles.iter().find(|cycle| cycle.sticks());
+                let ride = rides.map(|cycle| with_unit(cycle.stick_duration(), PLACES, "s"));
                 cells.extend([or_all(displacement, "m"), or_all(impulse, "N s")]);
                 cells.push(sizes.collect::<Vec<_>>().join(", "));
                 cells.push(ride.unwrap_or_default());
@@ -164,7 +164,7 @@ struct BeltSweepRow {
     x_max_inner: Option<f64>,
     x_max_outer: Option<f64>,
     stick_duration: Option<f64>,
-    border: Option<BorderKind>,
+    border: Option<Border>,
     neutral: Option<bool>,
     x_margin: Option<f64>,
     impulse_margin: Option<f64>,
@@ -185,15 +185,14 @@ pub fn csv(sweep: &MachineSweep) -> String {
             continue;
         };
         let all = &found.cycles;
-        let Margin { displacement: x_margin, impulse: impulse_margin, from_rest } =
-            found.least_kicks();
+        let Margin { displacement: x_margin, impulse: impulse_margin, from_rest } = found.margin;
         sheet.row(&BeltSweepRow {
             value,
             cycles: Some(all.len()),
-            x_max_inner: all.first().map(|cycle| cycle.x.1),
-            x_max_outer: all.last().map(|cycle| cycle.x.1),
-            stick_duration: all.iter().find(|it| it.sticks).map(|it| it.stick_duration),
-            border: Some(found.border.kind()),
+            x_max_inner: all.first().map(|cycle| cycle.q_max),
+            x_max_outer: all.last().map(|cycle| cycle.q_max),
+            stick_duration: all.iter().find(|it| it.sticks()).map(Cycle::stick_duration),
+            border: Some(found.border),
             neutral: Some(found.neutral),
             x_margin,
             impulse_margin,

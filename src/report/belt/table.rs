@@ -6,17 +6,17 @@ use super::document::kind;
 use super::expansion::Expansion;
 use super::{MachineAnswer, OnBelt, PLACES};
 use crate::flow::Fate;
+use crate::machine::Portrait;
 use crate::machine::guarantee::MachineUncertain;
 use crate::machine::motion::MachineState;
 use crate::machine::stepped::SteppedEnd;
 use crate::machine::survey::{Course, CubicExpansion, Second};
-use crate::machine::{MachineBorder, MachineCycle, Portrait};
 use crate::oscillator::Interval;
 use crate::oscillator::Knob;
 use crate::oscillator::belt::{Derivatives, FrictionLaw};
+use crate::portrait::{Border, Cycle, Margin};
 use crate::report::csv;
 use crate::report::table::{Table, rounded};
-use crate::study::Margin;
 use crate::words::number::{duration, significant};
 use crate::words::quantity::with_unit;
 use crate::words::stability;
@@ -40,7 +40,7 @@ fn rows(
     portrait: &Portrait,
 ) -> Vec<QuantityRow> {
     let (parameters, units) = (&reduced.parameters, &reduced.units);
-    let Margin { displacement, impulse, from_rest } = portrait.least_kicks();
+    let Margin { displacement, impulse, from_rest } = portrait.margin;
     let pure = |what, value| QuantityRow { what, dimensionless: Some(value), physical: None };
     let scaled = |what, value: Option<f64>, scale: f64, unit| QuantityRow {
         what,
@@ -101,7 +101,7 @@ pub fn table(answer: &MachineAnswer) -> String {
 
 /// The kicks that are survived, in two lines.
 fn survived(portrait: &Portrait) -> String {
-    let Margin { displacement, impulse, from_rest } = portrait.least_kicks();
+    let Margin { displacement, impulse, from_rest } = portrait.margin;
     let all = |value: Option<f64>, unit| {
         value.map_or_else(|| "every one".to_owned(), |value| with_unit(value, PLACES, unit))
     };
@@ -154,20 +154,16 @@ pub(super) fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
 /// The border of the basin of rest, in a sentence.
 pub(super) fn border(portrait: &Portrait) -> &'static str {
     match portrait.border {
-        MachineBorder::None if portrait.margin.is_some() => {
-            "every kick within the margin is survived; larger ones are not known"
-        }
-        MachineBorder::None => "every kick is survived: whatever happens, the mass comes to rest",
-        MachineBorder::NoBasin => "no kick is survived, however small: rest repels",
-        MachineBorder::Separatrix(_) => "beyond the margin motions grow without bound",
-        MachineBorder::Cycle(..) => "beyond the margin an unstable cycle is crossed",
-        MachineBorder::Grazing(_) if portrait.neutral => {
+        Border::Unknown(_) => "every kick within the margin is survived; larger ones are not known",
+        Border::None => "every kick is survived: whatever happens, the mass comes to rest",
+        Border::NoBasin => "no kick is survived, however small: rest repels",
+        Border::Separatrix => "beyond the margin motions grow without bound",
+        Border::Cycle => "beyond the margin an unstable cycle is crossed",
+        Border::Grazing | Border::Capture if portrait.neutral => {
             "within the margin every motion is periodic; beyond it the mass sticks to the belt"
         }
-        MachineBorder::Grazing(_) if portrait.border.touches() => {
-            "beyond the margin the mass comes to stick to the belt"
-        }
-        MachineBorder::Grazing(_) => {
+        Border::Grazing => "beyond the margin the mass comes to stick to the belt",
+        Border::Capture => {
             "beyond the margin the guide catches the mass no more, and it is carried off"
         }
     }
@@ -201,7 +197,7 @@ fn margin_rows(what: &'static str, margin: Margin) -> [MarginRow; 2] {
 
 /// The rows of the nominal margins.
 pub(super) fn nominal(portrait: &Portrait) -> [MarginRow; 2] {
-    margin_rows("nominal", portrait.least_kicks())
+    margin_rows("nominal", portrait.margin)
 }
 
 /// The rows of the guaranteed margins, rounded down.
@@ -273,7 +269,7 @@ pub(super) fn gaps(portrait: &Portrait) -> Vec<String> {
 }
 
 /// The table of cycles.
-pub(super) fn cycles(cycles: &[MachineCycle]) -> Table {
+pub(super) fn cycles(cycles: &[Cycle]) -> Table {
     let mut table = Table::new(&[&[""], CYCLE].concat());
     for cycle in cycles {
         table.row(cells(cycle));
@@ -286,16 +282,16 @@ pub(super) const CYCLE: &[&str] =
     &["x from", "to", "v from", "to", "period", "on the belt", "multiplier"];
 
 /// The kind of a cycle, then the cells of these columns.
-pub(super) fn cells(cycle: &MachineCycle) -> Vec<String> {
+pub(super) fn cells(cycle: &Cycle) -> Vec<String> {
     let over = if cycle.overtakes { ", overtaking" } else { "" };
     let mut cells = vec![format!("{} {}{over}", stability(cycle.stable), kind(cycle))];
-    let ([from, to], [slowest, fastest]) = ([cycle.x.0, cycle.x.1], [cycle.v.0, cycle.v.1]);
+    let ([from, to], [slowest, fastest]) = ([cycle.q_min, cycle.q_max], [cycle.v_min, cycle.v_max]);
     let numbers = [(from, "m"), (to, "m"), (slowest, "m/s"), (fastest, "m/s")];
-    let times = [(cycle.period, "s"), (cycle.stick_duration, "s")];
+    let times = [(cycle.period, "s"), (cycle.stick_duration(), "s")];
     cells.extend(
         numbers.into_iter().chain(times).map(|(value, unit)| with_unit(value, PLACES, unit)),
     );
-    cells.push(significant(cycle.multiplier, PLACES));
+    cells.push(significant(cycle.multiplier.unwrap_or(f64::INFINITY), PLACES));
     cells
 }
 
@@ -315,7 +311,7 @@ pub(super) fn fate((x, v): (f64, f64), course: &Course) -> String {
         }
         Fate::Cycle(index) => {
             let cycle = &course.portrait.cycles[index];
-            format!("ends on the {} cycle up to x = {}", kind(cycle), length(cycle.x.1))
+            format!("ends on the {} cycle up to x = {}", kind(cycle), length(cycle.q_max))
         }
         Fate::Neutral => "is periodic, one of a family".to_owned(),
         Fate::Moving => "still moves".to_owned(),
@@ -389,13 +385,13 @@ pub fn csv(answer: &MachineAnswer) -> String {
     for (index, cycle) in portrait.cycles.iter().enumerate() {
         let lead = format!("{} {} cycle {index}", stability(cycle.stable), kind(cycle));
         for (name, value, unit) in [
-            ("x_min", cycle.x.0, "m"),
-            ("x_max", cycle.x.1, "m"),
-            ("v_min", cycle.v.0, "m/s"),
-            ("v_max", cycle.v.1, "m/s"),
+            ("x_min", cycle.q_min, "m"),
+            ("x_max", cycle.q_max, "m"),
+            ("v_min", cycle.v_min, "m/s"),
+            ("v_max", cycle.v_max, "m/s"),
             ("period", cycle.period, "s"),
-            ("stick_duration", cycle.stick_duration, "s"),
-            ("multiplier", cycle.multiplier, ""),
+            ("stick_duration", cycle.stick_duration(), "s"),
+            ("multiplier", cycle.multiplier.unwrap_or(f64::INFINITY), ""),
         ] {
             put(&format!("{lead}: {name}"), None, Some(value), unit);
         }

@@ -11,7 +11,7 @@ use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
 use crate::session::state::starts::{MOST_MOTIONS, Starts};
 use crate::session::state::step_size::decimal_sum;
-use crate::study::{Cycles, Edge};
+use crate::study::Cycles;
 
 /// Clearance of a start relative to that of the border: near enough to stay close for a while, far enough to be
 /// distinguished.
@@ -67,7 +67,7 @@ pub fn beside_edge(session: &mut Session, factor: f64) -> Done {
 
 /// The clearance of the border from the sticking set, and the side (1 or -1) of its turning point.
 fn edge(found: &Cycles) -> Option<(f64, f64)> {
-    if found.edge != Edge::Separatrix {
+    if !found.border.parts_without_cycle() {
         return found.cycles.iter().find(|cycle| !cycle.stable).map(|cycle| (cycle.clearance, 1.0));
     }
     // Motions escape to the side where D2 feeds them: for D2 > 0 to the left, from a turning point on the

@@ -5,14 +5,14 @@
 //! cycles. The end time limits how far a motion is followed, but not what is known of it.
 
 use crate::flow::{Fate, Outcome, Sample, Trajectory};
-use crate::machine::BorderKind;
 use crate::numerics::elementary::hypot;
 use crate::oscillator::Parameters;
+use crate::portrait::{Border, Cycle};
 use crate::question::whole::Course;
 use crate::scene::said::{self, Condition};
 use crate::session::state::session::Session;
 use crate::session::state::setup::Setup;
-use crate::study::{Cycle, Cycles, Edge};
+use crate::study::Cycles;
 
 /// The fate of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,12 +67,12 @@ const RESOLVED: f64 = 1e-6;
 
 /// The verdict on a motion among these cycles; `None` if it is unknown.
 pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
-    match found.edge {
-        _ if !found.cycles.is_empty() && found.edge != Edge::Separatrix => among(found, motion),
-        Edge::None if found.parameters.r > 0.0 => {
+    match found.border {
+        border if border.parts_without_cycle() => beside_separatrix(found, motion),
+        _ if !found.cycles.is_empty() => among(found, motion),
+        Border::None if found.parameters.r > 0.0 => {
             Some(MotionVerdict { end: End::Rests, place: SideOfBorder::Anywhere })
         }
-        Edge::Separatrix => beside_separatrix(found, motion),
         // Without friction, D2 and cycles, damping decides.
         _ => {
             let decays = found.parameters.d > 0.0 && found.parameters.d3 >= 0.0;
@@ -171,14 +171,14 @@ fn of_course(course: &Course, motion: &Trajectory) -> Option<MotionVerdict> {
             let size = |sample: &Sample| hypot(sample.q, sample.v);
             let (first, last) = (motion.samples.first()?, motion.samples.last()?);
             let grows = cycle.stable && size(first) <= size(last);
-            End::Onto { q_max: cycle.x.1 / course.unit, grows }
+            End::Onto { q_max: cycle.q_max / course.unit, grows }
         }
         Fate::Escapes => End::Grows,
         Fate::Neutral | Fate::Moving | Fate::Unknown(_) => return None,
     };
     let place = match (course.border, end) {
-        (BorderKind::Cycle, End::Rests) => SideOfBorder::InsideCycle,
-        (BorderKind::Cycle, _) => SideOfBorder::OutsideCycle,
+        (Border::Cycle, End::Rests) => SideOfBorder::InsideCycle,
+        (Border::Cycle, _) => SideOfBorder::OutsideCycle,
         _ => SideOfBorder::Anywhere,
     };
     Some(MotionVerdict { end, place })
@@ -195,13 +195,13 @@ impl Session {
         let whole = self.kinds().filter(|_| self.draws_whole());
         let cycles = |stable: bool| match whole {
             // Only the unstable cycle that borders the basin counts.
-            Some(kinds) if !stable => kinds.border == BorderKind::Cycle,
+            Some(kinds) if !stable => kinds.border == Border::Cycle,
             Some(kinds) => kinds.cycles.iter().any(|cycle| cycle.stable),
             None => {
                 self.cycles().is_some_and(|it| it.cycles.iter().any(|cycle| cycle.stable == stable))
             }
         };
-        let edge = |edge: Edge| self.cycles().is_some_and(|found| found.edge == edge);
+        let border = self.cycles().map(|found| found.border);
         let end = || self.fate().map(|fate| fate.end);
         match condition {
             Condition::Here => {
@@ -216,13 +216,12 @@ impl Session {
             }
             Condition::Unstable => cycles(false),
             Condition::Stable => cycles(true),
-            Condition::Separatrix => edge(Edge::Separatrix),
+            Condition::Separatrix => border.is_some_and(Border::parts_without_cycle),
             Condition::Safe => {
-                edge(Edge::None) && self.cycles().is_some_and(|found| found.parameters.r > 0.0)
+                matches!(border, Some(Border::None | Border::Unknown(_)))
+                    && self.cycles().is_some_and(|found| found.parameters.r > 0.0)
             }
-            Condition::Sticks => {
-                whole.is_some_and(|kinds| kinds.cycles.iter().any(|cycle| cycle.sticks))
-            }
+            Condition::Sticks => whole.is_some_and(|kinds| kinds.cycles.iter().any(Cycle::sticks)),
             Condition::Compares(symbol, relation, number) => {
                 relation.holds(self.value(symbol), number)
             }

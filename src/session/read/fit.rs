@@ -99,7 +99,7 @@ pub(in crate::session) fn awaited(session: &Session, plot: usize) -> Option<Requ
 fn speeds(session: &Session, plot: usize) -> Option<Window> {
     let x = session.plots[plot].window.x;
     let points = session.speeds(plot)?.points.iter().filter(|point| x.contains(point.v0));
-    let sizes = points.flat_map(|point| point.cycles.iter().map(|cycle| cycle.x.1));
+    let sizes = points.flat_map(|point| point.cycles.iter().map(|cycle| cycle.q_max));
     let y = Span::covering(sizes.chain([0.0]))?;
     Some(Window { x, y: y.scaled(0.0, ROOM) })
 }

@@ -6,9 +6,9 @@
 use crate::machine;
 use crate::numerics::count::real;
 use crate::oscillator::{Ledger, Parameters, State};
+use crate::portrait::Cycle;
 use crate::scene::Layer;
 use crate::session::state::session::Session;
-use crate::study::Cycle;
 use crate::study::works::works_until;
 
 /// The owner of a part of the ledger.

@@ -36,6 +36,7 @@ use crate::flow::{Cost, Limits, Method, Outcome, Problem, Reason, Sample, Trajec
 use crate::numerics::elementary::ln;
 use crate::numerics::twofold::Twofold;
 use crate::oscillator::{Ledger, State};
+use crate::portrait::{Border, Cycle, Margin};
 use crate::proof::{ParameterBox, Proof};
 use crate::question;
 use crate::question::speeds::Speeds;
@@ -47,9 +48,7 @@ use crate::study::chart::Chart;
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::stability::Share;
 use crate::study::trade::{Trade, TradePoint};
-use crate::study::{
-    BasinPicture, Branch, BranchPoint, Cycle, Cycles, Edge, Margin, ReturnMap, Special, SpecialKind,
-};
+use crate::study::{BasinPicture, Branch, BranchPoint, Cycles, ReturnMap, Special, SpecialKind};
 
 /// A session whose questions are answered as soon as they are asked.
 struct Trial {
@@ -177,8 +176,8 @@ fn cycle(stable: bool, r: f64) -> Cycle {
         log_multiplier: if stable { ln(0.5) } else { ln(2.0) },
         clearance,
         log_clearance: ln(clearance),
-        error: 0.0,
-        errors: crate::study::cycle::CycleErrors::default(),
+        error: Some(0.0),
+        ..Cycle::default()
     }
 }
 
@@ -250,11 +249,11 @@ pub fn by_hand(request: &Request) -> Answer {
                 parameters: *parameters,
                 cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
                 harmonic: Vec::new(),
-                edge: Edge::Cycle,
+                border: Border::Cycle,
                 picture: Some(BasinPicture {
                     curves: Vec::new(),
                     works: vec![Ledger { linear: 1.0, friction: -1.0, ..Ledger::default() }; 2],
-                    edge: Vec::new(),
+                    border: Vec::new(),
                     margin: Margin::ENDLESS,
                     area: None,
                     lyapunov_share: None,

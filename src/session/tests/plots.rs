@@ -2,9 +2,10 @@
 
 use super::Trial;
 use crate::oscillator::State;
+use crate::portrait::{Border, Margin};
 use crate::scene::{Answer, Point, Span, Topic, Window};
 use crate::session::Framing;
-use crate::study::{BasinPicture, Cycles, Edge, Margin};
+use crate::study::{BasinPicture, Cycles};
 
 #[test]
 fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
@@ -158,14 +159,14 @@ fn a_separatrix_has_two_sides_too() {
         let mut trial = Trial::open("escape");
         let found = cycles(&mut trial);
         found.parameters.d2 = d2;
-        found.edge = Edge::Separatrix;
+        found.border = Border::Separatrix;
         found.cycles.clear();
         let margin = Margin { displacement: Some(1.1), impulse: Some(1.4), ..Margin::ENDLESS };
         let (curves, edge) = (Vec::new(), Vec::new());
         found.picture = Some(BasinPicture {
             curves,
             works: Vec::new(),
-            edge,
+            border: edge,
             margin,
             area: None,
             lyapunov_share: None,

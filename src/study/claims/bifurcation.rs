@@ -14,7 +14,7 @@ use crate::closed_form::harmonic::{Harmonic, amplitudes, mean as harmonic_mean};
 use crate::flow::Reason;
 use crate::numerics::elementary::ln;
 use crate::oscillator::Parameters;
-use crate::study::Edge;
+use crate::portrait::Border;
 use crate::study::cycle::cycles as all;
 use crate::study::fold::fold;
 
@@ -124,7 +124,7 @@ pub const CLAIMS: &[Claim] = &[
             for d2 in [0.2, 1.0] {
                 for d in [0.01, 0.1, 0.5] {
                     let parameters = oscillator(d, d2, 0.0, 0.1);
-                    cases.push((place(&parameters), edge(&parameters, limits)?.is(Edge::None)));
+                    cases.push((place(&parameters), edge(&parameters, limits)?.is(Border::None)));
                 }
             }
             Ok(Finding::always(cases))
@@ -198,7 +198,7 @@ pub const CLAIMS: &[Claim] = &[
                 for d3 in [-0.5, 0.0, 0.5] {
                     for d in [-0.8, -0.4, -0.05, -0.01] {
                         let parameters = oscillator(d, d2, d3, 0.1);
-                        let separatrix = edge(&parameters, limits)?.is(Edge::Separatrix);
+                        let separatrix = edge(&parameters, limits)?.is(Border::Separatrix);
                         cases.push((place(&parameters), separatrix.is(false)));
                     }
                 }

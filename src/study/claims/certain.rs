@@ -6,10 +6,9 @@ use std::ops::Deref;
 use super::known::{Known, KnownAnswer, POOR, Sense};
 use crate::numerics::Interval;
 use crate::oscillator::{Parameters, State};
+use crate::portrait::{Border, Cycle};
 use crate::proof::motion::{ProvedFate, ProvedMotion, follow};
 use crate::proof::{Enclosure, ParameterBox};
-use crate::study::Edge;
-use crate::study::cycle::Cycle;
 
 /// What is certain about a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,16 +139,16 @@ impl AllFound {
 
 /// What borders a basin, and whether that is proved.
 #[derive(Clone, Copy, Debug)]
-pub struct CertainEdge {
-    pub edge: Edge,
+pub struct CertainBorder {
+    pub border: Border,
     /// Whether it is proved.
     pub certain: bool,
 }
 
-impl CertainEdge {
+impl CertainBorder {
     /// Whether it is of a kind.
-    pub fn is(self, edge: Edge) -> KnownAnswer {
-        KnownAnswer { holds: self.edge == edge, certain: self.certain }
+    pub fn is(self, border: Border) -> KnownAnswer {
+        KnownAnswer { holds: self.border == border, certain: self.certain }
     }
 }
 

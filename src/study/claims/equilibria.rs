@@ -13,11 +13,11 @@ use crate::flow::{Limits, Outcome, Reason};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{exp, hypot};
 use crate::oscillator::{HalfPlane, Parameters, Side, State};
+use crate::portrait::Margin;
 use crate::proof::kicks::kicks;
 use crate::proof::motion::ProvedFate;
 use crate::proof::{ParameterBox, prove};
 use crate::study::basin::basin;
-use crate::study::margin::Margin;
 
 pub const CLAIMS: &[Claim] = &[
     Claim {

@@ -12,9 +12,8 @@ use crate::flow::{Limits, Reason};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{atan, atan2, exp, sin, sin_cos};
 use crate::oscillator::{Parameters, State};
+use crate::portrait::{Border, Cycle};
 use crate::proof::Enclosure;
-use crate::study::Edge;
-use crate::study::cycle::Cycle;
 
 pub const CLAIMS: &[Claim] = &[
     Claim {
@@ -26,10 +25,10 @@ pub const CLAIMS: &[Claim] = &[
         check: |limits| {
             let parameters = oscillator(-0.02, 0.5, 0.0, 0.1);
             let found = edge(&parameters, limits)?;
-            let cycles = f64::from(u8::from(found.edge == Edge::Cycle));
+            let cycles = f64::from(u8::from(found.border == Border::Cycle));
             let at = format!("{}, where starts beyond a finite border escape", place(&parameters));
             // A basin without a border would need none.
-            let needed = f64::from(u8::from(found.edge != Edge::None));
+            let needed = f64::from(u8::from(found.border != Border::None));
             let bounds = found.certain.then_some(Interval::point(cycles));
             Ok(Finding::equal(needed, Known::exact(cycles).within(bounds)).at(at))
         },
@@ -123,7 +122,7 @@ pub const CLAIMS: &[Claim] = &[
                 let cycle = smallest(&parameters, limits)?;
                 // An exponential has as many times the relative error of its exponent, 70 at D = -0.999.
                 let exponent = 1.0 + PI * d.abs() / (1.0 - d * d).sqrt();
-                let error = cycle.error + exponent * 1e-14;
+                let error = cycle.error.unwrap_or(f64::INFINITY) + exponent * 1e-14;
                 let bounds = cycle.bounds.map(|it| it.clearance);
                 let computed = Known::relative(cycle.clearance, error).within(bounds);
                 Ok(Finding::equal(LinearSwing::new(d).clearance(), computed).at(place(&parameters)))

@@ -3,22 +3,21 @@
 //! A motion is integrated by two methods that share nothing but the field, and the error is what they
 //! differ by. Cycles come from the general search, also where a closed form exists.
 
-use super::certain::{AllFound, BoundedCycle, CertainEdge, enclosed, enclosed_state};
+use super::certain::{AllFound, BoundedCycle, CertainBorder, enclosed, enclosed_state};
 pub use super::known::Known;
 use super::known::KnownAnswer;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason};
 use crate::numerics::Interval;
 use crate::oscillator::{Knob, Parameters, Side, State};
+use crate::portrait::{Border, Cycle};
 use crate::proof::motion::ProvedFate;
 use crate::proof::range::change_within;
 use crate::proof::{Enclosure, ParameterBox, kicks, prove};
-use crate::study::Edge;
 use crate::study::arc::{Arc, Direction};
 use crate::study::basin::basin;
 use crate::study::closing::Equation;
 use crate::study::closings::closings;
-use crate::study::cycle::Cycle;
 use crate::study::half_map::Length;
 use crate::study::proved::matching;
 
@@ -31,7 +30,8 @@ pub fn of_cycle(
     value: f64,
     bounds: impl Fn(&Enclosure) -> Interval,
 ) -> Known {
-    Known::relative(value, cycle.error + ROUNDED).within(cycle.bounds.as_ref().map(bounds))
+    Known::relative(value, cycle.error.unwrap_or(f64::INFINITY) + ROUNDED)
+        .within(cycle.bounds.as_ref().map(bounds))
 }
 
 /// An oscillator, in the order of the equation.
@@ -204,15 +204,16 @@ pub fn beside_proof(parameters: &Parameters, found: Vec<Cycle>) -> AllFound {
 }
 
 /// What borders the basin. Fails with the [`Reason`] why a border could not be computed.
-pub fn edge(parameters: &Parameters, limits: &Limits) -> Result<CertainEdge, Reason> {
-    let found = basin(parameters, 10.0, limits)?.edge;
+pub fn edge(parameters: &Parameters, limits: &Limits) -> Result<CertainBorder, Reason> {
+    let found = basin(parameters, 10.0, limits)?.border;
     let proved = kicks::edge(&prove(&ParameterBox::from(parameters), &[]));
     let certain = match found {
-        Edge::None => proved == Some(kicks::ProvedEdge::None),
-        Edge::Cycle => proved == Some(kicks::ProvedEdge::Cycle),
-        Edge::Separatrix => proved == Some(kicks::ProvedEdge::Separatrix),
+        Border::None => proved == Some(kicks::ProvedEdge::None),
+        Border::Cycle => proved == Some(kicks::ProvedEdge::Cycle),
+        Border::Separatrix => proved == Some(kicks::ProvedEdge::Separatrix),
+        _ => false,
     };
-    Ok(CertainEdge { edge: found, certain })
+    Ok(CertainBorder { border: found, certain })
 }
 
 /// The value of D at which cycles vanish, `found` being where the search says so: enclosed to a thousandth.

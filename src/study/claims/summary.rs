@@ -8,7 +8,7 @@ use crate::flow::{Limits, Reason};
 use crate::numerics::Interval;
 use crate::numerics::elementary::log2;
 use crate::oscillator::Parameters;
-use crate::study::Edge;
+use crate::portrait::Border;
 
 pub const CLAIMS: &[Claim] = &[
     Claim {
@@ -76,7 +76,7 @@ pub const CLAIMS: &[Claim] = &[
             for d3 in [-0.5, 0.0, 0.5] {
                 for d in [0.01, 0.1, 0.5] {
                     let parameters = oscillator(d, 0.0, d3, 0.1);
-                    let infinite = edge(&parameters, limits)?.is(Edge::None);
+                    let infinite = edge(&parameters, limits)?.is(Border::None);
                     cases.push((place(&parameters), infinite.is(d3 >= 0.0)));
                 }
             }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::lattice::all_parameters;
 use crate::flow::{Cost, Limits, Reason};
 use crate::oscillator::Parameters;
-use crate::study::Cycle;
+use crate::portrait::Cycle;
 use crate::study::closed_pair::Closing;
 use crate::study::closing::{Equation, Route};
 use crate::study::closings::{STEP, all_closings};

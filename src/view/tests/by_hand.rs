@@ -4,6 +4,7 @@ use crate::flow::{Cost, Crossing, Limits, Outcome, Problem, Sample, Trajectory};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{cos, ln, sin, sin_cos};
 use crate::oscillator::{Knob, Ledger, Parameters, State};
+use crate::portrait::{Border, Cycle, Margin, RestMargin};
 use crate::proof::cycles::ProvedCycle;
 use crate::proof::{ParameterBox, Proof};
 use crate::question;
@@ -13,14 +14,12 @@ use crate::scene::library::find;
 use crate::scene::{Answer, Layer, Request};
 use crate::session::{Key, Msg, Session, Size, update};
 use crate::study::chart::{Band, Chart, ChartLine, Plane};
-use crate::study::margin::RestMargin;
 use crate::study::measure::Value;
 use crate::study::regime::Regime;
 use crate::study::scan::ScanRow;
 use crate::study::trade::Trade;
 use crate::study::{
-    BasinPicture, Branch, BranchPoint, Cycle, Cycles, Edge, Margin, Return, ReturnMap, Special,
-    SpecialKind,
+    BasinPicture, Branch, BranchPoint, Cycles, Return, ReturnMap, Special, SpecialKind,
 };
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
@@ -65,7 +64,7 @@ pub(super) fn by_hand(request: &Request) -> Answer {
             let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];
             Answer::Cycles(Cycles {
                 parameters: *parameters,
-                edge: Edge::Cycle,
+                border: Border::Cycle,
                 harmonic: Vec::new(),
                 cost: Cost { evaluations: 1_200, steps: 60, rejected: 0 },
                 cycles,
@@ -139,7 +138,7 @@ fn margin(radius: f64) -> Margin {
     Margin { displacement: Some(radius), impulse: Some(radius), from_rest }
 }
 
-pub(super) fn picture(edge: Vec<State>, curves: Vec<Vec<State>>) -> BasinPicture {
+pub(super) fn picture(border: Vec<State>, curves: Vec<Vec<State>>) -> BasinPicture {
     let margin = margin(0.5);
     let ledger = Ledger {
         start: 0.72,
@@ -151,7 +150,7 @@ pub(super) fn picture(edge: Vec<State>, curves: Vec<Vec<State>>) -> BasinPicture
         residual: 3e-15,
     };
     let works = curves.iter().map(|_| ledger).collect();
-    BasinPicture { curves, works, edge, margin, area: Some(0.8), lyapunov_share: Some(0.3) }
+    BasinPicture { curves, works, border, margin, area: Some(0.8), lyapunov_share: Some(0.3) }
 }
 
 /// A motion that winds inwards and comes to rest after three half swings.
@@ -192,8 +191,8 @@ pub(super) fn cycle(radius: f64, stable: bool) -> Cycle {
         log_multiplier: if stable { -710.0 } else { ln(3.8) },
         clearance: radius - 0.1,
         log_clearance: ln(radius - 0.1),
-        error: 1e-14,
-        errors: crate::study::cycle::CycleErrors::default(),
+        error: Some(1e-14),
+        ..Cycle::default()
     }
 }
 

@@ -21,7 +21,7 @@ use crate::oscillator::{Parameters, Side, State};
 
 /// An orbit that parts the plane: an upper and a lower arc over the displacement.
 #[derive(Clone, Debug)]
-pub struct Border {
+pub struct Orbit {
     /// Above `v = 0`.
     pub upper: Arc,
     /// Below `v = 0`.
@@ -29,12 +29,12 @@ pub struct Border {
     closed: bool,
 }
 
-impl Border {
+impl Orbit {
     /// The border of two arcs, the first of them on `side`; `closed` says whether it is a cycle.
     pub fn of(side: Side, [first, second]: [Arc; 2], closed: bool) -> Self {
         match side {
-            Side::Upper => Border { upper: first, lower: second, closed },
-            Side::Lower => Border { upper: second, lower: first, closed },
+            Side::Upper => Orbit { upper: first, lower: second, closed },
+            Side::Lower => Orbit { upper: second, lower: first, closed },
         }
     }
 
@@ -62,7 +62,7 @@ impl Border {
         let arc = |of, side, start, next| attracting(of, side, (start, next), repels, limits);
         let [own, other] = parameters;
         let arcs = [arc(own, side, first, second)?, arc(other, side.opposite(), second, first)?];
-        Ok(Border::of(side, arcs, true))
+        Ok(Orbit::of(side, arcs, true))
     }
 
     /// The border between capture and the rest where no cycle is one; `reach` is the largest displacement
@@ -88,7 +88,7 @@ impl Border {
         }
         let out = arc(braking.opposite(), far)?;
         let before = arc(braking, out.clearance().unwrap_or(Length::ZERO))?;
-        Ok(Border::of(braking, [before, out], false))
+        Ok(Orbit::of(braking, [before, out], false))
     }
 
     /// The border where the end points of the sticking set repel: from the clearances 0 outwards, until
@@ -117,7 +117,7 @@ impl Border {
             change = f64::max(of_upper, of_lower);
             if change <= SAME {
                 let closed = captured.iter().all(Option::is_some);
-                return Ok(Border { upper, lower, closed });
+                return Ok(Orbit { upper, lower, closed });
             }
         }
         Err(Reason::NoConvergence { sought: "the border of the basin", change })

@@ -1,0 +1,146 @@
+//! A limit cycle.
+
+use serde::Serialize;
+
+use crate::closed_form::piecewise_linear::LinearCycle;
+use crate::numerics::elementary::exp_m1;
+
+/// A limit cycle: of the paper's oscillator without units, of a machine in SI units.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Cycle {
+    /// Whether it attracts.
+    pub stable: bool,
+    /// Left turning point.
+    pub q_min: f64,
+    /// Right turning point.
+    pub q_max: f64,
+    /// Smallest velocity.
+    pub v_min: f64,
+    /// Largest velocity.
+    pub v_max: f64,
+    /// Period.
+    pub period: f64,
+    /// Floquet multiplier; `None` where it overflows.
+    pub multiplier: Option<f64>,
+    /// Natural logarithm of the multiplier.
+    pub log_multiplier: f64,
+    /// `q_max - r`, to full relative precision; 0 where it underflows.
+    pub clearance: f64,
+    /// Natural logarithm of the clearance.
+    pub log_clearance: f64,
+    /// Largest relative error of these numbers, where one is known. A multiplier that under- or overflows counts by
+    /// its logarithm.
+    pub error: Option<f64>,
+    /// The error of each.
+    pub errors: Option<CycleErrors>,
+    /// Where and how long the mass rides on the belt; `None` of a cycle that only slips.
+    #[serde(skip)]
+    pub ride: Option<Ride>,
+    /// Whether it overtakes the belt.
+    #[serde(skip)]
+    pub overtakes: bool,
+}
+
+/// A ride on the belt, once a turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ride {
+    /// Displacement at which it begins.
+    pub from: f64,
+    /// Displacement at which it ends.
+    pub to: f64,
+    /// Its duration.
+    pub duration: f64,
+}
+
+/// Bounds on the absolute errors of the numbers of a cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct CycleErrors {
+    /// Of the left turning point.
+    pub q_min: f64,
+    /// Of the right turning point.
+    pub q_max: f64,
+    /// Of the smallest velocity.
+    pub v_min: f64,
+    /// Of the largest velocity.
+    pub v_max: f64,
+    /// Of the period.
+    pub period: f64,
+    /// Of the logarithm of the multiplier: a relative error of the multiplier.
+    pub log_multiplier: f64,
+    /// Of the logarithm of the clearance: a relative error of the clearance.
+    pub log_clearance: f64,
+}
+
+impl Cycle {
+    /// Whether the mass sticks to the belt for part of the time.
+    #[must_use]
+    pub fn sticks(&self) -> bool {
+        self.ride.is_some()
+    }
+
+    /// Time per period on the belt.
+    #[must_use]
+    pub fn stick_duration(&self) -> f64 {
+        self.ride.map_or(0.0, |ride| ride.duration)
+    }
+
+    /// Whether it is followed backward in time, in which direction it attracts.
+    #[must_use]
+    pub fn is_followed_backward(&self) -> bool {
+        !self.stable && !self.sticks() && !self.overtakes
+    }
+
+    /// Whether its multiplier is far below the 1 at which two cycles meet.
+    pub fn is_stable_beyond_doubt(&self) -> bool {
+        /// Where two cycles meet, the logarithm vanishes to about half of the digits.
+        const FAR: f64 = -1.0;
+        self.log_multiplier < FAR
+    }
+}
+
+impl From<&LinearCycle> for Cycle {
+    /// The cycle of the piecewise linear oscillator, in closed form.
+    fn from(cycle: &LinearCycle) -> Self {
+        Cycle {
+            stable: false,
+            q_min: -cycle.q_max,
+            q_max: cycle.q_max,
+            v_min: -cycle.v_max,
+            v_max: cycle.v_max,
+            period: cycle.period,
+            multiplier: cycle.multiplier,
+            log_multiplier: cycle.log_multiplier,
+            clearance: cycle.clearance,
+            log_clearance: cycle.log_clearance,
+            ..Cycle::default()
+        }
+        .rounded(CycleErrors::default())
+    }
+}
+
+impl Cycle {
+    /// With these errors, the rounding of each number itself added, and the largest relative one.
+    pub(crate) fn rounded(self, mut errors: CycleErrors) -> Self {
+        let rounded = |value: f64| 2.0 * f64::EPSILON * value.abs();
+        let lengths = [
+            (&mut errors.q_min, self.q_min),
+            (&mut errors.q_max, self.q_max),
+            (&mut errors.v_min, self.v_min),
+            (&mut errors.v_max, self.v_max),
+            (&mut errors.period, self.period),
+        ];
+        let mut largest = 0.0_f64;
+        for (error, value) in lengths {
+            *error += rounded(value);
+            largest = largest.max(*error / value.abs());
+        }
+        errors.log_multiplier += rounded(self.log_multiplier);
+        errors.log_clearance += rounded(self.log_clearance.abs().max(1.0));
+        let multiplier = match self.multiplier {
+            Some(multiplier) if multiplier.is_normal() => exp_m1(errors.log_multiplier),
+            _ => errors.log_multiplier / self.log_multiplier.abs(),
+        };
+        let error = largest.max(errors.log_clearance).max(multiplier);
+        Cycle { error: Some(error), errors: Some(errors), ..self }
+    }
+}
