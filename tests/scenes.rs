@@ -298,7 +298,7 @@ fn no_text_contradicts_what_is_on_show_anywhere_in_the_ranges_of_its_scene() {
     ];
     let mut checked = std::collections::BTreeSet::new();
     for scene in hopfscope::scene::library() {
-        let said = [scene.look.as_str(), &scene.press].join(" ");
+        let said = [scene.watch.as_str(), &scene.press].join(" ");
         let declared = |name: &&(&str, &[f64])| match Knob::named(name.0, &[Group::Motion]).ok() {
             Some(symbol) => scene.declares(symbol),
             None => scene.machine.is_some(),
@@ -383,10 +383,10 @@ fn inside_both_models_agree_about_rest() {
 #[test]
 fn a_text_about_a_start_disappears_with_it() {
     let here = Stage::open("plain");
-    assert!(here.0.said(&here.0.scene.look).contains("so the swings grow"));
+    assert!(here.0.said(&here.0.scene.watch).contains("so the swings grow"));
     let inside = here.press("<right*5>");
     assert!(inside.is_captured());
-    let text = inside.0.said(&inside.0.scene.look);
+    let text = inside.0.said(&inside.0.scene.watch);
     assert!(!text.contains("grow") && text.contains("comes to rest"), "{text}");
 }
 

@@ -74,7 +74,7 @@ impl Explore {
         let play = self.play.as_deref().map(played).transpose()?.unwrap_or_default();
         // The terminal reports its size before the first picture is drawn.
         let mut session = Session::new(scene, Size { width: 80, height: 24 });
-        session.look = self.looks.wishes(&config);
+        session.display = self.looks.wishes(&config);
         session.keymap = Arc::new(config.keymap);
         session.notice = session.unlikely_number().map(|text| Notice { error: false, text });
         let last = self.last.then(last).transpose()?;
@@ -138,7 +138,7 @@ pub fn go(
         session.notice = welcome.or(session.notice);
     }
     let files = Files { copies: memory.as_ref().map(Memory::copies), may_play_write };
-    let mouse = session.look.mouse;
+    let mouse = session.display.mouse;
     let keep = memory.as_ref().map(Memory::keep);
     let last = memory.as_ref().map(Memory::last);
     let replay = (!play.is_empty()).then(|| Script::of(play.to_vec()));

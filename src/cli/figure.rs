@@ -96,7 +96,7 @@ pub fn completed(scene: Arc<Scene>) -> Result<(Session, Vec<usize>), Failure> {
 
 /// Every plot, one above the other.
 fn in_letters(session: &Session) -> String {
-    let look = Look::new(session.look);
+    let look = Look::new(session.display);
     let Size { width, height } = session.size;
     let panels = view::panels(session, (width, height), &look);
     let parts: Vec<String> = panels.iter().map(screen::text).collect();

@@ -76,8 +76,8 @@ impl Arguments {
         let (width, height) = self.size;
         let mut session = Session::new(self.start.scene()?, Size { width, height });
         // With the user's own settings the same file could show different screens.
-        session.look = self.looks.wishes(&Config::default());
-        let theme = session.look.theme;
+        session.display = self.looks.wishes(&Config::default());
+        let theme = session.display.theme;
         let size = ratatui::layout::Size { width, height };
         let played =
             play(Explorer::new(session, anywhere()), answer, script, size, self.allow_write)

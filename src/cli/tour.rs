@@ -26,7 +26,7 @@ impl Arguments {
     pub fn run(&self) -> Result<ExitCode, Failure> {
         let config = self.settings.read()?;
         let mut session = Session::new(plain(), Size { width: 80, height: 24 });
-        session.look = self.looks.wishes(&config);
+        session.display = self.looks.wishes(&config);
         session.keymap = Arc::new(config.keymap);
         go(session, &[Instruction::Run("tour".to_owned())], None, false)
     }

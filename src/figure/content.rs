@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::oscillator::{Parameters, State};
 use crate::picture::items::{self, Caption};
-use crate::picture::map::Map;
+use crate::picture::map::ScanMap;
 use crate::picture::role::{self, Role};
 use crate::picture::ticks::Scale;
 use crate::scene::{Point, Window};
@@ -54,7 +54,7 @@ pub struct Panel {
     pub marks: Vec<MarkedPoint>,
     /// What is behind all lines, where the plot is a map.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub map: Option<Map>,
+    pub map: Option<ScanMap>,
     /// What stands beside the axes: where they are logarithmic, the quantities themselves.
     #[serde(skip)]
     pub names: [String; 2],

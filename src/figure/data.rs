@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::content::{Area, Figure, FigureCurve};
-use crate::picture::map::{Map, MapCell};
+use crate::picture::map::{MapCell, ScanMap};
 use crate::report::csv::CsvSheet;
 use crate::report::json::text;
 use crate::words::printable;
@@ -25,7 +25,7 @@ pub fn csv(figure: &Figure) -> String {
     let value = map.then_some(MapCell::Number(0.0));
     let mut sheet = CsvSheet::like(&PointRow { value, ..PointRow::default() }, &[]);
     for (panel, shown) in (1..).zip(&figure.panels) {
-        if let Some(Map { name, x, y, values, .. }) = &shown.map {
+        if let Some(ScanMap { name, x, y, values, .. }) = &shown.map {
             for (x, column) in x.iter().zip(values) {
                 for (y, value) in y.iter().zip(column) {
                     let row = PointRow { kind: "map", number: 1, name, ..PointRow::default() };

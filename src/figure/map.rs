@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use super::ink::shading;
 use super::layout::{Frame, PLOT, Spot};
-use crate::numerics::count::{real, whole};
-use crate::picture::map::{Danger, Map, MapCell};
+use crate::numerics::count::{real, truncated};
+use crate::picture::map::{Danger, MapCell, ScanMap};
 use crate::picture::role::Role;
 use crate::scene::Point;
 use crate::words::number::significant;
@@ -44,10 +44,11 @@ fn paint(cell: MapCell, scale: Option<Danger>) -> (String, f64) {
 
 /// The colour of a strength from 0 to 1, as that of one of the steps.
 fn color(strength: f64) -> String {
-    let step = whole(strength * real(STEPS)).min(STEPS - 1);
+    let step = truncated(strength * real(STEPS)).min(STEPS - 1);
     let part = real(step) / real(STEPS - 1);
     let [weak, strong] = ENDS;
-    let mixed = [0, 1, 2].map(|index| whole(weak[index] + part * (strong[index] - weak[index])));
+    let mixed =
+        [0, 1, 2].map(|index| truncated(weak[index] + part * (strong[index] - weak[index])));
     format!("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2])
 }
 
@@ -63,7 +64,7 @@ fn borders(places: &[f64]) -> Vec<f64> {
 }
 
 /// Draws the cells, equal neighbours above each other as one.
-pub(super) fn draw(out: &mut String, map: &Map, frame: Frame) {
+pub(super) fn draw(out: &mut String, map: &ScanMap, frame: Frame) {
     let (across, upward) = (borders(&map.x), borders(&map.y));
     let _ = writeln!(out, "<g shape-rendering=\"crispEdges\" stroke=\"none\">");
     for (column, cells) in across.windows(2).zip(&map.values) {
@@ -87,7 +88,7 @@ pub(super) fn draw(out: &mut String, map: &Map, frame: Frame) {
 
 /// Draws the scale at a place, if the map has numbers: what is measured, the colours, and the numbers that they
 /// stand for.
-pub(super) fn scale(out: &mut String, map: &Map, (x, y): Spot) {
+pub(super) fn scale(out: &mut String, map: &ScanMap, (x, y): Spot) {
     let Some(scale) = map.scale else { return };
     let (width, top) = (PLOT.0, y + 20.0);
     let _ = writeln!(

@@ -10,7 +10,7 @@ use super::observation::{Data, OFFSET, OMEGA0, parameters};
 use super::residuals::autocorrelations;
 use super::sampled::Sampled;
 use super::signal::Signal;
-use crate::numerics::count::{real, whole};
+use crate::numerics::count::{real, truncated};
 use crate::oscillator::{Parameters, State};
 
 /// A point of a curve.
@@ -81,7 +81,7 @@ pub fn memory(estimate: &Estimate) -> Vec<PlotPoint> {
     let step = (t[t.len() - 1] - t[0]) / real(t.len());
     let kept: Vec<f64> = estimate.kept_residuals().collect();
     let periods = 2.0 * TAU / estimate.p[OMEGA0];
-    let most = (whole(periods / step)).clamp(4, (kept.len() / 2).max(4));
+    let most = (truncated(periods / step)).clamp(4, (kept.len() / 2).max(4));
     let lags: Vec<usize> = (1..most).step_by(most.div_ceil(LAGS)).collect();
     let values = autocorrelations(&kept, &lags);
     lags.iter().zip(values).map(|(lag, rho)| [real(*lag) * step, rho]).collect()

@@ -111,7 +111,12 @@ impl Task<'_> {
     ///
     /// # Errors
     /// [`NoFit`] if the motion of the model escapes, or when interrupted.
-    pub fn look(&self, p: &Unknowns, derivatives: bool, runs: &mut Runs) -> Result<Seen, NoFit> {
+    pub fn evaluated(
+        &self,
+        p: &Unknowns,
+        derivatives: bool,
+        runs: &mut Runs,
+    ) -> Result<Seen, NoFit> {
         if (runs.interrupted)() {
             return Err(NoFit::Interrupted);
         }
@@ -200,7 +205,7 @@ impl Task<'_> {
         runs: &mut Runs,
     ) -> Result<Optimum, NoFit> {
         let mut p = guess;
-        let mut seen = self.look(&p, true, runs)?;
+        let mut seen = self.evaluated(&p, true, runs)?;
         if !self.permits(&seen) {
             return Err(NoFit::Lost);
         }
@@ -221,7 +226,7 @@ impl Task<'_> {
                     break None;
                 }
                 let trial: Unknowns = std::array::from_fn(|place| p[place] + step[place]);
-                let found = match self.look(&trial, false, runs) {
+                let found = match self.evaluated(&trial, false, runs) {
                     Err(NoFit::Interrupted) => return Err(NoFit::Interrupted),
                     other => {
                         other.ok().filter(|seen| self.permits(seen)).map(|seen| self.cost(&seen))
@@ -243,7 +248,7 @@ impl Task<'_> {
             let Some((trial, found)) = taken else { break };
             let settled = (cost - found) <= enough * cost;
             (p, cost) = (trial, found);
-            seen = self.look(&p, true, runs)?;
+            seen = self.evaluated(&p, true, runs)?;
             if settled {
                 break;
             }

@@ -17,7 +17,7 @@ use super::observation::{D2, D3, OMEGA0, R, Unknowns, parameters};
 use super::posterior::{Drawn, drawn};
 use super::refit::following;
 use crate::flow::{Limits, Reason};
-use crate::numerics::count::{real, whole};
+use crate::numerics::count::{real, truncated};
 use crate::oscillator::{Interval, ParameterBox, Parameters};
 use crate::portrait::Margin;
 use crate::study::basin::Basin;
@@ -52,7 +52,7 @@ impl MarginQuestion {
     /// The number of effective draws that the quantile takes: ten of them lie beyond it.
     #[must_use]
     pub fn needed(&self) -> usize {
-        whole((10.0 / (1.0 - self.confidence)).round())
+        truncated((10.0 / (1.0 - self.confidence)).round())
     }
 
     /// Whether anything beside the uncertainty of the fit is to be survived.
@@ -320,7 +320,7 @@ fn sorted(values: impl Iterator<Item = Option<f64>>) -> Vec<f64> {
 
 /// The value below which at most this part of the sorted ones lies.
 fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
-    let index = whole(part * real(sorted.len()));
+    let index = truncated(part * real(sorted.len()));
     sorted.get(index.min(sorted.len().saturating_sub(1))).copied().filter(|it| it.is_finite())
 }
 

@@ -132,7 +132,7 @@ impl<'a> Frame<'a> {
         let task = refit.task();
         let columns = estimate.covariance.columns.clone();
         let width = columns.len();
-        let seen = task.look(&estimate.p, true, runs)?;
+        let seen = task.evaluated(&estimate.p, true, runs)?;
         let upper = task.factor(&seen, &columns).view((0, 0), (width, width)).into_owned();
         let lower = upper.transpose();
         let row = |by: &Unknowns| {
@@ -243,7 +243,7 @@ impl<'a> Frame<'a> {
                 return None;
             }
             at[R] = at[R].max(0.0);
-            let seen = self.task.look(&at, true, runs).ok();
+            let seen = self.task.evaluated(&at, true, runs).ok();
             let state = seen.map(|seen| {
                 let (values, by) = self.seen_along(&seen);
                 ((&values - errors).norm_squared() / self.unit, values, by, self.task.cost(&seen))

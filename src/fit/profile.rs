@@ -130,7 +130,7 @@ impl Profile<'_> {
         if p[R] < 0.0 && self.task.free[R] {
             return Ok(false);
         }
-        match self.task.look(&p, false, runs) {
+        match self.task.evaluated(&p, false, runs) {
             Ok(seen) => {
                 let risen = self.task.cost(&seen) - self.optimum.cost;
                 let same = seen.region == self.optimum.seen.region;

@@ -61,7 +61,7 @@ impl<'a> Refit<'a> {
     /// [`NoFit`] if the motion escapes, or when interrupted.
     pub fn cost(&self, p: &Unknowns, runs: &mut Runs) -> Result<f64, NoFit> {
         let task = self.task();
-        Ok(task.cost(&task.look(p, false, runs)?))
+        Ok(task.cost(&task.evaluated(p, false, runs)?))
     }
 
     /// The loss that corresponds to one unit of chi-squared. It is larger for correlated noise, with which larger

@@ -15,7 +15,7 @@ use super::record::Record;
 use super::release::released_before;
 use super::search::Minima;
 use super::spectrum::dominant_frequency;
-use crate::numerics::count::{real, whole};
+use crate::numerics::count::{real, truncated};
 use crate::numerics::elementary::powi;
 
 /// Fits a record of samples. Fails with [`Unfit`].
@@ -184,7 +184,7 @@ fn some_at_rest(problem: &LeastSquares, found: &Minima, enough: f64) -> Vec<bool
         end.map_or(t.len(), |turn| t.partition_point(|&t| t < release + turn.tau / best.p[OMEGA0]));
     let mut some = vec![true; t.len()];
     for stretch in [0..held, rest..t.len()] {
-        let kept = (whole(enough.ceil().min(1e9))).max(FEWEST);
+        let kept = (truncated(enough.ceil().min(1e9))).max(FEWEST);
         let length = stretch.len();
         if length > kept {
             some[stretch.clone()].fill(false);

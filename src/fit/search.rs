@@ -196,7 +196,7 @@ impl LeastSquares<'_> {
             let mut best = (f64::INFINITY, None);
             let plain = beginning.guesses.iter().map(|guess| without(*guess, &[D2, D3], self));
             for guess in beginning.guesses.iter().copied().chain(plain) {
-                if let Ok(seen) = interrupted(task.look(&guess, false, runs))? {
+                if let Ok(seen) = interrupted(task.evaluated(&guess, false, runs))? {
                     let cost = task.cost(&seen);
                     if cost < best.0 {
                         best = (cost, Some(guess));

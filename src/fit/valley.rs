@@ -84,7 +84,7 @@ impl LeastSquares<'_> {
                 });
             }
             for guess in guesses {
-                let Ok(seen) = interrupted(task.look(&guess, false, runs))? else { continue };
+                let Ok(seen) = interrupted(task.evaluated(&guess, false, runs))? else { continue };
                 let within = Task { within: Some(seen.region), ..*task };
                 let Ok(found) = interrupted(within.solve(guess, runs))? else { continue };
                 keep(&mut valleys, found);
@@ -149,7 +149,7 @@ fn beyond_the_rim(
             let p: Unknowns = std::array::from_fn(|place| {
                 optimum.p[place] + further * (beyond[place] - optimum.p[place])
             });
-            let Ok(seen) = interrupted(task.look(&p, false, runs))? else { break };
+            let Ok(seen) = interrupted(task.evaluated(&p, false, runs))? else { break };
             if p[R] > 0.0 && seen.region != optimum.seen.region {
                 found.push(p);
                 break;
@@ -181,7 +181,7 @@ fn along_the_valley(
     for step in parts.chain(errors).flat_map(|step| [step, -step]) {
         let p = way.moved(optimum, step);
         if p[R] > 0.0
-            && let Ok(seen) = interrupted(task.look(&p, false, runs))?
+            && let Ok(seen) = interrupted(task.evaluated(&p, false, runs))?
         {
             closest.see(seen.turns.len(), task.cost(&seen), p);
         }

@@ -3,7 +3,7 @@
 use super::limits::Reason;
 use super::step::{Powers, Step, StepPoint, Stepper};
 use crate::closed_form::linear::Linear;
-use crate::numerics::count::whole;
+use crate::numerics::count::truncated;
 use crate::numerics::quadrature::GAUSS;
 use crate::oscillator::HalfPlane;
 
@@ -104,7 +104,7 @@ impl Stepper for Exact {
     }
 
     fn pieces(&self) -> usize {
-        whole(self.duration.clamp(1.0, MOST_PIECES).ceil())
+        truncated(self.duration.clamp(1.0, MOST_PIECES).ceil())
     }
 
     fn evaluations(&self) -> u64 {

@@ -8,6 +8,6 @@ pub const fn real(count: usize) -> f64 {
 
 /// The integer part of a number; 0 for negative numbers and NaN.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
-pub fn whole(number: f64) -> usize {
+pub fn truncated(number: f64) -> usize {
     number as usize
 }

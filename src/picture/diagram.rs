@@ -15,7 +15,7 @@ use crate::closed_form::harmonic::{
 use crate::numerics::root::bisect;
 use crate::oscillator::{Knob, Parameters};
 use crate::scene::{Axes, Height, Layer, Ordinate, Point};
-use crate::session::{self, Session, Shown};
+use crate::session::{self, Session, ShownMotion};
 use crate::study::{Branch, BranchPoint, Special, SpecialKind};
 use crate::words::number::significant;
 use crate::words::stability;
@@ -41,7 +41,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         .into_iter()
         .filter_map(|(variant, branch)| {
             let height = session.height(index, variant);
-            let Shown { label, present, .. } = all.get(variant)?.clone();
+            let ShownMotion { label, present, .. } = all.get(variant)?.clone();
             let variant = VariantTag { index: variant, label };
             let beside = has_present && !present;
             Some(ComputedBranch { variant, branch, height, present, beside })
@@ -71,7 +71,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
             }
         }
     }
-    let rest = |shown: &Shown| match (shown.present || all.len() == 1, has_present) {
+    let rest = |shown: &ShownMotion| match (shown.present || all.len() == 1, has_present) {
         (true, _) => (equilibria::REST, Dash::Thick),
         (false, true) => ("rest at other values", Dash::Solid),
         (false, false) => (equilibria::REST, Dash::Solid),
@@ -140,7 +140,7 @@ fn held(session: &Session, index: usize) -> Option<Point> {
 /// The asymptotes A1 and A2 (51, 52), their height read out of A0 and A.
 fn asymptotes(
     picture: &mut Picture,
-    shown: &Shown,
+    shown: &ShownMotion,
     variant: &VariantTag,
     abscissa: Knob,
     height: Height,
@@ -170,7 +170,7 @@ fn asymptotes(
 /// over the other parameters each amplitude is a curve of its own.
 fn harmonic(
     picture: &mut Picture,
-    (shown, variant): (&Shown, &VariantTag),
+    (shown, variant): (&ShownMotion, &VariantTag),
     abscissa: Knob,
     height: Height,
     largest: f64,

@@ -6,7 +6,7 @@ use super::phase_plane::AT_REST;
 use super::role::{CycleStyle, Dash, Role, cycle_style};
 use crate::oscillator::{Knob, Parameters};
 use crate::scene::{Height, Ordinate};
-use crate::session::Shown;
+use crate::session::ShownMotion;
 
 /// The name of rest in every diagram.
 pub(super) const REST: &str = "rest (attracts)";
@@ -15,7 +15,7 @@ pub(super) const REST: &str = "rest (attracts)";
 /// rest (its period, its multiplier).
 pub fn draw(
     picture: &mut Picture,
-    (shown, variant): (&Shown, &VariantTag),
+    (shown, variant): (&ShownMotion, &VariantTag),
     (name, dash): (&'static str, Dash),
     abscissa: Knob,
     height: Height,
@@ -61,7 +61,7 @@ pub fn draw(
 }
 
 /// The parameters of a motion, with that of a diagram at `value`.
-pub(super) fn at(shown: &Shown, abscissa: Knob, value: f64) -> Parameters {
+pub(super) fn at(shown: &ShownMotion, abscissa: Knob, value: f64) -> Parameters {
     let (mut parameters, mut initial) = (shown.problem.parameters, shown.problem.initial);
     abscissa.set(&mut parameters, &mut initial, value);
     parameters
@@ -76,7 +76,7 @@ fn is_stable(parameters: &Parameters) -> Option<bool> {
 }
 
 /// The equilibrium at 0 without friction.
-fn point(picture: &mut Picture, shown: &Shown, variant: &VariantTag, abscissa: Knob) {
+fn point(picture: &mut Picture, shown: &ShownMotion, variant: &VariantTag, abscissa: Knob) {
     for stable in [true, false] {
         let (name, dash) = if stable {
             ("rest (stable)", Dash::Thick)

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::fmt;
 
-use super::map::Map;
+use super::map::ScanMap;
 use super::reading::reading;
 use super::role::{Dash, Mark, Role};
 use super::ticks::Scale;
@@ -195,7 +195,7 @@ pub struct Picture<'a> {
     /// What the cursor reads.
     pub reading: Option<String>,
     /// What is behind all items, where the plot is a map.
-    pub map: Option<Map>,
+    pub map: Option<ScanMap>,
     /// From back to front.
     pub items: Vec<Item<'a>>,
 }

@@ -138,7 +138,7 @@ impl Danger {
 
 /// A map over two parameters: cells around the points of a grid.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Map {
+pub struct ScanMap {
     /// What is measured, with its unit.
     pub name: String,
     /// The scale of the numbers; `None` where there are words.
@@ -159,7 +159,7 @@ pub enum MapCell {
     Word(&'static str),
 }
 
-impl Map {
+impl ScanMap {
     /// The map of a scan; of more than two parameters the others stay at their first values.
     pub fn of(scanned: &ScanOnShow) -> Option<Self> {
         let [across, upward, rest @ ..] = scanned.scan.over() else { return None };
@@ -174,7 +174,7 @@ impl Map {
             (Some(none), _) => MapCell::Word(none),
         };
         let cells: Vec<MapCell> = (0..scanned.rows.len()).step_by(stride).map(cell).collect();
-        Some(Map {
+        Some(ScanMap {
             name: with_unit(scanned),
             scale: Danger::of(scanned).filter(|_| !words),
             x: places(across),

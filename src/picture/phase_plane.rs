@@ -20,7 +20,7 @@ use crate::question::Fitted;
 use crate::question::zones::Extent;
 use crate::scene::{Answer, Layer, Point, Topic};
 use crate::session::starts::MOST_MOTIONS;
-use crate::session::{Session, Shown};
+use crate::session::{Session, ShownMotion};
 use crate::study::Cycles;
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
@@ -191,7 +191,7 @@ fn found(session: &Session, topic: Topic, index: usize) -> Vec<(VariantTag, &Ans
 }
 
 /// What a plot shows, each with its variant.
-pub(super) fn variants(shown: &[Shown]) -> impl Iterator<Item = (VariantTag, &Shown)> {
+pub(super) fn variants(shown: &[ShownMotion]) -> impl Iterator<Item = (VariantTag, &ShownMotion)> {
     let all = shown.iter().enumerate();
     all.map(|(index, shown)| (VariantTag { index, label: shown.label.clone() }, shown))
 }
@@ -370,7 +370,7 @@ fn ghost(picture: &mut Picture, session: &Session) {
 
 /// Where motions start and where they are in the end. One of a family that rests from the start is there
 /// for its cycles and has no marks; the present motion that does has the one of its rest.
-fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[Shown]) {
+fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMotion]) {
     let family = session.variants(index).is_some();
     for (place, _, answer) in session.found(Topic::Trajectory, index) {
         if let Answer::Trajectory(found) = answer

@@ -1,7 +1,7 @@
 //! A scan: a curve over one parameter, or a map over two.
 
 use super::items::{LineStyle, Picture};
-use super::map::{Map, measured};
+use super::map::{ScanMap, measured};
 use super::role::{Dash, Role};
 use super::ticks::Scale;
 use crate::scene::Point;
@@ -34,8 +34,8 @@ pub fn draw(picture: &mut Picture, session: &Session) {
     let (x, y) = names(scanned);
     picture.axes(x, y);
     picture.varied = scanned.scan.over().iter().map(|sweep| sweep.symbol).collect();
-    picture.map = Map::of(scanned);
-    if let Some(Map { name, .. }) = picture.map.clone() {
+    picture.map = ScanMap::of(scanned);
+    if let Some(ScanMap { name, .. }) = picture.map.clone() {
         picture.add_to_title(&name);
     } else {
         let line = LineStyle::new(y, Role::Trajectory, Dash::Solid);

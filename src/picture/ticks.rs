@@ -235,8 +235,8 @@ fn label(number: i64, power: i32, largest: i64, signed: bool) -> String {
     if (-4..0).contains(&power) && order < DIGITS {
         let decimals = power.unsigned_abs() as usize;
         let padded = format!("{digits:0>width$}", width = decimals + 1);
-        let (whole, part) = padded.split_at(padded.len() - decimals);
-        return format!("{sign}{whole}.{part}");
+        let (units, part) = padded.split_at(padded.len() - decimals);
+        return format!("{sign}{units}.{part}");
     }
     if (0..DIGITS - 1).contains(&power) && order < DIGITS - 1 {
         return format!("{sign}{digits}{}", "0".repeat(power.unsigned_abs() as usize));

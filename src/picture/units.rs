@@ -18,7 +18,7 @@ const TIMES: AxisUnits = [("t [s]", 1.0), ("t [ms]", 1e3), ("t [us]", 1e6)];
 
 /// The units of the machine or the record in which a session shows its axes.
 pub fn shown(session: &Session) -> Option<Physical> {
-    session.units().filter(|_| !session.look.dimensionless)
+    session.units().filter(|_| !session.display.dimensionless)
 }
 
 /// The scale in the largest unit of which the axis reaches one, when 1 on it is so much in SI units.

@@ -155,7 +155,7 @@ pub fn table(scenes: &[SceneCost]) -> String {
         row("all of it".to_owned(), sum(&found.questions), String::new());
         for step in &found.steps {
             let part = |name: &str, topics: &[Topic]| {
-                (!topics.is_empty()).then(|| format!("{name} {}", named(topics)))
+                (!topics.is_empty()).then(|| format!("{name} {}", named(topics, ", ")))
             };
             let again: Vec<Topic> = step.recomputed.iter().map(|asked| asked.topic).collect();
             let again = part("recomputes", &again);

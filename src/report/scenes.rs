@@ -34,7 +34,7 @@ pub fn json<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
     let document = |scene: &'a Scene, name: &'a str| SceneDocument {
         name,
         title: &scene.title,
-        look: sentence(scene, &scene.look),
+        look: sentence(scene, &scene.watch),
         press: sentence(scene, &scene.press),
         parameters: &scene.problem.parameters,
         initial: &scene.problem.initial,

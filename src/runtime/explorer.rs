@@ -39,7 +39,7 @@ pub struct Explorer {
 impl Explorer {
     /// A session that looks as good as the environment allows.
     pub fn new(session: Session, environment: Environment) -> Explorer {
-        let wishes = session.look;
+        let wishes = session.display;
         let look = Look::new(environment.fit(wishes));
         Explorer { session, environment, wishes, look }
     }
@@ -52,8 +52,8 @@ impl Explorer {
 impl Application for Explorer {
     fn update(&mut self, msg: Msg) -> Vec<Effect> {
         let effects = update(&mut self.session, msg);
-        if self.session.look != self.wishes {
-            self.wishes = self.session.look;
+        if self.session.display != self.wishes {
+            self.wishes = self.session.display;
             self.look = Look::new(self.environment.fit(self.wishes));
         }
         effects

@@ -14,6 +14,7 @@ use super::views::{Layer, View};
 use super::window::{Span, Window};
 use crate::flow::{Method, Problem};
 use crate::oscillator::{Knob, Parameters, State};
+use crate::words::one_of;
 
 /// The file as it is written.
 #[derive(Deserialize)]
@@ -97,7 +98,7 @@ fn scene(name: &str, read: SceneFile) -> Result<Scene, Complaint> {
         name: name.to_owned(),
         also: read.also,
         title: read.title,
-        look: read.look,
+        watch: read.look,
         press: read.press,
         problem,
         steps: steps(&read.steps)?,
@@ -124,11 +125,9 @@ fn scaled(
     speed: Option<&Spanned<f64>>,
 ) -> Result<Box<ScaledMachine>, Complaint> {
     let complain = |message| Complaint { at: name.span(), message };
-    let machine = machine::library::find(name.get_ref()).ok_or_else(|| {
-        let known = machine::library::machines().iter().map(|machine| machine.name.as_str());
-        let known: Vec<&str> = known.collect();
-        complain(format!("no machine {:?}; there are {}", name.get_ref(), known.join(", ")))
-    })?;
+    let known = machine::library::machines().iter();
+    let known = known.map(|machine| (machine.name.as_str(), machine));
+    let machine = one_of("machine", name.get_ref(), known).map_err(complain)?;
     let mut machine = machine.clone();
     if let Some(speed) = speed {
         machine.belt.belt_speed = checked(Knob::BeltSpeed, speed)?;

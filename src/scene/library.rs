@@ -53,7 +53,7 @@ const FILES: [(&str, &str); 32] = [
 ];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Group {
+pub enum SceneGroup {
     /// To learn about the oscillator.
     Lesson,
     /// To see a figure of the paper.
@@ -62,22 +62,22 @@ pub enum Group {
     Machine,
 }
 
-impl Group {
+impl SceneGroup {
     /// The group of a built-in scene.
     pub fn of(scene: &Scene) -> Self {
         match scene.machine {
-            _ if scene.name.starts_with("fig") => Group::Figure,
-            Some(_) => Group::Machine,
-            None => Group::Lesson,
+            _ if scene.name.starts_with("fig") => SceneGroup::Figure,
+            Some(_) => SceneGroup::Machine,
+            None => SceneGroup::Lesson,
         }
     }
 
     /// Its heading in a list.
     pub fn title(self) -> &'static str {
         match self {
-            Group::Lesson => "Lessons",
-            Group::Figure => "Figures of the paper",
-            Group::Machine => "Machines",
+            SceneGroup::Lesson => "Lessons",
+            SceneGroup::Figure => "Figures of the paper",
+            SceneGroup::Machine => "Machines",
         }
     }
 }
@@ -136,11 +136,11 @@ mod tests {
             let number = number.trim_start_matches('0');
             assert!(scene.title.ends_with(&format!(" (Fig. {number})")), "{name}: {}", scene.title);
             let whole = |text: &str| said::said(text, |_| true);
-            let said = format!("{} {}", whole(&scene.look), whole(&scene.press));
+            let said = format!("{} {}", whole(&scene.watch), whole(&scene.press));
             let sources = ["chosen", "paper", "caption"];
             assert!(sources.iter().any(|source| said.contains(source)), "{name}: whose numbers?");
             assert!(scene.press.contains('{'), "{name}: something to press");
-            let sentences = whole(&scene.look).matches(". ").count() + 1;
+            let sentences = whole(&scene.watch).matches(". ").count() + 1;
             assert!((1..=5).contains(&sentences), "{name}: {sentences} sentences");
             // The text mentions what each plot shows.
             let spoken: [(View, &[&str]); 7] = [
@@ -171,7 +171,7 @@ mod tests {
         for (name, text) in FILES {
             let scene = parse(name, name, text).unwrap_or_else(|error| panic!("{error}"));
             assert!(!scene.layers.is_empty(), "{name} shows nothing");
-            for (what, text) in [("look", &scene.look), ("press", &scene.press)] {
+            for (what, text) in [("look", &scene.watch), ("press", &scene.press)] {
                 for sentence in [said::said(text, |_| true), said::said_by(&scene, text)] {
                     assert!(sentence.ends_with('.') && sentence.len() > 20, "{name}: {what}");
                     assert!(!sentence.contains('['), "{name}: {what} has an unknown condition");
@@ -239,7 +239,7 @@ mod tests {
         assert_eq!(found, expected);
         for (scene, also) in both {
             assert!(Arc::ptr_eq(&find(also).unwrap(), scene), "{also}");
-            assert_eq!(Group::of(scene), Group::Lesson, "{also}");
+            assert_eq!(SceneGroup::of(scene), SceneGroup::Lesson, "{also}");
         }
         let all: std::collections::BTreeSet<_> = names().collect();
         assert_eq!(all.len(), names().count(), "each name opens one scene");

@@ -10,7 +10,7 @@ use crate::oscillator::{Group, Knob};
 
 /// A condition of a part of a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Condition {
+pub enum TextCondition {
     /// The numbers are those that the scene opens with.
     Here,
     /// The numbers are those of the machine, at any speed of its belt.
@@ -70,22 +70,22 @@ impl Relation {
 }
 
 /// The conditions by their names in scene files; `two` means a cycle of each kind.
-pub const CONDITIONS: [(&str, &[Condition]); 11] = [
-    ("here", &[Condition::Here]),
-    ("path", &[Condition::Path]),
-    ("opened", &[Condition::Opened]),
-    ("unstable", &[Condition::Unstable]),
-    ("stable", &[Condition::Stable]),
-    ("two", &[Condition::Unstable, Condition::Stable]),
-    ("separatrix", &[Condition::Separatrix]),
-    ("safe", &[Condition::Safe]),
-    ("rests", &[Condition::Rests]),
-    ("grows", &[Condition::Grows]),
-    ("sticks", &[Condition::Sticks]),
+pub const CONDITIONS: [(&str, &[TextCondition]); 11] = [
+    ("here", &[TextCondition::Here]),
+    ("path", &[TextCondition::Path]),
+    ("opened", &[TextCondition::Opened]),
+    ("unstable", &[TextCondition::Unstable]),
+    ("stable", &[TextCondition::Stable]),
+    ("two", &[TextCondition::Unstable, TextCondition::Stable]),
+    ("separatrix", &[TextCondition::Separatrix]),
+    ("safe", &[TextCondition::Safe]),
+    ("rests", &[TextCondition::Rests]),
+    ("grows", &[TextCondition::Grows]),
+    ("sticks", &[TextCondition::Sticks]),
 ];
 
 /// A text without the parts whose conditions do not hold. Brackets without conditions are kept as they are.
-pub fn said(text: &str, holds: impl Fn(Condition) -> bool) -> String {
+pub fn said(text: &str, holds: impl Fn(TextCondition) -> bool) -> String {
     let mut out = String::new();
     let mut rest = text;
     while let Some((before, after)) = rest.split_once('[') {
@@ -115,9 +115,9 @@ pub fn said(text: &str, holds: impl Fn(Condition) -> bool) -> String {
 /// A text as its scene opens; what must be computed is taken not to hold.
 pub fn said_by(scene: &Scene, text: &str) -> String {
     said(text, |condition| match condition {
-        Condition::Here | Condition::Path | Condition::Opened => true,
-        Condition::Shows(layer) => scene.layers.contains(&layer),
-        Condition::Compares(symbol, relation, number) => {
+        TextCondition::Here | TextCondition::Path | TextCondition::Opened => true,
+        TextCondition::Shows(layer) => scene.layers.contains(&layer),
+        TextCondition::Compares(symbol, relation, number) => {
             let problem = &scene.problem;
             relation.holds(problem.get(symbol), number)
         }
@@ -126,21 +126,21 @@ pub fn said_by(scene: &Scene, text: &str) -> String {
 }
 
 /// The conditions with these names; `None` if a name is unknown.
-fn conditions(names: &str) -> Option<Vec<Condition>> {
+fn conditions(names: &str) -> Option<Vec<TextCondition>> {
     let known = |name: &str| {
         let row = CONDITIONS.iter().find(|row| row.0 == name).map(|row| row.1.to_vec());
         row.or_else(|| Some(vec![comparison(name)?]))
-            .or_else(|| Some(vec![Condition::Shows(Layer::named(name)?)]))
+            .or_else(|| Some(vec![TextCondition::Shows(Layer::named(name)?)]))
     };
     let found: Option<Vec<_>> = names.split_whitespace().map(known).collect();
     Some(found?.concat()).filter(|conditions| !conditions.is_empty())
 }
 
 /// A comparison such as `D<0`.
-fn comparison(text: &str) -> Option<Condition> {
+fn comparison(text: &str) -> Option<TextCondition> {
     let split = |(sign, relation)| Some((text.split_once(sign)?, relation));
     let ((name, number), relation) = RELATIONS.into_iter().find_map(split)?;
-    Some(Condition::Compares(
+    Some(TextCondition::Compares(
         Knob::named(name, &[Group::Motion]).ok()?,
         relation,
         number.parse().ok()?,
@@ -154,19 +154,19 @@ mod tests {
     #[test]
     fn parts_stand_where_all_their_conditions_hold() {
         let text = "Always. [two grows: It grows.] [safe: It rests.] End [0, 1] [x: y].";
-        let with = |conditions: &[Condition]| said(text, |one| conditions.contains(&one));
+        let with = |conditions: &[TextCondition]| said(text, |one| conditions.contains(&one));
         assert_eq!(with(&[]), "Always. End [0, 1] [x: y].");
-        assert_eq!(with(&[Condition::Safe]), "Always. It rests. End [0, 1] [x: y].");
-        assert_eq!(with(&[Condition::Unstable, Condition::Grows]), with(&[]));
-        let all = [Condition::Unstable, Condition::Stable, Condition::Grows];
+        assert_eq!(with(&[TextCondition::Safe]), "Always. It rests. End [0, 1] [x: y].");
+        assert_eq!(with(&[TextCondition::Unstable, TextCondition::Grows]), with(&[]));
+        let all = [TextCondition::Unstable, TextCondition::Stable, TextCondition::Grows];
         assert_eq!(with(&all), "Always. It grows. End [0, 1] [x: y].");
         assert_eq!(said("[safe: Gone.] Left.", |_| false), "Left.");
         let text = "[D<0: Fed.] [D>=0 D3=0.5: Not fed.] [bands: Dotted.] [E<0: none] [D<x: none]";
         let at = |d: f64| {
             said(text, |condition| match condition {
-                Condition::Compares(Knob::D3, ..) => true,
-                Condition::Compares(_, relation, number) => relation.holds(d, number),
-                condition => condition == Condition::Shows(Layer::Bands),
+                TextCondition::Compares(Knob::D3, ..) => true,
+                TextCondition::Compares(_, relation, number) => relation.holds(d, number),
+                condition => condition == TextCondition::Shows(Layer::Bands),
             })
         };
         assert_eq!(at(-0.1), "Fed. Dotted. [E<0: none] [D<x: none]");

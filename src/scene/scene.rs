@@ -27,7 +27,8 @@ pub struct Scene {
     pub also: Option<String>,
     pub title: String,
     /// What to look at, in a sentence or two.
-    pub look: String,
+    #[serde(rename = "look")]
+    pub watch: String,
     /// What to press to see more.
     pub press: String,
     /// The parameters that the scene uses, in the order of the table; all others are zero.
@@ -98,7 +99,7 @@ impl ScaledMachine {
             name: self.machine.name.clone(),
             also: None,
             title: self.machine.title.clone(),
-            look: self.machine.look.clone(),
+            watch: self.machine.watch.clone(),
             press: "{play-motion} plays the motion and holds it, {motion-pace} changes the pace; {step-up} on D adds damping, on r friction."
                 .to_owned(),
             terms: self.terms(),
@@ -152,7 +153,7 @@ impl Recording {
             name: self.name.clone(),
             also: None,
             title: format!("{}, fitted", self.name),
-            look: format!(
+            watch: format!(
                 "{seen} the line is the motion that fits best; {units}. \
                  A number whose error is as large as itself is not known from this record."
             ),

@@ -3,15 +3,13 @@
 use crate::scene::Layer;
 use crate::session::effect::Done;
 use crate::session::message::key::Key;
-use crate::session::state::command::{Chosen, Command};
-use crate::session::state::context::Context;
-use crate::session::state::session::Session;
+use crate::session::state::{Command, Context, NextCommand, Session};
 
 /// The function of a command; its key is the one that was pressed.
 pub(super) type Act = fn(&mut Session, Key);
 
 /// The function of a command that chooses another one.
-pub(super) type Choose = fn(&mut Session) -> Result<Option<Chosen>, String>;
+pub(super) type Choose = fn(&mut Session) -> Result<Option<NextCommand>, String>;
 
 /// How a command is run.
 #[derive(Clone, Copy, Debug)]

@@ -16,15 +16,12 @@ use crate::session::act::{
 use crate::session::command_row::{CommandAction, CommandRow, chooses, row, tries};
 use crate::session::effect::Effect;
 use crate::session::lines::lines;
-use crate::session::state::command::Command;
 use crate::session::state::context::Context::{
     self, Always, Count, Entry, Everywhere, Form, Help, Interrupted, Layers, Letter, Lists, Offer,
     Palette, Paper, Parameters, Plots, Prompt, Scenes, Search, View as In, Views, Walk,
 };
-use crate::session::state::input::Input;
-use crate::session::state::keymap::Keymap;
 use crate::session::state::pending::Letter as Ask;
-use crate::session::state::session::{Session, Size};
+use crate::session::state::{Command, Input, Keymap, Listed, Session, Size};
 
 /// Characters with which a number can begin.
 const NUMERIC: &[&str] = &["0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "-", "."];
@@ -187,9 +184,9 @@ const COMMANDS: &[CommandRow] = &[
     row("enlarge", &[(Everywhere, &["z"])], "",
         "Give one plot the room of all, or share it again", |s, _| focus::enlarge(s)),
     row("paper", &[(Everywhere, &["<f10>", "<A-p>"])], "",
-        "List the claims of the paper against computation", |s, _| lists::open_paper(s)),
+        "List the claims of the paper against computation", |s, _| lists::open(s, Listed::Paper)),
     row("views", &[(Everywhere, &["V"])], "view",
-        "Pick what the plot in use shows", |s, _| lists::open_views(s)),
+        "Pick what the plot in use shows", |s, _| lists::open(s, Listed::Views)),
     row("next-view", &[(Everywhere, &[";"])], "",
         "Show the next view in the plot in use", |s, _| screen_setup::next_view(s, 1)),
     row("previous-view", &[(Everywhere, &[","])], "",
@@ -203,15 +200,18 @@ const COMMANDS: &[CommandRow] = &[
     row("arrange", &[(Everywhere, &["Z"])], "",
         "Arrange the plots: as suits them best, in columns, in rows", |s, _| screen_setup::arrange(s)),
     row("help", &[(Everywhere, &["?", "<f1>"]), (Walk, &["?", "<f1>"])], "help",
-        "List everything: keys, scenes, views, layers, machines, claims", |s, _| palette::open(s, false)),
+        "List everything: keys, scenes, views, layers, machines, claims", |s, _| lists::open(s, Listed::Palette)),
     row("palette", &[(Everywhere, &["<space>", "<C-p>"]), (Walk, &["<space>", "<C-p>"])], "all",
-        "Search everything that has a name, and run it", |s, _| palette::open(s, true)),
+        "Search everything that has a name, and run it", |s, _| {
+            lists::open(s, Listed::Palette);
+            lists::search(s);
+        }),
     row("prompt", &[(Everywhere, &[":"]), (Walk, &[":"])], "command",
         "Type a command by its name: set, scene, until and so on", |s, _| prompt::open(s)),
     row("scenes", &[(Everywhere, &["s"])], "scenes",
-        "Pick a scene", |s, _| lists::open_scenes(s)),
+        "Pick a scene", |s, _| lists::open(s, Listed::Scenes)),
     row("layers", &[(Everywhere, &["v"])], "layers",
-        "List the layers, to switch them on and off", |s, _| lists::open_layers(s)),
+        "List the layers, to switch them on and off", |s, _| lists::open(s, Listed::Layers)),
     tries("undo", &[(Everywhere, &["u"]), (Walk, &["u"])], "undo",
         "Undo the last change of a parameter or scene", history::undo),
     tries("redo", &[(Everywhere, &["<C-r>", "U"])], "",
@@ -279,7 +279,7 @@ const COMMANDS: &[CommandRow] = &[
         "Forget all of these sessions", files::forget),
 
     row("costs", &[(Everywhere, &["$"])], "",
-        "List what the picture costs, and what each step recomputes", |s, _| lists::open_cost(s)),
+        "List what the picture costs, and what each step recomputes", |s, _| lists::open(s, Listed::Cost)),
     row("retry", &[(Everywhere, &["<f5>"])], "",
         "Compute again what has failed", |s, _| general::retry(s)),
     row("save-figure", &[(Everywhere, &["<A-f>"]), (Walk, &["<A-f>"])], "",
@@ -342,9 +342,9 @@ const COMMANDS: &[CommandRow] = &[
     row("search-drop", &[(Search, &["<esc>"])], "all rows",
         "Show all rows again", |s, _| lists::search_drop(s)),
     row("search-delete", &[(Search, &["<backspace>"]), (Palette, &["<backspace>"])], "",
-        "Delete the last character of the search", |s, _| lists::search_delete(s)),
+        "Delete the last character of the search", |s, _| lists::search_with(s, |it| _ = it.pop())),
     row("search-clear", &[(Search, &["<C-u>"]), (Palette, &["<C-u>"])], "",
-        "Clear the search", |s, _| lists::search_clear(s)),
+        "Clear the search", |s, _| lists::search_with(s, String::clear)),
 
     row("accept", &[(Entry, &["<enter>"])], "accept",
         "Take the typed value", |s, _| entry::accept(s)),

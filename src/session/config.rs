@@ -18,10 +18,10 @@ use crate::numerics::similar::most_similar;
 use crate::scene::library::names;
 use crate::scene::misread::{self, Complaint, Misread};
 use crate::session::message::key::Key;
-use crate::session::state::command::{Command, full_name};
-use crate::session::state::context::{Context, contexts};
-use crate::session::state::keymap::Keymap;
+use crate::session::state::command::full_name;
+use crate::session::state::context::contexts;
 use crate::session::state::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, named};
+use crate::session::state::{Command, Context, Keymap};
 
 /// The content of a settings file; whatever is missing keeps its default.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -266,7 +266,7 @@ mod tests {
         let written = |text: &str| config.keymap.fill(text, |key| key.to_string());
         assert_eq!(written("{undo} or {step-up}, {no"), "<A-u> or <right>, {no");
         for scene in crate::scene::library() {
-            for text in [&scene.look, &scene.press] {
+            for text in [&scene.watch, &scene.press] {
                 for name in text.split('{').skip(1).map(|rest| rest.split('}').next().unwrap()) {
                     let known = commands().any(|command| command.name == name);
                     assert!(known, "{}: no command {name}", scene.name);

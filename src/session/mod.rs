@@ -36,24 +36,11 @@ pub use message::pointer::{Gesture, Pointed, PointerTarget};
 pub use message::{Msg, Notice, Purpose};
 pub use press::run_line;
 pub use read::contexts::Hint;
-pub use read::variants::Shown;
+pub use read::variants::ShownMotion;
 pub use read::{fate, ledger, motion, requirement};
-pub use state::answers::AnswerState;
-pub use state::command::{Command, LineCommand};
-pub use state::context::Context;
-pub use state::input::Input;
-pub use state::kept::Kept;
-pub use state::keymap::{self, Keymap};
-pub use state::overlay::{self, Entry, List, Listed, Overlay, Prompt};
-pub use state::pending::Pending;
-pub use state::plot::{Framing, Pane, Plot};
-pub use state::rows::{Row, Steps};
-pub use state::scan::{self, ScanOnShow};
-pub use state::session::{Price, Session, Size};
-pub use state::settings;
-pub use state::setup::Setup;
-pub use state::starts;
-pub use state::stop::BranchStop;
-pub use state::uncertainty::Uncertainty;
-pub use state::waiting::Waiting;
+pub use state::{
+    AnswerState, BranchStop, Command, Context, Entry, Framing, Input, Kept, Keymap, LineCommand,
+    List, Listed, Overlay, Pane, Pending, Plot, Price, Prompt, Row, ScanOnShow, Session, Setup,
+    Size, StepSizes, Uncertainty, Waiting, keymap, overlay, scan, settings, starts,
+};
 pub use update::{settle, update};

@@ -10,7 +10,7 @@ use crate::oscillator::Knob;
 use crate::scene::{Scene, find};
 use crate::session::replay::script::Instruction;
 use crate::session::save;
-use crate::session::state::session::Session;
+use crate::session::state::Session;
 use crate::session::state::settings::{COLORS, DisplaySettings, GLYPHS, THEMES};
 
 /// The name under which a file embeds a session.
@@ -19,7 +19,7 @@ const CARRIED: &str = "start.toml";
 /// The steps that lead to this session, which must have nothing open. Fails with one line if the session cannot
 /// be saved; no such session is known.
 pub fn opening(session: &Session) -> Result<Vec<Instruction>, String> {
-    let mut steps: Vec<Instruction> = looks(session.look);
+    let mut steps: Vec<Instruction> = display_lines(session.display);
     let text = save::text(session)?;
     let new = Session::new(session.scene.clone(), session.size);
     let is_new = save::text(&new)? == text;
@@ -36,7 +36,7 @@ pub fn opening(session: &Session) -> Result<Vec<Instruction>, String> {
 }
 
 /// The steps that set the user's wishes for the screen, where they differ from the defaults.
-fn looks(look: DisplaySettings) -> Vec<Instruction> {
+fn display_lines(display: DisplaySettings) -> Vec<Instruction> {
     fn line<T: Copy + PartialEq + Default>(
         name: &str,
         table: &[(T, &str)],
@@ -45,13 +45,13 @@ fn looks(look: DisplaySettings) -> Vec<Instruction> {
         let row = table.iter().find(|row| row.0 == value && value != T::default());
         row.map(|row| Instruction::Run(format!("{name} {}", row.1)))
     }
-    let mouse = look.mouse.then(|| Instruction::Run("mouse".to_owned()));
-    let equal = look.stretched.then(|| Instruction::Run("equal off".to_owned()));
-    let units = look.dimensionless.then(|| Instruction::Run("units off".to_owned()));
+    let mouse = display.mouse.then(|| Instruction::Run("mouse".to_owned()));
+    let equal = display.stretched.then(|| Instruction::Run("equal off".to_owned()));
+    let units = display.dimensionless.then(|| Instruction::Run("units off".to_owned()));
     let lines = [
-        line("glyphs", &GLYPHS, look.glyphs),
-        line("color", &COLORS, look.colors),
-        line("theme", &THEMES, look.theme),
+        line("glyphs", &GLYPHS, display.glyphs),
+        line("color", &COLORS, display.colors),
+        line("theme", &THEMES, display.theme),
         equal,
         units,
         mouse,

@@ -11,11 +11,10 @@ use crate::session::lines;
 use crate::session::message::key::{Code, Key};
 use crate::session::read::completion::names;
 use crate::session::read::palette::{elsewhere, place};
-use crate::session::state::command::{Chosen, Command, full_name};
-use crate::session::state::context::Context;
-use crate::session::state::overlay::{Overlay, Prompt};
-use crate::session::state::pending::{Letter, Pending};
-use crate::session::state::session::{Price, Session};
+use crate::session::state::command::full_name;
+use crate::session::state::{
+    Command, Context, Letter, NextCommand, Overlay, Pending, Price, Prompt, Session,
+};
 use crate::words::printable;
 
 /// The key that is passed to commands that are run from a line.
@@ -145,8 +144,8 @@ fn run(session: &mut Session, command: &Command, key: Key) {
         Some(CommandAction::Try(act)) => attempt(session, act),
         Some(CommandAction::Toggle(layer)) => general::toggle(session, layer),
         Some(CommandAction::Choose(choose)) => match choose(session) {
-            Ok(Some(Chosen::Command(command))) => run_where_it_belongs(session, command, key),
-            Ok(Some(Chosen::Line(text))) => run_typed(session, &text),
+            Ok(Some(NextCommand::Command(command))) => run_where_it_belongs(session, command, key),
+            Ok(Some(NextCommand::Line(text))) => run_typed(session, &text),
             Ok(None) => {}
             Err(why) => refuse(session, why),
         },

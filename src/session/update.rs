@@ -15,11 +15,9 @@ use crate::session::press::{ENTER, press, run_untyped};
 use crate::session::read::waiting;
 use crate::session::replay::parse::parse;
 use crate::session::replay::script::Instruction;
-use crate::session::state::overlay::{Entry, Overlay, SessionCaption};
-use crate::session::state::plot::Pane;
-use crate::session::state::rows::Row;
-use crate::session::state::session::{Price, Session, Size};
-use crate::session::state::waiting::Waiting;
+use crate::session::state::{
+    Entry, Overlay, Pane, Price, Row, Session, SessionCaption, Size, Waiting,
+};
 
 /// Takes a message in; a press that needs an answer that is still being computed waits for it.
 pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {

@@ -15,7 +15,7 @@ use super::kicks::RandomKick;
 use super::stability::Share;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Fate, Limits, Outcome, Problem, Reason};
-use crate::numerics::count::{real, whole};
+use crate::numerics::count::{real, truncated};
 use crate::oscillator::{Parameters, State};
 
 /// What becomes of repeated kicks.
@@ -122,7 +122,7 @@ impl Chain {
                 };
                 // Shared between the two cells whose centres it lies between.
                 let place = ((rest + r) / width - 0.5).clamp(0.0, real(cells - 1));
-                let left = (whole(place)).min(cells - 2);
+                let left = (truncated(place)).min(cells - 2);
                 let part = place - real(left);
                 for &(from, weight) in &column.weights {
                     steps[(from, left)] += weight * share * (1.0 - part);
@@ -219,7 +219,7 @@ fn rows(kicks: &RandomKick, fineness: f64) -> Vec<(f64, f64)> {
 
 /// Middles of steps of about this length, over `half` on either side of `mean`.
 fn steps(mean: f64, half: f64, step: f64) -> impl Iterator<Item = f64> {
-    let count = whole((2.0 * half / step).ceil().max(1.0));
+    let count = truncated((2.0 * half / step).ceil().max(1.0));
     (0..count).map(move |index| mean - half + 2.0 * half * (real(index) + 0.5) / real(count))
 }
 

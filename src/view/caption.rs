@@ -29,7 +29,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         }
         SessionCaption::Scene => {
             let heading = filled(" {explain}: hide ");
-            let [look, press] = [&session.scene.look, &session.scene.press];
+            let [look, press] = [&session.scene.watch, &session.scene.press];
             (heading, [look, press].map(|text| filled(&session.said(text))).to_vec())
         }
         SessionCaption::Nothing => return,

@@ -54,7 +54,7 @@ fn price(answered: &Answered) -> String {
 /// What a step recomputes and what it reuses.
 fn consequence(reused: &[Topic], anew: &[Topic]) -> String {
     let part = |name: &str, topics: &[Topic]| {
-        (!topics.is_empty()).then(|| format!("{name} {}", named(topics)))
+        (!topics.is_empty()).then(|| format!("{name} {}", named(topics, ", ")))
     };
     let parts = part("recomputes", anew).into_iter().chain(part("reuses", reused));
     let parts: Vec<_> = parts.collect();

@@ -24,7 +24,7 @@ use crate::session::settings::Glyphs;
 
 /// What a curve is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pen {
+pub struct DotPen {
     pub role: Role,
     pub dash: Dash,
 }
@@ -87,7 +87,7 @@ impl Dots {
     }
 
     /// Draws a polyline; a point that is not finite interrupts it.
-    pub fn stroke(&mut self, points: impl IntoIterator<Item = DotPoint>, pen: Pen) {
+    pub fn stroke(&mut self, points: impl IntoIterator<Item = DotPoint>, pen: DotPen) {
         if pen.dash == Dash::Thick && self.glyphs != Glyphs::Ascii {
             // Both of its dots stand in the cell that the line is in, as a mark on it does.
             let (height, down) = (self.size().1, f64::from(self.glyphs.dots().1));
@@ -107,7 +107,7 @@ impl Dots {
         }
     }
 
-    fn line(&mut self, points: impl IntoIterator<Item = DotPoint>, pen: Pen) {
+    fn line(&mut self, points: impl IntoIterator<Item = DotPoint>, pen: DotPen) {
         let mut stroke = PenState::default();
         let mut previous: Option<DotPoint> = None;
         let size = self.size();
@@ -126,7 +126,7 @@ impl Dots {
                     self.visit(&mut stroke, pen, (x as i32, y as i32));
                 }
             }
-            if segment.is_none_or(|(.., whole)| !whole) {
+            if segment.is_none_or(|(.., unclipped)| !unclipped) {
                 self.lift(&mut stroke, pen);
             }
             previous = Some(point);
@@ -136,7 +136,7 @@ impl Dots {
 
     /// Moves a stroke to a dot. A dot that would only make a corner between its neighbours is left
     /// out, so that curves stay one dot wide.
-    fn visit(&mut self, stroke: &mut PenState, pen: Pen, dot: (i32, i32)) {
+    fn visit(&mut self, stroke: &mut PenState, pen: DotPen, dot: (i32, i32)) {
         let Some(waiting) = stroke.waiting else {
             stroke.waiting = Some(dot);
             return;
@@ -153,14 +153,14 @@ impl Dots {
         stroke.waiting = Some(dot);
     }
 
-    fn commit(&mut self, stroke: &mut PenState, pen: Pen, dot: (i32, i32)) {
+    fn commit(&mut self, stroke: &mut PenState, pen: DotPen, dot: (i32, i32)) {
         let (pattern, period) = self.glyphs.dash(pen.dash);
         self.ink(dot, pen, pattern >> (stroke.length % period) & 1 == 1);
         stroke.length += 1;
         stroke.last = Some(dot);
     }
 
-    fn lift(&mut self, stroke: &mut PenState, pen: Pen) {
+    fn lift(&mut self, stroke: &mut PenState, pen: DotPen) {
         if let Some(waiting) = stroke.waiting.take() {
             self.commit(stroke, pen, waiting);
         }
@@ -168,7 +168,7 @@ impl Dots {
     }
 
     /// Draws a dot, or the gap of a dash.
-    fn ink(&mut self, (x, y): (i32, i32), Pen { role, dash }: Pen, on: bool) {
+    fn ink(&mut self, (x, y): (i32, i32), DotPen { role, dash }: DotPen, on: bool) {
         let (across, down) = self.glyphs.dots();
         let (across, down) = (i32::from(across), i32::from(down));
         let bit = 1_u8 << (y.rem_euclid(down) * across + x.rem_euclid(across));

@@ -3,7 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::dots::{Dots, Pen};
+use super::dots::{DotPen, Dots};
 use super::look::Look;
 use super::paint::symbol;
 use crate::picture::items::Picture;
@@ -75,12 +75,12 @@ fn rank(sample: LegendSample) -> u8 {
 fn draw_sample(place: Rect, role: Role, sample: LegendSample, look: &Look, buffer: &mut Buffer) {
     let mut dots = Dots::new(place, look.glyphs);
     let (width, height) = dots.size();
-    let mut line = |y: f64, dash| dots.stroke([(0.0, y), (width - 0.5, y)], Pen { role, dash });
+    let mut line = |y: f64, dash| dots.stroke([(0.0, y), (width - 0.5, y)], DotPen { role, dash });
     match sample {
         LegendSample::Line(dash) => line(height / 2.0, dash),
         LegendSample::Spot => {
             let at = (width / 2.0, height / 2.0);
-            dots.stroke([at, at], Pen { role, dash: Dash::Thick });
+            dots.stroke([at, at], DotPen { role, dash: Dash::Thick });
         }
         LegendSample::Shade => {
             (0..SAMPLE).for_each(|x| dots.texture(x, 0, look.symbols().shade, role));

@@ -14,7 +14,7 @@ use super::pane;
 use super::paper;
 use super::prose;
 use crate::picture::role::Role;
-use crate::scene::library::Group;
+use crate::scene::library::SceneGroup;
 use crate::scene::said::said_by;
 use crate::scene::{Layer, letters};
 use crate::session::read::palette::PaletteRow;
@@ -180,7 +180,7 @@ fn scenes(session: &Session, list: &List, look: &Look) -> ListContent {
     let mut content = ListContent { below: TEXT, ..ListContent::new("scenes") };
     for scene in &found {
         if list.search.is_empty() {
-            content.group(Group::of(scene).title());
+            content.group(SceneGroup::of(scene).title());
         }
         let figure = scene.also.as_deref().unwrap_or_default();
         content.row([
@@ -194,7 +194,7 @@ fn scenes(session: &Session, list: &List, look: &Look) -> ListContent {
         let text = |text: &str| {
             Line::styled(keys::sentence(&said_by(scene, text), &session.keymap, look), quiet)
         };
-        content.about = vec![text(&scene.look), Line::default(), text(&scene.press)];
+        content.about = vec![text(&scene.watch), Line::default(), text(&scene.press)];
     }
     content
 }

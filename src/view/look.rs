@@ -11,7 +11,7 @@ use ratatui::style::Style;
 use ratatui::text::Span;
 
 use super::colour::{STEPS, color_of, in_depth, mixed, parsed};
-use crate::numerics::count::whole;
+use crate::numerics::count::truncated;
 use crate::picture::role::{ROLES, Role};
 use crate::session::settings::{self, Colors, Glyphs, Theme};
 
@@ -163,7 +163,7 @@ impl Look {
     /// The style of a place on a map: `part` grows from 0 to 1 with what is dangerous. Where there are colours
     /// enough its ground says it, and hides the letter that says it elsewhere.
     pub fn danger(&self, part: f64) -> Style {
-        let step = whole(part.clamp(0.0, 1.0) * f64::from(STEPS));
+        let step = truncated(part.clamp(0.0, 1.0) * f64::from(STEPS));
         let ground = self.ramp.get(step.min(usize::from(STEPS) - 1));
         ground.copied().unwrap_or(self.style(Role::Danger))
     }

@@ -33,7 +33,7 @@ fn from_centre(margin: &Margin) -> Kick {
 
 /// How kicks are written.
 #[derive(Clone, Copy)]
-struct Writing<'a> {
+struct KickWriting<'a> {
     session: &'a Session,
     places: usize,
     /// Whether shift and impulse have their names where no units tell them apart.
@@ -42,17 +42,17 @@ struct Writing<'a> {
     bound: bool,
 }
 
-impl<'a> Writing<'a> {
+impl<'a> KickWriting<'a> {
     fn new(session: &'a Session, places: usize) -> Self {
-        Writing { session, places, named: true, bound: false }
+        KickWriting { session, places, named: true, bound: false }
     }
 
     fn unnamed(self) -> Self {
-        Writing { named: false, ..self }
+        KickWriting { named: false, ..self }
     }
 
     fn bound(self) -> Self {
-        Writing { bound: true, ..self }
+        KickWriting { bound: true, ..self }
     }
 
     /// A shift and an impulse, in the units of the machine or the record; `None` where every kick is survived.
@@ -131,7 +131,7 @@ pub fn brief_certain(session: &Session, width: usize) -> Option<String> {
 }
 
 fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> Option<String> {
-    let write = |places| Writing { bound: name == "sure", ..Writing::new(session, places) };
+    let write = |places| KickWriting { bound: name == "sure", ..KickWriting::new(session, places) };
     let texts = (1..=PLACES).rev().flat_map(|places| [write(places), write(places).unnamed()]);
     let mut texts =
         texts.filter_map(|write| Some(format!("{name} {}", write.kick(from_rest(margin))?)));
@@ -152,7 +152,7 @@ fn margins(session: &Session) -> Option<(Margin, Result<Margin, String>)> {
 fn certain(session: &Session, width: usize) -> Option<String> {
     let (nominal, sure) = margins(session)?;
     let texts = |places| {
-        let write = Writing::new(session, places);
+        let write = KickWriting::new(session, places);
         let headline = write.headline(&nominal);
         let sure = match &sure {
             Ok(sure) => sure,
@@ -161,7 +161,7 @@ fn certain(session: &Session, width: usize) -> Option<String> {
                 return vec![format!("{headline}; {nothing}"), nothing];
             }
         };
-        let told = |write: Writing| match write.bound().kick(from_rest(sure)) {
+        let told = |write: KickWriting| match write.bound().kick(from_rest(sure)) {
             Some(kick) => format!("{headline}; for certain: {kick}"),
             None => format!("{headline}; for certain: every kick"),
         };
@@ -183,7 +183,7 @@ fn oscillator(session: &Session, width: usize) -> Option<String> {
     }
     let picture = found.picture.as_ref()?;
     Some(fitting(width, |places| {
-        let write = Writing::new(session, places);
+        let write = KickWriting::new(session, places);
         let headline = write.headline(&picture.margin);
         let centre = write.centre(&picture.margin).map(|centre| format!("{headline}; {centre}"));
         let proved = centre.iter().zip(share(picture.lyapunov_share));
@@ -218,7 +218,7 @@ fn machine(session: &Session, width: usize) -> Option<String> {
         _ => "the same".to_owned(),
     };
     Some(fitting(width, |places| {
-        let write = Writing::new(session, places);
+        let write = KickWriting::new(session, places);
         let [own, other] = [whole, cubic].map(|margin| write.headline(&margin));
         if session.draws_whole() {
             let both = format!("{own}; cubic expansion: {error}");

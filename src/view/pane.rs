@@ -20,14 +20,14 @@ pub fn centred(screen: Rect, width: u16, height: u16) -> Rect {
 
 /// Clears an area for what stands over the panes, and what it would leave of words and numbers beside it.
 pub fn clear(area: Rect, buffer: &mut Buffer) {
-    let whole = buffer.area;
+    let full = buffer.area;
     let letter = |buffer: &Buffer, x: u16, y: u16| {
         let symbol = buffer.cell((x, y)).map_or(" ", |cell| cell.symbol());
         symbol.chars().next().filter(char::is_ascii_graphic)
     };
-    for y in area.y..area.bottom().min(whole.bottom()) {
-        let leftward: Vec<u16> = (whole.x..area.x).rev().collect();
-        let rightward: Vec<u16> = (area.right()..whole.right()).collect();
+    for y in area.y..area.bottom().min(full.bottom()) {
+        let leftward: Vec<u16> = (full.x..area.x).rev().collect();
+        let rightward: Vec<u16> = (area.right()..full.right()).collect();
         for (edge, beside) in [(area.x, leftward), (area.right().saturating_sub(1), rightward)] {
             if letter(buffer, edge, y).is_none() {
                 continue;
@@ -105,16 +105,16 @@ pub fn title(
     // What the cursor reads matters more than the end of the title.
     let right = fitted(right, width, look);
     let room = width.saturating_sub(right.width());
-    let whole = |text: &str| pointer.chars().count() + text.chars().count() <= room;
+    let full = |text: &str| pointer.chars().count() + text.chars().count() <= room;
     let (view, held) = title.split_once(", ").unwrap_or((title, title));
     // A number matters more than its error.
     let number = held.split(" +- ").next().unwrap_or(held);
-    let beside = |text: &&str| whole(&format!("{text}  {names}"));
+    let beside = |text: &&str| full(&format!("{text}  {names}"));
     let beside = [title, held, number, view].into_iter().find(beside);
     // Beside a reading, a title of which only a few letters fit is left out.
     let stump = heading.reading.is_some() && 2 * room < title.chars().count();
     let otherwise = if stump { "" } else { title };
-    let alone = || [names, title, held].into_iter().find(|text| whole(text) && !text.is_empty());
+    let alone = || [names, title, held].into_iter().find(|text| full(text) && !text.is_empty());
     let mut left = Vec::new();
     if let Some(text) = beside.filter(|_| !names.is_empty()) {
         left.push(look.span(format!("{pointer}{text}"), role));

@@ -79,15 +79,15 @@ fn guide(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     // The text starts from the values with which the scene opens.
     let moved = session.setup() != Setup::of_scene(&session.scene);
     let remark = if moved { "  as opened; {reset-scene} goes back" } else { "" };
-    let watch = section("look", "", &session.scene.look);
+    let watch = section("look", "", &session.scene.watch);
     let press = section("press", remark, &session.scene.press);
     let [short, _] = section("press", "  {explain} says what", "");
     let apart = [&watch[..], &[Line::default()], &press].concat();
     let together = [&watch[..], &press].concat();
     let inner = Rect { x: area.x + 1, width: area.width.saturating_sub(2), ..area };
-    let whole = [apart, together].into_iter();
-    let mut whole = whole.filter(|lines| prose::rows(lines, inner.width) <= area.height);
-    let lines = whole.next().unwrap_or_else(|| {
+    let full = [apart, together].into_iter();
+    let mut full = full.filter(|lines| prose::rows(lines, inner.width) <= area.height);
+    let lines = full.next().unwrap_or_else(|| {
         let blank = (prose::rows(&watch, inner.width) + 1 < area.height).then(Line::default);
         watch.into_iter().chain(blank).chain([short]).collect()
     });
@@ -330,9 +330,9 @@ fn counted(session: &Session, found: &Cycles, width: usize) -> (String, Role) {
     match compare(&found.cycles, proof) {
         Err(_) => (format!("{count}, proof differs"), Role::Failure),
         Ok(()) if proof.is_complete() => {
-            let whole = format!("{count}, proved");
+            let full = format!("{count}, proved");
             let short = format!("{}, proved", found.cycles.len());
-            (if whole.chars().count() < width { whole } else { short }, Role::Text)
+            (if full.chars().count() < width { full } else { short }, Role::Text)
         }
         Ok(()) => (format!("{count}, others open"), Role::Quiet),
     }

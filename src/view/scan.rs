@@ -17,7 +17,7 @@ use crate::picture::map::{Danger, measured, nothing};
 use crate::picture::role::{Dash, Role};
 use crate::picture::scan::{names, scales};
 use crate::scene::{Point, View};
-use crate::session::scan::{Progress, ScanOnShow, WORDS};
+use crate::session::scan::{ScanOnShow, ScanProgress, WORDS};
 use crate::session::{Pane, Session};
 use crate::study::measure::Value;
 use crate::words::measured::rounded;
@@ -46,8 +46,8 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     let (x, y) = names(scanned);
     let width = usize::from(area.width);
     // The names of the axes stand there in any case; how far the scan is, where there is room.
-    let whole = title.chars().count() + y.len() + x.len() + 9 <= width;
-    let short = if whole { title.as_str() } else { View::Scan.spec().title };
+    let full = title.chars().count() + y.len() + x.len() + 9 <= width;
+    let short = if full { title.as_str() } else { View::Scan.spec().title };
     let names = Names { title: short, x, y, scales: scales(scanned), marks: None };
     let window = session.plots[index].window;
     let mut plot = Canvas::new(body(area), window, names, &heading, look, buffer);
@@ -62,9 +62,9 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
         plot.cross(point);
     }
     plot.finish(buffer);
-    let running = matches!(scanned.progress, Progress::Running { .. });
+    let running = matches!(scanned.progress, ScanProgress::Running { .. });
     let reading =
-        if running && !whole { format!(" {}", progress(scanned)) } else { reading(scanned, width) };
+        if running && !full { format!(" {}", progress(scanned)) } else { reading(scanned, width) };
     let reading = Line::styled(reading, look.style(Role::Cursor));
     let without = scan_map::without_numbers(scanned, width);
     let without = Line::styled(without, look.style(Role::Quiet));
@@ -80,10 +80,10 @@ pub fn progress(scanned: &ScanOnShow) -> String {
     let given_up = scanned.rows.iter().filter(|row| row.reason.is_some()).count();
     let given_up = if given_up > 0 { format!(" ({given_up} given up)") } else { String::new() };
     match scanned.progress {
-        Progress::Done => format!("{points} points{given_up}"),
-        Progress::Stopped => format!("{rows} of {points}: stopped{given_up}"),
-        Progress::Running { from } if rows == from => format!("{rows} of {points}"),
-        Progress::Running { from } => {
+        ScanProgress::Done => format!("{points} points{given_up}"),
+        ScanProgress::Stopped => format!("{rows} of {points}: stopped{given_up}"),
+        ScanProgress::Running { from } if rows == from => format!("{rows} of {points}"),
+        ScanProgress::Running { from } => {
             let left = remaining(scanned.seconds, rows - from, points - from);
             format!("{rows} of {points}: {left} left{given_up}")
         }

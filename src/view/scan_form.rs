@@ -8,7 +8,8 @@ use super::lists::frame;
 use super::look::Look;
 use super::pane;
 use crate::picture::role::Role;
-use crate::session::state::scan_form::{FIELDS, FormField, ScanForm};
+use crate::session::state::ScanForm;
+use crate::session::state::scan_form::{FIELDS, FormField};
 use crate::session::{Overlay, Session};
 use crate::study::measure::MEASURES;
 

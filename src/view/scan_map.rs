@@ -9,7 +9,7 @@ use ratatui::text::{Line, Span};
 use super::look::Look;
 use super::pane;
 use super::plot::Canvas;
-use crate::numerics::count::{real, whole};
+use crate::numerics::count::{real, truncated};
 use crate::picture::map::{Danger, Dangerous, measured, nothing};
 use crate::picture::role::Role;
 use crate::scene::Point;
@@ -50,7 +50,7 @@ impl Ramp {
     /// The shade of a value, and how dangerous it is.
     fn shade(&self, value: f64) -> (char, f64) {
         let part = self.scale.part(value);
-        let step = whole(part * real(self.shades.len())).min(self.shades.len() - 1);
+        let step = truncated(part * real(self.shades.len())).min(self.shades.len() - 1);
         (self.shades[step], self.scale.strength(part))
     }
 
@@ -67,7 +67,7 @@ pub fn draw(plot: &Canvas, scanned: &ScanOnShow, look: &Look, buffer: &mut Buffe
     let quiet = look.style(Role::Quiet);
     let shade = |value: f64| match &ramp {
         _ if words => {
-            let (letter, danger) = OF_WORDS[(whole(value)).min(OF_WORDS.len() - 1)];
+            let (letter, danger) = OF_WORDS[(truncated(value)).min(OF_WORDS.len() - 1)];
             (letter, of_word(danger, look))
         }
         Some(ramp) => {
@@ -179,6 +179,6 @@ fn nearest(sweep: &Sweep, place: f64) -> Option<usize> {
     let last = sweep.count - 1;
     let [from, to] = [0, last].map(|index| ScanOnShow::coordinate(sweep, index));
     let steps = (place - from) / (to - from) * real(last);
-    let index = (steps >= -0.5 && steps.is_finite()).then_some(whole(steps + 0.5));
+    let index = (steps >= -0.5 && steps.is_finite()).then_some(truncated(steps + 0.5));
     index.filter(|index| *index <= last)
 }

@@ -18,6 +18,7 @@ use crate::picture::units;
 use crate::scene::{Answer, Layer, Topic};
 use crate::session::Session;
 use crate::session::fate::{End, MotionVerdict, SideOfBorder};
+use crate::session::requirement::named;
 use crate::words::motion::{Writing, sentence, swings};
 use crate::words::number::{count, duration, significant};
 
@@ -92,7 +93,7 @@ fn shorter(session: &Session, mut text: String, room: usize) -> String {
 
 /// The words of the second line.
 #[derive(Clone, Copy)]
-struct Words {
+struct StatusWords {
     evaluations: &'static str,
     error: &'static str,
     /// The same beside a dial at which another error would be measured.
@@ -107,8 +108,8 @@ struct Words {
 }
 
 /// The words in full, and shorter for narrow screens.
-const WORDS: [Words; 4] = {
-    let full = Words {
+const WORDS: [StatusWords; 4] = {
+    let full = StatusWords {
         evaluations: "evaluations",
         error: "energy error",
         energy: "energy error",
@@ -122,12 +123,17 @@ const WORDS: [Words; 4] = {
         duration: true,
         choice: true,
     };
-    let short =
-        Words { evaluations: "ev", error: "error", measured: "measured", recomputed: "", ..full };
+    let short = StatusWords {
+        evaluations: "ev",
+        error: "error",
+        measured: "measured",
+        recomputed: "",
+        ..full
+    };
     let unmeasured = ["tighter run gave up", "gave up", "tighter run ends otherwise"];
-    let shorter = Words { unmeasured, choice: false, ..short };
+    let shorter = StatusWords { unmeasured, choice: false, ..short };
     let unmeasured = ["gave up", "gave up", "ends otherwise"];
-    [full, short, shorter, Words { unmeasured, duration: false, ..shorter }]
+    [full, short, shorter, StatusWords { unmeasured, duration: false, ..shorter }]
 };
 
 /// What became of the motion, in a sentence.
@@ -245,7 +251,7 @@ fn verdict(fate: &MotionVerdict, motion: &Trajectory, writing: Writing) -> Strin
 
 /// How the motion was computed, what it cost, and its error: measured while the dial is in use, else
 /// that of the energy.
-fn work(session: &Session, look: &Look, words: &Words) -> String {
+fn work(session: &Session, look: &Look, words: &StatusWords) -> String {
     let Some(motion) = session.trajectory() else { return String::new() };
     let seconds = session.standing(Topic::Trajectory, session.plot).answered();
     let seconds = seconds.map_or(0.0, |answered| answered.seconds);
@@ -280,25 +286,14 @@ fn work(session: &Session, look: &Look, words: &Words) -> String {
 }
 
 /// What the last key recomputed, and what that cost.
-fn price(session: &Session, look: &Look, words: &Words) -> String {
+fn price(session: &Session, look: &Look, words: &StatusWords) -> String {
     let price = &session.price;
     if price.recomputed.is_empty() {
         return String::new();
     }
-    let mut times: Vec<(&str, usize)> = Vec::new();
-    for name in price.recomputed.iter().map(|part| part.topic.name()) {
-        match times.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, times)) => *times += 1,
-            None => times.push((name, 1)),
-        }
-    }
-    let several = |(name, times): &(&str, usize)| match times {
-        1 => (*name).to_owned(),
-        _ => format!("{name} x{times}"),
-    };
-    let names: Vec<String> = times.iter().map(several).collect();
+    let topics: Vec<Topic> = price.recomputed.iter().map(|part| part.topic).collect();
     let key = price.key.map_or_else(|| "open".into(), |key| keys::name(key, look));
     let (recomputed, evaluations) = (words.recomputed, count(price.evaluations()));
-    let names = names.join("+");
+    let names = named(&topics, "+");
     format!("{key}: {recomputed}{names} {evaluations} ev {}", duration(price.seconds()))
 }

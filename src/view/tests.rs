@@ -76,7 +76,7 @@ fn approved() -> Scene {
     Scene {
         name: "approved".into(),
         title: "A scene with a fold".into(),
-        look: "Two cycles meet in the fold. ".repeat(4),
+        watch: "Two cycles meet in the fold. ".repeat(4),
         press: "Right on D, past the fold. ".repeat(3),
         terms: [Knob::D, Knob::D3, Knob::R].into(),
         problem,
@@ -189,7 +189,7 @@ fn the_scene_picker_shows_every_scene_and_what_the_selected_one_is_about() {
     assert!(
         ["Lessons", "Figures of the paper", "Machines"].iter().all(|group| screen.contains(group))
     );
-    let always = crate::scene::said::said_by(&session.scene, &session.scene.look);
+    let always = crate::scene::said::said_by(&session.scene, &session.scene.watch);
     let first: Vec<&str> = always.split_whitespace().take(4).collect();
     assert!(screen.contains(&first.join(" ")), "{screen}");
 }

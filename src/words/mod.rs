@@ -34,6 +34,23 @@ pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     textwrap::wrap(text.trim(), options).into_iter().map(Cow::into_owned).collect()
 }
 
+/// The value of the row with this name. Fails with one line that names all rows; `what` they are may be empty.
+pub fn one_of<'a, T>(
+    what: &str,
+    name: &str,
+    rows: impl IntoIterator<Item = (&'a str, T)>,
+) -> Result<T, String> {
+    let mut names = Vec::new();
+    for (known, value) in rows {
+        if known == name {
+            return Ok(value);
+        }
+        names.push(known);
+    }
+    let blank = if what.is_empty() { "" } else { " " };
+    Err(format!("no {what}{blank}{name:?}; there are {}", names.join(", ")))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

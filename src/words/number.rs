@@ -1,6 +1,6 @@
 //! Numbers as text: with a few significant digits, or exactly, within a given width.
 
-use crate::numerics::count::{real, whole};
+use crate::numerics::count::{real, truncated};
 use crate::numerics::elementary::log10;
 
 /// Writes `value` with at most `digits` significant digits, without trailing zeros.
@@ -39,7 +39,7 @@ pub fn rounded_down(value: f64, digits: usize) -> f64 {
 /// Writes `value` with only the digits needed to distinguish numbers that are `resolution` apart.
 pub fn resolved(value: f64, resolution: f64) -> String {
     let ratio = log10(value.abs() / resolution);
-    let digits = whole((ratio.ceil() + 1.0).clamp(1.0, 17.0));
+    let digits = truncated((ratio.ceil() + 1.0).clamp(1.0, 17.0));
     if ratio < 0.0 { "0".into() } else { significant(value, digits) }
 }
 

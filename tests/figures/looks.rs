@@ -108,7 +108,7 @@ fn the_name_of_a_fold_covers_no_branch() {
 fn a_circle_looks_like_one_in_every_phase_plane() {
     let units = |stretched: bool| {
         let mut session = Session::new(find("linear").unwrap(), Size { width: 100, height: 30 });
-        session.look.stretched = stretched;
+        session.display.stretched = stretched;
         let Window { x, y } = Figure::of(&session, [0]).panels[0].window;
         (x.width() / 380.0) / (y.width() / 300.0)
     };

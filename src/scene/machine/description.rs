@@ -13,7 +13,8 @@ pub struct Machine {
     pub name: String,
     pub title: String,
     /// What it is, and what to look at, in a sentence or two.
-    pub look: String,
+    #[serde(rename = "look")]
+    pub watch: String,
     pub belt: Belt,
     /// How exactly its numbers are known, and what disturbs it.
     #[serde(default, skip_serializing_if = "Tolerances::is_none")]

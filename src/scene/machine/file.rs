@@ -129,7 +129,7 @@ struct Friction {
     constant: Option<Constant>,
     polynomial: Option<Polynomial>,
     stribeck: Option<Stribeck>,
-    table: Option<Table>,
+    table: Option<FrictionTable>,
 }
 
 #[derive(Deserialize)]
@@ -156,7 +156,7 @@ struct Stribeck {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Table {
+struct FrictionTable {
     file: Option<Spanned<String>>,
     points: Option<Spanned<Vec<(Number, Number)>>>,
     scatter: Option<Spanned<Number>>,
@@ -241,7 +241,7 @@ fn machine(
     }
     let lacks = |message: String| Complaint { at: 0..0, message };
     let friction = read.friction.ok_or_else(|| lacks("friction is missing".to_owned()))?;
-    let whole = friction.span();
+    let section = friction.span();
     let friction = friction.into_inner();
     let mut half_widths = HalfWidths::default();
     let at_rest = friction.at_rest.as_ref();
@@ -255,12 +255,12 @@ fn machine(
         normal_force: 0.0,
         friction: 0.0,
         belt_speed: 0.0,
-        law: law(friction, &whole, &mut half_widths, fetch)?,
+        law: law(friction, &section, &mut half_widths, fetch)?,
         static_coefficient,
         static_guide: None,
     };
     set_numbers(&mut belt, &read.numbers, &mut half_widths)?;
-    let unfit = |message| Complaint { at: whole.clone(), message };
+    let unfit = |message| Complaint { at: section.clone(), message };
     let reduced = belt.reduce().map_err(|error| unfit(error.to_string()))?;
     Model::new(&belt).map_err(|error| unfit(error.to_string()))?;
     let disturbance = or_usual(Knob::DisturbingForce, read.disturbance.as_ref())?;
@@ -270,7 +270,7 @@ fn machine(
     Ok(Machine {
         name: name.to_owned(),
         title: if read.title.is_empty() { name.to_owned() } else { read.title },
-        look: read.look,
+        watch: read.look,
         belt,
         tolerances,
         displacement,
@@ -306,7 +306,7 @@ fn set_numbers(
 
 fn law(
     given: Friction,
-    whole: &Range<usize>,
+    section: &Range<usize>,
     half_widths: &mut HalfWidths,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<FrictionLaw, Complaint> {
@@ -325,17 +325,17 @@ fn law(
             exponent: half_widths.or_usual(Knob::Exponent, law.exponent.as_ref())?,
             viscous: half_widths.or_usual(Knob::Viscous, law.viscous.as_ref())?,
         }),
-        (None, None, None, Some(law)) => spline(law, whole, fetch),
+        (None, None, None, Some(law)) => spline(law, section, fetch),
         _ => {
             let message = "friction takes one law: constant, polynomial, stribeck or table";
-            Err(Complaint { at: whole.clone(), message: message.to_owned() })
+            Err(Complaint { at: section.clone(), message: message.to_owned() })
         }
     }
 }
 
 fn spline(
-    law: Table,
-    whole: &Range<usize>,
+    law: FrictionTable,
+    section: &Range<usize>,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<FrictionLaw, Complaint> {
     let scatter = or_usual(Knob::Scatter, law.scatter.as_ref())?;
@@ -350,7 +350,7 @@ fn spline(
         (None, Some(points)) => (points.span(), listed(&points)?),
         _ => {
             let message = "a table takes either file = \"NAME.csv\" or points = [[v, mu], ..]";
-            return Err(Complaint { at: whole.clone(), message: message.to_owned() });
+            return Err(Complaint { at: section.clone(), message: message.to_owned() });
         }
     };
     if points.len() > MOST_POINTS {

@@ -83,7 +83,7 @@ mod tests {
     fn every_machine_reads_explains_itself_and_has_a_dimensionless_form() {
         for machine in machines() {
             assert!(machine.title.chars().count() <= 52, "{}: a short title", machine.name);
-            assert!(machine.look.ends_with('.') && machine.look.len() > 20, "{}", machine.name);
+            assert!(machine.watch.ends_with('.') && machine.watch.len() > 20, "{}", machine.name);
             let reduced = machine.reduce().unwrap();
             assert!(reduced.parameters.d.abs() < 1.0, "{}", machine.name);
             assert!(reduced.sticking_velocity > 0.0);

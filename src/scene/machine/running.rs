@@ -65,13 +65,13 @@ impl<'a> Running<'a> {
     pub fn meaning(&self, symbol: Knob, value: f64) -> Option<(Knob, f64)> {
         let ReducedBelt { mu, .. } = &self.reduced;
         let force = self.machine.belt.normal_force;
-        let whole = value * self.scale(symbol);
+        let total = value * self.scale(symbol);
         Some(match symbol {
-            Knob::D => (Knob::Damping, rest_of(whole, force * mu.first)),
-            Knob::D3 => (Knob::CubicDamping, rest_of(whole, force * mu.third / 6.0)),
-            Knob::R => (Knob::Friction, whole),
-            Knob::Q0 => (Knob::X, whole),
-            Knob::V0 => (Knob::V, whole),
+            Knob::D => (Knob::Damping, rest_of(total, force * mu.first)),
+            Knob::D3 => (Knob::CubicDamping, rest_of(total, force * mu.third / 6.0)),
+            Knob::R => (Knob::Friction, total),
+            Knob::Q0 => (Knob::X, total),
+            Knob::V0 => (Knob::V, total),
             _ => return None,
         })
     }
@@ -101,10 +101,10 @@ impl<'a> Running<'a> {
 }
 
 /// `whole - part`, or zero where the difference is no more than the rounding errors of both.
-fn rest_of(whole: f64, part: f64) -> f64 {
+fn rest_of(total: f64, part: f64) -> f64 {
     const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
-    let rest = whole - part;
-    if rest.abs() <= ROUNDINGS * (whole.abs() + part.abs()) { 0.0 } else { rest }
+    let rest = total - part;
+    if rest.abs() <= ROUNDINGS * (total.abs() + part.abs()) { 0.0 } else { rest }
 }
 
 #[cfg(test)]

@@ -9,10 +9,8 @@ use crate::question::{NoAnswer, Rows};
 use crate::scene::{Answer, Answered, Fit, Topic, View};
 use crate::session::act::notice::{inform, refuse};
 use crate::session::read::fit::{fitted, is_pending};
-use crate::session::state::plot::Framing;
-use crate::session::state::rows::Steps;
-use crate::session::state::scan::{Progress, SCANNING};
-use crate::session::state::session::{Recomputation, Session};
+use crate::session::state::scan::SCANNING;
+use crate::session::state::{Framing, Recomputation, ScanProgress, Session, StepSizes};
 use crate::words::fit::sentences;
 
 impl Session {
@@ -57,12 +55,12 @@ impl Session {
         let scene = Arc::make_mut(&mut self.scene);
         // A step below one standard error would mean nothing.
         scene.steps.extend(errors.filter(|(_, error)| *error > 0.0));
-        scene.look = format!("{}. {}", said.join("; ").trim_end_matches('.'), scene.look);
+        scene.watch = format!("{}. {}", said.join("; ").trim_end_matches('.'), scene.watch);
         if self.problem.until == scene.problem.until {
             self.problem.until = problem.until;
         }
         scene.problem = problem;
-        self.steps = Steps::of_scene(&self.scene);
+        self.steps = StepSizes::of_scene(&self.scene);
         for plot in &mut self.plots {
             plot.framing = Framing::Fitting;
         }
@@ -88,10 +86,10 @@ impl Session {
             Ok(_) => return false,
             // A scan that was stopped has been marked already.
             Err(NoAnswer::Reason(Reason::Interrupted)) => return true,
-            Err(_) => scanned.progress = Progress::Stopped,
+            Err(_) => scanned.progress = ScanProgress::Stopped,
         }
         if scanned.rows.len() == scanned.scan.points() {
-            scanned.progress = Progress::Done;
+            scanned.progress = ScanProgress::Done;
             if let Some(notice) = self.notice.as_mut().filter(|notice| notice.text == SCANNING) {
                 notice.text = format!("scanned: {} rows", scanned.rows.len());
             }

@@ -5,8 +5,7 @@ use crate::scene::ordinate::usual_values;
 use crate::scene::{Axes, ORDINATES, PlotSetup, Span, Unit, View, Window};
 use crate::session::act::notice::inform;
 use crate::session::effect::Done;
-use crate::session::state::plot::Plot;
-use crate::session::state::session::Session;
+use crate::session::state::{Plot, Session};
 
 /// Factor for room beside the present value if it lies outside of the first range.
 const ROOM: f64 = 1.25;

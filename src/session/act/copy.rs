@@ -8,7 +8,7 @@ use crate::oscillator::Knob;
 use crate::scene::{Axes, View};
 use crate::session::effect::{Done, Effect};
 use crate::session::read::numbers::plain_value;
-use crate::session::state::session::Session;
+use crate::session::state::Session;
 use crate::study::measure::Value;
 
 /// Number of points of a copied branch: as many as a wide plot has columns.

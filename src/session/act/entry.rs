@@ -1,17 +1,15 @@
 //! Typing a value: the line opens, takes characters, and its text is accepted or refused.
 
-use crate::flow::{METHODS, Method, Problem, QUALITIES};
+use crate::flow::{METHODS, Problem, QUALITIES};
 use crate::oscillator::Knob;
 use crate::oscillator::unit::measured;
 use crate::session::act::notice::warn_of_units;
 use crate::session::act::parameters::put;
 use crate::session::message::key::Key;
 use crate::session::read::numbers::typed;
-use crate::session::state::overlay::{Entry, Overlay};
-use crate::session::state::rows::Row;
-use crate::session::state::session::Session;
-use crate::session::state::setup::Setup;
 use crate::session::state::uncertainty::symbol_of;
+use crate::session::state::{Entry, Overlay, Row, Session, Setup};
+use crate::words::one_of;
 
 /// Opens the line with the value of the selected row.
 pub fn edit(session: &mut Session) {
@@ -57,7 +55,10 @@ pub(in crate::session) fn read(
             return session.with(setup, Knob::Disturbance, disturbance(session, setup, text)?);
         }
         Row::Number(knob) => return number(session, setup, knob, text),
-        Row::Method => Problem { method: method(text)?, ..setup.problem },
+        Row::Method => {
+            let method = one_of("method", text, METHODS.iter().map(|row| (row.name, row.method)))?;
+            Problem { method, ..setup.problem }
+        }
         Row::Tolerance => match QUALITIES.iter().find(|quality| quality.name == text) {
             Some(quality) => setup.problem.at(quality),
             None => setup.problem.with_setting(row.knob_in(&setup.problem).parse(text)?),
@@ -84,11 +85,4 @@ fn disturbance(session: &Session, setup: &Setup, text: &str) -> Result<f64, Stri
         return Ok(Knob::DisturbingForce.parse(text)? / session.unit_of_force(setup)?);
     }
     Knob::Disturbance.parse(text)
-}
-
-fn method(text: &str) -> Result<Method, String> {
-    Method::named(text).ok_or_else(|| {
-        let names: Vec<_> = METHODS.iter().map(|row| row.name).collect();
-        format!("no method {text:?}; there are {}", names.join(", "))
-    })
 }

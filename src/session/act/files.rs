@@ -8,12 +8,11 @@ use crate::scene::machine::file::parse;
 use crate::scene::machine::mode::{NO_BELT, is_mode};
 use crate::scene::{Recording, ScaledMachine};
 use crate::session::act::notice::{inform, warn_of_units, with_keys};
-use crate::session::act::{history, measurement, prompt};
+use crate::session::act::{history, lists, measurement, prompt};
 use crate::session::effect::{Done, Effect};
 use crate::session::message::Purpose;
 use crate::session::replay::script::Script;
-use crate::session::state::overlay::{List, Listed, Overlay};
-use crate::session::state::session::Session;
+use crate::session::state::{Listed, Overlay, Session};
 use crate::session::{replay, save};
 
 /// The built-in tour.
@@ -153,7 +152,7 @@ pub fn restore(session: &mut Session) -> Done {
     match session.interrupted.len() {
         0 => return Err(NONE_INTERRUPTED.to_owned()),
         1 => restore_number(session, 0),
-        _ => session.overlay = Some(Overlay::List(Listed::Interrupted, List::default())),
+        _ => lists::open(session, Listed::Interrupted),
     }
     Ok(())
 }

@@ -1,7 +1,6 @@
 //! Commands that move the focus between panes.
 
-use crate::session::state::plot::Pane;
-use crate::session::state::session::Session;
+use crate::session::state::{Pane, Session};
 
 /// Gives the focus to another pane.
 pub fn focus(session: &mut Session, by: isize) {

@@ -3,9 +3,9 @@
 use crate::scene::Layer;
 use crate::session::act::notice::{inform, with_keys};
 use crate::session::effect::{Done, Effect};
-use crate::session::state::overlay::{Overlay, SessionCaption};
-use crate::session::state::session::{MOST_HARMONICS, Session};
-use crate::session::state::settings::{GLYPHS, THEMES, next_of};
+use crate::session::state::session::MOST_HARMONICS;
+use crate::session::state::settings::{DisplaySettings, GLYPHS, THEMES, next_of};
+use crate::session::state::{Overlay, Session, SessionCaption};
 use crate::study::harmonic_error::ladder;
 
 /// Shows or hides a layer.
@@ -59,38 +59,40 @@ pub fn explain(session: &mut Session) {
 
 /// Draws with the next set of characters.
 pub fn glyphs(session: &mut Session) {
-    let (glyphs, name) = next_of(&GLYPHS, session.look.glyphs);
-    session.look.glyphs = glyphs;
+    let (glyphs, name) = next_of(&GLYPHS, session.display.glyphs);
+    session.display.glyphs = glyphs;
     inform(session, format!("glyphs: {name}"));
 }
 
 /// Uses the next theme.
 pub fn theme(session: &mut Session) {
-    let (theme, name) = next_of(&THEMES, session.look.theme);
-    session.look.theme = theme;
+    let (theme, name) = next_of(&THEMES, session.display.theme);
+    session.display.theme = theme;
     inform(session, format!("theme: {name}"));
+}
+
+/// Switches a setting of the screen on or off, and says what it is then.
+pub(in crate::session) fn flip(
+    session: &mut Session,
+    setting: fn(&mut DisplaySettings) -> &mut bool,
+    [on, off]: [&str; 2],
+) {
+    let switch = setting(&mut session.display);
+    *switch = !*switch;
+    let text = if *switch { on } else { off };
+    inform(session, text);
 }
 
 /// Switches phase planes between equal units and filling their whole space.
 pub fn equal(session: &mut Session) {
-    session.look.stretched = !session.look.stretched;
-    let text = if session.look.stretched {
-        "phase planes fill their panes: a circle need not look like one"
-    } else {
-        "equal units: a circle looks like one"
-    };
-    inform(session, text);
+    let on = "phase planes fill their panes: a circle need not look like one";
+    flip(session, |it| &mut it.stretched, [on, "equal units: a circle looks like one"]);
 }
 
 /// Shows axes of machines with or without units.
 pub fn units(session: &mut Session) {
-    session.look.dimensionless = !session.look.dimensionless;
-    let text = if session.look.dimensionless {
-        "axes without units: q, v and tau"
-    } else {
-        "axes of machines in their units"
-    };
-    inform(session, text);
+    let said = ["axes without units: q, v and tau", "axes of machines in their units"];
+    flip(session, |it| &mut it.dimensionless, said);
 }
 
 /// Closes the overlay.

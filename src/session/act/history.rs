@@ -9,12 +9,9 @@ use crate::session::act::notice::inform;
 use crate::session::act::screen_setup::set_up;
 use crate::session::effect::Done;
 use crate::session::read::numbers::difference;
-use crate::session::state::history::{Before, ScreenSetup, Snapshot};
-use crate::session::state::playback::Playback;
-use crate::session::state::plot::Pane;
-use crate::session::state::rows::{Row, Steps};
-use crate::session::state::session::Session;
-use crate::session::state::setup::Setup;
+use crate::session::state::{
+    Before, Pane, Playback, Row, ScreenSetup, Session, Setup, Snapshot, StepSizes,
+};
 
 /// Undoes the last change.
 pub fn undo(session: &mut Session) -> Done {
@@ -72,7 +69,7 @@ fn snapshot(session: &Session) -> Snapshot {
 fn opening(scene: Arc<Scene>) -> Snapshot {
     Snapshot {
         setup: Setup::of_scene(&scene),
-        steps: Steps::of_scene(&scene),
+        steps: StepSizes::of_scene(&scene),
         layers: scene.layers.clone(),
         screen_setup: ScreenSetup { plots: scene.plots.clone(), arrangement: scene.arrangement },
         scene,
@@ -131,7 +128,7 @@ pub(in crate::session) fn begin(session: &mut Session, names: Vec<Knob>) {
     opens.problem = session.problem;
     opens.terms.extend(names);
     *session = Session {
-        look: session.look,
+        display: session.display,
         keymap: Arc::clone(&session.keymap),
         interrupted: std::mem::take(&mut session.interrupted),
         ..Session::new(scene, session.size)

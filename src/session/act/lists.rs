@@ -9,24 +9,23 @@ use crate::session::act::notice::{inform, refuse};
 use crate::session::act::screen_setup::show_from_list;
 use crate::session::effect::Done;
 use crate::session::message::key::Key;
-use crate::session::state::overlay::{List, Listed, Overlay};
-use crate::session::state::session::Session;
+use crate::session::state::{List, Listed, Overlay, Session};
 use crate::study::claims::Claim;
 
 /// Number of rows that the page keys move by.
 pub const PAGE: isize = 10;
 
-/// Opens the scene picker, with the present scene selected.
-pub fn open_scenes(session: &mut Session) {
-    let name = session.scene.name.as_str();
-    let rows = session.scene_rows(&List::default());
-    let present = rows.iter().position(|scene| scene.name == name);
-    let list = List { selected: present.unwrap_or(0), ..List::default() };
-    session.overlay = Some(Overlay::List(Listed::Scenes, list));
-}
-
-pub fn open_layers(session: &mut Session) {
-    session.overlay = Some(Overlay::List(Listed::Layers, List::default()));
+/// Opens a list, with the present scene or the view of the plot in use selected.
+pub fn open(session: &mut Session, listed: Listed) {
+    let list = List::default();
+    let rows = |list: &List| session.scene_rows(list).into_iter();
+    let selected = match listed {
+        Listed::Scenes => rows(&list).position(|scene| scene.name == session.scene.name),
+        Listed::Views => Some(session.view_in_use() as usize),
+        _ => None,
+    };
+    let list = List { selected: selected.unwrap_or(0), ..list };
+    session.overlay = Some(Overlay::List(listed, list));
 }
 
 /// Switches the layer with this letter in the view of the plot in use.
@@ -43,22 +42,6 @@ pub fn toggle_letter(session: &mut Session, key: Key) {
         }
     }
     toggle(session, layer);
-}
-
-/// Opens the picker of views, with the view of the plot in use selected.
-pub fn open_views(session: &mut Session) {
-    let selected = session.plots[session.plot].view as usize;
-    session.overlay = Some(Overlay::List(Listed::Views, List { selected, ..List::default() }));
-}
-
-/// Opens the list of the picture's costs.
-pub fn open_cost(session: &mut Session) {
-    session.overlay = Some(Overlay::List(Listed::Cost, List::default()));
-}
-
-/// Opens the page of the paper with its claims, which are examined when this is first asked for.
-pub fn open_paper(session: &mut Session) {
-    session.overlay = Some(Overlay::List(Listed::Paper, List::default()));
 }
 
 /// Opens the scene that shows a claim.
@@ -105,17 +88,10 @@ pub fn search_drop(session: &mut Session) {
     }
 }
 
-/// Deletes the last character of the search.
-pub fn search_delete(session: &mut Session) {
+/// Changes the text of the search.
+pub fn search_with(session: &mut Session, change: impl FnOnce(&mut String)) {
     if let Some(list) = session.list_mut() {
-        list.search.pop();
-        list.selected = 0;
-    }
-}
-
-pub fn search_clear(session: &mut Session) {
-    if let Some(list) = session.list_mut() {
-        list.search.clear();
+        change(&mut list.search);
         list.selected = 0;
     }
 }

@@ -9,8 +9,7 @@ use crate::session::act::parameters::put;
 use crate::session::effect::Done;
 use crate::session::read::numbers::difference;
 use crate::session::read::wants::COMPARED;
-use crate::session::state::marks::Bookmark;
-use crate::session::state::session::Session;
+use crate::session::state::{Bookmark, Session};
 
 /// Marks the present point.
 pub(in crate::session) fn set(session: &mut Session, name: char) {

@@ -10,7 +10,7 @@ use crate::oscillator::Knob;
 use crate::question::Opened;
 use crate::session::effect::{Done, Effect};
 use crate::session::message::Purpose;
-use crate::session::state::session::Session;
+use crate::session::state::Session;
 
 /// Words that may follow the name of the file.
 const WORDS: [&str; 8] =

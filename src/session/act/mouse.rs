@@ -1,26 +1,20 @@
 //! The mouse, for those who want it: a click starts a motion or moves a cursor, and the wheel zooms.
 
 use crate::session::act::focus::focus_on;
-use crate::session::act::notice::inform;
+use crate::session::act::general::flip;
 use crate::session::act::{lists, plots};
 use crate::session::effect::{Done, Effect};
 use crate::session::message::pointer::{Gesture, Pointed, PointerTarget};
-use crate::session::state::plot::Pane;
-use crate::session::state::session::Session;
+use crate::session::state::{Pane, Session};
 
 /// Number of rows by which a notch of the wheel moves a list.
 const NOTCH: isize = 3;
 
 /// Turns the mouse on or off.
 pub fn toggle(session: &mut Session) {
-    session.look.mouse = !session.look.mouse;
-    let text = if session.look.mouse {
-        "mouse on: click to start or point, turn the wheel to zoom, hold shift to select text"
-    } else {
-        "mouse off: the terminal selects text"
-    };
-    inform(session, text);
-    session.effects.push(Effect::Mouse(session.look.mouse));
+    let on = "mouse on: click to start or point, turn the wheel to zoom, hold shift to select text";
+    flip(session, |it| &mut it.mouse, [on, "mouse off: the terminal selects text"]);
+    session.effects.push(Effect::Mouse(session.display.mouse));
 }
 
 /// Handles an action of the mouse. Over an overlay, the wheel moves its list and clicks are ignored.

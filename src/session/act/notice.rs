@@ -3,7 +3,7 @@
 use crate::session::effect::Done;
 use crate::session::message::Notice;
 use crate::session::message::key::Key;
-use crate::session::state::session::Session;
+use crate::session::state::Session;
 
 /// Shows a notice that reports no refusal.
 pub(in crate::session) fn inform(session: &mut Session, text: impl Into<String>) {

@@ -3,19 +3,11 @@
 use crate::session::act::screen_setup::show_from_list;
 use crate::session::act::{lists, prompt};
 use crate::session::read::palette::PaletteRow;
-use crate::session::state::command::Chosen;
-use crate::session::state::overlay::{List, Listed, Overlay};
-use crate::session::state::session::Session;
-
-/// Opens the palette, with the search active if `searching`.
-pub fn open(session: &mut Session, searching: bool) {
-    let list = List { searching, ..List::default() };
-    session.overlay = Some(Overlay::List(Listed::Palette, list));
-}
+use crate::session::state::{Listed, NextCommand, Overlay, Session};
 
 /// The selected row, to be run. A command that takes words opens the line for typing them. The list of costs,
 /// in which nothing can be run, closes.
-pub fn choose(session: &mut Session) -> Result<Option<Chosen>, String> {
+pub fn choose(session: &mut Session) -> Result<Option<NextCommand>, String> {
     let Some(Overlay::List(Listed::Palette, list)) = &session.overlay else {
         session.overlay = None;
         return Ok(None);
@@ -24,15 +16,15 @@ pub fn choose(session: &mut Session) -> Result<Option<Chosen>, String> {
     let Some(row) = rows.get(list.selected) else { return Ok(None) };
     session.overlay = None;
     Ok(Some(match row {
-        PaletteRow::Command(command) => Chosen::Command(command),
+        PaletteRow::Command(command) => NextCommand::Command(command),
         PaletteRow::Line(line) => {
             prompt::open_with(session, format!("{} ", line.name));
             return Ok(None);
         }
-        PaletteRow::Scene(scene) => Chosen::Line(format!("scene {}", scene.name)),
+        PaletteRow::Scene(scene) => NextCommand::Line(format!("scene {}", scene.name)),
         PaletteRow::View(row) => return show_from_list(session, row.view).map(|()| None),
-        PaletteRow::Layer(layer) => Chosen::Line(format!("layer {}", layer.name)),
-        PaletteRow::Machine(machine) => Chosen::Line(format!("belt {}", machine.name)),
+        PaletteRow::Layer(layer) => NextCommand::Line(format!("layer {}", layer.name)),
+        PaletteRow::Machine(machine) => NextCommand::Line(format!("belt {}", machine.name)),
         PaletteRow::Claim(claim) => return lists::show_claim(session, claim).map(|()| None),
     }))
 }

@@ -10,11 +10,7 @@ use crate::oscillator::{Group, Knob, KnobSpec};
 use crate::scene::{Running, Setting, View};
 use crate::session::act::notice::inform;
 use crate::session::effect::Done;
-use crate::session::state::history::Before;
-use crate::session::state::plot::{Framing, Plot};
-use crate::session::state::rows::{Row, Steps};
-use crate::session::state::session::Session;
-use crate::session::state::setup::Setup;
+use crate::session::state::{Before, Framing, Plot, Row, Session, Setup, StepSizes};
 
 /// Changes the motion on show, as one change that can be undone; the belt keeps its speed. Returns whether
 /// anything differs.
@@ -110,7 +106,7 @@ pub fn step_size(session: &mut Session, larger: bool) -> Done {
 pub fn reset_row(session: &mut Session) {
     let row = session.selected;
     let (of_scene, present) = (Setup::of_scene(&session.scene), session.setup());
-    let steps = Steps::of_scene(&session.scene);
+    let steps = StepSizes::of_scene(&session.scene);
     if let (Some(size), Some(wanted)) = (session.steps.of_row_mut(row), steps.of_row(row)) {
         *size = wanted;
     }

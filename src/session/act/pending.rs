@@ -2,8 +2,7 @@
 
 use crate::session::message::key::Key;
 use crate::session::state::pending::MOST;
-use crate::session::state::pending::{Letter, Pending};
-use crate::session::state::session::Session;
+use crate::session::state::{Letter, Pending, Session};
 
 /// Adds the digit of this key to a count, and waits for more.
 pub fn count(session: &mut Session, key: Key) {

@@ -6,8 +6,7 @@ use crate::scene::{Layer, Topic};
 use crate::session::act::notice::inform;
 use crate::session::effect::Done;
 use crate::session::state::playback::PACES;
-use crate::session::state::playback::Pace;
-use crate::session::state::session::Session;
+use crate::session::state::{Pace, Session};
 
 const NO_MOTION: &str = "there is no motion on show to play";
 

@@ -9,9 +9,7 @@ use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::parameters::{change, put};
 use crate::session::act::starts::start;
 use crate::session::effect::{Done, Effect};
-use crate::session::state::plot::{Framing, Plot};
-use crate::session::state::session::Session;
-use crate::session::state::step_size::StepSize;
+use crate::session::state::{Framing, Plot, Session, StepSize};
 
 /// Number of cursor steps in a far move.
 pub const FAR: i32 = 8;

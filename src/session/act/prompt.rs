@@ -1,10 +1,10 @@
 //! The command line: opening, completing, remembering and running.
 
 use crate::session::read::completion::completion;
-use crate::session::state::command::{Chosen, full_name};
-use crate::session::state::input::Input;
-use crate::session::state::overlay::{Completion, List, Listed, Overlay, Prompt};
-use crate::session::state::session::Session;
+use crate::session::state::command::full_name;
+use crate::session::state::{
+    Completion, Input, List, Listed, NextCommand, Overlay, Prompt, Session,
+};
 
 /// Maximum number of remembered lines.
 const REMEMBERED: usize = 200;
@@ -21,7 +21,7 @@ pub fn open_with(session: &mut Session, text: String) {
 
 /// The typed command, to be run. An empty line closes. A line that begins with no command is searched for in
 /// the palette, which stays open if something is found.
-pub fn accept(session: &mut Session) -> Option<Chosen> {
+pub fn accept(session: &mut Session) -> Option<NextCommand> {
     let Some(Overlay::Prompt(prompt)) = &session.overlay else { return None };
     let text = prompt.input.text().trim().to_owned();
     if text.is_empty() {
@@ -33,7 +33,7 @@ pub fn accept(session: &mut Session) -> Option<Chosen> {
         return None;
     }
     remember(session, &text);
-    Some(Chosen::Line(text))
+    Some(NextCommand::Line(text))
 }
 
 /// The palette with a search for a line that begins with no command; `None` if the line begins with a command

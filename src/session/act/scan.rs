@@ -9,12 +9,8 @@ use crate::session::act::parameters::change;
 use crate::session::act::screen_setup::{add, show};
 use crate::session::effect::{Done, Effect};
 use crate::session::read::scan::{scan_of, typed};
-use crate::session::state::input::Input;
-use crate::session::state::overlay::Overlay;
-use crate::session::state::plot::Pane;
-use crate::session::state::scan::{Progress, SCANNING, ScanOnShow};
-use crate::session::state::scan_form::ScanForm;
-use crate::session::state::session::Session;
+use crate::session::state::scan::SCANNING;
+use crate::session::state::{Input, Overlay, Pane, ScanForm, ScanOnShow, ScanProgress, Session};
 use crate::study::scan::{Scan, Sweep};
 
 /// The file in which a key saves the rows; the command line takes any name.
@@ -133,7 +129,7 @@ fn beside(session: &mut Session) {
 pub fn stop(session: &mut Session) {
     let Some(scanned) = &mut session.scanned else { return };
     if scanned.request().is_some() {
-        scanned.progress = Progress::Stopped;
+        scanned.progress = ScanProgress::Stopped;
         let (rows, points) = (scanned.rows.len(), scanned.scan.points());
         let text = format!("stopped: {rows} of {points} rows; {{scan-pause}} continues");
         let text = with_keys(session, &text);
@@ -150,12 +146,12 @@ fn scanned(session: &mut Session) -> Result<&mut ScanOnShow, String> {
 pub fn pause(session: &mut Session) -> Done {
     let scanned = scanned(session)?;
     match scanned.progress {
-        Progress::Running { .. } => stop(session),
-        Progress::Stopped => {
-            scanned.progress = Progress::Running { from: scanned.rows.len() };
+        ScanProgress::Running { .. } => stop(session),
+        ScanProgress::Stopped => {
+            scanned.progress = ScanProgress::Running { from: scanned.rows.len() };
             inform(session, SCANNING);
         }
-        Progress::Done => inform(session, "the scan is done"),
+        ScanProgress::Done => inform(session, "the scan is done"),
     }
     Ok(())
 }

@@ -5,9 +5,7 @@ use crate::scene::{ARRANGEMENTS, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::{inform, with_keys};
 use crate::session::effect::Done;
-use crate::session::state::history::{Before, ScreenSetup};
-use crate::session::state::plot::{Pane, Plot};
-use crate::session::state::session::Session;
+use crate::session::state::{Before, Pane, Plot, ScreenSetup, Session};
 
 /// Replaces the plots and their arrangement.
 pub(in crate::session) fn set_up(session: &mut Session, screen_setup: &ScreenSetup) {

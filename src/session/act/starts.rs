@@ -7,10 +7,9 @@ use crate::scene::Topic;
 use crate::session::act::notice::inform;
 use crate::session::act::parameters::put;
 use crate::session::effect::Done;
-use crate::session::state::session::Session;
-use crate::session::state::setup::Setup;
-use crate::session::state::starts::{MOST_MOTIONS, Starts};
+use crate::session::state::starts::MOST_MOTIONS;
 use crate::session::state::step_size::decimal_sum;
+use crate::session::state::{Session, Setup, Starts};
 use crate::study::Cycles;
 
 /// Clearance of a start relative to that of the border: near enough to stay close for a while, far enough to be

@@ -13,11 +13,10 @@ use crate::session::act::{
 };
 use crate::session::effect::Done;
 use crate::session::read::completion::{properties, rows};
-use crate::session::state::plot::{Framing, Pane};
-use crate::session::state::rows::Row;
-use crate::session::state::session::{MOST_HARMONICS, Session};
-use crate::session::state::settings::{COLORS, GLYPHS, THEMES, named};
+use crate::session::state::session::MOST_HARMONICS;
+use crate::session::state::{Framing, Pane, Row, Session};
 use crate::study::kicks::RandomKick;
+use crate::words::one_of;
 
 /// A list of names, for a line that says what is allowed.
 fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
@@ -75,9 +74,8 @@ pub fn scene(session: &mut Session, name: &str) -> Done {
 
 /// Opens a built-in machine.
 pub fn belt(session: &mut Session, name: &str) -> Done {
-    let names = || listed(machines().iter().map(|machine| machine.name.as_str()));
-    let machine = machines().iter().find(|machine| machine.name == name);
-    let machine = machine.ok_or_else(|| format!("no machine {name:?}; there are {}", names()))?;
+    let rows = machines().iter().map(|machine| (machine.name.as_str(), machine));
+    let machine = one_of("machine", name, rows)?;
     let scaled = ScaledMachine::new(machine.clone()).map_err(|error| format!("{name}: {error}"))?;
     history::open_scene(session, Arc::new(scaled.scene()));
     Ok(())
@@ -85,11 +83,8 @@ pub fn belt(session: &mut Session, name: &str) -> Done {
 
 /// Shows a view in the plot in use.
 pub fn view(session: &mut Session, name: &str) -> Done {
-    let row = VIEWS.iter().find(|row| row.name == name);
-    let row = row.ok_or_else(|| {
-        format!("no view {name:?}; there are {}", listed(VIEWS.iter().map(|row| row.name)))
-    })?;
-    screen_setup::show(session, row.view);
+    let view = one_of("view", name, VIEWS.iter().map(|row| (row.name, row.view)))?;
+    screen_setup::show(session, view);
     Ok(())
 }
 
@@ -99,14 +94,9 @@ pub fn layer(session: &mut Session, rest: &str) -> Done {
     let layer = Layer::named(name).ok_or_else(|| {
         format!("no layer {name:?}; there are {}", listed(LAYERS.iter().map(|row| row.name)))
     })?;
-    let is_on = session.layers.contains(&layer);
-    let wanted = match state.trim() {
-        "" => !is_on,
-        "on" => true,
-        "off" => false,
-        other => return Err(format!("{name} can be on or off, not {other:?}")),
-    };
-    if wanted != is_on {
+    let was_on = session.layers.contains(&layer);
+    let wanted = if state.trim().is_empty() { !was_on } else { is_on(name, state.trim())? };
+    if wanted != was_on {
         general::toggle(session, layer);
     }
     Ok(())
@@ -131,10 +121,8 @@ pub fn window(session: &mut Session, rest: &str) -> Done {
 /// Sets the axes of the diagram in use: a parameter, and optionally a property of the cycles.
 pub fn axes(session: &mut Session, rest: &str) -> Done {
     let (over, property) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
-    let names = Knob::PARAMETERS.map(|knob| knob.spec().name);
-    let abscissa = Knob::PARAMETERS.into_iter().find(|knob| knob.spec().name == over);
-    let abscissa =
-        abscissa.ok_or_else(|| format!("no diagram over {over:?}; there are {}", listed(names)))?;
+    let rows = Knob::PARAMETERS.map(|knob| (knob.spec().name, knob));
+    let abscissa = one_of("diagram over", over, rows)?;
     let index = diagram(session).ok_or("no plot shows a diagram; view diagram makes one")?;
     let axes = session.plots[index].axes;
     let (ordinate, unit) = match property.trim() {
@@ -208,44 +196,19 @@ pub fn go_to(session: &mut Session, rest: &str) -> Done {
     marks::go_to(session, letter(rest)?)
 }
 
-fn look<T: Copy>(table: &[(T, &'static str)], name: &str) -> Result<T, String> {
-    let names = || listed(table.iter().map(|row| row.1));
-    named(table, name).ok_or_else(|| format!("no {name:?}; there are {}", names()))
+/// A choice in a table such as [`crate::session::state::settings::THEMES`]. Fails with a line that names all.
+pub(in crate::session) fn choice<T: Copy>(
+    table: &[(T, &'static str)],
+    name: &str,
+) -> Result<T, String> {
+    one_of("", name, table.iter().map(|row| (row.1, row.0)))
 }
 
-pub fn theme(session: &mut Session, name: &str) -> Done {
-    session.look.theme = look(&THEMES, name)?;
-    Ok(())
-}
-
-/// Selects a set of characters.
-pub fn glyphs(session: &mut Session, name: &str) -> Done {
-    session.look.glyphs = look(&GLYPHS, name)?;
-    Ok(())
-}
-
-fn is_on(what: &str, state: &str) -> Result<bool, String> {
+/// Whether a setting is to be on. Fails with a line if that is not said.
+pub(in crate::session) fn is_on(what: &str, state: &str) -> Result<bool, String> {
     match state {
         "on" => Ok(true),
         "off" => Ok(false),
         _ => Err(format!("{what} can be on or off, not {state:?}")),
     }
-}
-
-/// Shows axes of machines with or without units.
-pub fn units(session: &mut Session, state: &str) -> Done {
-    session.look.dimensionless = !is_on("units", state)?;
-    Ok(())
-}
-
-/// Switches equal units of phase planes on or off.
-pub fn equal(session: &mut Session, state: &str) -> Done {
-    session.look.stretched = !is_on("equal units", state)?;
-    Ok(())
-}
-
-/// Selects a colour depth.
-pub fn color(session: &mut Session, name: &str) -> Done {
-    session.look.colors = look(&COLORS, name)?;
-    Ok(())
 }

@@ -7,10 +7,8 @@ use crate::scene::{Axes, Layer, Topic};
 use crate::session::act::notice::{inform, with_keys};
 use crate::session::act::parameters::change;
 use crate::session::effect::Done;
-use crate::session::read::walk::Way;
-use crate::session::state::plot::{Pane, Plot};
-use crate::session::state::session::Session;
-use crate::session::state::stop::BranchStop;
+use crate::session::read::walk::BranchPath;
+use crate::session::state::{BranchStop, Pane, Plot, Session};
 
 /// Number of points in a far move.
 pub const FAR: isize = 10;
@@ -31,7 +29,7 @@ fn first(session: &Session) -> Result<BranchStop, &'static str> {
     if branches.is_empty() || !session.is_fresh(Topic::Branch, index) {
         return Err("the branch is not known: its computation gave up");
     }
-    let way = Way::along(&branches);
+    let way = BranchPath::along(&branches);
     let Plot { axes: Axes { abscissa, .. }, window, cursor, .. } = &session.plots[index];
     let found = if let Some(cursor) = cursor {
         way.nearest(|stop| {
@@ -45,7 +43,7 @@ fn first(session: &Session) -> Result<BranchStop, &'static str> {
         let shown = session.shown(index);
         let present = shown.iter().position(|shown| shown.problem == session.problem);
         let own = branches.into_iter().filter(|(variant, _)| Some(*variant) == present);
-        let own = Way::along(&own.collect::<Vec<_>>());
+        let own = BranchPath::along(&own.collect::<Vec<_>>());
         let value = session.value(*abscissa);
         own.start(value).or_else(|| way.start(value))
     };
@@ -54,7 +52,7 @@ fn first(session: &Session) -> Result<BranchStop, &'static str> {
 
 /// Moves `count` points along the held piece of the branch.
 pub fn go(session: &mut Session, count: isize) {
-    let further = |way: &Way, held: &BranchStop| way.further(held, count);
+    let further = |way: &BranchPath, held: &BranchStop| way.further(held, count);
     if !moved(session, further) {
         let text = "the branch ends here; {walk-to-next} leads to the next special point or end";
         inform(session, with_keys(session, text));
@@ -67,9 +65,12 @@ pub fn go_to_landmark(session: &mut Session, onward: bool) {
 }
 
 /// Holds another point; returns whether it differs.
-fn moved(session: &mut Session, choose: impl Fn(&Way, &BranchStop) -> Option<BranchStop>) -> bool {
+fn moved(
+    session: &mut Session,
+    choose: impl Fn(&BranchPath, &BranchStop) -> Option<BranchStop>,
+) -> bool {
     let Some(held) = session.held else { return false };
-    let found = choose(&Way::along(&session.branches(session.plot)), &held).unwrap_or(held);
+    let found = choose(&BranchPath::along(&session.branches(session.plot)), &held).unwrap_or(held);
     session.held = Some(found);
     found != held
 }
@@ -112,6 +113,6 @@ pub(in crate::session) fn keep_hold(session: &mut Session) {
     } else if !session.is_fresh(Topic::Branch, index) {
         Some(held).filter(|_| branches.iter().any(|(_, branch)| !branch.pieces.is_empty()))
     } else {
-        Way::along(&branches).again(&held)
+        BranchPath::along(&branches).again(&held)
     };
 }

@@ -11,9 +11,8 @@ use crate::question::Whole;
 use crate::question::whole::{Course, WholeCycles};
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Answer, Layer, Machine, Running, Setting, Topic};
-use crate::session::state::session::Session;
-use crate::session::state::setup::Setup;
-use crate::session::state::uncertainty::{ON_A_MACHINE, Uncertainty, symbol_of};
+use crate::session::state::uncertainty::{ON_A_MACHINE, symbol_of};
+use crate::session::state::{Session, Setup, Uncertainty};
 
 impl Session {
     /// The machine of the scene with its present setting.

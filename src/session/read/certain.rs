@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::oscillator::Parameters;
 use crate::question;
 use crate::scene::{Layer, Request, View};
-use crate::session::state::session::Session;
+use crate::session::state::Session;
 
 impl Session {
     /// Whether a plot states guaranteed margins: something is uncertain, or a layer asks for them.

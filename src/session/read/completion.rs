@@ -7,36 +7,32 @@ use crate::scene::machine::library::machines;
 use crate::scene::ordinate::OrdinateSpec;
 use crate::scene::{LAYERS, ORDINATES, VIEWS, Window, library};
 use crate::session::read::numbers::plain_value;
-use crate::session::state::command::{Command, Words};
-use crate::session::state::keymap::Keymap;
-use crate::session::state::overlay::Completion;
-use crate::session::state::rows::Row;
-use crate::session::state::session::Session;
 use crate::session::state::settings::{COLORS, GLYPHS, THEMES};
+use crate::session::state::{Command, Completion, Keymap, Row, Session, WordKind};
 use crate::study::measure::MEASURES;
 
 /// Candidates for the last of these words, which are all words after the name of the command.
-fn complete(session: &Session, kind: Words, given: &[&str]) -> Vec<String> {
+fn complete(session: &Session, kind: WordKind, given: &[&str]) -> Vec<String> {
     let first = given.len() < 2;
     let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
     match kind {
-        Words::Assignments => assignments(session, given),
-        Words::Methods => methods(),
-        Words::Scenes => library::names().map(str::to_owned).collect(),
-        Words::Machines => machines().iter().map(|machine| machine.name.clone()).collect(),
-        Words::Views => owned(&VIEWS.map(|row| row.name)),
-        Words::Layers if first => owned(&LAYERS.map(|row| row.name)),
-        Words::Layers if given.len() == 2 => owned(&["on", "off"]),
-        Words::Switch if first => owned(&["on", "off"]),
-        Words::Axes if first => owned(&Knob::PARAMETERS.map(|knob| knob.spec().name)),
-        Words::Axes if given.len() == 2 => properties().collect(),
-        Words::Window => windows(session),
-        Words::Scan => scan(given),
-        Words::Marks => session.marks.places.keys().map(char::to_string).collect(),
-        Words::Themes => owned(&THEMES.map(|row| row.1)),
-        Words::Glyphs => owned(&GLYPHS.map(|row| row.1)),
-        Words::Colors => owned(&COLORS.map(|row| row.1)),
-        Words::Unknown | Words::Layers | Words::Switch | Words::Axes => Vec::new(),
+        WordKind::Assignments => assignments(session, given),
+        WordKind::Methods => methods(),
+        WordKind::Scenes => library::names().map(str::to_owned).collect(),
+        WordKind::Machines => machines().iter().map(|machine| machine.name.clone()).collect(),
+        WordKind::Views => owned(&VIEWS.map(|row| row.name)),
+        WordKind::Layers if first => owned(&LAYERS.map(|row| row.name)),
+        WordKind::Layers if given.len() == 2 => owned(&["on", "off"]),
+        WordKind::Switch if first => owned(&["on", "off"]),
+        WordKind::Axes if first => owned(&Knob::PARAMETERS.map(|knob| knob.spec().name)),
+        WordKind::Axes if given.len() == 2 => properties().collect(),
+        WordKind::Window => windows(session),
+        WordKind::Scan => scan(given),
+        WordKind::Marks => session.marks.places.keys().map(char::to_string).collect(),
+        WordKind::Themes => owned(&THEMES.map(|row| row.1)),
+        WordKind::Glyphs => owned(&GLYPHS.map(|row| row.1)),
+        WordKind::Colors => owned(&COLORS.map(|row| row.1)),
+        WordKind::Unknown | WordKind::Layers | WordKind::Switch | WordKind::Axes => Vec::new(),
     }
 }
 

@@ -3,11 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::session::message::key::Key;
-use crate::session::state::command::Command;
-use crate::session::state::context::{Context, chain};
-use crate::session::state::overlay::{Listed, Overlay, SessionCaption};
-use crate::session::state::pending::Pending;
-use crate::session::state::session::Session;
+use crate::session::state::context::chain;
+use crate::session::state::{Command, Context, Listed, Overlay, Pending, Session, SessionCaption};
 
 impl Session {
     /// The contexts that hold at present, the most specific first: one of

@@ -9,9 +9,8 @@ use crate::numerics::elementary::hypot;
 use crate::oscillator::Parameters;
 use crate::portrait::{Border, Cycle};
 use crate::question::whole::Course;
-use crate::scene::said::{self, Condition};
-use crate::session::state::session::Session;
-use crate::session::state::setup::Setup;
+use crate::scene::said::{self, TextCondition};
+use crate::session::state::{Session, Setup};
 use crate::study::Cycles;
 
 /// The fate of a motion.
@@ -191,7 +190,7 @@ impl Session {
     }
 
     /// Whether a condition holds, by the answers on show.
-    fn holds(&self, condition: Condition) -> bool {
+    fn holds(&self, condition: TextCondition) -> bool {
         let whole = self.kinds().filter(|_| self.draws_whole());
         let cycles = |stable: bool| match whole {
             // Only the unstable cycle that borders the basin counts.
@@ -204,30 +203,34 @@ impl Session {
         let border = self.cycles().map(|found| found.border);
         let end = || self.fate().map(|fate| fate.end);
         match condition {
-            Condition::Here => {
+            TextCondition::Here => {
                 let (own, scene) = (self.problem, self.scene.problem);
                 (own.parameters, own.initial) == (scene.parameters, scene.initial)
                     && self.setting == Setup::of_scene(&self.scene).setting
             }
-            Condition::Path => self.is_on_the_belt() == Some(true),
-            Condition::Opened => {
+            TextCondition::Path => self.is_on_the_belt() == Some(true),
+            TextCondition::Opened => {
                 let own = self.plots.iter().map(|plot| (plot.view, plot.axes));
                 own.eq(self.scene.plots.iter().map(|plot_setup| (plot_setup.view, plot_setup.axes)))
             }
-            Condition::Unstable => cycles(false),
-            Condition::Stable => cycles(true),
-            Condition::Separatrix => border.is_some_and(Border::parts_without_cycle),
-            Condition::Safe => {
+            TextCondition::Unstable => cycles(false),
+            TextCondition::Stable => cycles(true),
+            TextCondition::Separatrix => border.is_some_and(Border::parts_without_cycle),
+            TextCondition::Safe => {
                 matches!(border, Some(Border::None | Border::Unknown(_)))
                     && self.cycles().is_some_and(|found| found.parameters.r > 0.0)
             }
-            Condition::Sticks => whole.is_some_and(|kinds| kinds.cycles.iter().any(Cycle::sticks)),
-            Condition::Compares(symbol, relation, number) => {
+            TextCondition::Sticks => {
+                whole.is_some_and(|kinds| kinds.cycles.iter().any(Cycle::sticks))
+            }
+            TextCondition::Compares(symbol, relation, number) => {
                 relation.holds(self.value(symbol), number)
             }
-            Condition::Shows(layer) => self.shows(layer),
-            Condition::Rests => matches!(end(), Some(End::Rests)),
-            Condition::Grows => matches!(end(), Some(End::Grows | End::Onto { grows: true, .. })),
+            TextCondition::Shows(layer) => self.shows(layer),
+            TextCondition::Rests => matches!(end(), Some(End::Rests)),
+            TextCondition::Grows => {
+                matches!(end(), Some(End::Grows | End::Onto { grows: true, .. }))
+            }
         }
     }
 

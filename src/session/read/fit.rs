@@ -5,16 +5,14 @@ use crate::fit::Signal;
 use crate::fit::curves::Extent;
 use crate::fit::dropped::Dropped;
 use crate::flow::{Outcome, Trajectory};
-use crate::numerics::count::{real, whole};
+use crate::numerics::count::{real, truncated};
 use crate::numerics::elementary::hypot;
 use crate::oscillator::energy::energy;
 use crate::oscillator::{Knob, State};
 use crate::question::fit::Measured;
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Answer, Axes, Layer, Point, Request, Span, Topic, View, Window};
-use crate::session::state::plot::Framing;
-use crate::session::state::scan::ScanOnShow;
-use crate::session::state::session::Session;
+use crate::session::state::{Framing, ScanOnShow, Session};
 use crate::study::trade::TradePoint;
 
 /// Width of a fitted window, relative to its content.
@@ -289,5 +287,5 @@ fn regimes(session: &Session, plot: usize) -> Option<Window> {
 
 /// The value that this fraction of the sorted values does not exceed.
 fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
-    sorted.get(whole(real(sorted.len()) * part)).copied()
+    sorted.get(truncated(real(sorted.len()) * part)).copied()
 }

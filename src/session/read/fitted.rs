@@ -6,9 +6,7 @@ use crate::question;
 use crate::question::fit::Unsure;
 use crate::question::{Fit, Fitted};
 use crate::scene::{Answer, Request, Topic};
-use crate::session::state::answers::AnswerState;
-use crate::session::state::session::Session;
-use crate::session::state::uncertainty::Uncertainty;
+use crate::session::state::{AnswerState, Session, Uncertainty};
 
 impl Session {
     /// The fit of the record on show with the held numbers; until it is there, the most similar one.

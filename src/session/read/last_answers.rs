@@ -5,7 +5,7 @@ use crate::question::Borders;
 use crate::question::speeds::Speeds;
 use crate::question::zones::Zones;
 use crate::scene::{Answer, Topic};
-use crate::session::state::session::Session;
+use crate::session::state::Session;
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::study::trade::Trade;
 use crate::study::{Cycles, ReturnMap};

@@ -3,12 +3,12 @@
 //! Line `i` lies between the heights `-i` and `-i - 1` of the view's world, so that the view draws the same
 //! lines at every size and the cursor points at one of them.
 
-use crate::machine;
+use crate::machine::MachineLedger;
 use crate::numerics::count::real;
 use crate::oscillator::{Ledger, Parameters, State};
 use crate::portrait::Cycle;
 use crate::scene::Layer;
-use crate::session::state::session::Session;
+use crate::session::state::Session;
 use crate::study::works::works_until;
 
 /// The owner of a part of the ledger.
@@ -42,44 +42,34 @@ impl Session {
     /// The lines of the energy ledger, for the layers that are on.
     pub fn ledger(&self) -> Vec<LedgerLine> {
         let mut lines = Vec::new();
-        if self.draws_whole() {
-            self.ledger_of_machine(&mut lines);
-            return lines;
-        }
+        let whole = self.draws_whole();
         if self.layers.contains(&Layer::CycleWorks)
             && let Some(found) = self.cycles()
         {
-            let works = found.picture.iter().flat_map(|picture| &picture.works);
-            for (cycle, ledger) in found.cycles.iter().zip(works) {
-                add(&mut lines, Owner::Cycle(*cycle), ledger, None, &found.parameters);
+            let picture = found.picture.iter().filter(|_| !whole);
+            let works = picture.flat_map(|picture| &picture.works);
+            let works = works.map(|ledger| Works::of(ledger, &found.parameters));
+            let kinds = self.kinds().into_iter().filter(|_| whole);
+            let by_machine = kinds.flat_map(|kinds| &kinds.works).map(Works::of_machine);
+            for (cycle, works) in found.cycles.iter().zip(works.chain(by_machine)) {
+                works.add_to(&mut lines, Owner::Cycle(*cycle), None);
             }
         }
         if self.layers.contains(&Layer::MotionWorks) {
-            for (place, found) in self.motions() {
+            let owner = |place| Owner::Motion(place, self.number(place));
+            if let Some(course) = self.course().filter(|_| whole) {
+                Works::of_machine(&course.ledger).add_to(&mut lines, owner(0), None);
+            }
+            for (place, found) in self.motions().into_iter().filter(|_| !whole) {
                 let Some(ledger) = &found.ledger else { continue };
+                let parameters = &found.problem.parameters;
                 let head = self.head().filter(|_| place == 0);
                 let until = head.and_then(|head| works_until(found, head.tau));
-                let owner = Owner::Motion(place, self.number(place));
-                add(&mut lines, owner, ledger, until.as_ref(), &found.problem.parameters);
+                let until = until.map(|until| Works::of(&until, parameters));
+                Works::of(ledger, parameters).add_to(&mut lines, owner(place), until);
             }
         }
         lines
-    }
-
-    /// The lines of a machine by the whole model.
-    fn ledger_of_machine(&self, lines: &mut Vec<LedgerLine>) {
-        if self.layers.contains(&Layer::CycleWorks)
-            && let (Some(found), Some(kinds)) = (self.cycles(), self.kinds())
-        {
-            for (cycle, ledger) in found.cycles.iter().zip(&kinds.works) {
-                add_works(lines, Owner::Cycle(*cycle), ledger);
-            }
-        }
-        if self.layers.contains(&Layer::MotionWorks)
-            && let Some(course) = self.course()
-        {
-            add_works(lines, Owner::Motion(0, self.number(0)), &course.ledger);
-        }
     }
 
     /// The start that a line of the ledger leads to: on its cycle, or that of its motion.
@@ -101,54 +91,60 @@ impl Session {
     }
 }
 
-/// Adds the lines of one owner by the whole model.
-fn add_works(lines: &mut Vec<LedgerLine>, owner: Owner, ledger: &machine::MachineLedger) {
-    let machine::MachineLedger { start, end, belt, damper, guide } = *ledger;
-    let works = [("belt", belt), ("damper", -damper), ("guide", -guide)];
-    let stored = matches!(owner, Owner::Motion(..)).then_some(("stored", end - start));
-    let largest = works.iter().chain(&stored).map(|(_, work)| work.abs()).fold(0.0, f64::max);
-    let part = |work: f64| if largest > 0.0 { work / largest } else { 0.0 };
-    lines.push(LedgerLine::Title(owner));
-    for (source, work) in works.into_iter().filter(|(_, work)| *work != 0.0).chain(stored) {
-        lines.push(LedgerLine::Work { source, work, part: part(work), so_far: None });
-    }
-    lines.push(LedgerLine::Residual(part(end - start - (belt - damper - guide))));
+/// The works of one owner.
+struct Works {
+    /// The sources of energy that the model has, each with the energy that it supplied.
+    sources: Vec<(&'static str, f64)>,
+    /// The energy gained.
+    stored: f64,
+    /// The energy that the sources do not account for.
+    residual: f64,
 }
 
-/// A source of energy: its name, its strength, and how to read its work.
-type EnergySource = (&'static str, f64, fn(&Ledger) -> f64);
+impl Works {
+    fn of(ledger: &Ledger, parameters: &Parameters) -> Self {
+        let Parameters { d, d2, d3, r } = *parameters;
+        let sources = [
+            (d, "linear", ledger.linear),
+            (d2, "quadratic", ledger.quadratic),
+            (d3, "cubic", ledger.cubic),
+            (r, "friction", ledger.friction),
+        ];
+        let there = sources.into_iter().filter(|(strength, ..)| *strength != 0.0);
+        Works {
+            sources: there.map(|(_, source, work)| (source, work)).collect(),
+            stored: ledger.end - ledger.start,
+            residual: ledger.residual,
+        }
+    }
 
-/// Adds the lines of one owner, with the works until the present moment if `until` is given; terms that the
-/// model does not have get no line.
-fn add(
-    lines: &mut Vec<LedgerLine>,
-    owner: Owner,
-    ledger: &Ledger,
-    until: Option<&Ledger>,
-    parameters: &Parameters,
-) {
-    let Parameters { d, d2, d3, r } = *parameters;
-    let sources: [EnergySource; 4] = [
-        ("linear", d, |ledger| ledger.linear),
-        ("quadratic", d2, |ledger| ledger.quadratic),
-        ("cubic", d3, |ledger| ledger.cubic),
-        ("friction", r, |ledger| ledger.friction),
-    ];
-    let stored = |ledger: &Ledger| ledger.end - ledger.start;
-    let works = sources.iter().map(|(.., read)| read(ledger).abs());
-    let largest = works.fold(stored(ledger).abs(), f64::max);
-    let part = |work: f64| if largest > 0.0 { work / largest } else { 0.0 };
-    lines.push(LedgerLine::Title(owner));
-    let mut add = |source, read: fn(&Ledger) -> f64| {
-        let work = read(ledger);
-        let so_far = until.map(|until| part(read(until)));
-        lines.push(LedgerLine::Work { source, work, part: part(work), so_far });
-    };
-    for (source, _, read) in sources.iter().filter(|(_, strength, _)| *strength != 0.0) {
-        add(source, *read);
+    /// The works by the whole model of a machine.
+    fn of_machine(ledger: &MachineLedger) -> Self {
+        let MachineLedger { start, end, belt, damper, guide } = *ledger;
+        let sources = [("belt", belt), ("damper", -damper), ("guide", -guide)];
+        Works {
+            sources: sources.into_iter().filter(|(_, work)| *work != 0.0).collect(),
+            stored: end - start,
+            residual: end - start - (belt - damper - guide),
+        }
     }
-    if matches!(owner, Owner::Motion(..)) {
-        add("stored", stored);
+
+    /// Adds the lines of the owner, with the works until the present moment if these are given.
+    fn add_to(mut self, lines: &mut Vec<LedgerLine>, owner: Owner, until: Option<Works>) {
+        let so_far = until.iter().flat_map(|until| &until.sources).map(|(_, work)| *work);
+        let mut so_far: Vec<f64> = so_far.collect();
+        if matches!(owner, Owner::Motion(..)) {
+            self.sources.push(("stored", self.stored));
+            so_far.extend(until.map(|until| until.stored));
+        }
+        let sizes = self.sources.iter().map(|(_, work)| work.abs());
+        let largest = sizes.fold(0.0, f64::max);
+        let part = |work: f64| if largest > 0.0 { work / largest } else { 0.0 };
+        lines.push(LedgerLine::Title(owner));
+        for (index, (source, work)) in self.sources.into_iter().enumerate() {
+            let so_far = so_far.get(index).copied().map(part);
+            lines.push(LedgerLine::Work { source, work, part: part(work), so_far });
+        }
+        lines.push(LedgerLine::Residual(part(self.residual)));
     }
-    lines.push(LedgerLine::Residual(part(ledger.residual)));
 }

@@ -2,12 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::scene::library::Group;
+use crate::scene::library::SceneGroup;
 use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, View, ViewSpec, library};
 use crate::session::read::search;
-use crate::session::state::kept::Kept;
-use crate::session::state::overlay::{List, Listed, Overlay};
-use crate::session::state::session::Session;
+use crate::session::state::{Kept, List, Listed, Overlay, Session};
 use crate::study::claims::{Claim, ClaimResult, Verdict, claims};
 
 impl List {
@@ -27,7 +25,9 @@ impl Session {
         });
         let mut rows: Vec<_> = found.collect();
         let names = |scene: &Scene| [scene.name.clone(), scene.also.clone().unwrap_or_default()];
-        rows.sort_by_cached_key(|scene| (list.rank(&names(scene), &scene.title), Group::of(scene)));
+        rows.sort_by_cached_key(|scene| {
+            (list.rank(&names(scene), &scene.title), SceneGroup::of(scene))
+        });
         rows
     }
 
@@ -73,16 +73,15 @@ impl Session {
 
     /// Number of rows of the open list.
     pub(in crate::session) fn list_length(&self) -> usize {
-        match &self.overlay {
-            Some(Overlay::List(Listed::Scenes, list)) => self.scene_rows(list).len(),
-            Some(Overlay::List(Listed::Layers, list)) => self.layer_rows(list).len(),
-            Some(Overlay::List(Listed::Views, list)) => self.view_rows(list).len(),
-            Some(Overlay::List(Listed::Paper, list)) => self.claim_rows(list).len(),
-            Some(Overlay::List(Listed::Palette, list)) => self.palette_rows(list).len(),
-            Some(Overlay::List(Listed::Cost, list)) => self.cost_rows(list).len(),
-            Some(Overlay::List(Listed::Interrupted, list)) => self.interrupted_rows(list).len(),
-            Some(Overlay::Entry(_) | Overlay::Prompt(_) | Overlay::Scan(_) | Overlay::Offer(_))
-            | None => 0,
+        let Some(Overlay::List(listed, list)) = &self.overlay else { return 0 };
+        match listed {
+            Listed::Scenes => self.scene_rows(list).len(),
+            Listed::Layers => self.layer_rows(list).len(),
+            Listed::Views => self.view_rows(list).len(),
+            Listed::Paper => self.claim_rows(list).len(),
+            Listed::Palette => self.palette_rows(list).len(),
+            Listed::Cost => self.cost_rows(list).len(),
+            Listed::Interrupted => self.interrupted_rows(list).len(),
         }
     }
 

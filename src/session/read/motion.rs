@@ -3,7 +3,7 @@
 use crate::flow::{Method, Outcome, Problem, Sample, Trajectory};
 use crate::numerics::elementary::tanh;
 use crate::oscillator::{Parameters, State};
-use crate::session::state::session::Session;
+use crate::session::state::Session;
 
 impl Session {
     /// The computed state of the motion that is nearest to a time; after it has come to rest, the place of

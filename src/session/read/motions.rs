@@ -2,7 +2,7 @@
 
 use crate::flow::{Problem, Trajectory};
 use crate::scene::{Answer, Topic};
-use crate::session::state::session::Session;
+use crate::session::state::Session;
 
 impl Session {
     /// The present motion, followed by the others, the oldest first.

@@ -2,9 +2,7 @@
 
 use crate::numerics::decimal::shortest;
 use crate::oscillator::Group;
-use crate::session::state::rows::Row;
-use crate::session::state::session::Session;
-use crate::session::state::setup::Setup;
+use crate::session::state::{Row, Session, Setup};
 
 /// The value of a row in a form that can be typed, with its unit and its half width; `None` for a number of a
 /// machine that is as in its file.

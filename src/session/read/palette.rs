@@ -7,11 +7,8 @@ use crate::scene::machine::library::machines;
 use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, ViewSpec, library};
 use crate::session::message::key::Key;
 use crate::session::read::search;
-use crate::session::state::command::{Command, LineCommand};
-use crate::session::state::context::{Context, contexts};
-use crate::session::state::overlay::List;
-use crate::session::state::plot::Pane;
-use crate::session::state::session::Session;
+use crate::session::state::context::contexts;
+use crate::session::state::{Command, Context, LineCommand, List, Pane, Session};
 use crate::study::claims::{Claim, claims};
 
 #[derive(Clone, Copy, Debug)]

@@ -7,8 +7,7 @@ use std::f64::consts::TAU;
 
 use crate::flow::{Sample, Trajectory};
 use crate::scene::Topic;
-use crate::session::state::playback::Pace;
-use crate::session::state::session::Session;
+use crate::session::state::{Pace, Session};
 use crate::study::belt::FollowedOnBelt;
 
 impl Session {

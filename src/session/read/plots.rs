@@ -1,14 +1,12 @@
 //! The content of the plots, and which of them are on show.
 
 use crate::scene::{Layer, Needs, PlotSetup, View};
-use crate::session::state::history::ScreenSetup;
-use crate::session::state::plot::{Framing, Pane, Plot};
-use crate::session::state::session::Session;
+use crate::session::state::{Framing, Pane, Plot, ScreenSetup, Session};
 
 impl Session {
     /// Whether a plot draws circles round.
     pub fn has_equal_units(&self, plot: usize) -> bool {
-        self.plots[plot].view == View::Phase && !self.look.stretched
+        self.plots[plot].view == View::Phase && !self.display.stretched
     }
 
     /// The indices of the plots on show.

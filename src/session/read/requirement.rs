@@ -1,11 +1,7 @@
 //! The costs of a scene: the questions that its layers ask, and which of them must be asked again after a step.
 
-use std::collections::BTreeMap;
-
 use crate::scene::{Layer, Request, Topic};
-use crate::session::state::overlay::List;
-use crate::session::state::rows::Row;
-use crate::session::state::session::Session;
+use crate::session::state::{List, Row, Session};
 
 /// A question and the layers for which it is asked.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,15 +77,18 @@ impl Session {
     }
 }
 
-/// The names of topics, with a count for those that occur several times.
-pub fn named(topics: &[Topic]) -> String {
-    let mut counted: BTreeMap<Topic, usize> = BTreeMap::new();
+/// The names of topics as they first occur, with a count for those that occur several times.
+pub fn named(topics: &[Topic], between: &str) -> String {
+    let mut counted: Vec<(Topic, usize)> = Vec::new();
     for topic in topics {
-        *counted.entry(*topic).or_default() += 1;
+        match counted.iter_mut().find(|(known, _)| known == topic) {
+            Some((_, count)) => *count += 1,
+            None => counted.push((*topic, 1)),
+        }
     }
     let named = counted.into_iter().map(|(topic, count)| match count {
         1 => topic.name().to_owned(),
         _ => format!("{} x{count}", topic.name()),
     });
-    named.collect::<Vec<_>>().join(", ")
+    named.collect::<Vec<_>>().join(between)
 }

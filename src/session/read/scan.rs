@@ -1,9 +1,7 @@
 //! The scan that a form or a line describes, and the request of a running one.
 
 use crate::scene::{Request, Span, View};
-use crate::session::state::plot::Pane;
-use crate::session::state::scan_form::ScanForm;
-use crate::session::state::session::Session;
+use crate::session::state::{Pane, ScanForm, Session};
 use crate::study::basin;
 use crate::study::measure::Measure;
 use crate::study::scan::{Scan, Sweep};

@@ -2,7 +2,7 @@
 
 use crate::numerics::elementary::hypot;
 use crate::scene::{Point, View, Window};
-use crate::session::state::session::Session;
+use crate::session::state::Session;
 use crate::study::trade::TradePoint;
 
 impl Session {

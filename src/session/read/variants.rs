@@ -8,13 +8,12 @@ use crate::flow::Problem;
 use crate::oscillator::Knob;
 use crate::question;
 use crate::scene::{Answer, Height, Request, Topic, Variant};
-use crate::session::state::answers::AnswerState;
-use crate::session::state::session::Session;
+use crate::session::state::{AnswerState, Session};
 use crate::study::Branch;
 
 /// A motion that a plot shows, and what distinguishes it from the others there.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shown {
+pub struct ShownMotion {
     /// The held values that distinguish it; empty if the plot shows only the present motion.
     pub label: String,
     pub problem: Problem,
@@ -30,9 +29,10 @@ impl Session {
     }
 
     /// The problems that a plot shows: the present one, or its variants.
-    pub fn shown(&self, plot: usize) -> Vec<Shown> {
-        let present = || vec![Shown { label: String::new(), problem: self.problem, present: true }];
-        let variant = |(variant, label): (&Variant, String)| Shown {
+    pub fn shown(&self, plot: usize) -> Vec<ShownMotion> {
+        let present =
+            || vec![ShownMotion { label: String::new(), problem: self.problem, present: true }];
+        let variant = |(variant, label): (&Variant, String)| ShownMotion {
             label,
             problem: variant.of(self.problem),
             present: variant.held.is_empty(),

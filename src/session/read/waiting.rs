@@ -12,12 +12,7 @@ use crate::session::message::pointer::{Pointed, PointerTarget};
 use crate::session::read::fit;
 use crate::session::read::palette::{PaletteRow, elsewhere, place};
 use crate::session::read::wants::COMPARED;
-use crate::session::state::command::Command;
-use crate::session::state::context::Context;
-use crate::session::state::overlay::{Listed, Overlay};
-use crate::session::state::pending::{Letter, Pending};
-use crate::session::state::plot::Pane;
-use crate::session::state::session::Session;
+use crate::session::state::{Command, Context, Letter, Listed, Overlay, Pane, Pending, Session};
 
 /// The need of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,12 +4,12 @@
 //! itself and not its index, so that it stays at the same point when the branch is computed again.
 
 use crate::numerics::elementary::{hypot, ln};
-use crate::session::state::stop::BranchStop;
+use crate::session::state::BranchStop;
 use crate::study::{Branch, SpecialKind};
 
 /// The connected pieces of branches, each a list of stops.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Way {
+pub struct BranchPath {
     pieces: Vec<Vec<BranchStop>>,
     /// Width of the range of all values, the unit of distances.
     extent: f64,
@@ -18,7 +18,7 @@ pub struct Way {
 /// The position of a stop: index of its piece, and its index in the piece.
 type Position = (usize, usize);
 
-impl Way {
+impl BranchPath {
     /// The way along branches, each of a variant. Walking onward leads from the end with the smaller value to
     /// the other end.
     pub fn along(branches: &[(usize, &Branch)]) -> Self {
@@ -26,7 +26,8 @@ impl Way {
         let values = || all().map(|point| point.value);
         let (low, high) =
             (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
-        let mut way = Way { pieces: Vec::new(), extent: if high > low { high - low } else { 1.0 } };
+        let mut way =
+            BranchPath { pieces: Vec::new(), extent: if high > low { high - low } else { 1.0 } };
         for (variant, branch) in branches {
             for piece in branch.pieces.iter().filter(|piece| !piece.is_empty()) {
                 let mut stops: Vec<BranchStop> =
@@ -180,14 +181,14 @@ mod tests {
 
     const FOLDED: Parameters = Parameters { d: 0.0, d2: 0.2, d3: 0.5, r: 0.1 };
 
-    fn over(parameters: &Parameters, symbol: Knob, range: (f64, f64)) -> Way {
+    fn over(parameters: &Parameters, symbol: Knob, range: (f64, f64)) -> BranchPath {
         let found =
             branch(parameters, symbol, range, Points::Even(60), 1e-8, &Limits::PATIENT).unwrap();
-        Way::along(&[(0, &found)])
+        BranchPath::along(&[(0, &found)])
     }
 
     /// The landmarks from the first stop of the first piece until it is reached again.
-    fn landmarks(way: &Way) -> Vec<BranchStop> {
+    fn landmarks(way: &BranchPath) -> Vec<BranchStop> {
         let first = way.pieces[0][0];
         let mut found = vec![first];
         while let Some(next) = way.landmark(&found[found.len() - 1], true)
@@ -226,14 +227,14 @@ mod tests {
             branch(&parameters, Knob::D, (-0.9, 0.1), Points::Even(60), 1e-8, &Limits::PATIENT)
                 .unwrap()
         });
-        let way = Way::along(&[(0, &found[0]), (1, &found[1])]);
+        let way = BranchPath::along(&[(0, &found[0]), (1, &found[1])]);
         let marks: Vec<_> =
             landmarks(&way).iter().map(|stop| (stop.variant, stop.special)).collect();
         let fold = Some(SpecialKind::Fold);
         let ends = [(0, None), (0, fold), (0, None), (1, None), (1, fold), (1, None)];
         assert_eq!(marks, ends, "from one branch on to the other, and around");
         for (index, found) in found.iter().enumerate() {
-            let alone = Way::along(&[(index, found)]);
+            let alone = BranchPath::along(&[(index, found)]);
             assert_eq!(way.pieces[index], alone.pieces[0]);
             let held = alone.start(-0.6).unwrap();
             assert_eq!(way.again(&held), Some(held));

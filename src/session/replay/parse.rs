@@ -68,7 +68,7 @@ const DIRECTIVES: [(&str, Reading); 14] = [
 
 /// Reads a whole keystroke file. Fails with [`BadScript`], which has the place of the first mistake.
 pub fn parse(text: &str) -> Result<Script, BadScript> {
-    let (mut steps, mut whole) = (Vec::new(), 0);
+    let (mut steps, mut presses) = (Vec::new(), 0);
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         let mut rest = line;
         while let Some(first) = rest.chars().next() {
@@ -85,8 +85,8 @@ pub fn parse(text: &str) -> Result<Script, BadScript> {
             }
             let line = index + 1;
             let step = step(token).map_err(|message| BadScript { line, column, message })?;
-            whole += step.length();
-            if whole > script::MOST {
+            presses += step.length();
+            if presses > script::MOST {
                 return Err(BadScript { line, column, message: too_long() });
             }
             steps.push(ScriptStep { line, column, step });

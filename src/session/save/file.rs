@@ -8,9 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::flow::Problem;
 use crate::oscillator::State;
 use crate::scene::{Arrangement, Axes, Layer, PlotSetup, Point, Scene, Setting, View, Window};
-use crate::session::state::plot::Framing;
-use crate::session::state::rows::Steps;
-use crate::session::state::uncertainty::Uncertainty;
+use crate::session::state::{Framing, StepSizes, Uncertainty};
 use crate::study::kicks::RandomKick;
 
 /// The format that this program writes; it reads this and all earlier formats.
@@ -70,7 +68,7 @@ pub struct SavedSession {
 #[serde(untagged)]
 pub enum SavedScene {
     Library(String),
-    Whole(Box<Scene>),
+    Full(Box<Scene>),
 }
 
 /// Everything that a scene determines, at present or before a change.
@@ -79,7 +77,7 @@ pub enum SavedScene {
 pub struct Show {
     pub arrangement: Arrangement,
     pub layers: BTreeSet<Layer>,
-    pub steps: Steps,
+    pub steps: StepSizes,
     pub motion: Problem,
     /// Starts of the other motions.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -11,23 +11,21 @@ use crate::oscillator::{Knob, State};
 use crate::scene::misread::{self, Misread};
 use crate::scene::{MOST_PLOTS, PlotSetup, Scene, Setting, find};
 use crate::session::read::numbers::difference;
-use crate::session::state::history::{Before, History, ScreenSetup, Snapshot};
-use crate::session::state::marks::{Bookmark, Marks};
-use crate::session::state::plot::{Pane, Plot};
-use crate::session::state::rows::Row;
-use crate::session::state::session::{MOST_HARMONICS, Session};
-use crate::session::state::setup::Setup;
-use crate::session::state::starts::{MOST_MOTIONS, Starts};
-use crate::session::state::uncertainty::Uncertainty;
+use crate::session::state::session::MOST_HARMONICS;
+use crate::session::state::starts::MOST_MOTIONS;
+use crate::session::state::{
+    Before, Bookmark, Bookmarks, History, Pane, Plot, Row, ScreenSetup, Session, Setup, Snapshot,
+    Starts, Uncertainty,
+};
 
 /// Changes a session to that of a file. Appearance, keys and size stay, and so do answers that fit. Fails with
 /// one line that says what is wrong; the session is then unchanged.
 pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let file = read(text)?;
     let scene = scene(file.present.scene)?;
-    let setup = checked(file.present.motion, &file.present.beside, file.present.belt)?;
-    let setup = Setup { doubt: file.present.doubt.checked()?, ..setup };
-    let plots = checked_plots(file.plots, |look| opened(&look))?;
+    let Show { motion, ref beside, belt, doubt, .. } = file.present;
+    let setup = checked(motion, beside, belt, doubt)?;
+    let plots = checked_plots(file.plots, |plot| opened(&plot))?;
     let in_range = |index: usize| index < plots.len();
     let focus = match file.focus.checked_sub(1) {
         None => Pane::Parameters,
@@ -47,8 +45,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
         return Err(format!("harmonics = {}, not 1 to {most}", file.harmonics));
     }
     let mark = |problem, beside: &[State], belt, doubt| {
-        let doubt = Uncertainty::checked(doubt)?;
-        checked(problem, beside, belt).map(|it| Bookmark::new(&Setup { doubt, ..it }))
+        checked(problem, beside, belt, doubt).map(|setup| Bookmark::new(&setup))
     };
     let doubt = |name: &char| file.doubts.get(name).copied().unwrap_or_default();
     let beside = |name: &char| file.beside.get(name).map_or(&[][..], Vec::as_slice);
@@ -76,12 +73,12 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     (opened.enlarged, opened.unfolded) = (file.enlarged, file.unfolded);
     (opened.harmonics, opened.kicks) = (file.harmonics, file.kicks);
     (opened.lines, opened.history) = (file.lines, history);
-    opened.marks = Marks { places, left };
+    opened.marks = Bookmarks { places, left };
     opened.answers = std::mem::take(&mut session.answers);
     opened.answers.ask(opened.asks());
     opened.answers.forget_others();
     opened.keymap = Arc::clone(&session.keymap);
-    opened.look = session.look;
+    opened.display = session.display;
     *session = opened;
     Ok(())
 }
@@ -91,7 +88,8 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
 pub fn summary(text: &str) -> Result<String, String> {
     let file = read(text)?;
     let scene = scene(file.present.scene)?;
-    let setup = checked(file.present.motion, &file.present.beside, file.present.belt)?;
+    let Show { motion, beside, belt, .. } = file.present;
+    let setup = checked(motion, &beside, belt, Uncertainty::default())?;
     let changed = difference(&Setup::of_scene(&scene), &setup);
     let marks = match file.marks.len() {
         0 => String::new(),
@@ -126,8 +124,8 @@ fn read(text: &str) -> Result<SavedSession, String> {
 fn scene(named: SavedScene) -> Result<Arc<Scene>, String> {
     match named {
         SavedScene::Library(name) => find(&name),
-        SavedScene::Whole(scene) => {
-            checked(scene.problem, &[], None)?;
+        SavedScene::Full(scene) => {
+            checked(scene.problem, &[], None, Uncertainty::default())?;
             if scene.plots.is_empty() || scene.plots.len() > MOST_PLOTS {
                 return Err(format!("a scene with {} plots", scene.plots.len()));
             }
@@ -137,7 +135,12 @@ fn scene(named: SavedScene) -> Result<Arc<Scene>, String> {
 }
 
 /// The setup of a motion and a machine, if all numbers are within their ranges.
-fn checked(problem: Problem, beside: &[State], setting: Option<Setting>) -> Result<Setup, String> {
+fn checked(
+    problem: Problem,
+    beside: &[State],
+    setting: Option<Setting>,
+    doubt: Uncertainty,
+) -> Result<Setup, String> {
     let accuracy = [Knob::Until, Knob::Tolerance, Knob::Step, Knob::Epsilon];
     for knob in Knob::MOTION.into_iter().chain(accuracy) {
         knob.check(problem.get(knob))?;
@@ -151,7 +154,7 @@ fn checked(problem: Problem, beside: &[State], setting: Option<Setting>) -> Resu
     {
         symbol.check(value)?;
     }
-    Ok(Setup { problem, others, setting, doubt: Uncertainty::default() })
+    Ok(Setup { problem, others, setting, doubt: doubt.checked()? })
 }
 
 /// Converts plots, if their number is allowed on a screen.
@@ -162,8 +165,8 @@ fn checked_plots<T, U>(plots: Vec<T>, make: impl Fn(T) -> U) -> Result<Vec<U>, S
     }
 }
 
-fn opened(look: &SavedPlot) -> Plot {
-    let SavedPlot { view, framing, axes, window, cursor, family } = *look;
+fn opened(saved: &SavedPlot) -> Plot {
+    let SavedPlot { view, framing, axes, window, cursor, family } = *saved;
     let plot = Plot::opened(&PlotSetup { view, axes, window: Some(window), family });
     Plot {
         framing,
@@ -173,15 +176,16 @@ fn opened(look: &SavedPlot) -> Plot {
 }
 
 fn before(change: SavedChange) -> Result<Before, String> {
+    let known = Uncertainty::default();
+    let setup = |motion, beside: &[State], belt, doubt| {
+        checked(motion, beside, belt, doubt).map(|setup| Before::Setup(Box::new(setup)))
+    };
     Ok(match change {
-        SavedChange::Motion(problem) => Before::Setup(Box::new(checked(problem, &[], None)?)),
-        SavedChange::MotionOnBelt { motion, belt } => {
-            Before::Setup(Box::new(checked(motion, &[], Some(belt))?))
+        SavedChange::Motion(motion) => setup(motion, &[], None, known)?,
+        SavedChange::MotionOnBelt { motion, belt } => setup(motion, &[], Some(belt), known)?,
+        SavedChange::Motions { motion, beside, belt, doubt } => {
+            setup(motion, &beside, belt, doubt)?
         }
-        SavedChange::Motions { motion, beside, belt, doubt } => Before::Setup(Box::new(Setup {
-            doubt: doubt.checked()?,
-            ..checked(motion, &beside, belt)?
-        })),
         SavedChange::Plots { arrangement, plots } => Before::ScreenSetup(ScreenSetup {
             plots: checked_plots(plots, |plot| plot)?,
             arrangement,
@@ -190,7 +194,7 @@ fn before(change: SavedChange) -> Result<Before, String> {
             let Show { arrangement, layers, steps, motion, beside, belt, doubt, scene } = *show;
             Before::Scene(Box::new(Snapshot {
                 scene: self::scene(scene)?,
-                setup: Setup { doubt: doubt.checked()?, ..checked(motion, &beside, belt)? },
+                setup: checked(motion, &beside, belt, doubt)?,
                 steps,
                 layers,
                 screen_setup: ScreenSetup {

@@ -7,12 +7,9 @@ use serde::de::IgnoredAny;
 
 use super::file::{SavedChange, SavedPlot, SavedScene, SavedSession, Show, VERSION};
 use crate::scene::{Scene, find};
-use crate::session::state::history::{Before, ScreenSetup};
-use crate::session::state::overlay::Overlay;
-use crate::session::state::plot::{Pane, Plot};
-use crate::session::state::session::Session;
-use crate::session::state::setup::Setup;
-use crate::session::state::uncertainty::Uncertainty;
+use crate::session::state::{
+    Before, Overlay, Pane, Plot, ScreenSetup, Session, Setup, Uncertainty,
+};
 
 /// The session as the text of a file. Fails with one line if the text cannot be made; no such session is known.
 pub fn text(session: &Session) -> Result<String, String> {
@@ -41,7 +38,7 @@ pub fn text(session: &Session) -> Result<String, String> {
             doubt: session.doubt,
             scene: named(&session.scene),
         },
-        plots: session.plots.iter().map(look).collect(),
+        plots: session.plots.iter().map(saved_plot).collect(),
         marks: of_marks(session, |setup| Some(setup.problem)),
         belts: of_marks(session, |setup| setup.setting),
         beside: of_marks(session, |setup| {
@@ -69,11 +66,11 @@ fn of_marks<T>(session: &Session, of: impl Fn(&Setup) -> Option<T>) -> BTreeMap<
 fn named(scene: &Arc<Scene>) -> SavedScene {
     match find(&scene.name) {
         Ok(known) if known == *scene => SavedScene::Library(scene.name.clone()),
-        _ => SavedScene::Whole(Box::new(Scene::clone(scene))),
+        _ => SavedScene::Full(Box::new(Scene::clone(scene))),
     }
 }
 
-fn look(plot: &Plot) -> SavedPlot {
+fn saved_plot(plot: &Plot) -> SavedPlot {
     let Plot { view, axes, window, framing, cursor, family, .. } = *plot;
     SavedPlot { view, framing, axes, window, cursor, family }
 }

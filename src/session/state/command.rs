@@ -53,7 +53,7 @@ pub struct LineCommand {
     /// Explanation in one line, for the help.
     pub doc: &'static str,
     /// The kind of its words, for completion.
-    pub words: Words,
+    pub words: WordKind,
 }
 
 impl PartialEq for LineCommand {
@@ -64,7 +64,7 @@ impl PartialEq for LineCommand {
 
 /// Kinds of words that a command takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Words {
+pub enum WordKind {
     /// Words that cannot be completed, such as a number or the name of a file.
     Unknown,
     /// Names of values, each with `=` and a value.
@@ -93,7 +93,7 @@ pub enum Words {
 
 /// The result of a command that chooses another one.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Chosen {
+pub enum NextCommand {
     /// A command of the palette.
     Command(&'static Command),
     /// The text of the command line.

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::scene::{Arrangement, Layer, PlotSetup, Scene};
-use crate::session::state::rows::Steps;
+use crate::session::state::rows::StepSizes;
 use crate::session::state::setup::Setup;
 
 /// The state before a change, limited to what the change affects.
@@ -24,7 +24,7 @@ pub struct Snapshot {
     pub scene: Arc<Scene>,
     /// The motion and the speed of its belt.
     pub setup: Setup,
-    pub steps: Steps,
+    pub steps: StepSizes,
     pub layers: BTreeSet<Layer>,
     /// Plots and their arrangement.
     pub screen_setup: ScreenSetup,

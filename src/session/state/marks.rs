@@ -6,7 +6,7 @@ use crate::scene::Request;
 use crate::session::state::setup::Setup;
 
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Marks {
+pub struct Bookmarks {
     pub places: BTreeMap<char, Bookmark>,
     /// The point that was left last, for comparison.
     pub left: Option<Bookmark>,

@@ -77,7 +77,7 @@ impl Row {
 /// The step size of each number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "SavedSteps", into = "BTreeMap<&'static str, StepSize>")]
-pub struct Steps([StepSize; KNOBS.len()]);
+pub struct StepSizes([StepSize; KNOBS.len()]);
 
 /// Steps as they are saved: by the names of rows. Sessions used to list them in the order of the table.
 #[derive(Deserialize)]
@@ -94,15 +94,15 @@ enum SavedSteps {
     },
 }
 
-impl From<Steps> for BTreeMap<&'static str, StepSize> {
-    fn from(steps: Steps) -> Self {
+impl From<StepSizes> for BTreeMap<&'static str, StepSize> {
+    fn from(steps: StepSizes) -> Self {
         Row::all().filter_map(|row| Some((row.name(), steps.of_row(row)?))).collect()
     }
 }
 
-impl From<SavedSteps> for Steps {
+impl From<SavedSteps> for StepSizes {
     fn from(saved: SavedSteps) -> Self {
-        let mut steps = Steps::from_each(|knob| knob.spec().step);
+        let mut steps = StepSizes::from_each(|knob| knob.spec().step);
         let mut put = |knob: Knob, step: Option<StepSize>| {
             steps.0[knob as usize] = step.unwrap_or(steps.0[knob as usize]);
         };
@@ -123,9 +123,9 @@ impl From<SavedSteps> for Steps {
     }
 }
 
-impl Steps {
+impl StepSizes {
     fn from_each(step: impl Fn(Knob) -> f64) -> Self {
-        Steps(std::array::from_fn(|row| StepSize::near(step(KNOBS[row].knob))))
+        StepSizes(std::array::from_fn(|row| StepSize::near(step(KNOBS[row].knob))))
     }
 
     /// The step of a number.
@@ -145,7 +145,7 @@ impl Steps {
 
     /// The steps with which a scene opens.
     pub fn of_scene(scene: &Scene) -> Self {
-        Steps::from_each(|knob| {
+        StepSizes::from_each(|knob| {
             let usual = scene.steps.get(&knob).copied().unwrap_or(knob.spec().step);
             match (knob, &scene.machine) {
                 (Knob::Disturbance, _) => step_of_disturbance(scene),

@@ -19,7 +19,7 @@ pub const SCANNING: &str = "scanning";
 
 /// Progress of a scan.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Progress {
+pub enum ScanProgress {
     /// Rows are being computed.
     Running {
         /// First row of this run.
@@ -36,7 +36,7 @@ pub struct ScanOnShow {
     pub scan: Arc<Scan>,
     /// The rows so far, in order, beginning with the first point.
     pub rows: Vec<ScanRow>,
-    pub progress: Progress,
+    pub progress: ScanProgress,
     /// Duration of this run so far, in s.
     pub seconds: f64,
     /// The measured column that is plotted.
@@ -53,7 +53,7 @@ impl ScanOnShow {
         ScanOnShow {
             scan: Arc::new(scan),
             rows: Vec::new(),
-            progress: Progress::Running { from: 0 },
+            progress: ScanProgress::Running { from: 0 },
             seconds: 0.0,
             column: 0,
             table: false,
@@ -64,10 +64,10 @@ impl ScanOnShow {
     /// Its request while it is running.
     pub fn request(&self) -> Option<Request> {
         match self.progress {
-            Progress::Running { from } => {
+            ScanProgress::Running { from } => {
                 Some(Request::Scan(question::scan::Inputs { scan: Arc::clone(&self.scan), from }))
             }
-            Progress::Stopped | Progress::Done => None,
+            ScanProgress::Stopped | ScanProgress::Done => None,
         }
     }
 

@@ -18,12 +18,12 @@ use crate::session::state::answers::Answers;
 use crate::session::state::history::History;
 use crate::session::state::kept::Kept;
 use crate::session::state::keymap::Keymap;
-use crate::session::state::marks::Marks;
+use crate::session::state::marks::Bookmarks;
 use crate::session::state::overlay::{Overlay, SessionCaption};
 use crate::session::state::pending::Pending;
 use crate::session::state::playback::Playback;
 use crate::session::state::plot::{Pane, Plot};
-use crate::session::state::rows::{Row, Steps};
+use crate::session::state::rows::{Row, StepSizes};
 use crate::session::state::scan::ScanOnShow;
 use crate::session::state::scan_form::ScanForm;
 use crate::session::state::settings::DisplaySettings;
@@ -107,7 +107,7 @@ pub struct Session {
     /// Half widths of the parameters, held numbers, and the disturbance.
     pub doubt: Uncertainty,
     /// Step sizes of the parameter pane.
-    pub steps: Steps,
+    pub steps: StepSizes,
     /// The selected row of the parameter pane, always one of [`Session::rows`].
     pub selected: Row,
     /// Whether the pane also shows parameters that the scene does not declare.
@@ -143,7 +143,7 @@ pub struct Session {
     /// Number of presses of the last such sequence that is complete.
     pub asked: u32,
     /// Points to come back to, and the point for comparison.
-    pub marks: Marks,
+    pub marks: Bookmarks,
     /// The caption above the status lines.
     pub caption: SessionCaption,
     /// Interrupted sessions that can be continued, the most recent first.
@@ -167,8 +167,8 @@ pub struct Session {
     pub notice: Option<Notice>,
     /// The bindings of keys to commands.
     pub keymap: Arc<Keymap>,
-    /// The user's wishes for the screen.
-    pub look: DisplaySettings,
+    /// How the user wants the screen to look.
+    pub display: DisplaySettings,
     /// The size of the screen.
     pub size: Size,
     /// What the outer rings shall do after this message.
@@ -186,7 +186,7 @@ impl Session {
             setting: Setup::of_scene(&scene).setting,
             rebuilt: None,
             doubt: Setup::of_scene(&scene).doubt,
-            steps: Steps::of_scene(&scene),
+            steps: StepSizes::of_scene(&scene),
             selected: Row::FIRST,
             unfolded: false,
             focus: Pane::Parameters,
@@ -205,7 +205,7 @@ impl Session {
             waiting: None,
             chord: 0,
             asked: 0,
-            marks: Marks::default(),
+            marks: Bookmarks::default(),
             caption: SessionCaption::Nothing,
             interrupted: Vec::new(),
             writing: None,
@@ -218,7 +218,7 @@ impl Session {
             measuring: false,
             notice: None,
             keymap,
-            look: DisplaySettings::default(),
+            display: DisplaySettings::default(),
             size,
             effects: Vec::new(),
             quit: false,

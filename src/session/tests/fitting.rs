@@ -141,7 +141,7 @@ fn a_record_opens_with_its_pictures_and_a_number_stepped_is_held_while_the_other
     let mut trial = fitted();
     let views: Vec<View> = trial.session.plots.iter().map(|plot| plot.view).collect();
     assert_eq!(views, [View::Damping, View::TimeSeries, View::Phase, View::Spread]);
-    let look = &trial.session.scene.look;
+    let look = &trial.session.scene.watch;
     assert!(
         look.contains("seconds; with units off lengths are in mm and times in 1/omega0"),
         "{look}"

@@ -14,13 +14,13 @@ use crate::scene::{ScaledMachine, Scene, library};
 use crate::session::opening::opening;
 use crate::session::replay::{Recorder, text};
 use crate::session::settings::{COLORS, DisplaySettings, GLYPHS, THEMES};
-use crate::session::state::answers::Answers;
+use crate::session::state::Answers;
 use crate::session::{Effect, Msg, Notice, Session, Size, save};
 
 /// A session as options of the command line start it, with its recording.
 fn started(scene: Arc<Scene>, look: DisplaySettings) -> (Trial, Recorder) {
     let mut session = Session::new(scene, Size { width: 80, height: 24 });
-    session.look = look;
+    session.display = look;
     recording(session)
 }
 
@@ -178,7 +178,7 @@ proptest! {
         }
         let recorded = recorder.text("hopfscope");
         let mut other = Trial::open(&library()[before].name);
-        other.session.look = DisplaySettings::default();
+        other.session.display = DisplaySettings::default();
         other.press(&recorded);
         assert_alike(&live.session, &other.session, &recorded);
     }

@@ -9,7 +9,7 @@ use super::{Trial, answered};
 use crate::flow::Problem;
 use crate::oscillator::Knob;
 use crate::scene::{Request, Topic, library};
-use crate::session::{Effect, Kept, Msg, Notice, Purpose, Row, Session, Steps, save, update};
+use crate::session::{Effect, Kept, Msg, Notice, Purpose, Row, Session, StepSizes, save, update};
 
 /// Everything of a session that its file holds.
 fn essence(session: &Session) -> impl PartialEq + std::fmt::Debug {
@@ -176,7 +176,7 @@ fn several_interrupted_sessions_are_listed_and_one_is_taken_or_forgotten() {
 fn steps_are_saved_by_name_and_those_of_former_sessions_in_the_order_of_the_table_are_read() {
     let listed = r#"{"parameters": [0.02, 0.05, 0.05, 0.01, 0.05, 0.2], "until": 5, "belt": 0.05,
         "machine": [0.1, 50.0, 0.2, 2.0, 5.0, 0.5], "disturbance": 0.001}"#;
-    let steps: Steps = serde_json::from_str(listed).unwrap();
+    let steps: StepSizes = serde_json::from_str(listed).unwrap();
     let rows = [
         Row::FIRST,
         Row::Number(Knob::V0),
@@ -192,8 +192,8 @@ fn steps_are_saved_by_name_and_those_of_former_sessions_in_the_order_of_the_tabl
         (&named["D"], &named["belt"], &named["m"]),
         (&0.02.into(), &0.05.into(), &0.1.into())
     );
-    assert_eq!(serde_json::from_value::<Steps>(named).unwrap(), steps);
-    let few: Steps = serde_json::from_str(r#"{"D": 0.5}"#).unwrap();
+    assert_eq!(serde_json::from_value::<StepSizes>(named).unwrap(), steps);
+    let few: StepSizes = serde_json::from_str(r#"{"D": 0.5}"#).unwrap();
     assert_eq!(few.of_row(Row::FIRST).unwrap().value(), 0.5);
     assert_eq!(few.of_row(Row::Number(Knob::Until)).unwrap().value(), 10.0);
 }

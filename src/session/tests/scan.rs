@@ -8,7 +8,7 @@ use crate::flow::Cost;
 use crate::question;
 use crate::question::Rows;
 use crate::scene::{Answer, Answered, Request, Topic, View};
-use crate::session::scan::Progress;
+use crate::session::scan::ScanProgress;
 use crate::session::{Effect, Msg, Pane, ScanOnShow, Session, update};
 use crate::study::measure::Value;
 use crate::study::scan::{Scan, ScanRow};
@@ -76,7 +76,7 @@ fn the_form_starts_a_scan_with_keys_alone_and_shows_it() {
     assert_eq!(found.scan.measures()[0].spec().name, "area");
     assert_eq!(found.scan.over()[0].to_string(), "D=-0.6:-0.1:6");
     assert_eq!(found.scan.points(), 6);
-    assert_eq!(found.progress, Progress::Done);
+    assert_eq!(found.progress, ScanProgress::Done);
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn rows_are_there_as_soon_as_their_piece_and_the_scan_counts_as_work_until_its_e
     assert!(session.is_busy());
     piece(&mut session, &request, 2..6);
     assert_eq!((scanned(&session).rows.len(), session.is_busy()), (6, false));
-    assert_eq!(scanned(&session).progress, Progress::Done);
+    assert_eq!(scanned(&session).progress, ScanProgress::Done);
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn escape_stops_a_scan_and_keeps_what_is_done_and_a_key_goes_on() {
         update(session, Msg::Key(key.parse().unwrap()));
     };
     press(&mut session, "<esc>");
-    assert_eq!(scanned(&session).progress, Progress::Stopped);
+    assert_eq!(scanned(&session).progress, ScanProgress::Stopped);
     assert!(session.scan_request().is_none() && !session.is_open(&request));
     // A piece that arrives after the scan was stopped is discarded.
     piece(&mut session, &request, 4..6);
@@ -143,7 +143,7 @@ fn escape_stops_a_scan_and_keeps_what_is_done_and_a_key_goes_on() {
         })
     );
     piece(&mut session, &again, 4..6);
-    assert_eq!(scanned(&session).progress, Progress::Done);
+    assert_eq!(scanned(&session).progress, ScanProgress::Done);
     assert_eq!(scanned(&session).rows, rows(&scanned(&session).scan, 0..6));
 }
 

@@ -61,9 +61,9 @@ fn a_change_after_an_undo_ends_the_future_and_a_repeated_reset_is_one_change() {
 fn reset_gives_a_row_its_value_and_its_step() {
     let mut trial = Trial::open("linear");
     trial.press("[[ <right*2>");
-    assert_ne!(trial.session.steps, crate::session::Steps::of_scene(&trial.session.scene));
+    assert_ne!(trial.session.steps, crate::session::StepSizes::of_scene(&trial.session.scene));
     trial.press("r");
-    assert_eq!(trial.session.steps, crate::session::Steps::of_scene(&trial.session.scene));
+    assert_eq!(trial.session.steps, crate::session::StepSizes::of_scene(&trial.session.scene));
     assert_eq!(trial.session.value(crate::oscillator::Knob::D), -0.4);
 }
 

@@ -7,7 +7,7 @@ use super::*;
 use crate::numerics::elementary::hypot;
 use crate::session::settings;
 
-const SOLID: Pen = Pen { role: Role::Trajectory, dash: Dash::Solid };
+const SOLID: DotPen = DotPen { role: Role::Trajectory, dash: Dash::Solid };
 
 fn painted(dots: &Dots) -> Vec<String> {
     let look = Look::new(settings::DisplaySettings {
@@ -38,7 +38,7 @@ fn corners_of_a_curve_in_small_steps_are_cut() {
 fn dashes_differ_in_their_dots() {
     let drawn = |dash| {
         let mut dots = Dots::new(Rect::new(0, 0, 8, 1), Glyphs::Braille);
-        dots.stroke([(0.0, 0.0), (15.9, 0.0)], Pen { role: Role::Stable, dash });
+        dots.stroke([(0.0, 0.0), (15.9, 0.0)], DotPen { role: Role::Stable, dash });
         painted(&dots).remove(0)
     };
     assert_eq!(drawn(Dash::Solid), "⠉⠉⠉⠉⠉⠉⠉⠉");
@@ -79,7 +79,7 @@ fn strokes_hide_texture_and_symbols_hide_strokes() {
 fn a_line_on_the_lower_edge_is_seen_and_a_thick_one_is_thick() {
     let drawn = |y, dash| {
         let mut dots = Dots::new(Rect::new(0, 0, 3, 1), Glyphs::Braille);
-        dots.stroke([(0.0, y), (5.9, y)], Pen { role: Role::Stable, dash });
+        dots.stroke([(0.0, y), (5.9, y)], DotPen { role: Role::Stable, dash });
         painted(&dots).remove(0)
     };
     assert_eq!(drawn(4.0, Dash::Solid), "⣀⣀⣀");
@@ -91,10 +91,10 @@ fn a_line_on_the_lower_edge_is_seen_and_a_thick_one_is_thick() {
 fn curves_hide_guides_even_in_the_gaps_of_their_dashes() {
     let mut dots = Dots::new(Rect::new(0, 0, 6, 1), Glyphs::Ascii);
     let line = [(0.0, 0.0), (4.9, 0.0)];
-    dots.stroke([(0.0, 0.0), (5.9, 0.0)], Pen { role: Role::Harmonic, dash: Dash::Dotted });
+    dots.stroke([(0.0, 0.0), (5.9, 0.0)], DotPen { role: Role::Harmonic, dash: Dash::Dotted });
     assert_eq!(painted(&dots), ["~ ~ ~ "]);
-    dots.stroke(line, Pen { role: Role::Unstable, dash: Dash::Dashed });
-    dots.stroke(line, Pen { role: Role::Axis, dash: Dash::Sparse });
+    dots.stroke(line, DotPen { role: Role::Unstable, dash: Dash::Dashed });
+    dots.stroke(line, DotPen { role: Role::Axis, dash: Dash::Sparse });
     assert_eq!(painted(&dots), ["oo oo "]);
 }
 
@@ -103,7 +103,7 @@ fn a_later_stroke_takes_the_colour_of_a_shared_cell() {
     let look = Look::new(settings::DisplaySettings::default());
     let mut dots = Dots::new(Rect::new(0, 0, 1, 1), Glyphs::Braille);
     dots.stroke([(0.0, 0.0)], SOLID);
-    dots.stroke([(1.0, 3.0)], Pen { role: Role::Stable, dash: Dash::Solid });
+    dots.stroke([(1.0, 3.0)], DotPen { role: Role::Stable, dash: Dash::Solid });
     let mut buffer = Buffer::empty(dots.area);
     dots.paint(&mut buffer, &look);
     assert_eq!((buffer[(0, 0)].symbol(), buffer[(0, 0)].fg), ("⢁", Color::Green));
@@ -112,8 +112,8 @@ fn a_later_stroke_takes_the_colour_of_a_shared_cell() {
 #[test]
 fn a_curve_and_an_area_in_one_cell_have_the_colour_of_the_curve() {
     let look = Look::new(settings::DisplaySettings::default());
-    let area = Pen { role: Role::Sticking, dash: Dash::Thick };
-    let curve = Pen { role: Role::Unstable, dash: Dash::Dashed };
+    let area = DotPen { role: Role::Sticking, dash: Dash::Thick };
+    let curve = DotPen { role: Role::Unstable, dash: Dash::Dashed };
     for pens in [[area, curve], [curve, area]] {
         let mut dots = Dots::new(Rect::new(0, 0, 6, 1), Glyphs::Braille);
         for pen in pens {
@@ -149,7 +149,7 @@ proptest! {
         for glyphs in [Glyphs::Braille, Glyphs::Octant, Glyphs::Block, Glyphs::Ascii] {
             let mut dots = Dots::new(Rect::new(3, 5, width, height), glyphs);
             for dash in [Dash::Thick, Dash::Dashed, Dash::DashDot, Dash::Dotted, Dash::Sparse] {
-                dots.stroke(points.iter().chain(&near).copied(), Pen { role: Role::Stable, dash });
+                dots.stroke(points.iter().chain(&near).copied(), DotPen { role: Role::Stable, dash });
             }
             prop_assert!(near.iter().all(|point| dots.cell_at(*point).is_none_or(|(column, row)| column < width && row < height)));
             painted(&dots);
@@ -163,7 +163,7 @@ proptest! {
                 let mut dots = Dots::new(Rect::new(0, 0, 1, 10), glyphs);
                 let (width, height) = dots.size();
                 let y = y / 40.0 * height;
-                dots.stroke([(0.0, y), (width, y)], Pen { role: Role::Stable, dash });
+                dots.stroke([(0.0, y), (width, y)], DotPen { role: Role::Stable, dash });
                 dots.cells.iter().map(|cell| match cell {
                     CellContent::Ink(bits, _) => *bits,
                     _ => 0,

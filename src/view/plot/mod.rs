@@ -19,7 +19,7 @@ use ratatui::style::{Color, Modifier};
 use geometry::{Geometry, along, centred, column};
 pub use geometry::{point_at, rows, shown};
 
-use super::dots::{Covering, Dots, Pen};
+use super::dots::{Covering, DotPen, Dots};
 use super::look::Look;
 use super::pane;
 use crate::picture::role::{Dash, Role};
@@ -160,7 +160,7 @@ impl<'a> Canvas<'a> {
 
     pub fn curve(&mut self, points: impl IntoIterator<Item = Point>, role: Role, dash: Dash) {
         let placed: Vec<_> = points.into_iter().map(|point| self.place(point)).collect();
-        self.dots.stroke(placed, Pen { role, dash });
+        self.dots.stroke(placed, DotPen { role, dash });
     }
 
     /// Draws `y(x)`, sampled once for each dot across; where there is no value there is no line.

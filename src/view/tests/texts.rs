@@ -226,7 +226,7 @@ fn the_texts_of_scenes_follow_the_state() {
                     update(&mut session, Msg::answered(request, Ok(found), 0.0));
                 }
             }
-            let look = session.said(&scene.look);
+            let look = session.said(&scene.watch);
             assert!(look.ends_with('.') && look.len() > 20, "{} at {line}: {look}", scene.name);
             for (words, holds) in WORDS.iter().filter(|(words, _)| look.contains(words)) {
                 assert!(holds(&session), "{} at {line}: {words} in {look}", scene.name);
@@ -240,7 +240,7 @@ fn the_texts_of_scenes_follow_the_state() {
 #[test]
 fn no_text_names_a_shading_or_a_colour_that_a_screen_may_lack() {
     let colours = ["shaded", "yellow", "red", "green", "blue", "grey"];
-    let texts = library().iter().flat_map(|scene| [scene.look.as_str(), scene.press.as_str()]);
+    let texts = library().iter().flat_map(|scene| [scene.watch.as_str(), scene.press.as_str()]);
     let tour = include_str!("../../../assets/replays/tour.keys");
     for text in texts.chain([tour]) {
         let mut words = text.split(|letter: char| !letter.is_alphabetic());
