@@ -154,7 +154,7 @@ fn nothing_passes_as_an_approximation_that_is_off_by_more_than_a_tenth() {
     }
 }
 
-/// At the speeds where `hopfscope belt --sweep` reports it.
+/// At the speeds where `hopfscope scan --machine` reports it.
 #[test]
 fn the_belt_is_overtaken_where_it_is_slow() {
     let slower = about("after (2)", "stay slower");

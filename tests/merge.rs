@@ -222,6 +222,30 @@ fn the_script_for_slurm_computes_every_shard_and_asks_for_the_merge() {
 }
 
 #[test]
+fn the_shards_of_a_scan_of_a_machine_are_its_whole_and_are_resumed() {
+    const SCAN: &str = "scan --machine clutch --over v0=0.2:2:20 --measure margin,cycles";
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let whole = run_in(folder, SCAN).out;
+    assert_eq!(whole.lines().count(), 21);
+    for shard in ["1/3", "3/3"] {
+        let (number, _) = shard.split_once('/').unwrap();
+        run_in(folder, &format!("{SCAN} --shard {shard} --output {number}.csv"));
+    }
+    let lacks = run_in(folder, "merge 1.csv 3.csv --output all.csv");
+    assert_eq!(lacks.code, 1);
+    let [again] = commands(&lacks)[..] else { panic!("{}", lacks.err) };
+    assert_eq!(run_in(folder, again).code, 0);
+    // What a killed process leaves.
+    let begun = read(folder, "rows-8-14.csv");
+    fs::write(folder.join("rows-8-14.csv"), &begun[..begun.len() / 2]).unwrap();
+    assert_eq!(run_in(folder, &format!("{again} --resume")).code, 0);
+    assert_eq!(read(folder, "rows-8-14.csv"), begun);
+    let merged = run_in(folder, "merge 1.csv rows-8-14.csv 3.csv --output all.csv --check");
+    assert_eq!((merged.code, read(folder, "all.csv") == whole), (0, true), "{}", merged.err);
+}
+
+#[test]
 fn the_dag_for_htcondor_names_every_shard_and_its_lines_compute_the_whole() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

@@ -7,10 +7,10 @@ use std::time::SystemTime;
 
 use clap::Args;
 
-use super::belt;
 use super::config::Settings;
 use super::failure::Failure;
 use super::look::Looks;
+use super::machine;
 use super::places::Memory;
 use super::replay::script;
 use super::start::StartOptions;
@@ -64,7 +64,7 @@ impl Explore {
         let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
         let name = named.map_or(PLAIN, String::as_str);
         let scene = match &self.belt {
-            Some(file) => self.start.applied(belt::scene(file)?),
+            Some(file) => self.start.applied(machine::scene(file)?)?,
             None if self.named.is_some() => {
                 find(name).map_err(|_| neither_scene_nor_command(name))?;
                 self.start.scene_named(name)?

@@ -4,11 +4,23 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use super::failure::Failure;
 use crate::figure::FileForm;
 use crate::flow::{METHODS, Method};
 use crate::oscillator::unit::measured;
 use crate::oscillator::{Group, Interval, Knob};
 use crate::study::basin::Window;
+use crate::study::design::Kick;
+
+/// Reads the text of an option whose numbers depend on what the command is about.
+pub fn read<T>(
+    option: &str,
+    text: &str,
+    read: impl FnOnce(&str) -> Result<T, String>,
+) -> Result<T, Failure> {
+    read(text)
+        .map_err(|why| Failure::Usage(format!("invalid value '{text}' for '{option}': {why}")))
+}
 
 /// A whole number within a range.
 pub fn whole(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> {
@@ -61,6 +73,19 @@ pub fn half_width(text: &str) -> Result<(Knob, f64), String> {
     let half_width = knob.parse(value)?;
     let wide = Some(half_width).filter(|half_width| *half_width >= 0.0);
     Ok((knob, wide.ok_or_else(|| format!("{text:?}: a half width is 0 or more"))?))
+}
+
+/// A margin: `q=DISPLACEMENT` or `v=IMPULSE`.
+pub fn margin(text: &str) -> Result<(Kick, f64), String> {
+    let form = || format!("{text:?} is not a margin; expected q=DISPLACEMENT or v=IMPULSE");
+    let (name, size) = text.split_once('=').ok_or_else(form)?;
+    let (kick, knob) = match name.trim() {
+        "q" => (Kick::Displacement, Knob::Q0),
+        "v" => (Kick::Impulse, Knob::V0),
+        _ => return Err(form()),
+    };
+    let size = knob.parse(size)?;
+    if size > 0.0 { Ok((kick, size)) } else { Err(format!("{text:?} is not positive")) }
 }
 
 /// A number and the values that it takes.

@@ -20,6 +20,7 @@ mod input;
 mod keys;
 mod kicks;
 mod look;
+mod machine;
 mod margin;
 mod merge;
 mod output;

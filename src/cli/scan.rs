@@ -12,13 +12,15 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use super::failure::Failure;
-use super::input;
+use super::input::{self, read};
+use super::machine::input as of_machine;
+use super::machine::{MachineCase, SourceOptions};
 use super::output::holds_something;
 use super::part::{Part, Shard};
 use super::plan::Plan;
 use super::progress::{Outlet, Progress};
-use super::start::StartOptions;
 use crate::flow::Limits;
+use crate::machine::MachineProblem;
 use crate::oscillator::Knob;
 use crate::report::scan::RowForm;
 use crate::runtime::provenance_file;
@@ -29,34 +31,36 @@ use crate::runtime::standard::{self, tell};
 use crate::study::basin::Window;
 use crate::study::kicks::RandomKick;
 use crate::study::measure::{Conditions, MEASURES, Measure};
-use crate::study::scan::{Scan, ScanRow, Sweep};
+use crate::study::scan::{Scan, ScanRow, ScanSource, Sweep};
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
 #[derive(Debug, Args)]
 #[command(name = "scan")]
 pub struct ScanCommand {
     #[command(flatten)]
-    start: StartOptions,
+    source: SourceOptions,
     /// A parameter and its values, evenly spaced, or at equal ratios with log: before FROM; repeatable, the last
     /// one varies fastest
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", required = true, allow_hyphen_values = true)]
-    over: Vec<Sweep>,
+    over: Vec<String>,
     #[arg(long, value_name = "NAME,..", required = true, value_delimiter = ',',
           value_parser = Measure::named, help = measures_help(), long_help = measures_list())]
     measure: Vec<Measure>,
     /// Also measures `proved`, which is the same as naming it
     #[arg(long)]
     certify: bool,
-    /// Displacements and velocities of the starts of `stability`, `settling` and `finite-time`
-    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", default_value = "-3:3,-3:3",
-          value_parser = input::window, allow_hyphen_values = true)]
-    window: Window,
+    #[command(flatten)]
+    starts: Starts,
+    /// The margin of `design`: a displacement, such as q=0.3, or an impulse, such as v=0.3; of a machine "2 mm" or
+    /// "0.1 N s"
+    #[arg(long, value_name = "MARGIN", allow_hyphen_values = true)]
+    design: Option<String>,
     /// Bound on the disturbing force of `guaranteed`, in the units of r
-    #[arg(long, value_name = "W", default_value = "0", value_parser = input::disturbance,
+    #[arg(long, value_name = "W", allow_hyphen_values = true)]
+    disturbance: Option<String>,
+    /// Half width of a parameter for `guaranteed`, such as r=0.01; repeatable. Of a machine --set takes tolerances
+    #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = input::half_width, conflicts_with = "machine",
           allow_hyphen_values = true)]
-    disturbance: f64,
-    /// Half width of a parameter for `guaranteed`, such as r=0.01; repeatable
-    #[arg(long, value_name = "NAME=HALFWIDTH", value_parser = input::half_width, allow_hyphen_values = true)]
     half_width: Vec<(Knob, f64)>,
     /// Random kicks of `lost` and `repeated`, mean and standard deviation; with uniform: before them, mean and
     /// half width
@@ -68,8 +72,8 @@ pub struct ScanCommand {
     )]
     kicks: RandomKick,
     /// Time at which the motions of `outcome`, `rest`, `settling` and `finite-time` stop (default: the scene's)
-    #[arg(long, value_name = "T", value_parser = input::until, allow_hyphen_values = true)]
-    until: Option<f64>,
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    until: Option<String>,
     /// Number of threads (default: one per core)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
@@ -92,6 +96,30 @@ pub struct ScanCommand {
     header: HeaderWhen,
     #[command(flatten)]
     plan: Plan,
+}
+
+/// The window where none is given.
+const WINDOW: Window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
+
+/// Reads the text of an option if it is given.
+fn given<T>(
+    option: &str,
+    text: Option<&String>,
+    of_text: impl FnOnce(&str) -> Result<T, String>,
+) -> Result<Option<T>, Failure> {
+    text.map(|text| read(option, text, of_text)).transpose()
+}
+
+/// The starts over which some measures are taken.
+#[derive(Clone, Debug, Args)]
+struct Starts {
+    /// Displacements and velocities of the starts of `stability`, `settling` and `finite-time` (default: -3:3,-3:3;
+    /// none for a machine)
+    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", allow_hyphen_values = true)]
+    window: Option<String>,
+    /// Measures the window's displacements from the relaxed spring of a machine instead of the steady position
+    #[arg(long, requires_all = ["window", "machine"])]
+    elongation: bool,
 }
 
 /// Which parts begin with the header line.
@@ -257,24 +285,61 @@ impl ScanCommand {
 
     /// The scan and the points to compute, after checking the options.
     pub fn asked(&self) -> Result<ScanRequest, Failure> {
-        let mut base = self.start.problem()?;
-        base.until = self.until.unwrap_or(base.until);
-        let conditions = Conditions {
-            window: self.window,
-            half_widths: self.half_width.clone(),
-            disturbance: self.disturbance,
-            kicks: self.kicks,
+        let machine = self.source.machine()?;
+        let (base, conditions) = match machine {
+            Some(case) => self.of_machine(case)?,
+            None => self.of_scene()?,
         };
         let mut measures = self.measure.clone();
         if self.certify && !measures.contains(&Measure::Proved) {
             measures.push(Measure::Proved);
         }
-        let scan =
-            Scan::new(base, self.over.clone(), measures, conditions).map_err(Failure::Usage)?;
+        let over = self.over.iter();
+        let over = over.map(|text| read("--over", text, |text| Sweep::read(text, base.groups())));
+        let over = over.collect::<Result<_, _>>()?;
+        let scan = Scan::new(base, over, measures, conditions).map_err(Failure::Usage)?;
         let points = self.part.points(scan.points())?;
         // By default only the first part has a heading, so that `cat` can join the parts.
         let headed = points.start == 0 || self.header == HeaderWhen::Always;
         Ok(ScanRequest { scan, form: self.form()?, points, headed, shard: self.part.shard() })
+    }
+
+    /// The motion of the scene, and what its measures depend on.
+    fn of_scene(&self) -> Result<(ScanSource, Conditions), Failure> {
+        let mut problem = self.source.start.problem()?;
+        let until = given("--until", self.until.as_ref(), input::until)?;
+        problem.until = until.unwrap_or(problem.until);
+        let window = given("--window", self.starts.window.as_ref(), input::window)?;
+        let disturbance = given("--disturbance", self.disturbance.as_ref(), input::disturbance)?;
+        let conditions = Conditions {
+            half_widths: self.half_width.clone(),
+            disturbance: disturbance.unwrap_or(0.0),
+            kicks: self.kicks,
+            wanted: given("--design", self.design.as_ref(), input::margin)?,
+            ..window.unwrap_or(WINDOW).into()
+        };
+        Ok((problem.into(), conditions))
+    }
+
+    /// The motion of the machine, and what its measures depend on.
+    fn of_machine(&self, mut case: MachineCase) -> Result<(ScanSource, Conditions), Failure> {
+        let until = given("--until", self.until.as_ref(), |text| Knob::Duration.parse(text))?;
+        let window = given("--window", self.starts.window.as_ref(), of_machine::window)?;
+        if let Some(over) = self.measure.iter().find(|it| it.is_over_window() && window.is_none()) {
+            let line = format!("{} of a machine needs a --window", over.spec().name);
+            return Err(Failure::Usage(line));
+        }
+        let MachineProblem { until: end, tolerances, .. } = &mut case.problem;
+        *end = until.unwrap_or(*end);
+        let disturbance = self.disturbance.as_ref();
+        let disturbance = given("--disturbance", disturbance, of_machine::disturbance)?;
+        tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
+        let conditions = Conditions {
+            elongation: self.starts.elongation,
+            wanted: given("--design", self.design.as_ref(), of_machine::margin)?,
+            ..window.unwrap_or(WINDOW).into()
+        };
+        Ok((ScanSource::Machine(Box::new(case.checked()?.problem)), conditions))
     }
 
     /// Where the rows go, and how many of them are already there.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::failure::Failure;
-use super::input;
+use super::input::{self, read};
 use crate::flow::{METHODS, Method, Problem};
 use crate::oscillator::{Interval, Knob, ParameterBox};
 use crate::runtime::standard::tell;
@@ -19,16 +19,16 @@ pub struct StartOptions {
     #[arg(long = "scene", value_name = "NAME")]
     pub scene: Option<String>,
 
-    #[arg(long, value_name = "NAME=VALUE", value_parser = input::assigned, help = parameters_help(),
-          allow_hyphen_values = true)]
-    set: Vec<(Knob, Interval)>,
+    /// What is set is read when it is known of what.
+    #[arg(long, value_name = "NAME=VALUE", help = parameters_help(), allow_hyphen_values = true)]
+    pub set: Vec<String>,
 
     #[arg(long, value_name = "NAME", value_parser = input::method, help = methods_help())]
     method: Option<Method>,
 
     /// Relative error per step, 1e-15 .. 0.01
     #[arg(long, value_name = "X", value_parser = input::tolerance, allow_hyphen_values = true)]
-    tol: Option<f64>,
+    pub tol: Option<f64>,
 
     /// Step length of the fixed-step methods, 1e-7 .. 1
     #[arg(long, value_name = "H", value_parser = |text: &str| Knob::Step.parse(text), allow_hyphen_values = true)]
@@ -58,24 +58,29 @@ impl StartOptions {
     /// The same for the scene with this name.
     pub fn scene_named(&self, name: &str) -> Result<Arc<Scene>, Failure> {
         let scene = find(name).map_err(Failure::Usage)?;
-        if let Some((symbol, _)) = self.set.iter().find(|(_, value)| !value.is_point()) {
+        if let Some((symbol, _)) = self.assigned()?.iter().find(|(_, value)| !value.is_point()) {
             let line = format!(
                 "{symbol}: only cycles and margin take an interval; this command takes a number"
             );
             return Err(Failure::Usage(line));
         }
-        Ok(self.applied(scene))
+        self.applied(scene)
+    }
+
+    /// The numbers that are set.
+    fn assigned(&self) -> Result<Vec<(Knob, Interval)>, Failure> {
+        self.set.iter().map(|text| read("--set", text, input::assigned)).collect()
     }
 
     /// A scene with the values set on the command line.
-    pub fn applied(&self, mut scene: Arc<Scene>) -> Arc<Scene> {
+    pub fn applied(&self, mut scene: Arc<Scene>) -> Result<Arc<Scene>, Failure> {
         let dials = [self.tol, self.step, self.epsilon];
         if self.set.is_empty() && self.method.is_none() && dials.iter().all(Option::is_none) {
-            return scene;
+            return Ok(scene);
         }
         let changed = Arc::make_mut(&mut scene);
         let Problem { parameters, initial, .. } = &mut changed.problem;
-        for &(symbol, value) in &self.set {
+        for (symbol, value) in self.assigned()? {
             symbol.set(parameters, initial, value.middle());
             if symbol.is_parameter() {
                 changed.terms.insert(symbol);
@@ -85,7 +90,7 @@ impl StartOptions {
         changed.problem.tolerance = self.tol.unwrap_or(changed.problem.tolerance);
         changed.problem.step = self.step.unwrap_or(changed.problem.step);
         changed.problem.epsilon = self.epsilon.unwrap_or(changed.problem.epsilon);
-        scene
+        Ok(scene)
     }
 
     /// The parameters, each as the interval in which it was given.
@@ -93,7 +98,7 @@ impl StartOptions {
         let name = self.scene.as_deref().unwrap_or(PLAIN);
         let scene = find(name).map_err(Failure::Usage)?;
         let mut known = ParameterBox::from(&scene.problem.parameters);
-        for &(symbol, interval) in &self.set {
+        for (symbol, interval) in self.assigned()? {
             if symbol.is_parameter() {
                 known.set(symbol, interval).map_err(Failure::Usage)?;
             }

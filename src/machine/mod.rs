@@ -49,6 +49,7 @@ pub(crate) mod model;
 pub mod motion;
 #[warn(clippy::missing_errors_doc)]
 pub(crate) mod portrait;
+pub(crate) mod problem;
 mod reach;
 #[doc(hidden)]
 pub mod return_map;
@@ -72,6 +73,7 @@ pub use ledger::MachineLedger;
 pub use model::{Lines, Model, NoModel, Phase};
 pub use motion::MachineMotion;
 pub use portrait::Portrait;
+pub use problem::MachineProblem;
 pub use series::ORDER;
 pub use subject::{Body, Subject};
 pub use tolerance::Tolerances;

@@ -163,6 +163,16 @@ impl MachineMotion {
         }
     }
 
+    /// The legs that begin where the mass comes to a standstill, after the start.
+    pub fn turns(&self) -> impl Iterator<Item = &Leg> {
+        let below = ContactState::Slips(Phase::Below);
+        let turns = move |pair: &&[Leg]| {
+            pair[1].place == ContactState::Rests
+                || (pair[0].place == below) != (pair[1].place == below)
+        };
+        self.legs.windows(2).filter(turns).map(|pair| &pair[1])
+    }
+
     /// The states at the ends of its steps and at this many places evenly between them.
     #[must_use]
     pub fn samples(&self, between: u32) -> Vec<MachineState> {

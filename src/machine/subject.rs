@@ -3,7 +3,7 @@
 use super::model::Model;
 use super::portrait::Portrait;
 use super::survey::Trouble;
-use crate::oscillator::{Belt, Knob, Modal};
+use crate::oscillator::{Belt, KNOBS, Knob, Modal};
 
 /// A mass on a belt, or a vibration mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +45,15 @@ impl Subject {
             Body::Belt(belt) => knob.set_in_belt(belt, value),
             Body::Mode(mode) => knob.set_in_mode(mode, value),
         }
+    }
+
+    /// Its numbers, with their values in SI units.
+    pub fn numbers(&self) -> impl Iterator<Item = (Knob, f64)> + '_ {
+        let value = |knob: Knob| match &self.body {
+            Body::Belt(belt) => knob.of_belt(belt),
+            Body::Mode(mode) => knob.of_mode(mode),
+        };
+        KNOBS.iter().filter_map(move |row| Some((row.knob, value(row.knob)?)))
     }
 
     /// The same with a number at another value.

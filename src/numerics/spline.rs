@@ -149,6 +149,13 @@ impl SmoothingSpline {
         self.x.len()
     }
 
+    /// A number that the same data always have, and other data hardly ever (FNV-1a).
+    pub fn fingerprint(&self) -> u32 {
+        let points = self.given.points.iter().flat_map(|(x, y)| [*x, *y]);
+        let bytes = points.chain([self.given.scatter]).flat_map(f64::to_le_bytes);
+        bytes.fold(0x811c_9dc5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
+    }
+
     /// Root mean square distance from the points.
     pub fn missed(&self) -> f64 {
         self.missed

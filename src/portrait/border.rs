@@ -25,19 +25,24 @@ pub enum Border {
 }
 
 impl Serialize for Border {
-    /// Serializes as a word, one for all that a guide or a belt holds, and one where no border was met.
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
-        out.serialize_str(match self {
+        out.serialize_str(self.name())
+    }
+}
+
+impl Border {
+    /// One word, the same for all that a guide or a belt holds, and one where no border was met.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
             Border::None | Border::Unknown(_) => "none",
             Border::Cycle => "cycle",
             Border::Separatrix => "separatrix",
             Border::Grazing | Border::Capture => "grazing",
             Border::NoBasin => "no-basin",
-        })
+        }
     }
-}
 
-impl Border {
     /// Whether an orbit that is no cycle borders the basin.
     #[must_use]
     pub fn parts_without_cycle(self) -> bool {

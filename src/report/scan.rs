@@ -36,9 +36,9 @@ impl RowForm {
     /// The line before the rows; empty if the form has none.
     pub fn heading(self, scan: &Scan) -> String {
         let inputs = scan.inputs(0).into_iter().map(|(name, _)| name);
-        let names = inputs.chain(scan.measured()).chain(["reason"]);
+        let measured = scan.measured().into_iter().chain(["reason"]).map(str::to_owned);
         match self {
-            RowForm::Csv => names.collect::<Vec<_>>().join(",") + "\n",
+            RowForm::Csv => inputs.chain(measured).collect::<Vec<_>>().join(",") + "\n",
             RowForm::Json => String::new(),
             RowForm::Table => {
                 let varied: Vec<_> =
@@ -55,7 +55,7 @@ impl RowForm {
         match self {
             RowForm::Csv => inputs.map(|(_, value)| exact(value) + ",").collect(),
             RowForm::Json => {
-                let fields = inputs.map(|(name, value)| field(name, value) + ",");
+                let fields = inputs.map(|(name, value)| field(&name, value) + ",");
                 std::iter::once("{".to_owned()).chain(fields).collect()
             }
             RowForm::Table => {

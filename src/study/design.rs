@@ -25,6 +25,15 @@ pub enum Kick {
 }
 
 impl Kick {
+    /// One word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Kick::Displacement => "displacement",
+            Kick::Impulse => "impulse",
+        }
+    }
+
     /// The margin of this kick; infinite where every kick is survived.
     #[must_use]
     pub fn margin(self, margin: &Margin) -> f64 {
@@ -54,6 +63,17 @@ pub enum FrictionNeeded {
         /// The margin just below it: the largest that is finite.
         below: f64,
     },
+}
+
+impl FrictionNeeded {
+    /// The least friction; 0 if any suffices.
+    #[must_use]
+    pub fn least(self) -> f64 {
+        match self {
+            FrictionNeeded::Any => 0.0,
+            FrictionNeeded::Friction { r } | FrictionNeeded::Fold { r, .. } => r,
+        }
+    }
 }
 
 /// Friction needed, and what it cost to know.

@@ -5,16 +5,18 @@
 //! last bit. So a scan can be shared between cores and machines, stopped, and resumed.
 
 use std::fmt;
-use std::str::FromStr;
 
 use super::basin::Window;
 use super::kicks::RandomKick;
-use super::measure::{Conditions, Measure, MeasureNeed, Value, measure, needs_of};
+use super::measure::{Conditions, MachinePoint, Measure, MeasureNeed, Value, measure, needs_of};
 use crate::flow::method::Dial;
 use crate::flow::{Cost, Limits, Problem, Reason};
+use crate::machine::MachineProblem;
 use crate::numerics::count::real;
 use crate::numerics::elementary::{log10, pow};
-use crate::oscillator::{Group, Knob, ParameterBox, Parameters, State};
+use crate::oscillator::belt::FrictionLaw;
+use crate::oscillator::unit::measured;
+use crate::oscillator::{Group, Interval, Knob, ParameterBox, Parameters, State};
 
 /// How the values of a [`Sweep`] are spaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +76,28 @@ impl Sweep {
         Ok(Sweep { symbol, from, to, count, spacing })
     }
 
+    /// Reads `NAME=FROM:TO:COUNT` or `NAME=log:FROM:TO:COUNT`, with a number of these groups; both ends with a unit or
+    /// none. Fails with one line that says what is wrong and what is allowed.
+    pub fn read(text: &str, groups: &[Group]) -> Result<Self, String> {
+        let (name, range) = text.split_once('=').ok_or(FORM)?;
+        let symbol = Knob::named(name.trim(), groups)?;
+        let (spacing, range) = match range.trim().strip_prefix("log:") {
+            Some(range) => (Spacing::Logarithmic, range),
+            None => (Spacing::Even, range),
+        };
+        let [from, to, count] = range.split(':').map(str::trim).collect::<Vec<_>>()[..] else {
+            return Err(FORM.to_owned());
+        };
+        let whole = || format!("COUNT = {count} is not a whole number in 2 .. 1000000");
+        let count = count.parse().map_err(|_| whole())?;
+        let ends = (symbol.parse(from)?, symbol.parse(to)?);
+        let has_unit = |text: &str| measured(text).is_ok_and(|read| read.dimension.is_some());
+        if has_unit(from) != has_unit(to) {
+            return Err(format!("{range:?}: FROM and TO both take a unit, or none (SI units)"));
+        }
+        Sweep::new(symbol, ends, count, spacing)
+    }
+
     /// Value number `index`, the first and the last of them exactly.
     pub fn value(&self, index: usize) -> f64 {
         if index == 0 {
@@ -101,26 +125,6 @@ impl Sweep {
     }
 }
 
-impl FromStr for Sweep {
-    type Err = String;
-
-    /// Reads `NAME=FROM:TO:COUNT` or `NAME=log:FROM:TO:COUNT`.
-    fn from_str(text: &str) -> Result<Self, String> {
-        let (name, range) = text.split_once('=').ok_or(FORM)?;
-        let symbol = Knob::named(name.trim(), &[Group::Motion])?;
-        let (spacing, range) = match range.trim().strip_prefix("log:") {
-            Some(range) => (Spacing::Logarithmic, range),
-            None => (Spacing::Even, range),
-        };
-        let [from, to, count] = range.split(':').map(str::trim).collect::<Vec<_>>()[..] else {
-            return Err(FORM.to_owned());
-        };
-        let whole = || format!("COUNT = {count} is not a whole number in 2 .. 1000000");
-        let count = usize::from_str(count).map_err(|_| whole())?;
-        Sweep::new(symbol, (symbol.parse(from)?, symbol.parse(to)?), count, spacing)
-    }
-}
-
 impl fmt::Display for Sweep {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Sweep { symbol, from, to, count, spacing } = self;
@@ -129,19 +133,51 @@ impl fmt::Display for Sweep {
     }
 }
 
+/// What is scanned: a motion of the oscillator of the paper, or of a machine by its whole model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ScanSource {
+    /// A dimensionless motion.
+    Oscillator(Problem),
+    /// A motion in SI units.
+    Machine(Box<MachineProblem>),
+}
+
+impl From<Problem> for ScanSource {
+    fn from(problem: Problem) -> Self {
+        ScanSource::Oscillator(problem)
+    }
+}
+
+impl ScanSource {
+    /// What can be scanned over.
+    pub fn groups(&self) -> &'static [Group] {
+        match self {
+            ScanSource::Oscillator(_) => &[Group::Motion],
+            ScanSource::Machine(_) => MachineProblem::GROUPS,
+        }
+    }
+
+    /// Gives a number a value. Fails with one line if there is no such number.
+    fn set(&mut self, knob: Knob, value: f64) -> Result<(), String> {
+        match self {
+            ScanSource::Oscillator(Problem { parameters, initial, .. }) => {
+                knob.set(parameters, initial, value);
+                Ok(())
+            }
+            ScanSource::Machine(problem) => problem.set(knob, value),
+        }
+    }
+}
+
 /// What is scanned, and what is measured at each point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
     /// The motion whose numbers the sweeps replace.
-    base: Problem,
+    base: ScanSource,
     over: Vec<Sweep>,
     measures: Vec<Measure>,
     conditions: Conditions,
 }
-
-/// Columns for the ends of the intervals of D, D2, D3 and r.
-const ENDS: [[&str; 2]; 4] =
-    [["D_from", "D_to"], ["D2_from", "D2_to"], ["D3_from", "D3_to"], ["r_from", "r_to"]];
 
 /// What was measured at a point.
 #[derive(Clone, Debug, PartialEq)]
@@ -157,20 +193,22 @@ impl Scan {
     /// A scan that makes sense: each sweep moves something that is measured. Fails with one line that says what is
     /// wrong and what is allowed.
     pub fn new(
-        base: Problem,
+        base: impl Into<ScanSource>,
         over: Vec<Sweep>,
         measures: Vec<Measure>,
         conditions: impl Into<Conditions>,
     ) -> Result<Self, String> {
+        let (base, conditions) = (base.into(), conditions.into());
         if over.is_empty() || measures.is_empty() {
             return Err("a scan goes over at least one parameter and measures something".to_owned());
         }
         let needs = needs_of(&measures);
-        for (index, Sweep { symbol, .. }) in over.iter().enumerate() {
+        for (index, Sweep { symbol, from, .. }) in over.iter().enumerate() {
+            base.clone().set(*symbol, *from)?;
             if over[..index].iter().any(|other| other.symbol == *symbol) {
                 return Err(format!("{symbol} is scanned over twice"));
             }
-            if !needs.iter().any(|need| need.depends_on().contains(symbol)) {
+            if !needs.iter().any(|need| need.depends_on(*symbol)) {
                 let names: Vec<_> = measures.iter().map(|measure| measure.spec().name).collect();
                 return Err(format!("{} does not depend on {symbol}", names.join(", ")));
             }
@@ -179,12 +217,18 @@ impl Scan {
             if measures[..index].contains(measure) {
                 return Err(format!("{} is measured twice", measure.spec().name));
             }
+            if matches!(base, ScanSource::Machine(_)) && !measure.spec().needs.is_of_machines() {
+                return Err(format!("{} is not measured of a machine", measure.spec().name));
+            }
+            if *measure == Measure::Design && conditions.wanted.is_none() {
+                return Err("design needs the margin that is wanted".to_owned());
+            }
         }
         let points = over.iter().try_fold(1_usize, |points, sweep| points.checked_mul(sweep.count));
         if points.is_none_or(|points| points > MOST_POINTS) {
             return Err(format!("too many points; allowed: {MOST_POINTS}"));
         }
-        Ok(Scan { base, over, measures, conditions: conditions.into() })
+        Ok(Scan { base, over, measures, conditions })
     }
 
     /// The parameters that are scanned over; the last one varies fastest.
@@ -213,25 +257,38 @@ impl Scan {
     }
 
     /// The motion at point number `index`.
-    pub fn problem(&self, index: usize) -> Problem {
-        let mut problem = self.base;
+    pub fn source(&self, index: usize) -> ScanSource {
+        let mut source = self.base.clone();
         for (sweep, which) in self.over.iter().zip(self.place(index)) {
-            let Problem { parameters, initial, .. } = &mut problem;
-            sweep.symbol.set(parameters, initial, sweep.value(which));
+            let set = source.set(sweep.symbol, sweep.value(which));
+            debug_assert!(set.is_ok(), "a scan goes over numbers that there are: {set:?}");
         }
-        problem
+        source
+    }
+
+    /// The same if it is one of the oscillator of the paper.
+    pub fn problem(&self, index: usize) -> Option<Problem> {
+        match self.source(index) {
+            ScanSource::Oscillator(problem) => Some(problem),
+            ScanSource::Machine(_) => None,
+        }
     }
 
     /// Measures point number `index`. Fails with [`Reason::Interrupted`], and no other.
     pub fn row(&self, index: usize, limits: &Limits) -> Result<ScanRow, Reason> {
-        let problem = self.problem(index);
-        let (values, point) = measure(&problem, &self.measures, &self.conditions, limits)?;
-        let reasons =
-            point.failures.iter().map(|(need, reason)| format!("{}: {reason}", need.name()));
-        let uncertain = point.uncertain.iter().map(|why| format!("guaranteed: {why}"));
-        let reasons: Vec<_> = reasons.chain(uncertain).collect();
+        let (measures, conditions) = (&self.measures, &self.conditions);
+        let (values, reasons, cost) = match self.source(index) {
+            ScanSource::Oscillator(problem) => {
+                let (values, point) = measure(&problem, measures, conditions, limits)?;
+                (values, point.reasons(), point.cost)
+            }
+            ScanSource::Machine(problem) => {
+                let point = MachinePoint::of(&problem, measures, conditions, limits)?;
+                (point.values(measures, conditions), point.reasons, point.cost)
+            }
+        };
         let reason = (!reasons.is_empty()).then(|| reasons.join("; "));
-        Ok(ScanRow { values, reason, cost: point.cost })
+        Ok(ScanRow { values, reason, cost })
     }
 
     /// A row that could not be measured at all.
@@ -248,49 +305,95 @@ impl Scan {
     /// All that the row of point number `index` depends on, by name.
     ///
     /// With it every row says for itself what it is: rows of different scans can stand in one file.
-    pub fn inputs(&self, index: usize) -> Vec<(&'static str, Value)> {
-        let Problem { parameters, initial, until, method, tolerance, step, epsilon } =
-            self.problem(index);
-        let Parameters { d, d2, d3, r } = parameters;
-        let mut inputs: Vec<(&str, Value)> =
-            vec![("D", d.into()), ("D2", d2.into()), ("D3", d3.into()), ("r", r.into())];
-        let needs = needs_of(&self.measures);
-        if needs.contains(&MeasureNeed::Motion) {
-            let State { q, v } = initial;
-            inputs.extend([("q0", q.into()), ("v0", v.into())]);
-        }
-        if needs.contains(&MeasureNeed::Motion) || needs.contains(&MeasureNeed::Settling) {
-            let name = method.spec().name;
-            inputs.push(("until", until.into()));
-            inputs.push(("method", Value::Word(name)));
-            match method.spec().dial {
-                Dial::Nothing => {}
-                Dial::Tolerance => inputs.push(("tolerance", tolerance.into())),
-                Dial::Step => inputs.push(("step", step.into())),
-                Dial::Epsilon => inputs.push(("epsilon", epsilon.into())),
-            }
-        }
-        let windowed = [Measure::Stability, Measure::Settling, Measure::FiniteTime];
-        if windowed.iter().any(|measure| self.measures.contains(measure)) {
-            let Window { q, v } = self.conditions.window;
-            inputs.extend([("q_from", q.0.into()), ("q_to", q.1.into())]);
-            inputs.extend([("v_from", v.0.into()), ("v_to", v.1.into())]);
-        }
-        if self.measures.contains(&Measure::Guaranteed) {
-            inputs.push(("w", self.conditions.disturbance.into()));
-            let ParameterBox { d, d2, d3, r } = self.conditions.around(&parameters);
-            for ([from, to], it) in ENDS.into_iter().zip([d, d2, d3, r]) {
-                inputs.extend([(from, it.lower().into()), (to, it.upper().into())]);
+    pub fn inputs(&self, index: usize) -> Vec<(String, Value)> {
+        let mut inputs = match self.source(index) {
+            ScanSource::Oscillator(problem) => self.inputs_of_motion(&problem),
+            ScanSource::Machine(problem) => self.inputs_of_machine(&problem),
+        };
+        let Conditions { window, elongation, kicks, wanted, .. } = self.conditions;
+        if self.measures.iter().any(|measure| measure.is_over_window()) {
+            let Window { q, v } = window;
+            inputs.extend(named([("q_from", q.0), ("q_to", q.1), ("v_from", v.0), ("v_to", v.1)]));
+            if elongation {
+                inputs.push(("q_of".to_owned(), Value::Word("elongation")));
             }
         }
         if [Measure::Lost, Measure::Repeated].iter().any(|one| self.measures.contains(one)) {
-            let RandomKick { law, q, v } = self.conditions.kicks;
-            inputs.push(("kick_law", Value::Word(law.name())));
-            inputs.extend([("kick_q", q.0.into()), ("kick_q_spread", q.1.into())]);
-            inputs.extend([("kick_v", v.0.into()), ("kick_v_spread", v.1.into())]);
+            let RandomKick { law, q, v } = kicks;
+            inputs.push(("kick_law".to_owned(), Value::Word(law.name())));
+            inputs.extend(named([("kick_q", q.0), ("kick_q_spread", q.1)]));
+            inputs.extend(named([("kick_v", v.0), ("kick_v_spread", v.1)]));
+        }
+        if let Some((kick, size)) = wanted.filter(|_| self.measures.contains(&Measure::Design)) {
+            inputs.push((format!("wanted_{}", kick.name()), size.into()));
         }
         inputs
     }
+
+    fn inputs_of_motion(&self, problem: &Problem) -> Vec<(String, Value)> {
+        let Problem { parameters, initial, until, method, tolerance, step, epsilon } = *problem;
+        let Parameters { d, d2, d3, r } = parameters;
+        let mut inputs: Vec<_> = named([("D", d), ("D2", d2), ("D3", d3), ("r", r)]).collect();
+        let needs = needs_of(&self.measures);
+        if needs.contains(&MeasureNeed::Motion) {
+            let State { q, v } = initial;
+            inputs.extend(named([("q0", q), ("v0", v)]));
+        }
+        if needs.contains(&MeasureNeed::Motion) || needs.contains(&MeasureNeed::Settling) {
+            inputs.extend(named([("until", until)]));
+            inputs.push(("method".to_owned(), Value::Word(method.spec().name)));
+            inputs.extend(match method.spec().dial {
+                Dial::Nothing => None,
+                Dial::Tolerance => Some(("tolerance".to_owned(), tolerance.into())),
+                Dial::Step => Some(("step".to_owned(), step.into())),
+                Dial::Epsilon => Some(("epsilon".to_owned(), epsilon.into())),
+            });
+        }
+        if self.measures.contains(&Measure::Guaranteed) {
+            let ParameterBox { d, d2, d3, r } = self.conditions.around(&parameters);
+            inputs.extend(named([("w", self.conditions.disturbance)]));
+            inputs.extend(Knob::PARAMETERS.into_iter().zip([d, d2, d3, r]).flat_map(ends));
+        }
+        inputs
+    }
+
+    fn inputs_of_machine(&self, problem: &MachineProblem) -> Vec<(String, Value)> {
+        let MachineProblem { subject, tolerances, start, until } = problem;
+        let value = |(knob, value): (Knob, f64)| (knob.to_string(), value.into());
+        let mut inputs: Vec<_> = subject.numbers().map(value).collect();
+        let belt = subject.of_belt();
+        if let Some(FrictionLaw::Table(table)) = belt.map(|belt| &belt.law) {
+            let which = Value::Count(table.fingerprint() as usize);
+            inputs.push(("friction_table".to_owned(), which));
+        }
+        if let Some(tolerance) = subject.tolerance {
+            inputs.extend(named([("tolerance", tolerance)]));
+        }
+        let needs = needs_of(&self.measures);
+        if needs.contains(&MeasureNeed::Motion) {
+            inputs.extend(named([("x", start.0), ("v", start.1), ("until", *until)]));
+        }
+        let certain = needs.contains(&MeasureNeed::Guarantee)
+            || (needs.contains(&MeasureNeed::Design) && !tolerances.is_none());
+        if let Some(belt) = belt.filter(|_| certain) {
+            inputs.extend(named([("w", tolerances.disturbance)]));
+            inputs.extend(tolerances.intervals(belt).into_iter().flat_map(ends));
+        }
+        inputs
+    }
+}
+
+/// Inputs that are numbers.
+fn named<const N: usize>(
+    numbers: [(&str, f64); N],
+) -> impl Iterator<Item = (String, Value)> + use<N> {
+    numbers.map(|(name, value)| (name.to_owned(), value.into())).into_iter()
+}
+
+/// The ends of the interval of a number, as inputs.
+fn ends((knob, interval): (Knob, Interval)) -> [(String, Value); 2] {
+    let end = |name: &str, value: f64| (format!("{knob}_{name}"), value.into());
+    [end("from", interval.lower()), end("to", interval.upper())]
 }
 
 #[cfg(test)]
@@ -298,7 +401,7 @@ mod tests {
     use super::*;
 
     fn sweep(text: &str) -> Result<Sweep, String> {
-        text.parse()
+        Sweep::read(text, &[Group::Motion])
     }
 
     fn scan(over: &[&str], measures: &[Measure]) -> Result<Scan, String> {
@@ -367,7 +470,7 @@ mod tests {
         let grid = scan(&["r=0.1:0.3:3", "D=-0.5:-0.1:2"], &[Measure::Area]).unwrap();
         assert_eq!(grid.points(), 6);
         let at = |index| {
-            let parameters = grid.problem(index).parameters;
+            let parameters = grid.problem(index).unwrap().parameters;
             (parameters.r, parameters.d)
         };
         assert_eq!(
@@ -379,7 +482,7 @@ mod tests {
 
     #[test]
     fn a_row_names_exactly_its_inputs() {
-        let names = |measures: &[Measure]| -> Vec<&str> {
+        let names = |measures: &[Measure]| -> Vec<String> {
             let scan = scan(&["D=-0.5:-0.1:2"], measures).unwrap();
             scan.inputs(0).into_iter().map(|(name, _)| name).collect()
         };

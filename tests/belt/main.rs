@@ -28,6 +28,14 @@ fn belt(words: &[&str]) -> Value {
     serde_json::from_str(&ran.out).unwrap()
 }
 
+/// The rows of `scan --machine NAME ..`.
+fn scan(machine: &str, words: &[&str]) -> Vec<Value> {
+    let line = [&["scan", "--machine", machine, "--format", "json"], words].concat();
+    let ran = run(&line);
+    assert_eq!(ran.code, 0, "{words:?}: {}", ran.err);
+    ran.out.lines().map(|row| serde_json::from_str(row).unwrap()).collect()
+}
+
 #[test]
 fn the_document_holds_both_units_and_they_agree() {
     let found = belt(&["textbook"]);
@@ -254,7 +262,7 @@ fn a_mode_is_answered_by_the_same_command() {
     assert_eq!(found["cycles"].as_array().unwrap().len(), 2);
     // Without a belt there is no belt speed, and there are no tolerances.
     for (option, value, words) in [
-        ("--sweep", "v0=1:2:3", "no v0 here; there are R, R_static, frequency"),
+        ("--set", "v0=1", "no v0 here; there are R, R_static, frequency"),
         ("--branch", "mu_s=0.1:1:3", "no mu_s here; there are"),
         ("--set", "ratio3=1", "no ratio3 here; there are"),
         ("--set", "R=3N+-1N", "takes no tolerances"),
@@ -267,15 +275,13 @@ fn a_mode_is_answered_by_the_same_command() {
 }
 
 #[test]
-fn the_study_of_the_open_benchmark_is_one_sweep() {
-    let window = "--window=-2:2,0:2";
-    let study = belt(&["bstab", "--sweep", "v0=1.625:1.775:2", window, "--elongation"]);
-    let shares: Vec<f64> = study["points"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|point| number(&point["rest_share"]))
-        .collect();
+fn the_study_of_the_open_benchmark_is_one_scan() {
+    let window = ["--window=-2:2,0:2", "--elongation"];
+    let study = scan(
+        "bstab",
+        &[&["--over", "v0=1.625:1.775:2", "--measure", "stability"], &window[..]].concat(),
+    );
+    let shares: Vec<f64> = study.iter().map(|row| number(&row["captured_part"])).collect();
     for (share, expected) in shares.iter().zip([0.428_097_973_459_205_5, 0.558_366_582_309_877_2]) {
         assert!((share - expected).abs() < 1e-12, "{share} {expected}");
     }
@@ -297,12 +303,10 @@ fn a_share_that_is_not_known_leaves_no_column_out() {
                 friction.polynomial.coefficients = [0.62, -1.11435, -0.98584]\n";
     fs::write(&path, text).unwrap();
     let name = path.to_str().unwrap();
-    let sweep = ["belt", name, "--sweep", "v0=0.1:0.2:2", "--window=-0.1:0.1,-0.18:0.18"];
-    let table = run(&sweep).out;
-    let rows = ["rest share", "come to rest  1", "come to rest  not known"];
-    assert!(rows.iter().all(|row| table.lines().any(|line| line.ends_with(row))), "{table}");
-    let point = |index: usize| belt(&sweep[1..])["points"][index]["rest_share"].clone();
-    assert_eq!((number(&point(0)), point(1)), (1.0, serde_json::Value::Null));
+    let window = "--window=-0.1:0.1,-0.18:0.18";
+    let rows = scan(name, &["--over", "v0=0.1:0.2:2", "--measure", "stability", window]);
+    let [known, unknown] = [0, 1].map(|row| rows[row]["captured_part"].clone());
+    assert_eq!((number(&known), unknown), (1.0, Value::Null));
 }
 
 #[test]
@@ -320,9 +324,9 @@ fn a_mode_is_set_swept_followed_and_designed_as_a_belt_is() {
     let close = |found: &Value, expected: f64| (number(found) / expected - 1.0).abs() < 1e-12;
     let set = belt(&[name, "--set", "ratio0=-0.1", "--set", "R=5 N"]);
     assert!(close(&set["margin"]["displacement"], amplitude(0.1, 5.0)));
-    let swept = belt(&[name, "--sweep", "R=1:3:3"]);
-    for (point, force) in swept["points"].as_array().unwrap().iter().zip([1.0, 2.0, 3.0]) {
-        assert!(close(&point["margin"]["displacement"], amplitude(0.05, force)), "{point}");
+    let rows = scan(name, &["--over", "R=1:3:3", "--measure", "margin"]);
+    for (row, force) in rows.iter().zip([1.0, 2.0, 3.0]) {
+        assert!(close(&row["displacement"], amplitude(0.05, force)), "{row}");
     }
     let wanted = amplitude(0.05, 4.0);
     let design = ["belt", name, "--design", &format!("{wanted:?} m")];
@@ -358,32 +362,75 @@ fn a_mode_is_set_swept_followed_and_designed_as_a_belt_is() {
 }
 
 #[test]
-fn a_sweep_is_the_same_machine_at_each_speed() {
-    let swept = belt(&["clutch", "--sweep", "v0=0.6:1:3", "--design", "3 mm"]);
-    assert_eq!((&swept["quantity"], &swept["unit"]), (&"v0".into(), &"m/s".into()));
-    let points = swept["points"].as_array().unwrap();
-    assert_eq!(points.len(), 3);
-    for point in points {
-        let set = format!("v0={:?}", number(&point["value"]));
-        let alone = belt(&["clutch", "--set", &set, "--design", "3 mm"]);
-        for key in ["cycles", "border", "margin", "neutral", "design"] {
-            assert_eq!(point[key], alone[key], "{key}");
+fn a_scan_is_the_same_machine_at_each_speed() {
+    let measures = "margin,from-rest,cycles,multipliers,border,guaranteed,design";
+    let asked = ["--design", "3 mm", "--set", "R=2N+-0.1N"];
+    let line = [&["--over", "v0=60 cm/s:1 m/s:3", "--measure", measures], &asked[..]].concat();
+    let rows = scan("clutch", &line);
+    assert_eq!(rows.len(), 3);
+    for row in rows {
+        let set = format!("v0={:?}", number(&row["v0"]));
+        let alone = belt(&[&["clutch", "--set", &set], &asked[..]].concat());
+        let cycles = alone["cycles"].as_array().unwrap();
+        assert_eq!(row["cycles"], cycles.len());
+        let margin = &alone["margin"];
+        let certain = &alone["guaranteed"];
+        for (column, expected) in [
+            ("displacement", &margin["displacement"]),
+            ("impulse", &margin["impulse"]),
+            ("from_rest_displacement", &margin["from_rest"]["displacement"]),
+            ("from_rest_impulse", &margin["from_rest"]["impulse"]),
+            ("border", &alone["border"]["kind"]),
+            ("q_max_1", &cycles[0]["x_max"]),
+            ("v_min_1", &cycles[0]["v_min"]),
+            ("period_1", &cycles[0]["period"]),
+            ("multiplier_1", &cycles[0]["multiplier"]),
+            ("guaranteed_displacement", &certain["displacement"]),
+            ("guaranteed_impulse", &certain["impulse"]),
+            ("friction_needed", &alone["design"]["R"]),
+        ] {
+            assert_eq!(&row[column], expected, "{column} at {set}");
         }
+        assert_eq!((&row["R"], &row["reason"]), (&2.0.into(), &Value::Null));
     }
-    let rows = run(&["belt", "textbook", "--sweep", "v0=10 cm/s:90 cm/s:5", "--format", "csv"]);
-    let lines: Vec<&str> = rows.out.lines().collect();
-    assert_eq!(lines.len(), 6);
-    let columns = |line: &str| line.split(',').count();
-    assert!(lines.iter().all(|line| columns(line) == columns(lines[0])), "{}", rows.out);
 }
 
 #[test]
-fn a_sweep_beyond_the_friction_law_says_so_at_those_points() {
-    let swept = belt(&["slideway", "--sweep", "v0=10 mm/s:110 mm/s:3"]);
-    let points = swept["points"].as_array().unwrap();
-    assert_eq!(points[2]["cycles"], Value::Null);
-    let reason = points[2]["reason"].as_str().unwrap();
+fn a_scan_beyond_the_friction_law_says_so_in_those_rows() {
+    let rows = scan("slideway", &["--over", "v0=10 mm/s:110 mm/s:3", "--measure", "cycles,margin"]);
+    assert_eq!(rows[2]["cycles"], Value::Null);
+    let reason = rows[2]["reason"].as_str().unwrap();
     assert!(reason.contains("outside the friction law; it reaches from 0 to 0.06 m/s"), "{reason}");
+}
+
+#[test]
+fn a_scan_of_a_machine_knows_its_friction_table_and_what_it_cannot_measure() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("press.toml");
+    let text = "m = 5\nc = 2000\nF = 50\nR = 0.5\nv0 = 0.1\nfriction.table.points = \
+                [[0, 0.4], [0.05, 0.36], [0.1, 0.33], [0.2, 0.29], [0.3, 0.27]]\n";
+    let name = file.to_str().unwrap();
+    let line = ["--over", "v0=0.1:0.15:2", "--measure", "outcome", "--set", "x=1 mm"];
+    let tables = ["0.36", "0.37"].map(|mu| {
+        fs::write(&file, text.replace("0.36", mu)).unwrap();
+        let rows = scan(name, &line);
+        assert_eq!(rows[0]["x"], 0.001);
+        rows[0]["friction_table"].clone()
+    });
+    assert_ne!(tables[0], tables[1]);
+    for (words, expected) in [
+        (&["--over", "D=0:1:3", "--measure", "margin"][..], "there are m, c, d1, d3, F, R, v0"),
+        (&["--over", "mu=0:1:3", "--measure", "margin"], "no mu here; there are m, c"),
+        (&["--over", "v0=1:2 m/s:3", "--measure", "margin"], "both take a unit"),
+        (&["--over", "x=0:1 mm:3", "--measure", "margin"], "both take a unit"),
+        (&["--over", "x=0:1:3", "--measure", "margin"], "margin does not depend on x"),
+        (&["--over", "R=1:2:3", "--measure", "design"], "design does not depend on R"),
+        (&["--over", "c=1:2:3", "--measure", "design"], "design needs the margin"),
+        (&["--over", "c=1:2:3", "--measure", "fold"], "fold is not measured of a machine"),
+        (&["--over", "c=1:2:3", "--measure", "stability"], "needs a --window"),
+    ] {
+        run(&[&["scan", "--machine", name], words].concat()).is_refused(&[expected]);
+    }
 }
 
 #[test]
@@ -419,7 +466,7 @@ fn bad_input_is_refused_in_one_line_with_what_is_allowed() {
             "v0 = 0 m/s is outside its range 1e-12 .. 1e12 m/s; a belt at rest only brakes",
         ),
         (&["textbook", "--design", "2"], "expected a displacement, such as \"2 mm\""),
-        (&["textbook", "--sweep", "v0=1:2"], "expected NAME=FROM:TO:COUNT"),
+        (&["textbook", "--branch", "v0=1:2"], "expected NAME=FROM:TO:COUNT"),
         (&["slideway", "--set", "v0=1"], "v0 = 1 m/s is outside the friction law"),
     ] {
         let ran = run(&[&["belt"], words].concat());

@@ -181,6 +181,12 @@ impl Knob {
         (self.spec().belt?.get)(belt)
     }
 
+    /// Reads a number of a vibration mode; `None` if it has none.
+    #[must_use]
+    pub fn of_mode(self, mode: &Modal) -> Option<f64> {
+        (self.spec().mode?.get)(mode)
+    }
+
     /// Writes a number of a mass on a belt, in SI units.
     ///
     /// # Errors
@@ -204,7 +210,7 @@ impl Knob {
             *place = value;
             return Ok(());
         }
-        Err(self.missing(&|knob| knob.spec().mode.and_then(|at| (at.get)(mode)).is_some()))
+        Err(self.missing(&|knob| knob.of_mode(mode).is_some()))
     }
 
     /// That what has these numbers does not have this one.

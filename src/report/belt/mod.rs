@@ -5,14 +5,10 @@ pub mod branch;
 mod document;
 mod expansion;
 mod page;
-mod sweep;
 mod table;
 
 pub use document::json;
 pub use page::page;
-pub use sweep::{
-    MachineSweep, SweepPoint, csv as sweep_csv, json as sweep_json, table as sweep_table,
-};
 pub use table::{csv, table};
 
 use serde::Serialize;
@@ -44,15 +40,6 @@ impl RestShare {
 
     fn known(self) -> Option<f64> {
         if let RestShare::Is(share) = self { Some(share) } else { None }
-    }
-
-    /// The cell of a table; `None` if it was not asked for.
-    fn cell(self) -> Option<String> {
-        match self {
-            RestShare::NotAsked => None,
-            RestShare::Unknown => Some("not known".to_owned()),
-            RestShare::Is(share) => Some(significant(share, 10)),
-        }
     }
 
     /// A line of text; empty if it was not asked for.

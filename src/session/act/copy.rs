@@ -111,7 +111,7 @@ fn belonging(session: &Session) -> Vec<NamedNumber> {
     }
     let mut problem = session.problem;
     if let Some(scanned) = session.scanned.as_ref().filter(|_| session.focuses_scan()) {
-        problem = scanned.scan.problem(scanned.at);
+        problem = scanned.scan.problem(scanned.at).unwrap_or(problem);
         let values = scanned.rows.get(scanned.at).into_iter().flat_map(|row| &row.values);
         let columns = scanned.scan.measured();
         all.extend(

@@ -1,7 +1,7 @@
 //! Scans: the form, starting and stopping, moving over the points, and using one of them.
 
 use crate::numerics::decimal::shortest;
-use crate::oscillator::Knob;
+use crate::oscillator::{Group, Knob};
 use crate::scene::View;
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::{inform, with_keys};
@@ -203,7 +203,7 @@ pub fn go(session: &mut Session, right: isize, up: isize) -> Done {
 pub fn take(session: &mut Session) -> Done {
     let mut problem = session.problem;
     let scanned = scanned(session)?;
-    let taken = scanned.scan.problem(scanned.at);
+    let taken = scanned.scan.problem(scanned.at).unwrap_or(problem);
     let mut said = Vec::new();
     for Sweep { symbol, .. } in scanned.scan.over() {
         let value = taken.get(*symbol);
@@ -227,7 +227,8 @@ pub fn save(session: &mut Session, path: &str) -> Done {
 pub fn scan(session: &mut Session, rest: &str) -> Done {
     let (sweeps, measures): (Vec<&str>, Vec<&str>) =
         rest.split_whitespace().partition(|word| word.contains('='));
-    let over = sweeps.into_iter().map(str::parse).collect::<Result<Vec<Sweep>, _>>()?;
+    let over = sweeps.into_iter().map(|text| Sweep::read(text, &[Group::Motion]));
+    let over = over.collect::<Result<Vec<_>, _>>()?;
     let measures = if measures.is_empty() { "from-rest".to_owned() } else { measures.join(",") };
     let scan = scan_of(session, over, &measures)?;
     start(session, scan);

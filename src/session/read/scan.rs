@@ -1,5 +1,6 @@
 //! The scan that a form or a line describes, and the request of a running one.
 
+use crate::oscillator::Group;
 use crate::scene::{Request, Span, View};
 use crate::session::state::{Pane, ScanForm, Session};
 use crate::study::basin;
@@ -17,7 +18,7 @@ pub fn typed(form: &ScanForm, session: &Session) -> Result<Scan, String> {
                 return Err(format!("{what} of {name} is empty"));
             }
         }
-        format!("{name}={from}:{to}:{count}").parse::<Sweep>()
+        Sweep::read(&format!("{name}={from}:{to}:{count}"), &[Group::Motion])
     };
     let mut over = vec![sweep(name, from, to, count)?];
     if !second.is_empty() {

@@ -2,6 +2,7 @@
 
 use crate::oscillator::{Knob, ParameterBox, Parameters};
 use crate::study::basin::Window;
+use crate::study::design::Kick;
 use crate::study::kicks::RandomKick;
 
 /// The window of starts, the tolerances, the disturbance and the kicks.
@@ -15,12 +16,23 @@ pub struct Conditions {
     pub disturbance: f64,
     /// Kicks of which a fraction is lost.
     pub kicks: RandomKick,
+    /// Whether the window of a machine counts displacements from the relaxed spring.
+    pub elongation: bool,
+    /// The margin for which the friction is sought.
+    pub wanted: Option<(Kick, f64)>,
 }
 
 impl From<Window> for Conditions {
     fn from(window: Window) -> Self {
         let kicks = RandomKick::default();
-        Conditions { window, half_widths: Vec::new(), disturbance: 0.0, kicks }
+        Conditions {
+            window,
+            half_widths: Vec::new(),
+            disturbance: 0.0,
+            kicks,
+            elongation: false,
+            wanted: None,
+        }
     }
 }
 

@@ -6,13 +6,14 @@ use super::table::{CYCLES, Measure, MeasureNeed, Value, needs_of};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Outcome, Problem, Reason, Trajectory};
 use crate::numerics::Interval;
-use crate::portrait::{Cycle, Margin};
+use crate::portrait::{Border, Cycle, Margin, RestMargin};
 use crate::proof::Proof;
 use crate::study::basin::Basin;
 use crate::study::closed_pair::Closing;
 use crate::study::closing::Equation;
 use crate::study::closings::{STEP, innermost_closing};
 use crate::study::cycle::{Cycles, cycles_and_closings};
+use crate::study::design::{FrictionNeeded, friction_for};
 use crate::study::escape::escape_point;
 use crate::study::fold::fold;
 use crate::study::fold_point::FoldPoint;
@@ -35,6 +36,7 @@ pub struct ScanPoint {
     settling: Option<Settling>,
     repeated: Option<Repeated>,
     proof: Option<Proof>,
+    needed: Option<FrictionNeeded>,
     pub cost: Cost,
     /// What could not be computed, and why.
     pub failures: Vec<(MeasureNeed, Reason)>,
@@ -135,6 +137,12 @@ impl ScanPoint {
                 let found = self.cycles.as_ref().map(proved).transpose().map_err(differ)?;
                 self.proof = found;
             }
+            MeasureNeed::Design => {
+                let Some((kick, wanted)) = conditions.wanted else { return Ok(()) };
+                let found = friction_for(parameters, kick, wanted, limits)?;
+                self.cost += found.cost;
+                self.needed = Some(found.needed);
+            }
             // Without friction there is no set of places to rest.
             MeasureNeed::Chain if parameters.r == 0.0 => {}
             MeasureNeed::Chain => {
@@ -146,30 +154,28 @@ impl ScanPoint {
         Ok(())
     }
 
+    /// Why cells are empty, a sentence for each computation.
+    pub fn reasons(&self) -> Vec<String> {
+        let failed = |(need, reason): &(MeasureNeed, Reason)| format!("{}: {reason}", need.name());
+        let uncertain = self.uncertain.iter().map(|why| format!("guaranteed: {why}"));
+        self.failures.iter().map(failed).chain(uncertain).collect()
+    }
+
     /// The cells of a measure, as many as it has columns.
     fn columns(&self, measure: Measure, conditions: &Conditions) -> Vec<Value> {
+        let portrayed = Portrayed {
+            cycles: self.cycles.as_ref().map(|found| &found.cycles[..]),
+            margin: self.edge.as_ref().map(Basin::margin),
+            border: self.edge.as_ref().map(|basin| basin.border),
+            guaranteed: self.guaranteed,
+            needed: self.needed,
+        };
         match measure {
             Measure::Outcome => self.outcome().to_vec(),
             Measure::Rest => match self.motion.as_ref().map(|motion| motion.outcome) {
                 Some(Outcome::Captured { tau, q }) => vec![q.into(), tau.into()],
                 _ => vec![Value::Nothing; 2],
             },
-            Measure::Cycles => {
-                let count = self.cycles.as_ref().map(|found| Value::Count(found.cycles.len()));
-                let extremes = |cycle: &Cycle| [cycle.q_min, cycle.q_max, cycle.v_min, cycle.v_max];
-                let cells = self.each_cycle(|cycle| extremes(cycle).map(Value::from));
-                std::iter::once(count.unwrap_or(Value::Nothing)).chain(cells).collect()
-            }
-            Measure::Multipliers => self.each_cycle(|cycle| {
-                [cycle.period.into(), cycle.multiplier.into(), cycle.log_multiplier.into()]
-            }),
-            Measure::Margin => from_centre(self.edge.as_ref().map(Basin::margin)),
-            Measure::FromRest => {
-                let margin = self.edge.as_ref().map(|edge| edge.margin().from_rest);
-                let kicks = margin.map(|kicks| [kicks.displacement, kicks.impulse]);
-                kicks.unwrap_or_default().map(Value::from).to_vec()
-            }
-            Measure::Guaranteed => from_centre(self.guaranteed),
             Measure::Stability => {
                 part(self.edge.as_ref().map(|basin| basin.captured_share(&conditions.window)))
             }
@@ -208,6 +214,7 @@ impl ScanPoint {
                 let proved = self.proof.as_ref().map_or(Value::Nothing, word);
                 std::iter::once(proved).chain((0..CYCLES).flat_map(bounds)).collect()
             }
+            _ => portrayed.columns(measure),
         }
     }
 
@@ -223,18 +230,54 @@ impl ScanPoint {
         };
         [Value::Word(word), tau, Value::Count(motion.crossings.len())]
     }
+}
+
+/// What is measured of the paper's oscillator and of machines alike; `None` where it is not known.
+pub(super) struct Portrayed<'a> {
+    pub cycles: Option<&'a [Cycle]>,
+    pub margin: Option<Margin>,
+    pub border: Option<Border>,
+    pub guaranteed: Option<Margin>,
+    pub needed: Option<FrictionNeeded>,
+}
+
+impl Portrayed<'_> {
+    /// The cells of a measure; nothing of any other.
+    pub fn columns(&self, measure: Measure) -> Vec<Value> {
+        match measure {
+            Measure::Cycles => {
+                let extremes = |it: &Cycle| [it.q_min, it.q_max, it.v_min, it.v_max];
+                let count = self.cycles.map_or(Value::Nothing, |all| Value::Count(all.len()));
+                let cells = self.each_cycle(|cycle| extremes(cycle).map(Value::from));
+                std::iter::once(count).chain(cells).collect()
+            }
+            Measure::Multipliers => self.each_cycle(|cycle| {
+                [cycle.period.into(), cycle.multiplier.into(), cycle.log_multiplier.into()]
+            }),
+            Measure::Margin | Measure::Guaranteed => {
+                let known = if measure == Measure::Margin { self.margin } else { self.guaranteed };
+                let Margin { displacement, impulse, .. } = known.unwrap_or_default();
+                vec![displacement.into(), impulse.into()]
+            }
+            Measure::FromRest => {
+                let RestMargin { displacement, impulse } =
+                    self.margin.unwrap_or_default().from_rest;
+                vec![displacement.into(), impulse.into()]
+            }
+            Measure::Border => {
+                vec![self.border.map_or(Value::Nothing, |border| Value::Word(border.name()))]
+            }
+            Measure::Design => vec![self.needed.map(FrictionNeeded::least).into()],
+            _ => vec![Value::Nothing; measure.spec().columns.len()],
+        }
+    }
 
     /// The same cells for each cycle that has columns, nothing where there is no such cycle.
     fn each_cycle<const N: usize>(&self, cells: impl Fn(&Cycle) -> [Value; N]) -> Vec<Value> {
-        let found = self.cycles.as_ref().map_or(&[][..], |found| &found.cycles);
+        let found = self.cycles.unwrap_or_default();
         let cell = |index| found.get(index).map_or([Value::Nothing; N], &cells);
         (0..CYCLES).flat_map(cell).collect()
     }
-}
-
-fn from_centre(margin: Option<Margin>) -> Vec<Value> {
-    let displacement = margin.and_then(|margin| margin.displacement);
-    vec![displacement.into(), margin.and_then(|margin| margin.impulse).into()]
 }
 
 fn part(share: Option<Share>) -> Vec<Value> {
@@ -246,6 +289,7 @@ mod tests {
     use super::*;
     use crate::oscillator::{Knob, Parameters, State};
     use crate::study::basin::Window;
+    use crate::study::design::Kick;
     use crate::study::measure::MEASURES;
 
     const WINDOW: Window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
@@ -271,7 +315,10 @@ mod tests {
             // The chain of kicks follows ten thousands of motions; it has its own tests.
             let rows = MEASURES.iter().filter(|row| row.needs != MeasureNeed::Chain);
             let measures: Vec<_> = rows.clone().map(|row| row.measure).collect();
-            let (values, point) = measured(&problem, &measures);
+            let conditions =
+                Conditions { wanted: Some((Kick::Displacement, 0.5)), ..WINDOW.into() };
+            let (values, point) =
+                measure(&problem, &measures, &conditions, &Limits::PATIENT).unwrap();
             assert_eq!(values.len(), rows.map(|row| row.columns.len()).sum::<usize>());
             assert!(point.failures.is_empty(), "{problem:?}: {:?}", point.failures);
             assert!(values.iter().all(|value| value.number().is_none_or(f64::is_finite)));

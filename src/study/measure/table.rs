@@ -42,6 +42,10 @@ pub enum Measure {
     Repeated,
     /// Whether the number of cycles is proved, and bounds of their amplitudes.
     Proved,
+    /// What borders the basin.
+    Border,
+    /// The friction that a margin needs.
+    Design,
 }
 
 /// A computation on which measures rest.
@@ -65,6 +69,8 @@ pub enum MeasureNeed {
     Chain,
     /// A proof of the number of cycles.
     Proof,
+    /// The friction that a margin needs.
+    Design,
 }
 
 impl MeasureNeed {
@@ -80,22 +86,33 @@ impl MeasureNeed {
             MeasureNeed::Settling => "settling",
             MeasureNeed::Chain => "repeated kicks",
             MeasureNeed::Proof => "proof",
+            MeasureNeed::Design => "design",
         }
     }
 
-    /// The numbers on which the computation depends.
-    pub fn depends_on(self) -> &'static [Knob] {
-        const ALL: [Knob; 6] = [Knob::D, Knob::D2, Knob::D3, Knob::R, Knob::Q0, Knob::V0];
-        match self {
-            MeasureNeed::Motion => &ALL,
-            MeasureNeed::Cycles
-            | MeasureNeed::Edge
-            | MeasureNeed::Guarantee
-            | MeasureNeed::Settling
-            | MeasureNeed::Chain
-            | MeasureNeed::Proof => &ALL[..4],
-            MeasureNeed::Fold | MeasureNeed::Escape => &ALL[1..4],
+    /// Whether the computation depends on a number.
+    pub fn depends_on(self, knob: Knob) -> bool {
+        match knob {
+            Knob::Q0 | Knob::V0 | Knob::X | Knob::V | Knob::Duration => self == MeasureNeed::Motion,
+            Knob::DisturbingForce => {
+                matches!(self, MeasureNeed::Guarantee | MeasureNeed::Design)
+            }
+            Knob::D => !matches!(self, MeasureNeed::Fold | MeasureNeed::Escape),
+            Knob::R | Knob::Friction => self != MeasureNeed::Design,
+            _ => true,
         }
+    }
+
+    /// Whether there is such a computation for a machine.
+    pub fn is_of_machines(self) -> bool {
+        matches!(
+            self,
+            MeasureNeed::Motion
+                | MeasureNeed::Cycles
+                | MeasureNeed::Edge
+                | MeasureNeed::Guarantee
+                | MeasureNeed::Design
+        )
     }
 }
 
@@ -118,7 +135,7 @@ pub struct MeasureSpec {
 pub(super) const CYCLES: usize = 2;
 
 /// Every measure, in the order in which they are listed.
-pub const MEASURES: [MeasureSpec; 17] = [
+pub const MEASURES: [MeasureSpec; 19] = [
     MeasureSpec {
         measure: Measure::Outcome,
         name: "outcome",
@@ -251,12 +268,31 @@ pub const MEASURES: [MeasureSpec; 17] = [
         columns: &["proved", "q_max_1_lower", "q_max_1_upper", "q_max_2_lower", "q_max_2_upper"],
         needs: MeasureNeed::Proof,
     },
+    MeasureSpec {
+        measure: Measure::Border,
+        name: "border",
+        meaning: "what borders the basin: cycle, separatrix or none; of a machine also grazing or no-basin",
+        columns: &["border"],
+        needs: MeasureNeed::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Design,
+        name: "design",
+        meaning: "the least friction, r or R, that keeps the margin of --design; 0 if any does",
+        columns: &["friction_needed"],
+        needs: MeasureNeed::Design,
+    },
 ];
 
 impl Measure {
     /// The row of [`MEASURES`] that describes this measure.
     pub fn spec(self) -> &'static MeasureSpec {
         &MEASURES[self as usize]
+    }
+
+    /// Whether it is measured over a window of starts.
+    pub fn is_over_window(self) -> bool {
+        matches!(self, Measure::Stability | Measure::Settling | Measure::FiniteTime)
     }
 
     /// The measure with this name. Fails with one line that says which there are.

@@ -1,15 +1,25 @@
-//! The machine that the command line names, and the files that it comes from.
+//! The machine that the command line names, the files that it comes from, and what is set in it.
+
+pub mod input;
 
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::cli::failure::Failure;
-use crate::machine::{Body, Subject, Tolerances};
+use clap::Args;
+
+use super::failure::Failure;
+use super::input::read;
+use super::start::StartOptions;
+use crate::machine::{Body, MachineProblem, Tolerances};
+use crate::oscillator::unit::WithTolerance;
+use crate::oscillator::{Group, Knob};
 use crate::report::page::Source;
+use crate::runtime::standard::tell;
 use crate::runtime::{bounded, source_file};
 use crate::scene::machine::file::parse;
 use crate::scene::machine::library::{find, machines};
 use crate::scene::machine::mode::{self, Mode, is_mode};
+use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Machine, ScaledMachine, Scene};
 
 /// What the name on the command line refers to.
@@ -68,12 +78,7 @@ pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
 pub struct MachineCase {
     pub name: String,
     pub title: String,
-    pub subject: Subject,
-    pub tolerances: Tolerances,
-    /// Displacement (m) and velocity (m/s) at the start.
-    pub start: (f64, f64),
-    /// How long the motion is followed, in s.
-    pub until: f64,
+    pub problem: MachineProblem,
     /// The files that it was read from.
     pub sources: Vec<Source>,
     /// The machine as it was read; `None` for a mode.
@@ -88,34 +93,91 @@ impl MachineCase {
             MachineOrMode::Belt(machine) => MachineCase {
                 name: machine.name.clone(),
                 title: machine.title.clone(),
-                subject: Body::Belt(Box::new(machine.belt.clone())).into(),
-                tolerances: machine.tolerances.clone(),
-                start: (machine.displacement, machine.velocity),
-                until: machine.until,
+                problem: MachineProblem {
+                    subject: Body::Belt(Box::new(machine.belt.clone())).into(),
+                    tolerances: machine.tolerances.clone(),
+                    start: (machine.displacement, machine.velocity),
+                    until: machine.until,
+                },
                 sources,
                 read: Some(machine),
             },
             MachineOrMode::Mode(Mode { name, title, numbers, start, until }) => {
                 let (subject, tolerances) = (Body::Mode(numbers).into(), Tolerances::default());
-                MachineCase { name, title, subject, tolerances, start, until, sources, read: None }
+                let problem = MachineProblem { subject, tolerances, start, until };
+                MachineCase { name, title, problem, sources, read: None }
             }
         })
     }
 
+    /// Sets numbers, each with or without a tolerance.
+    pub fn set(&mut self, set: &[(Knob, WithTolerance)]) -> Result<(), Failure> {
+        for &(knob, WithTolerance { middle, half_width, .. }) in set {
+            self.problem.set(knob, middle.value).map_err(Failure::Usage)?;
+            if knob.spec().group != Group::Course {
+                self.problem.tolerances.half_widths.insert(knob.to_string(), half_width);
+            }
+        }
+        Ok(())
+    }
+
+    /// The same if its tolerances are within their ranges; warns of numbers that are hardly those of a machine.
+    pub fn checked(self) -> Result<Self, Failure> {
+        let MachineProblem { subject, tolerances, start, .. } = &self.problem;
+        let checked = match subject.of_belt() {
+            Some(belt) => tolerances.check(belt),
+            None if tolerances.is_none() => Ok(()),
+            None => {
+                Err("a mode takes no tolerances and no --disturbance: its guaranteed margins are \
+                         not computed"
+                    .to_owned())
+            }
+        };
+        checked.map_err(Failure::Usage)?;
+        if let Some(line) = unlikely(&subject.body, *start) {
+            tell(format!("warning: {line}"));
+        }
+        Ok(self)
+    }
+
     /// The scene of the machine with its present numbers; `None` for a mode.
     pub fn scene(&self) -> Result<Option<Scene>, Failure> {
-        let Some((read, belt)) = self.read.as_ref().zip(self.subject.of_belt()) else {
+        let MachineProblem { subject, tolerances, start, .. } = &self.problem;
+        let Some((read, belt)) = self.read.as_ref().zip(subject.of_belt()) else {
             return Ok(None);
         };
         let machine = Machine {
             belt: belt.clone(),
-            tolerances: self.tolerances.clone(),
-            displacement: self.start.0,
-            velocity: self.start.1,
+            tolerances: tolerances.clone(),
+            displacement: start.0,
+            velocity: start.1,
             ..read.clone()
         };
         let scaled = ScaledMachine::new(machine);
         let scaled = scaled.map_err(|why| Failure::Usage(format!("{}: {why}", self.name)))?;
         Ok(Some(scaled.scene()))
+    }
+}
+
+/// What a command is about: the motion of a scene, or a machine.
+#[derive(Clone, Debug, Args)]
+pub struct SourceOptions {
+    #[command(flatten)]
+    pub start: StartOptions,
+    /// Asks about a machine in place of a scene: a file, or the name of a built-in one (see hopfscope belt). All numbers
+    /// are then its own, such as --set "R=2 N", with a unit or in SI units
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "step", "epsilon"])]
+    machine: Option<String>,
+}
+
+impl SourceOptions {
+    /// The machine with the values set on the command line, if it is about one.
+    pub fn machine(&self) -> Result<Option<MachineCase>, Failure> {
+        let Some(name) = &self.machine else { return Ok(None) };
+        let mut case = MachineCase::named(name)?;
+        let set = self.start.set.iter().map(|text| read("--set", text, input::assignment));
+        case.set(&set.collect::<Result<Vec<_>, _>>()?)?;
+        case.problem.subject.tolerance = self.start.tol;
+        Ok(Some(case))
     }
 }

@@ -1,43 +1,34 @@
 //! `hopfscope belt`: a machine in physical units.
 
-mod case;
-mod input;
-
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
 
-use self::case::MachineCase;
-pub use self::case::scene;
-use self::input::{
-    StartOverride, WindowInUnits, assignment, disturbance, margin, range, start, window,
-};
 use super::failure::Failure;
 use super::figure::completed;
 use super::input::{Over, method, page_file, tolerance};
+use super::machine::MachineCase;
+use super::machine::input::{StartOverride, assignment, disturbance, margin, range, start, window};
 use super::output::{Format, Output, write};
 use super::timing::timed;
 use crate::figure::panels;
 use crate::flow::Limits;
 use crate::flow::Method;
-use crate::machine::branch::{borders, branch, spaced};
+use crate::machine::branch::{borders, branch};
 use crate::machine::design::friction_for;
 use crate::machine::guarantee::guaranteed;
 use crate::machine::stepped::{ALLOWED, SteppedMethod};
 use crate::machine::survey::{Course, CubicExpansion, Trouble};
-use crate::machine::{Portrait, Subject, Tolerances};
+use crate::machine::{MachineProblem, Portrait, Subject, Tolerances};
 use crate::oscillator::unit::WithTolerance;
 use crate::oscillator::{Belt, Knob};
 use crate::report::belt::branch::{Borders, BranchAnswer};
-use crate::report::belt::{
-    self, DesignAnswer, Head, MachineAnswer, MachineSweep, OnBelt, RestShare, SweepPoint,
-};
+use crate::report::belt::{self, DesignAnswer, Head, MachineAnswer, OnBelt, RestShare};
 use crate::runtime::print::figure;
 use crate::runtime::provenance_file;
-use crate::runtime::standard::tell;
 use crate::scene::machine::library::{TEXTBOOK, machines};
-use crate::scene::machine::unlikely::unlikely;
+use crate::study::basin::Window;
 use crate::study::design::Kick;
 
 /// Analyses a mass on a belt in physical units
@@ -59,16 +50,13 @@ pub struct Arguments {
     start: Option<StartOverride>,
     /// Window "XMIN:XMAX,VMIN:VMAX": reports the share of its starts that come to rest
     #[arg(long, value_name = "WINDOW", value_parser = window, allow_hyphen_values = true)]
-    window: Option<WindowInUnits>,
+    window: Option<Window>,
     /// Measures the window's displacements from the relaxed spring instead of the steady position
     #[arg(long, requires = "window")]
     elongation: bool,
-    /// Varies a quantity, such as "v0=0.1 m/s:0.5 m/s:21": margins and cycles at each value
-    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true)]
-    sweep: Option<Over>,
     /// Follows the cycles along a quantity and locates every bifurcation: Hopf, fold, grazing, annihilation ..
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
-          conflicts_with_all = ["sweep", "design"])]
+          conflicts_with = "design")]
     branch: Option<Over>,
     /// With --branch: the bifurcations at each value of a second quantity
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
@@ -86,7 +74,7 @@ pub struct Arguments {
     tol: Option<f64>,
     /// Also writes the answer as a page to print and sign: margins, cycles, pictures, SHA-256 of the machine file
     #[arg(long, value_name = "FILE.html", value_parser = page_file,
-          conflicts_with_all = ["sweep", "branch"])]
+          conflicts_with = "branch")]
     report: Option<PathBuf>,
     /// Replaces the page if the file holds something else
     #[arg(long, requires = "report")]
@@ -112,35 +100,12 @@ impl Arguments {
     /// The machine and the motion, with the values set on the command line.
     fn case(&self) -> Result<MachineCase, Failure> {
         let mut case = MachineCase::named(&self.machine)?;
-        for &(knob, WithTolerance { middle, half_width, .. }) in &self.set {
-            match knob {
-                Knob::X => case.start.0 = middle.value,
-                Knob::V => case.start.1 = middle.value,
-                Knob::Duration => case.until = middle.value,
-                Knob::DisturbingForce => case.tolerances.disturbance = middle.value,
-                knob => {
-                    case.subject.set(knob, middle.value).map_err(Failure::Usage)?;
-                    case.tolerances.half_widths.insert(knob.to_string(), half_width);
-                }
-            }
-        }
+        case.set(&self.set)?;
+        let MachineProblem { tolerances, start, .. } = &mut case.problem;
         let StartOverride { x, v } = self.start.unwrap_or_default();
-        case.start = (x.unwrap_or(case.start.0), v.unwrap_or(case.start.1));
-        case.tolerances.disturbance = self.disturbance.unwrap_or(case.tolerances.disturbance);
-        let checked = match case.subject.of_belt() {
-            Some(belt) => case.tolerances.check(belt),
-            None if case.tolerances.is_none() => Ok(()),
-            None => {
-                Err("a mode takes no tolerances and no --disturbance: its guaranteed margins are \
-                         not computed"
-                    .to_owned())
-            }
-        };
-        checked.map_err(Failure::Usage)?;
-        if let Some(line) = unlikely(&case.subject.body, case.start) {
-            tell(format!("warning: {line}"));
-        }
-        Ok(case)
+        *start = (x.unwrap_or(start.0), v.unwrap_or(start.1));
+        tolerances.disturbance = self.disturbance.unwrap_or(tolerances.disturbance);
+        case.checked()
     }
 
     /// The method that computes the motion a second time, if one is asked for.
@@ -153,9 +118,8 @@ impl Arguments {
             Failure::Usage(line)
         };
         let Some(way) = SteppedMethod::of(method).map_err(refused)? else { return Ok(None) };
-        if self.branch.is_some() || self.sweep.is_some() {
-            let line =
-                "--method dop853 and dopri5 follow one motion; --sweep and --branch have none";
+        if self.branch.is_some() {
+            let line = "--method dop853 and dopri5 follow one motion; --branch has none";
             return Err(Failure::Usage(line.to_owned()));
         }
         Ok(Some(way))
@@ -174,12 +138,13 @@ impl Arguments {
     pub fn run(&self) -> Result<(), Failure> {
         let second = self.second()?;
         let mut case = self.case()?;
-        case.subject.tolerance = self.own(second);
-        let head = Head::new(&case.name, &case.title, &case.subject.body);
-        if self.branch.is_some() || self.sweep.is_some() {
-            return self.along(&case.subject, &head, &case.tolerances);
+        case.problem.subject.tolerance = self.own(second);
+        let head = Head::new(&case.name, &case.title, &case.problem.subject.body);
+        if let Some(range) = self.branch {
+            return self.branched(&case.problem.subject, &head, range);
         }
-        let (found, seconds) = timed(self.output.repeat, || self.answer(&case, &head, second));
+        let (found, seconds) =
+            timed(self.output.repeat, || self.answer(&case.problem, &head, second));
         let answer = MachineAnswer { seconds, ..found.map_err(troubled)? };
         if let Some(path) = &self.report {
             let (pictures, provenance) = (pictures(&case)?, provenance_file::of_process());
@@ -198,11 +163,11 @@ impl Arguments {
     /// The answer about the motion and the machine, without its time.
     fn answer<'a>(
         &self,
-        case: &'a MachineCase,
+        problem: &'a MachineProblem,
         head: &'a Head,
         second: Option<SteppedMethod>,
     ) -> Result<MachineAnswer<'a>, Trouble> {
-        let MachineCase { subject, tolerances, start, until, .. } = case;
+        let MachineProblem { subject, tolerances, start, until } = problem;
         let on_belt = |belt: &Belt| {
             let expansion = CubicExpansion::new(belt, &Limits::PATIENT)?;
             let certain = (!tolerances.is_none()).then(|| guaranteed(belt, tolerances));
@@ -216,22 +181,6 @@ impl Arguments {
         let rest_share = self.share(&course.portrait);
         let design = self.designed(subject, tolerances)?;
         Ok(MachineAnswer { head, start: *start, course, rest_share, design, on_belt, seconds: 0.0 })
-    }
-
-    /// The branch or the sweep over a number.
-    fn along(&self, subject: &Subject, head: &Head, known: &Tolerances) -> Result<(), Failure> {
-        if let Some(range) = self.branch {
-            return self.branched(subject, head, range);
-        }
-        let Some(range) = self.sweep else { return Ok(()) };
-        let (swept, seconds) =
-            timed(self.output.repeat, || self.swept(subject, head, known, range));
-        let answer = MachineSweep { seconds, ..swept? };
-        self.output.print(&match self.output.format {
-            Format::Table => belt::sweep_table(&answer),
-            Format::Json => belt::sweep_json(&answer),
-            Format::Csv => belt::sweep_csv(&answer),
-        })
     }
 
     /// The branch, or the changes along it at each value of another number.
@@ -261,7 +210,7 @@ impl Arguments {
     }
 
     fn share(&self, portrait: &Portrait) -> RestShare {
-        let Some(WindowInUnits { x: (from, to), v }) = self.window else {
+        let Some(Window { q: (from, to), v }) = self.window else {
             return RestShare::NotAsked;
         };
         let steady = if self.elongation { portrait.model.pull } else { 0.0 };
@@ -280,34 +229,6 @@ impl Arguments {
         let at = subject.of_belt().map(|belt| belt.belt_speed);
         let has = subject.friction();
         Ok(needed.map(|needed| DesignAnswer { kick, wanted, needed, at, has }))
-    }
-
-    /// The sweep, with the friction needed for the margin at each point if asked for.
-    fn swept<'a>(
-        &self,
-        subject: &Subject,
-        head: &'a Head,
-        known: &Tolerances,
-        range: Over,
-    ) -> Result<MachineSweep<'a>, Failure> {
-        let Over { knob: varied, ends, count } = range;
-        let point = |index: usize| {
-            let value = spaced(ends, index, count);
-            let here = subject.with(varied, value).map_err(Failure::Usage)?;
-            let found = here.portrait().map_err(|trouble| trouble.to_string());
-            let rest_share = match &found {
-                Ok(found) => self.share(found),
-                Err(_) if self.window.is_some() => RestShare::Unknown,
-                Err(_) => RestShare::NotAsked,
-            };
-            let design = match &found {
-                Ok(_) => self.designed(&here, known).map_err(troubled)?,
-                Err(_) => None,
-            };
-            Ok(SweepPoint { value, found, rest_share, design })
-        };
-        let points = (0..count).map(point).collect::<Result<_, Failure>>()?;
-        Ok(MachineSweep { head, varied, points, seconds: 0.0 })
     }
 }
 

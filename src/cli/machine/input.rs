@@ -1,8 +1,10 @@
-//! Reading the options of `hopfscope belt`: values with units, ranges, windows.
+//! Reading what is said about a machine: values with units, starts, windows.
 
 use crate::cli::input::{Over, named, over_of, sides};
+use crate::machine::MachineProblem;
 use crate::oscillator::unit::{Dimension, WithTolerance, measured, quantity};
 use crate::oscillator::{Group, Knob};
+use crate::study::basin::Window;
 use crate::study::design::Kick;
 
 /// The start of a motion; what is not given is left as it is.
@@ -14,21 +16,10 @@ pub struct StartOverride {
     pub v: Option<f64>,
 }
 
-/// A window of the phase plane, in m and m/s.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WindowInUnits {
-    /// Displacements, in m.
-    pub x: (f64, f64),
-    /// Velocities, in m/s.
-    pub v: (f64, f64),
-}
-
-/// What `--set` can set: a machine or a mode, and the start of its motion.
-const SET: &[Group] = &[Group::Machine, Group::Law, Group::Mode, Group::Course];
-
 /// `NAME=VALUE`, the value with or without a unit.
 pub fn assignment(text: &str) -> Result<(Knob, WithTolerance), String> {
-    let (knob, value) = named(text, SET, "expected NAME=VALUE, such as \"v0=0.2 m/s\"")?;
+    let (knob, value) =
+        named(text, MachineProblem::GROUPS, "expected NAME=VALUE, such as \"v0=0.2 m/s\"")?;
     let read = knob.parse_toleranced(value)?;
     if read.half_width > 0.0 && knob.spec().group == Group::Course {
         return Err(format!("{text:?}: a start has no tolerance"));
@@ -54,13 +45,13 @@ pub fn start(text: &str) -> Result<StartOverride, String> {
     Ok(start)
 }
 
-/// `XMIN:XMAX,VMIN:VMAX`.
-pub fn window(text: &str) -> Result<WindowInUnits, String> {
+/// `XMIN:XMAX,VMIN:VMAX`, in m and m/s.
+pub fn window(text: &str) -> Result<Window, String> {
     let form =
         format!("{text:?} is not a window; expected XMIN:XMAX,VMIN:VMAX, such as -2mm:2mm,0:1");
     let read = |unit| move |text: &str| quantity(text, unit);
-    let [x, v] = sides(text, &form, [&read("m"), &read("m/s")])?;
-    Ok(WindowInUnits { x, v })
+    let [q, v] = sides(text, &form, [&read("m"), &read("m/s")])?;
+    Ok(Window { q, v })
 }
 
 /// `NAME=FROM:TO:COUNT`.

@@ -1,0 +1,138 @@
+//! One point of a scan of a machine: each computation that its measures need, once, by the whole model.
+
+use std::collections::BTreeSet;
+
+use super::conditions::Conditions;
+use super::point::Portrayed;
+use super::table::{Measure, MeasureNeed, Value, needs_of};
+use crate::flow::{Cost, Fate, Limits, Reason};
+use crate::machine::design::friction_for;
+use crate::machine::guarantee::guaranteed;
+use crate::machine::survey::Trouble;
+use crate::machine::{MachineMotion, MachineProblem, Portrait};
+use crate::portrait::Margin;
+use crate::study::basin::Window;
+use crate::study::design::FrictionNeeded;
+
+/// What was computed at a point of a machine; `None` for what no measure needed.
+#[derive(Clone, Debug, Default)]
+pub struct MachinePoint {
+    motion: Option<MachineMotion>,
+    portrait: Option<Portrait>,
+    guaranteed: Option<Margin>,
+    needed: Option<FrictionNeeded>,
+    pub cost: Cost,
+    /// Why cells are empty, a sentence for each computation.
+    pub reasons: Vec<String>,
+}
+
+impl MachinePoint {
+    /// Computes what these measures need. Fails with [`Reason::Interrupted`], and no other.
+    pub fn of(
+        problem: &MachineProblem,
+        measures: &[Measure],
+        conditions: &Conditions,
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
+        let mut point = MachinePoint::default();
+        // Cycles and edge are one computation.
+        let one = |need| if need == MeasureNeed::Edge { MeasureNeed::Cycles } else { need };
+        let needs: BTreeSet<_> = needs_of(measures).into_iter().map(one).collect();
+        for need in needs {
+            if (limits.interrupted)() {
+                return Err(Reason::Interrupted);
+            }
+            if let Err(trouble) = point.compute(need, problem, conditions) {
+                point.reasons.push(format!("{}: {trouble}", need.name()));
+            }
+        }
+        Ok(point)
+    }
+
+    fn compute(
+        &mut self,
+        need: MeasureNeed,
+        MachineProblem { subject, tolerances, start, until }: &MachineProblem,
+        conditions: &Conditions,
+    ) -> Result<(), Trouble> {
+        match need {
+            MeasureNeed::Motion => {
+                let motion = MachineMotion::new(&subject.model()?, start.0, start.1, *until);
+                let outcome = motion.outcome;
+                self.motion = Some(motion);
+                if let Fate::Unknown(stop) = outcome {
+                    return Err(stop.into());
+                }
+            }
+            MeasureNeed::Guarantee => {
+                let Some(belt) = subject.of_belt() else { return Ok(()) };
+                match guaranteed(belt, tolerances)? {
+                    Ok(margin) => self.guaranteed = Some(margin),
+                    Err(uncertain) => self.reasons.push(format!("guaranteed: {uncertain}")),
+                }
+            }
+            MeasureNeed::Design => {
+                let Some((kick, wanted)) = conditions.wanted else { return Ok(()) };
+                self.needed = friction_for(subject, tolerances, kick, wanted)?;
+                if self.needed.is_none() {
+                    self.reasons.push("design: no friction was found to suffice".to_owned());
+                }
+            }
+            _ => {
+                let portrait = subject.portrait()?;
+                self.cost.steps += portrait.steps;
+                let incomplete = portrait.incomplete();
+                self.portrait = Some(portrait);
+                if let Some(stop) = incomplete {
+                    return Err(stop.into());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The cells of these measures, in their order.
+    pub fn values(&self, measures: &[Measure], conditions: &Conditions) -> Vec<Value> {
+        measures.iter().flat_map(|measure| self.columns(*measure, conditions)).collect()
+    }
+
+    fn columns(&self, measure: Measure, conditions: &Conditions) -> Vec<Value> {
+        let portrait = self.portrait.as_ref();
+        let portrayed = Portrayed {
+            cycles: portrait.map(|portrait| &portrait.cycles[..]),
+            margin: portrait.map(|portrait| portrait.margin),
+            border: portrait.map(|portrait| portrait.border),
+            guaranteed: self.guaranteed,
+            needed: self.needed,
+        };
+        match measure {
+            Measure::Outcome => self.outcome().to_vec(),
+            Measure::Rest => match &self.motion {
+                Some(MachineMotion { outcome: Fate::Rest, end, .. }) => {
+                    vec![end.x.into(), end.t.into()]
+                }
+                _ => vec![Value::Nothing; 2],
+            },
+            Measure::Stability => {
+                let Window { q: (from, to), v } = conditions.window;
+                let share = portrait.and_then(|portrait| {
+                    let steady = if conditions.elongation { portrait.model.pull } else { 0.0 };
+                    portrait.rest_share((from - steady, to - steady), v)
+                });
+                vec![share.into(), Value::Nothing]
+            }
+            _ => portrayed.columns(measure),
+        }
+    }
+
+    fn outcome(&self) -> [Value; 3] {
+        let Some(motion) = &self.motion else { return [Value::Nothing; 3] };
+        let word = match motion.outcome {
+            Fate::Rest => "captured",
+            Fate::Escapes => "escaped",
+            Fate::Unknown(_) => return [Value::Word("gave-up"), Value::Nothing, Value::Nothing],
+            Fate::Cycle(_) | Fate::Neutral | Fate::Moving => "moving",
+        };
+        [Value::Word(word), motion.end.t.into(), Value::Count(motion.turns().count())]
+    }
+}
