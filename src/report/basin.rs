@@ -1,56 +1,34 @@
 //! A basin over a window of starts.
 
-use serde::Serialize;
-
-use super::certified::{KickEnclosures, survived};
-use super::csv;
-use super::json::{self, CountedCost};
+use super::certified::kick_columns;
+use super::columns::Columns;
+use super::guarantee::margin_columns;
+use super::json::Document;
 use super::table::{Table, parameters, rounded};
 use crate::portrait::{Border, Margin};
 use crate::proof::kicks::ProvedKicks;
 use crate::study::basin::{Counts, SurveyedBasin};
 use crate::words::number::{duration, significant};
 
-#[derive(Serialize)]
-struct BasinDocument<'a> {
-    #[serde(flatten)]
-    found: &'a SurveyedBasin,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<KickEnclosures>,
-    cost: CountedCost,
-}
-
-#[derive(Serialize)]
-struct BasinRow {
-    #[serde(flatten)]
-    counts: Counts,
-    #[serde(flatten)]
-    margin: Margin,
-    area: Option<f64>,
-    captured_part: f64,
-    lyapunov_share: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<KickEnclosures>,
-}
-
 pub fn json(found: &SurveyedBasin, certified: Option<&ProvedKicks>, seconds: f64) -> String {
-    json::text(&BasinDocument {
-        found,
-        certified: certified.map(survived),
-        cost: CountedCost { counted: found.cost, seconds },
-    })
+    let certified = certified.map(|kicks| kick_columns().object(&kicks));
+    Document::default()
+        .and(found)
+        .with_any("certified", certified)
+        .cost(&found.cost, seconds)
+        .text()
 }
 
 pub fn csv(found: &SurveyedBasin, certified: Option<&ProvedKicks>) -> String {
-    let row = |certified| BasinRow {
-        counts: found.counts,
-        margin: found.margin,
-        area: found.area,
-        captured_part: found.captured,
-        lyapunov_share: found.lyapunov_share,
-        certified,
-    };
-    csv::sheet(&row(certified.map(|_| KickEnclosures::like())), [row(certified.map(survived))])
+    let proved = |kicks| Columns::default().part("certified", kick_columns(), move |_| Some(kicks));
+    let columns = Columns::default()
+        .fields(&found.counts, |it: &&SurveyedBasin| Some(it.counts))
+        .and(Some(margin_columns(|it: &&SurveyedBasin| it.margin)))
+        .file("area", |it| it.area)
+        .file("captured_part", |it| it.captured)
+        .file("lyapunov_share", |it| it.lyapunov_share)
+        .and(certified.map(proved));
+    columns.csv([found])
 }
 
 /// A line on the border of the basin of the sticking set.

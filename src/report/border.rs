@@ -1,113 +1,69 @@
 //! The fold and the escape point along a second parameter.
 
-use serde::Serialize;
-
-use super::certified::{BorderProof, IntervalDocument};
-use super::csv::CsvSheet;
-use super::json::{self, CountedCost};
-use super::table::{Table, parameters, rounded};
-use crate::numerics::Interval;
-use crate::oscillator::{Knob, Parameters};
+use super::certified::BorderProof;
+use super::columns::{Columns, Quantity, bounds};
+use super::json::Document;
+use super::table::parameters;
 use crate::study::fold::{Boundary, BoundaryPoint};
 use crate::words::number::{duration, significant};
 
-#[derive(Serialize)]
-struct BorderDocument<'a> {
-    parameters: &'a Parameters,
-    parameter: Knob,
-    points: &'a [BoundaryPoint],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<&'a [BorderProof]>,
-    cost: CountedCost,
-}
+/// The fold and the escape point at one value of the second parameter, and what is proved of them.
+type BorderRow<'a> = (&'a BoundaryPoint, Option<&'a BorderProof>);
 
-/// The fold and the escape point at one value of the second parameter.
-#[derive(Default, Serialize)]
-struct BorderRow<'a> {
-    value: f64,
-    #[serde(rename = "D_F")]
-    fold: Option<f64>,
-    q_max: Option<f64>,
-    period: Option<f64>,
-    #[serde(rename = "D_F_harmonic")]
-    harmonic_fold: Option<f64>,
-    #[serde(rename = "D_c")]
-    escape: Option<f64>,
-    reason: Option<&'a str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<BorderBounds>,
-}
-
-/// The enclosures of both, with a column for each bound.
-#[derive(Serialize)]
-struct BorderBounds {
-    #[serde(rename = "D_F")]
-    fold: Option<IntervalDocument>,
-    #[serde(rename = "D_c")]
-    escape: Option<IntervalDocument>,
-    proved: bool,
-    open: String,
+/// The columns; with those of the enclosures if there are any.
+fn columns<'a>(found: &Boundary, is_certified: bool) -> Columns<'a, BorderRow<'a>> {
+    const EXACT: Quantity = Quantity::pure(12);
+    const SHORT: Quantity = Quantity::pure(8);
+    let certified = Columns::default()
+        .bounds("D_F", |proof: &&BorderProof| proof.fold)
+        .bounds("D_c", |proof| proof.escape)
+        .file("proved", |proof| proof.open.is_empty())
+        .file("open", |proof| proof.open.join(", "));
+    let certified = Columns::default().part("certified", certified, |row: &BorderRow<'a>| row.1);
+    let kind = |grazes: bool| if grazes { "grazing" } else { "fold" };
+    Columns::default()
+        .number(found.second.spec().name, Quantity::pure(10), |(point, _): &BorderRow| point.value)
+        .number("D_F", EXACT, |(point, _)| point.fold.map(|fold| fold.d))
+        .text("is a", move |(point, _)| point.fold.map_or("-", |fold| kind(fold.grazes)).to_owned())
+        .number("q_max", SHORT, |(point, _)| point.fold.map(|fold| fold.q_max))
+        .titled("q_max there")
+        .file("period", |(point, _)| point.fold.map(|fold| fold.period))
+        .number("D_F_harmonic", SHORT, |(point, _)| point.harmonic_fold)
+        .titled("D_F of (48)")
+        .number("D_c", EXACT, |(point, _)| point.escape)
+        .file("reason", |(point, _)| point.reason.clone())
+        .and(is_certified.then_some(certified))
 }
 
 pub fn json(found: &Boundary, certified: Option<&[BorderProof]>, seconds: f64) -> String {
-    json::text(&BorderDocument {
-        parameters: &found.parameters,
-        parameter: found.second,
-        points: &found.points,
-        certified,
-        cost: CountedCost { counted: found.cost, seconds },
-    })
+    let proved = |proof: &BorderProof| {
+        Document::default()
+            .with("value", proof.value)
+            .with("fold", proof.fold.map(bounds))
+            .with("escape", proof.escape.map(bounds))
+            .with("proved", proof.open.is_empty())
+            .with("open", &proof.open)
+    };
+    let certified = certified.map(|all| all.iter().map(proved).collect::<Vec<_>>());
+    Document::default()
+        .with("parameters", found.parameters)
+        .with("parameter", found.second)
+        .with("points", &found.points)
+        .with_any("certified", certified)
+        .cost(&found.cost, seconds)
+        .text()
 }
 
 /// One row for each value of the second parameter.
 pub fn csv(found: &Boundary, certified: Option<&[BorderProof]>) -> String {
-    let all = || Some(Interval::ALL.into());
-    let like = BorderRow {
-        certified: certified.map(|_| BorderBounds {
-            fold: all(),
-            escape: all(),
-            proved: false,
-            open: String::new(),
-        }),
-        ..BorderRow::default()
-    };
-    let mut sheet = CsvSheet::like(&like, &[("value", found.second.spec().name)]);
-    for (index, point) in found.points.iter().enumerate() {
-        let certified = certified.and_then(|all| all.get(index)).map(|it| BorderBounds {
-            fold: it.fold,
-            escape: it.escape,
-            proved: it.proved,
-            open: it.open.join(", "),
-        });
-        sheet.row(&BorderRow {
-            value: point.value,
-            fold: point.fold.map(|fold| fold.d),
-            q_max: point.fold.map(|fold| fold.q_max),
-            period: point.fold.map(|fold| fold.period),
-            harmonic_fold: point.harmonic_fold,
-            escape: point.escape,
-            reason: point.reason.as_deref(),
-            certified,
-        });
-    }
-    sheet.into_text()
+    let proof = |index| certified.and_then(|all| all.get(index));
+    let rows = found.points.iter().enumerate().map(|(index, point)| (point, proof(index)));
+    columns(found, certified.is_some()).csv(rows)
 }
 
 /// A table with one row for each value of the second parameter.
 pub fn table(found: &Boundary, seconds: f64) -> String {
-    const PLACES: usize = 12;
-    let kind = |grazes: bool| if grazes { "grazing" } else { "fold" };
-    let table = Table::of(
-        &found.points,
-        &[
-            (found.second.spec().name, &|point| significant(point.value, 10)),
-            ("D_F", &|point| rounded(point.fold.map(|fold| fold.d), PLACES)),
-            ("is a", &|point| point.fold.map_or("-", |fold| kind(fold.grazes)).to_owned()),
-            ("q_max there", &|point| rounded(point.fold.map(|fold| fold.q_max), 8)),
-            ("D_F of (48)", &|point| rounded(point.harmonic_fold, 8)),
-            ("D_c", &|point| rounded(point.escape, PLACES)),
-        ],
-    );
+    let table = columns(found, false).table(found.points.iter().map(|point| (point, None)));
     let given_up = found.points.iter().filter_map(|point| {
         let reason = point.reason.as_ref()?;
         Some(format!("\n{} = {}: {reason}", found.second, significant(point.value, 10)))

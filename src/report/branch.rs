@@ -1,122 +1,106 @@
 //! The cycles as a parameter varies, and the special points.
 
-use serde::Serialize;
-
-use super::certified::{PieceBounds, ProvedRange, decided};
-use super::csv::CsvSheet;
-use super::cycles::{COLUMNS, cells};
-use super::json::{self, CountedCost};
-use super::table::{Table, digits, parameters, rounded};
-use crate::oscillator::{Knob, Parameters};
-use crate::proof::range::Range;
+use super::certified::{decided, piece_columns};
+use super::columns::{Columns, Quantity};
+use super::cycle_numbers::{cycle_fields, number_columns};
+use super::json::Document;
+use super::table::{digits, parameters};
+use crate::oscillator::Parameters;
+use crate::proof::range::{Range, RangePiece};
 use crate::study::{Branch, BranchPoint, Special};
 use crate::words::number::{duration, significant};
+use crate::words::stability;
 
-/// A point, with the number of the connected piece to which it belongs.
-#[derive(Default, Serialize)]
-struct BranchRow {
-    piece: Option<usize>,
-    #[serde(flatten)]
-    point: Option<BranchPoint>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<PieceBounds>,
+/// A point with the number of the connected piece to which it belongs, or a part of the range of which something is
+/// proved.
+enum BranchRow<'a> {
+    Point(usize, &'a BranchPoint),
+    Proved(&'a RangePiece),
 }
 
-fn rows(branch: &Branch) -> impl Iterator<Item = BranchRow> {
+impl<'a> BranchRow<'a> {
+    fn proved(&self) -> Option<&'a RangePiece> {
+        if let BranchRow::Proved(piece) = self { Some(piece) } else { None }
+    }
+
+    /// Something of a point.
+    fn of<T>(&self, part: impl Fn(usize, &BranchPoint) -> T) -> Option<T> {
+        if let BranchRow::Point(piece, point) = self { Some(part(*piece, point)) } else { None }
+    }
+}
+
+/// The columns of points; `value` names the number that varies.
+fn columns<'a>(value: &str) -> Columns<'a, BranchRow<'a>> {
+    Columns::default()
+        .file("piece", |row: &BranchRow| row.of(|piece, _| piece))
+        .file(value, |row| row.of(|_, point| point.value))
+        .and(Some(cycle_fields(|row: &BranchRow| row.of(|_, point| point.cycle))))
+}
+
+fn rows(branch: &Branch) -> impl Iterator<Item = BranchRow<'_>> {
     let pieces = branch.pieces.iter().enumerate();
-    pieces.flat_map(|(piece, points)| {
-        points.iter().map(move |point| BranchRow {
-            piece: Some(piece),
-            point: Some(*point),
-            certified: None,
-        })
-    })
-}
-
-#[derive(Serialize)]
-struct BranchDocument<'a> {
-    parameter: Knob,
-    points: Vec<BranchRow>,
-    special: &'a [Special],
-    vague: &'a [f64],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<ProvedRange>,
-    cost: CountedCost,
+    pieces.flat_map(|(piece, points)| points.iter().map(move |it| BranchRow::Point(piece, it)))
 }
 
 pub fn json(branch: &Branch, certified: Option<&Range>, seconds: f64) -> String {
-    json::text(&BranchDocument {
-        parameter: branch.parameter,
-        points: rows(branch).collect(),
-        special: &branch.special,
-        vague: &branch.vague,
-        certified: certified.map(decided),
-        cost: CountedCost { counted: branch.cost, seconds },
-    })
+    Document::default()
+        .with("parameter", branch.parameter)
+        .with("points", columns("value").objects(rows(branch)))
+        .with("special", &branch.special)
+        .with("vague", &branch.vague)
+        .with_any("certified", certified.map(decided))
+        .cost(&branch.cost, seconds)
+        .text()
 }
 
 /// One row for each point, and for each part of the range in which the number of cycles is proved or open.
 pub fn csv(branch: &Branch, certified: Option<&Range>) -> String {
     let name = branch.parameter.spec().name;
-    let bounds = ["lower", "upper"].map(|end| (format!("value_{end}"), format!("{name}_{end}")));
-    let called = [("value", name), (&bounds[0].0, &bounds[0].1), (&bounds[1].0, &bounds[1].1)];
-    let like = BranchRow {
-        point: Some(BranchPoint::default()),
-        certified: certified.map(|_| PieceBounds::like()),
-        ..BranchRow::default()
-    };
-    let mut sheet = CsvSheet::like(&like, &called);
-    rows(branch).for_each(|row| sheet.row(&row));
-    let parts = certified.map(PieceBounds::of).unwrap_or_default();
-    for part in parts {
-        sheet.row(&BranchRow { certified: Some(part), ..BranchRow::default() });
-    }
-    sheet.into_text()
+    let proved = certified.map(|range| {
+        Columns::default().part("certified", piece_columns(range, name), BranchRow::proved)
+    });
+    let parts = certified.iter().flat_map(|range| &range.pieces).map(BranchRow::Proved);
+    columns(name).and(proved).csv(rows(branch).chain(parts))
 }
 
 /// A table for each connected piece, then the special points.
 pub fn table(branch: &Branch, base: &Parameters, tolerance: f64, seconds: f64) -> String {
     let places = digits(tolerance).min(10);
+    let name = branch.parameter.spec().name;
+    let columns = Columns::default()
+        .text(name, |point: &&BranchPoint| significant(point.value, places))
+        .text("cycle", |point| stability(point.cycle.stable).to_owned());
+    let columns = number_columns(columns, |point, number| number.text(&point.cycle, places));
     let mut out = format!("{}\n", parameters(base, Some(branch.parameter)));
     for (number, piece) in branch.pieces.iter().enumerate() {
         out += &format!("\npiece {}\n", number + 1);
-        let mut titles = vec![branch.parameter.spec().name];
-        titles.extend(COLUMNS);
-        let mut table = Table::new(&titles);
-        for point in piece {
-            let mut row = vec![significant(point.value, places)];
-            row.extend(cells(&point.cycle, places));
-            table.row(row);
-        }
-        out += &table.to_string();
+        out += &columns.table(piece).to_string();
     }
     if branch.pieces.is_empty() {
         out += "\nno limit cycle\n";
     }
-    let special = Table::of(
-        &branch.special,
-        &[
-            ("special point", &|point| point.kind.name(point.cycle.as_ref()).to_owned()),
-            (branch.parameter.spec().name, &|point| significant(point.value, digits(tolerance))),
-            ("q_max", &|point| rounded(point.q_max, digits(tolerance))),
-        ],
-    );
+    let number = Quantity::pure(digits(tolerance));
+    let special = Columns::default()
+        .text("special point", |it: &&Special| it.kind.name(it.cycle.as_ref()).to_owned())
+        .number(name, number, |it| it.value)
+        .number("q_max", number, |it| it.q_max)
+        .table(&branch.special);
     if !special.is_empty() {
         out += &format!("\n{special}");
     }
     if let (Some(&first), Some(&last)) = (branch.vague.first(), branch.vague.last()) {
         let [first, last] = [first, last].map(|value| significant(value, 6));
-        let (count, name) = (branch.vague.len(), branch.parameter.spec().name);
+        let count = branch.vague.len();
         out += &format!("\nleft out, too vague: {count}, {name} = {first} .. {last}\n");
     }
-    out += &format!("\n{} evaluations, {}\n", branch.cost.evaluations, duration(seconds));
-    out
+    out + &format!("\n{} evaluations, {}\n", branch.cost.evaluations, duration(seconds))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::closed_form::piecewise_linear::LinearCycle;
+    use crate::oscillator::Knob;
     use crate::portrait::Cycle;
     use crate::study::SpecialKind;
 

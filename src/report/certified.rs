@@ -1,16 +1,16 @@
 //! Enclosures and proofs, for tables and documents.
 
-use serde::Serialize;
-
-use super::proof::certain;
-use super::table::Table;
+use super::columns::{Columns, bounds};
+use super::cycle_numbers::NUMBERS;
+use super::json::Document;
+use super::proof::{CycleBounds, certain, count, cycle_columns, sentence, uncertain};
 use crate::check::{Bounds, Certificate, StepKind};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{log10, pow};
 use crate::oscillator::Knob;
-use crate::proof::cycles::Proof;
+use crate::proof::cycles::{Proof, ProvedCycle};
 use crate::proof::kicks::{ProvedEdge, ProvedKicks};
-use crate::proof::motion::{ProvedFate, ProvedMotion};
+use crate::proof::motion::{ProvedFate, ProvedMotion, ProvedTurn};
 use crate::proof::range::{CountChange, MOST_STEPS, Range, RangePiece};
 use crate::study::fold::BoundaryPoint;
 use crate::words::number::significant;
@@ -18,73 +18,62 @@ use crate::words::stability;
 
 const PLACES: usize = 12;
 
-/// An interval in a document; an infinite end is null.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct IntervalDocument {
-    lower: f64,
-    upper: f64,
-}
-
-impl From<Interval> for IntervalDocument {
-    fn from(it: Interval) -> Self {
-        IntervalDocument { lower: it.lower(), upper: it.upper() }
-    }
-}
-
-#[derive(Serialize)]
-struct TurnRow {
-    tau: IntervalDocument,
-    q: IntervalDocument,
-}
-
-#[derive(Serialize)]
-pub struct MotionDocument {
-    outcome: &'static str,
-    half_swings: usize,
-    turns: Vec<TurnRow>,
-    #[serde(flatten)]
-    end: PointBounds,
-}
-
-/// The enclosure of a point of a motion, with a column for each bound.
-#[derive(Serialize)]
-pub struct PointBounds {
-    tau: IntervalDocument,
-    q: Option<IntervalDocument>,
-    v: Option<IntervalDocument>,
-    proved: bool,
-    open: Option<&'static str>,
+/// The enclosure of a point of a motion.
+#[derive(Clone, Copy)]
+pub(super) struct PointBounds {
+    pub tau: Interval,
+    pub q: Option<Interval>,
+    pub v: Option<Interval>,
+    /// Why nothing is known of the motion from here on.
+    pub open: Option<&'static str>,
 }
 
 impl PointBounds {
-    /// An example with all columns, for the heading.
-    pub fn like() -> Self {
-        PointBounds::of(Interval::ALL, Interval::ALL, Interval::ALL)
-    }
-
     /// The bounds of a point that is enclosed.
-    pub fn of(tau: Interval, q: Interval, v: Interval) -> Self {
-        let [q, v] = [q, v].map(|it| Some(it.into()));
-        PointBounds { tau: tau.into(), q, v, proved: true, open: None }
+    pub(super) fn of(tau: Interval, q: Interval, v: Interval) -> Self {
+        PointBounds { tau, q: Some(q), v: Some(v), open: None }
     }
 
-    pub fn of_end(motion: &ProvedMotion, until: f64) -> Self {
-        followed(motion, until).end
+    /// How a motion ends, by `until` at the latest, and where.
+    pub(super) fn of_end(motion: &ProvedMotion, until: f64) -> (&'static str, Self) {
+        match motion.fate {
+            ProvedFate::Captured { tau, q } => {
+                ("captured", PointBounds { tau, q: Some(q), v: None, open: None })
+            }
+            ProvedFate::Moving { q, v } => {
+                ("moving", PointBounds::of(Interval::point(until), q, v))
+            }
+            ProvedFate::Escaped { tau } => {
+                ("escaped", PointBounds { tau, q: None, v: None, open: None })
+            }
+            ProvedFate::Open { tau, reason } => {
+                ("open", PointBounds { tau, q: None, v: None, open: Some(reason) })
+            }
+        }
     }
 }
 
+/// The columns of the enclosure of a point.
+pub(super) fn point_columns<'a>() -> Columns<'a, PointBounds> {
+    Columns::default()
+        .bounds("tau", |point: &PointBounds| Some(point.tau))
+        .bounds("q", |point| point.q)
+        .bounds("v", |point| point.v)
+        .file("proved", |point| point.open.is_none())
+        .file("open", |point| point.open)
+}
+
 /// A motion up to a time, for documents.
-pub fn followed(motion: &ProvedMotion, until: f64) -> MotionDocument {
-    let turns = motion.turns.iter().map(|turn| TurnRow { tau: turn.tau.into(), q: turn.q.into() });
-    let (outcome, tau, q, v, open) = match motion.fate {
-        ProvedFate::Captured { tau, q } => ("captured", tau, Some(q), None, None),
-        ProvedFate::Moving { q, v } => ("moving", Interval::point(until), Some(q), Some(v), None),
-        ProvedFate::Escaped { tau } => ("escaped", tau, None, None, None),
-        ProvedFate::Open { tau, reason } => ("open", tau, None, None, Some(reason)),
+pub(super) fn followed(motion: &ProvedMotion, until: f64) -> Document {
+    let turn = |turn: &ProvedTurn| {
+        Document::default().with("tau", bounds(turn.tau)).with("q", bounds(turn.q))
     };
-    let [q, v] = [q, v].map(|it| it.map(IntervalDocument::from));
-    let end = PointBounds { tau: tau.into(), q, v, proved: open.is_none(), open };
-    MotionDocument { outcome, half_swings: motion.turns.len(), turns: turns.collect(), end }
+    let (outcome, end) = PointBounds::of_end(motion, until);
+    Document::default()
+        .with("outcome", outcome)
+        .with("half_swings", motion.turns.len())
+        .with("turns", motion.turns.iter().map(turn).collect::<Vec<_>>())
+        .and(&point_columns().object(&end))
 }
 
 pub fn motion_line(motion: &ProvedMotion, until: f64) -> String {
@@ -109,18 +98,6 @@ pub fn motion_line(motion: &ProvedMotion, until: f64) -> String {
     format!("proved: {sentence}\n")
 }
 
-/// Enclosures of the smallest kicks that are not captured.
-#[derive(Serialize)]
-pub struct KickEnclosures {
-    edge: Option<&'static str>,
-    displacement: Option<IntervalDocument>,
-    impulse: Option<IntervalDocument>,
-    from_rest_displacement: Option<IntervalDocument>,
-    from_rest_impulse: Option<IntervalDocument>,
-    proved: bool,
-    open: Option<&'static str>,
-}
-
 fn name(edge: ProvedEdge) -> &'static str {
     match edge {
         ProvedEdge::None => "none",
@@ -129,16 +106,17 @@ fn name(edge: ProvedEdge) -> &'static str {
     }
 }
 
-pub fn survived(kicks: &ProvedKicks) -> KickEnclosures {
-    KickEnclosures {
-        edge: kicks.edge.map(name),
-        displacement: kicks.displacement.map(IntervalDocument::from),
-        impulse: kicks.impulse.map(IntervalDocument::from),
-        from_rest_displacement: kicks.rest_displacement.map(IntervalDocument::from),
-        from_rest_impulse: kicks.rest_impulse.map(IntervalDocument::from),
-        proved: kicks.open.is_none() && kicks.edge.is_some(),
-        open: kicks.open.or_else(|| kicks.edge.is_none().then_some("what borders the basin")),
-    }
+/// The columns of enclosures of the smallest kicks that are not captured.
+pub(super) fn kick_columns<'a>() -> Columns<'a, &'a ProvedKicks> {
+    const NO_EDGE: &str = "what borders the basin";
+    Columns::default()
+        .file("edge", |kicks: &&ProvedKicks| kicks.edge.map(name))
+        .bounds("displacement", |kicks| kicks.displacement)
+        .bounds("impulse", |kicks| kicks.impulse)
+        .bounds("from_rest_displacement", |kicks| kicks.rest_displacement)
+        .bounds("from_rest_impulse", |kicks| kicks.rest_impulse)
+        .file("proved", |kicks| kicks.open.is_none() && kicks.edge.is_some())
+        .file("open", |kicks| kicks.open.or_else(|| kicks.edge.is_none().then_some(NO_EDGE)))
 }
 
 pub fn kicks_lines(kicks: &ProvedKicks) -> String {
@@ -162,112 +140,50 @@ pub fn kicks_lines(kicks: &ProvedKicks) -> String {
     edge + &lines + &kicks.open.map(|why| format!("open: {why}\n")).unwrap_or_default()
 }
 
-impl KickEnclosures {
-    /// An example with all columns, for the heading.
-    pub fn like() -> Self {
-        let all = Some(IntervalDocument::from(Interval::ALL));
-        KickEnclosures {
-            edge: None,
-            displacement: all,
-            impulse: all,
-            from_rest_displacement: all,
-            from_rest_impulse: all,
-            proved: false,
-            open: None,
-        }
-    }
-}
-
-/// What holds for every value in a piece of a range, with a column for each bound.
-#[derive(Clone, Copy, Serialize)]
-pub struct PieceBounds {
-    value: IntervalDocument,
-    cycles: Option<usize>,
-    proved: bool,
-    /// In an open piece, where the number of cycles changes.
-    change: Option<IntervalDocument>,
-}
-
-impl PieceBounds {
-    /// An example with all columns, for the heading.
-    pub fn like() -> Self {
-        let all = Interval::ALL.into();
-        PieceBounds { value: all, cycles: None, proved: false, change: Some(all) }
-    }
-
-    pub fn of(range: &Range) -> Vec<Self> {
-        let row = |piece: &RangePiece| {
-            let mut changes = range.changes.iter();
-            let change = changes.find(|change| change.between.is_within(piece.over));
-            let (cycles, value) = (piece.cycles.as_ref().map(Vec::len), piece.over.into());
-            let change = change.filter(|_| cycles.is_none()).map(|change| change.between.into());
-            PieceBounds { value, cycles, proved: cycles.is_some(), change }
-        };
-        range.pieces.iter().map(row).collect()
-    }
-}
-
-#[derive(Serialize)]
-struct PieceRow {
-    #[serde(flatten)]
-    over: IntervalDocument,
-    cycles: Option<usize>,
-    stable: Option<Vec<bool>>,
-    proved: bool,
-}
-
-#[derive(Serialize)]
-struct ChangeRow {
-    #[serde(flatten)]
-    between: IntervalDocument,
-    below: usize,
-    above: usize,
-}
-
-/// The number of cycles over a range of a parameter, where it is proved.
-#[derive(Serialize)]
-pub struct ProvedRange {
-    pieces: Vec<PieceRow>,
-    changes: Vec<ChangeRow>,
-    open: Vec<IntervalDocument>,
-    proved: bool,
-    /// Whether more work might decide what is open.
-    exhausted: bool,
+/// The columns of what holds for every value in a piece of a range; `value` names the number that varies.
+pub(super) fn piece_columns<'a>(range: &'a Range, value: &str) -> Columns<'a, &'a RangePiece> {
+    // In an open piece, where the number of cycles changes.
+    let change = |piece: &RangePiece| {
+        let mut changes = range.changes.iter().map(|change| change.between);
+        changes.find(|change| piece.cycles.is_none() && change.is_within(piece.over))
+    };
+    Columns::default()
+        .bounds(value, |piece: &&RangePiece| Some(piece.over))
+        .file("cycles", |piece| piece.cycles.as_ref().map(Vec::len))
+        .file("proved", |piece| piece.cycles.is_some())
+        .bounds("change", move |piece| change(piece))
 }
 
 /// The pieces and changes of a range, for documents.
-pub fn decided(range: &Range) -> ProvedRange {
-    let piece = |piece: &RangePiece| PieceRow {
-        over: piece.over.into(),
-        cycles: piece.cycles.as_ref().map(Vec::len),
-        stable: piece.cycles.clone(),
-        proved: piece.cycles.is_some(),
+pub(super) fn decided(range: &Range) -> Document {
+    let piece = |piece: &RangePiece| {
+        bounds(piece.over)
+            .with("cycles", piece.cycles.as_ref().map(Vec::len))
+            .with("stable", &piece.cycles)
+            .with("proved", piece.cycles.is_some())
     };
-    let change = |change: &CountChange| ChangeRow {
-        between: change.between.into(),
-        below: change.below.len(),
-        above: change.above.len(),
+    let change = |change: &CountChange| {
+        bounds(change.between).with("below", change.below.len()).with("above", change.above.len())
     };
     let open = range.pieces.iter().filter(|piece| piece.cycles.is_none());
-    let open: Vec<IntervalDocument> = open.map(|piece| piece.over.into()).collect();
-    ProvedRange {
-        pieces: range.pieces.iter().map(piece).collect(),
-        changes: range.changes.iter().map(change).collect(),
-        proved: open.is_empty(),
-        open,
-        exhausted: range.exhausted,
-    }
+    let open: Vec<_> = open.map(|piece| bounds(piece.over)).collect();
+    Document::default()
+        .with("pieces", range.pieces.iter().map(piece).collect::<Vec<_>>())
+        .with("changes", range.changes.iter().map(change).collect::<Vec<_>>())
+        .with("open", &open)
+        .with("proved", open.is_empty())
+        // Whether more work might decide what is open.
+        .with("exhausted", range.exhausted)
 }
 
 pub fn range_table(range: &Range, symbol: Knob) -> String {
     let name = symbol.spec().name;
-    let mut table = Table::new(&["from", "to", "cycles"]);
-    for piece in &range.pieces {
-        let cycles =
-            piece.cycles.as_ref().map_or("open".to_owned(), |it| format!("{}, proved", it.len()));
-        let ends = [piece.over.lower(), piece.over.upper()].map(|end| significant(end, 10));
-        table.row([ends.as_slice(), &[cycles]].concat());
-    }
+    let count = |cycles: &Vec<bool>| format!("{}, proved", cycles.len());
+    let columns = Columns::default()
+        .text("from", |piece: &&RangePiece| significant(piece.over.lower(), 10))
+        .text("to", |piece| significant(piece.over.upper(), 10))
+        .text("cycles", |piece| piece.cycles.as_ref().map_or("open".to_owned(), count));
+    let table = columns.table(&range.pieces);
     let changes = range.changes.iter().map(|change| {
         let (below, above) = (change.below.len(), change.above.len());
         let at = certain(change.between, PLACES);
@@ -283,15 +199,12 @@ pub fn range_table(range: &Range, symbol: Knob) -> String {
 }
 
 /// A value of a second parameter, and the values of D at which the cycles change there.
-#[derive(Serialize)]
 pub struct BorderProof {
-    pub value: f64,
-    pub fold: Option<IntervalDocument>,
-    pub escape: Option<IntervalDocument>,
-    /// Whether everything that the search found is proved.
-    pub proved: bool,
-    /// What is not proved.
-    pub open: Vec<&'static str>,
+    pub(super) value: f64,
+    pub(super) fold: Option<Interval>,
+    pub(super) escape: Option<Interval>,
+    /// What the search found and is not proved.
+    pub(super) open: Vec<&'static str>,
 }
 
 impl BorderProof {
@@ -301,51 +214,37 @@ impl BorderProof {
             ("the fold", point.fold.is_some() && fold.is_none()),
             ("the escape point", point.escape.is_some() && escape.is_none()),
         ];
-        let open: Vec<_> =
-            missing.into_iter().filter_map(|(what, open)| open.then_some(what)).collect();
-        BorderProof {
-            value: point.value,
-            fold: fold.map(IntervalDocument::from),
-            escape: escape.map(IntervalDocument::from),
-            proved: open.is_empty(),
-            open,
-        }
+        let open = missing.into_iter().filter_map(|(what, open)| open.then_some(what)).collect();
+        BorderProof { value: point.value, fold, escape, open }
     }
 }
 
 pub fn border_lines(points: &[BorderProof], symbol: Knob) -> String {
-    let mut table = Table::new(&[symbol.spec().name, "D_F, proved", "D_c, proved"]);
-    let cell = |it: Option<IntervalDocument>| {
-        it.map_or("-".to_owned(), |it| certain(Interval::new(it.lower, it.upper), PLACES))
-    };
-    for point in points {
-        table.row(vec![significant(point.value, 10), cell(point.fold), cell(point.escape)]);
-    }
-    format!("\n{table}")
+    let cell = |it: Option<Interval>| it.map_or("-".to_owned(), |it| certain(it, PLACES));
+    let columns = Columns::default()
+        .text(symbol.spec().name, |point: &&BorderProof| significant(point.value, 10))
+        .text("D_F, proved", |point| cell(point.fold))
+        .text("D_c, proved", |point| cell(point.escape));
+    format!("\n{}", columns.table(points))
 }
 
 /// The cycles that exist for all parameters in a box, as a table.
 pub fn box_table(proof: &Proof) -> String {
-    let mut table =
-        Table::new(&["cycle", "q_min", "q_max", "v_min", "v_max", "period", "multiplier"]);
-    for cycle in &proof.cycles {
-        let kind = stability(cycle.stable);
-        let mut cells = vec![kind.to_owned()];
-        let ends = |it: Interval| {
-            if !it.is_finite() {
-                return certain(it, PLACES);
-            }
-            let [lower, upper] = outward(it);
-            format!("{lower} .. {upper}")
-        };
-        match cycle.enclosure {
-            Some(it) => cells.extend(
-                [it.q_min, it.q_max, it.v_min, it.v_max, it.period, it.multiplier].map(ends),
-            ),
-            None => cells.extend(std::iter::repeat_n("?".to_owned(), 6)),
+    let ends = |it: Interval| {
+        if !it.is_finite() {
+            return certain(it, PLACES);
         }
-        table.row(cells);
-    }
+        let [lower, upper] = outward(it);
+        format!("{lower} .. {upper}")
+    };
+    let kind = |cycle: &&ProvedCycle| stability(cycle.stable).to_owned();
+    // Without the clearance, which is q_max but for r.
+    let table = NUMBERS[..6].iter().fold(Columns::default().text("cycle", kind), |all, number| {
+        all.text(number.name, move |cycle| {
+            cycle.enclosure.map_or("?".to_owned(), |it| ends((number.bounds)(&it)))
+        })
+    });
+    let table = table.table(&proof.cycles);
     let p = proof.parameters;
     let parameters = [("D", p.d), ("D2", p.d2), ("D3", p.d3), ("r", p.r)];
     let heading = parameters.map(|(name, it)| {
@@ -359,9 +258,9 @@ pub fn box_table(proof: &Proof) -> String {
     let text = if proof.cycles.is_empty() {
         String::new()
     } else {
-        format!("{table}\n{}", super::proof::uncertain(&table))
+        format!("{table}\n{}", uncertain(&table))
     };
-    let line = super::proof::sentence(proof.cycles.len(), proof);
+    let line = sentence(proof.cycles.len(), proof);
     let line = line.replace("for the parameters as doubles", "for all of these parameters");
     format!("{}\n\n{text}{line}", heading.join(", "))
 }
@@ -381,45 +280,31 @@ fn outward(it: Interval) -> [String; 2] {
     [end(it.lower(), -1.0), end(it.upper(), 1.0)]
 }
 
-#[derive(Serialize)]
-struct BoxCycle {
-    stable: bool,
-    proved: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    enclosure: Option<crate::proof::Enclosure>,
-}
-
-#[derive(Serialize)]
-struct BoxDocument<'a> {
-    cycles: Vec<BoxCycle>,
-    count: super::proof::Count<'a>,
-}
-
 /// The same for a document.
-pub fn boxed(proof: &Proof) -> impl Serialize {
-    let cycles = proof.cycles.iter().map(|cycle| BoxCycle {
-        stable: cycle.stable,
-        proved: true,
-        enclosure: cycle.enclosure,
-    });
-    BoxDocument { cycles: cycles.collect(), count: super::proof::count(proof) }
+pub fn boxed(proof: &Proof) -> Document {
+    let cycle = |cycle: &ProvedCycle| {
+        Document::default()
+            .with("stable", cycle.stable)
+            .with("proved", true)
+            .with_any("enclosure", cycle.enclosure)
+    };
+    Document::default()
+        .with("cycles", proof.cycles.iter().map(cycle).collect::<Vec<_>>())
+        .with("count", count(proof))
 }
 
 /// The same as rows.
 pub fn box_csv(proof: &Proof) -> String {
-    #[derive(Serialize)]
-    struct BoxRow {
-        stable: Option<bool>,
-        certified: super::proof::CycleBounds,
-    }
-    let cycles = proof.cycles.iter().map(|cycle| BoxRow {
-        stable: Some(cycle.stable),
-        certified: super::proof::CycleBounds::of(cycle.enclosure),
-    });
-    let open = super::proof::CycleBounds::open(proof);
-    let open = open.map(|certified| BoxRow { stable: None, certified });
-    let like = BoxRow { stable: None, certified: super::proof::CycleBounds::like() };
-    super::csv::sheet(&like, cycles.chain(open))
+    type BoxRow<'a> = (Option<bool>, CycleBounds<'a>);
+    let columns = Columns::default().file("stable", |(stable, _): &BoxRow| *stable).part(
+        "certified",
+        cycle_columns(),
+        |(_, bounds)| Some(*bounds),
+    );
+    let cycles = proof.cycles.iter();
+    let cycles = cycles.map(|cycle| (Some(cycle.stable), CycleBounds::Cycle(cycle.enclosure)));
+    let open = proof.open.iter().map(|open| (None, CycleBounds::Open(open)));
+    columns.csv(cycles.chain(open))
 }
 
 /// The statement of a certificate that has been checked.
@@ -432,21 +317,19 @@ pub fn certificate_table(certificate: &Certificate) -> String {
             format!("{name} in {}", interval(it))
         }
     };
-    let mut table = Table::new(&["cycle", "right clearance"]);
-    let mut some = false;
-    for step in &certificate.steps {
-        if let Some(clearance) = step.clearance {
-            some = true;
-            let kind = stability(step.kind == StepKind::Stable);
-            table.row(vec![kind.to_owned(), certain(interval(clearance), PLACES)]);
-        }
-    }
+    let proved = certificate.steps.iter().filter_map(|step| Some((step.kind, step.clearance?)));
+    let table = Columns::default()
+        .text("cycle", |(kind, _): &(StepKind, Bounds)| {
+            stability(*kind == StepKind::Stable).to_owned()
+        })
+        .text("right clearance", |(_, clearance)| certain(interval(*clearance), PLACES))
+        .table(proved);
     let count = match certificate.cycles {
         0 => "no limit cycle".to_owned(),
         1 => "1 limit cycle".to_owned(),
         more => format!("{more} limit cycles"),
     };
-    let table = if some { format!("{table}\n") } else { String::new() };
+    let table = if table.is_empty() { String::new() } else { format!("{table}\n") };
     let steps = certificate.steps.len();
     let values = ["D", "D2", "D3", "r"].into_iter().zip(certificate.parameters).map(value);
     let values = values.collect::<Vec<_>>().join(", ");

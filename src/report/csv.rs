@@ -96,7 +96,8 @@ fn fields(row: &impl Serialize) -> Map<String, Value> {
     fields
 }
 
-fn cell(value: &Value) -> String {
+/// A value with all its digits.
+pub(super) fn cell(value: &Value) -> String {
     match value {
         Value::Number(number) if number.is_f64() => number.as_f64().map_or_else(String::new, exact),
         Value::Number(_) | Value::Bool(_) => value.to_string(),
@@ -110,10 +111,10 @@ fn exact(value: f64) -> String {
     format!("{value:?}")
 }
 
-/// Cells as a line; a cell that contains a separator or a quote is quoted.
-pub fn line(cells: &[String]) -> String {
+/// A line for each row of cells; a cell that contains a separator or a quote is quoted.
+pub fn lines(rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let mut sheet = CsvSheet { names: Vec::new(), out: Writer::from_writer(Vec::new()) };
-    sheet.write(cells);
+    rows.into_iter().for_each(|cells| sheet.write(&cells));
     sheet.into_text()
 }
 
@@ -179,6 +180,6 @@ mod tests {
     #[test]
     fn cells_with_separators_are_quoted() {
         let cells = ["a,b", "say \"x\"", "plain"].map(str::to_owned);
-        assert_eq!(line(&cells), "\"a,b\",\"say \"\"x\"\"\",plain\n");
+        assert_eq!(lines([cells.to_vec()]), "\"a,b\",\"say \"\"x\"\"\",plain\n");
     }
 }

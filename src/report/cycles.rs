@@ -1,38 +1,19 @@
 //! The limit cycles, with what is proved about them.
 
-use serde::Serialize;
-
-use super::csv;
-use super::json::{self, CountedCost};
-use super::proof::{self, CycleBounds, certain, enclosure};
-use super::table::{Table, parameters};
+use super::columns::Columns;
+use super::cycle_numbers::{CycleNumber, cycle_fields, number_columns};
+use super::json::Document;
+use super::proof::{self, CycleBounds, certain, cycle_columns, enclosure};
+use super::table::parameters;
 use super::{basin, harmonic_balance};
 use crate::closed_form::harmonic::Harmonic;
-use crate::oscillator::Parameters;
-use crate::portrait::{Border, Cycle, CycleErrors};
+use crate::portrait::Cycle;
 use crate::proof::cycles::Proof;
 use crate::proof::enclose::Enclosure;
 use crate::study::Cycles;
 use crate::study::harmonic_error::HarmonicBalance;
 use crate::words::number::{duration, significant};
 use crate::words::stability;
-
-#[derive(Serialize)]
-struct Basin {
-    edge: Border,
-}
-
-#[derive(Serialize)]
-struct CycleDocument<'a> {
-    parameters: &'a Parameters,
-    cycles: Vec<proof::ProvedCycleDocument<'a>>,
-    count: proof::Count<'a>,
-    harmonic: &'a [Harmonic],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    balance: Option<Vec<harmonic_balance::BalanceRow>>,
-    basin: Basin,
-    cost: CountedCost,
-}
 
 /// Every cycle with what is proved about it, and the harmonic balance if asked for.
 pub fn json(
@@ -41,107 +22,62 @@ pub fn json(
     rungs: Option<&[HarmonicBalance]>,
     seconds: f64,
 ) -> String {
-    json::text(&CycleDocument {
-        parameters: &found.parameters,
-        cycles: proof::rows(&found.cycles, proof),
-        count: proof::count(proof),
-        harmonic: &found.harmonic,
-        balance: rungs.map(harmonic_balance::rows),
-        basin: Basin { edge: found.border },
-        cost: CountedCost { counted: found.cost, seconds },
-    })
+    Document::default()
+        .with("parameters", found.parameters)
+        .with("cycles", proof::documents(&found.cycles, proof))
+        .with("count", proof::count(proof))
+        .with("harmonic", &found.harmonic)
+        .with_any("balance", rungs.map(harmonic_balance::documents))
+        .with("basin", Document::default().with("edge", found.border))
+        .cost(&found.cost, seconds)
+        .text()
 }
 
 /// One row for each cycle and one for each interval of clearances that is open.
 pub fn csv(found: &Cycles, proof: &Proof) -> String {
-    #[derive(Serialize)]
-    struct CycleRow<'a> {
-        #[serde(flatten)]
-        cycle: Option<&'a Cycle>,
-        certified: CycleBounds,
-    }
-    let cycles = found.cycles.iter().map(|cycle| CycleRow {
-        cycle: Some(cycle),
-        certified: CycleBounds::of(enclosure(proof, cycle)),
-    });
-    let open = CycleBounds::open(proof).map(|certified| CycleRow { cycle: None, certified });
-    let like = CycleRow {
-        cycle: Some(&Cycle { errors: Some(CycleErrors::default()), ..Cycle::default() }),
-        certified: CycleBounds::like(),
-    };
-    csv::sheet(&like, cycles.chain(open))
+    type CycleRow<'a> = (Option<&'a Cycle>, CycleBounds<'a>);
+    let columns = Columns::default()
+        .and(Some(cycle_fields(|(cycle, _): &CycleRow| cycle.copied())))
+        .part("certified", cycle_columns(), |(_, bounds)| Some(*bounds));
+    let proved = |cycle| (Some(cycle), CycleBounds::Cycle(enclosure(proof, cycle)));
+    let open = proof.open.iter().map(|open| (None, CycleBounds::Open(open)));
+    columns.csv(found.cycles.iter().map(proved).chain(open))
 }
 
-/// Titles of the columns that describe a cycle.
-pub(super) const COLUMNS: [&str; 8] =
-    ["cycle", "q_min", "q_max", "v_min", "v_max", "period", "multiplier", "clearance"];
-
-/// The cells of these columns.
-pub(super) fn cells(cycle: &Cycle, places: usize) -> Vec<String> {
-    let multiplier = match cycle.multiplier {
-        Some(multiplier) => significant(multiplier, places),
-        None => format!("exp({})", significant(cycle.log_multiplier, places)),
-    };
-    let clearance = if cycle.clearance > 0.0 {
-        significant(cycle.clearance, places)
-    } else {
-        format!("exp({})", significant(cycle.log_clearance, places))
-    };
-    let mut cells = vec![stability(cycle.stable).to_owned()];
-    let numbers = [cycle.q_min, cycle.q_max, cycle.v_min, cycle.v_max, cycle.period];
-    cells.extend(numbers.map(|value| significant(value, places)));
-    cells.extend([multiplier, clearance]);
-    cells
-}
-
-/// These cells, with the digits that are certain.
-fn certain_cycle(cycle: &Cycle, bounds: &Enclosure, places: usize) -> Vec<String> {
-    let mut cells = self::cells(cycle, places);
-    let Enclosure { q_min, q_max, v_min, v_max, period, multiplier, clearance } = *bounds;
-    let numbers = [q_min, q_max, v_min, v_max, period, multiplier, clearance];
-    for (cell, bounds) in cells.iter_mut().skip(1).zip(numbers) {
-        *cell = certain(bounds, places);
+/// The cycles as text, with the digits that are certain.
+fn cycle_table(found: &Cycles, proof: &Proof) -> String {
+    type CycleRow<'a> = (&'a Cycle, Option<Enclosure>);
+    /// Digits shown; cycles are computed to rounding error.
+    const PLACES: usize = 12;
+    if found.cycles.is_empty() {
+        return String::new();
     }
-    cells
+    let kind = |(cycle, bounds): &CycleRow| {
+        let not_proved = if bounds.is_some() { "" } else { ", not proved" };
+        format!("{}{not_proved}", stability(cycle.stable))
+    };
+    let cell = |(cycle, bounds): &CycleRow, number: &CycleNumber| match bounds {
+        Some(bounds) => certain((number.bounds)(bounds), PLACES),
+        None => number.text(cycle, PLACES - 2),
+    };
+    let rows = found.cycles.iter().map(|cycle| (cycle, enclosure(proof, cycle)));
+    let table = number_columns(Columns::default().text("cycle", kind), cell).table(rows);
+    let table = table.to_string();
+    format!("{table}\n{}", proof::uncertain(&table))
 }
 
 /// Every cycle to the digits that are proved, the answer of harmonic balance, and the border of the basin.
 pub fn table(found: &Cycles, proof: &Proof, seconds: f64) -> String {
-    /// Digits shown; cycles are computed to rounding error.
-    const PLACES: usize = 12;
     let mut out = format!("{}\n\n", parameters(&found.parameters, None));
-    if !found.cycles.is_empty() {
-        let mut table = Table::new(&COLUMNS);
-        for found in &found.cycles {
-            table.row(if let Some(bounds) = enclosure(proof, found) {
-                certain_cycle(found, &bounds, PLACES)
-            } else {
-                let mut cells = self::cells(found, PLACES - 2);
-                cells[0] += ", not proved";
-                cells
-            });
-        }
-        let table = table.to_string();
-        out += &format!("{table}\n{}", proof::uncertain(&table));
-    }
+    out += &cycle_table(found, proof);
     out += &proof::sentence(found.cycles.len(), proof);
-    out += "\nby one harmonic, for comparison: ";
-    if found.harmonic.is_empty() {
-        out += "none\n";
-    }
-    for (index, harmonic) in found.harmonic.iter().enumerate() {
-        out += &format!(
-            "{}{} amplitude {}, mean {}",
-            if index == 0 { "" } else { "; " },
-            stability(harmonic.stable),
-            significant(harmonic.amplitude, 6),
-            significant(harmonic.mean, 6),
-        );
-    }
-    if !found.harmonic.is_empty() {
-        out.push('\n');
-    }
+    let harmonic = |it: &Harmonic| {
+        let [amplitude, mean] = [it.amplitude, it.mean].map(|value| significant(value, 6));
+        format!("{} amplitude {amplitude}, mean {mean}", stability(it.stable))
+    };
+    let harmonic: Vec<String> = found.harmonic.iter().map(harmonic).collect();
+    let harmonic = if harmonic.is_empty() { "none".to_owned() } else { harmonic.join("; ") };
+    out += &format!("\nby one harmonic, for comparison: {harmonic}\n");
     out += basin::border(found.border);
-    out += &format!("{} evaluations, {}\n", found.cost.evaluations, duration(seconds));
-    out
+    out + &format!("{} evaluations, {}\n", found.cost.evaluations, duration(seconds))
 }

@@ -1,49 +1,42 @@
 //! Guaranteed margins as text.
 
-use serde::Serialize;
-
-use super::csv;
-use super::json::{CountedCost, text};
+use super::columns::Columns;
+use super::json::Document;
 use super::table::Table;
 use crate::oscillator::{Interval, Knob, ParameterBox};
 use crate::portrait::Margin;
-use crate::study::guarantee::{Guarantee, Guaranteed};
+use crate::study::guarantee::{Guarantee, Guaranteed, Uncertain};
 use crate::words::number::{duration, significant};
 
-#[derive(Serialize)]
-struct GuaranteeDocument<'a> {
-    nominal: Margin,
-    guaranteed: Guaranteed,
-    disturbance: f64,
-    parameters: &'a ParameterBox,
-    cost: CountedCost,
-}
-
-/// One of the two margins.
-#[derive(Serialize)]
-struct GuaranteeRow {
-    margin: &'static str,
-    #[serde(flatten)]
-    found: Margin,
-    reason: Option<String>,
-}
-
 pub fn json(found: &Guarantee, seconds: f64) -> String {
-    text(&GuaranteeDocument {
-        nominal: found.nominal,
-        guaranteed: found.guaranteed,
-        disturbance: found.disturbance,
-        parameters: &found.known,
-        cost: CountedCost { counted: found.cost, seconds },
-    })
+    Document::default()
+        .with("nominal", found.nominal)
+        .with("guaranteed", found.guaranteed)
+        .with("disturbance", found.disturbance)
+        .with("parameters", found.known)
+        .cost(&found.cost, seconds)
+        .text()
 }
 
 /// One row for the nominal and one for the guaranteed margin.
 pub fn csv(found: &Guarantee) -> String {
-    let nominal = GuaranteeRow { margin: "nominal", found: found.nominal, reason: None };
     let Guaranteed { margin, reason } = found.guaranteed;
-    let reason = reason.map(|reason| reason.to_string());
-    csv::sheet(&nominal, [&nominal, &GuaranteeRow { margin: "guaranteed", found: margin, reason }])
+    let columns = Columns::default()
+        .file("margin", |(name, ..): &(&str, Margin, Option<_>)| (*name).to_owned())
+        .and(Some(margin_columns(|(_, margin, _)| *margin)))
+        .file("reason", |(_, _, reason)| reason.map(|it: Uncertain| it.to_string()));
+    columns.csv([("nominal", found.nominal, None), ("guaranteed", margin, reason)])
+}
+
+/// The columns of margins.
+pub(super) fn margin_columns<'a, R: 'a>(
+    margin: impl Fn(&R) -> Margin + Copy + 'a,
+) -> Columns<'a, R> {
+    Columns::default()
+        .file("displacement", move |row| margin(row).displacement)
+        .file("impulse", move |row| margin(row).impulse)
+        .file("from_rest_displacement", move |row| margin(row).from_rest.displacement)
+        .file("from_rest_impulse", move |row| margin(row).from_rest.impulse)
 }
 
 /// Factor that keeps a number written with 12 digits from being rounded up.

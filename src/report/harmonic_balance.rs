@@ -4,114 +4,99 @@
 //! was lost before that number of harmonics was reached, the row has no numbers and says why. A row without
 //! errors has no true cycle to be compared with.
 
-use serde::Serialize;
-
-use super::csv;
-use super::table::{Table, rounded};
+use super::columns::{Columns, Quantity};
+use super::json::Document;
 use crate::closed_form::harmonics::HarmonicCycle;
 use crate::study::harmonic_error::{BalanceResult, HarmonicBalance};
 use crate::words::number::significant;
 use crate::words::stability;
 
 /// The result for one number of harmonics on the branch of one first-order answer.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct BalanceRow {
-    harmonics: usize,
-    stable: bool,
-    amplitude: Option<f64>,
-    mean: Option<f64>,
-    q_min: Option<f64>,
-    q_max: Option<f64>,
-    v_min: Option<f64>,
-    v_max: Option<f64>,
-    period: Option<f64>,
-    crossings: Option<usize>,
-    residual: Option<f64>,
-    amplitude_error: Option<f64>,
-    frequency_error: Option<f64>,
-    lost: Option<String>,
+type BalanceRow<'a> = (usize, &'a BalanceResult);
+
+fn columns<'a>() -> Columns<'a, BalanceRow<'a>> {
+    /// Digits shown of a cycle, which is an approximation here.
+    const NUMBER: Quantity = Quantity::pure(6);
+    fn of((_, balanced): &BalanceRow, number: fn(&HarmonicCycle) -> f64) -> Option<f64> {
+        balanced.cycle.as_ref().ok().map(number)
+    }
+    let percent = |value: Option<f64>| {
+        value.map_or("-".into(), |value| format!("{} %", significant(100.0 * value, 3)))
+    };
+    Columns::default()
+        .text("balance", |(_, balanced): &BalanceRow| stability(balanced.first.stable).to_owned())
+        .word("harmonics", |(harmonics, _)| *harmonics)
+        .file("stable", |(_, balanced)| balanced.first.stable)
+        .file("amplitude", |row| of(row, HarmonicCycle::amplitude))
+        .file("mean", |row| of(row, |cycle| cycle.mean))
+        .number("q_min", NUMBER, |row| of(row, |cycle| cycle.q_min))
+        .number("q_max", NUMBER, |row| of(row, |cycle| cycle.q_max))
+        .file("v_min", |row| of(row, |cycle| cycle.v_min))
+        .number("v_max", NUMBER, |row| of(row, |cycle| cycle.v_max))
+        .number("period", NUMBER, |row| of(row, |cycle| cycle.period))
+        .file("crossings", crossings)
+        .file("residual", |row| of(row, |cycle| cycle.residual))
+        .file("amplitude_error", |(_, balanced)| balanced.error.map(|error| error.amplitude))
+        .text("error of amplitude", move |(_, balanced)| {
+            percent(balanced.error.map(|error| error.amplitude))
+        })
+        .file("frequency_error", |(_, balanced)| balanced.error.map(|error| error.frequency))
+        .text("of frequency", move |(_, balanced)| {
+            percent(balanced.error.map(|error| error.frequency))
+        })
+        .file("lost", lost)
 }
 
-impl BalanceRow {
-    fn new(harmonics: usize, balanced: &BalanceResult) -> Self {
-        let cycle = balanced.cycle.as_ref();
-        let of = |number: fn(&HarmonicCycle) -> f64| cycle.ok().map(number);
-        BalanceRow {
-            harmonics,
-            stable: balanced.first.stable,
-            amplitude: of(HarmonicCycle::amplitude),
-            mean: of(|cycle| cycle.mean),
-            q_min: of(|cycle| cycle.q_min),
-            q_max: of(|cycle| cycle.q_max),
-            v_min: of(|cycle| cycle.v_min),
-            v_max: of(|cycle| cycle.v_max),
-            period: of(|cycle| cycle.period),
-            crossings: cycle.ok().map(|cycle| cycle.crossings),
-            residual: of(|cycle| cycle.residual),
-            amplitude_error: balanced.error.map(|error| error.amplitude),
-            frequency_error: balanced.error.map(|error| error.frequency),
-            lost: cycle.err().map(ToString::to_string),
-        }
-    }
+/// How often a turn has v = 0.
+fn crossings((_, balanced): &BalanceRow) -> Option<usize> {
+    balanced.cycle.as_ref().ok().map(|cycle| cycle.crossings)
+}
+
+/// Why there is no cycle.
+fn lost((_, balanced): &BalanceRow) -> Option<String> {
+    balanced.cycle.as_ref().err().map(ToString::to_string)
 }
 
 /// All rows, branch by branch.
-pub fn rows(rungs: &[HarmonicBalance]) -> Vec<BalanceRow> {
+fn rows(rungs: &[HarmonicBalance]) -> Vec<BalanceRow<'_>> {
     let branches = rungs.first().map_or(0, |rung| rung.balanced.len());
-    let row = |branch: usize, rung: &HarmonicBalance| {
-        rung.balanced.get(branch).map(|balanced| BalanceRow::new(rung.harmonics, balanced))
-    };
     (0..branches)
-        .flat_map(|branch| rungs.iter().filter_map(move |rung| row(branch, rung)))
+        .flat_map(|branch| rungs.iter().map(move |rung| (rung, branch)))
+        .filter_map(|(rung, branch)| Some((rung.harmonics, rung.balanced.get(branch)?)))
         .collect()
+}
+
+/// As objects of a document.
+pub fn documents(rungs: &[HarmonicBalance]) -> Vec<Document> {
+    columns().objects(rows(rungs))
 }
 
 /// As a table, with notes on its rows below it.
 pub fn table(rungs: &[HarmonicBalance]) -> String {
-    /// Digits shown of a cycle, which is an approximation here.
-    const PLACES: usize = 6;
     let rows = rows(rungs);
     if rows.is_empty() {
         return "\nby harmonic balance: none\n".to_owned();
     }
-    let number = |value| rounded(value, PLACES);
-    let percent = |value: Option<f64>| {
-        value.map_or("-".into(), |value| format!("{} %", significant(100.0 * value, 3)))
-    };
-    let table = Table::of(
-        &rows,
-        &[
-            ("balance", &|row| stability(row.stable).to_owned()),
-            ("harmonics", &|row| row.harmonics.to_string()),
-            ("q_min", &|row| number(row.q_min)),
-            ("q_max", &|row| number(row.q_max)),
-            ("v_max", &|row| number(row.v_max)),
-            ("period", &|row| number(row.period)),
-            ("error of amplitude", &|row| percent(row.amplitude_error)),
-            ("of frequency", &|row| percent(row.frequency_error)),
-        ],
-    );
     let most = rungs.last().map(|rung| rung.harmonics);
-    let last = rows.iter().filter(|row| most == Some(row.harmonics));
+    let last = rows.iter().filter(|(harmonics, _)| most == Some(*harmonics));
     let mut notes: Vec<String> = last
-        .filter_map(|row| Some(format!("{}: {}\n", stability(row.stable), note(row)?)))
+        .filter_map(|row| Some(format!("{}: {}\n", stability(row.1.first.stable), note(row)?)))
         .collect();
-    if rows.iter().any(|row| row.lost.is_none() && row.amplitude_error.is_none()) {
+    if rows.iter().any(|(_, balanced)| balanced.cycle.is_ok() && balanced.error.is_none()) {
         notes.push("without an error: there is no such cycle to compare with\n".to_owned());
     }
-    format!("\n{table}{}", notes.concat())
+    format!("\n{}{}", columns().table(rows), notes.concat())
 }
 
 /// A note on a row, if it needs one.
 fn note(row: &BalanceRow) -> Option<String> {
-    let crossings = row.crossings.filter(|crossings| *crossings != 2);
-    let more = crossings.map(|crossings| {
-        let harmonics = row.harmonics;
+    let more = crossings(row).filter(|crossings| *crossings != 2).map(|crossings| {
+        let harmonics = row.0;
         format!("{harmonics} harmonics have v = 0 at {crossings} instants of a turn, a cycle at 2")
     });
-    row.lost.clone().or(more)
+    lost(row).or(more)
 }
 
 pub fn csv(rungs: &[HarmonicBalance]) -> String {
-    csv::sheet(&BalanceRow::default(), rows(rungs))
+    columns().csv(rows(rungs))
 }

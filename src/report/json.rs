@@ -2,9 +2,60 @@
 //! what is not printable is escaped.
 
 use serde::Serialize;
+use serde_json::{Map, Value};
 
 use crate::flow::Cost;
 use crate::words::printable;
+
+/// An object, told field by field.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Document(Map<String, Value>);
+
+impl Document {
+    /// The document with this field.
+    pub fn with(mut self, name: &str, value: impl Serialize) -> Self {
+        self.0.insert(name.to_owned(), self::value(&value));
+        self
+    }
+
+    /// The document with this field, or without it if there is no value.
+    pub fn with_any(self, name: &str, value: Option<impl Serialize>) -> Self {
+        match value {
+            Some(value) => self.with(name, value),
+            None => self,
+        }
+    }
+
+    /// The document with the fields of a record.
+    pub fn and(mut self, record: &impl Serialize) -> Self {
+        if let Value::Object(fields) = value(record) {
+            self.0.extend(fields);
+        }
+        self
+    }
+
+    /// The document with the cost of the answer: what was counted, and wall-clock seconds inside the process.
+    pub fn cost(self, counted: &impl Serialize, seconds: f64) -> Self {
+        self.with("cost", Document::default().and(counted).with("seconds", seconds))
+    }
+
+    /// The document on one line, with a newline.
+    pub fn text(&self) -> String {
+        text(self)
+    }
+}
+
+/// Anything as a value of a document.
+///
+/// # Panics
+/// Never: strings, numbers and structs of them can always be written, and keys are strings.
+pub(super) fn value(it: &impl Serialize) -> Value {
+    match serde_json::to_value(it) {
+        Ok(value) => value,
+        Err(error) => unreachable!("a document cannot hold it: {error}"),
+    }
+}
 
 /// The cost of an answer, counted and timed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -1,60 +1,35 @@
 //! The answer about random kicks.
 
-use serde::Serialize;
-
-use super::csv;
-use super::json::{CountedCost, text};
+use super::columns::Columns;
+use super::json::Document;
 use super::table::parameters as named;
 use crate::oscillator::Parameters;
 use crate::study::kicks::RandomKick;
 use crate::study::repeated::Repeated;
-use crate::study::stability::Share;
 use crate::words::number::{duration, significant};
-
-#[derive(Serialize)]
-struct KicksDocument<'a> {
-    parameters: &'a Parameters,
-    kicks: String,
-    lost: Share,
-    repeated: Again<'a>,
-    cost: CountedCost,
-}
-
-#[derive(Serialize)]
-struct Again<'a> {
-    lost: f64,
-    mean: Option<f64>,
-    error: f64,
-    density: &'a [f64],
-}
-
-/// The density of the places of rest at `q`.
-#[derive(Default, Serialize)]
-struct KicksRow {
-    q: f64,
-    density: f64,
-}
 
 /// One document; `mean` is null if no kick is ever lost.
 pub fn json(parameters: &Parameters, kicks: &RandomKick, found: &Repeated, seconds: f64) -> String {
-    text(&KicksDocument {
-        parameters,
-        kicks: kicks.to_string(),
-        lost: found.first,
-        repeated: Again {
-            lost: found.later,
-            mean: found.mean.is_finite().then_some(found.mean),
-            error: found.error,
-            density: &found.density,
-        },
-        cost: CountedCost { counted: found.cost, seconds },
-    })
+    let repeated = Document::default()
+        .with("lost", found.later)
+        .with("mean", found.mean)
+        .with("error", found.error)
+        .with("density", &found.density);
+    Document::default()
+        .with("parameters", parameters)
+        .with("kicks", kicks.to_string())
+        .with("lost", found.first)
+        .with("repeated", repeated)
+        .cost(&found.cost, seconds)
+        .text()
 }
 
 /// The density of the places of rest, one row for each cell of the sticking set.
 pub fn csv(parameters: &Parameters, found: &Repeated) -> String {
-    let row = |(q, density)| KicksRow { q, density };
-    csv::sheet(&KicksRow::default(), found.places(parameters.r).map(row))
+    let columns = Columns::default()
+        .file("q", |(q, _): &(f64, f64)| *q)
+        .file("density", |(_, density)| *density);
+    columns.csv(found.places(parameters.r))
 }
 
 pub fn table(

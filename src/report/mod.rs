@@ -1,6 +1,7 @@
 //! Answers as readable text, as comma-separated values, as JSON and as pages to sign; one file for each subject.
 //!
-//! Each subject defines its rows once; [`csv`], [`json`], [`table`] and [`page`] write them in their forms.
+//! Each subject tells its rows once, as [`columns`]; [`csv`], [`json`], [`table`] and [`page`] write them in their
+//! forms.
 
 pub mod basin;
 pub mod belt;
@@ -8,7 +9,9 @@ pub mod border;
 pub mod branch;
 pub mod certified;
 pub mod claims;
+pub mod columns;
 pub mod csv;
+mod cycle_numbers;
 pub mod cycles;
 pub mod extreme_cycles;
 pub mod extremes;

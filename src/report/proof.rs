@@ -1,10 +1,10 @@
 //! Proofs about limit cycles, for tables and documents.
 
-use serde::Serialize;
-
+use super::columns::Columns;
+use super::cycle_numbers::{CycleNumber, NUMBERS};
+use super::json::Document;
 use crate::numerics::Interval;
 use crate::numerics::elementary::log10;
-use crate::oscillator::ParameterBox;
 use crate::portrait::Cycle;
 use crate::proof::cycles::{Open, Proof};
 use crate::proof::enclose::Enclosure;
@@ -12,90 +12,54 @@ use crate::study::proved::matching;
 use crate::words::cycles;
 use crate::words::number::significant;
 
-/// A cycle with what is proved about it.
-#[derive(Serialize)]
-pub(super) struct ProvedCycleDocument<'a> {
-    #[serde(flatten)]
-    cycle: &'a Cycle,
-    /// Whether it is proved to exist, to be the only one nearby, and to lie in its enclosure.
-    proved: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    enclosure: Option<Enclosure>,
+/// What is proved about a cycle, or an interval of clearances that is open.
+#[derive(Clone, Copy)]
+pub(super) enum CycleBounds<'a> {
+    Cycle(Option<Enclosure>),
+    Open(&'a Open),
 }
 
-/// What is proved about a cycle, or an interval of clearances that is open, with a column for each bound.
-#[derive(Serialize)]
-pub(super) struct CycleBounds {
-    proved: bool,
-    open: Option<&'static str>,
-    #[serde(flatten)]
-    enclosure: Option<Enclosure>,
-    #[serde(flatten)]
-    clearances: Option<Clearances>,
-}
-
-#[derive(Serialize)]
-struct Clearances {
-    clearance: Interval,
-}
-
-impl CycleBounds {
-    /// An example with all columns, for the heading.
-    pub(super) fn like() -> Self {
-        let q = Interval::ALL;
-        let all = Enclosure {
-            q_max: q,
-            q_min: q,
-            v_max: q,
-            v_min: q,
-            period: q,
-            multiplier: q,
-            clearance: q,
-        };
-        CycleBounds::of(Some(all))
-    }
-
-    pub(super) fn of(enclosure: Option<Enclosure>) -> Self {
-        CycleBounds { proved: enclosure.is_some(), open: None, enclosure, clearances: None }
-    }
-
-    pub(super) fn open(proof: &Proof) -> impl Iterator<Item = Self> {
-        proof.open.iter().map(|open| CycleBounds {
-            proved: false,
-            open: Some(open.reason),
-            enclosure: None,
-            clearances: Some(Clearances { clearance: Interval::new(open.lower, open.upper) }),
-        })
-    }
-}
-
-/// The number of cycles, with what is proved about it.
-#[derive(Serialize)]
-pub(super) struct Count<'a> {
-    /// Whether it is proved that there are these cycles and no others.
-    proved: bool,
-    /// Intervals of clearances about which nothing is known.
-    open: &'a [Open],
-    /// The parameters for which this holds: the doubles nearest to the decimal numbers given.
-    parameters: ParameterBox,
-}
-
-/// Every cycle with what is proved about it.
-pub(super) fn rows<'a>(cycles: &'a [Cycle], proof: &Proof) -> Vec<ProvedCycleDocument<'a>> {
-    let row = |cycle| {
-        let enclosure = enclosure(proof, cycle);
-        ProvedCycleDocument { cycle, proved: enclosure.is_some(), enclosure }
+/// The columns of what is proved, one for each bound.
+pub(super) fn cycle_columns<'a>() -> Columns<'a, CycleBounds<'a>> {
+    let columns = Columns::default()
+        .file("proved", |it| matches!(it, CycleBounds::Cycle(Some(_))))
+        .file("open", |it| if let CycleBounds::Open(open) = it { Some(open.reason) } else { None });
+    let of = |it: &CycleBounds, number: &CycleNumber| match it {
+        CycleBounds::Cycle(enclosure) => enclosure.as_ref().map(number.bounds),
+        CycleBounds::Open(it) if number.name == "clearance" => {
+            Some(Interval::new(it.lower, it.upper))
+        }
+        CycleBounds::Open(_) => None,
     };
-    cycles.iter().map(row).collect()
+    ["q_max", "q_min", "v_max", "v_min", "period", "multiplier", "clearance"]
+        .into_iter()
+        .filter_map(|name| NUMBERS.iter().find(|number| number.name == name))
+        .fold(columns, |all, number| all.bounds(number.name, move |it| of(it, number)))
+}
+
+/// Every cycle with what is proved about it: whether it exists, is the only one nearby, and lies in its enclosure.
+pub(super) fn documents(cycles: &[Cycle], proof: &Proof) -> Vec<Document> {
+    let document = |cycle| {
+        let enclosure = enclosure(proof, cycle);
+        Document::default()
+            .and(cycle)
+            .with("proved", enclosure.is_some())
+            .with_any("enclosure", enclosure)
+    };
+    cycles.iter().map(document).collect()
 }
 
 pub(super) fn enclosure(proof: &Proof, cycle: &Cycle) -> Option<Enclosure> {
     matching(proof, cycle).and_then(|proved| proved.enclosure)
 }
 
-/// The proof of the number of cycles.
-pub(super) fn count(proof: &Proof) -> Count<'_> {
-    Count { proved: proof.is_complete(), open: &proof.open, parameters: proof.parameters }
+/// Whether it is proved that there are these cycles and no others, the intervals of clearances about which nothing is
+/// known, and the parameters for which this holds: the doubles nearest to the decimal numbers given.
+pub(super) fn count(proof: &Proof) -> Document {
+    Document::default()
+        .with("proved", proof.is_complete())
+        .with("open", &proof.open)
+        .with("parameters", proof.parameters)
 }
 
 /// `2 cycles, proved ..`, or what is open.

@@ -76,7 +76,7 @@ impl RowForm {
         match self {
             RowForm::Csv => {
                 let cells = values.map(exact).chain([row.reason.clone().unwrap_or_default()]);
-                line += &csv::line(&cells.collect::<Vec<_>>());
+                line += &csv::lines([cells.collect()]);
             }
             RowForm::Json => {
                 for (name, value) in scan.measured().into_iter().zip(values) {

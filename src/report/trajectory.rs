@@ -1,55 +1,29 @@
 //! A motion.
 
-use serde::Serialize;
-
-use super::certified::{MotionDocument, PointBounds, followed};
-use super::csv;
-use super::json::{self, CountedCost};
-use super::table::{Table, digits, motion as question};
-use crate::flow::{Crossing, Method, Outcome, Trajectory};
+use super::certified::{PointBounds, followed, point_columns};
+use super::columns::{Columns, Quantity};
+use super::json::Document;
+use super::table::{digits, motion as question};
+use crate::flow::{Crossing, Outcome, Trajectory};
 use crate::numerics::Interval;
-use crate::oscillator::{Ledger, Parameters, State};
+use crate::oscillator::State;
 use crate::proof::motion::ProvedMotion;
 use crate::words::motion::{Writing, sentence};
-use crate::words::number::{duration, exact, significant};
-
-#[derive(Serialize)]
-struct TrajectoryDocument<'a> {
-    parameters: &'a Parameters,
-    initial: &'a State,
-    method: Method,
-    tolerance: f64,
-    outcome: &'a Outcome,
-    events: &'a [Crossing],
-    energy: Option<&'a Ledger>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<MotionDocument>,
-    cost: CountedCost,
-}
-
-/// A point of a motion: its start, every arrival at `v = 0`, and its end.
-#[derive(Default, Serialize)]
-struct TrajectoryRow {
-    what: &'static str,
-    tau: f64,
-    q: Option<f64>,
-    v: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    certified: Option<PointBounds>,
-}
+use crate::words::number::{duration, exact};
 
 pub fn json(motion: &Trajectory, certified: Option<&ProvedMotion>, seconds: f64) -> String {
-    json::text(&TrajectoryDocument {
-        parameters: &motion.problem.parameters,
-        initial: &motion.problem.initial,
-        method: motion.method,
-        tolerance: motion.problem.tolerance,
-        outcome: &motion.outcome,
-        events: &motion.crossings,
-        energy: motion.ledger.as_ref(),
-        certified: certified.map(|certified| followed(certified, motion.problem.until)),
-        cost: CountedCost { counted: motion.cost, seconds },
-    })
+    let problem = &motion.problem;
+    Document::default()
+        .with("parameters", problem.parameters)
+        .with("initial", problem.initial)
+        .with("method", motion.method)
+        .with("tolerance", problem.tolerance)
+        .with("outcome", motion.outcome)
+        .with("events", &motion.crossings)
+        .with("energy", motion.ledger)
+        .with_any("certified", certified.map(|certified| followed(certified, problem.until)))
+        .cost(&motion.cost, seconds)
+        .text()
 }
 
 /// How a motion ends, when, and the displacement and velocity there.
@@ -62,47 +36,50 @@ pub(super) fn ending(outcome: &Outcome) -> (&'static str, f64, Option<f64>, Opti
     }
 }
 
+/// A point of a motion: its start, every arrival at `v = 0`, or its end.
+struct PointRow {
+    what: &'static str,
+    tau: f64,
+    q: Option<f64>,
+    v: Option<f64>,
+    bounds: Option<PointBounds>,
+}
+
 /// One row for each point.
 pub fn csv(motion: &Trajectory, certified: Option<&ProvedMotion>) -> String {
     let State { q, v } = motion.problem.initial;
-    let row = |what, tau, q, v| TrajectoryRow { what, tau, q, v, certified: None };
-    let mut start = row("start", 0.0, Some(q), Some(v));
-    let (what, tau, last_q, last_v) = ending(&motion.outcome);
-    let mut end = row(what, tau, last_q, last_v);
-    if let Some(certified) = certified {
-        let [tau, q, v] = [0.0, q, v].map(Interval::point);
-        start.certified = Some(PointBounds::of(tau, q, v));
-        end.certified = Some(PointBounds::of_end(certified, motion.problem.until));
-    }
-    let enclosed = certified.map_or(&[][..], |certified| &certified.turns);
-    let turn = |(index, crossing): (usize, &Crossing)| TrajectoryRow {
-        certified: enclosed
-            .get(index)
-            .map(|turn| PointBounds::of(turn.tau, turn.q, Interval::point(0.0))),
-        ..row("turn", crossing.tau, Some(crossing.q), Some(0.0))
+    let row = |what, tau, q, v, bounds| PointRow { what, tau, q, v, bounds };
+    let known = |tau, q, v| PointBounds::of(tau, q, Interval::point(v));
+    let exactly = certified.map(|_| known(Interval::point(0.0), Interval::point(q), v));
+    let start = row("start", 0.0, Some(q), Some(v), exactly);
+    let turn = |(index, crossing): (usize, &Crossing)| {
+        let enclosed = certified.and_then(|certified| certified.turns.get(index));
+        let enclosed = enclosed.map(|turn| known(turn.tau, turn.q, 0.0));
+        row("turn", crossing.tau, Some(crossing.q), Some(0.0), enclosed)
     };
     let turns = motion.crossings.iter().enumerate().map(turn);
-    let like = TrajectoryRow {
-        certified: certified.map(|_| PointBounds::like()),
-        ..TrajectoryRow::default()
-    };
-    csv::sheet(&like, std::iter::once(start).chain(turns).chain([end]))
+    let (what, tau, q, v) = ending(&motion.outcome);
+    let bounds = certified.map(|certified| PointBounds::of_end(certified, motion.problem.until).1);
+    let end = row(what, tau, q, v, bounds);
+    let proved = Columns::default().part("certified", point_columns(), |row: &PointRow| row.bounds);
+    let columns = Columns::default()
+        .file("what", |row: &PointRow| row.what)
+        .file("tau", |row| row.tau)
+        .file("q", |row| row.q)
+        .file("v", |row| row.v)
+        .and(certified.map(|_| proved));
+    columns.csv(std::iter::once(start).chain(turns).chain([end]))
 }
 
 /// The problem, every turning point, the outcome, the energy balance and the cost.
 pub fn table(motion: &Trajectory, seconds: f64) -> String {
     let problem = &motion.problem;
-    let places = digits(problem.tolerance);
-    let number = |value: f64| significant(value, places);
-    let numbered: Vec<(usize, &Crossing)> = (1..).zip(&motion.crossings).collect();
-    let turns = Table::of(
-        &numbered,
-        &[
-            ("half swing", &|(number, _)| number.to_string()),
-            ("tau", &|(_, crossing)| number(crossing.tau)),
-            ("q", &|(_, crossing)| number(crossing.q)),
-        ],
-    );
+    let number = Quantity::pure(digits(problem.tolerance));
+    let turns = Columns::default()
+        .text("half swing", |(count, _): &(usize, &Crossing)| count.to_string())
+        .number("tau", number, |(_, crossing)| crossing.tau)
+        .number("q", number, |(_, crossing)| crossing.q)
+        .table((1..).zip(&motion.crossings));
     let mut out = format!("{}\n{}\n\n", question(problem), sentence(motion, Writing::default()));
     if !turns.is_empty() {
         out += &format!("{turns}\n");
@@ -117,13 +94,10 @@ pub fn table(motion: &Trajectory, seconds: f64) -> String {
             ("at the end", energy.end),
             ("unaccounted for", energy.residual),
         ];
-        let ledger = Table::of(
-            &amounts,
-            &[
-                ("energy", &|(name, _)| (*name).to_owned()),
-                ("amount", &|(_, value)| significant(*value, 6)),
-            ],
-        );
+        let ledger = Columns::default()
+            .text("energy", |(name, _): &(&str, f64)| (*name).to_owned())
+            .number("amount", Quantity::pure(6), |(_, amount)| *amount)
+            .table(amounts);
         out += &format!("{ledger}\n");
     }
     let cost = motion.cost;

@@ -1,0 +1,281 @@
+//! The columns of an answer, each told once: its name in files, its title in text, its quantity, and its value in a
+//! row. The aligned table, the comma-separated values and the objects of a document follow.
+
+use std::rc::Rc;
+
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use super::csv;
+use super::json::{self, Document};
+use super::table::Table;
+use crate::numerics::Interval;
+use crate::words::quantity::with_unit;
+
+/// What the numbers of a column measure, and how text shows them; files have all their digits, in SI units.
+#[derive(Clone, Copy, Debug)]
+pub struct Quantity {
+    unit: &'static str,
+    digits: usize,
+    absent: &'static str,
+}
+
+impl Quantity {
+    /// A pure number.
+    pub const fn pure(digits: usize) -> Self {
+        Quantity::of("", digits)
+    }
+
+    /// A number in an SI unit, which text shows with a prefix.
+    pub const fn of(unit: &'static str, digits: usize) -> Self {
+        Quantity { unit, digits, absent: "-" }
+    }
+
+    /// The word of text for a number that does not exist, in place of `-`.
+    pub const fn or(self, absent: &'static str) -> Self {
+        Quantity { absent, ..self }
+    }
+
+    /// The number as text shows it.
+    pub fn text(self, value: impl Into<Option<f64>>) -> String {
+        let shown = |value| with_unit(value, self.digits, self.unit);
+        value.into().map_or_else(|| self.absent.to_owned(), shown)
+    }
+}
+
+/// Columns of rows `R`, in their order.
+pub struct Columns<'a, R> {
+    files: Vec<FileColumns<'a, R>>,
+    texts: Vec<TextColumn<'a, R>>,
+}
+
+/// What a row tells.
+type Part<'a, R, T> = Box<dyn Fn(&R) -> T + 'a>;
+
+/// Columns of a file that are filled together.
+struct FileColumns<'a, R> {
+    names: Vec<String>,
+    /// A value for each name; none for a row without them.
+    cells: Part<'a, R, Vec<Value>>,
+    /// The same as fields of an object, in which records stay whole.
+    fields: Part<'a, R, Document>,
+}
+
+struct TextColumn<'a, R> {
+    title: &'static str,
+    cell: Part<'a, R, String>,
+}
+
+impl<R> Default for Columns<'_, R> {
+    fn default() -> Self {
+        Columns { files: Vec::new(), texts: Vec::new() }
+    }
+}
+
+impl<'a, R: 'a> Columns<'a, R> {
+    /// A column of files alone.
+    pub fn file<V: Serialize>(self, name: &str, value: impl Fn(&R) -> V + 'a) -> Self {
+        let (value, field) = (Rc::new(value), name.to_owned());
+        let same = Rc::clone(&value);
+        self.together(
+            vec![name.to_owned()],
+            move |row| vec![json::value(&value(row))],
+            move |row| Document::default().with(&field, same(row)),
+        )
+    }
+
+    /// A field of documents alone.
+    pub fn field<V: Serialize>(self, name: &'static str, value: impl Fn(&R) -> V + 'a) -> Self {
+        let field = move |row: &R| Document::default().with(name, value(row));
+        self.together(Vec::new(), |_| Vec::new(), field)
+    }
+
+    /// A column of text alone.
+    pub fn text(mut self, title: &'static str, cell: impl Fn(&R) -> String + 'a) -> Self {
+        self.texts.push(TextColumn { title, cell: Box::new(cell) });
+        self
+    }
+
+    /// Numbers, which text shows by their quantity.
+    pub fn number<V: Into<Option<f64>>>(
+        self,
+        name: &'static str,
+        quantity: Quantity,
+        value: impl Fn(&R) -> V + 'a,
+    ) -> Self {
+        let value = Rc::new(move |row: &R| value(row).into());
+        let exact = Rc::clone(&value);
+        self.file(name, move |row| exact(row)).text(name, move |row| quantity.text(value(row)))
+    }
+
+    /// Words, counts or marks.
+    pub fn word<V: Serialize>(self, name: &'static str, value: impl Fn(&R) -> V + 'a) -> Self {
+        let value = Rc::new(move |row: &R| json::value(&value(row)));
+        let exact = Rc::clone(&value);
+        self.file(name, move |row| exact(row)).text(name, move |row| match value(row) {
+            Value::Null => "-".to_owned(),
+            value => csv::cell(&value),
+        })
+    }
+
+    /// The last column with another title in text.
+    pub fn titled(mut self, title: &'static str) -> Self {
+        if let Some(column) = self.texts.last_mut() {
+            column.title = title;
+        }
+        self
+    }
+
+    /// Both ends of an interval, as `name_lower` and `name_upper`, in files alone.
+    pub fn bounds(self, name: &str, value: impl Fn(&R) -> Option<Interval> + 'a) -> Self {
+        let (value, field) = (Rc::new(value), name.to_owned());
+        let same = Rc::clone(&value);
+        self.together(
+            ENDS.map(|end| format!("{name}_{end}")).to_vec(),
+            move |row| value(row).map_or(vec![], |it| vec![it.lower().into(), it.upper().into()]),
+            move |row| Document::default().with(&field, same(row).map(bounds)),
+        )
+    }
+
+    /// A column of files for each field of records like `example` that is neither a record nor a list.
+    pub fn fields<T: Serialize>(self, example: &T, record: impl Fn(&R) -> Option<T> + 'a) -> Self {
+        let names: Vec<String> = singles(example).into_iter().map(|(name, _)| name).collect();
+        let (record, wanted) = (Rc::new(record), names.clone());
+        let same = Rc::clone(&record);
+        let cells = move |row: &R| {
+            let record = record(row)?;
+            let mut fields = singles(&record);
+            Some(wanted.iter().map(|name| fields.remove(name).unwrap_or_default()).collect())
+        };
+        self.together(
+            names,
+            move |row| cells(row).unwrap_or_default(),
+            move |row| same(row).iter().fold(Document::default(), Document::and),
+        )
+    }
+
+    /// The columns of files that describe a part of a row; in a document they are the field `name`, which is left
+    /// out of a row without that part.
+    pub fn part<P: 'a>(
+        self,
+        name: &'static str,
+        columns: Columns<'a, P>,
+        part: impl Fn(&R) -> Option<P> + 'a,
+    ) -> Self {
+        let names = columns.names();
+        let (columns, part) = (Rc::new(columns), Rc::new(part));
+        let (same, whole) = (Rc::clone(&columns), Rc::clone(&part));
+        self.together(
+            names,
+            move |row| part(row).map(|part| columns.cells(&part)).unwrap_or_default(),
+            move |row| {
+                let part = whole(row).map(|part| same.object(&part));
+                Document::default().with_any(name, part)
+            },
+        )
+    }
+
+    /// The columns of `more` after these, if there are any.
+    pub fn and(mut self, more: Option<Self>) -> Self {
+        let more = more.unwrap_or_default();
+        self.files.extend(more.files);
+        self.texts.extend(more.texts);
+        self
+    }
+
+    fn together(
+        mut self,
+        names: Vec<String>,
+        cells: impl Fn(&R) -> Vec<Value> + 'a,
+        fields: impl Fn(&R) -> Document + 'a,
+    ) -> Self {
+        let (cells, fields) = (Box::new(cells), Box::new(fields));
+        self.files.push(FileColumns { names, cells, fields });
+        self
+    }
+
+    /// The rows as text.
+    pub fn table(&self, rows: impl IntoIterator<Item = R>) -> Table {
+        let titles = self.texts.iter().map(|column| column.title).collect();
+        let cells = |row| self.texts.iter().map(|column| (column.cell)(&row)).collect();
+        Table { titles, rows: rows.into_iter().map(cells).collect() }
+    }
+
+    /// The rows below a line of names.
+    pub fn csv(&self, rows: impl IntoIterator<Item = R>) -> String {
+        let cells = |row| self.cells(&row).iter().map(csv::cell).collect();
+        csv::lines(std::iter::once(self.names()).chain(rows.into_iter().map(cells)))
+    }
+
+    /// A row as an object.
+    pub fn object(&self, row: &R) -> Document {
+        let fields = self.files.iter().map(|columns| (columns.fields)(row));
+        fields.fold(Document::default(), |object, fields| object.and(&fields))
+    }
+
+    /// An object for each row.
+    pub fn objects(&self, rows: impl IntoIterator<Item = R>) -> Vec<Document> {
+        rows.into_iter().map(|row| self.object(&row)).collect()
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.files.iter().flat_map(|columns| columns.names.clone()).collect()
+    }
+
+    fn cells(&self, row: &R) -> Vec<Value> {
+        let filled = |columns: &FileColumns<R>| {
+            let mut cells = (columns.cells)(row);
+            cells.resize(columns.names.len(), Value::Null);
+            cells
+        };
+        self.files.iter().flat_map(filled).collect()
+    }
+}
+
+/// The names of the two ends of an interval.
+const ENDS: [&str; 2] = ["lower", "upper"];
+
+/// An interval in a document; an infinite end is null.
+pub fn bounds(it: Interval) -> Document {
+    Document::default().with(ENDS[0], it.lower()).with(ENDS[1], it.upper())
+}
+
+/// The fields of a record that are neither records nor lists.
+fn singles(record: &impl Serialize) -> Map<String, Value> {
+    let Value::Object(fields) = json::value(record) else { return Map::new() };
+    fields.into_iter().filter(|(_, value)| !value.is_object() && !value.is_array()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oscillator::State;
+
+    #[test]
+    fn a_column_is_told_once_for_every_form() {
+        let lost = Columns::default().bounds("loss", |loss: &Interval| Some(*loss));
+        let columns = Columns::default()
+            .number("margin", Quantity::of("m", 3).or("any"), |(size, _): &(Option<f64>, bool)| {
+                *size
+            })
+            .titled("smallest kick")
+            .word("kind", |_| "a,b")
+            .fields(&State { q: 0.0, v: 0.0 }, |(size, _)| size.map(|q| State { q, v: 1.0 }))
+            .part("lost", lost, |(_, is_lost)| {
+                is_lost.then_some(Interval::new(0.0, f64::INFINITY))
+            });
+        let rows = || [(Some(0.012_345), true), (None, false)];
+        let table = "smallest kick  kind\n      12.3 mm   a,b\n     any        a,b\n";
+        assert_eq!(columns.table(rows()).to_string(), table);
+        let csv = "margin,kind,q,v,loss_lower,loss_upper\n\
+                   0.012345,\"a,b\",0.012345,1.0,0.0,\n,\"a,b\",,,,\n";
+        assert_eq!(columns.csv(rows()), csv);
+        let objects = concat!(
+            r#"[{"margin":0.012345,"kind":"a,b","q":0.012345,"v":1.0,"#,
+            r#""lost":{"loss":{"lower":0.0,"upper":null}}},"#,
+            r#"{"margin":null,"kind":"a,b"}]"#,
+            "\n"
+        );
+        assert_eq!(json::text(&columns.objects(rows())), objects);
+    }
+}
