@@ -3,29 +3,31 @@
 use clap::Args;
 
 use super::failure::Failure;
-use super::input;
+use super::input::{self, WINDOW, given};
+use super::machine::input as of_machine;
+use super::machine::{MachineCase, SourceOptions, print};
 use super::output::{Certify, Format, Output};
-use super::start::StartOptions;
+use super::timing::timed;
 use crate::flow::Limits;
 use crate::proof::kicks::kicks;
 use crate::proof::{ParameterBox, prove};
-use crate::report::{basin as report, certified};
-use crate::study::basin::{SurveyedBasin, Window};
+use crate::report::{basin as report, certified, machine_motion};
+use crate::study::basin::SurveyedBasin;
 use crate::study::proved::agreed;
 
 /// Shows where the starts in a window end, and how large a kick is survived
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
-    start: StartOptions,
+    source: SourceOptions,
     #[command(flatten)]
     output: Output,
     #[command(flatten)]
     certify: Certify,
-    /// Displacements and velocities of the starts
-    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", default_value = "-3:3,-3:3",
-          value_parser = input::window, allow_hyphen_values = true)]
-    window: Window,
+    /// Displacements and velocities of the starts (default: -3:3,-3:3; of a machine one and a half times its largest
+    /// cycle, or its margin)
+    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", allow_hyphen_values = true)]
+    window: Option<String>,
     /// Number of starts, evenly spaced, including both ends of the window
     #[arg(long, value_name = "WxH", default_value = "320x384", value_parser = input::grid)]
     grid: (usize, usize),
@@ -33,9 +35,12 @@ pub struct Arguments {
 
 impl Arguments {
     pub fn run(&self) -> Result<(), Failure> {
-        self.start.note_own_method();
-        let parameters = self.start.problem()?.parameters;
-        let survey = || SurveyedBasin::of(&parameters, &self.window, self.grid, &Limits::PATIENT);
+        if let Some(case) = self.source.portrayed()? {
+            return self.of_machine(&case);
+        }
+        let parameters = self.source.start.problem()?.parameters;
+        let window = given("--window", self.window.as_ref(), input::window)?.unwrap_or(WINDOW);
+        let survey = || SurveyedBasin::of(&parameters, &window, self.grid, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the basin could not be completed", survey)?;
         let enclose = || {
             let proof = prove(&ParameterBox::from(&parameters), &[]);
@@ -50,5 +55,17 @@ impl Arguments {
             Format::Json => report::json(&found, certified.as_ref(), seconds),
             Format::Csv => report::csv(&found, certified.as_ref()),
         })
+    }
+
+    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
+        let window = given("--window", self.window.as_ref(), of_machine::window)?;
+        let (found, mut seconds) = case.portrait(&self.output)?;
+        let window = window.unwrap_or_else(|| found.surroundings());
+        let (counts, more) = timed(self.output.repeat, || found.count(&window, self.grid));
+        seconds += more;
+        let captured = found.rest_share(window.q, window.v);
+        let (head, subject) = (case.head(), &case.problem.subject);
+        let answer = machine_motion::basin(&head, subject, (&found, counts, captured), seconds);
+        print(&self.output, &answer)
     }
 }

@@ -7,23 +7,21 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::figure::completed;
-use super::input::{Over, method, page_file, tolerance};
-use super::machine::MachineCase;
-use super::machine::input::{StartOverride, assignment, disturbance, margin, range, start, window};
+use super::input::{method, page_file, tolerance};
+use super::machine::input::{StartOverride, assignment, disturbance, margin, start, window};
+use super::machine::{MachineCase, second, troubled};
 use super::output::{Format, Output, write};
 use super::timing::timed;
 use crate::figure::panels;
 use crate::flow::Limits;
 use crate::flow::Method;
-use crate::machine::branch::{borders, branch};
 use crate::machine::design::friction_for;
 use crate::machine::guarantee::guaranteed;
-use crate::machine::stepped::{ALLOWED, SteppedMethod};
+use crate::machine::stepped::SteppedMethod;
 use crate::machine::survey::{Course, CubicExpansion, Trouble};
 use crate::machine::{MachineProblem, Portrait, Subject, Tolerances};
 use crate::oscillator::unit::WithTolerance;
 use crate::oscillator::{Belt, Knob};
-use crate::report::belt::branch::{Borders, BranchAnswer};
 use crate::report::belt::{self, DesignAnswer, Head, MachineAnswer, OnBelt, RestShare};
 use crate::runtime::print::figure;
 use crate::runtime::provenance_file;
@@ -54,14 +52,6 @@ pub struct Arguments {
     /// Measures the window's displacements from the relaxed spring instead of the steady position
     #[arg(long, requires = "window")]
     elongation: bool,
-    /// Follows the cycles along a quantity and locates every bifurcation: Hopf, fold, grazing, annihilation ..
-    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
-          conflicts_with = "design")]
-    branch: Option<Over>,
-    /// With --branch: the bifurcations at each value of a second quantity
-    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = range, allow_hyphen_values = true,
-          requires = "branch")]
-    against: Option<Over>,
     /// Finds the friction R that a margin needs: a displacement ("2 mm") or an impulse ("0.1 N s")
     #[arg(long, value_name = "MARGIN", value_parser = margin, allow_hyphen_values = true)]
     design: Option<(Kick, f64)>,
@@ -73,8 +63,7 @@ pub struct Arguments {
     #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
     tol: Option<f64>,
     /// Also writes the answer as a page to print and sign: margins, cycles, pictures, SHA-256 of the machine file
-    #[arg(long, value_name = "FILE.html", value_parser = page_file,
-          conflicts_with = "branch")]
+    #[arg(long, value_name = "FILE.html", value_parser = page_file)]
     report: Option<PathBuf>,
     /// Replaces the page if the file holds something else
     #[arg(long, requires = "report")]
@@ -108,23 +97,6 @@ impl Arguments {
         case.checked()
     }
 
-    /// The method that computes the motion a second time, if one is asked for.
-    fn second(&self) -> Result<Option<SteppedMethod>, Failure> {
-        let Some(method) = self.method else { return Ok(None) };
-        let refused = |_| {
-            let line = format!(
-                "--method {method} knows one switching line only; a machine has two: allowed are {ALLOWED}"
-            );
-            Failure::Usage(line)
-        };
-        let Some(way) = SteppedMethod::of(method).map_err(refused)? else { return Ok(None) };
-        if self.branch.is_some() {
-            let line = "--method dop853 and dopri5 follow one motion; --branch has none";
-            return Err(Failure::Usage(line.to_owned()));
-        }
-        Ok(Some(way))
-    }
-
     /// The tolerance of the second method.
     fn dial(&self) -> f64 {
         self.tol.unwrap_or(Knob::Tolerance.usual())
@@ -136,13 +108,10 @@ impl Arguments {
     }
 
     pub fn run(&self) -> Result<(), Failure> {
-        let second = self.second()?;
+        let second = second(self.method)?;
         let mut case = self.case()?;
         case.problem.subject.tolerance = self.own(second);
-        let head = Head::new(&case.name, &case.title, &case.problem.subject.body);
-        if let Some(range) = self.branch {
-            return self.branched(&case.problem.subject, &head, range);
-        }
+        let head = case.head();
         let (found, seconds) =
             timed(self.output.repeat, || self.answer(&case.problem, &head, second));
         let answer = MachineAnswer { seconds, ..found.map_err(troubled)? };
@@ -183,32 +152,6 @@ impl Arguments {
         Ok(MachineAnswer { head, start: *start, course, rest_share, design, on_belt, seconds: 0.0 })
     }
 
-    /// The branch, or the changes along it at each value of another number.
-    fn branched(&self, subject: &Subject, head: &Head, range: Over) -> Result<(), Failure> {
-        let Over { knob: varied, ends, count } = range;
-        if let Some(other) = self.against {
-            let (rows, seconds) = timed(self.output.repeat, || {
-                let against = (other.knob, other.ends, other.count);
-                borders(subject, (varied, ends, count), against)
-            });
-            let (rows, varied) = (rows.map_err(Failure::Usage)?, (varied, other.knob));
-            let found = Borders { head, varied, rows, seconds };
-            return self.output.print(&match self.output.format {
-                Format::Table => belt::branch::borders_table(&found),
-                Format::Json => belt::branch::borders_json(&found),
-                Format::Csv => belt::branch::borders_csv(&found),
-            });
-        }
-        let (found, seconds) =
-            timed(self.output.repeat, || branch(subject.clone(), varied, ends, count));
-        let found = BranchAnswer { head, varied, branch: found.map_err(Failure::Usage)?, seconds };
-        self.output.print(&match self.output.format {
-            Format::Table => belt::branch::table(&found),
-            Format::Json => belt::branch::json(&found),
-            Format::Csv => belt::branch::csv(&found),
-        })
-    }
-
     fn share(&self, portrait: &Portrait) -> RestShare {
         let Some(Window { q: (from, to), v }) = self.window else {
             return RestShare::NotAsked;
@@ -237,14 +180,4 @@ fn pictures(case: &MachineCase) -> Result<Vec<String>, Failure> {
     let Some(scene) = case.scene()? else { return Ok(Vec::new()) };
     let (mut session, plots) = completed(Arc::new(scene))?;
     Ok(panels(&figure(&mut session, &plots, &Limits::PATIENT)))
-}
-
-/// Why a machine has no answer; an error in the machine itself counts as bad input.
-fn troubled(trouble: Trouble) -> Failure {
-    let line = format!("the belt could not be computed: {trouble}");
-    if trouble.is_of_the_machine() {
-        Failure::Usage(trouble.to_string())
-    } else {
-        Failure::Unanswered(line)
-    }
 }

@@ -4,31 +4,44 @@ use clap::Args;
 use rayon::prelude::*;
 
 use super::failure::Failure;
-use super::input::{self, Over};
+use super::input::{self, Over, given, read};
+use super::machine::input as of_machine;
+use super::machine::{MachineCase, SourceOptions, print};
 use super::output::{Certify, Format, Output};
-use super::start::StartOptions;
+use super::timing::timed;
 use crate::flow::Limits;
-use crate::oscillator::{Knob, State};
+use crate::machine::branch::borders;
+use crate::oscillator::{Belt, Knob, State};
 use crate::proof::ParameterBox;
 use crate::proof::escape::enclose_escape;
 use crate::proof::fold::enclose_fold;
 use crate::proof::range::change_near;
 use crate::report::border as report;
 use crate::report::certified::{self, BorderProof};
+use crate::report::machine_branch;
 use crate::study::fold::{Boundary as Found, BoundaryPoint, border};
 
 /// Continues the fold `D_F` and the escape point `D_c` in a second parameter
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
-    start: StartOptions,
+    source: SourceOptions,
     #[command(flatten)]
     output: Output,
     #[command(flatten)]
     certify: Certify,
-    /// The second parameter (D2, D3 or r), its range, and the number of values
-    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = second, allow_hyphen_values = true)]
-    over: Over,
+    /// The second parameter (D2, D3 or r, or a number of the machine), its range, and the number of values
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
+    over: String,
+    /// The number of the machine along which changes are located, in place of D, its range, and the number of
+    /// portraits between which they are sought (default: 60 belt speeds from a tenth of its own to three times)
+    #[arg(
+        long,
+        value_name = "NAME=FROM:TO:COUNT",
+        requires = "machine",
+        allow_hyphen_values = true
+    )]
+    along: Option<String>,
 }
 
 /// Reads the second parameter. The border is located along D and does not depend on the start of a motion.
@@ -45,10 +58,13 @@ fn second(text: &str) -> Result<Over, String> {
 
 impl Arguments {
     pub fn run(&self) -> Result<(), Failure> {
-        self.start.note_own_method();
-        let parameters = self.start.problem()?.parameters;
-        let Over { knob: symbol, count, .. } = self.over;
-        let range = self.over.range();
+        if let Some(case) = self.source.portrayed()? {
+            return self.of_machine(&case);
+        }
+        let parameters = self.source.start.problem()?.parameters;
+        let over = read("--over", &self.over, second)?;
+        let Over { knob: symbol, count, .. } = over;
+        let range = over.range();
         let follow = || border(&parameters, symbol, range, count, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the boundary could not be completed", follow)?;
         let certified = self.certify.ask(|| enclosed(&found));
@@ -58,6 +74,32 @@ impl Arguments {
             Format::Json => report::json(&found, certified.as_deref(), seconds),
             Format::Csv => report::csv(&found, certified.as_deref()),
         })
+    }
+
+    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
+        let over = read("--over", &self.over, of_machine::range)?;
+        let along = given("--along", self.along.as_ref(), of_machine::range)?;
+        let subject = &case.problem.subject;
+        let own = |belt: &Belt| {
+            let ends = (0.1 * belt.belt_speed, 3.0 * belt.belt_speed);
+            Over { knob: Knob::BeltSpeed, ends, count: 60 }
+        };
+        let along = along.or_else(|| subject.of_belt().map(own)).ok_or_else(|| {
+            Failure::Usage(
+                "a mode has no belt speed: along what? --along NAME=FROM:TO:COUNT".into(),
+            )
+        })?;
+        if along.knob == over.knob {
+            let line = format!("{} is varied twice, by --along and by --over", over.knob);
+            return Err(Failure::Usage(line));
+        }
+        let three = |Over { knob, ends, count }: Over| (knob, ends, count);
+        let (found, seconds) =
+            timed(self.output.repeat, || borders(subject, three(along), three(over)));
+        let found = found.map_err(Failure::Usage)?;
+        let head = case.head();
+        let knobs = (along.knob, over.knob);
+        print(&self.output, &machine_branch::border(&head, subject, knobs, found, seconds))
     }
 }
 

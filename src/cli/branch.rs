@@ -3,26 +3,30 @@
 use clap::Args;
 
 use super::failure::Failure;
-use super::input::{self, Over};
+use super::input::{self, Over, read};
+use super::machine::input as of_machine;
+use super::machine::{MachineCase, SourceOptions, print};
 use super::output::{Certify, Format, Output};
-use super::start::StartOptions;
+use super::timing::timed;
 use crate::flow::Limits;
+use crate::machine;
 use crate::proof::{self, ParameterBox};
-use crate::report::{branch as report, certified};
+use crate::report::{branch as report, certified, machine_branch};
 use crate::study::branch::{Points, branch};
 
 /// Follows the limit cycles along a parameter, with folds and other special points
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
-    start: StartOptions,
+    source: SourceOptions,
     #[command(flatten)]
     output: Output,
     #[command(flatten)]
     certify: Certify,
-    /// The parameter (D, D2, D3 or r), its range, and the approximate number of points
-    #[arg(long, value_name = "NAME=FROM:TO:COUNT", value_parser = parameter, allow_hyphen_values = true)]
-    over: Over,
+    /// The parameter (D, D2, D3 or r, or a number of the machine), its range, and the number of points, which is
+    /// approximate for D, D2, D3 and r
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
+    over: String,
 }
 
 /// A range of a parameter on which cycles depend.
@@ -36,11 +40,14 @@ fn parameter(text: &str) -> Result<Over, String> {
 
 impl Arguments {
     pub fn run(&self) -> Result<(), Failure> {
-        self.start.note_own_method();
-        let problem = self.start.problem()?;
+        if let Some(case) = self.source.portrayed()? {
+            return self.of_machine(&case);
+        }
+        let over = read("--over", &self.over, parameter)?;
+        let problem = self.source.start.problem()?;
         let (base, tolerance) = (&problem.parameters, problem.tolerance);
-        let Over { knob: symbol, count, .. } = self.over;
-        let range = self.over.range();
+        let Over { knob: symbol, count, .. } = over;
+        let range = over.range();
         let follow =
             || branch(base, symbol, range, Points::Even(count), tolerance, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the branch could not be completed", follow)?;
@@ -54,5 +61,16 @@ impl Arguments {
             Format::Json => report::json(&found, certified.as_ref(), seconds),
             Format::Csv => report::csv(&found, certified.as_ref()),
         })
+    }
+
+    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
+        let Over { knob, ends, count } = read("--over", &self.over, of_machine::range)?;
+        let subject = &case.problem.subject;
+        let (found, seconds) = timed(self.output.repeat, || {
+            machine::branch::branch(subject.clone(), knob, ends, count)
+        });
+        let found = found.map_err(Failure::Usage)?;
+        let head = case.head();
+        print(&self.output, &machine_branch::branch(&head, subject, (knob, &found), seconds))
     }
 }

@@ -6,8 +6,8 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input;
+use super::machine::{MachineCase, SourceOptions, print, troubled};
 use super::output::{Format, Output, write, write_source};
-use super::start::StartOptions;
 use super::timing::timed;
 use crate::check::check;
 use crate::closed_form::harmonics::MOST;
@@ -15,7 +15,7 @@ use crate::flow::{Limits, Reason};
 use crate::oscillator::Parameters;
 use crate::proof::certificate::{certificate, text};
 use crate::proof::{ParameterBox, Proof, prove};
-use crate::report::{certified, cycles as report, harmonic_balance, json};
+use crate::report::{certified, cycles as report, harmonic_balance, json, machine_motion};
 use crate::study;
 use crate::study::cycle::cycles;
 use crate::study::harmonic_error::{HarmonicBalance, convergence};
@@ -25,14 +25,14 @@ use crate::study::proved::proved;
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
-    start: StartOptions,
+    source: SourceOptions,
     #[command(flatten)]
     output: Output,
     /// Shows the harmonic balance beside the cycles: 1, 3, 5, .. up to N harmonics, and their errors
-    #[arg(long, value_name = "N", value_parser = harmonics)]
+    #[arg(long, value_name = "N", value_parser = harmonics, conflicts_with = "machine")]
     harmonics: Option<usize>,
     /// Writes the proof, step by step, for `hopfscope check`, and its provenance to FILE.provenance
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "machine")]
     certificate: Option<PathBuf>,
     /// Replaces a file that holds something else
     #[arg(long, requires = "certificate")]
@@ -46,12 +46,14 @@ fn harmonics(text: &str) -> Result<usize, String> {
 
 impl Arguments {
     pub fn run(&self) -> Result<(), Failure> {
-        self.start.note_own_method();
-        let known = self.start.known()?;
+        if let Some(case) = self.source.portrayed()? {
+            return self.of_machine(&case);
+        }
+        let known = self.source.start.known()?;
         if !known.is_point() {
             return self.run_box(&known);
         }
-        let problem = self.start.problem()?;
+        let problem = self.source.start.problem()?;
         let (found, seconds) = timed(self.output.repeat, || self.find(&problem.parameters));
         let CyclesAnswer { found, proof, rungs } = found?;
         self.certify(&proof)?;
@@ -64,6 +66,17 @@ impl Arguments {
             Format::Json => report::json(&found, &proof, rungs, seconds),
             Format::Csv => rungs.map_or_else(|| report::csv(&found, &proof), harmonic_balance::csv),
         })
+    }
+
+    /// Answers about a machine; fails where its friction law ends before all motions are known.
+    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
+        let (found, seconds) = case.portrait(&self.output)?;
+        let head = case.head();
+        print(
+            &self.output,
+            &machine_motion::cycles(&head, &case.problem.subject, &found, seconds),
+        )?;
+        found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop.into())))
     }
 
     /// Answers for all parameters in a box.

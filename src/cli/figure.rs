@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
 use super::input;
+use super::machine::SourceOptions;
 use super::output::{print, write};
-use super::start::StartOptions;
 use super::wrapped::columns;
 use crate::figure::{self as forms, FileForm};
 use crate::flow::Limits;
@@ -16,6 +16,7 @@ use crate::question::Fineness;
 use crate::runtime::print::{complete, figure};
 use crate::runtime::provenance_file;
 use crate::scene::Scene;
+use crate::scene::machine::mode::NO_BELT;
 use crate::session::{Session, Size};
 use crate::view::screen;
 use crate::view::{self, Look};
@@ -24,10 +25,10 @@ use crate::view::{self, Look};
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// Scene to show; each of its plots becomes a panel
-    #[arg(value_name = "NAME", conflicts_with = "scene")]
+    #[arg(value_name = "NAME", conflicts_with_all = ["scene", "machine"])]
     named: Option<String>,
     #[command(flatten)]
-    start: StartOptions,
+    source: SourceOptions,
     /// File to write; its extension sets the format: .svg, .png, .csv or .json
     #[arg(long, value_name = "FILE", value_parser = input::figure_file)]
     output: Option<(PathBuf, FileForm)>,
@@ -61,13 +62,7 @@ const NARROWEST: u16 = 40;
 
 impl Arguments {
     pub fn run(&self) -> Result<(), Failure> {
-        let Some(name) = self.named.as_deref().or(self.start.scene.as_deref()) else {
-            let line =
-                "which figure? Every scene has one, such as fig17; hopfscope scenes lists them";
-            return Err(Failure::Usage(line.to_owned()));
-        };
-        let scene = self.start.scene_named(name)?;
-        let (mut session, plots) = completed(scene)?;
+        let (mut session, plots) = completed(self.scene()?)?;
         let mut drawn =
             || figure(&mut session, &plots, &Limits::PATIENT).from(provenance_file::of_process());
         if let Some((path, form)) = &self.output {
@@ -80,6 +75,23 @@ impl Arguments {
             PrintForm::Csv => forms::csv(&drawn()),
             PrintForm::Svg => forms::svg(&drawn()),
         })
+    }
+}
+
+impl Arguments {
+    /// The scene to show: that of a machine, or one that is named.
+    fn scene(&self) -> Result<Arc<Scene>, Failure> {
+        if let Some(case) = self.source.machine()? {
+            let scene = case.checked()?.scene()?;
+            return scene.map(Arc::new).ok_or_else(|| Failure::Usage(NO_BELT.to_owned()));
+        }
+        let start = &self.source.start;
+        let Some(name) = self.named.as_deref().or(start.scene.as_deref()) else {
+            let line =
+                "which figure? Every scene has one, such as fig17; hopfscope scenes lists them";
+            return Err(Failure::Usage(line.to_owned()));
+        };
+        start.scene_named(name)
     }
 }
 

@@ -22,6 +22,15 @@ pub fn read<T>(
         .map_err(|why| Failure::Usage(format!("invalid value '{text}' for '{option}': {why}")))
 }
 
+/// Reads the text of an option if it is given.
+pub fn given<T>(
+    option: &str,
+    text: Option<&String>,
+    of_text: impl FnOnce(&str) -> Result<T, String>,
+) -> Result<Option<T>, Failure> {
+    text.map(|text| read(option, text, of_text)).transpose()
+}
+
 /// A whole number within a range.
 pub fn whole(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> {
     let (least, most) = (range.start(), range.end());
@@ -143,6 +152,9 @@ pub fn sides(text: &str, form: &str, read: [ReadNumber; 2]) -> Result<[(f64, f64
     };
     Ok([side(first, read[0])?, side(second, read[1])?])
 }
+
+/// The window where none is given.
+pub const WINDOW: Window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
 
 /// `QMIN:QMAX,VMIN:VMAX`.
 pub fn window(text: &str) -> Result<Window, String> {

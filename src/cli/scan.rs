@@ -12,7 +12,7 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use super::failure::Failure;
-use super::input::{self, read};
+use super::input::{self, WINDOW, given, read};
 use super::machine::input as of_machine;
 use super::machine::{MachineCase, SourceOptions};
 use super::output::holds_something;
@@ -28,7 +28,6 @@ use crate::runtime::scan_file::{LineRefusal, ScanFile};
 use crate::runtime::scanning::{Processors, Taker, rows};
 use crate::runtime::signals::exit_code;
 use crate::runtime::standard::{self, tell};
-use crate::study::basin::Window;
 use crate::study::kicks::RandomKick;
 use crate::study::measure::{Conditions, MEASURES, Measure};
 use crate::study::scan::{Scan, ScanRow, ScanSource, Sweep};
@@ -96,18 +95,6 @@ pub struct ScanCommand {
     header: HeaderWhen,
     #[command(flatten)]
     plan: Plan,
-}
-
-/// The window where none is given.
-const WINDOW: Window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
-
-/// Reads the text of an option if it is given.
-fn given<T>(
-    option: &str,
-    text: Option<&String>,
-    of_text: impl FnOnce(&str) -> Result<T, String>,
-) -> Result<Option<T>, Failure> {
-    text.map(|text| read(option, text, of_text)).transpose()
 }
 
 /// The starts over which some measures are taken.

@@ -24,7 +24,7 @@ pub struct StartOptions {
     pub set: Vec<String>,
 
     #[arg(long, value_name = "NAME", value_parser = input::method, help = methods_help())]
-    method: Option<Method>,
+    pub method: Option<Method>,
 
     /// Relative error per step, 1e-15 .. 0.01
     #[arg(long, value_name = "X", value_parser = input::tolerance, allow_hyphen_values = true)]

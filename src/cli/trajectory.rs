@@ -3,36 +3,46 @@
 use clap::Args;
 
 use super::failure::Failure;
-use super::input;
+use super::input::{self, given};
+use super::machine::{MachineCase, SourceOptions, print, second, troubled};
 use super::output::{Certify, Format, Output};
-use super::start::StartOptions;
 use super::timing::timed;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Limits, Outcome, Problem};
+use crate::flow::{Detail, Fate, Limits, Outcome, Problem};
+use crate::machine::motion::MachineState;
+use crate::machine::stepped::traced;
+use crate::machine::{MachineMotion, MachineProblem, ORDER};
 use crate::numerics::Interval;
-use crate::oscillator::State;
+use crate::oscillator::{Knob, State};
 use crate::proof::ParameterBox;
 use crate::proof::motion::{ProvedMotion, follow as enclosed};
+use crate::report::machine_motion::{self, FollowedMachine};
 use crate::report::{certified, trajectory as report};
 
 /// Computes one motion: its turning points, how it ends, where its energy goes
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
-    start: StartOptions,
+    source: SourceOptions,
     #[command(flatten)]
     output: Output,
     #[command(flatten)]
     certify: Certify,
     /// Time at which to stop, 0 .. 1e9 (default: the scene's)
-    #[arg(long, value_name = "T", value_parser = input::until, allow_hyphen_values = true)]
-    until: Option<f64>,
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    until: Option<String>,
 }
 
 impl Arguments {
     pub fn run(&self) -> Result<(), Failure> {
-        let mut problem = self.start.problem()?;
-        problem.until = self.until.unwrap_or(problem.until);
+        let until = self.until.as_ref();
+        if let Some(mut case) = self.source.machine()? {
+            let end = given("--until", until, |text| Knob::Duration.parse(text))?;
+            case.problem.until = end.unwrap_or(case.problem.until);
+            return self.of_machine(&case.checked()?);
+        }
+        let mut problem = self.source.start.problem()?;
+        problem.until = given("--until", until, input::until)?.unwrap_or(problem.until);
         let follow = |energy| {
             let detail = Detail { energy, ..Detail::default() };
             trajectory(&problem, detail, &Limits::PATIENT)
@@ -63,5 +73,46 @@ impl Arguments {
             }
             _ => Ok(()),
         }
+    }
+
+    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
+        let MachineProblem { subject, start: (x, v), until, .. } = &case.problem;
+        let model = subject.model().map_err(troubled)?;
+        let head = case.head();
+        let way = second(self.source.start.method)?;
+        let outcome = if let Some(way) = way {
+            let tolerance = self.source.start.tol.unwrap_or(Knob::Tolerance.usual());
+            let (found, seconds) =
+                timed(self.output.repeat, || traced(&model, way, tolerance, (*x, *v), *until));
+            let followed = FollowedMachine {
+                method: way.name(),
+                tolerance,
+                legs: &found.legs,
+                end: found.samples.last().copied().unwrap_or(MachineState { t: 0.0, x: *x, v: *v }),
+                outcome: found.outcome,
+                ledger: None,
+                evaluations: found.evaluations,
+                steps: found.steps,
+            };
+            print(&self.output, &machine_motion::motion(&head, &case.problem, followed, seconds))?;
+            found.outcome
+        } else {
+            let (found, seconds) =
+                timed(self.output.repeat, || MachineMotion::new(&model, *x, *v, *until));
+            let steps = found.curve.pieces.len() as u64;
+            let followed = FollowedMachine {
+                method: "taylor",
+                tolerance: model.tolerance,
+                legs: &found.legs,
+                end: found.end,
+                outcome: found.outcome,
+                ledger: Some(found.ledger),
+                evaluations: steps * ORDER as u64,
+                steps,
+            };
+            print(&self.output, &machine_motion::motion(&head, &case.problem, followed, seconds))?;
+            found.outcome
+        };
+        if let Fate::Unknown(stop) = outcome { Err(troubled(stop.into())) } else { Ok(()) }
     }
 }

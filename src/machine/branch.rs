@@ -4,8 +4,8 @@ use super::portrait::Portrait;
 use super::special::{MachineSpecial, between};
 use super::subject::Subject;
 use super::survey::Trouble;
-use crate::numerics::count::real;
 use crate::oscillator::Knob;
+use crate::study::basin::between as evenly;
 
 #[derive(Clone, Debug)]
 pub struct MachineBranchPoint {
@@ -21,15 +21,6 @@ pub struct MachineBranch {
     pub points: Vec<MachineBranchPoint>,
     /// Where the portrait changes, in the order of the points.
     pub special: Vec<MachineSpecial>,
-}
-
-/// Value number `index` of `count` evenly spaced ones, both ends included to the last bit.
-pub fn spaced((from, to): (f64, f64), index: usize, count: usize) -> f64 {
-    if index + 1 == count {
-        return to;
-    }
-    let part = real(index) / real(count - 1);
-    from + part * (to - from)
 }
 
 /// Follows the cycles of a machine along one of its numbers, through `count` values. Fails with one line, where the
@@ -54,7 +45,7 @@ pub fn branch_while(
 ) -> Result<MachineBranch, String> {
     // Where it is not wanted any more there is no machine, and the search for a change ends at once.
     let family = |value: f64| subject.with(varied, value).ok().filter(|_| wanted())?.model().ok();
-    let values = (0..count).map(|index| spaced(range, index, count));
+    let values = (0..count).map(|index| evenly(range, index, count));
     let points = points_while(subject, varied, values, wanted)?;
     let mut special = Vec::new();
     for pair in points.windows(2).take_while(|_| wanted()) {
@@ -86,7 +77,7 @@ pub fn borders(
     (against, values, rows): (Knob, (f64, f64), usize),
 ) -> Result<Vec<(f64, Vec<MachineSpecial>)>, String> {
     let row = |index| {
-        let value = spaced(values, index, rows);
+        let value = evenly(values, index, rows);
         let here = subject.with(against, value)?;
         Ok((value, branch(here, along, range, count)?.special))
     };

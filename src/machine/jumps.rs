@@ -35,7 +35,7 @@ impl Serialize for Jump {
         #[derive(Serialize)]
         struct To {
             kind: &'static str,
-            #[serde(skip_serializing_if = "Option::is_none")]
+            #[serde(rename = "q_max", skip_serializing_if = "Option::is_none")]
             x_max: Option<f64>,
         }
         let (kind, x_max) = match self.to {

@@ -20,6 +20,15 @@ pub struct Leg {
     pub x: f64,
 }
 
+/// The legs that begin where the mass comes to a standstill, after the start.
+pub fn turns(legs: &[Leg]) -> impl Iterator<Item = &Leg> {
+    let below = |leg: &Leg| leg.place == ContactState::Slips(Phase::Below);
+    let turns = move |pair: &&[Leg]| {
+        pair[1].place == ContactState::Rests || below(&pair[0]) != below(&pair[1])
+    };
+    legs.windows(2).filter(turns).map(|pair| &pair[1])
+}
+
 /// A state in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MachineState {
@@ -161,16 +170,6 @@ impl MachineMotion {
             curve,
             model: model.clone(),
         }
-    }
-
-    /// The legs that begin where the mass comes to a standstill, after the start.
-    pub fn turns(&self) -> impl Iterator<Item = &Leg> {
-        let below = ContactState::Slips(Phase::Below);
-        let turns = move |pair: &&[Leg]| {
-            pair[1].place == ContactState::Rests
-                || (pair[0].place == below) != (pair[1].place == below)
-        };
-        self.legs.windows(2).filter(turns).map(|pair| &pair[1])
     }
 
     /// The states at the ends of its steps and at this many places evenly between them.

@@ -4,6 +4,8 @@
 //! motions go one way, to the next cycle on that side. One evaluation in each gap therefore settles the fate of
 //! all starts; a start itself is followed only to its next right turning point.
 
+use rayon::prelude::*;
+
 use super::arc::{Flow, LostMotion};
 use super::curve::{CurvePiece, MachineCurve, Rectangle};
 use super::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
@@ -15,7 +17,7 @@ use super::turn::ContactState;
 use crate::flow::Fate;
 use crate::numerics::root::bisect;
 use crate::portrait::{Border, Cycle, Margin, Reach, RestMargin};
-use crate::study::basin::{Basin, Window};
+use crate::study::basin::{Basin, Counts, Window, between};
 
 /// The border of the basin of rest, as it was traced.
 #[derive(Clone, Debug)]
@@ -303,6 +305,37 @@ impl Portrait {
     fn fate_of_turn(&self, x: f64) -> Fate<LostMotion> {
         let gap = self.gaps.iter().find(|gap| x <= gap.to).or(self.gaps.last());
         gap.map_or(Fate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
+    }
+
+    /// A window, in m and m/s, half as large again as the largest cycle, or as the margin where there is none.
+    #[must_use]
+    pub fn surroundings(&self) -> Window {
+        const ROOM: f64 = 1.5;
+        let far = |(low, high): (f64, f64)| low.abs().max(high.abs());
+        let size = |it: &Cycle| (far((it.q_min, it.q_max)), far((it.v_min, it.v_max)));
+        let sizes = self.cycles.iter().map(size);
+        let margin = self.reach.map(|reach| (far(reach.displacement), far(reach.velocity)));
+        let held = self.model.guide_static.max(self.model.pull);
+        let sizes = sizes.chain(margin).filter(|(x, v)| *x > 0.0 && *v > 0.0);
+        let (x, v) = sizes
+            .reduce(|one, other| (one.0.max(other.0), one.1.max(other.1)))
+            .unwrap_or((held, held * self.model.omega_0));
+        Window { q: (-ROOM * x, ROOM * x), v: (-ROOM * v, ROOM * v) }
+    }
+
+    /// Where the starts of a window end, evenly spaced, including both of its ends.
+    #[must_use]
+    pub fn count(&self, window: &Window, (columns, rows): (usize, usize)) -> Counts {
+        let of_row = |row| {
+            let mut counts = Counts::default();
+            for column in 0..columns {
+                let x = between(window.q, column, columns);
+                let fate = self.fate(x, between(window.v, row, rows));
+                counts.add(fate.unwrap_or_else(Fate::Unknown), 1);
+            }
+            counts
+        };
+        (0..rows).into_par_iter().map(of_row).reduce(Counts::default, Counts::and)
     }
 
     /// The fraction of a window, in m and m/s, from which the mass comes to rest; `None` if motions from the window

@@ -43,6 +43,7 @@ pub struct MachineSpecial {
     /// Value of the number that varies, in SI units.
     pub value: f64,
     /// Largest displacement of the cycle that it happens to, in m; none at rest.
+    #[serde(rename = "q_max")]
     pub x_max: Option<f64>,
     /// The stable states that end there.
     pub jumps: Jumps,

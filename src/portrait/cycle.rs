@@ -78,6 +78,12 @@ impl Cycle {
         self.ride.is_some()
     }
 
+    /// `stick-slip` or `slip`.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        if self.sticks() { "stick-slip" } else { "slip" }
+    }
+
     /// Time per period on the belt.
     #[must_use]
     pub fn stick_duration(&self) -> f64 {

@@ -6,14 +6,13 @@ use super::kind::Question;
 use super::resources::Resources;
 use crate::flow::quality::DRAFT;
 use crate::flow::{Cost, Reason};
-use crate::machine::branch::{
-    MachineBranch, MachineBranchPoint, branch_while, points_while, spaced,
-};
+use crate::machine::branch::{MachineBranch, MachineBranchPoint, branch_while, points_while};
 use crate::machine::special::MachineSpecial;
 use crate::machine::{ORDER, Subject};
 use crate::oscillator::Belt;
 use crate::oscillator::Knob;
 use crate::portrait::{Border, Cycle};
+use crate::study::basin::between;
 
 /// The cycles over the speed of the belt, and where they change.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +62,7 @@ impl Inputs {
         let subject = Subject::from(self.belt.as_ref());
         if self.rough {
             let subject = Subject { tolerance: Some(DRAFT.tolerance), ..subject };
-            let values = (0..FEW).map(|index| spaced(self.range, index, FEW));
+            let values = (0..FEW).map(|index| between(self.range, index, FEW));
             let points = points_while(&subject, VARIED, values, go)?;
             return Ok(MachineBranch { points, special: Vec::new() });
         }

@@ -19,10 +19,7 @@ impl CsvSheet {
     ///
     /// `called` renames columns: `(field, name)`.
     pub fn like(row: &impl Serialize, called: &[(&str, &str)]) -> Self {
-        let single = |(_, value): &(String, Value)| !value.is_object() && !value.is_array();
-        let names: Vec<String> =
-            fields(row).into_iter().filter(single).map(|(name, _)| name).collect();
-        let mut sheet = CsvSheet { names, out: Writer::from_writer(Vec::new()) };
+        let mut sheet = CsvSheet { names: names(row), out: Writer::from_writer(Vec::new()) };
         let shown = |name: &String| {
             let other = called.iter().find(|(field, _)| field == name);
             other.map_or(name.clone(), |(_, other)| (*other).to_owned())
@@ -64,7 +61,13 @@ const FROM_REST: &str = "from_rest";
 /// The field of a row that holds what is proved about it.
 const CERTIFIED: &str = "certified";
 
-fn fields(row: &impl Serialize) -> Map<String, Value> {
+/// The fields of rows like this one that have a column.
+pub(super) fn names(row: &impl Serialize) -> Vec<String> {
+    let single = |(_, value): &(String, Value)| !value.is_object() && !value.is_array();
+    fields(row).into_iter().filter(single).map(|(name, _)| name).collect()
+}
+
+pub(super) fn fields(row: &impl Serialize) -> Map<String, Value> {
     let Ok(Value::Object(told)) = serde_json::to_value(row) else { return Map::new() };
     let mut fields = Map::new();
     for (name, value) in told {

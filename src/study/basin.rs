@@ -66,8 +66,19 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Counts one start more.
-    pub fn add(&mut self, fate: Fate, starts: u64) {
+    /// Both together.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Counts {
+            captured: self.captured + other.captured,
+            cycle: self.cycle + other.cycle,
+            escaped: self.escaped + other.escaped,
+            undecided: self.undecided + other.undecided,
+        }
+    }
+
+    /// Counts starts with one fate.
+    pub fn add<Why: Copy>(&mut self, fate: Fate<Why>, starts: u64) {
         match fate {
             Fate::Rest => self.captured += starts,
             Fate::Cycle(_) => self.cycle += starts,
@@ -263,7 +274,7 @@ impl SurveyedBasin {
 }
 
 /// Value number `index` of `count` evenly spaced over a range, both ends included.
-pub(super) fn between(range: (f64, f64), index: usize, count: usize) -> f64 {
+pub(crate) fn between(range: (f64, f64), index: usize, count: usize) -> f64 {
     if index + 1 == count && count > 1 {
         return range.1;
     }

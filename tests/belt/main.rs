@@ -1,5 +1,6 @@
 //! `hopfscope belt`: machines in physical units, from files to answers.
 
+mod commands;
 mod explorer;
 mod guarantee;
 #[path = "../program/mod.rs"]
@@ -25,6 +26,14 @@ fn belt(words: &[&str]) -> Value {
     let words: Vec<&str> = ["belt"].into_iter().chain(words.iter().copied()).collect();
     let ran = run(&[&words[..], &["--format", "json"]].concat());
     assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{words:?}");
+    serde_json::from_str(&ran.out).unwrap()
+}
+
+/// The document of a command about a machine.
+fn about(command: &str, machine: &str, words: &[&str]) -> Value {
+    let line = [&[command, "--machine", machine, "--format", "json"], words].concat();
+    let ran = run(&line);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{command} {words:?}");
     serde_json::from_str(&ran.out).unwrap()
 }
 
@@ -263,7 +272,7 @@ fn a_mode_is_answered_by_the_same_command() {
     // Without a belt there is no belt speed, and there are no tolerances.
     for (option, value, words) in [
         ("--set", "v0=1", "no v0 here; there are R, R_static, frequency"),
-        ("--branch", "mu_s=0.1:1:3", "no mu_s here; there are"),
+        ("--set", "mu_s=0.1", "no mu_s here; there are"),
         ("--set", "ratio3=1", "no ratio3 here; there are"),
         ("--set", "R=3N+-1N", "takes no tolerances"),
         ("--disturbance", "1 N", "no --disturbance"),
@@ -340,8 +349,8 @@ fn a_mode_is_set_swept_followed_and_designed_as_a_belt_is() {
     // fed in, at a ratio that increases with friction.
     let bounded = text.replace("[-0.05]", "[-0.05, 0, 0.02]");
     fs::write(&path, bounded).unwrap();
-    let folds = belt(&[name, "--branch", "ratio0=-0.2:0.05:6", "--against", "R=1:3:3"]);
-    let rows = folds["rows"].as_array().unwrap();
+    let folds = about("border", name, &["--along", "ratio0=-0.2:0.05:6", "--over", "R=1:3:3"]);
+    let rows = folds["points"].as_array().unwrap();
     let values: Vec<f64> = rows
         .iter()
         .map(|row| {
@@ -354,7 +363,7 @@ fn a_mode_is_set_swept_followed_and_designed_as_a_belt_is() {
         .collect();
     assert!(values[0] > values[1] && values[1] > values[2] && values[0] < 0.0, "{values:?}");
     // --tol also applies along a branch.
-    let coarse = belt(&[name, "--branch", "ratio0=-0.2:0.05:6", "--tol", "1e-6"]);
+    let coarse = about("branch", name, &["--over", "ratio0=-0.2:0.05:6", "--tol", "1e-6"]);
     let error = (number(&coarse["special"][0]["value"]) - values[2]).abs();
     assert!(error > 0.0 && error < 1e-5, "{error:e}");
     assert_eq!(coarse["special"][0]["jumps"]["up"]["to"]["kind"], "rest");
@@ -466,7 +475,6 @@ fn bad_input_is_refused_in_one_line_with_what_is_allowed() {
             "v0 = 0 m/s is outside its range 1e-12 .. 1e12 m/s; a belt at rest only brakes",
         ),
         (&["textbook", "--design", "2"], "expected a displacement, such as \"2 mm\""),
-        (&["textbook", "--branch", "v0=1:2"], "expected NAME=FROM:TO:COUNT"),
         (&["slideway", "--set", "v0=1"], "v0 = 1 m/s is outside the friction law"),
     ] {
         let ran = run(&[&["belt"], words].concat());

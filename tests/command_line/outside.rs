@@ -68,7 +68,7 @@ fn command_lines(folder: &Path, text: &str) -> Vec<Vec<String>> {
         &["belt", &machine, "--report", &pages[0]],
         &["belt", &machine, "--format", "csv"],
         &["belt", &machine, "--format", "json"],
-        &["belt", &machine, "--branch", "v0=0.2 m/s:0.3 m/s:2"],
+        &["branch", "--machine", &machine, "--over", "v0=0.2 m/s:0.3 m/s:2"],
         &["belt", &torn],
         &["belt", &missing],
         &["belt", "--set", text],

@@ -217,7 +217,6 @@ fn a_page_replaces_nothing_unasked() {
         (&["fit", &record, "--report", "page"], "a page ends in .html"),
         (&["belt", "groan", "--force"], "--report"),
         (&["fit", &record, "--force"], "--report"),
-        (&["belt", "groan", "--report", name, "--branch", "v0=0.1:0.2:2"], "--branch"),
     ] {
         run(line).is_refused(&[words]);
     }

@@ -6,13 +6,21 @@ use std::path::Path;
 use std::sync::Arc;
 
 use clap::Args;
+use serde::Serialize;
 
 use super::failure::Failure;
 use super::input::read;
+use super::output::{Format, Output};
 use super::start::StartOptions;
-use crate::machine::{Body, MachineProblem, Tolerances};
+use super::timing::timed;
+use crate::flow::Method;
+use crate::machine::stepped::{ALLOWED, SteppedMethod};
+use crate::machine::survey::Trouble;
+use crate::machine::{Body, MachineProblem, Portrait, Tolerances};
 use crate::oscillator::unit::WithTolerance;
 use crate::oscillator::{Group, Knob};
+use crate::report::belt::Head;
+use crate::report::machine::MachineReport;
 use crate::report::page::Source;
 use crate::runtime::standard::tell;
 use crate::runtime::{bounded, source_file};
@@ -110,6 +118,17 @@ impl MachineCase {
         })
     }
 
+    /// The heading of an answer about it.
+    pub fn head(&self) -> Head<'_> {
+        Head::new(&self.name, &self.title, &self.problem.subject.body)
+    }
+
+    /// All of its motions, and the median time to find them.
+    pub fn portrait(&self, output: &Output) -> Result<(Portrait, f64), Failure> {
+        let (found, seconds) = timed(output.repeat, || self.problem.subject.portrait());
+        Ok((found.map_err(troubled)?, seconds))
+    }
+
     /// Sets numbers, each with or without a tolerance.
     pub fn set(&mut self, set: &[(Knob, WithTolerance)]) -> Result<(), Failure> {
         for &(knob, WithTolerance { middle, half_width, .. }) in set {
@@ -159,6 +178,38 @@ impl MachineCase {
     }
 }
 
+/// Prints an answer about a machine.
+pub fn print<D: Serialize, R: Serialize>(
+    output: &Output,
+    answer: &MachineReport<D, R>,
+) -> Result<(), Failure> {
+    output.print(&match output.format {
+        Format::Table => answer.table(),
+        Format::Json => answer.json(),
+        Format::Csv => answer.csv(),
+    })
+}
+
+/// Why a machine has no answer; an error in the machine itself counts as bad input.
+pub fn troubled(trouble: Trouble) -> Failure {
+    let line = format!("the machine could not be computed: {trouble}");
+    if trouble.is_of_the_machine() {
+        Failure::Usage(trouble.to_string())
+    } else {
+        Failure::Unanswered(line)
+    }
+}
+
+/// The method that follows a motion in place of Taylor series, if one is asked for.
+pub fn second(method: Option<Method>) -> Result<Option<SteppedMethod>, Failure> {
+    let Some(method) = method else { return Ok(None) };
+    SteppedMethod::of(method).map_err(|_| {
+        Failure::Usage(format!(
+            "--method {method} knows one switching line only; a machine has two: allowed are {ALLOWED}"
+        ))
+    })
+}
+
 /// What a command is about: the motion of a scene, or a machine.
 #[derive(Clone, Debug, Args)]
 pub struct SourceOptions {
@@ -171,6 +222,21 @@ pub struct SourceOptions {
 }
 
 impl SourceOptions {
+    /// The machine to which a question about all motions is put, if it is about one. These are followed by Taylor series
+    /// alone.
+    pub fn portrayed(&self) -> Result<Option<MachineCase>, Failure> {
+        let Some(case) = self.machine()? else {
+            self.start.note_own_method();
+            return Ok(None);
+        };
+        if second(self.start.method)?.is_some() {
+            let line =
+                "all motions of a machine are followed by Taylor series: --method auto or taylor";
+            return Err(Failure::Usage(line.to_owned()));
+        }
+        Ok(Some(case.checked()?))
+    }
+
     /// The machine with the values set on the command line, if it is about one.
     pub fn machine(&self) -> Result<Option<MachineCase>, Failure> {
         let Some(name) = &self.machine else { return Ok(None) };

@@ -233,18 +233,13 @@ impl PortraitDocument {
 impl MachineCycleDocument {
     pub(super) fn new(cycle: &Cycle) -> Self {
         MachineCycleDocument {
-            kind: kind(cycle),
+            kind: cycle.kind(),
             overtakes: cycle.overtakes,
             stable: cycle.stable,
             numbers: cycle.into(),
             log_multiplier: Some(cycle.log_multiplier).filter(|it| it.is_finite()),
         }
     }
-}
-
-/// `stick-slip` or `slip`.
-pub(super) fn kind(cycle: &Cycle) -> &'static str {
-    if cycle.sticks() { "stick-slip" } else { "slip" }
 }
 
 #[derive(Serialize)]

@@ -1,7 +1,6 @@
 //! The motions of a mass on a belt or of a vibration mode, in physical units; for a belt also by the oscillator of
 //! the paper.
 
-pub mod branch;
 mod document;
 mod expansion;
 mod page;
@@ -9,6 +8,7 @@ mod table;
 
 pub use document::json;
 pub use page::page;
+pub(super) use table::{border, gaps};
 pub use table::{csv, table};
 
 use serde::Serialize;
@@ -120,16 +120,16 @@ impl<'a> Head<'a> {
         Head { name, title, numbers }
     }
 
-    /// The numbers in one line, without `omitted`.
-    fn numbers_without(&self, omitted: &str) -> String {
-        let shown = self.numbers.iter().filter(|(name, _)| name != omitted);
+    /// The numbers in one line, without those that are `omitted`.
+    pub(super) fn numbers_without(&self, omitted: &[&str]) -> String {
+        let shown = self.numbers.iter().filter(|(name, _)| !omitted.contains(&name.as_str()));
         let shown = shown.map(|(name, value)| format!("{name} = {value}"));
         shown.collect::<Vec<_>>().join(", ")
     }
 }
 
 /// Significant digits of a physical quantity in text.
-const PLACES: usize = 5;
+pub(super) const PLACES: usize = 5;
 
 impl DesignAnswer {
     /// The friction needed, in N; `None` if any suffices.

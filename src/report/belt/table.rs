@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use super::document::kind;
 use super::expansion::Expansion;
 use super::{MachineAnswer, OnBelt, PLACES};
 use crate::flow::Fate;
@@ -69,7 +68,7 @@ fn rows(
 /// The whole answer about a machine as text.
 pub fn table(answer: &MachineAnswer) -> String {
     let (head, portrait) = (answer.head, &answer.course.portrait);
-    let mut out = format!("{}: {}\n{}\n", head.name, head.title, head.numbers_without(""));
+    let mut out = format!("{}: {}\n{}\n", head.name, head.title, head.numbers_without(&[]));
     out += &answer.on_belt.as_ref().map_or_else(
         || survived(portrait),
         |OnBelt { expansion, .. }| {
@@ -152,7 +151,7 @@ pub(super) fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
 }
 
 /// The border of the basin of rest, in a sentence.
-pub(super) fn border(portrait: &Portrait) -> &'static str {
+pub(in crate::report) fn border(portrait: &Portrait) -> &'static str {
     match portrait.border {
         Border::Unknown(_) => "every kick within the margin is survived; larger ones are not known",
         Border::None => "every kick is survived: whatever happens, the mass comes to rest",
@@ -256,7 +255,7 @@ fn guaranteed(
 }
 
 /// What is not known about the motions, one line each.
-pub(super) fn gaps(portrait: &Portrait) -> Vec<String> {
+pub(in crate::report) fn gaps(portrait: &Portrait) -> Vec<String> {
     let length = |x| with_unit(x, PLACES, "m");
     let limit = portrait.stop.map(|stop| {
         format!("motions that turn beyond x = {} are not known: {stop}", length(portrait.known))
@@ -284,7 +283,7 @@ pub(super) const CYCLE: &[&str] =
 /// The kind of a cycle, then the cells of these columns.
 pub(super) fn cells(cycle: &Cycle) -> Vec<String> {
     let over = if cycle.overtakes { ", overtaking" } else { "" };
-    let mut cells = vec![format!("{} {}{over}", stability(cycle.stable), kind(cycle))];
+    let mut cells = vec![format!("{} {}{over}", stability(cycle.stable), cycle.kind())];
     let ([from, to], [slowest, fastest]) = ([cycle.q_min, cycle.q_max], [cycle.v_min, cycle.v_max]);
     let numbers = [(from, "m"), (to, "m"), (slowest, "m/s"), (fastest, "m/s")];
     let times = [(cycle.period, "s"), (cycle.stick_duration(), "s")];
@@ -311,7 +310,7 @@ pub(super) fn fate((x, v): (f64, f64), course: &Course) -> String {
         }
         Fate::Cycle(index) => {
             let cycle = &course.portrait.cycles[index];
-            format!("ends on the {} cycle up to x = {}", kind(cycle), length(cycle.q_max))
+            format!("ends on the {} cycle up to x = {}", cycle.kind(), length(cycle.q_max))
         }
         Fate::Neutral => "is periodic, one of a family".to_owned(),
         Fate::Moving => "still moves".to_owned(),
@@ -383,7 +382,7 @@ pub fn csv(answer: &MachineAnswer) -> String {
         }
     }
     for (index, cycle) in portrait.cycles.iter().enumerate() {
-        let lead = format!("{} {} cycle {index}", stability(cycle.stable), kind(cycle));
+        let lead = format!("{} {} cycle {index}", stability(cycle.stable), cycle.kind());
         for (name, value, unit) in [
             ("x_min", cycle.q_min, "m"),
             ("x_max", cycle.q_max, "m"),

@@ -8,6 +8,7 @@ use super::table::{Measure, MeasureNeed, Value, needs_of};
 use crate::flow::{Cost, Fate, Limits, Reason};
 use crate::machine::design::friction_for;
 use crate::machine::guarantee::guaranteed;
+use crate::machine::motion::turns;
 use crate::machine::survey::Trouble;
 use crate::machine::{MachineMotion, MachineProblem, Portrait};
 use crate::portrait::Margin;
@@ -133,6 +134,6 @@ impl MachinePoint {
             Fate::Unknown(_) => return [Value::Word("gave-up"), Value::Nothing, Value::Nothing],
             Fate::Cycle(_) | Fate::Neutral | Fate::Moving => "moving",
         };
-        [Value::Word(word), motion.end.t.into(), Value::Count(motion.turns().count())]
+        [Value::Word(word), motion.end.t.into(), Value::Count(turns(&motion.legs).count())]
     }
 }
