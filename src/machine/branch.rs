@@ -1,5 +1,7 @@
 //! The cycles of a machine along one of its numbers, and the places where they change.
 
+use rayon::prelude::*;
+
 use super::portrait::Portrait;
 use super::special::{MachineSpecial, between};
 use super::subject::Subject;
@@ -34,39 +36,40 @@ pub fn branch(
     branch_while(&subject.into(), varied, range, count, &|| true)
 }
 
-/// The same as long as it is wanted: a branch that is not ends early. Fails with one line, where the machine's law
-/// has no such number.
+/// The same as long as it is wanted, on all cores: a branch that is not ends early. Fails with one line, where the
+/// machine's law has no such number.
 pub fn branch_while(
     subject: &Subject,
     varied: Knob,
     range: (f64, f64),
     count: usize,
-    wanted: &dyn Fn() -> bool,
+    wanted: &(dyn Fn() -> bool + Sync),
 ) -> Result<MachineBranch, String> {
     // Where it is not wanted any more there is no machine, and the search for a change ends at once.
     let family = |value: f64| subject.with(varied, value).ok().filter(|_| wanted())?.model().ok();
-    let values = (0..count).map(|index| evenly(range, index, count));
+    let values = (0..count).map(|index| evenly(range, index, count)).collect();
     let points = points_while(subject, varied, values, wanted)?;
-    let mut special = Vec::new();
-    for pair in points.windows(2).take_while(|_| wanted()) {
-        if let (Ok(one), Ok(other)) = (&pair[0].found, &pair[1].found) {
-            special.extend(between(&family, (pair[0].value, one), (pair[1].value, other)));
+    let changes = |pair: &[MachineBranchPoint]| match (&pair[0].found, &pair[1].found) {
+        (Ok(one), Ok(other)) if wanted() => {
+            between(&family, (pair[0].value, one), (pair[1].value, other))
         }
-    }
+        _ => Vec::new(),
+    };
+    let special = points.par_windows(2).flat_map_iter(changes).collect();
     Ok(MachineBranch { points, special })
 }
 
-/// What a machine does at values of one of its numbers, as long as that is wanted. Fails with one line, where the
-/// machine's law has no such number.
+/// What a machine does at values of one of its numbers, on all cores and as long as that is wanted. Fails with one
+/// line, where the machine's law has no such number.
 pub fn points_while(
     subject: &Subject,
     varied: Knob,
-    values: impl Iterator<Item = f64>,
-    wanted: &dyn Fn() -> bool,
+    values: Vec<f64>,
+    wanted: &(dyn Fn() -> bool + Sync),
 ) -> Result<Vec<MachineBranchPoint>, String> {
     let point =
         |value| Ok(MachineBranchPoint { value, found: subject.with(varied, value)?.portrait() });
-    values.take_while(|_| wanted()).map(point).collect()
+    values.into_par_iter().filter(|_| wanted()).map(point).collect()
 }
 
 /// The special values along one number, at each value of another. Fails with one line, where the machine's law has

@@ -64,8 +64,12 @@ impl Fall {
 
     /// `drop exp(..)` with the sign with which it acts on the mass.
     pub fn full(&self, y: f64) -> f64 {
-        let force = self.drop * exp(-self.power(self.slip(y)));
-        if self.above { -force } else { force }
+        self.sign() * self.drop * exp(-self.power(self.slip(y)))
+    }
+
+    /// The sign with which friction acts on the mass.
+    pub fn sign(&self) -> f64 {
+        if self.above { -1.0 } else { 1.0 }
     }
 
     /// Its part of the force: below the belt's speed less that at rest, with all digits near rest.
@@ -86,15 +90,19 @@ impl Fall {
         }
     }
 
-    /// Derivative of [`Self::value`].
-    pub fn slope(&self, y: f64) -> f64 {
-        let slip = self.slip(y);
+    /// Derivative of the exponent by the slip.
+    pub fn steepness(&self, y: f64) -> f64 {
         let steepness = if self.exponent == 1.0 {
             1.0
         } else {
-            self.exponent * pow(slip / self.velocity, self.exponent - 1.0)
+            self.exponent * pow(self.slip(y) / self.velocity, self.exponent - 1.0)
         };
-        self.drop * exp(-self.power(slip)) * steepness / self.velocity
+        steepness / self.velocity
+    }
+
+    /// Derivative of [`Self::value`].
+    pub fn slope(&self, y: f64) -> f64 {
+        self.sign() * self.full(y) * self.steepness(y)
     }
 }
 

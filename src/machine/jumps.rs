@@ -10,7 +10,7 @@ use crate::flow::Fate;
 use crate::portrait::Border;
 
 /// The model along a number: `None` where there is none.
-pub type Family<'a> = &'a dyn Fn(f64) -> Option<Model>;
+pub type Family<'a> = &'a (dyn Fn(f64) -> Option<Model> + Sync);
 
 /// The end of a stable state.
 #[derive(Clone, Copy, Debug, PartialEq)]

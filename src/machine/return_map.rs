@@ -7,7 +7,6 @@
 use super::arc::{Flow, LostMotion, SeriesStep, Watch};
 use super::model::{Model, Phase};
 use super::turn::{ContactState, Turn};
-use crate::numerics::polynomial::value;
 use crate::numerics::quadrature::gauss;
 
 /// The integral of the divergence of the field along a motion.
@@ -15,10 +14,8 @@ use crate::numerics::quadrature::gauss;
 pub struct Divergence(pub f64);
 
 impl Watch for Divergence {
-    fn step(&mut self, model: &Model, step: &SeriesStep) {
-        let slope =
-            |node: f64| model.force(step.phase, value(&step.series.y, node * step.duration)).1;
-        self.0 += gauss(slope) * step.duration;
+    fn step(&mut self, _: &Model, step: &SeriesStep) {
+        self.0 += gauss(|node| step.series.force_slope(node * step.duration)) * step.duration;
     }
 }
 

@@ -7,7 +7,7 @@
 use super::force::{Fall, ForceBranch, ForcePiece};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{exp2, log2, pow};
-use crate::numerics::polynomial::{reciprocals, value_and_slope};
+use crate::numerics::polynomial::{reciprocals, value, value_and_slope};
 
 /// Order of the series; near the one that costs least at full precision.
 pub const ORDER: usize = 20;
@@ -37,7 +37,10 @@ pub struct Series {
     rows: Vec<Terms>,
     /// Powers of the slip up to the exponent of the falling part.
     powers: Vec<Terms>,
-    /// The falling part.
+    /// The derivative of the last of them, each term multiplied by its time.
+    slopes: Terms,
+    /// The falling part, if it counts here.
+    falling: Option<Fall>,
     fall: Terms,
 }
 
@@ -49,6 +52,8 @@ impl Series {
             local: Vec::new(),
             rows: Vec::new(),
             powers: Vec::new(),
+            slopes: [0.0; TERMS],
+            falling: None,
             fall: [0.0; TERMS],
         }
     }
@@ -79,9 +84,10 @@ impl Series {
             self.rows[row][0] = self.local[row + 1];
         }
         let mut force = self.local[0];
-        if let Some(fall) = side.fall.as_ref().filter(|_| piece.falls) {
+        self.falling = side.fall.filter(|_| piece.falls);
+        if let Some(fall) = self.falling {
             force += fall.value(y);
-            self.begin_fall(fall, y);
+            self.begin_fall(&fall, y);
         }
         (self.x[0], self.y[0]) = (x, y);
         for k in 0..ORDER {
@@ -95,8 +101,8 @@ impl Series {
             self.x[k + 1] = factor * self.y[k];
             self.y[k + 1] = factor * rate;
             force = self.polynomial(k + 1, degree);
-            if let Some(fall) = side.fall.as_ref().filter(|_| piece.falls) {
-                force += self.next_fall(fall, k + 1);
+            if let Some(fall) = self.falling {
+                force += self.next_fall(&fall, k + 1);
             }
         }
     }
@@ -138,7 +144,7 @@ impl Series {
 
     /// Coefficient k of the exponential part, k > 0: `E' = -((slip/velocity)^n)' E`.
     fn next_fall(&mut self, fall: &Fall, k: usize) -> f64 {
-        let toward = if fall.above { 1.0 } else { -1.0 } / fall.velocity;
+        let toward = -fall.sign() / fall.velocity;
         if let Some(exponent) = whole(fall) {
             self.powers[0][k] = toward * self.y[k];
             for row in 1..exponent {
@@ -154,9 +160,8 @@ impl Series {
             self.powers[0][k] = sum / ratio * INVERSE[k];
         }
         let last = self.powers.len() - 1;
-        let power = &self.powers[last];
-        let sum: f64 = (1..=k).map(|j| real(j) * power[j] * self.fall[k - j]).sum();
-        self.fall[k] = -sum * INVERSE[k];
+        self.slopes[k] = real(k) * self.powers[last][k];
+        self.fall[k] = -product(&self.slopes, &self.fall, k) * INVERSE[k];
         self.fall[k]
     }
 
@@ -169,6 +174,14 @@ impl Series {
             if term > 0.0 { log2(aim * size / term) * INVERSE[k] } else { f64::INFINITY }
         };
         exp2((ORDER - 2..=ORDER).map(allowed).fold(f64::INFINITY, f64::min))
+    }
+
+    /// The derivative of the force by the velocity, the divergence of the field. The exponential is that of the series.
+    pub fn force_slope(&self, t: f64) -> f64 {
+        let y = value(&self.y, t);
+        let (_, slope) = value_and_slope(&self.local, y - self.y[0]);
+        let fall = self.falling.map(|fall| fall.sign() * value(&self.fall, t) * fall.steepness(y));
+        slope + fall.unwrap_or(0.0)
     }
 
     /// The velocity and its derivative.

@@ -32,7 +32,7 @@ pub struct Resources<'a> {
 
 impl std::fmt::Debug for Resources<'_> {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.debug_struct("Means").field("fineness", &self.fineness).finish_non_exhaustive()
+        out.debug_struct("Resources").field("fineness", &self.fineness).finish_non_exhaustive()
     }
 }
 

@@ -58,11 +58,11 @@ const VARIED: Knob = Knob::BeltSpeed;
 
 impl Inputs {
     /// The machine at all speeds of this question, and the changes between them.
-    fn followed(&self, go: &dyn Fn() -> bool) -> Result<MachineBranch, String> {
+    fn followed(&self, go: &(dyn Fn() -> bool + Sync)) -> Result<MachineBranch, String> {
         let subject = Subject::from(self.belt.as_ref());
         if self.rough {
             let subject = Subject { tolerance: Some(DRAFT.tolerance), ..subject };
-            let values = (0..FEW).map(|index| between(self.range, index, FEW));
+            let values = (0..FEW).map(|index| between(self.range, index, FEW)).collect();
             let points = points_while(&subject, VARIED, values, go)?;
             return Ok(MachineBranch { points, special: Vec::new() });
         }
@@ -70,7 +70,7 @@ impl Inputs {
         let (from, to) = self.range;
         let beside = |special: &MachineSpecial| near(special.value, (to - from) / f64::from(STEPS));
         let values = found.special.iter().flat_map(beside);
-        let values = values.filter(|value| (from..=to).contains(value));
+        let values = values.filter(|value| (from..=to).contains(value)).collect();
         found.points.extend(points_while(&subject, VARIED, values, go)?);
         found.points.sort_by(|one, other| one.value.total_cmp(&other.value));
         Ok(found)
