@@ -41,7 +41,7 @@ fn machine() -> Belt {
 fn portrait() -> Portrait {
     Model::new(&machine())
         .ok()
-        .and_then(|model| Portrait::new(&model).ok())
+        .and_then(|model| Portrait::of(&model).ok())
         .unwrap_or_else(|| unreachable!("the machine has a portrait"))
 }
 

@@ -66,7 +66,7 @@ impl Jumps {
     pub fn at(family: Family, value: f64, aside: f64) -> Self {
         /// How much farther one looks as well.
         const FARTHER: f64 = 100.0;
-        let portrait = |value| Portrait::new(&family(value)?).ok();
+        let portrait = |value| Portrait::of(&family(value)?).ok();
         let jumps = |aside: f64| {
             let (below, above) = (portrait(value - aside)?, portrait(value + aside)?);
             Some(Jumps { up: jump(&below, &above), down: jump(&above, &below) })

@@ -20,7 +20,7 @@
 //! // Stick-slip: the belt carries the mass until friction at rest no longer holds it.
 //! let lines = model.lines.unwrap();
 //! assert!((lines.release - 0.2).abs() < 1e-15);
-//! let portrait = Portrait::new(&model).unwrap();
+//! let portrait = Portrait::of(&model).unwrap();
 //! assert!(portrait.cycles.iter().any(|cycle| cycle.stable && cycle.sticks()));
 //! ```
 
@@ -54,7 +54,6 @@ mod reach;
 #[doc(hidden)]
 pub mod return_map;
 pub(crate) mod search;
-mod separatrix;
 mod series;
 #[doc(hidden)]
 pub mod special;
@@ -66,6 +65,7 @@ pub mod survey;
 pub(crate) mod tolerance;
 #[doc(hidden)]
 pub mod turn;
+mod without_belt;
 
 pub use crate::oscillator::Modal;
 pub use arc::{Flow, LostMotion};

@@ -307,6 +307,11 @@ impl Model {
         -self.least_velocity() < ENDLESS
     }
 
+    /// Whether the guide holds more at rest than while the mass moves.
+    pub(super) fn holds_more_at_rest(&self) -> bool {
+        self.guide_static > self.guide
+    }
+
     /// Whether the guide holds the mass at a displacement.
     #[must_use]
     pub fn rests_at(&self, x: f64) -> bool {

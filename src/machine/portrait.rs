@@ -12,8 +12,8 @@ use super::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
 use super::return_map::MachineReturn;
-use super::separatrix;
 use super::turn::ContactState;
+use super::without_belt;
 use crate::flow::Fate;
 use crate::numerics::root::bisect;
 use crate::portrait::{Border, Cycle, Margin, Reach, RestMargin};
@@ -21,11 +21,11 @@ use crate::study::basin::{Basin, Counts, Window, between};
 
 /// The border of the basin of rest, as it was traced.
 #[derive(Clone, Debug)]
-enum Traced {
+pub(super) enum Traced {
     Nothing,
     /// A closed curve.
     Curve(MachineCurve),
-    /// The separatrix of the paper's oscillator.
+    /// The orbits around the sticking set of the paper's oscillator.
     Basin(Box<Basin>),
 }
 
@@ -56,20 +56,24 @@ pub struct Portrait {
     pub unresolved: Vec<(f64, f64)>,
     /// Number of integration steps.
     pub steps: u64,
-    gaps: Vec<Gap>,
-    traced: Traced,
+    pub(super) gaps: Vec<Gap>,
+    pub(super) traced: Traced,
 }
 
 impl Portrait {
-    /// Computes the portrait of a machine.
+    /// The portrait of a machine: by half swings that close where there is no belt, else by the return map.
     ///
     /// # Errors
     /// [`LostMotion`] if the motions near rest, or those that the belt releases, cannot be followed.
-    pub fn new(model: &Model) -> Result<Self, LostMotion> {
-        let basin = separatrix::basin_beside(model);
-        if let Some(found) = basin.and_then(|basin| Portrait::beside_separatrix(model, basin)) {
-            return Ok(found);
-        }
+    pub fn of(model: &Model) -> Result<Self, LostMotion> {
+        without_belt::portrait(model).map_or_else(|| Portrait::by_return_map(model), Ok)
+    }
+
+    /// The portrait of any machine by its return map.
+    ///
+    /// # Errors
+    /// As for [`Self::of`].
+    pub fn by_return_map(model: &Model) -> Result<Self, LostMotion> {
         let mut flow = Flow::new(model);
         let landmarks = flow.landmarks()?;
         let found = flow.fixed_points(landmarks.as_ref())?;
@@ -111,30 +115,6 @@ impl Portrait {
         portrait.settle_border(&mut flow, &marks)?;
         portrait.steps = flow.steps;
         Ok(portrait)
-    }
-
-    /// The portrait of a machine without cycles whose basin of rest a separatrix borders.
-    fn beside_separatrix(model: &Model, basin: Basin) -> Option<Self> {
-        let reach = separatrix::reach(&basin, model)?;
-        let escapes = Gap { to: f64::INFINITY, fate: Fate::Escapes, end: Fate::Escapes };
-        let rests = Gap { to: reach.displacement.0, fate: Fate::Rest, ..escapes };
-        let mut portrait = Portrait {
-            model: model.clone(),
-            cycles: Vec::new(),
-            neutral: false,
-            steps: basin.cost.steps,
-            border: Border::Separatrix,
-            reach: Some(reach),
-            margin: Margin::ENDLESS,
-            landmarks: None,
-            stop: None,
-            known: f64::INFINITY,
-            unresolved: Vec::new(),
-            gaps: vec![rests, escapes],
-            traced: Traced::Basin(Box::new(basin)),
-        };
-        portrait.margin = portrait.margin_within(model.guide_static, model.mass);
-        Some(portrait)
     }
 
     fn settle_border(
@@ -270,6 +250,11 @@ impl Portrait {
     /// [`LostMotion`] if it does not reach its next right turning point.
     pub fn fate(&self, x: f64, v: f64) -> Result<Fate<LostMotion>, LostMotion> {
         let y = self.model.scaled_velocity(v);
+        if let Traced::Basin(basin) = &self.traced
+            && !self.model.holds_more_at_rest()
+        {
+            return Ok(without_belt::fate(basin, x, y));
+        }
         let mut flow = Flow::new(&self.model);
         let turn = match flow.to_the_right(x, y) {
             Ok(turn) => turn,
@@ -303,6 +288,9 @@ impl Portrait {
 
     /// The fate of a motion that turns on the right at `x`.
     fn fate_of_turn(&self, x: f64) -> Fate<LostMotion> {
+        if let Traced::Basin(basin) = &self.traced {
+            return without_belt::fate(basin, x, 0.0);
+        }
         let gap = self.gaps.iter().find(|gap| x <= gap.to).or(self.gaps.last());
         gap.map_or(Fate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
     }
@@ -346,7 +334,7 @@ impl Portrait {
         let window = Rectangle { x, y };
         match &self.traced {
             Traced::Basin(basin) => {
-                separatrix::rest_share(basin, &Window { q: window.x, v: window.y })
+                without_belt::rest_share(basin, &Window { q: window.x, v: window.y })
             }
             Traced::Curve(curve) => {
                 Some(curve.area_within(&window, self.model.speed) / window.area())

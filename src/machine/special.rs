@@ -168,7 +168,7 @@ pub fn between(
         .collect();
     found.sort_by(|one, other| (one.value - left.0).abs().total_cmp(&(other.value - left.0).abs()));
     // Between these the portrait keeps its form, unless cycles fold.
-    let portrait_at = |value| Portrait::new(&family(value)?).ok();
+    let portrait_at = |value| Portrait::of(&family(value)?).ok();
     let aside = 1e-6 * (right.0 - left.0);
     let mut stretches = Vec::new();
     let mut begin = (left.0, Some(left.1.clone()));
@@ -218,7 +218,7 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
         if left.1.cycles.len() > right.1.cycles.len() { (left, right) } else { (right, left) };
     let (wanted, mut nearest) = (count(&with.1), with.1);
     let (without, with) = try_bisect(without.0, with.0, NEAR, |value| {
-        let portrait = family(value).and_then(|model| Portrait::new(&model).ok()).ok_or(())?;
+        let portrait = family(value).and_then(|model| Portrait::of(&model).ok()).ok_or(())?;
         let holds = count(&portrait) == wanted;
         if holds {
             nearest = portrait;

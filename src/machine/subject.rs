@@ -115,6 +115,6 @@ impl Subject {
     /// # Errors
     /// [`Trouble`] where it has no model, or where motions leave the law before the border of rest is known.
     pub fn portrait(&self) -> Result<Portrait, Trouble> {
-        Ok(Portrait::new(&self.model()?)?)
+        Ok(Portrait::of(&self.model()?)?)
     }
 }

@@ -60,7 +60,7 @@ impl Course {
     /// What a model does, and the motion from `start` (m and m/s), followed for `until` seconds. Fails with
     /// [`Trouble`] where motions leave the law before the border of rest is known, or cannot be followed.
     pub fn new(model: &Model, start: (f64, f64), until: f64) -> Result<Self, Trouble> {
-        let portrait = Portrait::new(model)?;
+        let portrait = Portrait::of(model)?;
         let (x, v) = start;
         let fate = match portrait.fate(x, v) {
             Err(stop @ LostMotion::OutsideLaw { .. }) => Fate::Unknown(stop),
@@ -135,5 +135,5 @@ impl From<LostMotion> for Trouble {
 /// The portrait of a machine whose friction law reaches as far as its motions do. Fails with [`Trouble`] where it
 /// has no model, or where motions leave the law before the border of rest is known.
 pub fn portrait(belt: &Belt) -> Result<Portrait, Trouble> {
-    Ok(Portrait::new(&Model::new(belt)?)?)
+    Ok(Portrait::of(&Model::new(belt)?)?)
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::closed_form::piecewise_linear::LinearCycle;
-use crate::numerics::elementary::exp_m1;
+use crate::numerics::elementary::{exp_m1, ln};
 
 /// A limit cycle: of the paper's oscillator without units, of a machine in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -88,6 +88,37 @@ impl Cycle {
     #[must_use]
     pub fn stick_duration(&self) -> f64 {
         self.ride.map_or(0.0, |ride| ride.duration)
+    }
+
+    /// The same with lengths multiplied by one number, and times divided by another.
+    #[must_use]
+    pub fn scaled(&self, length: f64, rate: f64) -> Cycle {
+        let speed = length * rate;
+        let errors = self.errors.map(|errors| CycleErrors {
+            q_min: errors.q_min * length,
+            q_max: errors.q_max * length,
+            v_min: errors.v_min * speed,
+            v_max: errors.v_max * speed,
+            period: errors.period / rate,
+            ..errors
+        });
+        let ride = self.ride.map(|Ride { from, to, duration }| Ride {
+            from: from * length,
+            to: to * length,
+            duration: duration / rate,
+        });
+        Cycle {
+            q_min: self.q_min * length,
+            q_max: self.q_max * length,
+            v_min: self.v_min * speed,
+            v_max: self.v_max * speed,
+            period: self.period / rate,
+            clearance: self.clearance * length,
+            log_clearance: self.log_clearance + ln(length),
+            errors,
+            ride,
+            ..*self
+        }
     }
 
     /// Whether it is followed backward in time, in which direction it attracts.

@@ -8,7 +8,6 @@ use crate::machine::motion::{self, MachineMotion};
 use crate::machine::stepped::{SteppedMethod, SteppedMotion, traced};
 use crate::machine::turn::ContactState;
 use crate::machine::{Flow, LostMotion, MachineLedger, Model, Phase, Portrait};
-use crate::numerics::elementary::ln;
 use crate::oscillator::{Belt, Parameters, State};
 use crate::portrait::{Border, Cycle, Margin};
 use crate::study::{Cycles, cycle};
@@ -69,6 +68,10 @@ impl DrawingUnits {
         MachineLedger { start, end, belt, damper, guide }
     }
 
+    fn cycle(self, cycle: &Cycle) -> Cycle {
+        cycle.scaled(1.0 / self.x, self.t)
+    }
+
     fn sample(self, state: &motion::MachineState) -> Sample {
         Sample { tau: state.t / self.t, q: state.x / self.x, v: state.v / self.v }
     }
@@ -100,7 +103,7 @@ pub fn motion(
     between: u32,
 ) -> Result<(Trajectory, Course), Reason> {
     let mut model = model(belt)?;
-    let portrait = Portrait::new(&model).map_err(reason)?;
+    let portrait = Portrait::of(&model).map_err(reason)?;
     model.tolerance = problem.tolerance;
     let units = DrawingUnits::of(&model);
     let way = SteppedMethod::of(problem.method).map_err(|_| Reason::NotApplicable {
@@ -239,7 +242,7 @@ fn works(found: &Portrait) -> Vec<MachineLedger> {
 
 /// The portrait of a machine, or why there is none.
 pub fn found(belt: &Belt) -> Result<Portrait, Reason> {
-    model(belt).and_then(|model| Portrait::new(&model).map_err(reason))
+    model(belt).and_then(|model| Portrait::of(&model).map_err(reason))
 }
 
 /// The kicks that a machine survives, without units.
@@ -273,7 +276,7 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
     };
     Ok(Cycles {
         parameters: *parameters,
-        cycles: found.cycles.iter().map(|cycle| scaled(cycle, units)).collect(),
+        cycles: found.cycles.iter().map(|cycle| units.cycle(cycle)).collect(),
         harmonic: Vec::new(),
         border: found.border,
         picture: Some(picture),
@@ -298,20 +301,4 @@ pub(super) fn places(curve: &MachineCurve, model: &Model, points: u16) -> Vec<St
     }
     found.extend(found.first().copied());
     found
-}
-
-/// A cycle in drawing units.
-fn scaled(cycle: &Cycle, units: DrawingUnits) -> Cycle {
-    let DrawingUnits { x, v, t } = units;
-    let clearance = cycle.clearance / x;
-    Cycle {
-        q_min: cycle.q_min / x,
-        q_max: cycle.q_max / x,
-        v_min: cycle.v_min / v,
-        v_max: cycle.v_max / v,
-        period: cycle.period / t,
-        clearance,
-        log_clearance: ln(clearance),
-        ..*cycle
-    }
 }

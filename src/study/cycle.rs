@@ -71,7 +71,7 @@ fn found(parameters: &Parameters, points: Option<u16>, limits: &Limits) -> Resul
 ///
 /// # Errors
 /// The [`Reason`] why the search could not be completed.
-pub(super) fn cycles_and_closings(
+pub(crate) fn cycles_and_closings(
     parameters: &Parameters,
     limits: &Limits,
 ) -> Result<(Cycles, Vec<Closing>), Reason> {

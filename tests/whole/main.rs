@@ -30,7 +30,7 @@ fn machine(name: &str) -> Belt {
 }
 
 fn portrait(belt: &Belt) -> Portrait {
-    Portrait::new(&Model::new(belt).unwrap()).unwrap()
+    Portrait::of(&Model::new(belt).unwrap()).unwrap()
 }
 
 fn number(value: &Value) -> f64 {

@@ -24,7 +24,14 @@ fn the_oscillator_of_the_paper_and_a_machine_without_a_belt_have_the_same_cycles
         let parameters = Parameters { d, d2, d3, r: between(0.01, 1.0) };
         let found = cycles(&parameters, false, &Limits::PATIENT).unwrap();
         let model = Model::of_mode(1.0, 1.0, &[d, 0.5 * d2, 0.5 * d3], parameters.r, parameters.r);
-        let portrait = Portrait::new(&model.unwrap()).unwrap();
+        let model = model.unwrap();
+        let portrait = Portrait::by_return_map(&model).unwrap();
+        let closed = Portrait::of(&model).unwrap();
+        assert_eq!((&closed.cycles, closed.border), (&found.cycles, portrait.border));
+        for _ in 0..20 {
+            let (x, v) = (between(-3.0, 3.0), between(-3.0, 3.0));
+            assert_eq!(closed.fate(x, v), portrait.fate(x, v), "{parameters:?} {x} {v}");
+        }
         assert_eq!(found.cycles.len(), portrait.cycles.len(), "{parameters:?}");
         for (one, other) in found.cycles.iter().zip(&portrait.cycles) {
             let errors = one.errors.unwrap();
@@ -46,6 +53,7 @@ fn the_oscillator_of_the_paper_and_a_machine_without_a_belt_have_the_same_cycles
         }
         assert_eq!(found.border, portrait.border, "{parameters:?}");
         let margin = basin(&parameters, 10.0, &Limits::PATIENT).unwrap().margin();
+        assert_eq!(margins(&margin), margins(&closed.margin), "{parameters:?}");
         for (one, other) in margins(&margin).into_iter().zip(margins(&portrait.margin)) {
             assert_eq!(one.is_some(), other.is_some(), "{parameters:?}");
             compared[1 + usize::from(one.is_none())] += 1;

@@ -68,7 +68,7 @@ fn any_start_ends_where_its_motion_goes() {
     for _ in 0..40 {
         let belt = any_machine(&mut chance);
         let Ok(model) = Model::new(&belt) else { continue };
-        let Ok(found) = Portrait::new(&model) else { continue };
+        let Ok(found) = Portrait::of(&model) else { continue };
         for _ in 0..3 {
             let (x, v) = (6.0 * chance.even() - 3.0, 4.0 * chance.even() - 2.0);
             let Ok(fate) = found.fate(x, v) else { continue };
@@ -161,7 +161,7 @@ fn any_kick_below_the_smallest_one_is_survived_from_wherever_the_mass_rests() {
         let mut belt = any_machine(&mut chance);
         belt.static_guide = (chance.even() < 0.3).then_some(1.2 * belt.friction);
         let Ok(model) = Model::new(&belt) else { continue };
-        let Ok(found) = Portrait::new(&model) else { continue };
+        let Ok(found) = Portrait::of(&model) else { continue };
         let held = model.guide_static;
         if found.reach.is_none() || held == 0.0 || found.stop.is_some() {
             continue;
