@@ -261,7 +261,7 @@ impl Stage {
 
     /// What borders the basin in the whole model.
     fn border(&self) -> Option<Border> {
-        self.0.kinds().map(|kinds| kinds.border)
+        self.0.kinds().and(self.0.cycles()).map(|found| found.border)
     }
 
     /// Whether the motion eventually comes to rest: by the whole model where that is drawn.
@@ -326,7 +326,7 @@ fn no_text_contradicts_what_is_on_show_anywhere_in_the_ranges_of_its_scene() {
 
 /// Number of cycles of the whole model that stick to the belt, and of those that only slip.
 fn sticking(stage: &Stage) -> (usize, usize) {
-    let cycles = &stage.0.kinds().unwrap().cycles;
+    let cycles = stage.cycles();
     let sticks = cycles.iter().filter(|cycle| cycle.sticks()).count();
     (sticks, cycles.len() - sticks)
 }
@@ -335,7 +335,7 @@ fn sticking(stage: &Stage) -> (usize, usize) {
 fn benchmark_rest_and_stick_slip_are_parted_by_a_cycle_until_the_belt_is_fast() {
     let stage = Stage::open("benchmark");
     let kinds = stage.0.kinds().unwrap();
-    assert_eq!((kinds.border, sticking(&stage)), (Border::Cycle, (1, 1)));
+    assert_eq!((stage.edge(), sticking(&stage)), (Border::Cycle, (1, 1)));
     let [whole, cubic] = kinds.margins.map(|margin| margin.displacement.unwrap());
     assert!(cubic > 1.1 * whole, "{cubic} {whole}");
     assert_eq!(stage.0.course().unwrap().fate, Fate::Cycle(1));
@@ -343,7 +343,7 @@ fn benchmark_rest_and_stick_slip_are_parted_by_a_cycle_until_the_belt_is_fast() 
     let end = Stage::open("benchmark").press(":set<space>belt=1.836<enter>");
     assert_eq!(sticking(&end), (1, 1));
     let beyond = Stage::open("benchmark").press(":set<space>belt=1.837<enter>");
-    assert_eq!((beyond.0.kinds().unwrap().border, sticking(&beyond)), (Border::None, (0, 0)));
+    assert_eq!((beyond.edge(), sticking(&beyond)), (Border::None, (0, 0)));
     assert_eq!(beyond.0.course().unwrap().fate, Fate::Rest);
     // One key switches to the expansion: the question is a different one, and so is the answer.
     let cubic = Stage::open("benchmark").press("|");
@@ -355,7 +355,7 @@ fn benchmark_rest_and_stick_slip_are_parted_by_a_cycle_until_the_belt_is_fast() 
 fn groan_needs_no_cycle_to_be_parted_from_rest() {
     let stage = Stage::open("groan");
     let kinds = stage.0.kinds().unwrap();
-    assert_eq!((kinds.border, sticking(&stage)), (Border::Grazing, (1, 0)));
+    assert_eq!((stage.edge(), sticking(&stage)), (Border::Grazing, (1, 0)));
     assert_eq!(stage.0.course().unwrap().fate, Fate::Cycle(0));
     assert_eq!(kinds.margins[1].displacement, None);
     assert!(Stage::open("groan").press("i").is_captured());

@@ -95,8 +95,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     if shows(Layer::Cycles) {
         for (variant, answer) in found(session, Topic::Cycles, index) {
             if let Answer::Cycles(found) = answer {
-                let kinds = session.kinds().filter(|_| session.draws_whole());
-                cycles(picture, found, &variant, kinds.map_or(&[], |kinds| &kinds.cycles));
+                cycles(picture, found, &variant, session.draws_whole());
             }
         }
     }
@@ -156,13 +155,10 @@ fn belt(picture: &mut Picture, session: &Session) {
 
 /// Where the motion and the cycles ride on the belt, at this height: thick pieces of its line.
 fn rides(picture: &mut Picture, session: &Session, y: f64) {
-    let Some(running) = session.running() else { return };
-    let unit = running.reduced.units.displacement;
-    let cycles = session.kinds().filter(|_| session.layers.contains(&Layer::Cycles));
-    for Ride { from, to, .. } in
-        cycles.iter().flat_map(|it| &it.cycles).filter_map(|cycle| cycle.ride)
-    {
-        let [from, to] = [from, to].map(|x| Point { x: x / unit, y });
+    let cycles = session.cycles().filter(|_| session.layers.contains(&Layer::Cycles));
+    let cycles = cycles.iter().flat_map(|found| &found.cycles);
+    for Ride { from, to, .. } in cycles.filter_map(|cycle| cycle.ride) {
+        let [from, to] = [from, to].map(|x| Point { x, y });
         picture.bar(LineStyle::new("cycle on the belt", Role::Stable, Dash::Solid), from, to);
     }
     let motion = session.course().filter(|_| session.layers.contains(&Layer::Trajectory));
@@ -331,14 +327,11 @@ fn circle(picture: &mut Picture, parameters: &Parameters, variant: &VariantTag) 
     }
 }
 
-fn cycles(picture: &mut Picture, found: &Cycles, variant: &VariantTag, kinds: &[Cycle]) {
+fn cycles(picture: &mut Picture, found: &Cycles, variant: &VariantTag, whole: bool) {
     let curves = found.picture.iter().flat_map(|picture| &picture.curves);
-    for (index, (cycle, curve)) in found.cycles.iter().zip(curves).enumerate() {
+    for (cycle, curve) in found.cycles.iter().zip(curves) {
         let CycleStyle { role, dash, name: plain, .. } = cycle_style(cycle.stable);
-        let (name, own): (_, &str) = match kinds.get(index) {
-            Some(cycle) => kind(cycle),
-            None => (plain, &variant.label),
-        };
+        let (name, own) = if whole { kind(cycle) } else { (plain, variant.label.as_str()) };
         let points: Vec<Point> = points(curve);
         picture.name_curve(&points, own, role);
         // Of a machine the caption says of which kind it is.

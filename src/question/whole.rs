@@ -15,12 +15,10 @@ use crate::study::{Cycles, cycle};
 /// Fate and course of a machine's motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
-    /// The fate; a cycle is given by its index in [`Self::cycles`].
+    /// The fate.
     pub fate: Fate<LostMotion>,
-    /// The cycles of the machine, in SI units.
-    pub cycles: Vec<Cycle>,
-    /// Unit of displacement of the drawing, in m.
-    pub unit: f64,
+    /// The cycle to which it tends, in the units of the paper's oscillator.
+    pub cycle: Option<Cycle>,
     /// Kind of the border of the basin.
     pub border: Border,
     /// First and last point of each stretch on which the mass rides on the belt.
@@ -29,22 +27,16 @@ pub struct Course {
     pub ledger: MachineLedger,
 }
 
-/// Properties of a machine's cycles.
+/// What is known of a machine beside its cycles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WholeCycles {
-    /// The cycles by the whole model, in SI units.
-    pub cycles: Vec<Cycle>,
     /// Sources and sinks of the energy over one turn of each cycle, in the units of the paper's oscillator.
     pub works: Vec<MachineLedger>,
-    /// Kind of the border of the basin.
-    pub border: Border,
     /// The kicks that are survived by the whole model and by the cubic expansion, without units; every kick where the
     /// expansion has no answer.
     pub margins: [Margin; 2],
     /// Whether all slipping motions are periodic.
     pub neutral: bool,
-    /// Why motions further out are unknown.
-    pub stop: Option<LostMotion>,
 }
 
 /// Units of the drawing, in SI units.
@@ -120,10 +112,13 @@ pub fn motion(
         Err(stop @ LostMotion::OutsideLaw { .. }) => Fate::Unknown(stop),
         fate => fate.map_err(reason)?,
     };
+    let cycle = match fate {
+        Fate::Cycle(index) => portrait.cycles.get(index),
+        _ => None,
+    };
     let course = Course {
         fate,
-        cycles: portrait.cycles.clone(),
-        unit: units.x,
+        cycle: cycle.map(|cycle| units.cycle(cycle)),
         border: portrait.border,
         rides: rides(&drawn, model.speed * model.omega_0, units),
         ledger: units.ledger(&found.ledger, &model),
@@ -222,12 +217,9 @@ pub fn portrait(
     let expanded = expansion.as_ref().ok().and_then(|found| found.picture.as_ref());
     let expanded = expanded.map(|picture| picture.margin);
     let kinds = found.as_ref().ok().map(|found| WholeCycles {
-        cycles: found.cycles.clone(),
         works: works(found),
-        border: found.border,
         margins: [margin(found), expanded.unwrap_or(Margin::ENDLESS)],
         neutral: found.neutral,
-        stop: found.stop,
     });
     let drawn = if cubic { expansion? } else { drawn(&found?, parameters, points)? };
     Ok((drawn, kinds))

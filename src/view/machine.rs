@@ -28,7 +28,9 @@ pub fn outcome(session: &Session, motion: &Trajectory) -> String {
             format!("comes to rest at x = {place}, after {time}{within}")
         }
         (Fate::Rest, _) => format!("comes to rest{within}"),
-        (Fate::Cycle(index), _) => course.cycles.get(index).map_or_else(String::new, onto),
+        (Fate::Cycle(_), _) => {
+            course.cycle.map_or_else(String::new, |cycle| onto(&cycle, units.displacement))
+        }
         (Fate::Neutral, _) => "is periodic, one of a family".to_owned(),
         (Fate::Moving, _) => "still moves".to_owned(),
         (Fate::Escapes, _) => "grows without bound".to_owned(),
@@ -37,8 +39,8 @@ pub fn outcome(session: &Session, motion: &Trajectory) -> String {
 }
 
 /// The cycle to which a motion tends.
-fn onto(cycle: &Cycle) -> String {
-    let size = with_unit(cycle.q_max, PLACES, "m");
+fn onto(cycle: &Cycle, unit: f64) -> String {
+    let size = with_unit(cycle.q_max * unit, PLACES, "m");
     let over = if cycle.overtakes { "overtaking " } else { "" };
     if !cycle.sticks() {
         return format!("tends to the {over}slip cycle, x up to {size}");

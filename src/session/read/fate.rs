@@ -165,12 +165,12 @@ fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdic
 fn of_course(course: &Course, motion: &Trajectory) -> Option<MotionVerdict> {
     let end = match course.fate {
         Fate::Rest => End::Rests,
-        Fate::Cycle(index) => {
-            let cycle = course.cycles.get(index)?;
+        Fate::Cycle(_) => {
+            let cycle = course.cycle?;
             let size = |sample: &Sample| hypot(sample.q, sample.v);
             let (first, last) = (motion.samples.first()?, motion.samples.last()?);
             let grows = cycle.stable && size(first) <= size(last);
-            End::Onto { q_max: cycle.q_max / course.unit, grows }
+            End::Onto { q_max: cycle.q_max, grows }
         }
         Fate::Escapes => End::Grows,
         Fate::Neutral | Fate::Moving | Fate::Unknown(_) => return None,
@@ -191,14 +191,8 @@ impl Session {
 
     /// Whether a condition holds, by the answers on show.
     fn holds(&self, condition: TextCondition) -> bool {
-        let whole = self.kinds().filter(|_| self.draws_whole());
-        let cycles = |stable: bool| match whole {
-            // Only the unstable cycle that borders the basin counts.
-            Some(kinds) if !stable => kinds.border == Border::Cycle,
-            Some(kinds) => kinds.cycles.iter().any(|cycle| cycle.stable),
-            None => {
-                self.cycles().is_some_and(|it| it.cycles.iter().any(|cycle| cycle.stable == stable))
-            }
+        let any = |is: &dyn Fn(&Cycle) -> bool| {
+            self.cycles().is_some_and(|found| found.cycles.iter().any(is))
         };
         let border = self.cycles().map(|found| found.border);
         let end = || self.fate().map(|fate| fate.end);
@@ -213,16 +207,16 @@ impl Session {
                 let own = self.plots.iter().map(|plot| (plot.view, plot.axes));
                 own.eq(self.scene.plots.iter().map(|plot_setup| (plot_setup.view, plot_setup.axes)))
             }
-            TextCondition::Unstable => cycles(false),
-            TextCondition::Stable => cycles(true),
+            // Of a machine only the unstable cycle that borders the basin counts.
+            TextCondition::Unstable if self.draws_whole() => border == Some(Border::Cycle),
+            TextCondition::Unstable => any(&|cycle| !cycle.stable),
+            TextCondition::Stable => any(&|cycle| cycle.stable),
             TextCondition::Separatrix => border.is_some_and(Border::parts_without_cycle),
             TextCondition::Safe => {
                 matches!(border, Some(Border::None | Border::Unknown(_)))
                     && self.cycles().is_some_and(|found| found.parameters.r > 0.0)
             }
-            TextCondition::Sticks => {
-                whole.is_some_and(|kinds| kinds.cycles.iter().any(Cycle::sticks))
-            }
+            TextCondition::Sticks => any(&Cycle::sticks),
             TextCondition::Compares(symbol, relation, number) => {
                 relation.holds(self.value(symbol), number)
             }
