@@ -7,10 +7,11 @@
 
 use divan::Bencher;
 use divan::black_box;
-use hopfscope::machine::{MachineMotion, Model, Portrait};
+use hopfscope::machine::{MachineMotion, Model};
 use hopfscope::numerics::elementary::exp;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
+use hopfscope::portrait::Portrait;
 
 fn main() {
     divan::main();

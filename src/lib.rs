@@ -24,10 +24,11 @@
 //!   every motion is a graph over q ([`study::arc`]), so basins, margins and bands of capture are comparisons
 //!   ([`study::basin`], [`study::margin`], [`study::capture`]). [`study::claims`] puts the paper's own equations and
 //!   sentences to the test.
-//! - [`portrait`] has what they find in common: a cycle, the border of a basin, a margin.
 //! - [`machine`] is the mass on its belt by the whole model: friction by its own law, two switching lines,
 //!   riding on the belt and overtaking it. One return map, which never decreases, orders all cycles; what
-//!   a start ends as is read off the next turning point ([`machine::Portrait`]).
+//!   a start ends as is read off the next turning point.
+//! - [`portrait`] says what any of them does: its cycles, what borders the basin of rest, the kicks that it survives
+//!   ([`portrait::Portrait`]); without a belt by the closing equation, else by the return map.
 //! - [`fit`] turns a recorded motion into estimates of all these numbers, with their errors, and the margin
 //!   that they leave.
 //! - [`question`] has a file for each kind of question that the screen asks: a [`question::Request`] names exactly the

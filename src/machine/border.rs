@@ -9,7 +9,7 @@ use super::model::Phase;
 impl Flow<'_> {
     /// The closed border through a jump of the return map at the right turning point `x`, backward in time
     /// from the belt's line to the line again, and the piece of line between.
-    pub(super) fn jump_border(
+    pub(crate) fn jump_border(
         &mut self,
         x: f64,
         landmarks: Option<&Landmarks>,
@@ -38,7 +38,7 @@ impl Flow<'_> {
 
     /// The border through the right turning point `x` up to which the guide catches the mass: the motion
     /// that comes there, backward in time, and below it the one that comes to the left end of what is caught.
-    pub(super) fn capture_border(
+    pub(crate) fn capture_border(
         &mut self,
         x: f64,
         landmarks: Option<&Landmarks>,

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::portrait::Portrait;
 use super::special::{MachineSpecial, between};
 use super::subject::Subject;
 use super::survey::Trouble;
 use crate::oscillator::Knob;
+use crate::portrait::Portrait;
 use crate::study::basin::between as evenly;
 
 #[derive(Clone, Debug)]

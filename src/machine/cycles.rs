@@ -66,7 +66,7 @@ const FAR: f64 = 1e3;
 
 impl Flow<'_> {
     /// `ln(image/x)` of the return map over `u = ln(x/unit)`.
-    pub(super) fn growth(&mut self, u: f64, unit: f64) -> Result<GrowthSample, LostMotion> {
+    pub(crate) fn growth(&mut self, u: f64, unit: f64) -> Result<GrowthSample, LostMotion> {
         let x = unit * exp(u);
         let lost = |f| Ok(GrowthSample { u, f, slope: 0.0 });
         match self.returned(x) {

@@ -11,12 +11,12 @@
 
 use std::fmt;
 
-use super::portrait::Portrait;
 use super::survey::{Trouble, portrait};
 use super::tolerance::{Corners, MOST, Tolerances, TooMany};
 use crate::numerics::root::try_bisect;
 use crate::oscillator::Belt;
 use crate::portrait::Margin;
+use crate::portrait::Portrait;
 
 /// Why no kick is survived for certain.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,9 +5,9 @@ use serde::{Serialize, Serializer};
 
 use super::arc::LostMotion;
 use super::model::Model;
-use super::portrait::Portrait;
 use crate::flow::Fate;
 use crate::portrait::Border;
+use crate::portrait::Portrait;
 
 /// The model along a number: `None` where there is none.
 pub type Family<'a> = &'a (dyn Fn(f64) -> Option<Model> + Sync);

@@ -1,8 +1,9 @@
 //! Machines by the whole model: friction by its own law, sticking to the belt, and overtaking it.
 //!
 //! ```
-//! use hopfscope::machine::{Model, Portrait};
+//! use hopfscope::machine::Model;
 //! use hopfscope::oscillator::{Belt, belt::FrictionLaw};
+//! use hopfscope::portrait::Portrait;
 //!
 //! let belt = Belt {
 //!     mass: 1.0,
@@ -26,7 +27,7 @@
 
 #[warn(clippy::missing_errors_doc)]
 pub(crate) mod arc;
-mod border;
+pub(crate) mod border;
 #[doc(hidden)]
 pub mod branch;
 pub(crate) mod curve;
@@ -34,7 +35,6 @@ pub(crate) mod curve;
 pub(crate) mod cycles;
 pub(crate) mod design;
 mod force;
-mod gaps;
 #[doc(hidden)]
 pub mod guarantee;
 #[doc(hidden)]
@@ -47,8 +47,6 @@ mod modal;
 pub(crate) mod model;
 #[doc(hidden)]
 pub mod motion;
-#[warn(clippy::missing_errors_doc)]
-pub(crate) mod portrait;
 pub(crate) mod problem;
 mod reach;
 #[doc(hidden)]
@@ -65,14 +63,12 @@ pub mod survey;
 pub(crate) mod tolerance;
 #[doc(hidden)]
 pub mod turn;
-mod without_belt;
 
 pub use crate::oscillator::Modal;
 pub use arc::{Flow, LostMotion};
 pub use ledger::MachineLedger;
 pub use model::{Lines, Model, NoModel, Phase};
 pub use motion::MachineMotion;
-pub use portrait::Portrait;
 pub use problem::MachineProblem;
 pub use series::ORDER;
 pub use subject::{Body, Subject};

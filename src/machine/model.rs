@@ -72,8 +72,8 @@ pub struct Model {
     pub damping: f64,
     /// Size of the last terms of each Taylor step, relative to the state.
     pub tolerance: f64,
-    pub(super) slower: ForceBranch,
-    pub(super) faster: ForceBranch,
+    pub(crate) slower: ForceBranch,
+    pub(crate) faster: ForceBranch,
     /// The damper alone: coefficients of 1, y, y^2, ..
     damper: Vec<f64>,
 }
@@ -268,12 +268,12 @@ impl Model {
         self.side(phase).at(y)
     }
 
-    pub(super) fn side(&self, phase: Phase) -> &ForceBranch {
+    pub(crate) fn side(&self, phase: Phase) -> &ForceBranch {
         if phase == Phase::Above { &self.faster } else { &self.slower }
     }
 
     /// Where the spring's pull and the constant forces of a phase balance, with the sign reversed.
-    pub(super) fn offset(&self, phase: Phase) -> f64 {
+    pub(crate) fn offset(&self, phase: Phase) -> f64 {
         match phase {
             Phase::Below => -self.guide,
             Phase::Between => self.guide,
@@ -282,7 +282,7 @@ impl Model {
     }
 
     /// The velocities that belong to a phase.
-    pub(super) fn range(&self, phase: Phase) -> (f64, f64) {
+    pub(crate) fn range(&self, phase: Phase) -> (f64, f64) {
         match phase {
             Phase::Below => (f64::NEG_INFINITY, 0.0),
             Phase::Between => (0.0, self.speed),
@@ -290,25 +290,31 @@ impl Model {
         }
     }
 
+    /// A velocity in m/s divided by the natural frequency; for that of the belt, exactly the speed of the model.
+    #[must_use]
+    pub fn scaled_velocity(&self, v: f64) -> f64 {
+        v / self.omega_0
+    }
+
     /// The damper's force at a velocity.
-    pub(super) fn damper(&self, y: f64) -> f64 {
+    pub(crate) fn damper(&self, y: f64) -> f64 {
         self.damper.iter().rev().fold(0.0, |sum, coefficient| sum * y + coefficient)
     }
 
     /// The smallest velocity for which the friction law says something.
-    pub(super) fn least_velocity(&self) -> f64 {
+    pub(crate) fn least_velocity(&self) -> f64 {
         self.slower.pieces.first().map_or(0.0, |piece| piece.low)
     }
 
     /// Whether the friction law ends at some slip, or falls below zero there.
-    pub(super) fn law_ends(&self) -> bool {
+    pub(crate) fn law_ends(&self) -> bool {
         /// Beyond this, in m, a law is said to be known for every slip.
         const ENDLESS: f64 = 1e200;
         -self.least_velocity() < ENDLESS
     }
 
     /// Whether the guide holds more at rest than while the mass moves.
-    pub(super) fn holds_more_at_rest(&self) -> bool {
+    pub(crate) fn holds_more_at_rest(&self) -> bool {
         self.guide_static > self.guide
     }
 

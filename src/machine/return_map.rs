@@ -71,7 +71,7 @@ impl Flow<'_> {
     /// The right turning point before the left one at `left`, with the logarithm of (acceleration before the
     /// arc's end / after its start); `None` if no motion comes from one. Fails with [`LostMotion`] where the
     /// friction law ends or the steps run out.
-    pub(super) fn right_before(
+    pub(crate) fn right_before(
         &mut self,
         left: f64,
         watch: &mut impl Watch,

@@ -10,11 +10,11 @@ use super::arc::{Flow, LostMotion};
 use super::jumps::{Family, Jumps};
 use super::landmarks::Landmarks;
 use super::model::{Model, Phase};
-use super::portrait::Portrait;
 use super::search::GrowthSample;
 use super::turn::ContactState;
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::{PlaceTolerance, illinois, try_bisect};
+use crate::portrait::Portrait;
 use crate::portrait::{Border, Cycle};
 
 /// A kind of change.

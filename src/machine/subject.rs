@@ -1,9 +1,9 @@
 //! The subject of a question: a mass on a belt or a vibration mode, whose numbers are set and varied alike.
 
 use super::model::Model;
-use super::portrait::Portrait;
 use super::survey::Trouble;
 use crate::oscillator::{Belt, KNOBS, Knob, Modal};
+use crate::portrait::Portrait;
 
 /// A mass on a belt, or a vibration mode.
 #[derive(Clone, Debug, PartialEq)]

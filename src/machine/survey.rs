@@ -6,11 +6,11 @@ use std::fmt;
 use super::arc::{Flow, LostMotion};
 use super::model::{Model, NoModel};
 use super::motion::MachineMotion;
-use super::portrait::Portrait;
 use super::stepped::{SteppedEnd, SteppedMethod, stepped};
 use crate::flow::{Fate, Limits, Reason};
 use crate::oscillator::Belt;
 use crate::oscillator::belt::{BeltError, ReducedBelt};
+use crate::portrait::Portrait;
 use crate::study::cycle::{Cycles, cycles};
 
 /// A mass on a belt by the cubic expansion of its friction.

@@ -108,7 +108,7 @@ impl Flow<'_> {
 
     /// The phase that follows an arc, and its start. Only by rounding does a motion arrive where its own side
     /// pushes it away.
-    pub(super) fn after(&self, phase: Phase, end: &ArcEnd) -> (ContactState, f64) {
+    pub(crate) fn after(&self, phase: Phase, end: &ArcEnd) -> (ContactState, f64) {
         let model = self.model;
         let x = match (end.on_belt, phase, model.lines) {
             (false, Phase::Below, _) => end.x.min(model.guide),

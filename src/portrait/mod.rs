@@ -2,8 +2,13 @@
 
 mod border;
 mod cycle;
+mod gaps;
 mod margin;
+#[expect(clippy::module_inception, reason = "the portrait itself, beside what belongs to it")]
+mod portrait;
+mod without_belt;
 
 pub use border::Border;
 pub use cycle::{Cycle, CycleErrors, Ride};
 pub use margin::{Margin, Reach, RestMargin};
+pub use portrait::Portrait;

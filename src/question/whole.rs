@@ -7,9 +7,9 @@ use crate::machine::curve::{CurvePiece, MachineCurve};
 use crate::machine::motion::{self, MachineMotion};
 use crate::machine::stepped::{SteppedMethod, SteppedMotion, traced};
 use crate::machine::turn::ContactState;
-use crate::machine::{Flow, LostMotion, MachineLedger, Model, Phase, Portrait};
+use crate::machine::{Flow, LostMotion, MachineLedger, Model, Phase};
 use crate::oscillator::{Belt, Parameters, State};
-use crate::portrait::{Border, Cycle, Margin};
+use crate::portrait::{Border, Cycle, Margin, Portrait};
 use crate::study::{Cycles, cycle};
 
 /// Fate and course of a machine's motion.

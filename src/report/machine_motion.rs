@@ -8,9 +8,9 @@ use crate::flow::Fate;
 use crate::machine::guarantee::MachineUncertain;
 use crate::machine::motion::{Leg, MachineState, turns};
 use crate::machine::turn::ContactState;
-use crate::machine::{LostMotion, MachineLedger, MachineProblem, Portrait, Subject};
+use crate::machine::{LostMotion, MachineLedger, MachineProblem, Subject};
 use crate::oscillator::{Interval, Knob};
-use crate::portrait::{Border, Margin};
+use crate::portrait::{Border, Margin, Portrait};
 use crate::study::basin::Counts;
 use crate::words::number::significant;
 

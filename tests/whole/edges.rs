@@ -4,11 +4,11 @@
 use super::portrait;
 use hopfscope::flow::Fate;
 use hopfscope::machine::return_map::MachineReturn;
-use hopfscope::machine::{Body, Flow, LostMotion, Modal, Portrait, Subject};
+use hopfscope::machine::{Body, Flow, LostMotion, Modal, Subject};
 use hopfscope::numerics::elementary::exp;
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
-use hopfscope::portrait::{Border, Cycle};
+use hopfscope::portrait::{Border, Cycle, Portrait};
 use hopfscope::scene::machine::file::parse;
 
 /// A clutch whose friction feeds a small swing: without static friction an unstable cycle borders rest, from

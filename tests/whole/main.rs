@@ -13,12 +13,12 @@ use hopfscope::machine::branch::branch;
 use hopfscope::machine::return_map::MachineReturn;
 use hopfscope::machine::special::MachineSpecialKind;
 use hopfscope::machine::turn::ContactState;
-use hopfscope::machine::{Flow, MachineMotion, Model, NoModel, Portrait};
+use hopfscope::machine::{Flow, MachineMotion, Model, NoModel};
 use hopfscope::numerics::elementary::{asin, atan, atan2, exp, exp_m1, hypot, ln, powi, tanh};
 use hopfscope::oscillator::Belt;
 use hopfscope::oscillator::belt::FrictionLaw;
 use hopfscope::oscillator::{Group, Knob};
-use hopfscope::portrait::Border;
+use hopfscope::portrait::{Border, Portrait};
 use serde_json::{Value, json};
 
 fn data() -> Value {

@@ -2,10 +2,10 @@
 //! of machines, which share no code but elementary functions, are the same within the errors that are told.
 
 use hopfscope::flow::Limits;
-use hopfscope::machine::{Model, Portrait};
+use hopfscope::machine::Model;
 use hopfscope::numerics::random::Random;
 use hopfscope::oscillator::Parameters;
-use hopfscope::portrait::Margin;
+use hopfscope::portrait::{Margin, Portrait};
 use hopfscope::study::basin::basin;
 use hopfscope::study::cycle::cycles;
 

@@ -7,14 +7,14 @@ use serde::Serialize;
 use super::expansion::Expansion;
 use super::{DesignAnswer, MachineAnswer, OnBelt, RestShare};
 use crate::flow::Fate;
+use crate::machine::MachineLedger;
 use crate::machine::guarantee::MachineUncertain;
 use crate::machine::motion::MachineState;
 use crate::machine::survey::{Course, CubicExpansion, Second};
 use crate::machine::turn::ContactState;
-use crate::machine::{MachineLedger, Portrait};
 use crate::oscillator::belt::{Derivatives, FrictionLaw, Units};
 use crate::oscillator::{Belt, Group, Interval, Parameters};
-use crate::portrait::{Border, Cycle, Margin};
+use crate::portrait::{Border, Cycle, Margin, Portrait};
 use crate::report::json::text;
 use crate::study::design::{FrictionNeeded, Kick};
 

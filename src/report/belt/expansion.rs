@@ -3,11 +3,10 @@
 
 use serde::Serialize;
 
-use crate::machine::Portrait;
 use crate::machine::survey::CubicExpansion;
 use crate::oscillator::Parameters;
 use crate::oscillator::belt::TaylorError;
-use crate::portrait::{Border, Cycle, Margin};
+use crate::portrait::{Border, Cycle, Margin, Portrait};
 use crate::study::belt::PhysicalMargin;
 
 /// The answer of the expansion.

@@ -10,8 +10,9 @@ use crate::machine::design::friction_for;
 use crate::machine::guarantee::guaranteed;
 use crate::machine::motion::turns;
 use crate::machine::survey::Trouble;
-use crate::machine::{MachineMotion, MachineProblem, Portrait};
+use crate::machine::{MachineMotion, MachineProblem};
 use crate::portrait::Margin;
+use crate::portrait::Portrait;
 use crate::study::basin::Window;
 use crate::study::design::FrictionNeeded;
 

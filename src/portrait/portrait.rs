@@ -6,22 +6,22 @@
 
 use rayon::prelude::*;
 
-use super::arc::{Flow, LostMotion};
-use super::curve::{CurvePiece, MachineCurve, Rectangle};
 use super::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
-use super::landmarks::Landmarks;
-use super::model::{Model, Phase};
-use super::return_map::MachineReturn;
-use super::turn::ContactState;
-use super::without_belt;
+use super::without_belt::{self, WithoutBelt};
+use super::{Border, Cycle, Margin, Reach, RestMargin};
 use crate::flow::Fate;
+use crate::machine::arc::{Flow, LostMotion};
+use crate::machine::curve::{CurvePiece, MachineCurve, Rectangle};
+use crate::machine::landmarks::Landmarks;
+use crate::machine::model::{Model, Phase};
+use crate::machine::return_map::MachineReturn;
+use crate::machine::turn::ContactState;
 use crate::numerics::root::bisect;
-use crate::portrait::{Border, Cycle, Margin, Reach, RestMargin};
 use crate::study::basin::{Basin, Counts, Window, between};
 
 /// The border of the basin of rest, as it was traced.
 #[derive(Clone, Debug)]
-pub(super) enum Traced {
+enum Traced {
     Nothing,
     /// A closed curve.
     Curve(MachineCurve),
@@ -56,8 +56,8 @@ pub struct Portrait {
     pub unresolved: Vec<(f64, f64)>,
     /// Number of integration steps.
     pub steps: u64,
-    pub(super) gaps: Vec<Gap>,
-    pub(super) traced: Traced,
+    gaps: Vec<Gap>,
+    traced: Traced,
 }
 
 impl Portrait {
@@ -66,7 +66,10 @@ impl Portrait {
     /// # Errors
     /// [`LostMotion`] if the motions near rest, or those that the belt releases, cannot be followed.
     pub fn of(model: &Model) -> Result<Self, LostMotion> {
-        without_belt::portrait(model).map_or_else(|| Portrait::by_return_map(model), Ok)
+        match WithoutBelt::of(model) {
+            Some(found) => Ok(Portrait::without_belt(model, found)),
+            None => Portrait::by_return_map(model),
+        }
     }
 
     /// The portrait of any machine by its return map.
@@ -115,6 +118,27 @@ impl Portrait {
         portrait.settle_border(&mut flow, &marks)?;
         portrait.steps = flow.steps;
         Ok(portrait)
+    }
+
+    fn without_belt(model: &Model, found: WithoutBelt) -> Self {
+        let WithoutBelt { cycles, border, reach, basin, steps } = found;
+        let mut portrait = Portrait {
+            model: model.clone(),
+            cycles,
+            neutral: false,
+            border,
+            reach,
+            margin: Margin::ENDLESS,
+            landmarks: None,
+            stop: None,
+            known: f64::INFINITY,
+            unresolved: Vec::new(),
+            steps,
+            gaps: Vec::new(),
+            traced: Traced::Basin(Box::new(basin)),
+        };
+        portrait.margin = portrait.margin_within(model.guide_static, model.mass);
+        portrait
     }
 
     fn settle_border(
@@ -382,13 +406,5 @@ impl Flow<'_> {
             (x, y) = (turn.x, 0.0);
         }
         Ok(None)
-    }
-}
-
-impl Model {
-    /// A velocity in m/s divided by the natural frequency; for that of the belt, exactly the speed of the model.
-    #[must_use]
-    pub fn scaled_velocity(&self, v: f64) -> f64 {
-        v / self.omega_0
     }
 }

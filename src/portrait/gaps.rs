@@ -1,16 +1,16 @@
 //! The gaps between the right turning points at which the return map changes, and the fate of the motions in
 //! each gap.
 
-use super::arc::{Flow, LostMotion};
-use super::landmarks::Landmarks;
-use super::model::Model;
-use super::return_map::MachineReturn;
-use super::search::NOTHING;
 use crate::flow::Fate;
+use crate::machine::arc::{Flow, LostMotion};
+use crate::machine::landmarks::Landmarks;
+use crate::machine::model::Model;
+use crate::machine::return_map::MachineReturn;
+use crate::machine::search::NOTHING;
 
 /// A gap between right turning points.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Gap {
+pub(crate) struct Gap {
     /// Its upper end.
     pub to: f64,
     pub fate: Fate<LostMotion>,
@@ -20,7 +20,7 @@ pub(super) struct Gap {
 
 /// A right turning point at which the return map changes.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Divide {
+pub(crate) enum Divide {
     Cycle(usize),
     Jump,
     /// The last one from which the guide catches the mass; motions from beyond grow.
@@ -28,7 +28,7 @@ pub(super) enum Divide {
 }
 
 /// Jumps of the return map: where a touch becomes a ride, and where the mirror band ends.
-pub(super) fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
+pub(crate) fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
     let Some(marks) = landmarks else { return Vec::new() };
     let mut found: Vec<f64> = marks.grazing.right.into_iter().collect();
     if marks.lines.release > marks.lines.fold {
@@ -40,7 +40,7 @@ pub(super) fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
 
 /// The direction of motions in a gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Tendency {
+pub(crate) enum Tendency {
     Outward,
     Inward,
     /// They are periodic.
@@ -50,7 +50,7 @@ pub(super) enum Tendency {
 }
 
 /// The direction of motions in each gap.
-pub(super) fn ways(
+pub(crate) fn ways(
     flow: &mut Flow,
     marks: &[(f64, Divide)],
     end: f64,
@@ -91,7 +91,7 @@ fn way(image: f64, x: f64) -> Tendency {
 }
 
 /// The fate of each gap.
-pub(super) fn gaps(
+pub(crate) fn gaps(
     marks: &[(f64, Divide)],
     ways: &[Tendency],
     stop: Option<LostMotion>,
