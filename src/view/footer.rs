@@ -9,7 +9,7 @@ use super::keys;
 use super::look::Look;
 use super::pane;
 use crate::flow::QUALITIES;
-use crate::oscillator::Knob;
+use crate::oscillator::{Knob, KnobSpec};
 use crate::picture::role::Role;
 use crate::session::Hint;
 use crate::session::read::completion::described;
@@ -112,8 +112,10 @@ fn allowed(row: Row, session: &Session) -> String {
         }
         Row::BELT => "speed of the belt, such as 0.3 m/s or 30 cm/s".to_owned(),
         Row::Number(knob) if row.is_of_machine() => {
-            let spec = knob.spec();
-            format!("{}, in {} or with its unit", spec.meaning, spec.unit)
+            let KnobSpec { meaning, unit, .. } = *knob.spec();
+            let unit =
+                if unit.is_empty() { "a number" } else { &format!("in {unit} or with its unit") };
+            format!("{meaning}, {unit}")
         }
         Row::Number(Knob::Disturbance) => {
             "bound on a force that varies in any way, in the unit of r or in N".to_owned()

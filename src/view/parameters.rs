@@ -12,8 +12,8 @@ use super::paint::symbol;
 use super::pane::{self, Heading};
 use super::prose;
 use crate::flow::Problem;
-use crate::oscillator::Knob;
 use crate::oscillator::belt::Units;
+use crate::oscillator::{Knob, KnobSpec};
 use crate::picture::role::{CycleStyle, Role, cycle_style};
 use crate::picture::units;
 use crate::portrait::{Border, Cycle};
@@ -44,7 +44,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     pane::title(area, "parameters", &of, &heading, look, buffer);
     let wide = usize::from(area.width) >= VALUES + STEP;
     let mut y = 1;
-    for row in session.rows() {
+    for row in session.rows().into_iter().skip(first(session, area.height)) {
         let selected = row == session.selected;
         let step = (selected || wide).then(|| step(session, row)).flatten();
         let line = row_line(session, row, step, area.width, look);
@@ -65,6 +65,12 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         let text = Rect { y: below.y + rows, height: below.height.saturating_sub(rows), ..below };
         guide(text, session, look, buffer);
     }
+}
+
+/// The first row that is on show, so that the selected one is: a machine can have more rows than fit.
+pub fn first(session: &Session, height: u16) -> usize {
+    let selected = session.rows().iter().position(|row| *row == session.selected).unwrap_or(0);
+    (selected + 2).saturating_sub(height.into())
 }
 
 /// What to look at in this scene and what to press. Where there is no room for both texts, the key that shows
@@ -183,7 +189,9 @@ fn on_its_belt(session: &Session, row: Row) -> Option<(&'static str, String)> {
         Row::Number(knob) => running.meaning(knob, session.value(knob))?,
         Row::Method | Row::Tolerance => return None,
     };
-    Some((knob.spec().name, with_unit(value, 4, knob.spec().unit)))
+    let KnobSpec { name, unit, .. } = *knob.spec();
+    // A pure number stands in its row as it is.
+    (!unit.is_empty()).then(|| (name, with_unit(value, 4, unit)))
 }
 
 fn value(session: &Session, setup: &Setup, row: Row, width: usize, sign: &str) -> String {

@@ -4,6 +4,7 @@ use ratatui::layout::{Position, Rect};
 
 use super::energy_ledger;
 use super::layout::layout;
+use super::parameters;
 use super::plot::{point_at, shown};
 use super::scan;
 use crate::picture;
@@ -15,9 +16,9 @@ pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<PointerT
     let parts = layout(screen, session)?;
     if parts.parameters.contains(cell) {
         // The first line is the title.
-        return (cell.y - parts.parameters.y)
-            .checked_sub(1)
-            .map(|row| PointerTarget::Row(row.into()));
+        let line = (cell.y - parts.parameters.y).checked_sub(1).map(usize::from);
+        let first = parameters::first(session, parts.parameters.height);
+        return line.map(|line| PointerTarget::Row(first + line));
     }
     let index = parts.plots.iter().position(|area| area.contains(cell))?;
     let area = parts.plots[index];

@@ -10,6 +10,7 @@ mod texts;
 use super::frame::render;
 use super::layout::layout;
 use super::look::Look;
+use super::place::place;
 use crate::flow::{Method, Outcome, Problem, Reason, Sample};
 use crate::oscillator::{Knob, Parameters, State};
 use crate::question::NoAnswer;
@@ -17,12 +18,12 @@ use crate::question::zones::Extent;
 use crate::scene::library::{find, library};
 use crate::scene::{Answer, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window};
 use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES};
-use crate::session::{BranchStop, Msg, Notice, Session, Size, update};
+use crate::session::{BranchStop, Msg, Notice, PointerTarget, Session, Size, update};
 use crate::study::{BranchPoint, Return};
 use crate::view::screen::text;
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 use ratatui::style::Modifier;
 use std::sync::Arc;
 
@@ -303,6 +304,21 @@ fn a_value_that_differs_from_the_scene_is_underlined() {
         buffer.content.iter().filter(|cell| cell.modifier.contains(Modifier::UNDERLINED)).count()
     };
     assert_eq!((underlined(""), underlined("<right>")), (0, "-0.09".len()));
+}
+
+#[test]
+fn the_selected_row_is_on_show_and_can_be_clicked_however_many_there_are() {
+    let mut session = settled("fig01", 80, 24, "x");
+    let (screen, rows) = (Rect::new(0, 0, 80, 24), session.rows());
+    assert!(rows.len() > 22, "{}", rows.len());
+    for (index, row) in rows.into_iter().enumerate() {
+        session.selected = row;
+        let shown = picture_of(&session, letters());
+        let pointer = format!(">{} ", row.name_in(&session.problem));
+        let y = shown.lines().position(|line| line.starts_with(&pointer)).unwrap();
+        let cell = Position { x: 1, y: u16::try_from(y).unwrap() };
+        assert_eq!(place(screen, &session, cell), Some(PointerTarget::Row(index)), "{pointer}");
+    }
 }
 
 #[test]

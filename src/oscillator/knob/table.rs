@@ -343,6 +343,20 @@ impl Knob {
     /// The four numbers of equation (4).
     pub const PARAMETERS: [Self; 4] = [Knob::D, Knob::D2, Knob::D3, Knob::R];
 
+    /// How many numbers a mass on a belt and its friction law can have.
+    pub const OF_MACHINES: usize = Group::Machine.count() + Group::Law.count();
+
+    /// Those numbers, in the order of the table.
+    pub fn of_machines() -> impl Iterator<Item = Self> + Clone {
+        Group::Machine.knobs().chain(Group::Law.knobs())
+    }
+
+    /// Whether it is a number of a mass on a belt or its friction law.
+    #[must_use]
+    pub fn is_of_machine(self) -> bool {
+        self.spec().belt.is_some()
+    }
+
     /// Whether it is a number of equation (4), and not of a start.
     #[must_use]
     pub fn is_parameter(self) -> bool {

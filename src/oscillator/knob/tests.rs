@@ -34,7 +34,8 @@ fn every_number_is_found_under_its_name_and_takes_its_default() {
     assert!(Group::Motion.knobs().eq(Knob::MOTION));
     assert_eq!(Group::Machine.count(), Group::Machine.knobs().count());
     let symbols = |group: Group| group.knobs().map(|knob| knob.spec().symbol);
-    let pane = [Group::Motion, Group::Machine, Group::Setting].into_iter().flat_map(symbols);
+    let pane =
+        [Group::Motion, Group::Machine, Group::Law, Group::Setting].into_iter().flat_map(symbols);
     let names: std::collections::BTreeSet<&str> = pane.clone().collect();
     assert_eq!(names.len(), pane.count(), "rows of the pane with one name");
 }

@@ -1,10 +1,12 @@
-//! The setting of a machine: the speed of its belt, and the numbers that differ from its file.
+//! The setting of a machine: the speed of its belt, and the numbers that differ from its file, those of its friction
+//! law included.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
 use super::Machine;
+use crate::machine::Model;
 use crate::oscillator::{Group, Knob, OutOfRange};
 
 /// The speed of a belt and the other numbers of a machine that were changed, in SI units.
@@ -14,7 +16,7 @@ pub struct Setting {
     /// Speed v0 of the belt.
     pub speed: f64,
     /// The other numbers, in the order of the table; `None` where the file's value holds.
-    others: [Option<f64>; Group::Machine.count()],
+    others: [Option<f64>; Knob::OF_MACHINES],
 }
 
 /// A setting as it is saved: a speed alone, or all changed numbers by name.
@@ -31,7 +33,7 @@ impl From<Setting> for Written {
             return Written::Speed(setting.speed);
         }
         let set = |knob: Knob| Some((knob.to_string(), setting.get(knob)?));
-        Written::Numbers(Group::Machine.knobs().filter_map(set).collect())
+        Written::Numbers(Knob::of_machines().filter_map(set).collect())
     }
 }
 
@@ -46,7 +48,7 @@ impl TryFrom<Written> for Setting {
         let speed = numbers.get("v0").ok_or("a machine without the speed v0 of its belt")?;
         let mut setting = Setting::of_speed(*speed);
         for (name, value) in &numbers {
-            setting = setting.with(Knob::named(name, &[Group::Machine])?, *value);
+            setting = setting.with(Knob::named(name, &[Group::Machine, Group::Law])?, *value);
         }
         Ok(setting)
     }
@@ -55,14 +57,14 @@ impl TryFrom<Written> for Setting {
 impl Setting {
     /// The setting with this belt speed and all other numbers from the file.
     pub fn of_speed(speed: f64) -> Self {
-        Setting { speed, others: [None; Group::Machine.count()] }
+        Setting { speed, others: [None; Knob::OF_MACHINES] }
     }
 
     /// A number that is set; `None` where the file's value holds.
     pub fn get(&self, knob: Knob) -> Option<f64> {
         match knob {
             Knob::BeltSpeed => Some(self.speed),
-            other => self.others[other.place()],
+            other => self.others[place(other)],
         }
     }
 
@@ -70,7 +72,7 @@ impl Setting {
     pub fn with(mut self, knob: Knob, value: f64) -> Self {
         match knob {
             Knob::BeltSpeed => self.speed = value,
-            other => self.others[other.place()] = Some(value),
+            other => self.others[place(other)] = Some(value),
         }
         self
     }
@@ -81,25 +83,30 @@ impl Setting {
     }
 
     /// Checks all numbers against their ranges. Fails with the first one that is outside.
-    pub fn checked(self) -> Result<Self, OutOfRange> {
-        for knob in Group::Machine.knobs() {
-            self.get(knob).map_or(Ok(0.0), |value| knob.check(value))?;
-        }
-        Ok(self)
+    pub fn checked(&self) -> Result<(), OutOfRange> {
+        let mut set = Knob::of_machines().filter_map(|knob| Some((knob, self.get(knob)?)));
+        set.try_for_each(|(knob, value)| knob.check(value).map(drop))
     }
 
-    /// A machine with these numbers. The static friction of its guide is raised to the sliding friction where
-    /// it would be less.
-    pub fn on(&self, machine: &Machine) -> Machine {
+    /// A machine with these numbers. The static friction of its guide, where it is not set, is raised to the sliding
+    /// friction where it would be less. Fails with one line if the machine lacks a number, or is none with it.
+    pub fn on(&self, machine: &Machine) -> Result<Machine, String> {
         let mut set = machine.clone();
-        for knob in Group::Machine.knobs() {
+        for knob in Knob::of_machines() {
             if let Some(value) = self.get(knob) {
-                // A belt has all numbers of this group.
-                let _ = knob.set_in_belt(&mut set.belt, value);
+                knob.set_in_belt(&mut set.belt, value)?;
             }
         }
-        let moving = set.belt.friction;
-        set.belt.static_guide = set.belt.static_guide.map(|at_rest| at_rest.max(moving));
-        set
+        if self.get(Knob::StaticGuide).is_none() {
+            let moving = set.belt.friction;
+            set.belt.static_guide = set.belt.static_guide.map(|at_rest| at_rest.max(moving));
+        }
+        Model::new(&set.belt).map_err(|refused| refused.to_string())?;
+        Ok(set)
     }
+}
+
+/// The place of a number among [`Setting::others`].
+fn place(knob: Knob) -> usize {
+    Knob::of_machines().take_while(|other| *other != knob).count()
 }

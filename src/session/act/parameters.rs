@@ -6,7 +6,7 @@ use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::machine::stepped::SteppedMethod;
 use crate::numerics::decimal::shortest;
 use crate::numerics::elementary::log10;
-use crate::oscillator::{Group, Knob, KnobSpec};
+use crate::oscillator::{Knob, KnobSpec};
 use crate::scene::{Running, Setting, View};
 use crate::session::act::notice::inform;
 use crate::session::effect::Done;
@@ -69,10 +69,10 @@ pub fn step(session: &mut Session, count: i32) -> Done {
 /// Steps a number, within its range. One of the machine leads back onto its belt; out of range it is refused: the
 /// end of the range of speeds, far below that of any belt, would be no useful place to stop.
 fn step_number(session: &mut Session, knob: Knob, count: i32) -> Done {
-    let KnobSpec { symbol, min, max, group, .. } = *knob.spec();
+    let KnobSpec { symbol, min, max, .. } = *knob.spec();
     let value = session.value(knob);
     let wanted = session.steps.of(knob).from(value, count);
-    let within = if group == Group::Machine { wanted } else { wanted.clamp(min, max) };
+    let within = if knob.is_of_machine() { wanted } else { wanted.clamp(min, max) };
     let stepped = session.with(&session.setup(), knob, within)?;
     if put(session, &stepped) {
         Ok(())
@@ -212,15 +212,15 @@ impl Session {
         self.doubt = doubt;
         let scaled = self.scene.machine.as_ref();
         let can_run = |setting: &Setting| {
-            scaled.is_some_and(|scaled| {
-                Running::at(&setting.on(&scaled.machine), setting.speed).is_ok()
-            })
+            let set = scaled.and_then(|scaled| setting.on(&scaled.machine).ok());
+            set.is_some_and(|machine| Running::at(&machine, setting.speed).is_ok())
         };
         let own = scaled.map(|scaled| Setting::of_speed(scaled.machine.belt.belt_speed));
         let present = self.setting.filter(can_run);
         self.setting = setting.filter(can_run).or(present).or(own);
         let rebuilt = scaled.zip(self.setting).filter(|(_, setting)| setting.differs());
-        self.rebuilt = rebuilt.map(|(scaled, setting)| Arc::new(setting.on(&scaled.machine)));
+        self.rebuilt =
+            rebuilt.and_then(|(scaled, setting)| setting.on(&scaled.machine).ok()).map(Arc::new);
         // The energy ledger has lines for each motion.
         if self.others.all().len() != others.all().len() {
             let ledgers =

@@ -6,7 +6,7 @@
 
 use crate::flow::Problem;
 use crate::machine::Body;
-use crate::oscillator::{Belt, Group, Knob, Parameters, State};
+use crate::oscillator::{Belt, Knob, Parameters, State};
 use crate::question::Whole;
 use crate::question::whole::{Course, WholeCycles};
 use crate::scene::machine::unlikely::unlikely;
@@ -95,7 +95,7 @@ impl Session {
         knob: Knob,
         half_width: f64,
     ) -> Result<Uncertainty, String> {
-        if knob.spec().group != Group::Machine {
+        if !knob.is_of_machine() {
             return setup.doubt.with_half_width(knob, half_width);
         }
         let symbol = symbol_of(knob).ok_or_else(|| {
@@ -125,9 +125,8 @@ impl Session {
     /// The machine of the scene with the setting of `setup`. Fails with one line if the scene has no machine.
     fn set_machine(&self, setup: &Setup) -> Result<Machine, String> {
         let scaled = self.scene.machine.as_ref().ok_or("the scene has no machine")?;
-        Ok(setup
-            .setting
-            .map_or_else(|| scaled.machine.clone(), |setting| setting.on(&scaled.machine)))
+        let own = || Ok(scaled.machine.clone());
+        setup.setting.map_or_else(own, |setting| setting.on(&scaled.machine))
     }
 
     /// The setup with another value of a number; one of the machine leaves the start in metres and the
@@ -142,7 +141,7 @@ impl Session {
         let mut changed = *setup;
         match knob {
             Knob::Disturbance => changed.doubt.disturbance = value,
-            _ if knob.spec().group == Group::Machine => return self.rebuilt(setup, knob, value),
+            _ if knob.is_of_machine() => return self.rebuilt(setup, knob, value),
             _ => changed.problem.set(knob, value),
         }
         Ok(changed)
@@ -152,7 +151,7 @@ impl Session {
         let was = self.set_machine(setup)?;
         let setting = setup.setting.unwrap_or(Setting::of_speed(was.belt.belt_speed));
         let setting = setting.with(knob, value);
-        let is = setting.on(&was);
+        let is = self.set_machine(&Setup { setting: Some(setting), ..*setup })?;
         let running = Running::at(&was, was.belt.belt_speed)?;
         let other = Running::at(&is, setting.speed)?;
         let Setup { problem, others, doubt, .. } = *setup;

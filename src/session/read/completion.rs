@@ -37,9 +37,8 @@ fn complete(session: &Session, kind: WordKind, given: &[&str]) -> Vec<String> {
 }
 
 /// The rows to which a line can assign a value; without a machine, none of a machine.
-pub fn rows(session: &Session) -> impl Iterator<Item = Row> + use<> {
-    let belt = session.running().is_some();
-    Row::all().filter(move |row| belt || !row.is_of_machine())
+pub fn rows(session: &Session) -> impl Iterator<Item = Row> {
+    Row::all().filter(|row| session.has(*row))
 }
 
 /// The names of the properties; those that are lengths also in units of r.

@@ -24,7 +24,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let file = read(text)?;
     let scene = scene(file.present.scene)?;
     let Show { motion, ref beside, belt, doubt, .. } = file.present;
-    let setup = checked(motion, beside, belt, doubt)?;
+    let setup = checked(motion, beside, belt.as_ref(), doubt)?;
     let plots = checked_plots(file.plots, |plot| opened(&plot))?;
     let in_range = |index: usize| index < plots.len();
     let focus = match file.focus.checked_sub(1) {
@@ -44,8 +44,8 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     if !(1..=most).contains(&file.harmonics) {
         return Err(format!("harmonics = {}, not 1 to {most}", file.harmonics));
     }
-    let mark = |problem, beside: &[State], belt, doubt| {
-        checked(problem, beside, belt, doubt).map(|setup| Bookmark::new(&setup))
+    let mark = |problem, beside: &[State], belt: Option<Setting>, doubt| {
+        checked(problem, beside, belt.as_ref(), doubt).map(|setup| Bookmark::new(&setup))
     };
     let doubt = |name: &char| file.doubts.get(name).copied().unwrap_or_default();
     let beside = |name: &char| file.beside.get(name).map_or(&[][..], Vec::as_slice);
@@ -89,7 +89,7 @@ pub fn summary(text: &str) -> Result<String, String> {
     let file = read(text)?;
     let scene = scene(file.present.scene)?;
     let Show { motion, beside, belt, .. } = file.present;
-    let setup = checked(motion, &beside, belt, Uncertainty::default())?;
+    let setup = checked(motion, &beside, belt.as_ref(), Uncertainty::default())?;
     let changed = difference(&Setup::of_scene(&scene), &setup);
     let marks = match file.marks.len() {
         0 => String::new(),
@@ -138,14 +138,14 @@ fn scene(named: SavedScene) -> Result<Arc<Scene>, String> {
 fn checked(
     problem: Problem,
     beside: &[State],
-    setting: Option<Setting>,
+    setting: Option<&Setting>,
     doubt: Uncertainty,
 ) -> Result<Setup, String> {
     let accuracy = [Knob::Until, Knob::Tolerance, Knob::Step, Knob::Epsilon];
     for knob in Knob::MOTION.into_iter().chain(accuracy) {
         knob.check(problem.get(knob))?;
     }
-    let setting = setting.map(Setting::checked).transpose()?;
+    setting.map_or(Ok(()), Setting::checked)?;
     let others = Starts::of(beside).ok_or_else(|| {
         format!("{} motions beside another; there can be {}", beside.len(), MOST_MOTIONS - 1)
     })?;
@@ -154,7 +154,7 @@ fn checked(
     {
         symbol.check(value)?;
     }
-    Ok(Setup { problem, others, setting, doubt: doubt.checked()? })
+    Ok(Setup { problem, others, setting: setting.copied(), doubt: doubt.checked()? })
 }
 
 /// Converts plots, if their number is allowed on a screen.
@@ -177,8 +177,8 @@ fn opened(saved: &SavedPlot) -> Plot {
 
 fn before(change: SavedChange) -> Result<Before, String> {
     let known = Uncertainty::default();
-    let setup = |motion, beside: &[State], belt, doubt| {
-        checked(motion, beside, belt, doubt).map(|setup| Before::Setup(Box::new(setup)))
+    let setup = |motion, beside: &[State], belt: Option<Setting>, doubt| {
+        checked(motion, beside, belt.as_ref(), doubt).map(|setup| Before::Setup(Box::new(setup)))
     };
     Ok(match change {
         SavedChange::Motion(motion) => setup(motion, &[], None, known)?,
@@ -194,7 +194,7 @@ fn before(change: SavedChange) -> Result<Before, String> {
             let Show { arrangement, layers, steps, motion, beside, belt, doubt, scene } = *show;
             Before::Scene(Box::new(Snapshot {
                 scene: self::scene(scene)?,
-                setup: checked(motion, &beside, belt, doubt)?,
+                setup: checked(motion, &beside, belt.as_ref(), doubt)?,
                 steps,
                 layers,
                 screen_setup: ScreenSetup {

@@ -20,22 +20,16 @@ pub enum Row {
     Tolerance,
 }
 
-/// The numbers of a machine from top to bottom: first those that are changed while it runs.
-const MACHINE: [Knob; Group::Machine.count()] = [
-    Knob::BeltSpeed,
-    Knob::NormalForce,
-    Knob::Friction,
-    Knob::Mass,
-    Knob::Stiffness,
-    Knob::Damping,
-    Knob::CubicDamping,
-];
+/// The numbers of a machine that are changed while it runs; they stand above the others.
+const FIRST_OF_MACHINE: [Knob; 3] = [Knob::BeltSpeed, Knob::NormalForce, Knob::Friction];
 
 impl Row {
     /// All rows, from top to bottom.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
         let others = [Knob::Disturbance, Knob::Q0, Knob::V0, Knob::Until];
-        let numbers = MACHINE.into_iter().chain(Knob::PARAMETERS).chain(others);
+        let rest = Knob::of_machines().filter(|knob| !FIRST_OF_MACHINE.contains(knob));
+        let machine = FIRST_OF_MACHINE.into_iter().chain(rest);
+        let numbers = machine.chain(Knob::PARAMETERS).chain(others);
         numbers.map(Row::Number).chain([Row::Method, Row::Tolerance])
     }
 
@@ -68,9 +62,9 @@ impl Row {
         if let Row::Number(knob) = self { Some(knob) } else { None }
     }
 
-    /// Whether it is a number of a machine.
+    /// Whether it is a number of a machine or its friction law.
     pub fn is_of_machine(self) -> bool {
-        self.stepped().is_some_and(|knob| knob.spec().group == Group::Machine)
+        self.stepped().is_some_and(Knob::is_of_machine)
     }
 }
 
@@ -149,20 +143,19 @@ impl StepSizes {
             let usual = scene.steps.get(&knob).copied().unwrap_or(knob.spec().step);
             match (knob, &scene.machine) {
                 (Knob::Disturbance, _) => step_of_disturbance(scene),
-                (knob, Some(scaled)) if knob.spec().group == Group::Machine => {
-                    usual * size(scaled, knob)
-                }
+                (knob, Some(scaled)) if knob.is_of_machine() => usual * size(scaled, knob),
                 _ => usual,
             }
         })
     }
 }
 
-/// The size of a number of a machine; of a damper or a friction that is zero, the unit of D, D3 or r.
+/// The size of a number of a machine; of a damper or a friction that is zero, the unit of D, D3 or r; of another one
+/// that is zero, 1 in its SI unit.
 fn size(scaled: &ScaledMachine, knob: Knob) -> f64 {
     let size = knob.of_belt(&scaled.machine.belt).map_or(0.0, f64::abs);
     let unit = symbol_of(knob).map(|symbol| scaled.running().scale(symbol));
-    if size > 0.0 { size } else { unit.unwrap_or(size) }
+    if size > 0.0 { size } else { unit.unwrap_or(1.0) }
 }
 
 /// First step of the disturbance: a tenth of the friction, rounded to a step size.

@@ -231,10 +231,13 @@ impl Session {
         self.value_in(&self.setup(), knob)
     }
 
-    /// The value of a number in a setup, 0 if there is none; one of the machine that is not set is that of its file.
+    /// The value of a number in a setup, 0 if there is none. One of the machine that is not set is that of its file;
+    /// or, where others determine it, that of the present machine.
     pub fn value_in(&self, setup: &Setup, knob: Knob) -> f64 {
-        let of_file = || knob.of_belt(&self.scene.machine.as_ref()?.machine.belt);
-        setup.get(knob).or_else(of_file).unwrap_or(0.0)
+        let present = self.rebuilt.as_deref().filter(|_| setup.setting == self.setting);
+        let machine = || present.or_else(|| Some(&self.scene.machine.as_ref()?.machine));
+        let of_machine = || knob.of_belt(&machine()?.belt);
+        setup.get(knob).or_else(of_machine).unwrap_or(0.0)
     }
 
     /// The present setup: the motions on show, the setting of the machine, and what is not known exactly.
@@ -243,11 +246,18 @@ impl Session {
         Setup { problem, others, setting, doubt }
     }
 
+    /// Whether there is such a number: one of a machine or its friction law is that of the scene's machine.
+    pub fn has(&self, row: Row) -> bool {
+        let belt = self.scene.machine.as_ref().map(|scaled| &scaled.machine.belt);
+        let of_belt = |knob: Knob| belt.is_some_and(|belt| knob.of_belt(belt).is_some());
+        row.stepped().filter(|knob| knob.is_of_machine()).is_none_or(of_belt)
+    }
+
     /// The rows of the parameter pane: those that the scene declares and those that are not zero; all rows if
     /// unfolded.
     pub fn rows(&self) -> Vec<Row> {
         let stands = |row: &Row| match *row {
-            Row::Number(_) if row.is_of_machine() && self.scene.machine.is_none() => false,
+            row if !self.has(row) => false,
             Row::Number(_) if self.unfolded => true,
             Row::Number(knob) if row.is_of_machine() => {
                 self.setting.is_some_and(|it| it.get(knob).is_some())

@@ -1,7 +1,7 @@
 //! The motions on show, the numbers of the machine and what is not known exactly: they change together.
 
 use crate::flow::Problem;
-use crate::oscillator::{Group, Knob};
+use crate::oscillator::Knob;
 use crate::scene::{ScaledMachine, Scene, Setting};
 use crate::session::state::starts::Starts;
 use crate::session::state::uncertainty::Uncertainty;
@@ -34,7 +34,7 @@ impl Setup {
     pub fn get(&self, knob: Knob) -> Option<f64> {
         match knob {
             Knob::Disturbance => Some(self.doubt.disturbance),
-            _ if knob.spec().group == Group::Machine => self.setting?.get(knob),
+            _ if knob.is_of_machine() => self.setting?.get(knob),
             _ => Some(self.problem.get(knob)),
         }
     }

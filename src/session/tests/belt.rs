@@ -2,8 +2,9 @@
 
 use super::Trial;
 use super::facts::refuses;
-use crate::oscillator::Knob;
+use super::saved::reopened;
 use crate::oscillator::belt::ReducedBelt;
+use crate::oscillator::{Group, Knob};
 use crate::scene::{Layer, ScaledMachine};
 use crate::session::{Effect, Msg, Purpose, Row, save};
 
@@ -118,11 +119,8 @@ fn marks_scenes_and_saved_sessions_know_the_speed() {
     let mut trial = Trial::open("fig01");
     trial.press("<up> <right*2> \"a <right*3>");
     runs_at(&trial, 0.35);
-    let text = save::text(&trial.session).unwrap();
-    let mut other = Trial::open("plain").session;
-    save::open(&mut other, &text).unwrap();
-    assert_eq!(other.setup(), trial.session.setup());
-    assert_eq!(other.history, trial.session.history);
+    let mut other = reopened(&trial.session);
+    let text = save::text(&other).unwrap();
     trial.press("'a");
     runs_at(&trial, 0.32);
     trial.press("''");
@@ -225,6 +223,41 @@ fn a_machine_opens_from_its_file_and_the_table_beside_it() {
 }
 
 #[test]
+fn numbers_of_the_friction_law_are_set_like_those_of_the_machine() {
+    let mut trial = Trial::open("fig01");
+    let before = trial.session.setup();
+    trial.press("x:set<space>rest=0.45<space>velocity=0.2m/s<enter>");
+    let mut machine = crate::scene::machine::library::find("textbook").unwrap().clone();
+    for (knob, value) in [(Knob::Rest, 0.45), (Knob::Velocity, 0.2)] {
+        knob.set_in_belt(&mut machine.belt, value).unwrap();
+    }
+    let session = &trial.session;
+    assert_eq!(session.problem.parameters, machine.reduce().unwrap().parameters);
+    assert_eq!(session.machine().unwrap(), machine.belt);
+    assert_eq!(session.value(Knob::StaticCoefficient), 0.45, "at rest it is that of the law");
+    let rows = session.rows().into_iter().filter_map(Row::stepped);
+    let law = rows.filter(|knob| knob.spec().group == Group::Law).map(|knob| knob.spec().name);
+    let law: Vec<&str> = law.collect();
+    let stribeck = ["mu_s", "R_static", "rest", "kinetic", "velocity", "exponent", "viscous"];
+    assert_eq!(law, stribeck);
+    assert_eq!(reopened(session).machine(), session.machine());
+    trial.session.selected = Row::Number(Knob::Viscous);
+    trial.press("<right>");
+    assert_eq!(trial.session.value(Knob::Viscous), 0.05);
+    trial.press("uu");
+    assert_eq!(trial.notice(), "undo: rest = as in its file, velocity = as in its file");
+    assert_eq!(trial.session.setup(), before);
+    refuses(
+        "fig01",
+        &[
+            (": set mu_s=0.1", "..mu_s = 0.1 is below the coefficient 0.4 of the law at rest"),
+            (": set R_static=0.5 N", "..R_static = 0.5 N is below R = 1 N"),
+            (": set mu=0.3", "..no number \"mu\""),
+        ],
+    );
+}
+
+#[test]
 fn numbers_of_a_machine_are_typed_with_units_stepped_undone_and_saved() {
     let mut trial = Trial::open("fig01");
     let before = trial.session.setup();
@@ -240,12 +273,7 @@ fn numbers_of_a_machine_are_typed_with_units_stepped_undone_and_saved() {
     let x = session.problem.initial.q * expected.units.displacement;
     assert!((x / 1e-3 - 1.0).abs() < 1e-15, "the start is 1 mm, whatever the unit of length");
     assert!(session.rows().contains(&Row::Number(Knob::Mass)));
-    // A saved session has the same state and the same history.
-    let text = save::text(session).unwrap();
-    let mut other = Trial::open("plain").session;
-    save::open(&mut other, &text).unwrap();
-    assert_eq!(other.setup(), session.setup());
-    assert_eq!(other.machine(), session.machine());
+    assert_eq!(reopened(session).machine(), session.machine());
     // A step of the row, and undo.
     trial.session.selected = Row::Number(Knob::Friction);
     trial.press("<right>");

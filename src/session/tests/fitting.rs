@@ -1,6 +1,7 @@
 //! A recorded motion: opened, fitted, with numbers held, and stopped.
 
 use super::Trial;
+use super::saved::reopened;
 use crate::fit::Signal;
 use crate::numerics::elementary::{cos, exp, sin};
 use crate::oscillator::Knob;
@@ -177,21 +178,18 @@ fn what_is_free_held_and_how_residuals_count_may_stand_behind_the_file() {
     let found = trial.session.fitted().unwrap();
     assert!(found.holds(Knob::R) && found.holds(Knob::D2) && !found.holds(Knob::D));
     assert_eq!(trial.session.problem.parameters.r, 0.05);
-    let recording = trial.session.scene.recording.clone().unwrap();
+    let recording = trial.session.scene.recording.as_ref().unwrap();
     assert_eq!(recording.loss, crate::fit::LossName::Cauchy);
     // A reopened session asks the same again.
-    let mut other = Trial::open("plain");
-    save::open(&mut other.session, &save::text(&trial.session).unwrap()).unwrap();
-    assert_eq!(other.session.scene.recording, Some(recording));
+    reopened(&trial.session);
 }
 
 #[test]
 fn a_saved_session_keeps_what_is_held() {
     let mut trial = fitted();
     trial.press("<run \"set r=0.06\">");
-    let text = save::text(&trial.session).unwrap();
-    let mut other = Trial::open("plain");
-    save::open(&mut other.session, &text).unwrap();
+    let session = reopened(&trial.session);
+    let mut other = Trial { session, asked: Vec::new(), effects: Vec::new() };
     other.settle();
     assert!(other.session.doubt.holds(Knob::R));
     let (one, two) = (trial.session.problem.parameters, other.session.problem.parameters);
@@ -260,11 +258,8 @@ fn a_record_of_velocities_is_shown_as_velocities_and_kept_as_such() {
         ["record of v", "velocity v"].iter().all(|name| names.contains(&(*name).to_owned())),
         "{names:?}"
     );
-    let text = save::text(&trial.session).unwrap();
+    let text = save::text(&reopened(&trial.session)).unwrap();
     assert!(text.contains("signal = \"velocity\""), "{text}");
-    let mut other = Trial::open("plain");
-    save::open(&mut other.session, &text).unwrap();
-    assert_eq!(other.session.scene.recording, trial.session.scene.recording);
 }
 
 #[test]

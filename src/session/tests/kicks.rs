@@ -1,11 +1,12 @@
 //! Random kicks over the basin.
 
 use super::Trial;
+use super::saved::reopened;
 use crate::flow::Limits;
 use crate::picture::{self, items::Item};
 use crate::question::{Answer, Request, answer};
 use crate::scene::{Layer, Topic};
-use crate::session::{Msg, save};
+use crate::session::Msg;
 use crate::study::repeated::repeated;
 
 /// The titles of the plots.
@@ -31,11 +32,7 @@ fn kicks_are_drawn_their_lost_part_is_told_and_a_saved_session_keeps_them() {
     let right = right.fold(0.0, f64::max);
     assert!((right - 0.7).abs() < 1e-12, "mean and three deviations: {right}");
 
-    let text = save::text(&trial.session).unwrap();
-    let mut other = Trial::open("plain");
-    save::open(&mut other.session, &text).unwrap();
-    assert_eq!(other.session.kicks, trial.session.kicks);
-    assert_eq!(other.session.layers, trial.session.layers);
+    reopened(&trial.session);
 }
 
 #[test]

@@ -2,12 +2,13 @@
 
 use super::Trial;
 use super::facts::refuses;
+use super::saved::reopened;
 use crate::machine::Tolerances;
 use crate::oscillator::{Interval, Knob, Parameters};
 use crate::question;
 use crate::question::answer;
 use crate::scene::{Answer, Request, Topic};
-use crate::session::{Row, Uncertainty, save};
+use crate::session::{Row, Uncertainty};
 
 fn certainty(trial: &Trial) -> Option<Request> {
     trial.session.wants().into_iter().find(|request| request.topic() == Topic::Zones)
@@ -25,10 +26,7 @@ fn a_half_width_is_typed_stepped_undone_and_saved() {
         ..Uncertainty::default()
     };
     assert_eq!(trial.session.doubt, doubt);
-    let text = save::text(&trial.session).unwrap();
-    let mut other = Trial::open("plain").session;
-    save::open(&mut other, &text).unwrap();
-    assert_eq!((other.doubt, &other.history), (doubt, &trial.session.history));
+    reopened(&trial.session);
     trial.press("u");
     assert_eq!(trial.session.doubt, Uncertainty::default());
     trial.press("U");
