@@ -274,6 +274,9 @@ impl Portrait {
     /// [`LostMotion`] if it does not reach its next right turning point.
     pub fn fate(&self, x: f64, v: f64) -> Result<Fate<LostMotion>, LostMotion> {
         let y = self.model.scaled_velocity(v);
+        if self.model.place(x, y) == ContactState::Rests {
+            return Ok(Fate::Rest);
+        }
         if let Traced::Basin(basin) = &self.traced
             && !self.model.holds_more_at_rest()
         {

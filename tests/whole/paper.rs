@@ -1,11 +1,11 @@
 //! The oscillator of the paper is a machine without a belt: its cycles by the closing equation and by the return map
 //! of machines, which share no code but elementary functions, are the same within the errors that are told.
 
-use hopfscope::flow::Limits;
+use hopfscope::flow::{Fate, Limits};
 use hopfscope::machine::Model;
 use hopfscope::numerics::random::Random;
 use hopfscope::oscillator::Parameters;
-use hopfscope::portrait::{Margin, Portrait};
+use hopfscope::portrait::{Border, Margin, Portrait};
 use hopfscope::study::basin::basin;
 use hopfscope::study::cycle::cycles;
 
@@ -63,4 +63,13 @@ fn the_oscillator_of_the_paper_and_a_machine_without_a_belt_have_the_same_cycles
         }
     }
     assert!(compared.into_iter().all(|count| count > 20), "{compared:?}");
+}
+
+#[test]
+fn a_mass_that_starts_on_a_rest_that_repels_stays_there() {
+    let model = Model::of_mode(1.0, 1.0, &[-0.1, 0.0, 0.2], 0.0, 0.0).unwrap();
+    let portrait = Portrait::of(&model).unwrap();
+    assert_eq!(portrait.border, Border::NoBasin);
+    assert_eq!(portrait.fate(0.0, 0.0), Ok(Fate::Rest));
+    assert_eq!(portrait.fate(1e-9, 0.0), Ok(Fate::Cycle(0)));
 }
