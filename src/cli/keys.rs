@@ -1,17 +1,15 @@
 //! `hopfscope keys`: the meaning of every key, under the user's settings.
 
-use clap::Args;
-use serde::Serialize;
-
 use super::config::Settings;
 use super::failure::Failure;
 use super::output::{Format, print};
 use super::wrapped::on_terminal;
-use crate::report::table::Table;
-use crate::report::{csv, json};
+use crate::report::columns::Columns;
+use crate::report::json;
 use crate::runtime::standard::tell;
 use crate::session::commands;
 use crate::session::state::context::{ContextSpec, contexts};
+use clap::Args;
 
 /// Lists the keys of the explorer, as the settings file changes them
 #[derive(Debug, Args)]
@@ -24,12 +22,21 @@ pub struct Arguments {
 }
 
 /// A command in a context.
-#[derive(Default, Serialize)]
-struct KeyRow<K> {
+struct KeyRow {
     context: &'static str,
     command: &'static str,
-    keys: K,
+    keys: Vec<String>,
     meaning: &'static str,
+}
+
+fn columns<'a>() -> Columns<'a, KeyRow> {
+    Columns::default()
+        .word("context", |row: &KeyRow| row.context)
+        .word("command", |row| row.command)
+        .word("keys", |row| row.keys.join(" "))
+        // A document lists them.
+        .field("keys", |row| row.keys.clone())
+        .word("meaning", |row| row.meaning)
 }
 
 impl Arguments {
@@ -46,26 +53,9 @@ impl Arguments {
             }));
         }
         print(&match self.format {
-            Format::Table => {
-                let table = Table::of(
-                    &rows,
-                    &[
-                        ("context", &|row: &KeyRow<Vec<String>>| row.context.to_owned()),
-                        ("command", &|row| row.command.to_owned()),
-                        ("keys", &|row| row.keys.join(" ")),
-                        ("meaning", &|row| row.meaning.to_owned()),
-                    ],
-                );
-                on_terminal(&table.aligned_left())
-            }
-            Format::Json => json::text(&rows),
-            Format::Csv => {
-                let joined = rows.into_iter().map(|row| {
-                    let KeyRow { context, command, keys, meaning } = row;
-                    KeyRow { context, command, keys: keys.join(" "), meaning }
-                });
-                csv::sheet(&KeyRow::<String>::default(), joined)
-            }
+            Format::Table => on_terminal(&columns().table(rows).aligned_left()),
+            Format::Json => json::text(&columns().objects(rows)),
+            Format::Csv => columns().csv(rows),
         })?;
         if let (Some(path), Format::Table) = (self.settings.path(), self.format) {
             let there = if path.exists() { "" } else { " (not there)" };

@@ -1,10 +1,8 @@
 //! A figure as data: one JSON document, or one CSV row a point.
 
-use serde::Serialize;
-
-use super::content::{Area, Figure, FigureCurve};
+use super::content::{Figure, FigureCurve, Panel};
 use crate::picture::map::{MapCell, ScanMap};
-use crate::report::csv::CsvSheet;
+use crate::report::columns::Columns;
 use crate::report::json::text;
 use crate::words::printable;
 
@@ -22,46 +20,22 @@ pub fn csv(figure: &Figure) -> String {
     }
     // Only a map has values.
     let map = figure.panels.iter().any(|panel| panel.map.is_some());
-    let value = map.then_some(MapCell::Number(0.0));
-    let mut sheet = CsvSheet::like(&PointRow { value, ..PointRow::default() }, &[]);
-    for (panel, shown) in (1..).zip(&figure.panels) {
-        if let Some(ScanMap { name, x, y, values, .. }) = &shown.map {
-            for (x, column) in x.iter().zip(values) {
-                for (y, value) in y.iter().zip(column) {
-                    let row = PointRow { kind: "map", number: 1, name, ..PointRow::default() };
-                    sheet.row(&PointRow { panel, x: *x, y: *y, value: Some(*value), ..row });
-                }
-            }
-        }
-        let mut add = |row: PointRow, points: &[[f64; 2]]| {
-            for [x, y] in points {
-                sheet.row(&PointRow { panel, x: *x, y: *y, ..row });
-            }
-        };
-        for (number, curve) in (1..).zip(&shown.curves) {
-            let FigureCurve { name, role, style, points, .. } = curve;
-            add(
-                PointRow { kind: "curve", number, name, role, style, ..PointRow::default() },
-                points,
-            );
-        }
-        for (number, area) in (1..).zip(&shown.areas) {
-            let Area { name, role, edge, .. } = area;
-            add(PointRow { kind: "area", number, name, role, ..PointRow::default() }, edge);
-        }
-        for (number, mark) in (1..).zip(&shown.marks) {
-            let (name, role) = (&mark.name, mark.pen.name());
-            add(
-                PointRow { kind: "mark", number, name, role, ..PointRow::default() },
-                &[[mark.x, mark.y]],
-            );
-        }
-    }
-    out + &sheet.into_text()
+    let value = map.then(|| Columns::default().file("value", |row: &PointRow| row.value));
+    let columns = Columns::default()
+        .file("panel", |row: &PointRow| row.panel)
+        .file("kind", |row| row.kind)
+        .file("number", |row| row.number)
+        .file("name", |row| row.name.to_owned())
+        .file("role", |row| row.role)
+        .file("style", |row| row.style)
+        .file("x", |row| row.x)
+        .file("y", |row| row.y)
+        .and(value);
+    out + &columns.csv((1..).zip(&figure.panels).flat_map(|(number, shown)| rows(number, shown)))
 }
 
 /// A cell of a map, a point of a curve, of the edge of an area, or a mark.
-#[derive(Clone, Copy, Default, Serialize)]
+#[derive(Clone, Copy, Default)]
 struct PointRow<'a> {
     panel: u32,
     kind: &'static str,
@@ -71,8 +45,37 @@ struct PointRow<'a> {
     style: &'static str,
     x: f64,
     y: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
     value: Option<MapCell>,
+}
+
+/// The cells and points of a panel.
+fn rows<'a>(panel: u32, shown: &'a Panel) -> Vec<PointRow<'a>> {
+    let mut rows = Vec::new();
+    if let Some(ScanMap { name, x, y, values, .. }) = &shown.map {
+        for (&x, column) in x.iter().zip(values) {
+            let row = PointRow { panel, kind: "map", number: 1, name, x, ..PointRow::default() };
+            let cells = y.iter().zip(column);
+            rows.extend(cells.map(|(&y, cell)| PointRow { y, value: Some(*cell), ..row }));
+        }
+    }
+    let mut add = |row: PointRow<'a>, points: &[[f64; 2]]| {
+        rows.extend(points.iter().map(|&[x, y]| PointRow { panel, x, y, ..row }));
+    };
+    let plain = PointRow::default();
+    for (number, FigureCurve { name, role, style, points, .. }) in (1..).zip(&shown.curves) {
+        add(PointRow { kind: "curve", number, name, role, style, ..plain }, points);
+    }
+    for (number, area) in (1..).zip(&shown.areas) {
+        add(
+            PointRow { kind: "area", number, name: &area.name, role: area.role, ..plain },
+            &area.edge,
+        );
+    }
+    for (number, mark) in (1..).zip(&shown.marks) {
+        let (name, role) = (&mark.name, mark.pen.name());
+        add(PointRow { kind: "mark", number, name, role, ..plain }, &[[mark.x, mark.y]]);
+    }
+    rows
 }
 
 /// What a figure was computed with, a line each.

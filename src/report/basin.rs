@@ -1,14 +1,14 @@
 //! A basin over a window of starts.
 
-use super::certified::kick_columns;
-use super::columns::Columns;
+use super::certified::{kick_columns, named};
+use super::columns::{Columns, Quantity};
 use super::guarantee::margin_columns;
 use super::json::Document;
-use super::table::{Table, parameters, rounded};
+use super::table::{cost, parameters};
 use crate::portrait::{Border, Margin};
 use crate::proof::kicks::ProvedKicks;
 use crate::study::basin::{Counts, SurveyedBasin};
-use crate::words::number::{duration, significant};
+use crate::words::number::significant;
 
 pub fn json(found: &SurveyedBasin, certified: Option<&ProvedKicks>, seconds: f64) -> String {
     let certified = certified.map(|kicks| kick_columns().object(&kicks));
@@ -23,7 +23,7 @@ pub fn csv(found: &SurveyedBasin, certified: Option<&ProvedKicks>) -> String {
     let proved = |kicks| Columns::default().part("certified", kick_columns(), move |_| Some(kicks));
     let columns = Columns::default()
         .fields(&found.counts, |it: &&SurveyedBasin| Some(it.counts))
-        .and(Some(margin_columns(|it: &&SurveyedBasin| it.margin)))
+        .and(margin_columns(|it: &&SurveyedBasin| it.margin))
         .file("area", |it| it.area)
         .file("captured_part", |it| it.captured)
         .file("lyapunov_share", |it| it.lyapunov_share)
@@ -42,33 +42,28 @@ pub(super) fn border(border: Border) -> &'static str {
 
 /// The counts, the margins and the area.
 pub fn table(found: &SurveyedBasin, seconds: f64) -> String {
-    const PLACES: usize = 10;
+    const NUMBER: Quantity = Quantity::pure(10);
     let mut out = format!("{}\n{}\n", parameters(&found.parameters, None), border(found.border));
     let Counts { captured, cycle, escaped, undecided } = found.counts;
-    let mut counts = Table::new(&["starts that", "count"]);
-    for (fate, count) in [
-        ("are captured", captured),
-        ("end on a stable cycle", cycle),
-        ("escape", escaped),
-        ("stay undecided", undecided),
-    ] {
-        counts.row(vec![fate.to_owned(), count.to_string()]);
-    }
-    let mut kicks = Table::new(&["smallest kick that is not captured", "size"]);
+    let counts = Columns::default()
+        .text("starts that", |(fate, _): &(&str, u64)| (*fate).to_owned())
+        .text("count", |(_, count)| count.to_string())
+        .table([
+            ("are captured", captured),
+            ("end on a stable cycle", cycle),
+            ("escape", escaped),
+            ("stay undecided", undecided),
+        ]);
     let Margin { displacement, impulse, from_rest } = found.margin;
-    for (kick, size) in [
-        ("displacement from the worst rest position", from_rest.displacement),
-        ("impulse at the worst rest position", from_rest.impulse),
-        ("displacement from q = 0", displacement),
-        ("impulse at q = 0", impulse),
-    ] {
-        kicks.row(vec![kick.to_owned(), rounded(size, PLACES)]);
-    }
+    let kicks = Columns::default()
+        .text("smallest kick that is not captured", |(kick, _): &(&str, _)| (*kick).to_owned())
+        .number("size", NUMBER, |(_, size)| *size)
+        .table(named([from_rest.displacement, from_rest.impulse, displacement, impulse]));
     out += &format!("{counts}\n{kicks}\n");
-    out += &format!("area of the basin: {}\n", rounded(found.area, PLACES));
+    out += &format!("area of the basin: {}\n", NUMBER.text(found.area));
     if let Some(share) = found.lyapunov_share {
         let verdict = if share > 1.0 { ": too large, as it ignores D2 and D3" } else { "" };
         out += &format!("Lyapunov's disk (24): {} of the margin{verdict}\n", significant(share, 4));
     }
-    out + &format!("{} evaluations, {}\n", found.cost.evaluations, duration(seconds))
+    out + &cost(found.cost, seconds)
 }

@@ -3,9 +3,9 @@
 use super::certified::BorderProof;
 use super::columns::{Columns, Quantity, bounds};
 use super::json::Document;
-use super::table::parameters;
+use super::table::{cost, parameters};
 use crate::study::fold::{Boundary, BoundaryPoint};
-use crate::words::number::{duration, significant};
+use crate::words::number::significant;
 
 /// The fold and the escape point at one value of the second parameter, and what is proved of them.
 type BorderRow<'a> = (&'a BoundaryPoint, Option<&'a BorderProof>);
@@ -70,6 +70,5 @@ pub fn table(found: &Boundary, seconds: f64) -> String {
     });
     let given_up: String = given_up.collect();
     let fixed = parameters(&found.parameters, Some(found.second));
-    let cost = format!("{} evaluations, {}", found.cost.evaluations, duration(seconds));
-    format!("{fixed}\n\n{table}{given_up}\n{cost}\n")
+    format!("{fixed}\n\n{table}{given_up}\n{}", cost(found.cost, seconds))
 }

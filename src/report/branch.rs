@@ -4,11 +4,11 @@ use super::certified::{decided, piece_columns};
 use super::columns::{Columns, Quantity};
 use super::cycle_numbers::{cycle_fields, number_columns};
 use super::json::Document;
-use super::table::{digits, parameters};
+use super::table::{cost, digits, parameters};
 use crate::oscillator::Parameters;
 use crate::proof::range::{Range, RangePiece};
 use crate::study::{Branch, BranchPoint, Special};
-use crate::words::number::{duration, significant};
+use crate::words::number::significant;
 use crate::words::stability;
 
 /// A point with the number of the connected piece to which it belongs, or a part of the range of which something is
@@ -34,7 +34,7 @@ fn columns<'a>(value: &str) -> Columns<'a, BranchRow<'a>> {
     Columns::default()
         .file("piece", |row: &BranchRow| row.of(|piece, _| piece))
         .file(value, |row| row.of(|_, point| point.value))
-        .and(Some(cycle_fields(|row: &BranchRow| row.of(|_, point| point.cycle))))
+        .and(cycle_fields(|row: &BranchRow| row.of(|_, point| point.cycle)))
 }
 
 fn rows(branch: &Branch) -> impl Iterator<Item = BranchRow<'_>> {
@@ -93,7 +93,7 @@ pub fn table(branch: &Branch, base: &Parameters, tolerance: f64, seconds: f64) -
         let count = branch.vague.len();
         out += &format!("\nleft out, too vague: {count}, {name} = {first} .. {last}\n");
     }
-    out + &format!("\n{} evaluations, {}\n", branch.cost.evaluations, duration(seconds))
+    out + "\n" + &cost(branch.cost, seconds)
 }
 
 #[cfg(test)]

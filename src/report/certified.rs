@@ -14,7 +14,7 @@ use crate::proof::motion::{ProvedFate, ProvedMotion, ProvedTurn};
 use crate::proof::range::{CountChange, MOST_STEPS, Range, RangePiece};
 use crate::study::fold::BoundaryPoint;
 use crate::words::number::significant;
-use crate::words::stability;
+use crate::words::{counted, stability};
 
 const PLACES: usize = 12;
 
@@ -78,10 +78,7 @@ pub(super) fn followed(motion: &ProvedMotion, until: f64) -> Document {
 
 pub fn motion_line(motion: &ProvedMotion, until: f64) -> String {
     let number = |it| certain(it, PLACES);
-    let swings = match motion.turns.len() {
-        1 => "1 half swing".to_owned(),
-        more => format!("{more} half swings"),
-    };
+    let swings = counted(motion.turns.len(), "half swing");
     let sentence = match motion.fate {
         ProvedFate::Captured { tau, q } => {
             format!("captured after {swings} at q = {}, tau = {}", number(q), number(tau))
@@ -119,6 +116,17 @@ pub(super) fn kick_columns<'a>() -> Columns<'a, &'a ProvedKicks> {
         .file("open", |kicks| kicks.open.or_else(|| kicks.edge.is_none().then_some(NO_EDGE)))
 }
 
+/// The names of displacement and impulse from the worst rest position, then from the middle.
+pub(super) fn named<T>(sizes: [T; 4]) -> impl Iterator<Item = (&'static str, T)> {
+    const NAMES: [&str; 4] = [
+        "displacement from the worst rest position",
+        "impulse at the worst rest position",
+        "displacement from q = 0",
+        "impulse at q = 0",
+    ];
+    NAMES.into_iter().zip(sizes)
+}
+
 pub fn kicks_lines(kicks: &ProvedKicks) -> String {
     let edge = match kicks.edge {
         Some(ProvedEdge::None) => "proved: every start is captured\n".to_owned(),
@@ -130,13 +138,9 @@ pub fn kicks_lines(kicks: &ProvedKicks) -> String {
             format!("proved: smallest {what} that is not captured {}\n", certain(it, PLACES))
         })
     };
-    let kicked = [
-        ("displacement from the worst rest position", kicks.rest_displacement),
-        ("impulse at the worst rest position", kicks.rest_impulse),
-        ("displacement from q = 0", kicks.displacement),
-        ("impulse at q = 0", kicks.impulse),
-    ];
-    let lines: String = kicked.into_iter().filter_map(line).collect();
+    let ProvedKicks { rest_displacement, rest_impulse, displacement, impulse, .. } = *kicks;
+    let kicked = named([rest_displacement, rest_impulse, displacement, impulse]);
+    let lines: String = kicked.filter_map(line).collect();
     edge + &lines + &kicks.open.map(|why| format!("open: {why}\n")).unwrap_or_default()
 }
 

@@ -1,54 +1,11 @@
 //! The claims of the paper compared with computation: one row for each claim.
 
-use serde::Serialize;
-
-use super::csv;
-use super::json::{Seconds, text};
-use crate::flow::Reason;
+use super::columns::{Columns, Quantity};
+use super::json::Document;
 use crate::numerics::Interval;
 use crate::study::claims::{Certainty, ClaimResult, Finding, Sense, Verdict};
 use crate::words::claim;
-use crate::words::number::{duration, significant};
-
-#[derive(Default, Serialize)]
-struct ClaimRow<'a> {
-    equation: &'a str,
-    section: &'a str,
-    claim: &'a str,
-    at: Option<&'a str>,
-    basis: &'a str,
-    sense: Option<&'static str>,
-    cases: Option<usize>,
-    held: Option<usize>,
-    paper: Option<f64>,
-    corrected: Option<f64>,
-    computed: Option<f64>,
-    error: Option<f64>,
-    difference: Option<f64>,
-    bound: Option<f64>,
-    verdict: &'static str,
-    within: Option<f64>,
-    scene: Option<&'a str>,
-    /// What is certain: `proved`, `refuted` or `enclosed`.
-    proof: Option<&'static str>,
-    /// Bounds of the computed number.
-    lower: Option<f64>,
-    upper: Option<f64>,
-}
-
-/// A claim, with the reason if nothing could be computed.
-#[derive(Serialize)]
-struct ReasonedClaim<'a> {
-    #[serde(flatten)]
-    row: ClaimRow<'a>,
-    reason: Option<String>,
-}
-
-#[derive(Serialize)]
-struct ClaimDocument<'a> {
-    claims: Vec<ReasonedClaim<'a>>,
-    cost: Seconds,
-}
+use crate::words::number::duration;
 
 fn sense(sense: Sense) -> &'static str {
     match sense {
@@ -60,87 +17,70 @@ fn sense(sense: Sense) -> &'static str {
     }
 }
 
-fn row(examined: &ClaimResult) -> ClaimRow<'_> {
-    let claim = examined.claim;
-    let finding = examined.finding.as_ref().ok();
-    let verdict = finding.map(Finding::verdict);
-    let bounds = finding.and_then(|finding| finding.computed.bounds);
-    ClaimRow {
-        equation: claim.equation,
-        section: claim.section,
-        claim: claim.statement,
-        basis: claim.basis,
-        at: finding.map(|finding| finding.place.as_str()).filter(|place| !place.is_empty()),
-        sense: finding.map(|finding| sense(finding.sense)),
-        cases: finding.map(|finding| finding.cases),
-        held: finding.map(|finding| finding.held),
-        paper: finding.and_then(|finding| finding.paper),
-        corrected: finding.and_then(|finding| finding.corrected),
-        computed: finding.map(|finding| finding.computed.value),
-        error: finding.map(|finding| finding.computed.error),
-        difference: finding.and_then(Finding::difference),
-        bound: finding.map(Finding::bound),
-        proof: finding.and_then(|finding| finding.mark).map(Certainty::name),
-        lower: bounds.map(Interval::lower).filter(|end| end.is_finite()),
-        upper: bounds.map(Interval::upper).filter(|end| end.is_finite()),
-        verdict: claim::name(examined),
-        within: verdict.and_then(Verdict::within),
-        scene: claim.scene,
-    }
+/// Something of what was found; `None` if nothing could be computed.
+fn found<T>(examined: &ClaimResult, part: impl Fn(&Finding) -> T) -> Option<T> {
+    examined.finding.as_ref().ok().map(part)
 }
 
-/// One document with every claim.
+fn columns<'a>() -> Columns<'a, &'a ClaimResult> {
+    const NUMBER: Quantity = Quantity::pure(6);
+    let place = |it: &Finding| Some(it.place.clone()).filter(|place| !place.is_empty());
+    let end = |it: &ClaimResult, end: fn(Interval) -> f64| {
+        found(it, |it| it.computed.bounds).flatten().map(end).filter(|end| end.is_finite())
+    };
+    Columns::default()
+        .word("equation", |it: &&ClaimResult| it.claim.equation)
+        .titled("where")
+        .file("section", |it| it.claim.section)
+        .file("claim", |it| it.claim.statement)
+        .file("at", move |it| found(it, place).flatten())
+        .word("basis", |it| it.claim.basis)
+        .file("sense", |it| found(it, |it| sense(it.sense)))
+        .text("sense", |it| found(it, |it| claim::sense(it.sense)).unwrap_or("-".to_owned()))
+        .text("verdict", |it| claim::verdict(it))
+        .text("proof", |it| proof(it).unwrap_or("-").to_owned())
+        .file("cases", |it| found(it, |it| it.cases))
+        .file("held", |it| found(it, |it| it.held))
+        .number("paper", NUMBER, |it| found(it, |it| it.paper).flatten())
+        .number("corrected", NUMBER, |it| found(it, |it| it.corrected).flatten())
+        .number("computed", NUMBER, |it| found(it, |it| it.computed.value))
+        .file("error", |it| found(it, |it| it.computed.error))
+        .file("difference", |it| found(it, Finding::difference).flatten())
+        .file("bound", |it| found(it, Finding::bound))
+        .file("verdict", |it| claim::name(it))
+        .file("within", |it| it.verdict().and_then(Verdict::within))
+        .file("scene", |it| it.claim.scene)
+        .file("proof", |it| proof(it))
+        .file("lower", move |it| end(it, Interval::lower))
+        .file("upper", move |it| end(it, Interval::upper))
+        // Last in text, as its length varies.
+        .text("claim", |it| sentence(it))
+}
+
+/// One document with every claim, and the reason if nothing could be computed.
 pub fn json(examined: &[ClaimResult], seconds: f64) -> String {
-    let reason = |examined: &ClaimResult| examined.finding.as_ref().err().map(Reason::to_string);
-    let claim = |examined| ReasonedClaim { row: row(examined), reason: reason(examined) };
-    let claims = examined.iter().map(claim).collect();
-    text(&ClaimDocument { claims, cost: Seconds { seconds } })
+    let columns =
+        columns().field("reason", |it| it.finding.as_ref().err().map(ToString::to_string));
+    Document::default()
+        .with("claims", columns.objects(examined))
+        .cost(&Document::default(), seconds)
+        .text()
 }
 
 /// One row for each claim.
 pub fn csv(examined: &[ClaimResult]) -> String {
-    csv::sheet(&ClaimRow::default(), examined.iter().map(row))
+    columns().csv(examined)
 }
 
-/// A table with the numbers first and the claim last, as its length varies.
+/// A table with words at the left and numbers at the right.
 pub fn table(examined: &[ClaimResult], seconds: f64) -> String {
-    let titles =
-        ["where", "basis", "sense", "verdict", "proof", "paper", "corrected", "computed", "claim"];
-    let rows = examined.iter().map(|examined| {
-        let number =
-            |value: Option<f64>| value.map_or("-".to_owned(), |value| significant(value, 6));
-        let finding = examined.finding.as_ref().ok();
-        [
-            examined.claim.equation.to_owned(),
-            examined.claim.basis.to_owned(),
-            finding.map_or("-".to_owned(), |finding| claim::sense(finding.sense)),
-            claim::verdict(examined),
-            mark(finding),
-            number(finding.and_then(|finding| finding.paper)),
-            number(finding.and_then(|finding| finding.corrected)),
-            number(finding.map(|finding| finding.computed.value)),
-            sentence(examined),
-        ]
-    });
-    let rows: Vec<_> = std::iter::once(titles.map(str::to_owned)).chain(rows).collect();
-    let width =
-        |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let widths: [usize; 8] = std::array::from_fn(width);
-    let mut out = String::new();
-    for row in &rows {
-        for (column, (cell, width)) in row.iter().zip(widths).enumerate() {
-            // Words to the left, numbers to the right.
-            out +=
-                &if column < 5 { format!("{cell:width$}  ") } else { format!("{cell:>width$}  ") };
-        }
-        out += &format!("{}\n", row[8]);
-    }
-    out + &format!("\n{}, {}\n", claim::summary(examined), duration(seconds))
+    let table = columns().table(examined).aligned(|column| !(5..8).contains(&column));
+    format!("{table}\n{}, {}\n", claim::summary(examined), duration(seconds))
 }
 
-/// `proved`, `refuted`, `enclosed`, or `-`.
-fn mark(finding: Option<&Finding>) -> String {
-    finding.and_then(|finding| finding.mark).map_or("-", Certainty::name).to_owned()
+/// What is certain: `proved`, `refuted` or `enclosed`.
+fn proof(examined: &ClaimResult) -> Option<&'static str> {
+    found(examined, |finding| finding.mark).flatten().map(Certainty::name)
 }
 
 /// The claim, and where it was tested.

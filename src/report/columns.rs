@@ -176,8 +176,8 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// The columns of `more` after these, if there are any.
-    pub fn and(mut self, more: Option<Self>) -> Self {
-        let more = more.unwrap_or_default();
+    pub fn and(mut self, more: impl Into<Option<Self>>) -> Self {
+        let more = more.into().unwrap_or_default();
         self.files.extend(more.files);
         self.texts.extend(more.texts);
         self

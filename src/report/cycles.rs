@@ -4,7 +4,7 @@ use super::columns::Columns;
 use super::cycle_numbers::{CycleNumber, cycle_fields, number_columns};
 use super::json::Document;
 use super::proof::{self, CycleBounds, certain, cycle_columns, enclosure};
-use super::table::parameters;
+use super::table::{cost, parameters};
 use super::{basin, harmonic_balance};
 use crate::closed_form::harmonic::Harmonic;
 use crate::portrait::Cycle;
@@ -12,7 +12,7 @@ use crate::proof::cycles::Proof;
 use crate::proof::enclose::Enclosure;
 use crate::study::Cycles;
 use crate::study::harmonic_error::HarmonicBalance;
-use crate::words::number::{duration, significant};
+use crate::words::number::significant;
 use crate::words::stability;
 
 /// Every cycle with what is proved about it, and the harmonic balance if asked for.
@@ -37,7 +37,7 @@ pub fn json(
 pub fn csv(found: &Cycles, proof: &Proof) -> String {
     type CycleRow<'a> = (Option<&'a Cycle>, CycleBounds<'a>);
     let columns = Columns::default()
-        .and(Some(cycle_fields(|(cycle, _): &CycleRow| cycle.copied())))
+        .and(cycle_fields(|(cycle, _): &CycleRow| cycle.copied()))
         .part("certified", cycle_columns(), |(_, bounds)| Some(*bounds));
     let proved = |cycle| (Some(cycle), CycleBounds::Cycle(enclosure(proof, cycle)));
     let open = proof.open.iter().map(|open| (None, CycleBounds::Open(open)));
@@ -79,5 +79,5 @@ pub fn table(found: &Cycles, proof: &Proof, seconds: f64) -> String {
     let harmonic = if harmonic.is_empty() { "none".to_owned() } else { harmonic.join("; ") };
     out += &format!("\nby one harmonic, for comparison: {harmonic}\n");
     out += basin::border(found.border);
-    out + &format!("{} evaluations, {}\n", found.cost.evaluations, duration(seconds))
+    out + &cost(found.cost, seconds)
 }

@@ -1,12 +1,9 @@
 //! The limit cycles at the extremes: one row for each set of parameters, and a summary.
 
-use serde::Serialize;
-
-use super::csv;
-use super::json;
-use super::table::Table;
+use super::columns::Columns;
+use super::cycle_numbers::cycle_fields;
+use super::json::Document;
 use crate::oscillator::Parameters;
-use crate::portrait::{Cycle, CycleErrors};
 use crate::study::extremes::sets::{BUDGET, LatticeCycle, SetAnswer, SetVerdict};
 use crate::words::number::{exact as short, significant};
 use crate::words::stability;
@@ -16,24 +13,17 @@ const CLOSED: f64 = 1e-11;
 
 /// As a readable table.
 pub fn table(verdicts: &[SetVerdict]) -> String {
-    let list = |verdict: &SetVerdict, digits: usize, value: &dyn Fn(&LatticeCycle) -> f64| {
+    let list = |verdict: &SetVerdict, digits: usize, value: fn(&LatticeCycle) -> f64| {
         let values = verdict.cycles().iter().map(|it| significant(value(it), digits));
         values.collect::<Vec<_>>().join(", ")
     };
-    let rows = Table::of(
-        verdicts,
-        &[
-            ("D", &|it| short(it.parameters.d, 12)),
-            ("r", &|it| short(it.parameters.r, 12)),
-            ("D2", &|it| short(it.parameters.d2, 12)),
-            ("D3", &|it| short(it.parameters.d3, 12)),
-            ("cycles", &|it| sentence(&it.answer)),
-            ("q_max", &|it| list(it, 4, &|found| found.cycle.q_max)),
-            ("ln multiplier", &|it| list(it, 3, &|found| found.cycle.log_multiplier)),
-            ("residual", &|it| list(it, 2, &|found| found.residual)),
-            ("evaluations", &|it| it.cost.evaluations.to_string()),
-        ],
-    );
+    let rows = parameter_texts(|it: &&SetVerdict| it.parameters)
+        .text("cycles", |it| sentence(&it.answer))
+        .text("q_max", move |it| list(it, 4, |found| found.cycle.q_max))
+        .text("ln multiplier", move |it| list(it, 3, |found| found.cycle.log_multiplier))
+        .text("residual", move |it| list(it, 2, |found| found.residual))
+        .text("evaluations", |it| it.cost.evaluations.to_string())
+        .table(verdicts);
     format!(
         "Every limit cycle by amplitude, or why the search gave up within {BUDGET} evaluations of a half \
          map.\nResidual: by what fraction of the clearance a turn fails to close, followed again by other \
@@ -43,59 +33,46 @@ pub fn table(verdicts: &[SetVerdict]) -> String {
     )
 }
 
+/// Columns of text for the parameters, in the order of the lattice.
+pub(super) fn parameter_texts<'a, R: 'a>(parameters: fn(&R) -> Parameters) -> Columns<'a, R> {
+    Columns::default()
+        .text("D", move |row| short(parameters(row).d, 12))
+        .text("r", move |row| short(parameters(row).r, 12))
+        .text("D2", move |row| short(parameters(row).d2, 12))
+        .text("D3", move |row| short(parameters(row).d3, 12))
+}
+
 /// As comma-separated values: one row for each cycle, and one for a set without cycles.
 pub fn csv(verdicts: &[SetVerdict]) -> String {
-    let row = |verdict: &SetVerdict, answer, found: Option<&LatticeCycle>| ExtremeCyclesRow {
-        parameters: verdict.parameters,
-        answer,
-        reason: match &verdict.answer {
-            SetAnswer::GaveUp { reason } => Some(reason.to_string()),
-            SetAnswer::Found { .. } => None,
-        },
-        evaluations: verdict.cost.evaluations,
-        residual: found.map(|found| found.residual),
-        cycle: found.map(|found| found.cycle),
+    type SetRow<'a> = (&'a SetVerdict, Option<&'a LatticeCycle>);
+    let kind = |(verdict, cycle): &SetRow| match &verdict.answer {
+        SetAnswer::GaveUp { .. } => "gave-up",
+        SetAnswer::Found { .. } if cycle.is_none() => "none",
+        SetAnswer::Found { .. } => "cycle",
     };
-    let rows = verdicts.iter().flat_map(|verdict| match &verdict.answer {
-        SetAnswer::GaveUp { .. } => vec![row(verdict, "gave-up", None)],
-        SetAnswer::Found { cycles } if cycles.is_empty() => vec![row(verdict, "none", None)],
-        SetAnswer::Found { cycles } => {
-            cycles.iter().map(|found| row(verdict, "cycle", Some(found))).collect()
-        }
+    let reason = |(verdict, _): &SetRow| match &verdict.answer {
+        SetAnswer::GaveUp { reason } => Some(reason.to_string()),
+        SetAnswer::Found { .. } => None,
+    };
+    let example = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
+    let columns = Columns::default()
+        .fields(&example, |(verdict, _): &SetRow| Some(verdict.parameters))
+        .file("answer", kind)
+        .file("reason", reason)
+        .file("evaluations", |(verdict, _)| verdict.cost.evaluations)
+        .file("residual", |(_, cycle)| cycle.map(|found| found.residual))
+        .and(cycle_fields(|(_, cycle): &SetRow| cycle.map(|found| found.cycle)));
+    let rows = verdicts.iter().flat_map(|verdict| {
+        let cycles = verdict.cycles().iter().map(Some);
+        let none = verdict.cycles().is_empty().then_some(None);
+        cycles.chain(none).map(move |cycle| (verdict, cycle))
     });
-    let like = ExtremeCyclesRow {
-        parameters: Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 },
-        answer: "",
-        reason: None,
-        evaluations: 0,
-        residual: None,
-        cycle: Some(Cycle { errors: Some(CycleErrors::default()), ..Cycle::default() }),
-    };
-    csv::sheet(&like, rows)
-}
-
-/// A set of parameters with one of its cycles, if it has any.
-#[derive(Serialize)]
-struct ExtremeCyclesRow {
-    #[serde(flatten)]
-    parameters: Parameters,
-    answer: &'static str,
-    reason: Option<String>,
-    evaluations: u64,
-    residual: Option<f64>,
-    #[serde(flatten)]
-    cycle: Option<Cycle>,
-}
-
-#[derive(Serialize)]
-struct ExtremeCyclesDocument<'a> {
-    budget: u64,
-    sets: &'a [SetVerdict],
+    columns.csv(rows)
 }
 
 /// As one JSON document.
 pub fn json(verdicts: &[SetVerdict]) -> String {
-    json::text(&ExtremeCyclesDocument { budget: BUDGET, sets: verdicts })
+    Document::default().with("budget", BUDGET).with("sets", verdicts).text()
 }
 
 /// The answer in a few words.
@@ -118,19 +95,21 @@ fn summary(verdicts: &[SetVerdict]) -> String {
     };
     let residuals = || verdicts.iter().flat_map(SetVerdict::cycles).map(|found| found.residual);
     let most = verdicts.iter().filter(|it| !gave_up(it)).map(|it| it.cost.evaluations).max();
-    let table = Table::of(
-        &[verdicts],
-        &[
-            ("sets", &|all| all.len().to_string()),
-            ("none", &|_| with(0).to_string()),
-            ("one", &|_| with(1).to_string()),
-            ("two", &|_| with(2).to_string()),
-            ("gave up", &|all| all.iter().filter(gave_up).count().to_string()),
-            ("not closed to 1e-11", &|_| {
-                residuals().filter(|&residual| residual > CLOSED).count().to_string()
-            }),
-            ("evaluations", &|_| format!("<= {}", most.unwrap_or(0))),
-        ],
-    );
-    table.to_string()
+    let open = residuals().filter(|&residual| residual > CLOSED).count();
+    let counts = [
+        ("sets", verdicts.len()),
+        ("none", with(0)),
+        ("one", with(1)),
+        ("two", with(2)),
+        ("gave up", verdicts.iter().filter(gave_up).count()),
+        ("not closed to 1e-11", open),
+    ];
+    counts
+        .into_iter()
+        .fold(Columns::default(), |all, (title, count)| {
+            all.text(title, move |()| count.to_string())
+        })
+        .text("evaluations", move |()| format!("<= {}", most.unwrap_or(0)))
+        .table([()])
+        .to_string()
 }

@@ -1,32 +1,27 @@
 //! The lattice of extremes: one row for each motion with the answers of all methods, and a summary.
 
-use serde::Serialize;
-
-use super::csv;
-use super::json;
-use super::table::Table;
+use super::columns::{Columns, Quantity};
+use super::extreme_cycles::parameter_texts;
+use super::json::Document;
 use super::trajectory::ending;
 use crate::flow::{Method, Outcome};
 use crate::oscillator::Parameters;
 use crate::study::extremes::verdict::{BUDGET, METHODS};
 use crate::study::extremes::{MethodAnswer, MethodsVerdict, NamedExtreme};
-use crate::words::number::{exact as short, significant};
+use crate::words::number::significant;
 
 /// As a readable table: the answer of `auto` and its cost, then the digits that each method lost.
 pub fn table(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: f64) -> String {
-    let mut titles = vec!["D", "r", "D2", "D3", "start", "answer", "evaluations", "sensitive"];
-    titles.extend(METHODS.map(|method| method.spec().name));
-    let mut rows = Table::new(&titles);
-    for verdict in verdicts {
-        let Parameters { d, d2, d3, r } = verdict.case.parameters;
-        let mut cells: Vec<String> = [d, r, d2, d3].map(|value| short(value, 12)).to_vec();
-        cells.push(verdict.case.start.to_string());
-        let auto = &verdict.answers[0];
-        cells.extend([short_sentence(&auto.outcome), auto.cost.evaluations.to_string()]);
-        cells.push(significant(verdict.sensitivity, 2));
-        cells.extend(METHODS.map(|method| verdict.answer(method).map_or_else(String::new, mark)));
-        rows.row(cells);
-    }
+    let columns = parameter_texts(|it: &&MethodsVerdict| it.case.parameters)
+        .text("start", |it| it.case.start.to_string())
+        .text("answer", |it| short_sentence(&it.answers[0].outcome))
+        .text("evaluations", |it| it.answers[0].cost.evaluations.to_string())
+        .text("sensitive", |it| significant(it.sensitivity, 2));
+    let columns = METHODS.into_iter().fold(columns, |columns, method| {
+        let name = method.spec().name;
+        columns.text(name, move |it| it.answer(method).map_or_else(String::new, mark))
+    });
+    let rows = columns.table(verdicts);
     format!(
         "Below the name of a method: digits lost of those that the tolerance {tolerance:e} asks for,\n\
          or why there is no number: gave up within {BUDGET} evaluations, wrong (contradicts the \
@@ -40,72 +35,39 @@ pub fn table(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: f64
 
 /// As comma-separated values: one row for each motion and method, all digits.
 pub fn csv(verdicts: &[MethodsVerdict]) -> String {
-    let rows = verdicts.iter().flat_map(|verdict| {
-        verdict.answers.iter().map(move |answer| ExtremesRow::new(verdict, answer))
-    });
-    let rows: Vec<ExtremesRow> = rows.collect();
-    rows.first().map_or_else(String::new, |first| csv::sheet(first, &rows))
-}
-
-/// A motion by one method.
-#[derive(Serialize)]
-struct ExtremesRow {
-    #[serde(flatten)]
-    parameters: Parameters,
-    start: String,
-    q0: f64,
-    v0: f64,
-    method: Method,
-    answer: &'static str,
-    tau: f64,
-    q: Option<f64>,
-    v: Option<f64>,
-    reason: Option<String>,
-    digits_lost: Option<f64>,
-    sensitivity: f64,
-    contradicts: bool,
-    evaluations: u64,
-    steps: u64,
-}
-
-impl ExtremesRow {
-    fn new(verdict: &MethodsVerdict, answer: &MethodAnswer) -> Self {
-        let (kind, tau, q, v) = ending(&answer.outcome);
-        let reason = match answer.outcome {
-            Outcome::GaveUp { reason, .. } => Some(reason.to_string()),
-            _ => None,
-        };
-        ExtremesRow {
-            parameters: verdict.case.parameters,
-            start: verdict.case.start.to_string(),
-            q0: verdict.case.initial.q,
-            v0: verdict.case.initial.v,
-            method: answer.method,
-            answer: kind,
-            tau,
-            q,
-            v,
-            reason,
-            digits_lost: answer.digits_lost,
-            sensitivity: verdict.sensitivity,
-            contradicts: answer.contradicts,
-            evaluations: answer.cost.evaluations,
-            steps: answer.cost.steps,
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct ExtremesDocument<'a> {
-    tolerance: f64,
-    budget: u64,
-    motions: &'a [MethodsVerdict],
-    named: &'a [NamedExtreme],
+    type MethodRow<'a> = (&'a MethodsVerdict, &'a MethodAnswer);
+    let example = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
+    let reason = |outcome: Outcome| match outcome {
+        Outcome::GaveUp { reason, .. } => Some(reason.to_string()),
+        _ => None,
+    };
+    let columns = Columns::default()
+        .fields(&example, |(verdict, _): &MethodRow| Some(verdict.case.parameters))
+        .file("start", |(verdict, _)| verdict.case.start.to_string())
+        .file("q0", |(verdict, _)| verdict.case.initial.q)
+        .file("v0", |(verdict, _)| verdict.case.initial.v)
+        .file("method", |(_, answer)| answer.method)
+        .file("answer", |(_, answer)| ending(&answer.outcome).0)
+        .file("tau", |(_, answer)| ending(&answer.outcome).1)
+        .file("q", |(_, answer)| ending(&answer.outcome).2)
+        .file("v", |(_, answer)| ending(&answer.outcome).3)
+        .file("reason", move |(_, answer)| reason(answer.outcome))
+        .file("digits_lost", |(_, answer)| answer.digits_lost)
+        .file("sensitivity", |(verdict, _)| verdict.sensitivity)
+        .file("contradicts", |(_, answer)| answer.contradicts)
+        .file("evaluations", |(_, answer)| answer.cost.evaluations)
+        .file("steps", |(_, answer)| answer.cost.steps);
+    columns.csv(verdicts.iter().flat_map(|it| it.answers.iter().map(move |answer| (it, answer))))
 }
 
 /// As one JSON document.
 pub fn json(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: f64) -> String {
-    json::text(&ExtremesDocument { tolerance, budget: BUDGET, motions: verdicts, named })
+    Document::default()
+        .with("tolerance", tolerance)
+        .with("budget", BUDGET)
+        .with("motions", verdicts)
+        .with("named", named)
+        .text()
 }
 
 /// How a motion ended, in a few words.
@@ -146,38 +108,31 @@ fn summary(verdicts: &[MethodsVerdict]) -> String {
     };
     let gave_up = |it: &MethodAnswer| matches!(it.outcome, Outcome::GaveUp { .. });
     let unchecked = |it: &MethodAnswer| !it.contradicts && it.digits_lost.is_none() && !gave_up(it);
-    let table = Table::of(
-        &METHODS.map(asked),
-        &[
-            ("method", &|(method, _): &Asked| method.to_string()),
-            ("motions", &|(_, answers)| answers.len().to_string()),
-            ("all digits", &|(_, answers)| lost(answers, f64::NEG_INFINITY, 0.0)),
-            ("1 lost", &|(_, answers)| lost(answers, 0.0, 1.0)),
-            ("2-4 lost", &|(_, answers)| lost(answers, 1.0, 4.0)),
-            ("more lost", &|(_, answers)| lost(answers, 4.0, f64::INFINITY)),
-            ("wrong", &|(_, answers)| count(answers, &|it| it.contradicts)),
-            ("unchecked", &|(_, answers)| count(answers, &unchecked)),
-            ("gave up", &|(_, answers)| count(answers, &gave_up)),
-            ("evaluations", &|(_, answers)| {
-                let most = answers.iter().map(|it| it.cost.evaluations).max();
-                format!("<= {}", most.unwrap_or(0))
-            }),
-        ],
-    );
-    table.to_string()
+    let most = |answers: &[&MethodAnswer]| answers.iter().map(|it| it.cost.evaluations).max();
+    Columns::default()
+        .text("method", |(method, _): &Asked| method.to_string())
+        .text("motions", |(_, answers)| answers.len().to_string())
+        .text("all digits", move |(_, answers)| lost(answers, f64::NEG_INFINITY, 0.0))
+        .text("1 lost", move |(_, answers)| lost(answers, 0.0, 1.0))
+        .text("2-4 lost", move |(_, answers)| lost(answers, 1.0, 4.0))
+        .text("more lost", move |(_, answers)| lost(answers, 4.0, f64::INFINITY))
+        .text("wrong", move |(_, answers)| count(answers, &|it| it.contradicts))
+        .text("unchecked", move |(_, answers)| count(answers, &unchecked))
+        .text("gave up", move |(_, answers)| count(answers, &gave_up))
+        .text("evaluations", move |(_, answers)| format!("<= {}", most(answers).unwrap_or(0)))
+        .table(METHODS.map(asked))
+        .to_string()
 }
 
 fn names(named: &[NamedExtreme]) -> String {
-    let table = Table::of(
-        named,
-        &[
-            ("extreme", &|it| it.what.to_owned()),
-            ("method", &|it| it.method.to_string()),
-            ("what is measured", &|it| it.measure.to_owned()),
-            ("measured", &|it| significant(it.measured, 2)),
-            ("allowed", &|it| significant(it.allowed, 2)),
-            ("evaluations", &|it| it.cost.evaluations.to_string()),
-        ],
-    );
-    table.to_string()
+    const NUMBER: Quantity = Quantity::pure(2);
+    Columns::default()
+        .text("extreme", |it: &&NamedExtreme| it.what.to_owned())
+        .text("method", |it| it.method.to_string())
+        .text("what is measured", |it| it.measure.to_owned())
+        .number("measured", NUMBER, |it| it.measured)
+        .number("allowed", NUMBER, |it| it.allowed)
+        .text("evaluations", |it| it.cost.evaluations.to_string())
+        .table(named)
+        .to_string()
 }

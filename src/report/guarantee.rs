@@ -1,12 +1,12 @@
 //! Guaranteed margins as text.
 
-use super::columns::Columns;
+use super::columns::{Columns, Quantity};
 use super::json::Document;
-use super::table::Table;
+use super::table::cost;
 use crate::oscillator::{Interval, Knob, ParameterBox};
-use crate::portrait::Margin;
+use crate::portrait::{Margin, RestMargin};
 use crate::study::guarantee::{Guarantee, Guaranteed, Uncertain};
-use crate::words::number::{duration, significant};
+use crate::words::number::significant;
 
 pub fn json(found: &Guarantee, seconds: f64) -> String {
     Document::default()
@@ -23,7 +23,7 @@ pub fn csv(found: &Guarantee) -> String {
     let Guaranteed { margin, reason } = found.guaranteed;
     let columns = Columns::default()
         .file("margin", |(name, ..): &(&str, Margin, Option<_>)| (*name).to_owned())
-        .and(Some(margin_columns(|(_, margin, _)| *margin)))
+        .and(margin_columns(|(_, margin, _)| *margin))
         .file("reason", |(_, _, reason)| reason.map(|it: Uncertain| it.to_string()));
     columns.csv([("nominal", found.nominal, None), ("guaranteed", margin, reason)])
 }
@@ -48,28 +48,29 @@ pub fn table(found: &Guarantee, seconds: f64) -> String {
     let names = Knob::PARAMETERS.map(|symbol| symbol.spec().name);
     let parameters = names.iter().zip([d, d2, d3, r]).map(|(name, value)| interval(name, value));
     let parameters = parameters.collect::<Vec<_>>().join(", ");
-    let mut table = Table::new(&["smallest kick that is not survived", "displacement", "impulse"]);
-    let mut rows = |name: &str, Margin { displacement, impulse, from_rest }: Margin| {
-        let size = |value: Option<f64>| value.map_or("none".to_owned(), |it| significant(it, 12));
-        let mut row = |from: &str, [displacement, impulse]: [Option<f64>; 2]| {
-            table.row(vec![format!("{name}, from {from}"), size(displacement), size(impulse)]);
-        };
-        row("any rest position", [from_rest.displacement, from_rest.impulse]);
-        row("q = 0", [displacement, impulse]);
-    };
-    rows("nominal", found.nominal);
-    let below = |size: f64| BELOW * size;
     let nothing = found.guaranteed.reason;
     let nothing = nothing.map(|reason| format!("nothing is guaranteed: {reason}\n"));
-    if nothing.is_none() {
-        rows("guaranteed", found.guaranteed.margin.map(below, below));
-    }
-    let nothing = nothing.unwrap_or_default();
+    let below = |size: f64| BELOW * size;
+    let guaranteed = found.guaranteed.margin.map(below, below);
+    let guaranteed = nothing.is_none().then_some(("guaranteed", guaranteed));
+    let rows = |(name, margin): (&str, Margin)| {
+        let Margin { displacement, impulse, from_rest } = margin;
+        [
+            (format!("{name}, from any rest position"), from_rest),
+            (format!("{name}, from q = 0"), RestMargin { displacement, impulse }),
+        ]
+    };
+    let size = Quantity::pure(12).or("none");
+    let table = Columns::default()
+        .text("smallest kick that is not survived", |(name, _): &(String, RestMargin)| name.clone())
+        .text("displacement", move |(_, kicks)| size.text(kicks.displacement))
+        .text("impulse", move |(_, kicks)| size.text(kicks.impulse))
+        .table(std::iter::once(("nominal", found.nominal)).chain(guaranteed).flat_map(rows));
     format!(
-        "{parameters}; disturbance {}\n\n{table}{nothing}\n{} evaluations, {}\n",
+        "{parameters}; disturbance {}\n\n{table}{}\n{}",
         significant(found.disturbance, 12),
-        found.cost.evaluations,
-        duration(seconds)
+        nothing.unwrap_or_default(),
+        cost(found.cost, seconds)
     )
 }
 

@@ -4,7 +4,6 @@
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use crate::flow::Cost;
 use crate::words::printable;
 
 /// An object, told field by field.
@@ -55,22 +54,6 @@ pub(super) fn value(it: &impl Serialize) -> Value {
         Ok(value) => value,
         Err(error) => unreachable!("a document cannot hold it: {error}"),
     }
-}
-
-/// The cost of an answer, counted and timed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct CountedCost {
-    #[serde(flatten)]
-    pub counted: Cost,
-    /// Wall-clock seconds inside the process.
-    pub seconds: f64,
-}
-
-/// The cost of an answer in time alone.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Seconds {
-    /// Wall-clock seconds inside the process.
-    pub seconds: f64,
 }
 
 /// The document on one line, with a newline.

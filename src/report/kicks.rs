@@ -2,11 +2,11 @@
 
 use super::columns::Columns;
 use super::json::Document;
-use super::table::parameters as named;
+use super::table::{cost as told, parameters as named};
 use crate::oscillator::Parameters;
 use crate::study::kicks::RandomKick;
 use crate::study::repeated::Repeated;
-use crate::words::number::{duration, significant};
+use crate::words::number::significant;
 
 /// One document; `mean` is null if no kick is ever lost.
 pub fn json(parameters: &Parameters, kicks: &RandomKick, found: &Repeated, seconds: f64) -> String {
@@ -46,13 +46,12 @@ pub fn table(
          lost, of kicks from the middle of the rest  {} +- {}\n\
          lost, of kicks after many                   {}\n\
          mean number until one is lost               {mean}\n\
-         relative error of the last two              {}\n\n{} evaluations, {}\n",
+         relative error of the last two              {}\n\n{}",
         named(parameters, None),
         number(first.part),
         significant(first.error, 2),
         number(*later),
         significant(*error, 2),
-        cost.evaluations,
-        duration(seconds)
+        told(*cost, seconds)
     )
 }

@@ -7,8 +7,8 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::belt::{Head, PLACES};
-use super::csv::{self, CsvSheet};
-use super::json::text;
+use super::csv;
+use super::json::{self, Document};
 use super::table::Table;
 use crate::machine::Subject;
 use crate::oscillator::Knob;
@@ -61,50 +61,47 @@ const COLUMNS: [(&str, &str, &str); 22] = [
 
 impl<D: Serialize, R: Serialize> MachineReport<'_, D, R> {
     pub fn json(&self) -> String {
-        #[derive(Serialize)]
-        struct MachineCost {
-            steps: u64,
-            seconds: f64,
-        }
-        #[derive(Serialize)]
-        struct MachineDocument<'a, D> {
-            machine: &'a str,
-            parameters: Map<String, Value>,
-            #[serde(flatten)]
-            document: &'a D,
-            cost: MachineCost,
-        }
-        let number = |(knob, value): (Knob, f64)| (knob.to_string(), value.into());
-        text(&MachineDocument {
-            machine: self.head.name,
-            parameters: self.subject.numbers().map(number).collect(),
-            document: &self.document,
-            cost: MachineCost { steps: self.steps, seconds: self.seconds },
-        })
+        let numbers = self.subject.numbers();
+        let parameters = numbers.fold(Document::default(), |parameters, (knob, value)| {
+            parameters.with(&knob.to_string(), value)
+        });
+        Document::default()
+            .with("machine", self.head.name)
+            .with("parameters", parameters)
+            .and(&self.document)
+            .cost(&Document::default().with("steps", self.steps), self.seconds)
+            .text()
     }
 
     pub fn csv(&self) -> String {
-        let called = self.called.iter().map(|(field, knob)| (*field, knob.spec().name));
-        let mut sheet = CsvSheet::like(&self.like, &called.collect::<Vec<_>>());
-        self.rows.iter().for_each(|row| sheet.row(row));
-        sheet.into_text()
+        let names: Vec<String> = fields(&self.like).into_iter().map(|(name, _)| name).collect();
+        let shown = |name: &String| {
+            let called = self.called.iter().find(|(field, _)| field == name);
+            called.map_or(name.clone(), |(_, knob)| knob.spec().name.to_owned())
+        };
+        let heading = names.iter().map(shown).collect();
+        let line = |row: &R| {
+            let fields = fields(row);
+            names.iter().map(|name| fields.get(name).map(csv::cell).unwrap_or_default()).collect()
+        };
+        csv::lines(std::iter::once(heading).chain(self.rows.iter().map(line)))
     }
 
     pub fn table(&self) -> String {
-        let column = |name: &String| {
-            let knob = self.called.iter().find(|(field, _)| field == name);
+        let column = |(name, _): (String, Value)| {
+            let knob = self.called.iter().find(|(field, _)| *field == name);
             let knob = knob.map(|(_, knob)| (knob.spec().name, knob.spec().unit));
-            let known = COLUMNS.iter().find(|(field, ..)| field == name);
+            let known = COLUMNS.iter().find(|(field, ..)| *field == name);
             let (title, unit) = knob.or(known.map(|(_, title, unit)| (*title, *unit)))?;
-            Some((name.clone(), title, unit))
+            Some((name, title, unit))
         };
-        let columns: Vec<_> = csv::names(&self.like).iter().filter_map(column).collect();
-        let mut table = Table::new(&columns.iter().map(|(_, title, _)| *title).collect::<Vec<_>>());
-        for row in &self.rows {
-            let fields = csv::fields(row);
-            let cell = |(name, _, unit): &(String, _, &str)| cell(fields.get(name), unit);
-            table.row(columns.iter().map(cell).collect());
-        }
+        let columns: Vec<_> = fields(&self.like).into_iter().filter_map(column).collect();
+        let line = |row: &R| {
+            let fields = fields(row);
+            columns.iter().map(|(name, _, unit)| cell(fields.get(name), unit)).collect()
+        };
+        let titles = columns.iter().map(|(_, title, _)| *title).collect();
+        let table = Table { titles, rows: self.rows.iter().map(line).collect() };
         let varied: Vec<&str> = self.called.iter().map(|(_, knob)| knob.spec().name).collect();
         let Head { name, title, .. } = self.head;
         let mut out = format!("{name}: {title}\n{}\n\n", self.head.numbers_without(&varied));
@@ -116,6 +113,21 @@ impl<D: Serialize, R: Serialize> MachineReport<'_, D, R> {
         }
         out + &format!("{} steps, {}\n", self.steps, duration(self.seconds))
     }
+}
+
+/// The fields of a row that have a column: those that are neither records nor lists, and the smallest kicks from rest.
+fn fields(row: &impl Serialize) -> Map<String, Value> {
+    const FROM_REST: &str = "from_rest";
+    let Value::Object(row) = json::value(row) else { return Map::new() };
+    let single = |(name, value): (String, Value)| match value {
+        Value::Object(kicks) if name == FROM_REST => {
+            let kicks = kicks.into_iter();
+            kicks.map(|(kick, size)| (format!("{name}_{kick}"), size)).collect()
+        }
+        Value::Object(_) | Value::Array(_) => vec![],
+        value => vec![(name, value)],
+    };
+    row.into_iter().flat_map(single).collect()
 }
 
 fn cell(value: Option<&Value>, unit: &str) -> String {

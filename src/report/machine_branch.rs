@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::belt::{Head, PLACES};
+use super::columns::{Columns, Quantity};
 use super::machine::{MachineCycleRow, MachineReport};
-use super::table::Table;
 use crate::flow::Fate;
 use crate::machine::Subject;
 use crate::machine::branch::MachineBranch;
@@ -52,12 +52,11 @@ pub fn branch<'a>(
             Err(why) => rows.push(BranchRow { reason: Some(why.to_string()), ..row }),
         }
     }
-    let mut changes = Table::new(&["", "", ""]);
-    for special in &found.special {
-        let x = special.x_max.map_or_else(String::new, |x| with_unit(x, PLACES, "m"));
-        let what = format!("{}{}", words(special.kind), jumps(special));
-        changes.row(vec![with_unit(special.value, 13, spec.unit), x, what]);
-    }
+    let changes = Columns::default()
+        .text("", |it: &&MachineSpecial| with_unit(it.value, 13, spec.unit))
+        .text("", |it| Quantity::of("m", PLACES).or("").text(it.x_max))
+        .text("", |it| format!("{}{}", words(it.kind), jumps(it)))
+        .table(&found.special);
     let reached = found.points.iter().filter_map(|point| point.found.as_ref().ok());
     MachineReport {
         head,

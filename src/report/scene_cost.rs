@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::csv::CsvSheet;
-use super::table::Table;
+use super::columns::Columns;
+use super::json::{self, Document};
 use crate::flow::Cost;
 use crate::scene::{Scene, Topic};
 use crate::session::requirement::named;
@@ -45,26 +45,6 @@ pub struct SceneCost {
     pub steps: Vec<StepCost>,
 }
 
-#[derive(Serialize)]
-struct StepDocument<'a> {
-    parameter: &'static str,
-    recomputed: Vec<Topic>,
-    reused: &'a [Topic],
-    evaluations: u64,
-    steps: u64,
-    seconds: f64,
-}
-
-#[derive(Serialize)]
-struct SceneCostDocument<'a> {
-    scene: &'a str,
-    questions: &'a [QuestionCost],
-    formulas: &'a [&'static str],
-    evaluations: u64,
-    seconds: f64,
-    steps: Vec<StepDocument<'a>>,
-}
-
 fn sum(questions: &[QuestionCost]) -> (Cost, f64) {
     questions.iter().fold((Cost::default(), 0.0), |(mut cost, seconds), question| {
         cost += question.cost;
@@ -74,95 +54,86 @@ fn sum(questions: &[QuestionCost]) -> (Cost, f64) {
 
 /// One document with all scenes.
 pub fn json(scenes: &[SceneCost]) -> String {
-    super::json::text(&scenes.iter().map(SceneCostDocument::from).collect::<Vec<_>>())
+    json::text(&scenes.iter().map(document).collect::<Vec<_>>())
 }
 
-impl<'a> From<&'a SceneCost> for SceneCostDocument<'a> {
-    fn from(found: &'a SceneCost) -> Self {
-        let (cost, seconds) = sum(&found.questions);
-        SceneCostDocument {
-            scene: &found.scene.name,
-            questions: &found.questions,
-            formulas: &found.formulas,
-            evaluations: cost.evaluations,
-            seconds,
-            steps: found.steps.iter().map(StepDocument::from).collect(),
-        }
-    }
-}
-
-impl<'a> From<&'a StepCost> for StepDocument<'a> {
-    fn from(StepCost { name, recomputed, reused }: &'a StepCost) -> Self {
-        let (cost, seconds) = sum(recomputed);
-        StepDocument {
-            parameter: name,
-            recomputed: recomputed.iter().map(|question| question.topic).collect(),
-            reused,
-            evaluations: cost.evaluations,
-            steps: cost.steps,
-            seconds,
-        }
-    }
+fn document(found: &SceneCost) -> Document {
+    let step = |step: &StepCost| {
+        let (cost, seconds) = sum(&step.recomputed);
+        Document::default()
+            .with("parameter", step.name)
+            .with("recomputed", step.recomputed.iter().map(|it| it.topic).collect::<Vec<_>>())
+            .with("reused", &step.reused)
+            .with("evaluations", cost.evaluations)
+            .with("steps", cost.steps)
+            .with("seconds", seconds)
+    };
+    let (cost, seconds) = sum(&found.questions);
+    Document::default()
+        .with("scene", &found.scene.name)
+        .with("questions", &found.questions)
+        .with("formulas", &found.formulas)
+        .with("evaluations", cost.evaluations)
+        .with("seconds", seconds)
+        .with("steps", found.steps.iter().map(step).collect::<Vec<_>>())
 }
 
 /// One line for each question of each scene, when it opens and after each step.
 pub fn csv(scenes: &[SceneCost]) -> String {
-    let question = &QuestionCost {
-        topic: Topic::Trajectory,
-        layers: Vec::new(),
-        cost: Cost::default(),
-        seconds: 0.0,
-    };
-    let mut sheet = CsvSheet::like(&SceneCostRow { scene: "", after: "", question }, &[]);
-    for found in scenes {
+    type QuestionRow<'a> = (&'a SceneCost, &'static str, &'a QuestionCost);
+    let columns = Columns::default()
+        .file("scene", |(found, ..): &QuestionRow| found.scene.name.clone())
+        .file("after", |(_, after, _)| *after)
+        .file("question", |(.., question)| question.topic)
+        .fields(&Cost::default(), |(.., question)| Some(question.cost))
+        .file("seconds", |(.., question)| question.seconds);
+    let rows = scenes.iter().flat_map(|found| {
         let steps = found.steps.iter().map(|step| (step.name, &step.recomputed));
-        for (after, questions) in std::iter::once(("opening", &found.questions)).chain(steps) {
-            for question in questions {
-                sheet.row(&SceneCostRow { scene: &found.scene.name, after, question });
-            }
-        }
-    }
-    sheet.into_text()
+        let asked = std::iter::once(("opening", &found.questions)).chain(steps);
+        asked.flat_map(move |(after, all)| all.iter().map(move |one| (found, after, one)))
+    });
+    columns.csv(rows)
 }
 
-/// A question of a scene, when it opens or after a step.
-#[derive(Serialize)]
-struct SceneCostRow<'a> {
-    scene: &'a str,
-    after: &'a str,
-    #[serde(flatten)]
-    question: &'a QuestionCost,
+/// A line of the table of a scene.
+struct CostRow {
+    what: String,
+    cost: Cost,
+    seconds: f64,
+    remark: String,
 }
 
 /// As readable text: one table for each scene.
 pub fn table(scenes: &[SceneCost]) -> String {
     let one = |found: &SceneCost| {
-        let mut table = Table::new(&["", "evaluations", "steps", "time", ""]);
-        let mut row = |what: String, (cost, seconds): (Cost, f64), remark: String| {
-            table.row(vec![
-                format!("{what:<22}"),
-                count(cost.evaluations),
-                count(cost.steps),
-                duration(seconds),
-                remark,
-            ]);
+        let question = |question: &QuestionCost| CostRow {
+            what: question.topic.name().to_owned(),
+            cost: question.cost,
+            seconds: question.seconds,
+            remark: format!("for {}", question.layers.join(", ")),
         };
-        for question in &found.questions {
-            let price = (question.cost, question.seconds);
-            let remark = format!("for {}", question.layers.join(", "));
-            row(question.topic.name().to_owned(), price, remark);
-        }
-        row("all of it".to_owned(), sum(&found.questions), String::new());
-        for step in &found.steps {
-            let part = |name: &str, topics: &[Topic]| {
-                (!topics.is_empty()).then(|| format!("{name} {}", named(topics, ", ")))
-            };
+        let summed = |what: String, questions: &[QuestionCost], remark: String| {
+            let (cost, seconds) = sum(questions);
+            CostRow { what, cost, seconds, remark }
+        };
+        let part = |name: &str, topics: &[Topic]| {
+            (!topics.is_empty()).then(|| format!("{name} {}", named(topics, ", ")))
+        };
+        let step = |step: &StepCost| {
             let again: Vec<Topic> = step.recomputed.iter().map(|asked| asked.topic).collect();
-            let again = part("recomputes", &again);
-            let kept = part("reuses", &step.reused);
+            let [again, kept] = [part("recomputes", &again), part("reuses", &step.reused)];
             let remark = again.into_iter().chain(kept).collect::<Vec<_>>().join("; ");
-            row(format!("a step of {}", step.name), sum(&step.recomputed), remark);
-        }
+            summed(format!("a step of {}", step.name), &step.recomputed, remark)
+        };
+        let all = summed("all of it".to_owned(), &found.questions, String::new());
+        let rows = found.questions.iter().map(question).chain([all]);
+        let table = Columns::default()
+            .text("", |row: &CostRow| format!("{:<22}", row.what))
+            .text("evaluations", |row| count(row.cost.evaluations))
+            .text("steps", |row| count(row.cost.steps))
+            .text("time", |row| duration(row.seconds))
+            .text("", |row| row.remark.clone())
+            .table(rows.chain(found.steps.iter().map(step)));
         let formulas = match &found.formulas[..] {
             [] => String::new(),
             formulas => format!("by formulas: {}\n", formulas.join(", ")),

@@ -1,51 +1,38 @@
 //! The list of scenes.
 
-use serde::Serialize;
-
-use super::csv;
+use super::columns::Columns;
 use super::json;
-use crate::oscillator::{Parameters, State};
 use crate::scene::Scene;
 use crate::scene::said::said_by;
 use crate::session::Keymap;
 
-#[derive(Serialize)]
-struct SceneDocument<'a> {
-    name: &'a str,
-    title: &'a str,
-    look: String,
-    press: String,
-    parameters: &'a Parameters,
-    initial: &'a State,
-    until: f64,
-}
+/// A name of a scene, and the scene.
+type SceneRow<'a> = (&'a str, &'a Scene);
 
-/// A name of a scene, and its title.
-#[derive(Default, Serialize)]
-struct SceneRow<'a> {
-    name: &'a str,
-    title: &'a str,
-}
-
-pub fn json<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
+fn columns<'a>() -> Columns<'a, SceneRow<'a>> {
     let keymap = Keymap::default();
     let sentence =
-        |scene: &Scene, text: &str| keymap.fill(&said_by(scene, text), |key| key.to_string());
-    let document = |scene: &'a Scene, name: &'a str| SceneDocument {
-        name,
-        title: &scene.title,
-        look: sentence(scene, &scene.watch),
-        press: sentence(scene, &scene.press),
-        parameters: &scene.problem.parameters,
-        initial: &scene.problem.initial,
-        until: scene.problem.until,
-    };
-    let documents = |scene: &'a Scene| scene.names().map(move |name| document(scene, name));
-    json::text(&scenes.into_iter().flat_map(documents).collect::<Vec<_>>())
+        move |scene: &Scene, text: &str| keymap.fill(&said_by(scene, text), |key| key.to_string());
+    let press = sentence.clone();
+    Columns::default()
+        .file("name", |(name, _): &SceneRow| (*name).to_owned())
+        .file("title", |(_, scene)| scene.title.clone())
+        .field("look", move |(_, scene)| sentence(scene, &scene.watch))
+        .field("press", move |(_, scene)| press(scene, &scene.press))
+        .field("parameters", |(_, scene)| scene.problem.parameters)
+        .field("initial", |(_, scene)| scene.problem.initial)
+        .field("until", |(_, scene)| scene.problem.until)
 }
 
 /// One row for each name of a scene.
+fn rows<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> impl Iterator<Item = SceneRow<'a>> {
+    scenes.into_iter().flat_map(|scene| scene.names().map(move |name| (name, scene)))
+}
+
+pub fn json<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
+    json::text(&columns().objects(rows(scenes)))
+}
+
 pub fn csv<'a>(scenes: impl IntoIterator<Item = &'a Scene>) -> String {
-    let rows = |scene: &'a Scene| scene.names().map(|name| SceneRow { name, title: &scene.title });
-    csv::sheet(&SceneRow::default(), scenes.into_iter().flat_map(rows))
+    columns().csv(rows(scenes))
 }

@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use crate::flow::Problem;
+use crate::flow::{Cost, Problem};
 use crate::numerics::elementary::powi;
 use crate::oscillator::{Knob, Parameters, State};
-use crate::words::number::{exact, significant};
+use crate::words::number::{duration, exact};
 
 /// A table: titles, and rows with at most as many cells. Numbers are aligned at their decimal points.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -14,33 +14,19 @@ pub struct Table {
     pub(super) rows: Vec<Vec<String>>,
 }
 
-/// A column: its title, and a function that gives its cell of a row.
-pub type TableColumn<'a, R> = (&'static str, &'a dyn Fn(&R) -> String);
-
 impl Table {
     /// Whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// A table with these titles and no rows.
-    pub fn new(titles: &[&'static str]) -> Self {
-        Table { titles: titles.to_vec(), rows: Vec::new() }
-    }
-
-    /// A table with these columns, and a line for each row.
-    pub fn of<R>(rows: &[R], columns: &[TableColumn<R>]) -> Self {
-        let cells = |row: &R| columns.iter().map(|(_, cell)| cell(row)).collect();
-        let titles = columns.iter().map(|(title, _)| *title).collect();
-        Table { titles, rows: rows.iter().map(cells).collect() }
-    }
-
-    pub fn row(&mut self, cells: Vec<String>) {
-        self.rows.push(cells);
-    }
-
     /// The table as text with left-aligned columns, for words.
     pub fn aligned_left(&self) -> String {
+        self.aligned(|_| true)
+    }
+
+    /// The table as text whose columns are aligned at the left or at the right.
+    pub(super) fn aligned(&self, is_left: impl Fn(usize) -> bool) -> String {
         let titles = self.titles.iter().map(|title| (*title).to_owned()).collect();
         let rows: Vec<&Vec<String>> = std::iter::once(&titles).chain(&self.rows).collect();
         let width = |column: usize| {
@@ -49,7 +35,9 @@ impl Table {
         };
         let widths: Vec<usize> = (0..titles.len()).map(width).collect();
         let line = |row: &&Vec<String>| {
-            let cells = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:width$}"));
+            let cells = row.iter().zip(&widths).enumerate().map(|(column, (cell, &width))| {
+                if is_left(column) { format!("{cell:width$}") } else { format!("{cell:>width$}") }
+            });
             cells.collect::<Vec<_>>().join("  ").trim_end().to_owned() + "\n"
         };
         rows.iter().map(line).collect()
@@ -103,9 +91,9 @@ pub(super) fn parameters(parameters: &Parameters, but: Option<Knob>) -> String {
     shown.map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// A number, or `-` if there is none.
-pub(super) fn rounded(value: Option<f64>, digits: usize) -> String {
-    value.map_or_else(|| "-".to_owned(), |value| significant(value, digits))
+/// What an answer cost, in a line.
+pub(super) fn cost(counted: Cost, seconds: f64) -> String {
+    format!("{} evaluations, {}\n", counted.evaluations, duration(seconds))
 }
 
 /// The parameters and the start of a motion.
@@ -121,10 +109,9 @@ mod tests {
 
     #[test]
     fn points_of_numbers_stand_above_each_other() {
-        let mut table = Table::new(&["tau", "q"]);
-        table.row(vec!["1.5".to_owned(), "-0.25".to_owned()]);
-        table.row(vec!["10.25".to_owned(), "1".to_owned()]);
-        table.row(vec!["100".to_owned(), "-".to_owned()]);
+        let cells = [["1.5", "-0.25"], ["10.25", "1"], ["100", "-"]];
+        let rows = cells.map(|row| row.map(str::to_owned).to_vec()).to_vec();
+        let table = Table { titles: vec!["tau", "q"], rows };
         assert_eq!(table.to_string(), "   tau      q\n  1.5   -0.25\n 10.25   1\n100      -\n");
     }
 

@@ -1,15 +1,14 @@
 //! Error against cost, in every form of output: one row for each method and accuracy.
 
-use serde::Serialize;
-
-use super::csv::{self, CsvSheet};
-use super::table::{Table, motion};
+use super::columns::Columns;
+use super::json::Document;
+use super::table::motion;
 use crate::flow::method::Dial;
 use crate::flow::{METHODS, Method, MethodSpec, Outcome};
 use crate::numerics::elementary::{log10, pow};
-use crate::oscillator::{Parameters, State};
-use crate::study::accuracy::{Ending, Reference, Source};
-use crate::study::trade::{self, Trade};
+use crate::study::accuracy::{Deviation, Ending, Reference, Source};
+use crate::study::trade::{self, Trade, TradePoint};
+use crate::words::counted;
 use crate::words::number::{count, duration, significant};
 
 /// A trade-off with the time of each row, measured by the caller.
@@ -20,26 +19,12 @@ pub struct TimedTrade {
     pub seconds: Vec<f64>,
 }
 
-/// One method at one accuracy that has an error.
-#[derive(Clone, Debug, Serialize)]
-#[expect(clippy::struct_excessive_bools, reason = "fields of a document")]
-struct TradeRow {
-    method: Method,
-    /// The method that `auto` chose.
-    used: Method,
-    tolerance: Option<f64>,
-    step: Option<f64>,
-    epsilon: Option<f64>,
-    error: f64,
-    evaluations: u64,
+/// One method at one accuracy.
+struct TradeRow<'a> {
+    point: &'a TradePoint,
+    /// How far it is from the reference; a row without one comes last.
+    deviation: Option<Deviation>,
     seconds: f64,
-    steps: u64,
-    rejected: u64,
-    outcome: Outcome,
-    turns: usize,
-    time_error: f64,
-    /// Whether the motion ends as the reference does.
-    agrees: bool,
     /// Whether no other row has a smaller error in less time.
     front: bool,
     /// Whether no other row has a smaller error for fewer evaluations.
@@ -48,40 +33,30 @@ struct TradeRow {
     own: bool,
 }
 
-/// One method at one accuracy that has no error, and why.
-#[derive(Clone, Debug, Serialize)]
-struct Unanswered {
-    method: Method,
-    tolerance: Option<f64>,
-    step: Option<f64>,
-    epsilon: Option<f64>,
-    reason: String,
-    evaluations: u64,
-}
+impl<'a> TradeRow<'a> {
+    /// What is told only if there is an error.
+    fn answered(&self) -> Option<&'a TradePoint> {
+        self.deviation.map(|_| self.point)
+    }
 
-#[derive(Serialize)]
-struct TradeDocument<'a> {
-    parameters: &'a Parameters,
-    initial: &'a State,
-    until: f64,
-    reference: String,
-    reference_error: f64,
-    scale: f64,
-    turns: usize,
-    rows: Vec<TradeRow>,
-    unanswered: Vec<Unanswered>,
-}
+    fn error(&self) -> Option<f64> {
+        self.deviation.map(|deviation| deviation.error)
+    }
 
-/// A row with all columns, including the reason of a row without an error.
-#[derive(Serialize)]
-struct RowWithReason<'a> {
-    #[serde(flatten)]
-    row: &'a TradeRow,
-    reason: Option<&'a str>,
+    /// Why there is no error.
+    fn reason(&self) -> Option<String> {
+        self.point.deviation.err().map(|reason| reason.to_string())
+    }
+
+    /// What its accuracy is set to.
+    fn setting(&self) -> Option<String> {
+        let [tolerance, step, epsilon] = dials(self.point);
+        step.or(epsilon).or(tolerance).map(|setting| format!("{setting:e}"))
+    }
 }
 
 /// Tolerance, step and epsilon of a row; `None` for those that do not set the accuracy of its method.
-fn dials(row: &trade::TradePoint) -> [Option<f64>; 3] {
+fn dials(row: &TradePoint) -> [Option<f64>; 3] {
     let problem = &row.problem;
     let dial = problem.method.spec().dial;
     let number = |wanted: Dial, value: f64| (dial == wanted).then_some(value);
@@ -89,51 +64,62 @@ fn dials(row: &trade::TradePoint) -> [Option<f64>; 3] {
     [tolerance, number(Dial::Step, problem.step), number(Dial::Epsilon, problem.epsilon)]
 }
 
+/// The columns of files for what the accuracy of a method is set to.
+fn dial_columns<'a>() -> Columns<'a, TradeRow<'a>> {
+    let names = ["tolerance", "step", "epsilon"].into_iter().enumerate();
+    names.fold(Columns::default(), |columns, (index, name)| {
+        columns.file(name, move |row: &TradeRow| dials(row.point)[index])
+    })
+}
+
+/// The columns of rows that have an error.
+fn columns<'a>() -> Columns<'a, TradeRow<'a>> {
+    let own_marks = |row: &TradeRow| {
+        let best = if row.front { "*" } else { "" };
+        let own = if row.own { "<" } else { "" };
+        format!("{best} {own}").trim().to_owned()
+    };
+    Columns::default()
+        .word("method", |row: &TradeRow| row.point.problem.method)
+        .text("set to", |row| row.setting().unwrap_or("-".to_owned()))
+        .file("used", |row| row.answered().map(|it| it.method))
+        .and(dial_columns())
+        .file("error", TradeRow::error)
+        .text("error", |row| row.error().map_or("-".to_owned(), |error| format!("{error:.1e}")))
+        .file("evaluations", |row| row.point.cost.evaluations)
+        .text("evaluations", |row| count(row.point.cost.evaluations))
+        .file("seconds", |row| row.deviation.map(|_| row.seconds))
+        .text("time", |row| duration(row.seconds))
+        .file("steps", |row| row.answered().map(|it| it.cost.steps))
+        .file("rejected", |row| row.answered().map(|it| it.cost.rejected))
+        .field("outcome", |row| row.point.outcome)
+        .file("turns", |row| row.answered().map(|it| it.turns))
+        .text("half swings", |row| row.point.turns.to_string())
+        .file("time_error", |row| row.deviation.map(|it| it.time))
+        .file("agrees", |row| row.deviation.map(|it| it.agrees))
+        .file("front", |row| row.deviation.map(|_| row.front))
+        .file("front_by_evaluations", |row| row.deviation.map(|_| row.front_by_evaluations))
+        .file("own", |row| row.deviation.map(|_| row.own))
+        .text("ends", |row| end_of(&row.point.outcome))
+        .text("", own_marks)
+}
+
 impl TimedTrade {
-    /// The rows that have an error.
-    fn rows(&self) -> Vec<TradeRow> {
+    /// The rows that have an error, and those that have none.
+    fn rows(&self) -> (Vec<TradeRow<'_>>, Vec<TradeRow<'_>>) {
         let trade = &self.trade;
         let by_time = trade.front(&self.seconds);
         let by_evaluations = trade.front(&trade.evaluations());
-        let judged =
-            trade.rows.iter().zip(&self.seconds).zip(by_time.into_iter().zip(by_evaluations));
-        judged
-            .filter_map(|((row, &seconds), (front, front_by_evaluations))| {
-                let deviation = row.deviation.ok()?;
-                let [tolerance, step, epsilon] = dials(row);
-                Some(TradeRow {
-                    method: row.problem.method,
-                    used: row.method,
-                    tolerance,
-                    step,
-                    epsilon,
-                    error: deviation.error,
-                    evaluations: row.cost.evaluations,
-                    seconds,
-                    steps: row.cost.steps,
-                    rejected: row.cost.rejected,
-                    outcome: row.outcome,
-                    turns: row.turns,
-                    time_error: deviation.time,
-                    agrees: deviation.agrees,
-                    front,
-                    front_by_evaluations,
-                    own: trade.is_own(row),
-                })
-            })
-            .collect()
-    }
-
-    /// The rows that have no error.
-    fn unanswered(&self) -> Vec<Unanswered> {
-        let rows = self.trade.rows.iter();
-        rows.filter_map(|row| {
-            let reason = row.deviation.err()?.to_string();
-            let [tolerance, step, epsilon] = dials(row);
-            let (method, evaluations) = (row.problem.method, row.cost.evaluations);
-            Some(Unanswered { method, tolerance, step, epsilon, reason, evaluations })
-        })
-        .collect()
+        let row = |index: usize, point| TradeRow {
+            point,
+            deviation: point.deviation.ok(),
+            seconds: self.seconds[index],
+            front: by_time[index],
+            front_by_evaluations: by_evaluations[index],
+            own: trade.is_own(point),
+        };
+        let rows = trade.rows.iter().enumerate().map(|(index, point)| row(index, point));
+        rows.partition(|row| row.deviation.is_some())
     }
 }
 
@@ -163,31 +149,29 @@ pub fn reference(trade: &Trade) -> String {
 
 pub fn json(timed: &TimedTrade) -> String {
     let Trade { problem, reference: known, .. } = &timed.trade;
-    super::json::text(&TradeDocument {
-        parameters: &problem.parameters,
-        initial: &problem.initial,
-        until: problem.until,
-        reference: reference(&timed.trade),
-        reference_error: known.error,
-        scale: known.scale,
-        turns: known.turns.len(),
-        rows: timed.rows(),
-        unanswered: timed.unanswered(),
-    })
+    let (rows, unanswered) = timed.rows();
+    let without_error = Columns::default()
+        .file("method", |row: &TradeRow| row.point.problem.method)
+        .and(dial_columns())
+        .file("reason", TradeRow::reason)
+        .file("evaluations", |row| row.point.cost.evaluations);
+    Document::default()
+        .with("parameters", problem.parameters)
+        .with("initial", problem.initial)
+        .with("until", problem.until)
+        .with("reference", reference(&timed.trade))
+        .with("reference_error", known.error)
+        .with("scale", known.scale)
+        .with("turns", known.turns.len())
+        .with("rows", columns().objects(rows))
+        .with("unanswered", without_error.objects(unanswered))
+        .text()
 }
 
 /// One line for each method and accuracy; those without an error come last.
 pub fn csv(timed: &TimedTrade) -> String {
-    let (rows, unanswered) = (timed.rows(), timed.unanswered());
-    let Some(first) = rows.first() else { return csv::sheet(&unanswered.first(), &unanswered) };
-    let mut sheet = CsvSheet::like(&RowWithReason { row: first, reason: None }, &[]);
-    for row in &rows {
-        sheet.row(row);
-    }
-    for row in &unanswered {
-        sheet.row(row);
-    }
-    sheet.into_text()
+    let (rows, unanswered) = timed.rows();
+    columns().file("reason", TradeRow::reason).csv(rows.into_iter().chain(unanswered))
 }
 
 /// A table of all rows, and a plot of them below it. The best choices are marked with `*`, the method in use
@@ -201,31 +185,12 @@ pub fn table(timed: &TimedTrade, plot: &str) -> String {
         ending(known),
         reference(&timed.trade)
     );
-    let rows = Table::of(
-        &timed.rows(),
-        &[
-            ("method", &|row| row.method.to_string()),
-            ("set to", &|row| {
-                let setting = row.step.or(row.epsilon).or(row.tolerance);
-                setting.map_or_else(|| "-".to_owned(), |setting| format!("{setting:e}"))
-            }),
-            ("error", &|row| format!("{:.1e}", row.error)),
-            ("evaluations", &|row| count(row.evaluations)),
-            ("time", &|row| duration(row.seconds)),
-            ("half swings", &|row| row.turns.to_string()),
-            ("ends", &|row| end_of(&row.outcome)),
-            ("", &|row| {
-                let best = if row.front { "*" } else { "" };
-                let own = if row.own { "<" } else { "" };
-                format!("{best} {own}").trim().to_owned()
-            }),
-        ],
-    );
-    out += &rows.to_string();
-    for row in timed.unanswered() {
-        let setting = row.step.or(row.epsilon).or(row.tolerance);
-        let setting = setting.map_or_else(String::new, |setting| format!(" at {setting:e}"));
-        out += &format!("{}{setting}: {}\n", row.method, row.reason);
+    let (rows, unanswered) = timed.rows();
+    out += &columns().table(rows).to_string();
+    for row in unanswered {
+        let setting = row.setting().map_or_else(String::new, |setting| format!(" at {setting}"));
+        let reason = row.reason().unwrap_or_default();
+        out += &format!("{}{setting}: {reason}\n", row.point.problem.method);
     }
     out += "\n*: nothing else is better for less time; <: the method in use\n\n";
     out += &format!("{plot}\n");
@@ -234,11 +199,7 @@ pub fn table(timed: &TimedTrade, plot: &str) -> String {
 
 /// How the motion ends, in a sentence.
 fn ending(reference: &Reference) -> String {
-    let turns = reference.turns.len();
-    let swings = match turns {
-        1 => "1 half swing".to_owned(),
-        number => format!("{number} half swings"),
-    };
+    let swings = counted(reference.turns.len(), "half swing");
     match reference.end {
         Ending::Rest { q } => format!("rests at q = {} after {swings}", significant(q.high, 12)),
         Ending::Moving { q, v } => {
@@ -267,51 +228,52 @@ const LEVELS: [(f64, &str); 5] =
 
 /// The cost of accuracy: for each method the cheapest row within each error, and the factor for one more digit.
 pub fn digits(timed: &TimedTrade) -> String {
-    let mut titles = vec!["evaluations (time) for an error of"];
-    titles.extend(LEVELS.map(|level| level.1));
-    titles.extend(["a digit more", "ends right"]);
-    let mut table = Table::new(&titles);
-    let rows = timed.rows();
-    for spec in METHODS {
-        let own: Vec<&TradeRow> = rows.iter().filter(|row| row.method == spec.method).collect();
-        if own.is_empty() {
-            continue;
-        }
-        table.row(line_of_digits(spec, &own));
-    }
-    table.to_string()
-}
-
-fn line_of_digits(spec: &MethodSpec, rows: &[&TradeRow]) -> Vec<String> {
-    let cheapest = |error: f64| {
-        let good = rows.iter().filter(|row| row.error <= error);
-        good.min_by_key(|row| row.evaluations)
+    type MethodRows<'a> = (&'a MethodSpec, Vec<TradeRow<'a>>);
+    let (mut rows, _) = timed.rows();
+    let of = |spec: &'static MethodSpec| {
+        let own = rows.extract_if(.., |row| row.point.problem.method == spec.method);
+        (spec, own.collect::<Vec<_>>())
     };
-    let mut cells = vec![spec.name.to_owned()];
-    for (error, _) in LEVELS {
-        cells.push(cheapest(error).map_or_else(
-            || "-".to_owned(),
-            |row| format!("{} ({})", count(row.evaluations), duration(row.seconds)),
-        ));
-    }
-    cells.push(growth(rows).map_or_else(|| "-".to_owned(), |factor| format!("x{factor:.2}")));
-    let right = rows.iter().filter(|row| row.agrees).count();
-    cells.push(match right {
-        0 => "never".to_owned(),
-        all if all == rows.len() => "always".to_owned(),
-        some => format!("{some} of {}", rows.len()),
+    let methods: Vec<MethodRows> = METHODS.iter().map(of).filter(|it| !it.1.is_empty()).collect();
+    let cheapest = |rows: &[TradeRow], level: f64| {
+        let good = rows.iter().filter(|row| row.error().is_some_and(|error| error <= level));
+        let least = good.min_by_key(|row| row.point.cost.evaluations)?;
+        let evaluations = count(least.point.cost.evaluations);
+        Some(format!("{evaluations} ({})", duration(least.seconds)))
+    };
+    let right = |rows: &[TradeRow]| {
+        let agrees = |row: &&TradeRow| row.deviation.is_some_and(|deviation| deviation.agrees);
+        match rows.iter().filter(agrees).count() {
+            0 => "never".to_owned(),
+            all if all == rows.len() => "always".to_owned(),
+            some => format!("{some} of {}", rows.len()),
+        }
+    };
+    let columns = Columns::default()
+        .text("evaluations (time) for an error of", |(spec, _): &MethodRows| spec.name.to_owned());
+    let columns = LEVELS.into_iter().fold(columns, |columns, (error, title)| {
+        columns.text(title, move |(_, rows)| cheapest(rows, error).unwrap_or("-".to_owned()))
     });
-    cells
+    columns
+        .text("a digit more", |(_, rows)| {
+            growth(rows).map_or_else(|| "-".to_owned(), |factor| format!("x{factor:.2}"))
+        })
+        .text("ends right", move |(_, rows)| right(rows))
+        .table(methods)
+        .to_string()
 }
 
 /// The factor by which one more digit multiplies the evaluations, from the least to the most accurate row; `None`
 /// if these are less than one digit apart.
-fn growth(rows: &[&TradeRow]) -> Option<f64> {
-    let known = || rows.iter().filter(|row| row.error > 0.0 && row.evaluations > 0);
-    let worst = known().max_by(|one, other| one.error.total_cmp(&other.error))?;
-    let best = known().min_by(|one, other| one.error.total_cmp(&other.error))?;
-    let digits = log10(worst.error / best.error);
+fn growth(rows: &[TradeRow]) -> Option<f64> {
+    let known = || {
+        let cost = |row: &TradeRow| Some((row.error()?, row.point.cost.evaluations));
+        rows.iter().filter_map(cost).filter(|(error, evaluations)| *error > 0.0 && *evaluations > 0)
+    };
+    let (worst, least) = known().max_by(|one, other| one.0.total_cmp(&other.0))?;
+    let (best, most) = known().min_by(|one, other| one.0.total_cmp(&other.0))?;
+    let digits = log10(worst / best);
     #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-    let factor = best.evaluations as f64 / worst.evaluations as f64;
+    let factor = most as f64 / least as f64;
     (digits >= 1.0).then(|| pow(factor, 1.0 / digits))
 }

@@ -6,6 +6,7 @@ use crate::fit::drift::FittedDrift;
 use crate::fit::names::NAMES;
 use crate::fit::observation::R;
 use crate::fit::separable::{Combination, combinations};
+use crate::words::counted;
 use crate::words::number::{resolved, significant};
 use crate::words::statement::signed;
 
@@ -31,11 +32,6 @@ pub fn broken(fitted: &Fitted) -> Option<String> {
         .collect();
     (!failing.is_empty())
         .then(|| format!("not to be relied on, because a test fails: {}", failing.join("; ")))
-}
-
-/// `12 samples` or `1 sample`.
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// `D and r`, `D, D3 and r`.

@@ -18,9 +18,13 @@ use textwrap::{Options, WordSplitter};
 pub fn cycles(count: usize) -> String {
     match count {
         0 => "no limit cycle".to_owned(),
-        1 => "1 cycle".to_owned(),
-        more => format!("{more} cycles"),
+        some => counted(some, "cycle"),
     }
+}
+
+/// `12 samples` or `1 sample`.
+pub fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// `stable` or `unstable`.

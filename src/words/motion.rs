@@ -1,5 +1,6 @@
 //! How motions end.
 
+use super::counted;
 use super::number::significant;
 use super::quantity::with_unit;
 use crate::flow::{Outcome, Trajectory};
@@ -71,7 +72,6 @@ pub fn sentence(motion: &Trajectory, writing: Writing) -> String {
 pub fn swings(motion: &Trajectory) -> String {
     match motion.crossings.len() {
         0 => String::new(),
-        1 => " after 1 half swing".to_owned(),
-        number => format!(" after {number} half swings"),
+        some => format!(" after {}", counted(some, "half swing")),
     }
 }

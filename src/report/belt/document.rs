@@ -2,408 +2,167 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
-
-use super::expansion::Expansion;
-use super::{DesignAnswer, MachineAnswer, OnBelt, RestShare};
+use super::cycle::cycle_document;
+use super::{DesignAnswer, MachineAnswer, OnBelt, expansion};
 use crate::flow::Fate;
-use crate::machine::MachineLedger;
 use crate::machine::guarantee::MachineUncertain;
-use crate::machine::motion::MachineState;
+use crate::machine::motion::{Leg, MachineState};
 use crate::machine::survey::{Course, CubicExpansion, Second};
 use crate::machine::turn::ContactState;
-use crate::oscillator::belt::{Derivatives, FrictionLaw, Units};
-use crate::oscillator::{Belt, Group, Interval, Parameters};
-use crate::portrait::{Border, Cycle, Margin, Portrait};
-use crate::report::json::text;
-use crate::study::design::{FrictionNeeded, Kick};
+use crate::oscillator::Group;
+use crate::oscillator::belt::{Derivatives, FrictionLaw};
+use crate::portrait::{Margin, Portrait};
+use crate::report::json::Document;
 
-#[derive(Serialize)]
-struct MachineDocument<'a> {
-    machine: &'a str,
-    model: &'static str,
-    #[serde(flatten)]
-    belt: Option<BeltDocument<'a>>,
-    #[serde(flatten)]
-    whole: PortraitDocument,
-    motion: MachineMotionDocument,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    guaranteed: Option<MachineGuaranteeDocument>,
-    #[serde(skip_serializing_if = "RestShare::is_not_asked")]
-    rest_share: RestShare,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    design: Option<DesignDocument>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    expansion: Option<Expansion<'a>>,
-    cost: MachineCost,
+/// The whole answer about a machine as a document.
+pub fn json(answer: &MachineAnswer) -> String {
+    let MachineAnswer { course, on_belt, rest_share, .. } = answer;
+    let on_belt = on_belt.as_ref();
+    let certain = |belt: &OnBelt| Some(guaranteed(belt, belt.certain.as_ref()?));
+    let expanded = |belt: &OnBelt| expansion::document(&belt.expansion, &course.portrait);
+    let quantities = on_belt.map(|belt| quantities(&belt.expansion));
+    let share = (!rest_share.is_not_asked()).then(|| rest_share.known());
+    Document::default()
+        .with("machine", answer.head.name)
+        .with("model", "whole")
+        .and(&quantities.unwrap_or_default())
+        .and(&motions(&course.portrait))
+        .with("motion", motion(answer.start, course))
+        .with_any("guaranteed", on_belt.and_then(certain))
+        .with_any("rest_share", share)
+        .with_any("design", answer.design.as_ref().map(design))
+        .with_any("expansion", on_belt.map(expanded))
+        .cost(&Document::default().with("steps", course.portrait.steps), answer.seconds)
+        .text()
 }
 
 /// The numbers of a mass on a belt, and its dimensionless form.
-#[derive(Serialize)]
-struct BeltDocument<'a> {
-    quantities: BTreeMap<&'static str, f64>,
-    friction: Friction,
-    units: &'a Units,
-    parameters: &'a Parameters,
-    sticking_velocity: Both,
-    rest_band: Both,
+fn quantities(CubicExpansion { belt, reduced, .. }: &CubicExpansion) -> Document {
+    let knobs = Group::Machine.knobs();
+    let numbers = knobs.filter_map(|knob| Some((knob.spec().name, knob.of_belt(belt)?)));
+    let held = belt.static_guide.unwrap_or(belt.friction) / belt.stiffness;
+    let both = |dimensionless: f64, physical: f64| {
+        Document::default().with("dimensionless", dimensionless).with("physical", physical)
+    };
+    let Derivatives { value, first, second, third } = reduced.mu;
+    // Root mean square distance of a table's points from the law.
+    let missed = match &belt.law {
+        FrictionLaw::Table(spline) => Some(spline.missed()),
+        _ => None,
+    };
+    let friction = Document::default()
+        .with("law", belt.law.name())
+        .with_any("missed", missed)
+        .with("mu", value)
+        .with("mu1", first)
+        .with("mu2", second)
+        .with("mu3", third)
+        .with("mu_s", belt.static_coefficient.or_else(|| belt.law.mu(0.0)));
+    Document::default()
+        .with("quantities", numbers.collect::<BTreeMap<_, _>>())
+        .with("friction", friction)
+        .with("units", reduced.units)
+        .with("parameters", reduced.parameters)
+        .with("sticking_velocity", both(reduced.sticking_velocity, belt.belt_speed))
+        .with("rest_band", both(held / reduced.units.displacement, held))
 }
 
-impl<'a> BeltDocument<'a> {
-    fn new(CubicExpansion { belt, reduced, .. }: &'a CubicExpansion) -> Self {
-        let speed = (reduced.sticking_velocity, belt.belt_speed);
-        let held = belt.static_guide.unwrap_or(belt.friction) / belt.stiffness;
-        let both = |(dimensionless, physical)| Both { dimensionless, physical };
-        BeltDocument {
-            quantities: Group::Machine
-                .knobs()
-                .filter_map(|knob| Some((knob.spec().name, knob.of_belt(belt)?)))
-                .collect(),
-            friction: Friction::new(belt, &reduced.mu),
-            units: &reduced.units,
-            parameters: &reduced.parameters,
-            sticking_velocity: both(speed),
-            rest_band: both((held / reduced.units.displacement, held)),
-        }
-    }
-}
-
-/// The kicks that are survived for certain, with what they allow for.
-#[derive(Serialize)]
-struct MachineGuaranteeDocument {
-    /// In m and N s; null if every kick is survived or nothing is certain.
-    #[serde(flatten)]
-    margin: Margin,
-    /// Why nothing is certain.
-    reason: Option<String>,
-    /// In N.
-    disturbance: f64,
-    /// The intervals of the numbers that are not known exactly, in SI units.
-    tolerances: BTreeMap<&'static str, Interval>,
-}
-
-impl MachineGuaranteeDocument {
-    fn new(belt: &OnBelt, certain: &Result<Margin, MachineUncertain>) -> Self {
-        MachineGuaranteeDocument {
-            margin: certain.unwrap_or(Margin::ENDLESS),
-            reason: certain.err().map(|reason| reason.to_string()),
-            disturbance: belt.tolerances.disturbance,
-            tolerances: belt
-                .uncertain()
-                .into_iter()
-                .map(|(knob, interval)| (knob.spec().name, interval))
-                .collect(),
-        }
-    }
-}
-
-/// A number in dimensionless form and in SI units.
-#[derive(Serialize)]
-struct Both {
-    dimensionless: f64,
-    physical: f64,
-}
-
-#[derive(Serialize)]
-struct Friction {
-    law: &'static str,
-    /// Root mean square distance of a table's points from the law.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    missed: Option<f64>,
-    mu: f64,
-    mu1: f64,
-    mu2: f64,
-    mu3: f64,
-    /// The coefficient of static friction between belt and mass.
-    mu_s: Option<f64>,
-}
-
-impl Friction {
-    fn new(belt: &Belt, mu: &Derivatives) -> Self {
-        let missed = match &belt.law {
-            FrictionLaw::Table(spline) => Some(spline.missed()),
-            _ => None,
-        };
-        let Derivatives { value, first, second, third } = *mu;
-        Friction {
-            law: belt.law.name(),
-            missed,
-            mu: value,
-            mu1: first,
-            mu2: second,
-            mu3: third,
-            mu_s: belt.static_coefficient.or_else(|| belt.law.mu(0.0)),
-        }
-    }
+/// The kicks that are survived for certain, with what they allow for: the disturbance in N, and the intervals of the
+/// numbers that are not known exactly. Null if every kick is survived or nothing is certain.
+fn guaranteed(belt: &OnBelt, certain: &Result<Margin, MachineUncertain>) -> Document {
+    let tolerances = belt.uncertain().into_iter().map(|(knob, value)| (knob.spec().name, value));
+    Document::default()
+        .and(&certain.unwrap_or(Margin::ENDLESS))
+        .with("reason", certain.err().map(|reason| reason.to_string()))
+        .with("disturbance", belt.tolerances.disturbance)
+        .with("tolerances", tolerances.collect::<BTreeMap<_, _>>())
 }
 
 /// All motions of a machine by the whole model.
-#[derive(Serialize)]
-pub(super) struct PortraitDocument {
-    cycles: Vec<MachineCycleDocument>,
-    neutral: bool,
-    border: MachineBorderDocument,
-    margin: Margins,
-    /// The right turning point beyond which motions are not known, and why.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    limit: Option<Limit>,
-    /// Right turning points between which the search for cycles did not settle.
-    unresolved: Vec<(f64, f64)>,
+fn motions(portrait: &Portrait) -> Document {
+    let reach = portrait.reach;
+    let margin = Document::default()
+        .and(&portrait.margin)
+        // To the right and to the left, in m; with and against the belt, in m/s.
+        .with("displacements", reach.map(|reach| reach.displacement))
+        .with("velocities", reach.map(|reach| reach.velocity));
+    // The right turning point beyond which motions are not known, and why.
+    let limit = portrait.stop.map(|stop| {
+        Document::default().with("displacement", portrait.known).with("reason", stop.to_string())
+    });
+    Document::default()
+        .with("cycles", portrait.cycles.iter().map(cycle_document).collect::<Vec<_>>())
+        .with("neutral", portrait.neutral)
+        .with("border", Document::default().with("kind", portrait.border))
+        .with("margin", margin)
+        .with_any("limit", limit)
+        // Right turning points between which the search for cycles did not settle.
+        .with("unresolved", &portrait.unresolved)
 }
 
-#[derive(Serialize)]
-struct Limit {
-    displacement: f64,
-    reason: String,
-}
-
-#[derive(Serialize)]
-pub(super) struct MachineCycleDocument {
-    kind: &'static str,
-    overtakes: bool,
-    stable: bool,
-    #[serde(flatten)]
-    numbers: CycleNumbers,
-    /// `None` for a multiplier of 0.
-    log_multiplier: Option<f64>,
-}
-
-/// The numbers of a cycle, in SI units.
-#[derive(Default, Serialize)]
-pub(super) struct CycleNumbers {
-    x_min: f64,
-    x_max: f64,
-    v_min: f64,
-    v_max: f64,
-    period: f64,
-    stick_duration: f64,
-    /// `None` if it overflows.
-    multiplier: Option<f64>,
-}
-
-impl From<&Cycle> for CycleNumbers {
-    fn from(cycle: &Cycle) -> Self {
-        CycleNumbers {
-            x_min: cycle.q_min,
-            x_max: cycle.q_max,
-            v_min: cycle.v_min,
-            v_max: cycle.v_max,
-            period: cycle.period,
-            stick_duration: cycle.stick_duration(),
-            multiplier: cycle.multiplier,
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct MachineBorderDocument {
-    kind: Border,
-}
-
-#[derive(Serialize)]
-struct Margins {
-    /// The smallest kicks that are lost, in m and N s.
-    #[serde(flatten)]
-    least: Margin,
-    /// To the right and to the left, in m.
-    displacements: Option<(f64, f64)>,
-    /// With and against the belt, in m/s.
-    velocities: Option<(f64, f64)>,
-}
-
-impl PortraitDocument {
-    pub(super) fn new(portrait: &Portrait) -> Self {
-        PortraitDocument {
-            cycles: portrait.cycles.iter().map(MachineCycleDocument::new).collect(),
-            neutral: portrait.neutral,
-            border: MachineBorderDocument { kind: portrait.border },
-            margin: Margins {
-                least: portrait.margin,
-                displacements: portrait.reach.map(|reach| reach.displacement),
-                velocities: portrait.reach.map(|reach| reach.velocity),
-            },
-            limit: portrait
-                .stop
-                .map(|stop| Limit { displacement: portrait.known, reason: stop.to_string() }),
-            unresolved: portrait.unresolved.clone(),
-        }
-    }
-}
-
-impl MachineCycleDocument {
-    pub(super) fn new(cycle: &Cycle) -> Self {
-        MachineCycleDocument {
-            kind: cycle.kind(),
-            overtakes: cycle.overtakes,
-            stable: cycle.stable,
-            numbers: cycle.into(),
-            log_multiplier: Some(cycle.log_multiplier).filter(|it| it.is_finite()),
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct MachineMotionDocument {
-    start: StartDocument,
-    outcome: OutcomeDocument,
-    /// The time up to which it was followed, in s.
-    until: f64,
-    displacement: (f64, f64),
-    velocity: (f64, f64),
-    phases: Vec<PhaseDocument>,
-    energy: Energy,
-    end: MachineState,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    second: Option<SecondDocument>,
-}
-
-/// The motion by a second method, and the difference between the ends.
-#[derive(Serialize)]
-struct SecondDocument {
-    method: &'static str,
-    tolerance: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    end: Option<MachineState>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    difference: Option<MachineState>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<String>,
-}
-
-impl SecondDocument {
-    fn new(Second { way, tolerance, found }: &Second, first: MachineState) -> Self {
-        let end = found.map(|found| found.end);
-        let less = |end: MachineState| MachineState {
-            t: end.t - first.t,
-            x: end.x - first.x,
-            v: end.v - first.v,
-        };
-        SecondDocument {
-            method: way.name(),
-            tolerance: *tolerance,
-            end: end.ok(),
-            difference: end.ok().map(less),
-            reason: end.err().map(|stop| stop.to_string()),
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct StartDocument {
-    x: f64,
-    v: f64,
-}
-
-#[derive(Serialize)]
-struct OutcomeDocument {
-    kind: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    cycle: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    x: Option<f64>,
-    /// When it came to rest, if that was within the time followed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    t: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct PhaseDocument {
-    t: f64,
-    x: f64,
-    phase: &'static str,
-}
-
-#[derive(Serialize)]
-struct Energy {
-    #[serde(flatten)]
-    works: MachineLedger,
-    residual: f64,
-}
-
-impl MachineMotionDocument {
-    fn new((x, v): (f64, f64), course: &Course) -> Self {
-        let Course { motion, fate, rest, .. } = course;
-        let named = |kind| OutcomeDocument { kind, cycle: None, x: None, t: None };
-        let outcome = match fate {
-            Fate::Rest => OutcomeDocument {
-                x: *rest,
-                t: (motion.outcome == Fate::Rest).then_some(motion.end.t),
-                ..named("rest")
-            },
-            Fate::Cycle(index) => OutcomeDocument { cycle: Some(*index), ..named("cycle") },
-            Fate::Neutral => named("neutral"),
-            Fate::Moving => named("moving"),
-            Fate::Escapes => named("escaped"),
-            Fate::Unknown(_) => named("unknown"),
-        };
-        let phase = |place: ContactState| match place {
+/// The motion from a start.
+fn motion((x, v): (f64, f64), course: &Course) -> Document {
+    let motion = &course.motion;
+    let phase = |leg: &Leg| {
+        let phase = match leg.place {
             ContactState::Sticks => "stick",
             ContactState::Rests => "rest",
             ContactState::Slips(_) => "slip",
         };
-        MachineMotionDocument {
-            start: StartDocument { x, v },
-            outcome,
-            until: motion.end.t,
-            displacement: motion.x,
-            velocity: motion.v,
-            phases: motion
-                .legs
-                .iter()
-                .map(|leg| PhaseDocument { t: leg.t, x: leg.x, phase: phase(leg.place) })
-                .collect(),
-            energy: Energy { works: motion.ledger, residual: motion.ledger.residual() },
-            end: motion.end,
-            second: course.second.as_ref().map(|second| SecondDocument::new(second, motion.end)),
+        Document::default().with("t", leg.t).with("x", leg.x).with("phase", phase)
+    };
+    let energy = Document::default().and(&motion.ledger).with("residual", motion.ledger.residual());
+    let second = course.second.as_ref().map(|second| by_second(second, motion.end));
+    Document::default()
+        .with("start", Document::default().with("x", x).with("v", v))
+        .with("outcome", outcome(course))
+        .with("until", motion.end.t)
+        .with("displacement", motion.x)
+        .with("velocity", motion.v)
+        .with("phases", motion.legs.iter().map(phase).collect::<Vec<_>>())
+        .with("energy", energy)
+        .with("end", motion.end)
+        .with_any("second", second)
+}
+
+/// What becomes of the motion: the index of its cycle, or where it rests, and when, if that is within the time followed.
+fn outcome(Course { motion, fate, rest, .. }: &Course) -> Document {
+    let named = |kind: &str| Document::default().with("kind", kind);
+    match fate {
+        Fate::Rest => {
+            let at = (motion.outcome == Fate::Rest).then_some(motion.end.t);
+            named("rest").with_any("x", *rest).with_any("t", at)
         }
+        Fate::Cycle(index) => named("cycle").with("cycle", index),
+        Fate::Neutral => named("neutral"),
+        Fate::Moving => named("moving"),
+        Fate::Escapes => named("escaped"),
+        Fate::Unknown(_) => named("unknown"),
     }
 }
 
-#[derive(Serialize)]
-pub(super) struct DesignDocument {
-    kick: Kick,
-    /// In m, or N s.
-    margin: f64,
-    /// In N.
-    #[serde(rename = "R")]
-    force: Option<f64>,
-    needed: FrictionNeeded,
-    message: String,
+/// The motion by a second method, and the difference between the ends.
+fn by_second(Second { way, tolerance, found }: &Second, first: MachineState) -> Document {
+    let end = found.map(|found| found.end);
+    let less = |end: MachineState| MachineState {
+        t: end.t - first.t,
+        x: end.x - first.x,
+        v: end.v - first.v,
+    };
+    Document::default()
+        .with("method", way.name())
+        .with("tolerance", tolerance)
+        .with_any("end", end.ok())
+        .with_any("difference", end.ok().map(less))
+        .with_any("reason", end.err().map(|stop| stop.to_string()))
 }
 
-impl DesignDocument {
-    pub(super) fn new(designed: &DesignAnswer) -> Self {
-        DesignDocument {
-            kick: designed.kick,
-            margin: designed.wanted,
-            force: designed.force(),
-            needed: designed.needed,
-            message: designed.sentence(),
-        }
-    }
-}
-
-/// Integration steps of the whole model, and the time they took.
-#[derive(Serialize)]
-pub(super) struct MachineCost {
-    pub steps: u64,
-    pub seconds: f64,
-}
-
-/// The whole answer about a machine as a document.
-pub fn json(answer: &MachineAnswer) -> String {
-    let MachineAnswer { course, on_belt, .. } = answer;
-    let certain = |belt: &OnBelt| Some(MachineGuaranteeDocument::new(belt, belt.certain.as_ref()?));
-    text(&MachineDocument {
-        machine: answer.head.name,
-        model: "whole",
-        belt: on_belt.as_ref().map(|belt| BeltDocument::new(&belt.expansion)),
-        whole: PortraitDocument::new(&course.portrait),
-        motion: MachineMotionDocument::new(answer.start, course),
-        guaranteed: on_belt.as_ref().and_then(certain),
-        rest_share: answer.rest_share,
-        design: answer.design.as_ref().map(DesignDocument::new),
-        expansion: on_belt.as_ref().map(|belt| Expansion::new(&belt.expansion, &course.portrait)),
-        cost: MachineCost { steps: course.portrait.steps, seconds: answer.seconds },
-    })
+/// The friction needed for a margin, in N, and the margin in m or N s.
+fn design(designed: &DesignAnswer) -> Document {
+    Document::default()
+        .with("kick", designed.kick)
+        .with("margin", designed.wanted)
+        .with("R", designed.force())
+        .with("needed", designed.needed)
+        .with("message", designed.sentence())
 }

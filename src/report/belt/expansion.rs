@@ -1,130 +1,121 @@
 //! A machine approximated by the oscillator of the paper, whose friction is a cubic, and the errors of this
 //! approximation.
 
-use serde::Serialize;
-
 use crate::machine::survey::CubicExpansion;
-use crate::oscillator::Parameters;
-use crate::oscillator::belt::TaylorError;
-use crate::portrait::{Border, Cycle, Margin, Portrait};
+use crate::portrait::{Cycle, Margin, Portrait};
+use crate::report::json::Document;
 use crate::study::belt::PhysicalMargin;
+use crate::words::number::significant;
+use crate::words::quantity::with_unit;
 
-/// The answer of the expansion.
-#[derive(Serialize)]
-pub(super) struct Expansion<'a> {
-    parameters: &'a Parameters,
-    /// Why there is no answer.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
-    pub cycles: Vec<ExpandedCycle<'a>>,
-    edge: Option<Border>,
-    pub margin: Option<ExpandedMargin>,
-}
-
-#[derive(Serialize)]
-pub(super) struct ExpandedCycle<'a> {
-    pub stable: bool,
-    pub x_min: f64,
-    pub x_max: f64,
-    pub v_min: f64,
-    pub v_max: f64,
-    pub period: f64,
-    /// Whether it reaches the speed of the belt, where the expansion does not hold.
-    pub reaches_belt: bool,
-    /// The error of the cubic over the velocities of the cycle.
-    pub taylor: Option<TaylorError>,
-    /// Differences to the nearest cycle of the same stability; `None` if there is none.
-    pub error: Option<CycleError>,
-    dimensionless: &'a Cycle,
-}
-
-/// Differences to a cycle of the whole model, in m, m/s and s.
-#[derive(Clone, Copy, Serialize)]
-pub(super) struct CycleError {
-    x_min: f64,
-    pub x_max: f64,
-    v_min: f64,
-    v_max: f64,
-    period: f64,
-}
-
-#[derive(Serialize)]
-pub(super) struct ExpandedMargin {
-    #[serde(flatten)]
-    pub physical: PhysicalMargin,
+/// The margins of the expansion: dimensionless, physical, and by how much its displacement and its impulse exceed those
+/// of the whole model, where both exist.
+struct ExpandedMargin {
     dimensionless: Margin,
-    /// By how much they exceed those of the whole model; `None` if one of the two does not exist.
-    pub error: MarginError,
+    physical: PhysicalMargin,
+    error: [Option<f64>; 2],
 }
 
-/// Differences of margins, in m and N s.
-#[derive(Clone, Copy, Serialize)]
-pub(super) struct MarginError {
-    pub displacement: Option<f64>,
-    impulse: Option<f64>,
-}
+impl ExpandedMargin {
+    /// `None` if the expansion has no answer.
+    fn new(expansion: &CubicExpansion, portrait: &Portrait) -> Option<Self> {
+        let dimensionless = expansion.cycles.as_ref().ok()?.picture.as_ref()?.margin;
+        let physical = PhysicalMargin::new(&dimensionless, &expansion.reduced.units);
+        let whole = portrait.margin;
+        let excess = |own: Option<f64>, whole: Option<f64>| Some(own? - whole?);
+        let error = [
+            excess(physical.displacement, whole.displacement),
+            excess(physical.impulse, whole.impulse),
+        ];
+        Some(ExpandedMargin { dimensionless, physical, error })
+    }
 
-impl<'a> Expansion<'a> {
-    pub(super) fn new(expansion: &'a CubicExpansion, portrait: &Portrait) -> Self {
-        let parameters = &expansion.reduced.parameters;
-        let found = match &expansion.cycles {
-            Ok(found) => found,
-            Err(reason) => {
-                let reason = Some(reason.to_string());
-                return Expansion {
-                    parameters,
-                    reason,
-                    cycles: Vec::new(),
-                    edge: None,
-                    margin: None,
-                };
-            }
+    fn document(&self) -> Document {
+        let [displacement, impulse] = self.error;
+        let error = Document::default().with("displacement", displacement).with("impulse", impulse);
+        Document::default()
+            .and(&self.physical)
+            .with("dimensionless", self.dimensionless)
+            .with("error", error)
+    }
+
+    fn sentence(&self) -> String {
+        let Some(own) = self.physical.displacement else {
+            return "every kick is survived".to_owned();
         };
-        let margin = found.picture.as_ref().map(|picture| {
-            let physical = PhysicalMargin::new(&picture.margin, &expansion.reduced.units);
-            let Margin { displacement, impulse, .. } = portrait.margin;
-            let excess = |own: Option<f64>, whole: Option<f64>| Some(own? - whole?);
-            let error = MarginError {
-                displacement: excess(physical.displacement, displacement),
-                impulse: excess(physical.impulse, impulse),
-            };
-            ExpandedMargin { physical, dimensionless: picture.margin, error }
-        });
-        let cycles = found.cycles.iter();
-        let cycles = cycles.map(|cycle| expanded(cycle, expansion, portrait)).collect();
-        Expansion { parameters, reason: None, cycles, edge: Some(found.border), margin }
+        let judged = match self.error[0] {
+            Some(error) if error != 0.0 && own != error => {
+                let percent = significant(100.0 * error.abs() / (own - error).abs(), 2);
+                format!(", {percent} % too {}", if error > 0.0 { "large" } else { "small" })
+            }
+            _ => String::new(),
+        };
+        format!("margin {}{judged}", with_unit(own, super::PLACES, "m"))
     }
 }
 
-fn expanded<'a>(
-    cycle: &'a Cycle,
-    CubicExpansion { belt, reduced, .. }: &CubicExpansion,
-    portrait: &Portrait,
-) -> ExpandedCycle<'a> {
+/// The answer of the expansion, for a document.
+pub(super) fn document(expansion: &CubicExpansion, portrait: &Portrait) -> Document {
+    let found = expansion.cycles.as_ref();
+    let cycles = found.iter().flat_map(|found| &found.cycles);
+    let cycles: Vec<_> = cycles.map(|cycle| expanded(cycle, expansion, portrait)).collect();
+    let margin = ExpandedMargin::new(expansion, portrait);
+    Document::default()
+        .with("parameters", expansion.reduced.parameters)
+        .with_any("reason", found.err().map(ToString::to_string))
+        .with("cycles", cycles)
+        .with("edge", found.ok().map(|found| found.border))
+        .with("margin", margin.map(|margin| margin.document()))
+}
+
+/// A cycle of the expansion in SI units, with the differences to the nearest cycle of the same stability of the whole
+/// model, and the error of the cubic over its velocities.
+fn expanded(cycle: &Cycle, expansion: &CubicExpansion, portrait: &Portrait) -> Document {
+    let CubicExpansion { belt, reduced, .. } = expansion;
     let units = &reduced.units;
-    let (x_min, x_max) = (cycle.q_min * units.displacement, cycle.q_max * units.displacement);
-    let (v_min, v_max) = (cycle.v_min * units.velocity, cycle.v_max * units.velocity);
-    let period = cycle.period * units.time;
+    let physical = Cycle {
+        q_min: cycle.q_min * units.displacement,
+        q_max: cycle.q_max * units.displacement,
+        v_min: cycle.v_min * units.velocity,
+        v_max: cycle.v_max * units.velocity,
+        period: cycle.period * units.time,
+        ..*cycle
+    };
     let alike = portrait.cycles.iter().filter(|whole| whole.stable == cycle.stable);
-    let distance = |whole: &Cycle| (whole.q_max - x_max).abs();
+    let distance = |whole: &Cycle| (whole.q_max - physical.q_max).abs();
     let nearest = alike.min_by(|one, other| distance(one).total_cmp(&distance(other)));
-    let error = nearest.map(|whole| CycleError {
-        x_min: x_min - whole.q_min,
-        x_max: x_max - whole.q_max,
-        v_min: v_min - whole.v_min,
-        v_max: v_max - whole.v_max,
-        period: period - whole.period,
-    });
-    ExpandedCycle {
-        stable: cycle.stable,
-        x_min,
-        x_max,
-        v_min,
-        v_max,
-        period,
-        reaches_belt: cycle.v_max >= reduced.sticking_velocity,
-        taylor: belt.taylor_error((v_min, v_max)).filter(|error| error.force.is_finite()),
-        error,
-        dimensionless: cycle,
-    }
+    let taylor = belt.taylor_error((physical.v_min, physical.v_max));
+    Document::default()
+        .with("stable", cycle.stable)
+        .and(&numbers(&physical, &Cycle::default()))
+        // There the expansion does not hold.
+        .with("reaches_belt", cycle.v_max >= reduced.sticking_velocity)
+        .with("taylor", taylor.filter(|error| error.force.is_finite()))
+        .with("error", nearest.map(|whole| numbers(&physical, whole)))
+        .with("dimensionless", cycle)
+}
+
+/// The numbers of a cycle, less those of another.
+fn numbers(cycle: &Cycle, other: &Cycle) -> Document {
+    Document::default()
+        .with("x_min", cycle.q_min - other.q_min)
+        .with("x_max", cycle.q_max - other.q_max)
+        .with("v_min", cycle.v_min - other.v_min)
+        .with("v_max", cycle.v_max - other.v_max)
+        .with("period", cycle.period - other.period)
+}
+
+/// The result of the cubic expansion, in a sentence.
+pub(super) fn sentence(expansion: &CubicExpansion, portrait: &Portrait) -> String {
+    let lead = "friction as a cubic (the oscillator of the paper) says: ";
+    let found = match &expansion.cycles {
+        Ok(found) => found,
+        Err(reason) => return format!("{lead}nothing; {reason}"),
+    };
+    let Some(margin) = ExpandedMargin::new(expansion, portrait) else {
+        return format!("{lead}nothing; ");
+    };
+    let count = |stable| found.cycles.iter().filter(|cycle| cycle.stable == stable).count();
+    let (unstable, stable) = (count(false), count(true));
+    format!("{lead}{}; {unstable} unstable and {stable} stable cycles", margin.sentence())
 }

@@ -1,6 +1,7 @@
 //! The motions of a mass on a belt or of a vibration mode, in physical units; for a belt also by the oscillator of
 //! the paper.
 
+mod cycle;
 mod document;
 mod expansion;
 mod page;
@@ -10,8 +11,6 @@ pub use document::json;
 pub use page::page;
 pub(super) use table::{border, gaps};
 pub use table::{csv, table};
-
-use serde::Serialize;
 
 use crate::machine::guarantee::MachineUncertain;
 use crate::machine::survey::{Course, CubicExpansion};
@@ -23,8 +22,7 @@ use crate::words::number::significant;
 use crate::words::quantity::with_unit;
 
 /// The fraction of the starts in a window from which the mass comes to rest.
-#[derive(Clone, Copy, Serialize)]
-#[serde(untagged)]
+#[derive(Clone, Copy)]
 pub enum RestShare {
     NotAsked,
     /// Motions from the window leave the range that is known.
@@ -33,7 +31,7 @@ pub enum RestShare {
 }
 
 impl RestShare {
-    /// Whether documents leave it out.
+    /// Whether answers leave it out.
     fn is_not_asked(&self) -> bool {
         matches!(self, RestShare::NotAsked)
     }

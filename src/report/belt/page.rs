@@ -1,12 +1,12 @@
 //! A machine as a page that can be signed.
 
 use super::table::{
-    NO_CYCLE, allowed, border, by_expansion, certain, cycles, disturbance, fate, friction, gaps,
+    MarginRow, NO_CYCLE, allowed, border, certain, cycles, disturbance, fate, friction, gaps,
     nominal, quantities, varying,
 };
-use super::{MachineAnswer, OnBelt};
+use super::{MachineAnswer, OnBelt, expansion};
+use crate::report::columns::Columns;
 use crate::report::page::{Page, Part, Section, Source, origin};
-use crate::report::table::Table;
 use crate::words::number::rounded_down;
 use crate::words::provenance::Provenance;
 use crate::words::quantity::with_unit;
@@ -29,18 +29,15 @@ pub fn page(
         rows.extend(certain(*margin));
         known = format!("guaranteed for {}", allowed(belt));
     }
-    let margins = Table::of(
-        &rows,
-        &[
-            ("smallest kick not survived", &|it| format!("{}, {}", it.what, it.from)),
-            ("displacement", &|it| it.displacement.clone()),
-            ("impulse", &|it| it.impulse.clone()),
-        ],
-    );
-    let numbers = Table::of(
-        &head.numbers,
-        &[("number", &|(name, _)| name.clone()), ("value", &|(_, value)| value.clone())],
-    );
+    let margins = Columns::default()
+        .text("smallest kick not survived", |it: &MarginRow| format!("{}, {}", it.what, it.from))
+        .text("displacement", |it| it.displacement.clone())
+        .text("impulse", |it| it.impulse.clone())
+        .table(rows);
+    let numbers = Columns::default()
+        .text("number", |(name, _): &&(String, String)| name.clone())
+        .text("value", |(_, value)| value.clone())
+        .table(&head.numbers);
     let mut machine = vec![Part::Table("", numbers)];
     if let Some(OnBelt { expansion, .. }) = &answer.on_belt {
         machine.push(Part::Table("", quantities(expansion, portrait)));
@@ -108,7 +105,7 @@ fn remarks(answer: &MachineAnswer) -> Vec<String> {
     let fate = fate(answer.start, &answer.course);
     let mut all: Vec<String> = fate.lines().map(str::to_owned).collect();
     all.extend(answer.rest_share.line().lines().map(str::to_owned));
-    all.extend(answer.on_belt.as_ref().map(|it| by_expansion(&it.expansion, portrait)));
+    all.extend(answer.on_belt.as_ref().map(|it| expansion::sentence(&it.expansion, portrait)));
     all.extend(answer.design.as_ref().map(super::DesignAnswer::sentence));
     all
 }

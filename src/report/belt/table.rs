@@ -1,9 +1,7 @@
 //! The answer about a machine as readable text, and as rows of comma-separated values.
 
-use serde::Serialize;
-
-use super::expansion::Expansion;
-use super::{MachineAnswer, OnBelt, PLACES};
+use super::cycle::{NUMBERS, described, number_columns};
+use super::{MachineAnswer, OnBelt, PLACES, expansion};
 use crate::flow::Fate;
 use crate::machine::guarantee::MachineUncertain;
 use crate::machine::motion::MachineState;
@@ -13,8 +11,8 @@ use crate::oscillator::Interval;
 use crate::oscillator::Knob;
 use crate::oscillator::belt::{Derivatives, FrictionLaw};
 use crate::portrait::{Border, Cycle, Margin, Portrait};
-use crate::report::csv;
-use crate::report::table::{Table, rounded};
+use crate::report::columns::{Columns, Quantity};
+use crate::report::table::Table;
 use crate::words::number::{duration, significant};
 use crate::words::quantity::with_unit;
 use crate::words::stability;
@@ -22,14 +20,41 @@ use crate::words::stability;
 /// What stands in place of an empty table of cycles.
 pub(super) const NO_CYCLE: &str = "no cycle";
 
-/// Significant digits of a dimensionless number.
-const DIGITS: usize = 10;
-
-/// One line of the answer: a label, the dimensionless value, and the physical value with its unit.
+/// A number of the answer: a label, the dimensionless value, and the physical value with its SI unit.
 struct QuantityRow {
-    what: &'static str,
+    what: String,
     dimensionless: Option<f64>,
-    physical: Option<(f64, &'static str)>,
+    physical: Option<f64>,
+    unit: &'static str,
+}
+
+impl QuantityRow {
+    fn pure(what: &str, value: Option<f64>) -> Self {
+        QuantityRow { what: what.to_owned(), dimensionless: value, physical: None, unit: "" }
+    }
+
+    fn physical(what: &str, value: Option<f64>, unit: &'static str) -> Self {
+        QuantityRow { what: what.to_owned(), dimensionless: None, physical: value, unit }
+    }
+
+    /// With its dimensionless value, of which the physical one is `scale` times as large.
+    fn scaled(what: &str, value: Option<f64>, scale: f64, unit: &'static str) -> Self {
+        let dimensionless = value.map(|value| value / scale);
+        let unit = value.map_or("", |_| unit);
+        QuantityRow { what: what.to_owned(), dimensionless, physical: value, unit }
+    }
+}
+
+/// The columns of these numbers.
+fn quantity_columns<'a>() -> Columns<'a, QuantityRow> {
+    let physical = |row: &QuantityRow| Quantity::of(row.unit, PLACES).or("").text(row.physical);
+    Columns::default()
+        .word("what", |row: &QuantityRow| row.what.clone())
+        .titled("")
+        .number("dimensionless", Quantity::pure(10), |row| row.dimensionless)
+        .file("physical", |row| row.physical)
+        .text("physical", physical)
+        .file("unit", |row| row.unit)
 }
 
 /// The single numbers that describe a mass on a belt.
@@ -39,18 +64,13 @@ fn rows(
 ) -> Vec<QuantityRow> {
     let (parameters, units) = (&reduced.parameters, &reduced.units);
     let Margin { displacement, impulse, from_rest } = portrait.margin;
-    let pure = |what, value| QuantityRow { what, dimensionless: Some(value), physical: None };
-    let scaled = |what, value: Option<f64>, scale: f64, unit| QuantityRow {
-        what,
-        dimensionless: value.map(|value| value / scale),
-        physical: value.map(|value| (value, unit)),
-    };
+    let (pure, scaled) = (QuantityRow::pure, QuantityRow::scaled);
     let velocity = impulse.map(|impulse| impulse / belt.mass);
     let held = belt.static_guide.unwrap_or(belt.friction) / belt.stiffness;
     vec![
-        pure("D", parameters.d),
-        pure("D2", parameters.d2),
-        pure("D3", parameters.d3),
+        pure("D", Some(parameters.d)),
+        pure("D2", Some(parameters.d2)),
+        pure("D3", Some(parameters.d3)),
         scaled("friction r", Some(belt.friction), units.force, "N"),
         scaled("unit of displacement x0", Some(units.displacement), units.displacement, "m"),
         scaled("unit of time", Some(units.time), units.time, "s"),
@@ -89,7 +109,7 @@ pub fn table(answer: &MachineAnswer) -> String {
     out += &format!("{}\n", fate(answer.start, &answer.course));
     out += &answer.rest_share.line();
     if let Some(OnBelt { expansion, .. }) = &answer.on_belt {
-        out += &format!("{}\n", by_expansion(expansion, portrait));
+        out += &format!("{}\n", expansion::sentence(expansion, portrait));
     }
     if let Some(designed) = &answer.design {
         out += &format!("{}\n", designed.sentence());
@@ -97,35 +117,25 @@ pub fn table(answer: &MachineAnswer) -> String {
     out + &format!("{} steps, {}\n", portrait.steps, duration(answer.seconds))
 }
 
-/// The kicks that are survived, in two lines.
+/// The kicks that are survived, a line each.
 fn survived(portrait: &Portrait) -> String {
     let Margin { displacement, impulse, from_rest } = portrait.margin;
-    let all = |value: Option<f64>, unit| {
-        value.map_or_else(|| "every one".to_owned(), |value| with_unit(value, PLACES, unit))
+    let line = |(from, kick, unit, size): (&str, &str, &'static str, Option<f64>)| {
+        let size = Quantity::of(unit, PLACES).or("every one").text(size);
+        format!("from {from}, survives {kick} up to: {size}\n")
     };
-    format!(
-        "\nfrom any rest position, survives displacements up to: {}\n\
-         from any rest position, survives impulses up to: {}\n\
-         from the steady position, survives displacements up to: {}\n\
-         from the steady position, survives impulses up to: {}\n",
-        all(from_rest.displacement, "m"),
-        all(from_rest.impulse, "N s"),
-        all(displacement, "m"),
-        all(impulse, "N s")
-    )
+    let lines = [
+        ("any rest position", "displacements", "m", from_rest.displacement),
+        ("any rest position", "impulses", "N s", from_rest.impulse),
+        ("the steady position", "displacements", "m", displacement),
+        ("the steady position", "impulses", "N s", impulse),
+    ];
+    format!("\n{}", lines.map(line).concat())
 }
 
 /// The table of these numbers.
 pub(super) fn quantities(expansion: &CubicExpansion, portrait: &Portrait) -> Table {
-    let mut table = Table::new(&["", "dimensionless", "physical"]);
-    for QuantityRow { what, dimensionless, physical } in rows(expansion, portrait) {
-        table.row(vec![
-            what.to_owned(),
-            rounded(dimensionless, DIGITS),
-            physical.map_or_else(String::new, |(value, unit)| with_unit(value, PLACES, unit)),
-        ]);
-    }
-    table
+    quantity_columns().table(rows(expansion, portrait))
 }
 
 /// The friction law at the belt speed.
@@ -177,10 +187,8 @@ pub(super) struct MarginRow {
 
 /// The two rows of a margin.
 fn margin_rows(what: &'static str, margin: Margin) -> [MarginRow; 2] {
-    let size = |value: Option<f64>, unit| {
-        value.map_or_else(|| "any".to_owned(), |value| with_unit(value, PLACES, unit))
-    };
-    let row = |from, displacement, impulse| MarginRow {
+    let size = |value, unit| Quantity::of(unit, PLACES).or("any").text(value);
+    let row = |from, displacement: Option<f64>, impulse: Option<f64>| MarginRow {
         what,
         from,
         displacement: size(displacement, "m"),
@@ -268,29 +276,8 @@ pub(in crate::report) fn gaps(portrait: &Portrait) -> Vec<String> {
 
 /// The table of cycles.
 pub(super) fn cycles(cycles: &[Cycle]) -> Table {
-    let mut table = Table::new(&[&[""], CYCLE].concat());
-    for cycle in cycles {
-        table.row(cells(cycle));
-    }
-    table
-}
-
-/// Titles of the columns that describe a cycle, after that of its kind.
-pub(super) const CYCLE: &[&str] =
-    &["x from", "to", "v from", "to", "period", "on the belt", "multiplier"];
-
-/// The kind of a cycle, then the cells of these columns.
-pub(super) fn cells(cycle: &Cycle) -> Vec<String> {
-    let over = if cycle.overtakes { ", overtaking" } else { "" };
-    let mut cells = vec![format!("{} {}{over}", stability(cycle.stable), cycle.kind())];
-    let ([from, to], [slowest, fastest]) = ([cycle.q_min, cycle.q_max], [cycle.v_min, cycle.v_max]);
-    let numbers = [(from, "m"), (to, "m"), (slowest, "m/s"), (fastest, "m/s")];
-    let times = [(cycle.period, "s"), (cycle.stick_duration(), "s")];
-    cells.extend(
-        numbers.into_iter().chain(times).map(|(value, unit)| with_unit(value, PLACES, unit)),
-    );
-    cells.push(significant(cycle.multiplier.unwrap_or(f64::INFINITY), PLACES));
-    cells
+    number_columns(Columns::default().text("", described), |cycle| Some(*cycle))
+        .table(cycles.iter().copied())
 }
 
 /// How the motion ends, in a sentence.
@@ -335,79 +322,35 @@ fn by(Second { way, tolerance, found }: &Second, course: &Course) -> String {
     }
 }
 
-/// The result of the cubic expansion, in a sentence.
-pub(super) fn by_expansion(expansion: &CubicExpansion, portrait: &Portrait) -> String {
-    let found = Expansion::new(expansion, portrait);
-    let lead = "friction as a cubic (the oscillator of the paper) says: ";
-    let Some(margin) = found.margin else {
-        return format!("{lead}nothing; {}", found.reason.unwrap_or_default());
-    };
-    let size = match (margin.physical.displacement, margin.error.displacement) {
-        (None, _) => "every kick is survived".to_owned(),
-        (Some(own), None) => format!("margin {}", with_unit(own, PLACES, "m")),
-        (Some(own), Some(error)) => {
-            let percent = significant(100.0 * error.abs() / (own - error).abs(), 2);
-            let way = if error > 0.0 { "large" } else { "small" };
-            let judged = if error == 0.0 || own == error {
-                String::new()
-            } else {
-                format!(", {percent} % too {way}")
-            };
-            format!("margin {}{judged}", with_unit(own, PLACES, "m"))
-        }
-    };
-    let count = |stable| found.cycles.iter().filter(|cycle| cycle.stable == stable).count();
-    format!("{lead}{size}; {} unstable and {} stable cycles", count(false), count(true))
-}
-
 /// One row for each number, in SI units.
 pub fn csv(answer: &MachineAnswer) -> String {
     let portrait = &answer.course.portrait;
     let mut rows = Vec::new();
-    let mut put = |what: &str, dimensionless, physical, unit| {
-        rows.push(NumberRow { what: what.to_owned(), dimensionless, physical, unit });
-    };
     if let Some(OnBelt { expansion, certain, .. }) = &answer.on_belt {
-        for QuantityRow { what, dimensionless, physical } in self::rows(expansion, portrait) {
-            let (value, unit) = physical.unzip();
-            put(what, dimensionless, value, unit.unwrap_or_default());
-        }
+        rows.extend(self::rows(expansion, portrait));
         if let Some(certain) = certain {
             let Margin { displacement, impulse, from_rest } = certain.unwrap_or(Margin::ENDLESS);
-            put("guaranteed from rest: displacement", None, from_rest.displacement, "m");
-            put("guaranteed from rest: impulse", None, from_rest.impulse, "N s");
-            put("guaranteed: displacement", None, displacement, "m");
-            put("guaranteed: impulse", None, impulse, "N s");
+            let physical = QuantityRow::physical;
+            rows.extend([
+                physical("guaranteed from rest: displacement", from_rest.displacement, "m"),
+                physical("guaranteed from rest: impulse", from_rest.impulse, "N s"),
+                physical("guaranteed: displacement", displacement, "m"),
+                physical("guaranteed: impulse", impulse, "N s"),
+            ]);
         }
     }
     for (index, cycle) in portrait.cycles.iter().enumerate() {
         let lead = format!("{} {} cycle {index}", stability(cycle.stable), cycle.kind());
-        for (name, value, unit) in [
-            ("x_min", cycle.q_min, "m"),
-            ("x_max", cycle.q_max, "m"),
-            ("v_min", cycle.v_min, "m/s"),
-            ("v_max", cycle.v_max, "m/s"),
-            ("period", cycle.period, "s"),
-            ("stick_duration", cycle.stick_duration(), "s"),
-            ("multiplier", cycle.multiplier.unwrap_or(f64::INFINITY), ""),
-        ] {
-            put(&format!("{lead}: {name}"), None, Some(value), unit);
-        }
+        rows.extend(NUMBERS.iter().map(|number| {
+            let what = format!("{lead}: {}", number.name);
+            QuantityRow::physical(&what, (number.value)(cycle), number.unit)
+        }));
     }
     if !answer.rest_share.is_not_asked() {
-        put("rest share of the window", answer.rest_share.known(), None, "");
+        rows.push(QuantityRow::pure("rest share of the window", answer.rest_share.known()));
     }
     if let Some(designed) = &answer.design {
-        put("R for the margin", None, designed.force(), "N");
+        rows.push(QuantityRow::physical("R for the margin", designed.force(), "N"));
     }
-    csv::sheet(&NumberRow::default(), rows)
-}
-
-/// A number in dimensionless form and in SI units.
-#[derive(Default, Serialize)]
-struct NumberRow {
-    what: String,
-    dimensionless: Option<f64>,
-    physical: Option<f64>,
-    unit: &'static str,
+    quantity_columns().csv(rows)
 }

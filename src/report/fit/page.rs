@@ -4,6 +4,7 @@ use super::table::{NUMBERS, correlations, draws, forces, margins, numbers, start
 use crate::fit::Fitted;
 use crate::fit::conditions::Condition;
 use crate::fit::left_out::{LeftOut, left_out};
+use crate::report::columns::Columns;
 use crate::report::page::{Page, Part, Section, Source, origin};
 use crate::report::table::Table;
 use crate::words::fit::{broken, left_out as counts, sentences};
@@ -57,14 +58,11 @@ pub fn page(
 
 /// The conditions with their results.
 fn tested(conditions: &[Condition]) -> Table {
-    Table::of(
-        conditions,
-        &[
-            ("condition", &|it| it.name.to_owned()),
-            ("result", &|it| it.verdict().to_owned()),
-            ("what was found", &|it| it.detail.clone()),
-        ],
-    )
+    Columns::default()
+        .text("condition", |it: &&Condition| it.name.to_owned())
+        .text("result", |it| it.verdict().to_owned())
+        .text("what was found", |it| it.detail.clone())
+        .table(conditions)
 }
 
 /// Where the samples lie that do not count.

@@ -5,7 +5,8 @@ use crate::fit::conditions::Condition;
 use crate::fit::margin::{KickSpreads, Spread};
 use crate::fit::names::{NAMES, NameSpec};
 use crate::fit::observation::{Data, LAST, Q0, StartKind};
-use crate::fit::physical::{kicks, rows};
+use crate::fit::physical::{EstimatedNumber, kicks, rows};
+use crate::report::columns::Columns;
 use crate::report::table::Table;
 use crate::words::fit::{broken, sentences};
 use crate::words::number::{duration, resolved, significant};
@@ -43,24 +44,20 @@ pub(super) const NUMBERS: &str = "standard errors; 95 % lie from .. to";
 /// The estimated numbers.
 pub(super) fn numbers(fitted: &Fitted) -> Table {
     let estimate = &fitted.estimate;
-    let mut numbers = Table::new(&["number", "value", "error", "from", "to", "unit"]);
-    for row in &NAMES {
-        if !estimate.free[row.place] || !estimate.choice.is_wanted(row) {
-            continue;
-        }
-        let (value, error) = (estimate.p[row.place], estimate.covariance.error(row.place));
-        let interval = estimate.intervals[row.place];
-        let end = |end: Option<f64>| end.map_or("-".to_owned(), |end| resolved(end, 0.05 * error));
-        numbers.row(vec![
-            row.name.to_owned(),
-            resolved(value, 0.05 * error),
-            significant(error, 2),
-            end(interval.lower),
-            end(interval.upper),
-            fitted.unit_of(row),
-        ]);
-    }
-    numbers
+    let error = |row: &NameSpec| estimate.covariance.error(row.place);
+    let known = move |value, row: &NameSpec| resolved(value, 0.05 * error(row));
+    let end =
+        move |end: Option<f64>, row: &NameSpec| end.map_or("-".to_owned(), |end| known(end, row));
+    let wanted =
+        NAMES.iter().filter(|row| estimate.free[row.place] && estimate.choice.is_wanted(row));
+    Columns::default()
+        .text("number", |row: &&NameSpec| row.name.to_owned())
+        .text("value", move |row| known(estimate.p[row.place], row))
+        .text("error", move |row| significant(error(row), 2))
+        .text("from", move |row| end(estimate.intervals[row.place].lower, row))
+        .text("to", move |row| end(estimate.intervals[row.place].upper, row))
+        .text("unit", |row| fitted.unit_of(row))
+        .table(wanted)
 }
 
 /// What was measured, and how the motion goes.
@@ -116,31 +113,26 @@ pub(super) fn correlations(fitted: &Fitted) -> Table {
     if wanted.len() < 2 {
         return Table::default();
     }
-    let mut titles = vec!["correlation"];
-    titles.extend(wanted.iter().map(|row| row.name));
-    let mut table = Table::new(&titles);
-    for one in &wanted {
-        let mut cells = vec![one.name.to_owned()];
-        for other in &wanted {
-            cells.push(format!("{:.3}", estimate.covariance.correlation(one.place, other.place)));
-        }
-        table.row(cells);
-    }
-    table
+    let correlations =
+        Columns::default().text("correlation", |row: &&NameSpec| row.name.to_owned());
+    let correlations = wanted.iter().fold(correlations, |columns, other| {
+        let of = |row: &NameSpec| estimate.covariance.correlation(row.place, other.place);
+        columns.text(other.name, move |row| format!("{:.3}", of(row)))
+    });
+    correlations.table(wanted.iter().copied())
 }
 
 /// The numbers in SI units; empty if neither mass nor stiffness is known.
 pub(super) fn forces(fitted: &Fitted) -> Table {
-    let mut table = Table::new(&["physical", "value", "error", "unit"]);
-    for row in rows(fitted) {
-        table.row(vec![
-            row.name.to_owned(),
-            resolved(row.value, 0.05 * row.standard_error.max(1e-6 * row.value.abs())),
-            significant(row.standard_error, 2),
-            row.unit.to_owned(),
-        ]);
-    }
-    table
+    let value = |row: &EstimatedNumber| {
+        resolved(row.value, 0.05 * row.standard_error.max(1e-6 * row.value.abs()))
+    };
+    Columns::default()
+        .text("physical", |row: &EstimatedNumber| row.name.to_owned())
+        .text("value", value)
+        .text("error", |row| significant(row.standard_error, 2))
+        .text("unit", |row| row.unit.to_owned())
+        .table(rows(fitted))
 }
 
 fn states(conditions: &[Condition]) -> String {
@@ -150,40 +142,46 @@ fn states(conditions: &[Condition]) -> String {
 
 /// The margins and what else follows from the numbers.
 pub(super) fn margins(fitted: &Fitted) -> Table {
+    struct SpreadRow<'a> {
+        what: String,
+        spread: Spread,
+        scale: f64,
+        unit: &'a str,
+    }
     let margins = &fitted.margins;
-    let mut table = Table::new(&["what follows", "median", "from", "to", "none", "unit"]);
-    let shown = |value: Option<f64>, scale: f64| {
-        value.map_or("none".to_owned(), |value| significant(value * scale, 4))
-    };
-    let mut row = |what: &str, spread: &Spread, scale: f64, unit: &str| {
-        table.row(vec![
-            what.to_owned(),
-            shown(spread.median, scale),
-            shown(spread.lower, scale),
-            shown(spread.upper, scale),
-            format!("{} %", significant(100.0 * spread.none, 2)),
-            unit.to_owned(),
-        ]);
-    };
+    let length = fitted.unit();
     let (kick, scale, unit) = match kicks(fitted) {
         Some((_, scale)) => ("impulse", scale, "N s"),
-        None => ("velocity/omega0", 1.0, fitted.unit()),
+        None => ("velocity/omega0", 1.0, length),
     };
-    let mut kicks = |what: &str, KickSpreads { displacement, impulse, from_rest }: &KickSpreads| {
-        let name = |kick: &str, from: &str| format!("{what} {kick} not survived, from {from}");
-        let (rest, middle) = ("any rest position", "q = 0");
-        row(&name("displacement", rest), &from_rest.displacement, 1.0, fitted.unit());
-        row(&name(kick, rest), &from_rest.impulse, scale, unit);
-        row(&name("displacement", middle), displacement, 1.0, fitted.unit());
-        row(&name(kick, middle), impulse, scale, unit);
+    let row =
+        |what: &str, spread, scale, unit| SpreadRow { what: what.to_owned(), spread, scale, unit };
+    let kicks = |what: &str, KickSpreads { displacement, impulse, from_rest }: &KickSpreads| {
+        [
+            ("displacement", "any rest position", from_rest.displacement, 1.0, length),
+            (kick, "any rest position", from_rest.impulse, scale, unit),
+            ("displacement", "q = 0", *displacement, 1.0, length),
+            (kick, "q = 0", *impulse, scale, unit),
+        ]
+        .map(|(kick, from, spread, scale, unit)| {
+            row(&format!("{what} {kick} not survived, from {from}"), spread, scale, unit)
+        })
     };
-    kicks("smallest", &margins.kicks());
-    if let Some(guaranteed) = &margins.guaranteed {
-        kicks("guaranteed, smallest", guaranteed);
-    }
-    row("stable cycle, right turning point", &margins.cycle, 1.0, fitted.unit());
-    row("D of the fold, above which all is survived", &margins.fold, 1.0, "");
-    table
+    let shown = |value: Option<f64>, row: &SpreadRow| {
+        value.map_or("none".to_owned(), |value| significant(value * row.scale, 4))
+    };
+    let mut all = Vec::from(kicks("smallest", &margins.kicks()));
+    all.extend(margins.guaranteed.iter().flat_map(|it| kicks("guaranteed, smallest", it)));
+    all.push(row("stable cycle, right turning point", margins.cycle, 1.0, length));
+    all.push(row("D of the fold, above which all is survived", margins.fold, 1.0, ""));
+    Columns::default()
+        .text("what follows", |row: &SpreadRow| row.what.clone())
+        .text("median", move |row| shown(row.spread.median, row))
+        .text("from", move |row| shown(row.spread.lower, row))
+        .text("to", move |row| shown(row.spread.upper, row))
+        .text("none", |row| format!("{} %", significant(100.0 * row.spread.none, 2)))
+        .text("unit", |row| row.unit.to_owned())
+        .table(all)
 }
 
 /// What the table of the margins shows.
