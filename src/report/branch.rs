@@ -13,33 +13,33 @@ use crate::words::stability;
 
 /// A point with the number of the connected piece to which it belongs, or a part of the range of which something is
 /// proved.
-enum BranchRow<'a> {
+enum PieceRow<'a> {
     Point(usize, &'a BranchPoint),
     Proved(&'a RangePiece),
 }
 
-impl<'a> BranchRow<'a> {
+impl<'a> PieceRow<'a> {
     fn proved(&self) -> Option<&'a RangePiece> {
-        if let BranchRow::Proved(piece) = self { Some(piece) } else { None }
+        if let PieceRow::Proved(piece) = self { Some(piece) } else { None }
     }
 
     /// Something of a point.
     fn of<T>(&self, part: impl Fn(usize, &BranchPoint) -> T) -> Option<T> {
-        if let BranchRow::Point(piece, point) = self { Some(part(*piece, point)) } else { None }
+        if let PieceRow::Point(piece, point) = self { Some(part(*piece, point)) } else { None }
     }
 }
 
 /// The columns of points; `value` names the number that varies.
-fn columns<'a>(value: &str) -> Columns<'a, BranchRow<'a>> {
+fn columns<'a>(value: &str) -> Columns<'a, PieceRow<'a>> {
     Columns::default()
-        .file("piece", |row: &BranchRow| row.of(|piece, _| piece))
+        .file("piece", |row: &PieceRow| row.of(|piece, _| piece))
         .file(value, |row| row.of(|_, point| point.value))
-        .and(cycle_fields(|row: &BranchRow| row.of(|_, point| point.cycle)))
+        .and(cycle_fields(|row: &PieceRow| row.of(|_, point| point.cycle)))
 }
 
-fn rows(branch: &Branch) -> impl Iterator<Item = BranchRow<'_>> {
+fn rows(branch: &Branch) -> impl Iterator<Item = PieceRow<'_>> {
     let pieces = branch.pieces.iter().enumerate();
-    pieces.flat_map(|(piece, points)| points.iter().map(move |it| BranchRow::Point(piece, it)))
+    pieces.flat_map(|(piece, points)| points.iter().map(move |it| PieceRow::Point(piece, it)))
 }
 
 pub fn json(branch: &Branch, certified: Option<&Range>, seconds: f64) -> String {
@@ -57,9 +57,9 @@ pub fn json(branch: &Branch, certified: Option<&Range>, seconds: f64) -> String 
 pub fn csv(branch: &Branch, certified: Option<&Range>) -> String {
     let name = branch.parameter.spec().name;
     let proved = certified.map(|range| {
-        Columns::default().part("certified", piece_columns(range, name), BranchRow::proved)
+        Columns::default().part("certified", piece_columns(range, name), PieceRow::proved)
     });
-    let parts = certified.iter().flat_map(|range| &range.pieces).map(BranchRow::Proved);
+    let parts = certified.iter().flat_map(|range| &range.pieces).map(PieceRow::Proved);
     columns(name).and(proved).csv(rows(branch).chain(parts))
 }
 

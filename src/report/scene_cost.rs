@@ -96,7 +96,7 @@ pub fn csv(scenes: &[SceneCost]) -> String {
 }
 
 /// A line of the table of a scene.
-struct CostRow {
+struct PriceRow {
     what: String,
     cost: Cost,
     seconds: f64,
@@ -106,7 +106,7 @@ struct CostRow {
 /// As readable text: one table for each scene.
 pub fn table(scenes: &[SceneCost]) -> String {
     let one = |found: &SceneCost| {
-        let question = |question: &QuestionCost| CostRow {
+        let question = |question: &QuestionCost| PriceRow {
             what: question.topic.name().to_owned(),
             cost: question.cost,
             seconds: question.seconds,
@@ -114,7 +114,7 @@ pub fn table(scenes: &[SceneCost]) -> String {
         };
         let summed = |what: String, questions: &[QuestionCost], remark: String| {
             let (cost, seconds) = sum(questions);
-            CostRow { what, cost, seconds, remark }
+            PriceRow { what, cost, seconds, remark }
         };
         let part = |name: &str, topics: &[Topic]| {
             (!topics.is_empty()).then(|| format!("{name} {}", named(topics, ", ")))
@@ -128,7 +128,7 @@ pub fn table(scenes: &[SceneCost]) -> String {
         let all = summed("all of it".to_owned(), &found.questions, String::new());
         let rows = found.questions.iter().map(question).chain([all]);
         let table = Columns::default()
-            .text("", |row: &CostRow| format!("{:<22}", row.what))
+            .text("", |row: &PriceRow| format!("{:<22}", row.what))
             .text("evaluations", |row| count(row.cost.evaluations))
             .text("steps", |row| count(row.cost.steps))
             .text("time", |row| duration(row.seconds))

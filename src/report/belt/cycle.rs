@@ -7,7 +7,7 @@ use crate::report::json::Document;
 use crate::words::stability;
 
 /// A number of a cycle.
-pub(super) struct CycleNumber {
+pub(super) struct PhysicalNumber {
     pub name: &'static str,
     /// In text.
     pub title: &'static str,
@@ -17,14 +17,14 @@ pub(super) struct CycleNumber {
 }
 
 /// All of them.
-pub(super) const NUMBERS: [CycleNumber; 7] = {
+pub(super) const NUMBERS: [PhysicalNumber; 7] = {
     const fn number(
         name: &'static str,
         title: &'static str,
         unit: &'static str,
         value: fn(&Cycle) -> Option<f64>,
-    ) -> CycleNumber {
-        CycleNumber { name, title, unit, value }
+    ) -> PhysicalNumber {
+        PhysicalNumber { name, title, unit, value }
     }
     [
         number("x_min", "x from", "m", |it| Some(it.q_min)),
@@ -61,7 +61,7 @@ pub(super) fn number_columns<'a, R: 'a>(
     columns: Columns<'a, R>,
     cycle: impl Fn(&R) -> Option<Cycle> + Copy + 'a,
 ) -> Columns<'a, R> {
-    NUMBERS.iter().fold(columns, |columns, CycleNumber { title, unit, value, .. }| {
+    NUMBERS.iter().fold(columns, |columns, PhysicalNumber { title, unit, value, .. }| {
         let text = |cycle: Cycle| Quantity::of(unit, PLACES).text(value(&cycle));
         columns.text(title, move |row| cycle(row).map(text).unwrap_or_default())
     })
