@@ -66,6 +66,6 @@ impl Arguments {
         let captured = found.rest_share(window.q, window.v);
         let (head, subject) = (case.head(), &case.problem.subject);
         let answer = machine_motion::basin(&head, subject, (&found, counts, captured), seconds);
-        print(&self.output, &answer)
+        print(&self.output, answer)
     }
 }

@@ -99,7 +99,7 @@ impl Arguments {
         let found = found.map_err(Failure::Usage)?;
         let head = case.head();
         let knobs = (along.knob, over.knob);
-        print(&self.output, &machine_branch::border(&head, subject, knobs, found, seconds))
+        print(&self.output, machine_branch::border(&head, subject, knobs, found, seconds))
     }
 }
 

@@ -71,6 +71,6 @@ impl Arguments {
         });
         let found = found.map_err(Failure::Usage)?;
         let head = case.head();
-        print(&self.output, &machine_branch::branch(&head, subject, (knob, &found), seconds))
+        print(&self.output, machine_branch::branch(&head, subject, (knob, &found), seconds))
     }
 }

@@ -72,10 +72,7 @@ impl Arguments {
     fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
         let (found, seconds) = case.portrait(&self.output)?;
         let head = case.head();
-        print(
-            &self.output,
-            &machine_motion::cycles(&head, &case.problem.subject, &found, seconds),
-        )?;
+        print(&self.output, machine_motion::cycles(&head, &case.problem.subject, &found, seconds))?;
         found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop.into())))
     }
 

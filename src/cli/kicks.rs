@@ -3,18 +3,21 @@
 use clap::Args;
 
 use super::failure::Failure;
+use super::input::read;
+use super::machine::input as of_machine;
+use super::machine::{MachineCase, SourceOptions, print};
 use super::output::{Format, Output};
-use super::start::StartOptions;
 use crate::flow::Limits;
+use crate::machine::lost;
 use crate::report::kicks;
-use crate::study::kicks::RandomKick as Distribution;
+use crate::study::kicks::RandomKick;
 use crate::study::repeated::repeated;
 
 /// Finds the share of random kicks that is lost, and how many in a row are survived
 #[derive(Debug, Args)]
 pub struct Arguments {
     #[command(flatten)]
-    start: StartOptions,
+    source: SourceOptions,
     #[command(flatten)]
     output: Output,
     /// Displacement and velocity of a kick, mean and standard deviation; with uniform: before them, mean and
@@ -24,19 +27,36 @@ pub struct Arguments {
         value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD",
         allow_hyphen_values = true
     )]
-    law: Distribution,
+    law: String,
 }
+
+/// What begins the message of a failure.
+const FAILED: &str = "the kicks could not be followed";
 
 impl Arguments {
     pub fn run(&self) -> Result<(), Failure> {
-        self.start.note_own_method();
-        let parameters = self.start.problem()?.parameters;
-        let follow = || repeated(&parameters, &self.law, &Limits::PATIENT);
-        let (found, seconds) = self.output.timed("the kicks could not be followed", follow)?;
+        if let Some(case) = self.source.portrayed()? {
+            return self.of_machine(&case);
+        }
+        let law: RandomKick = read("--kicks", &self.law, str::parse)?;
+        let parameters = self.source.start.problem()?.parameters;
+        let follow = || repeated(&parameters, &law, &Limits::PATIENT);
+        let (found, seconds) = self.output.timed(FAILED, follow)?;
         self.output.print(&match self.output.format {
-            Format::Table => kicks::table(&parameters, &self.law, &found, seconds),
-            Format::Json => kicks::json(&parameters, &self.law, &found, seconds),
+            Format::Table => kicks::table(&parameters, &law, &found, seconds),
+            Format::Json => kicks::json(&parameters, &law, &found, seconds),
             Format::Csv => kicks::csv(&parameters, &found),
         })
+    }
+
+    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
+        let law = read("--kicks", &self.law, of_machine::kicks)?;
+        let (portrait, before) = case.portrait(&self.output)?;
+        let follow = || lost::repeated(&portrait, &law);
+        let (found, seconds) = self.output.timed(FAILED, follow)?;
+        let (head, held) = (case.head(), portrait.model.guide_static);
+        let answer = (&law, &found, held);
+        let subject = &case.problem.subject;
+        print(&self.output, kicks::of_machine(&head, subject, answer, before + seconds))
     }
 }

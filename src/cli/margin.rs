@@ -60,6 +60,6 @@ impl Arguments {
         };
         let head = case.head();
         let answer = machine_motion::margin(&head, &case.problem, &found, certain, seconds);
-        print(&self.output, &answer)
+        print(&self.output, answer)
     }
 }

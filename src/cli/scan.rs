@@ -28,7 +28,6 @@ use crate::runtime::scan_file::{LineRefusal, ScanFile};
 use crate::runtime::scanning::{Processors, Taker, rows};
 use crate::runtime::signals::exit_code;
 use crate::runtime::standard::{self, tell};
-use crate::study::kicks::RandomKick;
 use crate::study::measure::{Conditions, MEASURES, Measure};
 use crate::study::scan::{Scan, ScanRow, ScanSource, Sweep};
 
@@ -62,14 +61,9 @@ pub struct ScanCommand {
           allow_hyphen_values = true)]
     half_width: Vec<(Knob, f64)>,
     /// Random kicks of `lost` and `repeated`, mean and standard deviation; with uniform: before them, mean and
-    /// half width
-    #[arg(
-        long,
-        value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD",
-        default_value = "q=0+-1,v=0+-1",
-        allow_hyphen_values = true
-    )]
-    kicks: RandomKick,
+    /// half width (default: q=0+-1,v=0+-1; none for a machine)
+    #[arg(long, value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD", allow_hyphen_values = true)]
+    kicks: Option<String>,
     /// Time at which the motions of `outcome`, `rest`, `settling` and `finite-time` stop (default: the scene's)
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: Option<String>,
@@ -301,7 +295,7 @@ impl ScanCommand {
         let conditions = Conditions {
             half_widths: self.half_width.clone(),
             disturbance: disturbance.unwrap_or(0.0),
-            kicks: self.kicks,
+            kicks: given("--kicks", self.kicks.as_ref(), str::parse)?.unwrap_or_default(),
             wanted: given("--design", self.design.as_ref(), input::margin)?,
             ..window.unwrap_or(WINDOW).into()
         };
@@ -316,6 +310,10 @@ impl ScanCommand {
             let line = format!("{} of a machine needs a --window", over.spec().name);
             return Err(Failure::Usage(line));
         }
+        let kicks = given("--kicks", self.kicks.as_ref(), of_machine::kicks)?;
+        if let Some(of) = self.measure.iter().find(|it| it.is_of_kicks() && kicks.is_none()) {
+            return Err(Failure::Usage(format!("{} of a machine needs --kicks", of.spec().name)));
+        }
         let MachineProblem { until: end, tolerances, .. } = &mut case.problem;
         *end = until.unwrap_or(*end);
         let disturbance = self.disturbance.as_ref();
@@ -323,6 +321,7 @@ impl ScanCommand {
         tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
         let conditions = Conditions {
             elongation: self.starts.elongation,
+            kicks: kicks.unwrap_or_default(),
             wanted: given("--design", self.design.as_ref(), of_machine::margin)?,
             ..window.unwrap_or(WINDOW).into()
         };

@@ -3,13 +3,17 @@
 use clap::Args;
 
 use super::failure::Failure;
-use super::input;
+use super::input::{self, given};
+use super::machine::{MachineCase, SourceOptions, print, troubled};
 use super::output::{Format, Output};
-use super::start::StartOptions;
 use super::timing::in_turn;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Limits};
-use crate::report::trade as report;
+use crate::flow::{Detail, Fate, Limits};
+use crate::machine::MachineProblem;
+use crate::machine::by_method::MethodMotion;
+use crate::machine::trade::{MachineTrade, MachineTradePoint};
+use crate::oscillator::Knob;
+use crate::report::{machine_motion, trade as report};
 use crate::study::trade::Trade as Found;
 use crate::view::trade_plot::in_letters;
 
@@ -17,25 +21,32 @@ use crate::view::trade_plot::in_letters;
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// Scene whose motion is computed
-    #[arg(value_name = "SCENE", conflicts_with = "scene")]
+    #[arg(value_name = "SCENE", conflicts_with_all = ["scene", "machine"])]
     named: Option<String>,
     #[command(flatten)]
-    start: StartOptions,
+    source: SourceOptions,
     #[command(flatten)]
     output: Output,
     /// Time at which to stop, 0 .. 1e9 (default: the scene's)
-    #[arg(long, value_name = "T", value_parser = input::until, allow_hyphen_values = true)]
-    until: Option<f64>,
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    until: Option<String>,
 }
 
 impl Arguments {
     pub fn run(&self) -> Result<(), Failure> {
+        let until = self.until.as_ref();
+        if let Some(mut case) = self.source.machine()? {
+            let end = given("--until", until, |text| Knob::Duration.parse(text))?;
+            case.problem.until = end.unwrap_or(case.problem.until);
+            return self.of_machine(&case.checked()?);
+        }
+        let start = &self.source.start;
         let scene = match &self.named {
-            Some(name) => self.start.scene_named(name),
-            None => self.start.scene(),
+            Some(name) => start.scene_named(name),
+            None => start.scene(),
         };
         let mut problem = scene?.problem;
-        problem.until = self.until.unwrap_or(problem.until);
+        problem.until = given("--until", until, input::until)?.unwrap_or(problem.until);
         let trade = Found::of(&problem, &Limits::PATIENT).map_err(|reason| {
             Failure::Unanswered(format!("there is nothing to measure errors against: {reason}"))
         })?;
@@ -53,5 +64,21 @@ impl Arguments {
             Format::Json => report::json(&timed),
             Format::Csv => report::csv(&timed),
         })
+    }
+
+    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
+        let MachineProblem { subject, start, until, .. } = &case.problem;
+        let model = subject.model().map_err(troubled)?;
+        let trade = MachineTrade::new(&model, *start, *until);
+        let seconds = in_turn(self.output.repeat, trade.points.len(), |index| {
+            let MachineTradePoint { way, motion, .. } = &trade.points[index];
+            MethodMotion::new(&model, (*way, motion.tolerance), *start, *until)
+        });
+        let head = case.head();
+        print(&self.output, machine_motion::trade(&head, &case.problem, &trade, &seconds))?;
+        match trade.reference.outcome {
+            Fate::Unknown(stop) => Err(troubled(stop.into())),
+            _ => Ok(()),
+        }
     }
 }

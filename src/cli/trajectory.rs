@@ -9,15 +9,13 @@ use super::output::{Certify, Format, Output};
 use super::timing::timed;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Fate, Limits, Outcome, Problem};
-use crate::machine::motion::MachineState;
-use crate::machine::stepped::traced;
-use crate::machine::{MachineMotion, MachineProblem, ORDER};
+use crate::machine::MachineProblem;
+use crate::machine::by_method::MethodMotion;
 use crate::numerics::Interval;
 use crate::oscillator::{Knob, State};
 use crate::proof::ParameterBox;
 use crate::proof::motion::{ProvedMotion, follow as enclosed};
-use crate::report::machine_motion::{self, FollowedMachine};
-use crate::report::{certified, trajectory as report};
+use crate::report::{certified, machine_motion, trajectory as report};
 
 /// Computes one motion: its turning points, how it ends, where its energy goes
 #[derive(Debug, Args)]
@@ -76,43 +74,16 @@ impl Arguments {
     }
 
     fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
-        let MachineProblem { subject, start: (x, v), until, .. } = &case.problem;
+        let MachineProblem { subject, start, until, .. } = &case.problem;
         let model = subject.model().map_err(troubled)?;
         let head = case.head();
         let way = second(self.source.start.method)?;
-        let outcome = if let Some(way) = way {
-            let tolerance = self.source.start.tol.unwrap_or(Knob::Tolerance.usual());
-            let (found, seconds) =
-                timed(self.output.repeat, || traced(&model, way, tolerance, (*x, *v), *until));
-            let followed = FollowedMachine {
-                method: way.name(),
-                tolerance,
-                legs: &found.legs,
-                end: found.samples.last().copied().unwrap_or(MachineState { t: 0.0, x: *x, v: *v }),
-                outcome: found.outcome,
-                ledger: None,
-                evaluations: found.evaluations,
-                steps: found.steps,
-            };
-            print(&self.output, &machine_motion::motion(&head, &case.problem, followed, seconds))?;
-            found.outcome
-        } else {
-            let (found, seconds) =
-                timed(self.output.repeat, || MachineMotion::new(&model, *x, *v, *until));
-            let steps = found.curve.pieces.len() as u64;
-            let followed = FollowedMachine {
-                method: "taylor",
-                tolerance: model.tolerance,
-                legs: &found.legs,
-                end: found.end,
-                outcome: found.outcome,
-                ledger: Some(found.ledger),
-                evaluations: steps * ORDER as u64,
-                steps,
-            };
-            print(&self.output, &machine_motion::motion(&head, &case.problem, followed, seconds))?;
-            found.outcome
-        };
+        let own = if way.is_some() { Knob::Tolerance.usual() } else { model.tolerance };
+        let asked = (way, self.source.start.tol.unwrap_or(own));
+        let follow = || MethodMotion::new(&model, asked, *start, *until);
+        let (found, seconds) = timed(self.output.repeat, follow);
+        print(&self.output, machine_motion::motion(&head, &case.problem, &found, seconds))?;
+        let outcome = found.outcome;
         if let Fate::Unknown(stop) = outcome { Err(troubled(stop.into())) } else { Ok(()) }
     }
 }

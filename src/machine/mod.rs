@@ -30,6 +30,8 @@ pub(crate) mod arc;
 pub(crate) mod border;
 #[doc(hidden)]
 pub mod branch;
+#[doc(hidden)]
+pub mod by_method;
 pub(crate) mod curve;
 #[warn(clippy::missing_errors_doc)]
 pub(crate) mod cycles;
@@ -42,6 +44,7 @@ pub mod jumps;
 pub(crate) mod landmarks;
 pub(crate) mod law;
 pub(crate) mod ledger;
+pub mod lost;
 mod modal;
 #[warn(clippy::missing_errors_doc)]
 pub(crate) mod model;
@@ -61,6 +64,8 @@ pub(crate) mod subject;
 #[doc(hidden)]
 pub mod survey;
 pub(crate) mod tolerance;
+#[doc(hidden)]
+pub mod trade;
 #[doc(hidden)]
 pub mod turn;
 

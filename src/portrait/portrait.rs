@@ -268,6 +268,21 @@ impl Portrait {
         }
     }
 
+    /// Between which velocities, in m/s, motions from a displacement (m) lie within the border of the basin.
+    #[must_use]
+    pub fn span_at(&self, x: f64) -> Option<(f64, f64)> {
+        let (low, high) = match &self.traced {
+            Traced::Nothing => return None,
+            Traced::Basin(basin) => basin.borders.first()?.span_at(x)?,
+            Traced::Curve(curve) => {
+                let (up, down) = curve.velocities_at(x, self.model.speed);
+                // Next to a turning point only one of both may be met.
+                (down.or(up.map(|_| 0.0))?, up.unwrap_or(0.0))
+            }
+        };
+        Some((low * self.model.omega_0, high * self.model.omega_0))
+    }
+
     /// The fate of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
     ///
     /// # Errors

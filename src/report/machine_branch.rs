@@ -1,34 +1,32 @@
 //! The cycles of a machine as one of its numbers varies, and where they change.
 
-use serde::Serialize;
-
 use super::belt::{Head, PLACES};
 use super::columns::{Columns, Quantity};
-use super::machine::{MachineCycleRow, MachineReport};
+use super::json::Document;
+use super::machine::{LENGTH, MachineReport, machine_cycles};
 use crate::flow::Fate;
 use crate::machine::Subject;
 use crate::machine::branch::MachineBranch;
 use crate::machine::jumps::Jump;
 use crate::machine::special::{MachineSpecial, MachineSpecialKind};
 use crate::oscillator::Knob;
+use crate::portrait::Cycle;
 use crate::words::quantity::with_unit;
 
-#[derive(Serialize)]
-pub struct BranchDocument<'a> {
-    parameter: &'static str,
-    unit: &'static str,
-    points: Vec<BranchRow>,
-    special: &'a [MachineSpecial],
+/// A cycle at a value; a value without an answer has one row, with the reason.
+#[derive(Clone)]
+pub struct MachineBranchRow {
+    value: f64,
+    cycle: Option<Cycle>,
+    reason: Option<String>,
 }
 
-/// A cycle at a value, or a change there; a value without an answer has one row, with the reason.
-#[derive(Clone, Default, Serialize)]
-pub struct BranchRow {
-    value: f64,
-    #[serde(flatten)]
-    cycle: Option<MachineCycleRow>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reason: Option<String>,
+/// The columns of cycles at the values of a number that is called `name`.
+fn columns<'a>(name: &'static str, unit: &'static str) -> Columns<'a, MachineBranchRow> {
+    Columns::default()
+        .number(name, Quantity::of(unit, PLACES), |row: &MachineBranchRow| row.value)
+        .and(Some(machine_cycles(|row: &MachineBranchRow| row.cycle)))
+        .file("reason", |row| row.reason.clone())
 }
 
 /// A row for each cycle at each value; below them, each change in a sentence.
@@ -37,43 +35,33 @@ pub fn branch<'a>(
     subject: &'a Subject,
     (varied, found): (Knob, &'a MachineBranch),
     seconds: f64,
-) -> MachineReport<'a, BranchDocument<'a>, BranchRow> {
-    let spec = varied.spec();
+) -> MachineReport<'a, MachineBranchRow> {
+    let (name, unit) = (varied.spec().name, varied.spec().unit);
     let mut rows = Vec::new();
     for point in &found.points {
-        let row = BranchRow { value: point.value, ..BranchRow::default() };
+        let row = |cycle, reason| MachineBranchRow { value: point.value, cycle, reason };
         match &point.found {
-            Ok(found) => rows.extend(
-                found
-                    .cycles
-                    .iter()
-                    .map(|cycle| BranchRow { cycle: Some(cycle.into()), ..row.clone() }),
-            ),
-            Err(why) => rows.push(BranchRow { reason: Some(why.to_string()), ..row }),
+            Ok(found) => rows.extend(found.cycles.iter().map(|cycle| row(Some(*cycle), None))),
+            Err(why) => rows.push(row(None, Some(why.to_string()))),
         }
     }
     let changes = Columns::default()
-        .text("", |it: &&MachineSpecial| with_unit(it.value, 13, spec.unit))
-        .text("", |it| Quantity::of("m", PLACES).or("").text(it.x_max))
+        .text("", |it: &&MachineSpecial| with_unit(it.value, 13, unit))
+        .text("", |it| it.x_max.map_or_else(String::new, |x| LENGTH.text(x)))
         .text("", |it| format!("{}{}", words(it.kind), jumps(it)))
         .table(&found.special);
     let reached = found.points.iter().filter_map(|point| point.found.as_ref().ok());
     MachineReport {
         head,
         subject,
-        document: BranchDocument {
-            parameter: spec.name,
-            unit: spec.unit,
-            points: rows.clone(),
-            special: &found.special,
-        },
-        like: BranchRow {
-            cycle: Some(MachineCycleRow::default()),
-            reason: Some(String::new()),
-            ..BranchRow::default()
-        },
+        document: Document::default()
+            .with("parameter", name)
+            .with("unit", unit)
+            .with("points", columns("value", unit).objects(rows.clone()))
+            .with("special", &found.special),
+        columns: columns(name, unit),
         rows,
-        called: vec![("value", varied)],
+        varied: vec![varied],
         notes: changes.aligned_left().lines().skip(1).map(str::to_owned).collect(),
         steps: reached.map(|found| found.steps).sum(),
         seconds,
@@ -115,29 +103,6 @@ fn jumps(special: &MachineSpecial) -> String {
     sentence(special.jumps.up, "growing") + &sentence(special.jumps.down, "falling")
 }
 
-/// The changes along one number at a value of another.
-#[derive(Clone, Serialize)]
-pub struct ChangesDocument {
-    value: f64,
-    special: Vec<MachineSpecial>,
-}
-
-#[derive(Serialize)]
-pub struct BorderDocument {
-    parameter: &'static str,
-    along: &'static str,
-    points: Vec<ChangesDocument>,
-}
-
-/// A change along one number at a value of another.
-#[derive(Serialize)]
-pub struct BorderRow {
-    value: f64,
-    at: f64,
-    kind: Option<MachineSpecialKind>,
-    q_max: Option<f64>,
-}
-
 /// A row for each change along one number, at each value of the other.
 pub fn border<'a>(
     head: &'a Head,
@@ -145,25 +110,31 @@ pub fn border<'a>(
     (along, over): (Knob, Knob),
     found: Vec<(f64, Vec<MachineSpecial>)>,
     seconds: f64,
-) -> MachineReport<'a, BorderDocument, BorderRow> {
-    let row = |value: f64, special: &MachineSpecial| {
-        let MachineSpecial { kind, value: at, x_max, .. } = *special;
-        BorderRow { value, at, kind: Some(kind), q_max: x_max }
-    };
-    let all = found.iter().flat_map(|(value, all)| all.iter().map(|one| row(*value, one)));
-    let rows = all.collect();
-    let points = found.into_iter().map(|(value, special)| ChangesDocument { value, special });
+) -> MachineReport<'a, (f64, MachineSpecial)> {
+    let points = found
+        .iter()
+        .map(|(value, special)| Document::default().with("value", value).with("special", special));
+    let points: Vec<Document> = points.collect();
+    let number = |knob: Knob| (knob.spec().name, Quantity::of(knob.spec().unit, 13));
+    let ((over_name, value), (along_name, at)) = (number(over), number(along));
     MachineReport {
         head,
         subject,
-        document: BorderDocument {
-            parameter: over.spec().name,
-            along: along.spec().name,
-            points: points.collect(),
-        },
-        like: BorderRow { value: 0.0, at: 0.0, kind: None, q_max: None },
-        rows,
-        called: vec![("value", over), ("at", along)],
+        document: Document::default()
+            .with("parameter", over_name)
+            .with("along", along_name)
+            .with("points", points),
+        columns: Columns::default()
+            .number(over_name, value, |(value, _): &(f64, MachineSpecial)| *value)
+            .number(along_name, at, |(_, special)| special.value)
+            .file("kind", |(_, special)| special.kind)
+            .number("q_max", LENGTH, |(_, special)| special.x_max)
+            .text("what happens", |(_, special)| words(special.kind).to_owned()),
+        rows: found
+            .into_iter()
+            .flat_map(|(value, all)| all.into_iter().map(move |special| (value, special)))
+            .collect(),
+        varied: vec![along, over],
         notes: Vec::new(),
         steps: 0,
         seconds,

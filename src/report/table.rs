@@ -15,9 +15,9 @@ pub struct Table {
 }
 
 impl Table {
-    /// Whether there are no rows.
+    /// Whether there is nothing to show.
     pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
+        self.rows.is_empty() || self.titles.is_empty()
     }
 
     /// The table as text with left-aligned columns, for words.

@@ -11,10 +11,11 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use super::basin::Basin;
-use super::stability::{Share, over_scales, support};
+use super::stability::{Share, Span, over_scales, support};
 use crate::flow::Fate;
 use crate::numerics::elementary::exp;
 use crate::numerics::quadrature::Integral;
+use crate::oscillator::unit::quantity;
 
 /// How a random number is spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,8 +50,15 @@ impl Default for RandomKick {
 impl FromStr for RandomKick {
     type Err = String;
 
-    /// Reads `q=0+-0.1,v=0+-0.05`, with `uniform:` before it for a law that is not normal.
     fn from_str(text: &str) -> Result<Self, String> {
+        RandomKick::read(text, ["", ""])
+    }
+}
+
+impl RandomKick {
+    /// Reads `q=0+-0.1,v=0+-0.05`, with `uniform:` before it for a law that is not normal; displacements and velocities
+    /// in these units, or with their own. Fails with one line that says what is wrong and what is allowed.
+    pub fn read(text: &str, units: [&str; 2]) -> Result<Self, String> {
         let form = || {
             format!("{text:?}: expected kicks such as q=0+-0.1,v=0+-0.05 or uniform:q=0+-0.1,v=0")
         };
@@ -63,8 +71,13 @@ impl FromStr for RandomKick {
         let mut kicks = RandomKick { law, q: (0.0, 0.0), v: (0.0, 0.0) };
         for part in parts.split(',') {
             let (name, interval) = part.split_once('=').ok_or_else(form)?;
+            let (place, unit) = match name.trim() {
+                "q" => (&mut kicks.q, units[0]),
+                "v" => (&mut kicks.v, units[1]),
+                _ => return Err(form()),
+            };
             let number = |text: &str| {
-                let value = text.trim().parse().ok().filter(|value: &f64| value.is_finite());
+                let value = quantity(text, unit).ok().filter(|value| value.is_finite());
                 value.ok_or_else(|| format!("{name}: {text:?} is not a finite number"))
             };
             let (mean, spread) = interval.split_once("+-").unwrap_or((interval, "0"));
@@ -72,11 +85,7 @@ impl FromStr for RandomKick {
             if spread < 0.0 {
                 return Err(format!("{name}: the spread {spread} is negative"));
             }
-            *match name.trim() {
-                "q" => &mut kicks.q,
-                "v" => &mut kicks.v,
-                _ => return Err(form()),
-            } = (mean, spread);
+            *place = (mean, spread);
         }
         if kicks.reach() > FARTHEST {
             return Err(format!("{text:?} reaches too far; kicks stay within {FARTHEST:e}"));
@@ -160,9 +169,14 @@ impl RandomKick {
             return all(1.0);
         }
         let Some(edge) = basin.borders.first() else { return all(0.0) };
+        self.lost_outside(&|q| edge.span_at(q))
+    }
+
+    /// The fraction of the kicks that leads out of a border.
+    pub fn lost_outside(&self, span: Span) -> Share {
         let (law, (mean, spread)) = (self.law, self.q);
         let lost_at = |q: f64| {
-            let Some((low, high)) = edge.span_at(q) else { return 1.0 };
+            let Some((low, high)) = span(q) else { return 1.0 };
             law.above(high - self.v.0, self.v.1) + law.above(self.v.0 - low, self.v.1)
         };
         if spread == 0.0 {
@@ -172,7 +186,9 @@ impl RandomKick {
             return Share { part, error: KNOWN * part };
         }
         let far = law.reach() * spread;
-        let Some((left, right)) = support(edge, (mean - far, mean + far)) else { return all(1.0) };
+        let Some((left, right)) = support(span, (mean - far, mean + far)) else {
+            return Share { part: 1.0, error: 0.0 };
+        };
         let beyond = law.above(right - mean, spread) + law.above(mean - left, spread);
         let lost = |q: f64| law.density(q - mean, spread) * lost_at(q);
         let Integral { value, error } = over_scales(lost, left, right);

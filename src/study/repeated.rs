@@ -9,8 +9,9 @@
 //! comes from the exact basin ([`super::kicks`]), and each row of the chain is scaled to leave just that.
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
-use super::basin::{Basin, basin};
+use super::basin::basin;
 use super::kicks::RandomKick;
 use super::stability::Share;
 use crate::flow::trajectory::trajectory;
@@ -54,24 +55,58 @@ pub fn repeated(
     limits: &Limits,
 ) -> Result<Repeated, Reason> {
     if parameters.r == 0.0 {
-        return Err(Reason::NotApplicable {
-            needs: "friction, without which nothing comes to rest",
-        });
+        return Err(WITHOUT);
     }
     let basin = basin(parameters, kicks.reach() + parameters.r, limits)?;
-    let coarse = Chain::new(&basin, kicks, CELLS / 2, limits)?;
-    let fine = Chain::new(&basin, kicks, CELLS, limits)?;
-    let mut cost = basin.cost;
-    cost += coarse.cost;
-    cost += fine.cost;
-    let (density, later) = fine.settled();
-    let (_, before) = coarse.settled();
-    let mean = fine.mean(later);
-    let relative =
-        |one: f64, other: f64| if one == other { 0.0 } else { (one / other - 1.0).abs() };
-    let error = relative(before, later).max(relative(coarse.mean(before), mean));
-    Ok(Repeated { first: from(kicks, 0.0).lost(&basin), later, mean, error, density, cost })
+    let rest = |start: State| {
+        if basin.fate(start) != Fate::Rest {
+            return Ok((None, Cost::default()));
+        }
+        rest_of(parameters, start, limits)
+    };
+    let lost = |kicks: &RandomKick| kicks.lost(&basin).part;
+    let kicked = Kicked { half: parameters.r, rest: &rest, lost: &lost };
+    let mut found = kicked.repeated(kicks, kicks.lost(&basin))?;
+    found.cost += basin.cost;
+    Ok(found)
 }
+
+/// Where the motion from a start comes to rest; `None` where it is lost, or where that takes too long.
+type RestOf<'a> = &'a (dyn Fn(State) -> Result<(Option<f64>, Cost), Reason> + Sync);
+
+/// An oscillator that is kicked.
+pub struct Kicked<'a> {
+    /// Farthest place of rest on either side.
+    pub half: f64,
+    pub rest: RestOf<'a>,
+    /// The fraction of kicks from the middle that is lost.
+    pub lost: &'a dyn Fn(&RandomKick) -> f64,
+}
+
+impl Kicked<'_> {
+    /// Follows kicks until one is lost, `first` being the fraction of the first ones that is. Fails with the [`Reason`]
+    /// why a motion could not be followed; [`Reason::NotApplicable`] without friction.
+    pub fn repeated(&self, kicks: &RandomKick, first: Share) -> Result<Repeated, Reason> {
+        if self.half == 0.0 {
+            return Err(WITHOUT);
+        }
+        let coarse = Chain::new(self, kicks, CELLS / 2)?;
+        let fine = Chain::new(self, kicks, CELLS)?;
+        let mut cost = coarse.cost;
+        cost += fine.cost;
+        let (density, later) = fine.settled();
+        let (_, before) = coarse.settled();
+        let mean = fine.mean(later);
+        let relative =
+            |one: f64, other: f64| if one == other { 0.0 } else { (one / other - 1.0).abs() };
+        let error = relative(before, later).max(relative(coarse.mean(before), mean));
+        Ok(Repeated { first, later, mean, error, density, cost })
+    }
+}
+
+/// Why there is no chain without friction.
+const WITHOUT: Reason =
+    Reason::NotApplicable { needs: "friction, without which nothing comes to rest" };
 
 impl Repeated {
     /// The middles of the cells, and the density there, `r` being the friction.
@@ -98,28 +133,24 @@ struct Chain {
 }
 
 impl Chain {
-    fn new(
-        basin: &Basin,
-        kicks: &RandomKick,
-        cells: usize,
-        limits: &Limits,
-    ) -> Result<Self, Reason> {
-        let r = basin.parameters.r;
+    fn new(kicked: &Kicked, kicks: &RandomKick, cells: usize) -> Result<Self, Reason> {
+        let r = kicked.half;
         let width = 2.0 * r / real(cells);
         let centres: Vec<f64> = (0..cells).map(|cell| (real(cell) + 0.5) * width - r).collect();
         let fineness = FINENESS * real(cells) / real(CELLS);
         let (columns, rows) = (columns(kicks, &centres, fineness), rows(kicks, fineness));
         let mut cost = Cost::default();
         let mut steps = DMatrix::zeros(cells, cells);
-        for column in &columns {
-            for &(v, share) in &rows {
-                let start = State { q: column.q, v };
-                if basin.fate(start) != Fate::Rest {
-                    continue;
-                }
-                let Some(rest) = rest_of(&basin.parameters, start, limits, &mut cost)? else {
-                    continue;
-                };
+        let rest = kicked.rest;
+        let of = |column: &Column| {
+            let rests = rows.iter().map(|&(v, share)| Ok((rest(State { q: column.q, v })?, share)));
+            rests.collect::<Result<Vec<_>, Reason>>()
+        };
+        let found: Vec<_> = columns.par_iter().map(of).collect::<Result<_, _>>()?;
+        for (column, rests) in columns.iter().zip(found) {
+            for ((rest, more), share) in rests {
+                cost += more;
+                let Some(rest) = rest else { continue };
                 // Shared between the two cells whose centres it lies between.
                 let place = ((rest + r) / width - 0.5).clamp(0.0, real(cells - 1));
                 let left = (truncated(place)).min(cells - 2);
@@ -130,7 +161,7 @@ impl Chain {
                 }
             }
         }
-        let lost = centres.iter().map(|&centre| from(kicks, centre).lost(basin).part);
+        let lost = centres.iter().map(|&centre| (kicked.lost)(&from(kicks, centre)));
         let lost = DVector::from_iterator(cells, lost);
         for (row, lost) in lost.iter().enumerate() {
             let sum: f64 = steps.row(row).sum();
@@ -228,8 +259,7 @@ fn rest_of(
     parameters: &Parameters,
     initial: State,
     limits: &Limits,
-    cost: &mut Cost,
-) -> Result<Option<f64>, Reason> {
+) -> Result<(Option<f64>, Cost), Reason> {
     /// Error of a place of rest that matters to no cell.
     const TOLERANCE: f64 = 1e-7;
     const UNTIL: f64 = 1e4;
@@ -241,11 +271,10 @@ fn rest_of(
         ..Problem::default()
     };
     let motion = trajectory(&problem, Detail::default(), limits);
-    *cost += motion.cost;
     match motion.outcome {
-        Outcome::Captured { q, .. } => Ok(Some(q)),
+        Outcome::Captured { q, .. } => Ok((Some(q), motion.cost)),
         Outcome::GaveUp { reason: Reason::Interrupted, .. } => Err(Reason::Interrupted),
-        _ => Ok(None),
+        _ => Ok((None, motion.cost)),
     }
 }
 
@@ -272,8 +301,7 @@ mod tests {
                 if found.fate(start) != Fate::Rest {
                     break;
                 }
-                let mut cost = Cost::default();
-                place = rest_of(parameters, start, &Limits::PATIENT, &mut cost).unwrap().unwrap();
+                place = rest_of(parameters, start, &Limits::PATIENT).unwrap().0.unwrap();
             }
             (runs, sum, squares) = (runs + 1.0, sum + run, squares + run * run);
         }

@@ -217,7 +217,9 @@ impl Scan {
             if measures[..index].contains(measure) {
                 return Err(format!("{} is measured twice", measure.spec().name));
             }
-            if matches!(base, ScanSource::Machine(_)) && !measure.spec().needs.is_of_machines() {
+            let is_of_machines = measure.spec().needs.is_of_machines()
+                && !matches!(measure, Measure::Area | Measure::Integrity);
+            if matches!(base, ScanSource::Machine(_)) && !is_of_machines {
                 return Err(format!("{} is not measured of a machine", measure.spec().name));
             }
             if *measure == Measure::Design && conditions.wanted.is_none() {
@@ -318,7 +320,7 @@ impl Scan {
                 inputs.push(("q_of".to_owned(), Value::Word("elongation")));
             }
         }
-        if [Measure::Lost, Measure::Repeated].iter().any(|one| self.measures.contains(one)) {
+        if self.measures.iter().any(|measure| measure.is_of_kicks()) {
             let RandomKick { law, q, v } = kicks;
             inputs.push(("kick_law".to_owned(), Value::Word(law.name())));
             inputs.extend(named([("kick_q", q.0), ("kick_q_spread", q.1)]));

@@ -9,7 +9,6 @@ use std::f64::consts::FRAC_PI_2;
 use serde::Serialize;
 
 use super::basin::{Basin, Window};
-use super::orbit::Orbit;
 use crate::flow::Fate;
 use crate::numerics::elementary::{asin, cos, powi, sin};
 use crate::numerics::quadrature::{Integral, integrate};
@@ -43,10 +42,11 @@ impl Basin {
             return whole(0.0);
         }
         let Some(edge) = self.borders.first() else { return whole(1.0) };
-        let Some((left, right)) = support(edge, window.q) else { return whole(0.0) };
+        let span = |q: f64| edge.span_at(q);
+        let Some((left, right)) = support(&span, window.q) else { return whole(0.0) };
         let (width, height) = (window.q.1 - window.q.0, window.v.1 - window.v.0);
         let density = |q: f64| {
-            let (low, high) = edge.span_at(q).unwrap_or((0.0, 0.0));
+            let (low, high) = span(q).unwrap_or((0.0, 0.0));
             (high.min(window.v.1) - low.max(window.v.0)).max(0.0) / height / width
         };
         Share::of(over_scales(density, left, right))
@@ -80,9 +80,12 @@ pub(super) fn over_scales(density: impl Fn(f64) -> f64, left: f64, right: f64) -
     sum
 }
 
+/// The velocities between which the starts at a displacement lie inside a border; `None` where none does.
+pub type Span<'a> = &'a dyn Fn(f64) -> Option<(f64, f64)>;
+
 /// The displacements of a range at which some start lies inside the border: around the sticking set.
-pub(super) fn support(edge: &Orbit, (from, to): (f64, f64)) -> Option<(f64, f64)> {
-    let inside = |q: f64| edge.span_at(q).is_some();
+pub(super) fn support(span: Span, (from, to): (f64, f64)) -> Option<(f64, f64)> {
+    let inside = |q: f64| span(q).is_some();
     // Inside lies an interval with 0 in it.
     let nearest = 0.0_f64.clamp(from, to);
     inside(nearest).then(|| {

@@ -1,10 +1,15 @@
 //! The commands that take `--machine`: a machine by its own numbers, in the words of the oscillator of the paper.
 
+use hopfscope::flow::Fate;
+use hopfscope::machine::{MachineMotion, Model};
 use hopfscope::numerics::elementary::ln;
+use hopfscope::numerics::random::Random;
+use hopfscope::portrait::Portrait;
+use hopfscope::scene::machine::library::find;
 use serde_json::Value;
 
 use super::program::{json, number, run};
-use super::{about, belt};
+use super::{about, belt, scan};
 
 /// Whether two numbers agree to a part.
 fn agree(found: &Value, expected: f64, part: f64) {
@@ -152,6 +157,81 @@ fn margins_for_certain_are_those_of_the_overview() {
     assert!(lost["guaranteed"]["reason"].as_str().unwrap().contains("disturbance of 3 N"));
 }
 
+/// Where the motion of a machine from a start comes to rest, if it does.
+fn rest(model: &Model, portrait: &Portrait, (x, v): (f64, f64)) -> Option<f64> {
+    if portrait.fate(x, v) != Ok(Fate::Rest) {
+        return None;
+    }
+    let motion = MachineMotion::new(model, x, v, 1e3);
+    assert_eq!(motion.outcome, Fate::Rest);
+    Some(motion.end.x)
+}
+
+/// Kicks one after the other, each drawn and followed, against the integral and the chain.
+#[test]
+fn kicks_of_a_machine_are_lost_as_often_as_those_that_are_drawn() {
+    // The border is an unstable cycle, and an orbit that touches the belt.
+    for (name, spreads, count) in [("textbook", (5e-4, 0.04), 4000), ("groan", (4e-4, 0.03), 4000)]
+    {
+        let belt = find(name).unwrap().belt.clone();
+        let model = Model::new(&belt).unwrap();
+        let portrait = Portrait::of(&model).unwrap();
+        let law = format!("q=0+-{:?} m,v=0+-{:?}", spreads.0, spreads.1);
+        let found = about("kicks", name, &["--kicks", &law]);
+        let mut random = Random::new(3);
+        let (mut kicked, mut place, mut run, mut runs) = (0, 0.0, 0.0, Vec::new());
+        let (mut first, mut lost) = (0.0, 0.0);
+        while kicked < count || run > 0.0 {
+            let start = (place + spreads.0 * random.normal(), spreads.1 * random.normal());
+            if run == 0.0 {
+                first += 1.0;
+            }
+            (kicked, run) = (kicked + 1, run + 1.0);
+            if let Some(next) = rest(&model, &portrait, start) {
+                place = next;
+            } else {
+                lost += f64::from(u8::from(run == 1.0));
+                runs.push(run);
+                (place, run) = (0.0, 0.0);
+            }
+        }
+        let count = first;
+        let mean = runs.iter().sum::<f64>() / count;
+        let spread = runs.iter().map(|run| (run - mean) * (run - mean)).sum::<f64>() / count;
+        let part = number(&found["lost"]["part"]);
+        assert!((lost / count - part).abs() < 4.0 * (part / count).sqrt(), "{name}: {lost} {part}");
+        assert!(number(&found["lost"]["error"]) < 1e-6 * part, "{found}");
+        let expected = number(&found["repeated"]["mean"]);
+        let error = number(&found["repeated"]["error"]) * expected + 4.0 * (spread / count).sqrt();
+        assert!((mean - expected).abs() < error, "{name}: {mean} {expected} {error}");
+        let row = &scan(
+            name,
+            &["--over", "m=1:2:2", "--measure", "lost,repeated", "--kicks", &law, "--rows", "1:1"],
+        )[0];
+        assert!(number(&row["lost_part"]) > 0.0 && number(&row["kicks_mean"]) > 1.0, "{row}");
+    }
+    // A mode that is the oscillator of the paper, where a border without a cycle separates rest from escape.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mode.toml");
+    let frequency = 0.5 / std::f64::consts::PI;
+    for (numbers, paper) in [
+        ("[-0.3, 0, 0.25]", "--set D=-0.3 --set D3=0.5 --set D2=0"),
+        ("[0.05, 0.25]", "--set D=0.05 --set D2=0.5 --set D3=0"),
+    ] {
+        let text = format!(
+            "frequency = {frequency:?}\nmodal_mass = 1\ndamping_ratio = {numbers}\nR = 0.1\n"
+        );
+        std::fs::write(&path, text).unwrap();
+        let law = ["--kicks", "q=0+-0.1,v=0.05+-0.2"];
+        let machine = about("kicks", path.to_str().unwrap(), &law);
+        let scene = json(&format!("kicks {paper} --set r=0.1 {}", law.join(" ")));
+        agree(&machine["lost"]["part"], number(&scene["lost"]["part"]), 1e-9);
+        agree(&machine["repeated"]["mean"], number(&scene["repeated"]["mean"]), 1e-5);
+    }
+    let ran = run(&["kicks", "--machine", "bstab", "--kicks", "q=0+-1"]);
+    assert!(ran.code == 1 && ran.err.contains("friction, without which"), "{}", ran.err);
+}
+
 #[test]
 fn a_motion_is_that_of_the_overview_by_every_method() {
     let words = ["--set", "x=6 mm"];
@@ -179,6 +259,35 @@ fn a_motion_is_that_of_the_overview_by_every_method() {
     }
     run(&["trajectory", "--machine", "textbook", "--method", "rk4"])
         .is_refused(&["knows one switching line only"]);
+}
+
+#[test]
+fn what_accuracy_costs_is_measured_on_one_motion_of_a_machine() {
+    let trade = about("trade", "textbook", &["--set", "x=6 mm", "--until", "1 s"]);
+    let rows = trade["rows"].as_array().unwrap();
+    // The benchmark's stick-slip cycle ends where two other codes end it, so the reference is right.
+    let slip = about(
+        "trajectory",
+        "bstab",
+        &["--set", "x=1.6816025959660914", "--until", "6.316306357891375"],
+    );
+    assert!((number(&slip["outcome"]["q"]) - 1.681_602_595_966_091_4).abs() < 1e-11, "{slip}");
+    let error = |method: &str, tolerance: f64| {
+        let row = rows.iter().find(|it| it["method"] == method && it["tolerance"] == tolerance);
+        number(&row.unwrap_or_else(|| panic!("{method} {tolerance}"))["error"])
+    };
+    // By three methods that have only the model in common.
+    for method in ["taylor", "dop853", "dopri5"] {
+        assert!(error(method, 1e-13) < 1e-12 && error(method, 1e-5) < 1e-3, "{method}");
+    }
+    // Their steps are a part of a swing at most, so the pair of order 8 is never coarse.
+    for method in ["taylor", "dopri5"] {
+        assert!(error(method, 1e-5) > 10.0 * error(method, 1e-12), "{method}");
+    }
+    let costs = rows.iter().filter(|row| row["method"] == "dopri5");
+    let costs: Vec<f64> = costs.map(|row| number(&row["evaluations"])).collect();
+    assert!(costs.is_sorted() && rows.iter().all(|row| number(&row["seconds"]) > 0.0));
+    run(&["trade", "plain", "--machine", "textbook"]).is_refused(&["cannot be used with"]);
 }
 
 #[test]

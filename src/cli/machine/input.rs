@@ -6,6 +6,7 @@ use crate::oscillator::unit::{Dimension, WithTolerance, measured, quantity};
 use crate::oscillator::{Group, Knob};
 use crate::study::basin::Window;
 use crate::study::design::Kick;
+use crate::study::kicks::RandomKick;
 
 /// The start of a motion; what is not given is left as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,6 +53,11 @@ pub fn window(text: &str) -> Result<Window, String> {
     let read = |unit| move |text: &str| quantity(text, unit);
     let [q, v] = sides(text, &form, [&read("m"), &read("m/s")])?;
     Ok(Window { q, v })
+}
+
+/// Random kicks, in m and m/s.
+pub fn kicks(text: &str) -> Result<RandomKick, String> {
+    RandomKick::read(text, ["m", "m/s"])
 }
 
 /// `NAME=FROM:TO:COUNT`.

@@ -6,7 +6,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use clap::Args;
-use serde::Serialize;
 
 use super::failure::Failure;
 use super::input::read;
@@ -180,10 +179,7 @@ impl MachineCase {
 }
 
 /// Prints an answer about a machine.
-pub fn print<D: Serialize, R: Serialize>(
-    output: &Output,
-    answer: &MachineReport<D, R>,
-) -> Result<(), Failure> {
+pub fn print<R>(output: &Output, answer: MachineReport<R>) -> Result<(), Failure> {
     output.print(&match output.format {
         Format::Table => answer.table(),
         Format::Json => answer.json(),

@@ -38,7 +38,7 @@ pub(super) const NUMBERS: [PhysicalNumber; 7] = {
 };
 
 /// Stability and kind of a cycle.
-pub(super) fn described(cycle: &Cycle) -> String {
+pub(in crate::report) fn described(cycle: &Cycle) -> String {
     let over = if cycle.overtakes { ", overtaking" } else { "" };
     format!("{} {}{over}", stability(cycle.stable), cycle.kind())
 }
@@ -57,7 +57,7 @@ pub(super) fn cycle_document(cycle: &Cycle) -> Document {
 }
 
 /// A column of text for each number of the cycle of a row; empty for a row without.
-pub(super) fn number_columns<'a, R: 'a>(
+pub(in crate::report) fn number_columns<'a, R: 'a>(
     columns: Columns<'a, R>,
     cycle: impl Fn(&R) -> Option<Cycle> + Copy + 'a,
 ) -> Columns<'a, R> {

@@ -7,6 +7,7 @@ mod expansion;
 mod page;
 mod table;
 
+pub(super) use cycle::{described, number_columns};
 pub use document::json;
 pub use page::page;
 pub(super) use table::{border, gaps};

@@ -3,11 +3,12 @@
 use std::collections::BTreeSet;
 
 use super::conditions::Conditions;
-use super::point::Portrayed;
+use super::point::{Portrayed, chain, part};
 use super::table::{Measure, MeasureNeed, Value, needs_of};
 use crate::flow::{Cost, Fate, Limits, Reason};
 use crate::machine::design::friction_for;
 use crate::machine::guarantee::guaranteed;
+use crate::machine::lost::{lost, repeated};
 use crate::machine::motion::turns;
 use crate::machine::survey::Trouble;
 use crate::machine::{MachineMotion, MachineProblem};
@@ -15,6 +16,7 @@ use crate::portrait::Margin;
 use crate::portrait::Portrait;
 use crate::study::basin::Window;
 use crate::study::design::FrictionNeeded;
+use crate::study::repeated::Repeated;
 
 /// What was computed at a point of a machine; `None` for what no measure needed.
 #[derive(Clone, Debug, Default)]
@@ -23,6 +25,7 @@ pub struct MachinePoint {
     portrait: Option<Portrait>,
     guaranteed: Option<Margin>,
     needed: Option<FrictionNeeded>,
+    repeated: Option<Repeated>,
     pub cost: Cost,
     /// Why cells are empty, a sentence for each computation.
     pub reasons: Vec<String>,
@@ -39,7 +42,10 @@ impl MachinePoint {
         let mut point = MachinePoint::default();
         // Cycles and edge are one computation.
         let one = |need| if need == MeasureNeed::Edge { MeasureNeed::Cycles } else { need };
-        let needs: BTreeSet<_> = needs_of(measures).into_iter().map(one).collect();
+        let mut needs: BTreeSet<_> = needs_of(measures).into_iter().map(one).collect();
+        if needs.contains(&MeasureNeed::Chain) {
+            needs.insert(MeasureNeed::Cycles);
+        }
         for need in needs {
             if (limits.interrupted)() {
                 return Err(Reason::Interrupted);
@@ -78,6 +84,16 @@ impl MachinePoint {
                 self.needed = friction_for(subject, tolerances, kick, wanted)?;
                 if self.needed.is_none() {
                     self.reasons.push("design: no friction was found to suffice".to_owned());
+                }
+            }
+            MeasureNeed::Chain => {
+                let Some(portrait) = &self.portrait else { return Ok(()) };
+                // Without friction there is no set of places to rest.
+                if portrait.model.guide_static > 0.0 {
+                    match repeated(portrait, &conditions.kicks) {
+                        Ok(found) => self.repeated = Some(found),
+                        Err(reason) => self.reasons.push(format!("{}: {reason}", need.name())),
+                    }
                 }
             }
             _ => {
@@ -123,6 +139,11 @@ impl MachinePoint {
                 });
                 vec![share.into(), Value::Nothing]
             }
+            Measure::Lost => {
+                let share = portrait.and_then(|it| lost(it, &conditions.kicks).ok());
+                part(share)
+            }
+            Measure::Repeated => chain(self.repeated.as_ref()),
             _ => portrayed.columns(measure),
         }
     }

@@ -189,11 +189,7 @@ impl ScanPoint {
                 let times = self.settling.as_ref().and_then(Settling::times);
                 [0, 1].map(|index| times.map(|times| times[index]).into()).to_vec()
             }
-            Measure::Repeated => {
-                let chain = self.repeated.as_ref();
-                let columns = |of: fn(&Repeated) -> f64| Value::from(chain.map(of));
-                [columns(|it| it.mean), columns(|it| it.later), columns(|it| it.error)].to_vec()
-            }
+            Measure::Repeated => chain(self.repeated.as_ref()),
             Measure::FiniteTime => {
                 let rested = self.settling.as_ref().map(Settling::rested);
                 [0, 1].map(|index| rested.map(|rested| rested[index]).into()).to_vec()
@@ -280,7 +276,14 @@ impl Portrayed<'_> {
     }
 }
 
-fn part(share: Option<Share>) -> Vec<Value> {
+/// The cells of repeated kicks.
+pub(super) fn chain(chain: Option<&Repeated>) -> Vec<Value> {
+    let column = |of: fn(&Repeated) -> f64| Value::from(chain.map(of));
+    vec![column(|it| it.mean), column(|it| it.later), column(|it| it.error)]
+}
+
+/// The cells of a fraction.
+pub(super) fn part(share: Option<Share>) -> Vec<Value> {
     vec![share.map(|share| share.part).into(), share.map(|share| share.error).into()]
 }
 

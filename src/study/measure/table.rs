@@ -111,6 +111,7 @@ impl MeasureNeed {
                 | MeasureNeed::Cycles
                 | MeasureNeed::Edge
                 | MeasureNeed::Guarantee
+                | MeasureNeed::Chain
                 | MeasureNeed::Design
         )
     }
@@ -293,6 +294,11 @@ impl Measure {
     /// Whether it is measured over a window of starts.
     pub fn is_over_window(self) -> bool {
         matches!(self, Measure::Stability | Measure::Settling | Measure::FiniteTime)
+    }
+
+    /// Whether it is measured of random kicks.
+    pub fn is_of_kicks(self) -> bool {
+        matches!(self, Measure::Lost | Measure::Repeated)
     }
 
     /// The measure with this name. Fails with one line that says which there are.
