@@ -100,6 +100,7 @@ pub fn margin<'a>(
     let reason = certain.err().map(|why| why.to_string());
     let certain = certain.unwrap_or(Margin::ENDLESS);
     let known = subject.of_belt().map(|belt| tolerances.intervals(belt)).unwrap_or_default();
+    let exact = subject.numbers().map(|(knob, value)| (knob, Interval::point(value)));
     let with = |document: Document, (knob, interval): (Knob, Interval)| {
         document.with(knob.spec().name, interval)
     };
@@ -112,7 +113,7 @@ pub fn margin<'a>(
             .with("nominal", nominal.margin)
             .with("guaranteed", Document::default().and(&certain).with("reason", &reason))
             .with("disturbance", tolerances.disturbance)
-            .with("intervals", known.into_iter().fold(Document::default(), with)),
+            .with("parameters", exact.chain(known).fold(Document::default(), with)),
         columns: Columns::default()
             .word("margin", |(kind, _): &(&'static str, Margin)| *kind)
             .and(Some(margin_columns(|(_, margin)| *margin)))

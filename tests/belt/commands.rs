@@ -145,7 +145,9 @@ fn margins_for_certain_are_those_of_the_overview() {
             assert_eq!(margin[one][kick], overview[other][kick], "{one} {kick}");
         }
     }
-    assert_eq!(margin["intervals"], overview["guaranteed"]["tolerances"]);
+    let known = &margin["parameters"];
+    assert_eq!(known["R"], overview["guaranteed"]["tolerances"]["R"]);
+    assert_eq!((&known["m"][0], &known["m"][1]), (&2.0.into(), &2.0.into()));
     assert_eq!(
         (&margin["disturbance"], &margin["guaranteed"]["reason"]),
         (&0.1.into(), &Value::Null)
