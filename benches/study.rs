@@ -17,7 +17,8 @@ use hopfscope::study::cycle::cycles;
 use hopfscope::study::fold::{border, fold};
 use hopfscope::study::fold_graph::highest_cycle;
 use hopfscope::study::measure::Measure;
-use hopfscope::study::scan::{Scan, Spacing, Sweep};
+use hopfscope::study::scan::Scan;
+use hopfscope::study::sweep::{Spacing, Sweep};
 
 fn main() {
     divan::main();

@@ -6,8 +6,9 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input;
-use super::machine::{MachineCase, SourceOptions, print, troubled};
+use super::machine::{MachineCase, print, troubled};
 use super::output::{Format, Output, write, write_source};
+use super::source::SourceOptions;
 use super::timing::timed;
 use crate::check::check;
 use crate::closed_form::harmonics::MOST;

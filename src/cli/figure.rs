@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 
 use super::failure::Failure;
 use super::input;
-use super::machine::SourceOptions;
 use super::output::{print, write};
+use super::source::SourceOptions;
 use super::wrapped::columns;
 use crate::figure::{self as forms, FileForm};
 use crate::flow::Limits;

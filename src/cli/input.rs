@@ -7,10 +7,10 @@ use std::str::FromStr;
 use super::failure::Failure;
 use crate::figure::FileForm;
 use crate::flow::{METHODS, Method};
-use crate::oscillator::unit::measured;
 use crate::oscillator::{Group, Interval, Knob};
 use crate::study::basin::Window;
 use crate::study::design::Kick;
+use crate::study::sweep::ends;
 
 /// Reads the text of an option whose numbers depend on what the command is about.
 pub fn read<T>(
@@ -125,11 +125,7 @@ pub fn over_of(text: &str, groups: &[Group], such: &str, most: usize) -> Result<
     let form = format!("expected NAME=FROM:TO:COUNT, {such}");
     let (knob, range) = named(text, groups, &form)?;
     let [from, to, count] = range.split(':').collect::<Vec<_>>()[..] else { return Err(form) };
-    let ends = (knob.parse(from)?, knob.parse(to)?);
-    let has_unit = |text: &str| measured(text).is_ok_and(|read| read.dimension.is_some());
-    if has_unit(from) != has_unit(to) {
-        return Err(format!("{range:?}: FROM and TO both take a unit, or none (SI units)"));
-    }
+    let ends = ends(knob, range, [from, to])?;
     let count = whole(count, 2..=most)
         .map_err(|_| format!("COUNT = {count} is not a whole number in 2 .. {most}"))?;
     if ends.0 == ends.1 {

@@ -34,6 +34,7 @@ mod scan;
 mod scene_cost;
 mod scenes;
 mod shell;
+mod source;
 mod start;
 mod timing;
 mod tour;

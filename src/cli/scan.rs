@@ -13,12 +13,13 @@ use signal_hook::flag;
 
 use super::failure::Failure;
 use super::input::{self, WINDOW, given, read};
+use super::machine::MachineCase;
 use super::machine::input as of_machine;
-use super::machine::{MachineCase, SourceOptions};
 use super::output::holds_something;
 use super::part::{Part, Shard};
 use super::plan::Plan;
 use super::progress::{Outlet, Progress};
+use super::source::SourceOptions;
 use crate::flow::Limits;
 use crate::machine::MachineProblem;
 use crate::oscillator::Knob;
@@ -29,7 +30,8 @@ use crate::runtime::scanning::{Processors, Taker, rows};
 use crate::runtime::signals::exit_code;
 use crate::runtime::standard::{self, tell};
 use crate::study::measure::{Conditions, MEASURES, Measure};
-use crate::study::scan::{Scan, ScanRow, ScanSource, Sweep};
+use crate::study::scan::{Scan, ScanRow, ScanSource};
+use crate::study::sweep::Sweep;
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
 #[derive(Debug, Args)]

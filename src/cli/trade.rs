@@ -4,8 +4,9 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input::{self, given};
-use super::machine::{MachineCase, SourceOptions, print, troubled};
+use super::machine::{MachineCase, print, troubled};
 use super::output::{Format, Output};
+use super::source::SourceOptions;
 use super::timing::in_turn;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Fate, Limits};

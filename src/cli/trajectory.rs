@@ -4,8 +4,9 @@ use clap::Args;
 
 use super::failure::Failure;
 use super::input::{self, given};
-use super::machine::{MachineCase, SourceOptions, print, second, troubled};
+use super::machine::{MachineCase, print, second, troubled};
 use super::output::{Certify, Format, Output};
+use super::source::SourceOptions;
 use super::timing::timed;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Fate, Limits, Outcome, Problem};

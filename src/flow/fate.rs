@@ -18,3 +18,16 @@ pub enum Fate<Why = Reason> {
     /// It could not be followed far enough.
     Unknown(Why),
 }
+
+impl<W> Fate<W> {
+    /// The word of files for how a motion ended that was followed for a time.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Fate::Rest => "captured",
+            Fate::Escapes => "escaped",
+            Fate::Unknown(_) => "gave-up",
+            Fate::Cycle(_) | Fate::Neutral | Fate::Moving => "moving",
+        }
+    }
+}

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::numerics::elementary::{ln, pow};
 use crate::session::scan::ScanOnShow;
 use crate::study::measure::Value;
-use crate::study::scan::Sweep;
+use crate::study::sweep::Sweep;
 
 /// Which values of a measure are the dangerous ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

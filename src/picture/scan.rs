@@ -7,7 +7,7 @@ use super::ticks::Scale;
 use crate::scene::Point;
 use crate::session::Session;
 use crate::session::scan::ScanOnShow;
-use crate::study::scan::{Spacing, Sweep};
+use crate::study::sweep::{Spacing, Sweep};
 
 /// The names of both axes.
 pub fn names(scanned: &ScanOnShow) -> (&'static str, &'static str) {

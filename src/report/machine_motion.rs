@@ -142,12 +142,8 @@ pub fn motion<'a>(
     seconds: f64,
 ) -> MachineReport<'a, MotionRow> {
     let MethodMotion { method, tolerance, legs, end, outcome, ledger, cost } = found;
-    let (kind, reason) = match outcome {
-        Fate::Rest => ("captured", None),
-        Fate::Escapes => ("escaped", None),
-        Fate::Unknown(why) => ("gave-up", Some(why.to_string())),
-        Fate::Cycle(_) | Fate::Neutral | Fate::Moving => ("moving", None),
-    };
+    let kind = outcome.word();
+    let reason = if let Fate::Unknown(why) = outcome { Some(why.to_string()) } else { None };
     let place = |q: f64, v: f64| Document::default().with("q", q).with("v", v);
     let phase = |leg: &Leg| {
         let phase = match leg.place {

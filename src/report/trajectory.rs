@@ -37,7 +37,7 @@ pub(super) fn ending(outcome: &Outcome) -> (&'static str, f64, Option<f64>, Opti
 }
 
 /// A point of a motion: its start, every arrival at `v = 0`, or its end.
-struct PointRow {
+struct MotionPoint {
     what: &'static str,
     tau: f64,
     q: Option<f64>,
@@ -48,7 +48,7 @@ struct PointRow {
 /// One row for each point.
 pub fn csv(motion: &Trajectory, certified: Option<&ProvedMotion>) -> String {
     let State { q, v } = motion.problem.initial;
-    let row = |what, tau, q, v, bounds| PointRow { what, tau, q, v, bounds };
+    let row = |what, tau, q, v, bounds| MotionPoint { what, tau, q, v, bounds };
     let known = |tau, q, v| PointBounds::of(tau, q, Interval::point(v));
     let exactly = certified.map(|_| known(Interval::point(0.0), Interval::point(q), v));
     let start = row("start", 0.0, Some(q), Some(v), exactly);
@@ -61,9 +61,10 @@ pub fn csv(motion: &Trajectory, certified: Option<&ProvedMotion>) -> String {
     let (what, tau, q, v) = ending(&motion.outcome);
     let bounds = certified.map(|certified| PointBounds::of_end(certified, motion.problem.until).1);
     let end = row(what, tau, q, v, bounds);
-    let proved = Columns::default().part("certified", point_columns(), |row: &PointRow| row.bounds);
+    let proved =
+        Columns::default().part("certified", point_columns(), |row: &MotionPoint| row.bounds);
     let columns = Columns::default()
-        .file("what", |row: &PointRow| row.what)
+        .file("what", |row: &MotionPoint| row.what)
         .file("tau", |row| row.tau)
         .file("q", |row| row.q)
         .file("v", |row| row.v)

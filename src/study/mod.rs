@@ -64,6 +64,7 @@ pub mod scan;
 pub(crate) mod search;
 pub(crate) mod special;
 pub(crate) mod stability;
+pub mod sweep;
 pub(crate) mod trade;
 pub(crate) mod weak;
 pub(crate) mod works;

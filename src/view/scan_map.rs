@@ -15,7 +15,7 @@ use crate::picture::role::Role;
 use crate::scene::Point;
 use crate::session::scan::{ScanOnShow, WORDS};
 use crate::session::settings::Glyphs;
-use crate::study::scan::Sweep;
+use crate::study::sweep::Sweep;
 use crate::words::number::significant;
 
 /// Shades from the weakest to the strongest, and the letters that do without colour.

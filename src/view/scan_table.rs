@@ -11,7 +11,7 @@ use super::pane;
 use crate::picture::role::Role;
 use crate::session::scan::ScanOnShow;
 use crate::study::measure::Value;
-use crate::study::scan::Sweep;
+use crate::study::sweep::Sweep;
 use crate::words::measured::rounded;
 use crate::words::number::significant;
 

@@ -11,7 +11,8 @@ use crate::session::effect::{Done, Effect};
 use crate::session::read::scan::{scan_of, typed};
 use crate::session::state::scan::SCANNING;
 use crate::session::state::{Input, Overlay, Pane, ScanForm, ScanOnShow, ScanProgress, Session};
-use crate::study::scan::{Scan, Sweep};
+use crate::study::scan::Scan;
+use crate::study::sweep::Sweep;
 
 /// The file in which a key saves the rows; the command line takes any name.
 pub const FILE: &str = "scan.csv";

@@ -5,7 +5,8 @@ use crate::scene::{Request, Span, View};
 use crate::session::state::{Pane, ScanForm, Session};
 use crate::study::basin;
 use crate::study::measure::Measure;
-use crate::study::scan::{Scan, Sweep};
+use crate::study::scan::Scan;
+use crate::study::sweep::Sweep;
 
 /// The scan of the motion on show that the form describes. Fails with one line that says what is wrong and what
 /// is allowed.

@@ -9,7 +9,8 @@ use crate::numerics::elementary::log10;
 use crate::question;
 use crate::scene::{Point, Request, Span, View, Window};
 use crate::study::measure::Value;
-use crate::study::scan::{Scan, ScanRow, Spacing, Sweep};
+use crate::study::scan::{Scan, ScanRow};
+use crate::study::sweep::{Spacing, Sweep};
 
 /// The words that a measure can have as its value; they are plotted at their indices.
 pub const WORDS: [&str; 4] = ["captured", "moving", "escaped", "gave-up"];

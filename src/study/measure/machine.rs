@@ -150,12 +150,10 @@ impl MachinePoint {
 
     fn outcome(&self) -> [Value; 3] {
         let Some(motion) = &self.motion else { return [Value::Nothing; 3] };
-        let word = match motion.outcome {
-            Fate::Rest => "captured",
-            Fate::Escapes => "escaped",
-            Fate::Unknown(_) => return [Value::Word("gave-up"), Value::Nothing, Value::Nothing],
-            Fate::Cycle(_) | Fate::Neutral | Fate::Moving => "moving",
-        };
-        [Value::Word(word), motion.end.t.into(), Value::Count(turns(&motion.legs).count())]
+        let word = Value::Word(motion.outcome.word());
+        if matches!(motion.outcome, Fate::Unknown(_)) {
+            return [word, Value::Nothing, Value::Nothing];
+        }
+        [word, motion.end.t.into(), Value::Count(turns(&motion.legs).count())]
     }
 }

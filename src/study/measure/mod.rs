@@ -13,4 +13,4 @@ mod table;
 pub use conditions::Conditions;
 pub use machine::MachinePoint;
 pub use point::{ScanPoint, measure};
-pub use table::{MEASURES, Measure, MeasureNeed, MeasureSpec, Value, needs_of};
+pub use table::{MEASURES, Measure, MeasureNeed, MeasureSpec, OF_THE_PAPER, Value, needs_of};

@@ -102,19 +102,6 @@ impl MeasureNeed {
             _ => true,
         }
     }
-
-    /// Whether there is such a computation for a machine.
-    pub fn is_of_machines(self) -> bool {
-        matches!(
-            self,
-            MeasureNeed::Motion
-                | MeasureNeed::Cycles
-                | MeasureNeed::Edge
-                | MeasureNeed::Guarantee
-                | MeasureNeed::Chain
-                | MeasureNeed::Design
-        )
-    }
 }
 
 /// One row of [`MEASURES`].
@@ -134,6 +121,17 @@ pub struct MeasureSpec {
 
 /// Cycles that have columns of their own; no parameters with more are known, and `cycles` counts all.
 pub(super) const CYCLES: usize = 2;
+
+/// Measures of the oscillator of the paper alone; all others are measured of machines, too.
+pub const OF_THE_PAPER: [Measure; 7] = [
+    Measure::Area,
+    Measure::Fold,
+    Measure::Escape,
+    Measure::Integrity,
+    Measure::Settling,
+    Measure::FiniteTime,
+    Measure::Proved,
+];
 
 /// Every measure, in the order in which they are listed.
 pub const MEASURES: [MeasureSpec; 19] = [
