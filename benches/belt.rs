@@ -7,10 +7,10 @@
 
 use divan::Bencher;
 use divan::black_box;
-use hopfscope::machine::{MachineMotion, Model};
+use hopfscope::flow::MachineMotion;
+use hopfscope::model::belt::FrictionLaw;
+use hopfscope::model::{Belt, Model};
 use hopfscope::numerics::elementary::exp;
-use hopfscope::oscillator::Belt;
-use hopfscope::oscillator::belt::FrictionLaw;
 use hopfscope::portrait::Portrait;
 
 fn main() {

@@ -3,13 +3,13 @@
 //! W1 is the motion D = -0.1, D3 = 0.05, r = 0.1 from (3, 0) until tau = 200: 63 half swings.
 
 use divan::{Bencher, black_box};
+use hopfscope::branch::along::{Points, branch};
 use hopfscope::flow::method::Dial;
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
-use hopfscope::oscillator::{Knob, Parameters, State};
-use hopfscope::study::basin::{SurveyedBasin, Window};
-use hopfscope::study::branch::{Points, branch};
-use hopfscope::study::cycle::cycles;
+use hopfscope::model::{Knob, Parameters, State};
+use hopfscope::portrait::basin::cycle::cycles;
+use hopfscope::portrait::basin::{SurveyedBasin, Window};
 
 fn main() {
     divan::main();

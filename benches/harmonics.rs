@@ -3,7 +3,7 @@
 use divan::{Bencher, black_box};
 use hopfscope::closed_form::harmonic::amplitudes;
 use hopfscope::closed_form::harmonics::harmonic_cycle;
-use hopfscope::oscillator::Parameters;
+use hopfscope::model::Parameters;
 
 fn main() {
     divan::main();

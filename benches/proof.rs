@@ -4,18 +4,18 @@
 
 use divan::{Bencher, black_box};
 use hopfscope::flow::Limits;
+use hopfscope::model::{HalfPlane, Knob, Parameters};
 use hopfscope::numerics::Interval;
-use hopfscope::oscillator::{HalfPlane, Knob, Parameters};
-use hopfscope::proof::cycles::prove;
+use hopfscope::portrait::basin::cycle::cycles;
+use hopfscope::portrait::closing::all::STEP;
+use hopfscope::portrait::closing::half_map::{HalfMap, Length};
 use hopfscope::proof::derivatives::derivatives;
 use hopfscope::proof::enclose::enclose;
-use hopfscope::proof::field::{Field, ParameterBox};
+use hopfscope::proof::field::Field;
 use hopfscope::proof::fold::enclose_fold;
 use hopfscope::proof::map::ProvedMap;
 use hopfscope::proof::swing::{StartBox, swing};
-use hopfscope::study::closings::STEP;
-use hopfscope::study::cycle::cycles;
-use hopfscope::study::half_map::{HalfMap, Length};
+use hopfscope::proof::{ParameterBox, prove};
 
 fn main() {
     println!("{RECORDED}");

@@ -4,21 +4,21 @@
 //! change; for a fold, the top of the graph `D(u)`; for a border, one such fold after the other.
 
 use divan::{Bencher, black_box};
+use hopfscope::branch::along::{Points, branch};
+use hopfscope::branch::chart::{Plane, Resolution, chart};
+use hopfscope::branch::fold::{border, fold};
+use hopfscope::branch::fold_graph::highest_cycle;
 use hopfscope::flow::{Limits, Problem};
+use hopfscope::model::{Knob, Parameters};
 use hopfscope::numerics::elementary::ln;
-use hopfscope::oscillator::{Knob, Parameters};
+use hopfscope::portrait::basin::Window;
+use hopfscope::portrait::basin::cycle::cycles;
+use hopfscope::portrait::closing::all::STEP;
+use hopfscope::portrait::closing::equation::{Equation, Route};
 use hopfscope::runtime::scanning::{Processors, rows};
-use hopfscope::study::basin::Window;
-use hopfscope::study::branch::{Points, branch};
-use hopfscope::study::chart::{Plane, Resolution, chart};
-use hopfscope::study::closing::{Equation, Route};
-use hopfscope::study::closings::STEP;
-use hopfscope::study::cycle::cycles;
-use hopfscope::study::fold::{border, fold};
-use hopfscope::study::fold_graph::highest_cycle;
-use hopfscope::study::measure::Measure;
-use hopfscope::study::scan::Scan;
-use hopfscope::study::sweep::{Spacing, Sweep};
+use hopfscope::scan::grid::Scan;
+use hopfscope::scan::measure::Measure;
+use hopfscope::scan::sweep::{Spacing, Sweep};
 
 fn main() {
     divan::main();

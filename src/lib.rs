@@ -6,29 +6,26 @@
 //! does it survive?". This library answers it in rings; each uses only rings further in, and a test
 //! (`tests/architecture.rs`) keeps it so.
 //!
-//! - [`oscillator`] is the paper's model: parameters, the smooth field of one half plane in a frame in
-//!   which both look alike, the sticking set, energy. [`oscillator::Knob`] is the one table of every number that can be
-//!   set. [`closed_form`] is what follows in formulas.
+//! - [`model`] has the numbers: the [`model::Parameters`] of the paper, a machine or a vibration mode, and the
+//!   [`model::Model`] that they yield; the smooth field of one half plane in a frame in which both look alike, the sticking
+//!   set, energy. [`model::Knob`] is the one table of every number that can be set. [`closed_form`] is what follows in
+//!   formulas.
 //! - [`flow`] computes motions. A motion is a chain of smooth half swings glued at `v = 0`; a
 //!   [`flow::step::Stepper`] takes one step of the smooth field, [`flow::swing`] runs it to the next
-//!   `v = 0`, [`flow::trajectory`] glues. No step ever crosses the discontinuity.
+//!   `v = 0`, [`flow::trajectory`] glues. No step ever crosses the discontinuity. [`flow::machine`] follows a mass on
+//!   its belt: friction by its own law, two switching lines, riding on the belt and overtaking it.
 //! - [`numerics`] is the ground floor: roots in brackets, quadrature, cubics, splines, sums, numbers of twice the
 //!   precision, intervals with outward rounding. [`proof`] encloses half swings in intervals, and proves how many
 //!   limit cycles there are and where; [`check`] verifies what it writes down.
-//! - [`study`] asks questions of the flow. Everything rests on the half-swing map
-//!   ([`study::half_map`]), which contains no friction, is increasing, and is inverted by itself with
-//!   the damping reversed. Cycles close two of them ([`study::closing`]); a search that excludes what
-//!   cannot hold a cycle finds all ([`study::search`], [`study::closings`], [`study::cycle`]), energy decides where
-//!   differences lose their digits ([`study::balance`]), continuation follows them ([`study::continuation`],
-//!   [`study::branch`]), folds are roots of their own ([`study::extended`], [`study::fold`]). Within a half plane
-//!   every motion is a graph over q ([`study::arc`]), so basins, margins and bands of capture are comparisons
-//!   ([`study::basin`], [`study::margin`], [`study::capture`]). [`study::claims`] puts the paper's own equations and
-//!   sentences to the test.
-//! - [`machine`] is the mass on its belt by the whole model: friction by its own law, two switching lines,
-//!   riding on the belt and overtaking it. One return map, which never decreases, orders all cycles; what
-//!   a start ends as is read off the next turning point.
-//! - [`portrait`] says what any of them does: its cycles, what borders the basin of rest, the kicks that it survives
-//!   ([`portrait::Portrait`]); without a belt by the closing equation, else by the return map.
+//! - [`portrait`] says what an oscillator does: its cycles, what borders the basin of rest, the kicks that it survives
+//!   ([`portrait::Portrait`]). Without a belt everything rests on the half-swing map, which contains no friction, is
+//!   increasing, and is inverted by itself with the damping reversed ([`portrait::closing`]); within a half plane every motion
+//!   is a graph over q, so basins and margins are comparisons ([`portrait::basin`]). On a belt one return map, which never
+//!   decreases, orders all cycles, and what a start ends as is read off the next turning point ([`portrait::return_map`]).
+//! - [`branch`] follows cycles along a number by continuation; folds are roots of their own ([`branch::extended`],
+//!   [`branch::fold`]), and boundaries of regimes are curves over two numbers ([`branch::chart`]).
+//! - [`scan`] measures at many points; [`accuracy`] holds methods against each other and against references, to the
+//!   extremes; [`paper`] puts the paper's own equations and sentences to the test.
 //! - [`fit`] turns a recorded motion into estimates of all these numbers, with their errors, and the margin
 //!   that they leave.
 //! - [`question`] has a file for each kind of question that the screen asks: a [`question::Request`] names exactly the
@@ -54,22 +51,27 @@
     )
 )]
 
+#[doc(hidden)]
+pub mod accuracy;
+pub mod branch;
 #[warn(clippy::missing_errors_doc)]
 pub mod closed_form;
 #[warn(clippy::missing_errors_doc)]
 pub mod fit;
 #[warn(clippy::missing_errors_doc)]
 pub mod flow;
-pub mod machine;
+#[warn(clippy::missing_errors_doc)]
+pub mod model;
 #[doc(hidden)]
 pub mod numerics;
-#[warn(clippy::missing_errors_doc)]
-pub mod oscillator;
+#[doc(hidden)]
+pub mod paper;
 #[warn(clippy::missing_errors_doc)]
 pub mod portrait;
 #[warn(clippy::missing_errors_doc)]
 pub mod proof;
-pub mod study;
+#[doc(hidden)]
+pub mod scan;
 
 #[cfg(feature = "explorer")]
 #[doc(hidden)]

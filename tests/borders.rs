@@ -2,12 +2,12 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Fate, Limits, Outcome, Problem, Reason};
+use hopfscope::model::{Parameters, State};
 use hopfscope::numerics::elementary::pow;
-use hopfscope::oscillator::{Parameters, State};
 use hopfscope::portrait::Border;
-use hopfscope::study::basin::{Basin, SurveyedBasin, Window, basin};
-use hopfscope::study::cycle::cycles;
-use hopfscope::study::measure::{Measure, Value, measure};
+use hopfscope::portrait::basin::cycle::cycles;
+use hopfscope::portrait::basin::{Basin, SurveyedBasin, Window, basin};
+use hopfscope::scan::measure::{Measure, Value, measure};
 use proptest::prelude::*;
 use rayon::prelude::*;
 use serde::Deserialize;

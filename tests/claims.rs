@@ -3,10 +3,8 @@
 use std::sync::LazyLock;
 
 use hopfscope::flow::{Limits, Reason};
+use hopfscope::paper::{Certainty, ClaimResult, Finding, Sense, UNSAID, Verdict, claims, examine};
 use hopfscope::scene::find;
-use hopfscope::study::claims::{
-    Certainty, ClaimResult, Finding, Sense, UNSAID, Verdict, claims, examine,
-};
 
 /// Change of energy of the piecewise linear motion with D = -0.1, r = 0.1 from rest at q = 1.5 until tau = 20,
 /// from its closed form with 30 digits.
@@ -128,7 +126,7 @@ fn the_figures_of_amplitudes_are_compared_with_the_equation_that_they_show() {
     ] {
         let verdict = about(equation, words).verdict();
         assert_eq!(verdict == Verdict::False, basis == "cycle", "{equation}: {verdict:?}");
-        let stands = |claim: &&hopfscope::study::claims::Claim| {
+        let stands = |claim: &&hopfscope::paper::Claim| {
             claim.equation == equation && claim.statement.contains(words)
         };
         assert_eq!(claims().find(stands).unwrap().basis, basis);

@@ -1,12 +1,12 @@
 //! Cost of answers, counted in evaluations; the bounds are a few per cent above the need.
 
+use hopfscope::branch::along::{Points, branch};
+use hopfscope::branch::chart::{Plane, Resolution, chart};
+use hopfscope::branch::fold::{border, fold};
+use hopfscope::branch::fold_graph::highest_cycle;
 use hopfscope::flow::Limits;
-use hopfscope::oscillator::{Knob, Parameters};
-use hopfscope::study::branch::{Points, branch};
-use hopfscope::study::chart::{Plane, Resolution, chart};
-use hopfscope::study::cycle::cycles;
-use hopfscope::study::fold::{border, fold};
-use hopfscope::study::fold_graph::highest_cycle;
+use hopfscope::model::{Knob, Parameters};
+use hopfscope::portrait::basin::cycle::cycles;
 
 const LIMITS: &Limits = &Limits::PATIENT;
 

@@ -144,7 +144,7 @@ fn tables_of_friction() {
 fn quantities_with_units() {
     let texts = ["12.5 mm/s", "-3e-4 N", "1 kg", "0.1", "7 rad/s"].map(str::to_owned);
     fuzz(&texts, 2_000, |text| {
-        if let Err(refused) = hopfscope::oscillator::unit::measured(text) {
+        if let Err(refused) = hopfscope::model::unit::measured(text) {
             assert_one_line(&refused, text);
         }
     });

@@ -2,12 +2,12 @@
 //! disturbance leads out from just beyond.
 
 use hopfscope::flow::Limits;
+use hopfscope::model::{Interval, ParameterBox, Parameters, State};
 use hopfscope::numerics::elementary::sin;
 use hopfscope::numerics::random::Random;
-use hopfscope::oscillator::{Interval, ParameterBox, Parameters, State};
+use hopfscope::portrait::basin::basin;
+use hopfscope::portrait::guarantee::oscillator::{TwoSided, guarantee, zones};
 use hopfscope::portrait::{Border, Margin};
-use hopfscope::study::basin::basin;
-use hopfscope::study::guarantee::{TwoSided, guarantee, zones};
 
 fn between(random: &mut Random, interval: Interval) -> f64 {
     let (low, high) = (interval.lower(), interval.upper());

@@ -5,15 +5,15 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use hopfscope::accuracy::harmonic_error::harmonic_balance;
+use hopfscope::branch::along::{Points, branch};
+use hopfscope::branch::fold::{border, fold};
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Cost, Detail, Limits, METHODS, Outcome, Problem, Reason};
-use hopfscope::oscillator::{Knob, Parameters, State};
-use hopfscope::study::basin::{SurveyedBasin, Window};
-use hopfscope::study::branch::{Points, branch};
-use hopfscope::study::capture::bands;
-use hopfscope::study::cycle::cycles;
-use hopfscope::study::fold::{border, fold};
-use hopfscope::study::harmonic_error::harmonic_balance;
+use hopfscope::model::{Knob, Parameters, State};
+use hopfscope::portrait::basin::capture::bands;
+use hopfscope::portrait::basin::cycle::cycles;
+use hopfscope::portrait::basin::{SurveyedBasin, Window};
 
 /// Maximum number of evaluations between two polls.
 const BETWEEN: u64 = 10_000;

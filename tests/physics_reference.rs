@@ -5,9 +5,9 @@ mod data;
 use data::references;
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem, Trajectory};
-use hopfscope::oscillator::{Parameters, State};
+use hopfscope::model::{Parameters, State};
 use hopfscope::portrait::Cycle;
-use hopfscope::study::cycle::cycles;
+use hopfscope::portrait::basin::cycle::cycles;
 use serde::Deserialize;
 
 /// A motion of `data/trajectories.json`, followed until tau = 200 or capture.

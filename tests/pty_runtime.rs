@@ -9,14 +9,13 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use hopfscope::flow::{Cost, Limits, Reason};
-use hopfscope::oscillator::Parameters;
-use hopfscope::portrait::Border;
+use hopfscope::model::Parameters;
+use hopfscope::portrait::{Border, Cycles};
 use hopfscope::question;
 use hopfscope::runtime::worker::Tell;
 use hopfscope::runtime::{Application, Options, launch};
 use hopfscope::scene::{Answer, Answered, Request};
 use hopfscope::session::{Code, Effect, Key, Msg};
-use hopfscope::study::Cycles;
 use ratatui::Frame;
 use rustix::process::Signal;
 use support::{Answers, Terminal};

@@ -1,6 +1,6 @@
 //! Every keystroke file of the project plays to its end, on a small and on a large screen.
 
-use hopfscope::runtime::explorer::replay;
+use hopfscope::runtime::replay;
 use hopfscope::scene::plain;
 use hopfscope::session::replay::parse;
 use hopfscope::session::{Session, Size};

@@ -7,8 +7,8 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use hopfscope::flow::Limits;
-use hopfscope::oscillator::Parameters;
-use hopfscope::study::cycle::cycles;
+use hopfscope::model::Parameters;
+use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::words::provenance::Checksum;
 use program::{Ran, command, run};
 use serde_json::Value;

@@ -2,14 +2,13 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Reason};
+use hopfscope::model::{Group, Knob};
 use hopfscope::numerics::elementary::hypot;
-use hopfscope::oscillator::{Group, Knob};
-use hopfscope::portrait::{Border, Cycle};
+use hopfscope::portrait::{Border, Cycle, Return};
 use hopfscope::question::answer;
 use hopfscope::scene::{Answer, Request, Topic, find};
 use hopfscope::session::replay::{Action, Player, parse};
 use hopfscope::session::{Msg, Session, Size, run_line, settle, update};
-use hopfscope::study::Return;
 
 /// A scene with its motion and cycles computed; diagrams are ignored here.
 struct Stage(Session);

@@ -6,12 +6,12 @@ use std::rc::Rc;
 
 use hopfscope::flow::Limits;
 use hopfscope::question::{NoAnswer, answer};
-use hopfscope::scene::Scene;
-use hopfscope::scene::library::{find, library};
-use hopfscope::session::settings::{self, Colors, Glyphs};
-use hopfscope::session::{Msg, Session, Size, settle, update};
+use hopfscope::scene::{Scene, find, library};
+use hopfscope::session::settings::{Colors, Glyphs};
+use hopfscope::session::{Msg, Session, Size, settings, settle, update};
 use hopfscope::terminal::painter::Painter;
-use hopfscope::view::{self, Look};
+use hopfscope::view;
+use hopfscope::view::Look;
 use ratatui::Terminal;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;

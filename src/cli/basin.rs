@@ -10,11 +10,11 @@ use super::output::{Certify, Format, Output};
 use super::source::SourceOptions;
 use super::timing::timed;
 use crate::flow::Limits;
+use crate::portrait::basin::SurveyedBasin;
+use crate::portrait::proved::agreed;
 use crate::proof::kicks::kicks;
 use crate::proof::{ParameterBox, prove};
 use crate::report::{basin as report, certified, machine_motion};
-use crate::study::basin::SurveyedBasin;
-use crate::study::proved::agreed;
 
 /// Shows where the starts in a window end, and how large a kick is survived
 #[derive(Debug, Args)]

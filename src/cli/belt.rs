@@ -13,22 +13,20 @@ use super::machine::{MachineCase, second, troubled};
 use super::output::{Format, Output, write};
 use super::timing::timed;
 use crate::figure::panels;
-use crate::flow::Limits;
-use crate::flow::Method;
-use crate::machine::design::friction_for;
-use crate::machine::guarantee::guaranteed;
-use crate::machine::stepped::SteppedMethod;
-use crate::machine::survey::{Course, CubicExpansion, Trouble};
-use crate::machine::{MachineProblem, Subject, Tolerances};
-use crate::oscillator::unit::WithTolerance;
-use crate::oscillator::{Belt, Knob};
-use crate::portrait::Portrait;
-use crate::report::belt::{self, DesignAnswer, Head, MachineAnswer, OnBelt, RestShare};
+use crate::flow::machine::stepped::SteppedMethod;
+use crate::flow::{Limits, Method};
+use crate::model::unit::WithTolerance;
+use crate::model::{Belt, Knob, MachineProblem, Subject, Tolerances};
+use crate::portrait::basin::Window;
+use crate::portrait::design::machine::friction_for;
+use crate::portrait::design::oscillator::Kick;
+use crate::portrait::guarantee::machine::guaranteed;
+use crate::portrait::{Course, CubicExpansion, Portrait, Trouble};
+use crate::report::belt;
+use crate::report::belt::{DesignAnswer, Head, MachineAnswer, OnBelt, RestShare};
 use crate::runtime::print::figure;
 use crate::runtime::provenance_file;
 use crate::scene::machine::library::{TEXTBOOK, machines};
-use crate::study::basin::Window;
-use crate::study::design::Kick;
 
 /// Analyses a mass on a belt in physical units
 #[derive(Debug, Args)]
@@ -127,7 +125,7 @@ impl Arguments {
             Format::Csv => belt::csv(&answer),
         })?;
         let incomplete = answer.course.portrait.incomplete();
-        incomplete.map_or(Ok(()), |stop| Err(troubled(stop.into())))
+        incomplete.map_or(Ok(()), |stop| Err(troubled(stop)))
     }
 
     /// The answer about the motion and the machine, without its time.

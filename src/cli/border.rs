@@ -10,9 +10,10 @@ use super::machine::{MachineCase, print};
 use super::output::{Certify, Format, Output};
 use super::source::SourceOptions;
 use super::timing::timed;
+use crate::branch::fold::{Boundary as Found, BoundaryPoint, border};
+use crate::branch::machine::borders;
 use crate::flow::Limits;
-use crate::machine::branch::borders;
-use crate::oscillator::{Belt, Knob, State};
+use crate::model::{Belt, Knob, State};
 use crate::proof::ParameterBox;
 use crate::proof::escape::enclose_escape;
 use crate::proof::fold::enclose_fold;
@@ -20,7 +21,6 @@ use crate::proof::range::change_near;
 use crate::report::border as report;
 use crate::report::certified::{self, BorderProof};
 use crate::report::machine_branch;
-use crate::study::fold::{Boundary as Found, BoundaryPoint, border};
 
 /// Continues the fold `D_F` and the escape point `D_c` in a second parameter
 #[derive(Debug, Args)]

@@ -9,11 +9,10 @@ use super::machine::{MachineCase, print};
 use super::output::{Certify, Format, Output};
 use super::source::SourceOptions;
 use super::timing::timed;
+use crate::branch::along::{Points, branch};
 use crate::flow::Limits;
-use crate::machine;
 use crate::proof::{self, ParameterBox};
 use crate::report::{branch as report, certified, machine_branch};
-use crate::study::branch::{Points, branch};
 
 /// Follows the limit cycles along a parameter, with folds and other special points
 #[derive(Debug, Args)]
@@ -68,7 +67,7 @@ impl Arguments {
         let Over { knob, ends, count } = read("--over", &self.over, of_machine::range)?;
         let subject = &case.problem.subject;
         let (found, seconds) = timed(self.output.repeat, || {
-            machine::branch::branch(subject.clone(), knob, ends, count)
+            crate::branch::machine::branch(subject.clone(), knob, ends, count)
         });
         let found = found.map_err(Failure::Usage)?;
         let head = case.head();

@@ -10,17 +10,16 @@ use super::machine::{MachineCase, print, troubled};
 use super::output::{Format, Output, write, write_source};
 use super::source::SourceOptions;
 use super::timing::timed;
+use crate::accuracy::harmonic_error::{HarmonicBalance, convergence};
 use crate::check::check;
 use crate::closed_form::harmonics::MOST;
 use crate::flow::{Limits, Reason};
-use crate::oscillator::Parameters;
+use crate::model::Parameters;
+use crate::portrait::basin::cycle::cycles;
+use crate::portrait::proved::proved;
 use crate::proof::certificate::{certificate, text};
 use crate::proof::{ParameterBox, Proof, prove};
 use crate::report::{certified, cycles as report, harmonic_balance, json, machine_motion};
-use crate::study;
-use crate::study::cycle::cycles;
-use crate::study::harmonic_error::{HarmonicBalance, convergence};
-use crate::study::proved::proved;
 
 /// Finds every limit cycle, proves that there are no others, and names the border of the basin
 #[derive(Debug, Args)]
@@ -74,7 +73,7 @@ impl Arguments {
         let (found, seconds) = case.portrait(&self.output)?;
         let head = case.head();
         print(&self.output, machine_motion::cycles(&head, &case.problem.subject, &found, seconds))?;
-        found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop.into())))
+        found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop)))
     }
 
     /// Answers for all parameters in a box.
@@ -117,7 +116,7 @@ impl Arguments {
 
 /// The answer of the command.
 struct CyclesAnswer {
-    found: study::Cycles,
+    found: crate::portrait::basin::limit_cycle::Cycles,
     proof: Proof,
     rungs: Option<Vec<HarmonicBalance>>,
 }

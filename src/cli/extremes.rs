@@ -6,11 +6,11 @@ use rayon::prelude::*;
 use super::failure::Failure;
 use super::input;
 use super::output::{Format, print, sourced};
+use crate::accuracy::extremes::verdict::TOLERANCE;
+use crate::accuracy::extremes::{Case, cases, judge, judge_set, named, sets};
 use crate::flow::Limits;
-use crate::oscillator::Parameters;
+use crate::model::Parameters;
 use crate::report::{extreme_cycles, extremes};
-use crate::study::extremes::verdict::TOLERANCE;
-use crate::study::extremes::{Case, cases, judge, judge_set, named, sets};
 
 /// Tests every method at the extremes of all parameters, and reports its accuracy
 ///

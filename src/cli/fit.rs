@@ -23,8 +23,8 @@ use crate::fit::{
     Record, Signal, Unfit, estimate, length_in_metres, margins, parse,
 };
 use crate::flow::Limits;
-use crate::oscillator::Knob;
-use crate::oscillator::unit::{Dimension, Measured, measured};
+use crate::model::Knob;
+use crate::model::unit::{Dimension, Measured, measured};
 use crate::report::fit as forms;
 use crate::runtime::{bounded, provenance_file, source_file};
 use crate::words::fit::broken;

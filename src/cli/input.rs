@@ -7,10 +7,10 @@ use std::str::FromStr;
 use super::failure::Failure;
 use crate::figure::FileForm;
 use crate::flow::{METHODS, Method};
-use crate::oscillator::{Group, Interval, Knob};
-use crate::study::basin::Window;
-use crate::study::design::Kick;
-use crate::study::sweep::ends;
+use crate::model::{Group, Interval, Knob};
+use crate::portrait::basin::Window;
+use crate::portrait::design::oscillator::Kick;
+use crate::scan::sweep::ends;
 
 /// Reads the text of an option whose numbers depend on what the command is about.
 pub fn read<T>(

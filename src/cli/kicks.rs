@@ -9,10 +9,10 @@ use super::machine::{MachineCase, print};
 use super::output::{Format, Output};
 use super::source::SourceOptions;
 use crate::flow::Limits;
-use crate::machine::lost;
+use crate::portrait::kicks::RandomKick;
+use crate::portrait::kicks::machine;
+use crate::portrait::kicks::repeated::repeated;
 use crate::report::kicks;
-use crate::study::kicks::RandomKick;
-use crate::study::repeated::repeated;
 
 /// Finds the share of random kicks that is lost, and how many in a row are survived
 #[derive(Debug, Args)]
@@ -53,7 +53,7 @@ impl Arguments {
     fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
         let law = read("--kicks", &self.law, of_machine::kicks)?;
         let (portrait, before) = case.portrait(&self.output)?;
-        let follow = || lost::repeated(&portrait, &law);
+        let follow = || machine::repeated(&portrait, &law);
         let (found, seconds) = self.output.timed(FAILED, follow)?;
         let (head, held) = (case.head(), portrait.model.guide_static);
         let answer = (&law, &found, held);

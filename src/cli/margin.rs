@@ -10,10 +10,9 @@ use super::output::{Format, Output};
 use super::source::SourceOptions;
 use super::timing::timed;
 use crate::flow::Limits;
-use crate::machine::MachineProblem;
-use crate::machine::guarantee::guaranteed;
+use crate::model::MachineProblem;
+use crate::portrait::guarantee::machine::guaranteed;
 use crate::report::{guarantee, machine_motion};
-use crate::study;
 
 /// Finds how large a kick is survived under every bounded disturbance, at all parameters in a box
 #[derive(Debug, Args)]
@@ -38,7 +37,8 @@ impl Arguments {
         }
         let known = self.source.start.known()?;
         let bound = given("--disturbance", disturbance, input::disturbance)?.unwrap_or(0.0);
-        let ask = || study::guarantee::guarantee(&known, bound, &Limits::PATIENT);
+        let ask =
+            || crate::portrait::guarantee::oscillator::guarantee(&known, bound, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the margin could not be computed", ask)?;
         self.output.print(&match self.output.format {
             Format::Table => guarantee::table(&found, seconds),

@@ -178,7 +178,7 @@ mod tests {
     use clap::CommandFactory;
 
     use super::*;
-    use crate::scene::library::library;
+    use crate::scene::library;
 
     #[test]
     fn the_definition_of_the_command_line_is_consistent() {

@@ -6,8 +6,8 @@ use super::failure::Failure;
 use super::output::{Format, Output};
 use super::timing::timed;
 use crate::flow::Limits;
+use crate::paper::examine_all;
 use crate::report::claims;
-use crate::study::claims::examine_all;
 
 /// Tests every equation and claim of the paper that can be tested
 #[derive(Debug, Args)]

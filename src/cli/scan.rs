@@ -21,17 +21,16 @@ use super::plan::Plan;
 use super::progress::{Outlet, Progress};
 use super::source::SourceOptions;
 use crate::flow::Limits;
-use crate::machine::MachineProblem;
-use crate::oscillator::Knob;
+use crate::model::{Knob, MachineProblem};
 use crate::report::scan::RowForm;
-use crate::runtime::provenance_file;
 use crate::runtime::scan_file::{LineRefusal, ScanFile};
 use crate::runtime::scanning::{Processors, Taker, rows};
 use crate::runtime::signals::exit_code;
-use crate::runtime::standard::{self, tell};
-use crate::study::measure::{Conditions, MEASURES, Measure};
-use crate::study::scan::{Scan, ScanRow, ScanSource};
-use crate::study::sweep::Sweep;
+use crate::runtime::standard::tell;
+use crate::runtime::{provenance_file, standard};
+use crate::scan::grid::{Scan, ScanRow, ScanSource};
+use crate::scan::measure::{Conditions, MEASURES, Measure};
+use crate::scan::sweep::Sweep;
 
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
 #[derive(Debug, Args)]

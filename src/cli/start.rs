@@ -7,10 +7,10 @@ use clap::Args;
 use super::failure::Failure;
 use super::input::{self, read};
 use crate::flow::{METHODS, Method, Problem};
-use crate::oscillator::{Interval, Knob, ParameterBox};
+use crate::model::{Interval, Knob, ParameterBox};
 use crate::runtime::standard::tell;
-use crate::scene::Scene;
-use crate::scene::library::{PLAIN, find};
+use crate::scene::library::PLAIN;
+use crate::scene::{Scene, find};
 
 /// Which motion is meant.
 #[derive(Clone, Debug, Args)]

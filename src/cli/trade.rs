@@ -8,14 +8,13 @@ use super::machine::{MachineCase, print, troubled};
 use super::output::{Format, Output};
 use super::source::SourceOptions;
 use super::timing::in_turn;
+use crate::accuracy::machine_trade::{MachineTrade, MachineTradePoint};
+use crate::accuracy::trade::Trade as Found;
+use crate::flow::machine::by_method::MethodMotion;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Fate, Limits};
-use crate::machine::MachineProblem;
-use crate::machine::by_method::MethodMotion;
-use crate::machine::trade::{MachineTrade, MachineTradePoint};
-use crate::oscillator::Knob;
+use crate::model::{Knob, MachineProblem};
 use crate::report::{machine_motion, trade as report};
-use crate::study::trade::Trade as Found;
 use crate::view::trade_plot::in_letters;
 
 /// Shows what accuracy costs: every method at all its tolerances on the same motion
@@ -78,7 +77,7 @@ impl Arguments {
         let head = case.head();
         print(&self.output, machine_motion::trade(&head, &case.problem, &trade, &seconds))?;
         match trade.reference.outcome {
-            Fate::Unknown(stop) => Err(troubled(stop.into())),
+            Fate::Unknown(stop) => Err(troubled(stop)),
             _ => Ok(()),
         }
     }

@@ -8,12 +8,11 @@ use super::machine::{MachineCase, print, second, troubled};
 use super::output::{Certify, Format, Output};
 use super::source::SourceOptions;
 use super::timing::timed;
+use crate::flow::machine::by_method::MethodMotion;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Fate, Limits, Outcome, Problem};
-use crate::machine::MachineProblem;
-use crate::machine::by_method::MethodMotion;
+use crate::model::{Knob, MachineProblem, State};
 use crate::numerics::Interval;
-use crate::oscillator::{Knob, State};
 use crate::proof::ParameterBox;
 use crate::proof::motion::{ProvedMotion, follow as enclosed};
 use crate::report::{certified, machine_motion, trajectory as report};
@@ -85,6 +84,6 @@ impl Arguments {
         let (found, seconds) = timed(self.output.repeat, follow);
         print(&self.output, machine_motion::motion(&head, &case.problem, &found, seconds))?;
         let outcome = found.outcome;
-        if let Fate::Unknown(stop) = outcome { Err(troubled(stop.into())) } else { Ok(()) }
+        if let Fate::Unknown(stop) = outcome { Err(troubled(stop)) } else { Ok(()) }
     }
 }

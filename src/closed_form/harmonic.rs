@@ -19,8 +19,8 @@ use super::cubic::{
     Pair, distance_from_fold, large_root, small_root, subcritical, supercritical,
     zero_crossing_root,
 };
+use crate::model::Parameters;
 use crate::numerics::elementary::cbrt;
-use crate::oscillator::Parameters;
 
 /// A stationary amplitude of the first-order harmonic approximation `q = A0 + A cos(tau)`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -1,7 +1,7 @@
 //! The linear oscillator `x'' + 2 D x' + x = 0`, solved in closed form for every damping D.
 //!
 //! With `D2 = D3 = 0` each half swing is a piece of this motion in the frame of its half plane
-//! ([`crate::oscillator::HalfPlane`]). The fundamental solutions `e^(-D t) C(t)` and `e^(-D t) S(t)` are
+//! ([`crate::model::HalfPlane`]). The fundamental solutions `e^(-D t) C(t)` and `e^(-D t) S(t)` are
 //!
 //! | | C | S |
 //! |---|---|---|

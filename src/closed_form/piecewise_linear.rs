@@ -15,9 +15,9 @@ use std::fmt;
 use serde::Serialize;
 
 use super::linear::Linear;
+use crate::model::State;
 use crate::numerics::count::real;
 use crate::numerics::elementary::{atan2, exp, exp_m1, ln, ln_1p, sin_cos};
-use crate::oscillator::State;
 
 /// The unstable cycle that borders the basin of attraction of the sticking set.
 ///

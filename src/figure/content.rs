@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::oscillator::{Parameters, State};
+use crate::model::{Parameters, State};
 use crate::picture::items::{self, Caption};
 use crate::picture::map::ScanMap;
 use crate::picture::role::{self, Role};

@@ -1,9 +1,9 @@
 //! The figure of a fit.
 
 use super::content::{Figure, Panel};
-use crate::fit::Fitted;
-use crate::fit::observation::{Data, LAST, OMEGA0, Q0, StartKind, parameters};
-use crate::oscillator::State;
+use crate::fit::observation::{Data, LAST, OMEGA0, Q0, StartKind};
+use crate::fit::{Fitted, parameters};
+use crate::model::State;
 use crate::picture::fit::pictures;
 
 impl Figure {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::content::{Area, Axis, FigureCurve, MarkedPoint, Panel};
 use super::filled;
 use super::sample;
-use crate::oscillator::{Knob, State};
+use crate::model::{Knob, State};
 use crate::picture::items::{Item, LineStyle, Marks, Picture, VariantTag};
 use crate::picture::role::Dash;
 use crate::picture::ticks::Scale;

@@ -10,8 +10,8 @@ use super::observation::{Data, OFFSET, OMEGA0, parameters};
 use super::residuals::autocorrelations;
 use super::sampled::Sampled;
 use super::signal::Signal;
+use crate::model::{Parameters, State};
 use crate::numerics::count::{real, truncated};
-use crate::oscillator::{Parameters, State};
 
 /// A point of a curve.
 pub type PlotPoint = [f64; 2];

@@ -15,8 +15,8 @@ use super::search::Minima;
 use super::signal::Signal;
 use super::turning_points::Extreme;
 use super::uncertainty::{Covariance, left_over};
+use crate::model::State;
 use crate::numerics::count::real;
-use crate::oscillator::State;
 
 /// A minimum that competes with the best one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -8,7 +8,7 @@ use super::names::NameSpec;
 use super::observation::{OFFSET, OMEGA0};
 use super::record::Record;
 use super::signal::length_in_metres;
-use crate::oscillator::belt::Units;
+use crate::model::belt::Units;
 
 /// The whole result of a fit.
 #[derive(Clone, Debug)]

@@ -7,10 +7,10 @@
 //! across it. If the damping is linear and stays so, everything has a closed form; otherwise the Taylor
 //! coefficients of motion and derivatives obey one recurrence.
 
+use crate::model::HalfPlane;
 use crate::numerics::count::real;
 use crate::numerics::elementary::{atan2, exp, pow, sin_cos};
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
-use crate::oscillator::HalfPlane;
 
 /// Number of solutions of the variational equation: across the flow, and the derivatives with respect to D, D2 (of
 /// this frame) and D3.

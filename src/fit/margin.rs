@@ -16,15 +16,15 @@ use super::names::NAMES;
 use super::observation::{D2, D3, OMEGA0, R, Unknowns, parameters};
 use super::posterior::{Drawn, drawn};
 use super::refit::following;
+use crate::branch::fold::fold;
 use crate::flow::{Limits, Reason};
+use crate::model::{Interval, ParameterBox, Parameters};
 use crate::numerics::count::{real, truncated};
-use crate::oscillator::{Interval, ParameterBox, Parameters};
 use crate::portrait::Margin;
-use crate::study::basin::Basin;
-use crate::study::closing::Equation;
-use crate::study::closings::all_closings;
-use crate::study::fold::fold;
-use crate::study::guarantee::guaranteed;
+use crate::portrait::basin::Basin;
+use crate::portrait::closing::all::all_closings;
+use crate::portrait::closing::equation::Equation;
+use crate::portrait::guarantee::oscillator::guaranteed;
 
 /// What is asked of the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,7 +14,7 @@
 //! ```
 //! use hopfscope::fit::{Question, Reading, estimate, parse};
 //! use hopfscope::flow::{Detail, Limits, Problem, trajectory::trajectory};
-//! use hopfscope::oscillator::{Parameters, State};
+//! use hopfscope::model::{Parameters, State};
 //!
 //! // A free decay, as an instrument would record it: time and displacement, a row each.
 //! let problem = Problem {

@@ -8,8 +8,8 @@
 
 use super::half_swing::{Jet, Stretch};
 use super::signal::Signal;
+use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::elementary::hypot;
-use crate::oscillator::{HalfPlane, Parameters, Side, State};
 
 /// Number of the quantities on which a motion depends: D, D2, D3, r, q0, v0.
 pub const NUMBERS: usize = 6;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::observation::{self, UNKNOWNS};
-use crate::oscillator::{KNOBS, Knob, unknown};
+use crate::model::{KNOBS, Knob, unknown};
 
 /// One row of [`NAMES`].
 #[derive(Clone, Copy, Debug)]

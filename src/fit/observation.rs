@@ -8,8 +8,8 @@
 
 use super::motion::{FittedTurn, Gradient, MotionLost, Way, follow};
 use super::signal::Signal;
+use crate::model::{Parameters, State};
 use crate::numerics::count::real;
-use crate::oscillator::{Parameters, State};
 
 /// Number of unknowns.
 pub const UNKNOWNS: usize = 10;

@@ -13,7 +13,7 @@ use super::question::placed;
 use super::search::{Beginning, Minima};
 use super::signal::Signal;
 use super::turning_points::Extreme;
-use crate::oscillator::State;
+use crate::model::State;
 
 /// The minima from guesses that release the held mass so that it comes into the motion after its first swings.
 /// `extremes` are the hold and the turning points. `None` if there is no such motion, or if the

@@ -4,8 +4,8 @@ use super::dropped::{Dropped, dropped_of_fitted};
 use super::estimate::Estimate;
 use super::motion::{Way, follow};
 use super::observation::{Data, LAST, OMEGA0, Q0, StartKind, parameters};
+use crate::model::State;
 use crate::numerics::count::real;
-use crate::oscillator::State;
 
 /// Maximum number of points plotted of a record. Of longer records every second, third, .. sample is plotted.
 const POINTS: usize = 4000;

@@ -13,7 +13,7 @@ use super::limits::Reason;
 use super::step::{Field, Powers, Step, StepPoint, Stepper};
 use super::stiff::Stiff;
 use super::taylor::Taylor;
-use crate::oscillator::HalfPlane;
+use crate::model::HalfPlane;
 
 /// Length of a series step, in damping times and as a fraction of the order, beyond which stability limits it.
 const LIMITED: f64 = 1.0 / 3.0;
@@ -282,7 +282,7 @@ impl Stepper for Auto {
 mod tests {
     use super::super::trajectory::{choice, trajectory};
     use super::super::{Detail, Limits, Method, Outcome, Problem, Trajectory};
-    use crate::oscillator::{Parameters, State};
+    use crate::model::{Parameters, State};
 
     fn problem(
         [d, d2, d3, r]: [f64; 4],

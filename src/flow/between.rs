@@ -39,7 +39,7 @@ impl Trajectory {
 mod tests {
     use crate::flow::trajectory::trajectory;
     use crate::flow::{Detail, Limits, Problem};
-    use crate::oscillator::{Parameters, State};
+    use crate::model::{Parameters, State};
 
     #[test]
     fn between_samples_a_motion_is_where_it_is_computed_to_be() {

@@ -3,9 +3,9 @@
 use super::limits::Reason;
 use super::step::{Powers, Step, StepPoint, Stepper};
 use crate::closed_form::linear::Linear;
+use crate::model::HalfPlane;
 use crate::numerics::count::truncated;
 use crate::numerics::quadrature::GAUSS;
-use crate::oscillator::HalfPlane;
 
 /// Maximum number of pieces into which a step is cut for drawing and for quadrature. A piece is one unit of
 /// time long.

@@ -7,9 +7,9 @@
 use super::limits::Reason;
 use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
 use super::tableau::{ErrorEstimate, Scheme, dop853, dopri5, rk4};
+use crate::model::HalfPlane;
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scaling::{rough_exp2, rough_log2};
-use crate::oscillator::HalfPlane;
 
 /// Relative change of the length of the last step below which it counts as settled. This takes about four
 /// attempts; one more would change the length by the square of this.

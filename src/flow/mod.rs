@@ -1,12 +1,12 @@
 //! Trajectories, half swing by half swing.
 //!
 //! A motion is a chain of smooth half swings glued at `v = 0`. Each is integrated in the frame of
-//! [`crate::oscillator::HalfPlane`] by one of the [`Method`]s, and ends at the first root of `v` after
+//! [`crate::model::HalfPlane`] by one of the [`Method`]s, and ends at the first root of `v` after
 //! its start. No step ever crosses the switching line, so no method sees the discontinuity.
 //!
 //! ```
 //! use hopfscope::flow::{Detail, Limits, Outcome, Problem, trajectory::trajectory};
-//! use hopfscope::oscillator::{Parameters, State};
+//! use hopfscope::model::{Parameters, State};
 //!
 //! let problem = Problem {
 //!     parameters: Parameters { d: -0.1, d2: 0.0, d3: 0.0, r: 0.5 },
@@ -24,6 +24,8 @@ pub(crate) mod exact;
 pub(crate) mod explicit;
 pub(crate) mod fate;
 pub(crate) mod limits;
+#[doc(hidden)]
+pub mod machine;
 #[doc(hidden)]
 pub mod method;
 pub(crate) mod motion;
@@ -45,6 +47,9 @@ pub(crate) mod without_events;
 
 pub use fate::Fate;
 pub use limits::{Limits, Reason};
+pub use machine::arc::{Flow, LostMotion};
+pub use machine::ledger::MachineLedger;
+pub use machine::motion::MachineMotion;
 pub use method::{METHODS, Method, MethodSpec};
 pub use motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
 pub use quality::{QUALITIES, Quality};

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::limits::Reason;
 use super::method::Method;
-use crate::oscillator::{Knob, Ledger, Parameters, State};
+use crate::model::{Knob, Ledger, Parameters, State};
 
 /// An initial value problem.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

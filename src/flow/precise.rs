@@ -8,12 +8,12 @@ use super::limits::{Limits, Reason};
 use super::motion::{Cost, Problem};
 use super::step::{LONGEST, StepPoint};
 use super::swing::time_to_blow_up;
+use crate::model::sticking::rests;
+use crate::model::{HalfPlane, Side};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::scaling::{exponent, times_power};
 use crate::numerics::twofold::Twofold;
-use crate::oscillator::sticking::rests;
-use crate::oscillator::{HalfPlane, Side};
 
 /// An arrival at `v = 0`, or the end of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@
 
 use super::method::Dial;
 use super::motion::Problem;
-use crate::oscillator::Knob;
+use crate::model::Knob;
 
 /// A named setting of the dial.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,8 +6,8 @@
 //! the order of their method.
 
 use super::step::Field;
+use crate::model::{HalfPlane, Parameters, Side};
 use crate::numerics::elementary::tanh;
-use crate::oscillator::{HalfPlane, Parameters, Side};
 
 /// The law that replaces the sign of `v`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,11 +8,11 @@ use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory
 use super::step::{Field, Powers, Step, StepPoint, Stepper};
 use super::stop::ComingToRest;
 use super::swing::{Failed, Swing, SwingEnd, glide, swing};
+use crate::model::energy::energy;
+use crate::model::{HalfPlane, Ledger, Side, State};
 use crate::numerics::count::real;
 use crate::numerics::scaling::times_power;
 use crate::numerics::sum::Sum;
-use crate::oscillator::energy::energy;
-use crate::oscillator::{HalfPlane, Ledger, Side, State};
 
 /// Half swings of a motion whose ends are kept: what is written of these takes some hundred megabytes.
 const MOST_CROSSINGS: usize = 2_000_000;

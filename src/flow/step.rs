@@ -1,7 +1,7 @@
 //! The interface of an integration method: one step of the smooth field on one side of `v = 0`.
 
 use super::limits::Reason;
-use crate::oscillator::HalfPlane;
+use crate::model::HalfPlane;
 
 /// A point `(x, v)` in the frame of a half plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

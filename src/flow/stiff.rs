@@ -21,11 +21,11 @@ use algebra::{MOST, differences, interpolated, solve, weighted};
 use super::limits::Reason;
 use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
 use super::tableau::radau::{Collocation, FIVE, SEVEN, THREE};
+use crate::model::HalfPlane;
 use crate::numerics::count::real;
 use crate::numerics::elementary::pow;
 use crate::numerics::root::bisect;
 use crate::numerics::scaling::{rough_exp2, rough_log2};
-use crate::oscillator::HalfPlane;
 
 /// The scheme for each tolerance: the first whose bound is not above it.
 static SCHEMES: [(f64, &Collocation); 3] = [(5e-4, &THREE), (1e-8, &FIVE), (0.0, &SEVEN)];

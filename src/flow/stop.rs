@@ -6,9 +6,9 @@
 //! its own exponent, because it is quadratic in the velocity.
 
 use super::step::StepPoint;
+use crate::model::HalfPlane;
 use crate::numerics::quadrature::GAUSS;
 use crate::numerics::scaling::{exponent, times_power};
-use crate::oscillator::HalfPlane;
 
 /// How far a motion still moves, and for how long.
 #[derive(Clone, Copy, Debug, PartialEq)]

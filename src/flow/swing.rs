@@ -7,10 +7,10 @@ use std::ops::ControlFlow;
 
 use super::limits::{Limits, Reason};
 use super::step::{Step, StepPoint, Stepper};
+use crate::model::HalfPlane;
 use crate::numerics::elementary::ln_1p;
 use crate::numerics::scaling::{exponent, times_power};
 use crate::numerics::sum::Sum;
-use crate::oscillator::HalfPlane;
 
 /// Size, as a power of two, at which the unit is chosen anew.
 const FAR: i32 = 300;

@@ -10,6 +10,7 @@
 
 use super::limits::Reason;
 use super::step::{LONGEST, Powers, Step, StepPoint, Stepper};
+use crate::model::HalfPlane;
 use crate::numerics::count::real;
 use crate::numerics::polynomial::{
     derivative, reciprocals, value_and_slope_in_two as value_and_slope, value_in_two as value,
@@ -17,7 +18,6 @@ use crate::numerics::polynomial::{
 use crate::numerics::quadrature::GAUSS;
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scaling::{exponent, rough_exp2, rough_log2, times_power};
-use crate::oscillator::HalfPlane;
 
 /// Highest order.
 const MOST: usize = 28;

@@ -10,7 +10,7 @@
 
 use super::limits::Reason;
 use super::step::{Powers, Step, StepPoint, Stepper};
-use crate::oscillator::HalfPlane;
+use crate::model::HalfPlane;
 
 /// Newton iterations for the velocity at the end of a step. The residual is nearly linear.
 const ITERATIONS: usize = 50;

@@ -11,7 +11,7 @@ use super::run::MotionRun;
 use super::stiff::Stiff;
 use super::taylor::Taylor;
 use super::time_stepping::TimeStepping;
-use crate::oscillator::{HalfPlane, Side};
+use crate::model::{HalfPlane, Side};
 
 /// Computes a motion.
 ///

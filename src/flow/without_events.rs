@@ -5,8 +5,8 @@ use super::motion::{Crossing, Outcome, Problem, Sample, Trajectory};
 use super::run::{MotionRun, sample};
 use super::step::{Field, Step, StepPoint, Stepper};
 use super::swing::time_to_blow_up;
-use crate::oscillator::sticking::rests;
-use crate::oscillator::{HalfPlane, Side, State};
+use crate::model::sticking::rests;
+use crate::model::{HalfPlane, Side, State};
 
 impl MotionRun {
     /// Takes steps until the end time, and counts sign changes of the velocity as crossings.
@@ -103,7 +103,7 @@ mod tests {
     use super::super::trajectory::{Detail, trajectory};
     use super::super::{Limits, Method, Outcome, Problem, Trajectory};
     use super::*;
-    use crate::oscillator::Parameters;
+    use crate::model::Parameters;
 
     /// Where the motion from (2, 0) rests after three half swings, in closed form.
     const REST: f64 = -0.116_144_440_390_138;

@@ -5,7 +5,7 @@
 
 use super::items::{Item, LineStyle, Marks, Picture};
 use super::role::{Dash, Mark, Role};
-use crate::oscillator::{Knob, Parameters, State};
+use crate::model::{Knob, Parameters, State};
 use crate::scene::machine::path::Station;
 use crate::scene::{Point, Running};
 use crate::session::Session;

@@ -5,8 +5,8 @@ use super::role::{Dash, Mark, Role};
 use crate::closed_form::linear::linear_flow;
 use crate::closed_form::lyapunov::energy_rate;
 use crate::closed_form::piecewise_linear::LinearCycle;
+use crate::model::{Parameters, State};
 use crate::numerics::root::{TO_ROUNDING, bisect};
-use crate::oscillator::{Parameters, State};
 use crate::scene::{Point, Span};
 
 /// Circles on which the energy V is the same, and shaded the velocities at which it falls.

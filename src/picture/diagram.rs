@@ -9,14 +9,15 @@ use super::equilibria::{self, at};
 use super::items::{LineStyle, Picture, Text, VariantTag};
 use super::phase_plane::variants;
 use super::role::{CycleStyle, Dash, Role, cycle_style};
+use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,
 };
+use crate::model::{Knob, Parameters};
 use crate::numerics::root::bisect;
-use crate::oscillator::{Knob, Parameters};
 use crate::scene::{Axes, Height, Layer, Ordinate, Point};
-use crate::session::{self, Session, ShownMotion};
-use crate::study::{Branch, BranchPoint, Special, SpecialKind};
+use crate::session;
+use crate::session::{Session, ShownMotion};
 use crate::words::number::significant;
 use crate::words::stability;
 

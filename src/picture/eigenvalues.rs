@@ -3,7 +3,7 @@
 
 use super::items::{Item, LineStyle, Picture, ellipse};
 use super::role::{Dash, Role, cycle_style};
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::scene::{Layer, Point};
 use crate::session::Session;
 

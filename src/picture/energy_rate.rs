@@ -4,7 +4,7 @@
 use super::items::{LineStyle, Picture};
 use super::role::{Dash, Mark, Role};
 use crate::closed_form::lyapunov::{self, energy_rate};
-use crate::oscillator::{Parameters, State};
+use crate::model::{Parameters, State};
 use crate::scene::{Layer, Point};
 use crate::session::Session;
 

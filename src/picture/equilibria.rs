@@ -4,7 +4,7 @@
 use super::items::{Fill, Item, LineStyle, Pattern, Picture, VariantTag};
 use super::phase_plane::AT_REST;
 use super::role::{CycleStyle, Dash, Role, cycle_style};
-use crate::oscillator::{Knob, Parameters};
+use crate::model::{Knob, Parameters};
 use crate::scene::{Height, Ordinate};
 use crate::session::ShownMotion;
 

@@ -8,8 +8,8 @@ use super::map::ScanMap;
 use super::reading::reading;
 use super::role::{Dash, Mark, Role};
 use super::ticks::Scale;
+use crate::model::{Knob, Parameters};
 use crate::numerics::elementary::sin_cos;
-use crate::oscillator::{Knob, Parameters};
 use crate::scene::{Point, Window};
 
 /// A text that is a constant or was made for this picture.

@@ -2,9 +2,9 @@
 
 use super::items::{LineStyle, Picture, ellipse};
 use super::role::{Dash, Role};
+use crate::portrait::kicks::{Distribution, RandomKick};
 use crate::scene::{Answer, Layer, Topic, rectangle};
 use crate::session::Session;
-use crate::study::kicks::{Distribution, RandomKick};
 use crate::words::number::significant;
 
 /// Lines of equal density: their names, their distances from the mean in spreads, and their dashes.

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use crate::numerics::elementary::{ln, pow};
+use crate::scan::measure::Value;
+use crate::scan::sweep::Sweep;
 use crate::session::scan::ScanOnShow;
-use crate::study::measure::Value;
-use crate::study::sweep::Sweep;
 
 /// Which values of a measure are the dangerous ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -207,7 +207,7 @@ fn word(scanned: &ScanOnShow, index: usize) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::measure::MEASURES;
+    use crate::scan::measure::MEASURES;
 
     #[test]
     fn what_is_dangerous_is_measured() {

@@ -13,15 +13,14 @@ use super::units::{self, said};
 use crate::closed_form::lyapunov;
 use crate::fit::Signal;
 use crate::flow::{Outcome, Problem, Trajectory};
+use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::elementary::hypot;
-use crate::oscillator::{HalfPlane, Parameters, Side, State};
-use crate::portrait::{Border, Cycle, Ride};
+use crate::portrait::{Border, Cycle, Cycles, Ride};
 use crate::question::Fitted;
 use crate::question::zones::Extent;
 use crate::scene::{Answer, Layer, Point, Topic};
 use crate::session::starts::MOST_MOTIONS;
 use crate::session::{Session, ShownMotion};
-use crate::study::Cycles;
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     picture.axes("q", "v");

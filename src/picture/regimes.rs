@@ -7,11 +7,11 @@
 use super::belt_path;
 use super::items::{Fill, Item, LineStyle, Pattern, Picture};
 use super::role::{Dash, Mark, Role};
-use crate::oscillator::Knob;
+use crate::branch::chart::{BoundaryKind, Chart};
+use crate::branch::regime::{REGIMES, Regime};
+use crate::model::Knob;
 use crate::scene::{Axes, Layer, Point, Window};
 use crate::session::Session;
-use crate::study::chart::{BoundaryKind, Chart};
-use crate::study::regime::{REGIMES, Regime};
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     let Axes { abscissa, against, .. } = session.plots[index].axes;

@@ -4,10 +4,10 @@ use super::items::{LineStyle, Picture};
 use super::map::{ScanMap, measured};
 use super::role::{Dash, Role};
 use super::ticks::Scale;
+use crate::scan::sweep::{Spacing, Sweep};
 use crate::scene::Point;
 use crate::session::Session;
 use crate::session::scan::ScanOnShow;
-use crate::study::sweep::{Spacing, Sweep};
 
 /// The names of both axes.
 pub fn names(scanned: &ScanOnShow) -> (&'static str, &'static str) {

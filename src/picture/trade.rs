@@ -5,10 +5,10 @@
 
 use super::items::{Item, LineStyle, Marks, Picture};
 use super::role::{Dash, Mark, Role};
+use crate::accuracy::trade::{Trade, TradePoint};
 use crate::flow::{METHODS, Method};
 use crate::scene::{Layer, Point};
 use crate::session::Session;
-use crate::study::trade::{Trade, TradePoint};
 use crate::words::number::{count, significant};
 
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {

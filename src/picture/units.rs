@@ -2,7 +2,7 @@
 
 use super::reading::CELLS;
 use super::ticks::Scale;
-use crate::oscillator::belt::Units as Physical;
+use crate::model::belt::Units as Physical;
 use crate::scene::{Layer, Span, View, Window};
 use crate::session::Session;
 use crate::words::number::resolved;

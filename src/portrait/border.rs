@@ -2,8 +2,8 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::machine::LostMotion;
-use crate::oscillator::Parameters;
+use crate::flow::LostMotion;
+use crate::model::Parameters;
 
 /// What borders the basin of rest.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,18 +6,17 @@
 
 use rayon::prelude::*;
 
-use super::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
+use super::return_map::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
 use super::without_belt::{self, WithoutBelt};
 use super::{Border, Cycle, Margin, Reach, RestMargin};
-use crate::flow::Fate;
-use crate::machine::arc::{Flow, LostMotion};
-use crate::machine::curve::{CurvePiece, MachineCurve, Rectangle};
-use crate::machine::landmarks::Landmarks;
-use crate::machine::model::{Model, Phase};
-use crate::machine::return_map::MachineReturn;
-use crate::machine::turn::ContactState;
+use crate::flow::machine::curve::{CurvePiece, MachineCurve, Rectangle};
+use crate::flow::machine::turn::ContactState;
+use crate::flow::{Fate, Flow, LostMotion};
+use crate::model::{Model, Phase};
 use crate::numerics::root::bisect;
-use crate::study::basin::{Basin, Counts, Window, between};
+use crate::portrait::basin::{Basin, Counts, Window, between};
+use crate::portrait::return_map::landmarks::Landmarks;
+use crate::portrait::return_map::machine_return::MachineReturn;
 
 /// The border of the basin of rest, as it was traced.
 #[derive(Clone, Debug)]
@@ -212,7 +211,7 @@ impl Portrait {
     /// The margin if the mass, of this size, may rest up to a `farthest` place on either side, in m.
     ///
     /// Above `v = 0` the border has no minimum of its speed between its ends, below it likewise
-    /// ([`crate::study::margin`]), so over the places of rest it is lowest at one of the ends.
+    /// ([`crate::portrait::basin::margin`]), so over the places of rest it is lowest at one of the ends.
     #[must_use]
     pub fn margin_within(&self, farthest: f64, mass: f64) -> Margin {
         let Some(reach) = self.reach else { return Margin::ENDLESS };

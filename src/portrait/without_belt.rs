@@ -1,17 +1,16 @@
 //! Without a belt a machine is the oscillator of the paper: half swings that close are its cycles
-//! ([`crate::study::closing`]), and its basin of rest is bordered by orbits ([`crate::study::basin`]).
+//! ([`crate::portrait::closing::equation`]), and its basin of rest is bordered by orbits ([`crate::portrait::basin`]).
 //!
 //! Half swings are computed by their clearance from where the mass rests, which the return map loses among the digits
 //! of the turning point where damping is nearly critical.
 
 use super::{Border, Cycle, Reach};
 use crate::closed_form::harmonic::is_centre;
-use crate::flow::{Fate, Limits};
-use crate::machine::{LostMotion, Model};
-use crate::oscillator::State;
-use crate::study::arc::Arc;
-use crate::study::basin::{Basin, Window, basin};
-use crate::study::cycle::cycles_and_closings;
+use crate::flow::{Fate, Limits, LostMotion};
+use crate::model::{Model, State};
+use crate::portrait::basin::arc::Arc;
+use crate::portrait::basin::cycle::cycles_and_closings;
+use crate::portrait::basin::{Basin, Window, basin};
 
 /// How far a separatrix is followed, in units of `1/abs(D2)`.
 const REACH: f64 = 20.0;

@@ -2,8 +2,8 @@
 
 use super::field::{Field, ParameterBox};
 use super::swing::{StartBox, swing_with_derivatives};
+use crate::model::Side;
 use crate::numerics::Interval;
-use crate::oscillator::Side;
 
 /// Derivatives of the next clearance.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,8 +9,8 @@ use super::bracket::bracket;
 use super::field::{Field, ParameterBox};
 use super::funnel::Funnel;
 use super::swing::{Passage, StartBox, swing};
+use crate::model::{Knob, Side};
 use crate::numerics::Interval;
-use crate::oscillator::{Knob, Side};
 
 /// Encloses the value of the parameter `symbol` (D, D2 or r) near `near` at which a cycle escapes to infinity,
 /// for `D3 = 0`. The other parameters are those of `parameters`, which may be intervals. `None` where nothing

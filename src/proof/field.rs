@@ -1,9 +1,9 @@
 //! The field of a half plane with coefficients in intervals.
 
+pub use crate::model::ParameterBox;
+use crate::model::{Knob, Side};
 use crate::numerics::Interval;
 use crate::numerics::scaling::times_power;
-pub use crate::oscillator::ParameterBox;
-use crate::oscillator::{Knob, Side};
 
 impl ParameterBox {
     /// The same parameters with lengths in units of `2^k`.

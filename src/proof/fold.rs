@@ -11,8 +11,8 @@ use super::count::Count;
 use super::ends::{Sign, sign_at};
 use super::field::ParameterBox;
 use super::map::{Direction, ProvedMap};
+use crate::model::Knob;
 use crate::numerics::Interval;
-use crate::oscillator::Knob;
 
 /// A fold of limit cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]

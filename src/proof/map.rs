@@ -10,8 +10,8 @@ use std::cell::OnceCell;
 use super::field::{Field, ParameterBox};
 use super::funnel::Funnel;
 use super::swing::{MOST_STEPS, Passage, StartBox, Swing, swing, swing_below, swing_past_peak};
+use crate::model::Side;
 use crate::numerics::Interval;
-use crate::oscillator::Side;
 
 /// The half map of one side, in both directions.
 #[derive(Clone, Copy, Debug)]

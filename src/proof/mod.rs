@@ -18,7 +18,7 @@
 //! `docs/proofs.md`.
 //!
 //! ```
-//! use hopfscope::oscillator::Parameters;
+//! use hopfscope::model::Parameters;
 //! use hopfscope::proof::{ParameterBox, prove};
 //!
 //! let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };

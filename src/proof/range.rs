@@ -3,9 +3,9 @@
 
 use super::cycles::stabilities;
 use super::field::ParameterBox;
+use crate::model::Knob;
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
-use crate::oscillator::Knob;
 
 /// Part of a range, with what is proved for all values in it.
 #[derive(Clone, Debug, PartialEq)]

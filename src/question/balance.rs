@@ -2,9 +2,9 @@
 
 use super::kind::{Question, numbers};
 use super::resources::Resources;
+use crate::accuracy::harmonic_error::{HarmonicBalance, harmonic_balance};
 use crate::flow::Reason;
-use crate::oscillator::Parameters;
-use crate::study::harmonic_error::{HarmonicBalance, harmonic_balance};
+use crate::model::Parameters;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {

@@ -2,11 +2,11 @@
 
 use super::kind::{Question, numbers};
 use super::resources::Resources;
+use crate::branch::Branch;
+use crate::branch::along::{Points, branch};
 use crate::flow::Reason;
 use crate::flow::quality::DRAFT;
-use crate::oscillator::{Knob, Parameters};
-use crate::study::Branch;
-use crate::study::branch::{Points, branch};
+use crate::model::{Knob, Parameters};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {

@@ -3,8 +3,8 @@
 use super::kind::{Question, numbers};
 use super::resources::Resources;
 use crate::flow::{Cost, Reason};
-use crate::oscillator::{Parameters, State};
-use crate::study::capture::bands;
+use crate::model::{Parameters, State};
+use crate::portrait::basin::capture::bands;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {

@@ -3,7 +3,7 @@
 use super::kind::Question;
 use super::resources::Resources;
 use crate::flow::Reason;
-use crate::study::claims::{ClaimResult, examine_all};
+use crate::paper::{ClaimResult, examine_all};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs;

@@ -3,9 +3,9 @@
 use super::kind::{Question, numbers};
 use super::resources::Resources;
 use crate::flow::Reason;
-use crate::oscillator::Parameters;
-use crate::study::Cycles;
-use crate::study::cycle::cycles_drawn;
+use crate::model::Parameters;
+use crate::portrait::Cycles;
+use crate::portrait::basin::cycle::cycles_drawn;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {

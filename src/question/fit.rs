@@ -17,7 +17,7 @@ use crate::fit::{
     estimate, length_in_metres, margins, parameters,
 };
 use crate::flow::{Limits, Problem, Reason};
-use crate::oscillator::{Knob, State};
+use crate::model::{Knob, State};
 
 /// Draws for the distribution of the margin: fewer than on the command line, so that it appears quickly.
 const DRAWN: usize = 200;

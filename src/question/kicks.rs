@@ -3,10 +3,10 @@
 use super::kind::{Question, numbers};
 use super::resources::Resources;
 use crate::flow::{Cost, Reason};
-use crate::oscillator::Parameters;
-use crate::study::basin::basin;
-use crate::study::kicks::RandomKick;
-use crate::study::stability::Share;
+use crate::model::Parameters;
+use crate::portrait::basin::basin;
+use crate::portrait::basin::stability::Share;
+use crate::portrait::kicks::RandomKick;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {

@@ -2,7 +2,7 @@
 
 use super::resources::Resources;
 use crate::flow::{Problem, Reason};
-use crate::oscillator::{Parameters, State};
+use crate::model::{Parameters, State};
 
 /// A kind of question: its fields are exactly the inputs on which the answer depends.
 pub trait Question: Sized + PartialEq {

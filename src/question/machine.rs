@@ -6,7 +6,7 @@ use super::kind::{Question, of_motion};
 use super::resources::Resources;
 use super::whole::{self, Course};
 use crate::flow::{Problem, Reason, Trajectory};
-use crate::oscillator::Belt;
+use crate::model::Belt;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {

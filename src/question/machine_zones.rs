@@ -6,8 +6,7 @@ use super::kind::Question;
 use super::resources::Resources;
 use super::zones::{Zones, of_machine};
 use crate::flow::Reason;
-use crate::machine::Tolerances;
-use crate::oscillator::Belt;
+use crate::model::{Belt, Tolerances};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {

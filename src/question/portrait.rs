@@ -6,8 +6,8 @@ use super::kind::{Question, numbers};
 use super::resources::Resources;
 use super::whole::{self, WholeCycles};
 use crate::flow::Reason;
-use crate::oscillator::{Belt, Parameters};
-use crate::study::Cycles;
+use crate::model::{Belt, Parameters};
+use crate::portrait::Cycles;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {

@@ -3,7 +3,7 @@
 use super::kind::{Question, numbers};
 use super::resources::Resources;
 use crate::flow::Reason;
-use crate::oscillator::Parameters;
+use crate::model::Parameters;
 use crate::proof::{ParameterBox, Proof, prove};
 
 #[derive(Clone, Debug, PartialEq)]

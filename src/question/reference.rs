@@ -2,8 +2,8 @@
 
 use super::kind::{Motion, Question, of_motion};
 use super::resources::Resources;
+use crate::accuracy::reference::Reference;
 use crate::flow::{Limits, Reason};
-use crate::study::accuracy::Reference;
 
 /// Maximum number of evaluations for a reference in the explorer; beyond it, the energy ledger must do.
 const REFERENCE: u64 = 4_000_000;

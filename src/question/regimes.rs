@@ -2,9 +2,9 @@
 
 use super::kind::{Question, numbers};
 use super::resources::Resources;
+use crate::branch::chart::{Chart, Plane, Resolution, chart};
 use crate::flow::Reason;
-use crate::oscillator::Parameters;
-use crate::study::chart::{Chart, Plane, Resolution, chart};
+use crate::model::Parameters;
 
 /// Evenly spaced lines of a chart of regimes; boundaries are interpolated between them.
 const CHART_LINES: usize = 40;

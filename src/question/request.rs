@@ -6,8 +6,8 @@ use super::kind::Question;
 use super::resources::{Fineness, Resources, Rows};
 use super::whole::{Course, WholeCycles};
 use crate::flow::{Cost, Limits, Reason, Trajectory};
-use crate::study::Cycles;
-use crate::study::scan::Scan;
+use crate::portrait::Cycles;
+use crate::scan::grid::Scan;
 
 /// Makes these types from the table of questions.
 macro_rules! types {

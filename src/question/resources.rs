@@ -1,7 +1,7 @@
 //! The means by which a question is answered.
 
 use crate::flow::{Cost, Limits, Reason};
-use crate::study::scan::{Scan, ScanRow};
+use crate::scan::grid::{Scan, ScanRow};
 
 /// Consecutive rows of a scan.
 #[derive(Clone, Debug, PartialEq)]

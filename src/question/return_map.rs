@@ -3,9 +3,9 @@
 use super::kind::{Question, numbers};
 use super::resources::Resources;
 use crate::flow::Reason;
-use crate::oscillator::Parameters;
-use crate::study::ReturnMap;
-use crate::study::return_map::return_map;
+use crate::model::Parameters;
+use crate::portrait::ReturnMap;
+use crate::portrait::closing::return_map::return_map;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::kind::Question;
 use super::resources::{Resources, Rows};
 use crate::flow::Reason;
-use crate::study::scan::Scan;
+use crate::scan::grid::Scan;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {

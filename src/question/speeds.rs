@@ -4,15 +4,14 @@ use std::sync::Arc;
 
 use super::kind::Question;
 use super::resources::Resources;
+use crate::branch::machine::{MachineBranch, MachineBranchPoint, branch_while, points_while};
+use crate::branch::machine_special::MachineSpecial;
+use crate::flow::machine::series::ORDER;
 use crate::flow::quality::DRAFT;
 use crate::flow::{Cost, Reason};
-use crate::machine::branch::{MachineBranch, MachineBranchPoint, branch_while, points_while};
-use crate::machine::special::MachineSpecial;
-use crate::machine::{ORDER, Subject};
-use crate::oscillator::Belt;
-use crate::oscillator::Knob;
+use crate::model::{Belt, Knob, Subject};
+use crate::portrait::basin::between;
 use crate::portrait::{Border, Cycle};
-use crate::study::basin::between;
 
 /// The cycles over the speed of the belt, and where they change.
 #[derive(Clone, Debug, PartialEq)]

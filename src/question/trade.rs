@@ -2,8 +2,8 @@
 
 use super::kind::{Motion, Question, of_motion};
 use super::resources::Resources;
+use crate::accuracy::trade::Trade;
 use crate::flow::{Limits, Reason};
-use crate::study::trade::Trade;
 
 /// Maximum number of evaluations for a row of the trade on the screen; the command line allows more.
 const ROW: u64 = 1_000_000;

@@ -1,16 +1,17 @@
 //! A machine by the whole model, drawn in the units of the paper's oscillator, so that every view that draws a
 //! motion or cycles draws these as well.
 
+use crate::flow::machine::curve::{CurvePiece, MachineCurve};
+use crate::flow::machine::motion;
+use crate::flow::machine::stepped::{SteppedMethod, SteppedMotion, traced};
+use crate::flow::machine::turn::ContactState;
 use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
-use crate::flow::{Cost, Fate, Limits, Method, Problem, Reason};
-use crate::machine::curve::{CurvePiece, MachineCurve};
-use crate::machine::motion::{self, MachineMotion};
-use crate::machine::stepped::{SteppedMethod, SteppedMotion, traced};
-use crate::machine::turn::ContactState;
-use crate::machine::{Flow, LostMotion, MachineLedger, Model, Phase};
-use crate::oscillator::{Belt, Parameters, State};
-use crate::portrait::{Border, Cycle, Margin, Portrait};
-use crate::study::{Cycles, cycle};
+use crate::flow::{
+    Cost, Fate, Flow, Limits, LostMotion, MachineLedger, MachineMotion, Method, Problem, Reason,
+};
+use crate::model::{Belt, Model, Parameters, Phase, State};
+use crate::portrait::basin::cycle;
+use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait};
 
 /// Fate and course of a machine's motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -191,7 +192,7 @@ fn trajectory(found: &Drawn, problem: &Problem, units: DrawingUnits) -> Trajecto
 }
 
 fn cost(steps: u64) -> Cost {
-    Cost { evaluations: steps * crate::machine::ORDER as u64, steps, rejected: 0 }
+    Cost { evaluations: steps * crate::flow::machine::series::ORDER as u64, steps, rejected: 0 }
 }
 
 /// The stretches on which a motion rides on the belt, whose speed is `v0`.

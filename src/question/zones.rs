@@ -5,13 +5,12 @@ use super::kind::{Question, numbers};
 use super::resources::Resources;
 use super::whole;
 use crate::flow::{Cost, Limits, Reason};
-use crate::machine::Tolerances;
-use crate::machine::guarantee::{best, kicks, worst};
-use crate::oscillator::{Belt, ParameterBox, State};
+use crate::model::{Belt, ParameterBox, State, Tolerances};
+use crate::portrait::basin::Basin;
+use crate::portrait::basin::cycle::PICTURE_REACH;
+use crate::portrait::guarantee::machine::{best, kicks, worst};
+use crate::portrait::guarantee::oscillator::{guarantee, uncertain, zones};
 use crate::portrait::{Margin, Portrait};
-use crate::study::basin::Basin;
-use crate::study::cycle::PICTURE_REACH;
-use crate::study::guarantee::{guarantee, uncertain, zones};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {

@@ -5,9 +5,9 @@ use super::columns::{Columns, Quantity};
 use super::guarantee::margin_columns;
 use super::json::Document;
 use super::table::{cost, parameters};
+use crate::portrait::basin::{Counts, SurveyedBasin};
 use crate::portrait::{Border, Margin};
 use crate::proof::kicks::ProvedKicks;
-use crate::study::basin::{Counts, SurveyedBasin};
 use crate::words::number::significant;
 
 pub fn json(found: &SurveyedBasin, certified: Option<&ProvedKicks>, seconds: f64) -> String {

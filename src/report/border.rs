@@ -4,7 +4,7 @@ use super::certified::BorderProof;
 use super::columns::{Columns, Quantity, bounds};
 use super::json::Document;
 use super::table::{cost, parameters};
-use crate::study::fold::{Boundary, BoundaryPoint};
+use crate::branch::fold::{Boundary, BoundaryPoint};
 use crate::words::number::significant;
 
 /// The fold and the escape point at one value of the second parameter, and what is proved of them.

@@ -5,9 +5,9 @@ use super::columns::{Columns, Quantity};
 use super::cycle_numbers::{cycle_fields, number_columns};
 use super::json::Document;
 use super::table::{cost, digits, parameters};
-use crate::oscillator::Parameters;
+use crate::branch::{Branch, BranchPoint, Special};
+use crate::model::Parameters;
 use crate::proof::range::{Range, RangePiece};
-use crate::study::{Branch, BranchPoint, Special};
 use crate::words::number::significant;
 use crate::words::stability;
 
@@ -99,10 +99,10 @@ pub fn table(branch: &Branch, base: &Parameters, tolerance: f64, seconds: f64) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::branch::SpecialKind;
     use crate::closed_form::piecewise_linear::LinearCycle;
-    use crate::oscillator::Knob;
+    use crate::model::Knob;
     use crate::portrait::Cycle;
-    use crate::study::SpecialKind;
 
     #[test]
     fn a_branch_ends_where_two_cycles_meet_or_where_one_grazes_the_rest() {

@@ -3,7 +3,7 @@
 use super::columns::{Columns, Quantity};
 use super::json::Document;
 use crate::numerics::Interval;
-use crate::study::claims::{Certainty, ClaimResult, Finding, Sense, Verdict};
+use crate::paper::{Certainty, ClaimResult, Finding, Sense, Verdict};
 use crate::words::claim;
 use crate::words::number::duration;
 

@@ -249,7 +249,7 @@ fn singles(record: &impl Serialize) -> Map<String, Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oscillator::State;
+    use crate::model::State;
 
     #[test]
     fn a_column_is_told_once_for_every_form() {

@@ -3,7 +3,7 @@
 use super::columns::Columns;
 use crate::numerics::Interval;
 use crate::portrait::{Cycle, CycleErrors};
-use crate::proof::enclose::Enclosure;
+use crate::proof::Enclosure;
 use crate::words::number::significant;
 
 /// A number that describes a cycle.

@@ -6,12 +6,10 @@ use super::json::Document;
 use super::proof::{self, CycleBounds, certain, cycle_columns, enclosure};
 use super::table::{cost, parameters};
 use super::{basin, harmonic_balance};
+use crate::accuracy::harmonic_error::HarmonicBalance;
 use crate::closed_form::harmonic::Harmonic;
-use crate::portrait::Cycle;
-use crate::proof::cycles::Proof;
-use crate::proof::enclose::Enclosure;
-use crate::study::Cycles;
-use crate::study::harmonic_error::HarmonicBalance;
+use crate::portrait::{Cycle, Cycles};
+use crate::proof::{Enclosure, Proof};
 use crate::words::number::significant;
 use crate::words::stability;
 

@@ -3,8 +3,8 @@
 use super::columns::Columns;
 use super::cycle_numbers::cycle_fields;
 use super::json::Document;
-use crate::oscillator::Parameters;
-use crate::study::extremes::sets::{BUDGET, LatticeCycle, SetAnswer, SetVerdict};
+use crate::accuracy::extremes::sets::{BUDGET, LatticeCycle, SetAnswer, SetVerdict};
+use crate::model::Parameters;
 use crate::words::number::{exact as short, significant};
 use crate::words::stability;
 

@@ -4,10 +4,10 @@ use super::columns::{Columns, Quantity};
 use super::extreme_cycles::parameter_texts;
 use super::json::Document;
 use super::trajectory::ending;
+use crate::accuracy::extremes::verdict::{BUDGET, METHODS};
+use crate::accuracy::extremes::{MethodAnswer, MethodsVerdict, NamedExtreme};
 use crate::flow::{Method, Outcome};
-use crate::oscillator::Parameters;
-use crate::study::extremes::verdict::{BUDGET, METHODS};
-use crate::study::extremes::{MethodAnswer, MethodsVerdict, NamedExtreme};
+use crate::model::Parameters;
 use crate::words::number::significant;
 
 /// As a readable table: the answer of `auto` and its cost, then the digits that each method lost.

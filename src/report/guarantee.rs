@@ -3,9 +3,9 @@
 use super::columns::{Columns, Quantity};
 use super::json::Document;
 use super::table::cost;
-use crate::oscillator::{Interval, Knob, ParameterBox};
+use crate::model::{Interval, Knob, ParameterBox};
+use crate::portrait::guarantee::oscillator::{Guarantee, Guaranteed, Uncertain};
 use crate::portrait::{Margin, RestMargin};
-use crate::study::guarantee::{Guarantee, Guaranteed, Uncertain};
 use crate::words::number::significant;
 
 pub fn json(found: &Guarantee, seconds: f64) -> String {

@@ -6,8 +6,8 @@
 
 use super::columns::{Columns, Quantity};
 use super::json::Document;
+use crate::accuracy::harmonic_error::{BalanceResult, HarmonicBalance};
 use crate::closed_form::harmonics::HarmonicCycle;
-use crate::study::harmonic_error::{BalanceResult, HarmonicBalance};
 use crate::words::number::significant;
 use crate::words::stability;
 

@@ -5,10 +5,9 @@ use super::columns::Columns;
 use super::json::Document;
 use super::machine::MachineReport;
 use super::table::{cost as told, parameters as named};
-use crate::machine::Subject;
-use crate::oscillator::Parameters;
-use crate::study::kicks::RandomKick;
-use crate::study::repeated::Repeated;
+use crate::model::{Parameters, Subject};
+use crate::portrait::kicks::RandomKick;
+use crate::portrait::kicks::repeated::Repeated;
 use crate::words::number::significant;
 
 /// What becomes of the kicks; `mean` is null if no kick is ever lost.

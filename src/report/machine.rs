@@ -7,8 +7,7 @@ use super::belt::{Head, PLACES, described, number_columns};
 use super::columns::{Columns, Quantity};
 use super::cycle_numbers::cycle_fields;
 use super::json::Document;
-use crate::machine::Subject;
-use crate::oscillator::Knob;
+use crate::model::{Knob, Subject};
 use crate::portrait::Cycle;
 use crate::words::number::duration;
 

@@ -4,12 +4,11 @@ use super::belt::{Head, PLACES};
 use super::columns::{Columns, Quantity};
 use super::json::Document;
 use super::machine::{LENGTH, MachineReport, machine_cycles};
+use crate::branch::jumps::Jump;
+use crate::branch::machine::MachineBranch;
+use crate::branch::machine_special::{MachineSpecial, MachineSpecialKind};
 use crate::flow::Fate;
-use crate::machine::Subject;
-use crate::machine::branch::MachineBranch;
-use crate::machine::jumps::Jump;
-use crate::machine::special::{MachineSpecial, MachineSpecialKind};
-use crate::oscillator::Knob;
+use crate::model::{Knob, Subject};
 use crate::portrait::Cycle;
 use crate::words::quantity::with_unit;
 

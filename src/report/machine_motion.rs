@@ -4,16 +4,15 @@ use super::belt::{Head, border, gaps};
 use super::columns::{Columns, Quantity};
 use super::json::Document;
 use super::machine::{IMPULSE, LENGTH, MachineReport, SPEED, TIME, machine_cycles};
+use crate::accuracy::machine_trade::MachineTrade;
 use crate::flow::Fate;
-use crate::machine::by_method::MethodMotion;
-use crate::machine::guarantee::MachineUncertain;
-use crate::machine::motion::{Leg, turns};
-use crate::machine::trade::MachineTrade;
-use crate::machine::turn::ContactState;
-use crate::machine::{MachineProblem, Subject};
-use crate::oscillator::{Interval, Knob};
+use crate::flow::machine::by_method::MethodMotion;
+use crate::flow::machine::motion::{Leg, turns};
+use crate::flow::machine::turn::ContactState;
+use crate::model::{Interval, Knob, MachineProblem, Subject};
+use crate::portrait::basin::Counts;
+use crate::portrait::guarantee::machine::MachineUncertain;
 use crate::portrait::{Cycle, Margin, Portrait};
-use crate::study::basin::Counts;
 use crate::words::number::significant;
 
 /// Every cycle, and what borders the basin.

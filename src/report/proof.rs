@@ -6,9 +6,9 @@ use super::json::Document;
 use crate::numerics::Interval;
 use crate::numerics::elementary::log10;
 use crate::portrait::Cycle;
-use crate::proof::cycles::{Open, Proof};
-use crate::proof::enclose::Enclosure;
-use crate::study::proved::matching;
+use crate::portrait::proved::matching;
+use crate::proof::cycles::Open;
+use crate::proof::{Enclosure, Proof};
 use crate::words::cycles;
 use crate::words::number::significant;
 

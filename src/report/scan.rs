@@ -6,8 +6,8 @@
 use clap::ValueEnum;
 
 use super::csv;
-use crate::study::measure::Value;
-use crate::study::scan::{Scan, ScanRow};
+use crate::scan::grid::{Scan, ScanRow};
+use crate::scan::measure::Value;
 use crate::words::measured::{exact, rounded};
 
 /// The form of the rows.

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use crate::flow::{Cost, Problem};
+use crate::model::{Knob, Parameters, State};
 use crate::numerics::elementary::powi;
-use crate::oscillator::{Knob, Parameters, State};
 use crate::words::number::{duration, exact};
 
 /// A table: titles, and rows with at most as many cells. Numbers are aligned at their decimal points.

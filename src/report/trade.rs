@@ -3,11 +3,12 @@
 use super::columns::Columns;
 use super::json::Document;
 use super::table::motion;
+use crate::accuracy::reference::{Deviation, Ending, Reference, Source};
+use crate::accuracy::trade;
+use crate::accuracy::trade::{Trade, TradePoint};
 use crate::flow::method::Dial;
 use crate::flow::{METHODS, Method, MethodSpec, Outcome};
 use crate::numerics::elementary::{log10, pow};
-use crate::study::accuracy::{Deviation, Ending, Reference, Source};
-use crate::study::trade::{self, Trade, TradePoint};
 use crate::words::counted;
 use crate::words::number::{count, duration, significant};
 

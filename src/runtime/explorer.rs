@@ -19,10 +19,10 @@ use crate::figure::{self, FileForm};
 use crate::fit::Unfit;
 use crate::flow::{Limits, Reason};
 use crate::question::{self, Fineness, Fit, Recording, Resources};
+use crate::scan::grid::Scan;
 use crate::scene::{Answer, Request};
 use crate::session::replay::Script;
 use crate::session::{Effect, Key, Msg, PointerTarget, Session, save, settings, update};
-use crate::study::scan::Scan;
 use crate::terminal::Environment;
 use crate::view::{self, Look};
 

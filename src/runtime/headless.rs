@@ -182,7 +182,8 @@ mod tests {
     use super::*;
     use crate::runtime::Explorer;
     use crate::runtime::explorer::answer;
-    use crate::scene::library::{PLAIN, find};
+    use crate::scene::find;
+    use crate::scene::library::PLAIN;
     use crate::session::Session;
     use crate::session::replay::parse;
     use crate::terminal::Environment;

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use super::lines::{FileLine, Lines};
 use super::new_file::beside;
 use crate::report::scan::RowForm;
-use crate::study::scan::Scan;
+use crate::scan::grid::Scan;
 use crate::words::provenance::Checksum;
 
 /// Appended to the name of the file of rows.

@@ -14,7 +14,7 @@ use super::lines::{FileLine, LineRefusal, Lines};
 use super::scan_file::compare;
 use crate::flow::Limits;
 use crate::report::scan::RowForm;
-use crate::study::scan::Scan;
+use crate::scan::grid::Scan;
 use crate::words::provenance::Checksum;
 
 /// A file with some of the rows of a scan.

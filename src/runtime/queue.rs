@@ -132,7 +132,7 @@ impl Queue {
 mod tests {
     use super::*;
     use crate::flow::Problem;
-    use crate::oscillator::Parameters;
+    use crate::model::Parameters;
     use crate::question;
 
     fn cycles(d: f64) -> Request {

@@ -20,8 +20,8 @@ use super::new_file::{self, Readers};
 use super::provenance_file::{self, RunningChecksum};
 use crate::flow::{Limits, Reason};
 use crate::report::scan::RowForm;
+use crate::scan::grid::{Scan, ScanRow};
 use crate::session::Notice;
-use crate::study::scan::{Scan, ScanRow};
 use crate::words::provenance::{Checksum, Provenance};
 
 /// A file to which rows are added.

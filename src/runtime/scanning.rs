@@ -15,8 +15,8 @@ use super::panics;
 use super::worker::Tell;
 use crate::flow::{Limits, Reason};
 use crate::question::Rows;
+use crate::scan::grid::{Scan, ScanRow};
 use crate::scene::Answer;
-use crate::study::scan::{Scan, ScanRow};
 
 /// Rows that each thread may be ahead of the first unfinished one: enough that one slow row does not hold up
 /// the others, few enough to be held in memory.

@@ -173,10 +173,9 @@ mod tests {
 
     use super::*;
     use crate::flow::Cost;
-    use crate::oscillator::Parameters;
-    use crate::portrait::Border;
+    use crate::model::Parameters;
+    use crate::portrait::{Border, Cycles};
     use crate::question;
-    use crate::study::Cycles;
 
     /// A request that can be told apart from others by its number.
     fn request(number: f64) -> Request {

@@ -13,7 +13,7 @@ use super::scene::{Scene, Variant};
 use super::views::{Layer, View};
 use super::window::{Span, Window};
 use crate::flow::{Method, Problem};
-use crate::oscillator::{Knob, Parameters, State};
+use crate::model::{Knob, Parameters, State};
 use crate::words::one_of;
 
 /// The file as it is written.

@@ -123,7 +123,7 @@ pub fn find(name: &str) -> Result<Arc<Scene>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oscillator::{Knob, State};
+    use crate::model::{Knob, State};
     use crate::scene::{Axes, said};
     use crate::scene::{View, Window};
 
@@ -248,8 +248,8 @@ mod tests {
     #[test]
     fn plain_is_the_oscillator_of_the_parameter_table() {
         assert_eq!(plain().name, PLAIN);
-        assert_eq!(plain().problem.parameters, crate::oscillator::Parameters::default());
-        assert_eq!(plain().problem.initial, crate::oscillator::State::default());
+        assert_eq!(plain().problem.parameters, crate::model::Parameters::default());
+        assert_eq!(plain().problem.initial, crate::model::State::default());
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::f64::consts::{LN_10, TAU};
 use serde::{Deserialize, Serialize};
 
 use super::window::Span;
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::portrait::Cycle;
 
 /// A property of a cycle that the diagram can show.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::ordinate::{Height, Ordinate, Unit, usual_values};
 use super::views::View;
 use super::window::Window;
-use crate::oscillator::Knob;
+use crate::model::Knob;
 
 /// Maximum number of plots on a screen: more would be too small to read.
 pub const MOST_PLOTS: usize = 4;

@@ -6,7 +6,7 @@
 
 use super::scene::Scene;
 use super::views::Layer;
-use crate::oscillator::{Group, Knob};
+use crate::model::{Group, Knob};
 
 /// A condition of a part of a text.
 #[derive(Clone, Copy, Debug, PartialEq)]

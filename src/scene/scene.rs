@@ -13,7 +13,7 @@ use super::plot_setup::{Arrangement, PlotSetup};
 use super::views::{Layer, View};
 use crate::fit::{Signal, length_in_metres};
 use crate::flow::Problem;
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::question::Recording;
 
 /// The setup that shows one phenomenon.

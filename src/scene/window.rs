@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::oscillator::State;
+use crate::model::State;
 
 /// Largest magnitude of an end: sums and products with a few others stay finite.
 const FARTHEST: f64 = 1e300;

@@ -16,7 +16,8 @@ use toml::Spanned;
 
 use crate::numerics::similar::most_similar;
 use crate::scene::library::names;
-use crate::scene::misread::{self, Complaint, Misread};
+use crate::scene::misread::Complaint;
+use crate::scene::{Misread, misread};
 use crate::session::message::key::Key;
 use crate::session::state::command::full_name;
 use crate::session::state::context::contexts;

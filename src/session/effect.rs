@@ -59,9 +59,9 @@ pub enum Effect {
     /// alone. The outcome comes back as a notice.
     SaveScan {
         path: PathBuf,
-        scan: std::sync::Arc<crate::study::scan::Scan>,
+        scan: std::sync::Arc<crate::scan::grid::Scan>,
         /// Its rows, beginning with the first point.
-        rows: Vec<crate::study::scan::ScanRow>,
+        rows: Vec<crate::scan::grid::ScanRow>,
     },
 }
 

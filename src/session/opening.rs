@@ -5,8 +5,8 @@
 
 use crate::flow::method::Dial;
 use crate::flow::{METHODS, Problem};
+use crate::model::Knob;
 use crate::numerics::decimal::shortest;
-use crate::oscillator::Knob;
 use crate::scene::{Scene, find};
 use crate::session::replay::script::Instruction;
 use crate::session::save;

@@ -5,7 +5,7 @@ use super::pane;
 use crate::fit::names::named;
 use crate::fit::observation::OMEGA0;
 use crate::fit::physical::rows;
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::scene::Fitted;
 use crate::session::{Row, Session};
 use crate::words::number::significant;

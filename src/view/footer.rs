@@ -9,7 +9,7 @@ use super::keys;
 use super::look::Look;
 use super::pane;
 use crate::flow::QUALITIES;
-use crate::oscillator::{Knob, KnobSpec};
+use crate::model::{Knob, KnobSpec};
 use crate::picture::role::Role;
 use crate::session::Hint;
 use crate::session::read::completion::described;

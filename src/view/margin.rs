@@ -3,7 +3,7 @@
 
 use super::fitted::statement;
 use super::pane;
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::portrait::{Border, Margin};
 use crate::scene::Topic;
 use crate::session::Session;

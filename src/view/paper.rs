@@ -4,9 +4,9 @@ use ratatui::text::Line;
 
 use super::content::{ListContent, TEXT};
 use super::look::Look;
+use crate::paper::{Claim, ClaimResult, UNSAID, Verdict};
 use crate::picture::role::Role;
 use crate::session::{List, Session};
-use crate::study::claims::{Claim, ClaimResult, UNSAID, Verdict};
 use crate::words::claim;
 use crate::words::number::significant;
 

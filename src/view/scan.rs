@@ -16,10 +16,10 @@ use super::scan_table;
 use crate::picture::map::{Danger, measured, nothing};
 use crate::picture::role::{Dash, Role};
 use crate::picture::scan::{names, scales};
+use crate::scan::measure::Value;
 use crate::scene::{Point, View};
 use crate::session::scan::{ScanOnShow, ScanProgress, WORDS};
 use crate::session::{Pane, Session};
-use crate::study::measure::Value;
 use crate::words::measured::rounded;
 use crate::words::number::{remaining, significant};
 

@@ -8,10 +8,10 @@ use super::lists::frame;
 use super::look::Look;
 use super::pane;
 use crate::picture::role::Role;
+use crate::scan::measure::MEASURES;
 use crate::session::state::ScanForm;
 use crate::session::state::scan_form::{FIELDS, FormField};
 use crate::session::{Overlay, Session};
-use crate::study::measure::MEASURES;
 
 const WIDTH: u16 = 74;
 

@@ -12,10 +12,10 @@ use super::plot::Canvas;
 use crate::numerics::count::{real, truncated};
 use crate::picture::map::{Danger, Dangerous, measured, nothing};
 use crate::picture::role::Role;
+use crate::scan::sweep::Sweep;
 use crate::scene::Point;
 use crate::session::scan::{ScanOnShow, WORDS};
 use crate::session::settings::Glyphs;
-use crate::study::sweep::Sweep;
 use crate::words::number::significant;
 
 /// Shades from the weakest to the strongest, and the letters that do without colour.

@@ -9,9 +9,9 @@ use ratatui::text::Line;
 use super::look::Look;
 use super::pane;
 use crate::picture::role::Role;
+use crate::scan::measure::Value;
+use crate::scan::sweep::Sweep;
 use crate::session::scan::ScanOnShow;
-use crate::study::measure::Value;
-use crate::study::sweep::Sweep;
 use crate::words::measured::rounded;
 use crate::words::number::significant;
 

@@ -11,15 +11,17 @@ use super::frame::render;
 use super::layout::layout;
 use super::look::Look;
 use super::place::place;
+use crate::branch::BranchPoint;
 use crate::flow::{Method, Outcome, Problem, Reason, Sample};
-use crate::oscillator::{Knob, Parameters, State};
+use crate::model::{Knob, Parameters, State};
+use crate::portrait::Return;
 use crate::question::NoAnswer;
 use crate::question::zones::Extent;
-use crate::scene::library::{find, library};
-use crate::scene::{Answer, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window};
-use crate::session::settings::{self, Colors, GLYPHS, Glyphs, THEMES};
-use crate::session::{BranchStop, Msg, Notice, PointerTarget, Session, Size, update};
-use crate::study::{BranchPoint, Return};
+use crate::scene::{
+    Answer, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window, find, library,
+};
+use crate::session::settings::{Colors, GLYPHS, Glyphs, THEMES};
+use crate::session::{BranchStop, Msg, Notice, PointerTarget, Session, Size, settings, update};
 use crate::view::screen::text;
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;

@@ -7,12 +7,12 @@ use super::look::Look;
 use super::pane::Heading;
 use super::plot::{Canvas, Names};
 use super::screen;
+use crate::accuracy::trade::Trade;
 use crate::flow::Method;
 use crate::numerics::elementary::log10;
 use crate::picture::role::Role;
 use crate::scene::{Point, Span, Window};
 use crate::session::settings::{self, Colors, Glyphs};
-use crate::study::trade::Trade;
 
 /// The logarithm of the error over that of the time; later methods lie below, the best choices are capitals.
 ///

@@ -1,9 +1,9 @@
 //! The point of the branch that is held, in numbers.
 
 use super::look::Look;
+use crate::branch::SpecialKind;
 use crate::portrait::Cycle;
 use crate::session::{BranchStop, Session};
-use crate::study::SpecialKind;
 use crate::words::number::significant;
 use crate::words::stability;
 

@@ -1,7 +1,7 @@
 //! The verdicts on the claims of the paper.
 
 use super::number::significant;
-use crate::study::claims::{Certainty, ClaimResult, Finding, POOR, Sense, Verdict};
+use crate::paper::{Certainty, ClaimResult, Finding, POOR, Sense, Verdict};
 
 /// The name of the verdict if no number could be computed.
 const UNKNOWN: &str = "unknown";

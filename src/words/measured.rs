@@ -1,7 +1,7 @@
 //! What a scan measured at a point.
 
 use super::number::significant;
-use crate::study::measure::Value;
+use crate::scan::measure::Value;
 
 /// A value with all its digits; empty if there is none.
 pub fn exact(value: Value) -> String {

@@ -4,7 +4,7 @@ use super::counted;
 use super::number::significant;
 use super::quantity::with_unit;
 use crate::flow::{Outcome, Trajectory};
-use crate::oscillator::belt::Units;
+use crate::model::belt::Units;
 
 /// How the quantities of a motion are written: as numbers of the oscillator, or in the units of a machine.
 #[derive(Clone, Copy, Debug, Default)]

@@ -31,7 +31,7 @@ pub fn with_unit(value: f64, digits: usize, unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::oscillator::unit::measured;
+    use crate::model::unit::measured;
 
     #[test]
     fn prefixes_keep_numbers_short() {

@@ -5,12 +5,11 @@ use serde::Serialize;
 
 use super::number::{rounded_down, significant};
 use super::quantity::with_unit;
-use crate::fit::Fitted;
 use crate::fit::conditions::{Condition, conditions};
 use crate::fit::estimate::Rival;
-use crate::fit::margin::{MarginQuestion, Margins};
 use crate::fit::names::NAMES;
 use crate::fit::observation::{D, Data, StartKind};
+use crate::fit::{Fitted, MarginQuestion, Margins};
 use crate::numerics::count::real;
 use crate::portrait::Margin;
 

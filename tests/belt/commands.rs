@@ -1,7 +1,7 @@
 //! The commands that take `--machine`: a machine by its own numbers, in the words of the oscillator of the paper.
 
-use hopfscope::flow::Fate;
-use hopfscope::machine::{MachineMotion, Model};
+use hopfscope::flow::{Fate, MachineMotion};
+use hopfscope::model::Model;
 use hopfscope::numerics::elementary::ln;
 use hopfscope::numerics::random::Random;
 use hopfscope::portrait::Portrait;

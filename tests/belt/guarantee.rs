@@ -1,12 +1,10 @@
 //! Guaranteed margins of machines: no machine within the tolerances has a smaller margin, under any disturbance.
 
 use crate::program::{json, run};
-use hopfscope::machine::Tolerances;
-use hopfscope::machine::guarantee::{MachineUncertain, guaranteed};
-use hopfscope::machine::survey::portrait;
-use hopfscope::oscillator::Belt;
-use hopfscope::oscillator::{Group, Knob};
+use hopfscope::model::{Belt, Group, Knob, Tolerances};
 use hopfscope::portrait::Margin;
+use hopfscope::portrait::guarantee::machine::{MachineUncertain, guaranteed};
+use hopfscope::portrait::survey::portrait;
 use hopfscope::scene::machine::library::find;
 
 fn machine(name: &str) -> Belt {

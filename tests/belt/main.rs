@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use hopfscope::flow::Outcome;
 use hopfscope::numerics::elementary::tanh;
-use hopfscope::runtime::explorer::replay;
+use hopfscope::runtime::replay;
 use hopfscope::scene::{ScaledMachine, Scene};
 use hopfscope::session::replay::parse;
 use hopfscope::session::{Session, Size};

@@ -1,16 +1,16 @@
 //! The view of the cycles over the belt speed: every kind of cycle has its own look, and jumps up and down are
 //! where the motions of the machine leave the end of a stable state.
 
+use hopfscope::branch::jumps::Jump;
+use hopfscope::branch::machine::branch;
+use hopfscope::branch::machine_special::{MachineSpecial, MachineSpecialKind};
 use hopfscope::flow::{Fate, Limits};
-use hopfscope::machine::branch::branch;
-use hopfscope::machine::jumps::Jump;
-use hopfscope::machine::special::{MachineSpecial, MachineSpecialKind};
-use hopfscope::machine::survey::portrait;
-use hopfscope::oscillator::Belt;
-use hopfscope::oscillator::belt::FrictionLaw;
-use hopfscope::oscillator::{Group, Knob};
+use hopfscope::model::Belt;
+use hopfscope::model::belt::FrictionLaw;
+use hopfscope::model::{Group, Knob};
 use hopfscope::picture::items::Item;
 use hopfscope::portrait::Cycle;
+use hopfscope::portrait::survey::portrait;
 use hopfscope::question::answer;
 use hopfscope::scene::machine::library::machines;
 use hopfscope::scene::{Answer, Topic, View, find};

@@ -12,8 +12,8 @@ mod usage;
 use program::{json, number, run};
 use serde_json::Value;
 
+use hopfscope::model::Knob;
 use hopfscope::numerics::elementary::cos;
-use hopfscope::oscillator::Knob;
 use hopfscope::scene::find;
 
 /// The keys of an object, in alphabetical order.

@@ -1,13 +1,13 @@
 //! Along any parameter and over any range, a branch lies in its range, follows its curves, and is made of the cycles
 //! that are there.
 
+use hopfscope::branch::along::{Points, branch};
+use hopfscope::branch::fold::fold;
+use hopfscope::branch::{Branch, BranchPoint, SpecialKind};
 use hopfscope::flow::Limits;
+use hopfscope::model::{Knob, Parameters, State};
 use hopfscope::numerics::elementary::pow;
-use hopfscope::oscillator::{Knob, Parameters, State};
-use hopfscope::study::branch::{Branch, Points, branch};
-use hopfscope::study::cycle::cycles;
-use hopfscope::study::fold::fold;
-use hopfscope::study::{BranchPoint, SpecialKind};
+use hopfscope::portrait::basin::cycle::cycles;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngAlgorithm, TestRng, TestRunner};

@@ -1,9 +1,9 @@
 //! Motions at the limits of floating point and of the equation: each has a typed answer within a budget, and
 //! where the answer is also known otherwise, both agree.
 
+use hopfscope::accuracy::extremes::verdict::{BUDGET, METHODS, TOLERANCE};
+use hopfscope::accuracy::extremes::{Case, MethodAnswer, MethodsVerdict, cases, judge, named};
 use hopfscope::flow::{Limits, Method, Outcome};
-use hopfscope::study::extremes::verdict::{BUDGET, METHODS, TOLERANCE};
-use hopfscope::study::extremes::{Case, MethodAnswer, MethodsVerdict, cases, judge, named};
 use rayon::prelude::*;
 
 /// Cost of one step of any method after the budget is spent: a Taylor series, or a step of the implicit method

@@ -2,9 +2,9 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Outcome, Problem};
-use hopfscope::oscillator::{Parameters, State};
+use hopfscope::model::{Parameters, State};
 use hopfscope::portrait::Border;
-use hopfscope::study::basin::basin;
+use hopfscope::portrait::basin::basin;
 use rayon::prelude::*;
 
 const SIZES: [f64; 11] = [0.0, 1e-150, -1e-150, 1e-12, -1e-12, 1.0, -1.0, 1e6, -1e6, 1e150, -1e150];

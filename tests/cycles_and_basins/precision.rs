@@ -2,14 +2,14 @@
 //! where a cycle grazes the sticking set. Reference values: `tests/data/cycles_to_digits.csv`, from an
 //! independent program in quadruple precision (Taylor series of order 40, residuals closed to 1e-29).
 
+use hopfscope::branch::along::{Points, branch};
+use hopfscope::branch::escape::escape_point;
+use hopfscope::branch::fold::{border, fold};
+use hopfscope::branch::{Branch, SpecialKind};
 use hopfscope::flow::Limits;
-use hopfscope::oscillator::{Knob, Parameters, State};
+use hopfscope::model::{Knob, Parameters, State};
 use hopfscope::portrait::Cycle;
-use hopfscope::study::SpecialKind;
-use hopfscope::study::branch::{Branch, Points, branch};
-use hopfscope::study::cycle::cycles;
-use hopfscope::study::escape::escape_point;
-use hopfscope::study::fold::{border, fold};
+use hopfscope::portrait::basin::cycle::cycles;
 use rayon::prelude::*;
 
 const LIMITS: Limits = Limits::PATIENT;

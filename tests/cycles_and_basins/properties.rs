@@ -3,9 +3,9 @@
 
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, METHODS, Outcome, Problem};
+use hopfscope::model::{Parameters, State};
 use hopfscope::numerics::elementary::pow;
-use hopfscope::oscillator::{Parameters, State};
-use hopfscope::study::cycle::cycles;
+use hopfscope::portrait::basin::cycle::cycles;
 use proptest::num::f64::{NEGATIVE, NORMAL, POSITIVE, SUBNORMAL, ZERO};
 use proptest::prelude::*;
 

@@ -1,6 +1,6 @@
 //! Reference values, computed to about 14 digits by another program.
 
-use hopfscope::oscillator::Parameters;
+use hopfscope::model::Parameters;
 use serde::Deserialize;
 
 /// A cycle of `cycles.json`.

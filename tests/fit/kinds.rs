@@ -3,10 +3,10 @@
 use hopfscope::fit::conditions::conditions;
 use hopfscope::fit::{DRAWS, MarginQuestion, Margins, margins};
 use hopfscope::flow::Limits;
-use hopfscope::oscillator::Parameters;
-use hopfscope::study::basin::Basin;
-use hopfscope::study::closing::Equation;
-use hopfscope::study::closings::all_closings;
+use hopfscope::model::Parameters;
+use hopfscope::portrait::basin::Basin;
+use hopfscope::portrait::closing::all::all_closings;
+use hopfscope::portrait::closing::equation::Equation;
 
 use super::simulator::{KINDS, Simulation, simulated};
 use super::*;

@@ -4,8 +4,8 @@ use hopfscope::fit::conditions::conditions;
 use hopfscope::fit::dropped::{Dropped, dropped};
 use hopfscope::fit::observation::{LAST, OFFSET, OMEGA0, SLOPE};
 use hopfscope::fit::{Margins, Reading, parse};
+use hopfscope::model::{ParameterBox, Parameters};
 use hopfscope::numerics::elementary::sin;
-use hopfscope::oscillator::{ParameterBox, Parameters};
 
 use super::kinds::{Outcome, outcomes, percentage, silent_errors};
 use super::signed::rest_margin;

@@ -4,9 +4,9 @@ use hopfscope::fit::Inertia;
 use hopfscope::fit::conditions::conditions;
 use hopfscope::fit::{MarginQuestion, Margins, margins};
 use hopfscope::flow::Limits;
-use hopfscope::oscillator::{Interval, ParameterBox, Parameters};
+use hopfscope::model::{Interval, ParameterBox, Parameters};
 use hopfscope::portrait::RestMargin;
-use hopfscope::study::guarantee::{Uncertain, guaranteed};
+use hopfscope::portrait::guarantee::oscillator::{Uncertain, guaranteed};
 
 use super::simulator::{Simulation, simulated};
 use super::*;

@@ -1,16 +1,16 @@
 //! The search and the proof where they are hardest to compare.
 
+use hopfscope::branch::fold::fold;
 use hopfscope::flow::Limits;
+use hopfscope::model::Parameters;
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::pow;
 use hopfscope::numerics::random::Random;
-use hopfscope::oscillator::Parameters;
+use hopfscope::portrait::basin::cycle::cycles;
+use hopfscope::portrait::basin::{SurveyedBasin, Window};
+use hopfscope::portrait::proved::{agreed, matching, proved};
 use hopfscope::proof::kicks::{ProvedEdge, kicks};
 use hopfscope::proof::{ParameterBox, prove};
-use hopfscope::study::basin::{SurveyedBasin, Window};
-use hopfscope::study::cycle::cycles;
-use hopfscope::study::fold::fold;
-use hopfscope::study::proved::{agreed, matching, proved};
 
 /// Compares search and proof; returns how many cycles are proved.
 fn compared(parameters: &Parameters) -> usize {

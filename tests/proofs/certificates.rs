@@ -2,9 +2,9 @@
 
 use hopfscope::check::motion::Field;
 use hopfscope::check::{Certificate, CertificateStep, StepKind, check};
+use hopfscope::model::Parameters;
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::cbrt;
-use hopfscope::oscillator::Parameters;
 use hopfscope::proof::certificate::{certificate, text as file};
 use hopfscope::proof::{ParameterBox, prove};
 use serde_json::Value;

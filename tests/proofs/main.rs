@@ -11,23 +11,23 @@ mod motions;
 mod data;
 
 use data::references;
+use hopfscope::branch::escape::escape_point;
+use hopfscope::branch::fold::fold;
 use hopfscope::flow::precise::{COARSE, FINE, precise};
 use hopfscope::flow::{Limits, Problem};
+use hopfscope::model::{Knob, Parameters, State};
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::{exp, pow, powi};
 use hopfscope::numerics::random::Random;
-use hopfscope::oscillator::{Knob, Parameters, State};
-use hopfscope::proof::cycles::{Proof, prove};
+use hopfscope::portrait::basin::cycle::cycles;
+use hopfscope::portrait::proved::proved;
 use hopfscope::proof::derivatives::{cycle_derivatives, derivatives};
 use hopfscope::proof::escape::enclose_escape;
-use hopfscope::proof::field::{Field, ParameterBox};
+use hopfscope::proof::field::Field;
 use hopfscope::proof::fold::enclose_fold;
 use hopfscope::proof::map::{Direction, ProvedMap};
 use hopfscope::proof::swing::{Passage, StartBox, swing, swing_with_derivatives};
-use hopfscope::study::cycle::cycles;
-use hopfscope::study::escape::escape_point;
-use hopfscope::study::fold::fold;
-use hopfscope::study::proved::proved;
+use hopfscope::proof::{ParameterBox, Proof, prove};
 
 /// A number in twice the precision of a double, as a sum of two doubles.
 type Long = (f64, f64);

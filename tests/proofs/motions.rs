@@ -2,14 +2,14 @@
 //! plain computation.
 
 use hopfscope::flow::Limits;
+use hopfscope::model::{Knob, Parameters};
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::{exp, powi, sin_cos};
-use hopfscope::oscillator::{Knob, Parameters};
+use hopfscope::portrait::basin::basin;
 use hopfscope::proof::kicks::{ProvedEdge, ProvedKicks, kicks};
 use hopfscope::proof::motion::{ProvedFate, ProvedMotion, follow};
 use hopfscope::proof::range::{MOST_STEPS, change_within, range};
 use hopfscope::proof::{ParameterBox, prove};
-use hopfscope::study::basin::basin;
 use serde::Deserialize;
 
 #[derive(Deserialize)]

@@ -2,12 +2,11 @@
 //! that end beyond the cycles.
 
 use super::portrait;
-use hopfscope::flow::Fate;
-use hopfscope::machine::return_map::MachineReturn;
-use hopfscope::machine::{Body, Flow, LostMotion, Modal, Subject};
+use hopfscope::flow::{Fate, Flow, LostMotion};
+use hopfscope::model::belt::FrictionLaw;
+use hopfscope::model::{Belt, Body, Modal, Subject};
 use hopfscope::numerics::elementary::exp;
-use hopfscope::oscillator::Belt;
-use hopfscope::oscillator::belt::FrictionLaw;
+use hopfscope::portrait::return_map::machine_return::MachineReturn;
 use hopfscope::portrait::{Border, Cycle, Portrait};
 use hopfscope::scene::machine::file::parse;
 
@@ -325,8 +324,8 @@ fn what_static_friction_alone_holds_survives_no_kick_along_the_belt() {
 #[test]
 fn a_mode_that_asymmetric_damping_drives_away_survives_what_the_paper_says() {
     use hopfscope::flow::Limits;
-    use hopfscope::oscillator::Parameters;
-    use hopfscope::study::basin::basin;
+    use hopfscope::model::Parameters;
+    use hopfscope::portrait::basin::basin;
     // It escapes to the left or to the right, from rest in a wide or a narrow sticking set, with static friction above
     // the kinetic one or not.
     for (d, d2, r) in [(0.2, -1.0, 0.3), (0.2, 1.0, 0.3), (0.6, 6.0, 3.0), (-0.01, -0.5, 0.1)] {

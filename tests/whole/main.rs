@@ -8,16 +8,14 @@ mod random;
 
 use std::f64::consts::PI;
 
-use hopfscope::flow::Fate;
-use hopfscope::machine::branch::branch;
-use hopfscope::machine::return_map::MachineReturn;
-use hopfscope::machine::special::MachineSpecialKind;
-use hopfscope::machine::turn::ContactState;
-use hopfscope::machine::{Flow, MachineMotion, Model, NoModel};
+use hopfscope::branch::machine::branch;
+use hopfscope::branch::machine_special::MachineSpecialKind;
+use hopfscope::flow::machine::turn::ContactState;
+use hopfscope::flow::{Fate, Flow, MachineMotion};
+use hopfscope::model::belt::FrictionLaw;
+use hopfscope::model::{Belt, Group, Knob, Model, NoModel};
 use hopfscope::numerics::elementary::{asin, atan, atan2, exp, exp_m1, hypot, ln, powi, tanh};
-use hopfscope::oscillator::Belt;
-use hopfscope::oscillator::belt::FrictionLaw;
-use hopfscope::oscillator::{Group, Knob};
+use hopfscope::portrait::return_map::machine_return::MachineReturn;
 use hopfscope::portrait::{Border, Portrait};
 use serde_json::{Value, json};
 
@@ -216,7 +214,8 @@ fn a_cubic_law_far_from_the_belt_is_the_oscillator_of_the_paper() {
         let found = portrait(&belt);
         let reduced = belt.reduce().unwrap();
         let cycles =
-            hopfscope::study::cycle::cycles(&reduced.parameters, true, &Limits::PATIENT).unwrap();
+            hopfscope::portrait::basin::cycle::cycles(&reduced.parameters, true, &Limits::PATIENT)
+                .unwrap();
         let slips = found.cycles.iter().filter(|cycle| !cycle.sticks());
         assert!(slips.clone().count() >= cycles.cycles.len() && !cycles.cycles.is_empty());
         let units = &reduced.units;
@@ -356,7 +355,8 @@ fn a_law_that_ends_far_out_hides_no_margin() {
     assert_eq!(found.border, Border::Cycle);
     let reduced = belt.reduce().unwrap();
     let limits = hopfscope::flow::Limits::PATIENT;
-    let cubic = hopfscope::study::cycle::cycles(&reduced.parameters, true, &limits).unwrap();
+    let cubic =
+        hopfscope::portrait::basin::cycle::cycles(&reduced.parameters, true, &limits).unwrap();
     let expected = cubic.cycles[0].q_max * reduced.units.displacement;
     assert!(close(found.reach.unwrap().displacement.0, expected, 1e-13));
     assert!(matches!(found.fate(3.0, 0.0), Err(_) | Ok(Fate::Unknown(_))));
@@ -441,6 +441,6 @@ fn a_fold_of_a_cubic_law_is_that_of_the_oscillator_of_the_paper() {
     let [(MachineSpecialKind::Fold, value)] = found[..] else { panic!("{found:?}") };
     let parameters = Belt { damping: value, ..belt }.reduce().unwrap().parameters;
     let limits = hopfscope::flow::Limits::PATIENT;
-    let (fold, _) = hopfscope::study::fold::fold(&parameters, &limits).unwrap();
+    let (fold, _) = hopfscope::branch::fold::fold(&parameters, &limits).unwrap();
     assert!((fold.unwrap().d - parameters.d).abs() < 1e-12, "{} {fold:?}", parameters.d);
 }

@@ -2,12 +2,11 @@
 //! of machines, which share no code but elementary functions, are the same within the errors that are told.
 
 use hopfscope::flow::{Fate, Limits};
-use hopfscope::machine::Model;
+use hopfscope::model::{Model, Parameters};
 use hopfscope::numerics::random::Random;
-use hopfscope::oscillator::Parameters;
+use hopfscope::portrait::basin::basin;
+use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::portrait::{Border, Margin, Portrait};
-use hopfscope::study::basin::basin;
-use hopfscope::study::cycle::cycles;
 
 fn margins(margin: &Margin) -> [Option<f64>; 4] {
     let Margin { displacement, impulse, from_rest } = *margin;

@@ -1,11 +1,11 @@
 //! The whole model against an independent integration in twice the working precision: fixed Taylor steps, and
 //! switching lines located by a dense scan of every step.
 
-use hopfscope::machine::turn::ContactState;
-use hopfscope::machine::{MachineMotion, Model, Phase};
+use hopfscope::flow::MachineMotion;
+use hopfscope::flow::machine::turn::ContactState;
+use hopfscope::model::belt::FrictionLaw;
+use hopfscope::model::{Belt, Model, Phase};
 use hopfscope::numerics::twofold::Twofold;
-use hopfscope::oscillator::Belt;
-use hopfscope::oscillator::belt::FrictionLaw;
 
 /// Order of the series.
 const ORDER: usize = 26;

@@ -1,12 +1,11 @@
 //! Reading what is said about a machine: values with units, starts, windows.
 
 use crate::cli::input::{Over, named, over_of, sides};
-use crate::machine::MachineProblem;
-use crate::oscillator::unit::{Dimension, WithTolerance, measured, quantity};
-use crate::oscillator::{Group, Knob};
-use crate::study::basin::Window;
-use crate::study::design::Kick;
-use crate::study::kicks::RandomKick;
+use crate::model::unit::{Dimension, WithTolerance, measured, quantity};
+use crate::model::{Group, Knob, MachineProblem};
+use crate::portrait::basin::Window;
+use crate::portrait::design::oscillator::Kick;
+use crate::portrait::kicks::RandomKick;
 
 /// The start of a motion; what is not given is left as it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -9,12 +9,10 @@ use super::failure::Failure;
 use super::output::{Format, Output};
 use super::timing::timed;
 use crate::flow::Method;
-use crate::machine::stepped::{ALLOWED, SteppedMethod};
-use crate::machine::survey::Trouble;
-use crate::machine::{Body, MachineProblem, Tolerances};
-use crate::oscillator::unit::WithTolerance;
-use crate::oscillator::{Group, Knob};
-use crate::portrait::Portrait;
+use crate::flow::machine::stepped::{ALLOWED, SteppedMethod};
+use crate::model::unit::WithTolerance;
+use crate::model::{Body, Group, Knob, MachineProblem, Tolerances};
+use crate::portrait::{Portrait, Trouble};
 use crate::report::belt::Head;
 use crate::report::machine::MachineReport;
 use crate::report::page::Source;
@@ -22,7 +20,8 @@ use crate::runtime::standard::tell;
 use crate::runtime::{bounded, source_file};
 use crate::scene::machine::file::parse;
 use crate::scene::machine::library::{find, machines};
-use crate::scene::machine::mode::{self, Mode, is_mode};
+use crate::scene::machine::mode;
+use crate::scene::machine::mode::{Mode, is_mode};
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Machine, ScaledMachine, Scene};
 
@@ -184,7 +183,8 @@ pub fn print<R>(output: &Output, answer: MachineReport<R>) -> Result<(), Failure
 }
 
 /// Why a machine has no answer; an error in the machine itself counts as bad input.
-pub fn troubled(trouble: Trouble) -> Failure {
+pub fn troubled(trouble: impl Into<Trouble>) -> Failure {
+    let trouble: Trouble = trouble.into();
     let line = format!("the machine could not be computed: {trouble}");
     if trouble.is_of_the_machine() {
         Failure::Usage(trouble.to_string())

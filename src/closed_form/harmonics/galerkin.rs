@@ -19,8 +19,8 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use super::fourier::{Fourier, factor};
 use super::sign_changes::{SignChange, sign_changes};
+use crate::model::Parameters;
 use crate::numerics::elementary::sin_cos;
-use crate::oscillator::Parameters;
 
 /// An approximate cycle: its frequency and its displacement over one turn of the angle.
 #[derive(Clone, Debug, PartialEq)]

@@ -31,8 +31,8 @@ use self::galerkin::{Ansatz, BalanceResidual, Basis};
 use self::newton::{NewtonFailure, Solution, solve};
 use self::sign_changes::sign_changes;
 use super::harmonic::Harmonic;
+use crate::model::{Parameters, State};
 use crate::numerics::scaling::{exponent, times_power};
-use crate::oscillator::{Parameters, State};
 
 /// Maximum number of harmonics: the linear algebra costs as their cube.
 pub const MOST: usize = 255;

@@ -3,7 +3,7 @@
 use nalgebra::{DVector, Dyn, LU};
 
 use super::galerkin::{Ansatz, BalanceResidual, Basis};
-use crate::oscillator::Parameters;
+use crate::model::Parameters;
 
 /// A solution of the Galerkin equations.
 #[derive(Clone, Debug)]

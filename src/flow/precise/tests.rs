@@ -2,8 +2,8 @@
 
 use super::super::Method;
 use super::*;
+use crate::model::{Parameters, State};
 use crate::numerics::twofold::PI;
-use crate::oscillator::{Parameters, State};
 
 fn problem([d, d2, d3, r]: [f64; 4], q: f64, until: f64) -> Problem {
     Problem {

@@ -3,8 +3,8 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::model::{Parameters, State};
 use crate::numerics::elementary::{exp2, log2};
-use crate::oscillator::{Parameters, State};
 
 fn problem(parameters: [f64; 4], initial: (f64, f64), method: Method) -> Problem {
     let [d, d2, d3, r] = parameters;

@@ -4,19 +4,18 @@
 use super::damping::damping;
 use super::dropped::mark;
 use super::pieces::{StyledPoints, at, curve, picture, points, window, with_unit};
-use crate::fit::Fitted;
-use crate::fit::Signal;
 use crate::fit::curves::memory as memory_of;
 use crate::fit::dropped::{Dropped, dropped, dropped_of_fitted};
-use crate::fit::observation::{D, Data, Q0, R, parameters};
+use crate::fit::observation::{D, Data, Q0, R};
+use crate::fit::{Fitted, Signal, parameters};
 use crate::flow::Limits;
+use crate::model::{Parameters, State};
 use crate::numerics::count::real;
-use crate::oscillator::{Parameters, State};
 use crate::picture::items::{Item, LineStyle, Marks, Picture};
 use crate::picture::role::{Dash, Mark, Role};
 use crate::portrait::Border;
+use crate::portrait::basin::{Basin, basin};
 use crate::scene::{Point, Span, Window};
-use crate::study::basin::{Basin, basin};
 
 /// Draws whose edge of the basin is drawn.
 const EDGES: usize = 20;

@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use super::cycle::cycle_document;
 use super::{DesignAnswer, MachineAnswer, OnBelt, expansion};
 use crate::flow::Fate;
-use crate::machine::guarantee::MachineUncertain;
-use crate::machine::motion::{Leg, MachineState};
-use crate::machine::survey::{Course, CubicExpansion, Second};
-use crate::machine::turn::ContactState;
-use crate::oscillator::Group;
-use crate::oscillator::belt::{Derivatives, FrictionLaw};
-use crate::portrait::{Margin, Portrait};
+use crate::flow::machine::motion::{Leg, MachineState};
+use crate::flow::machine::turn::ContactState;
+use crate::model::Group;
+use crate::model::belt::{Derivatives, FrictionLaw};
+use crate::portrait::guarantee::machine::MachineUncertain;
+use crate::portrait::survey::Second;
+use crate::portrait::{Course, CubicExpansion, Margin, Portrait};
 use crate::report::json::Document;
 
 /// The whole answer about a machine as a document.

@@ -1,10 +1,9 @@
 //! A machine approximated by the oscillator of the paper, whose friction is a cubic, and the errors of this
 //! approximation.
 
-use crate::machine::survey::CubicExpansion;
-use crate::portrait::{Cycle, Margin, Portrait};
+use crate::portrait::on_belt::PhysicalMargin;
+use crate::portrait::{CubicExpansion, Cycle, Margin, Portrait};
 use crate::report::json::Document;
-use crate::study::belt::PhysicalMargin;
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
 

@@ -13,12 +13,10 @@ pub use page::page;
 pub(super) use table::{border, gaps};
 pub use table::{csv, table};
 
-use crate::machine::guarantee::MachineUncertain;
-use crate::machine::survey::{Course, CubicExpansion};
-use crate::machine::{Body, Modal, Tolerances};
-use crate::oscillator::{Belt, Group, Interval, Knob};
-use crate::portrait::Margin;
-use crate::study::design::{FrictionNeeded, Kick};
+use crate::model::{Belt, Body, Group, Interval, Knob, Modal, Tolerances};
+use crate::portrait::design::oscillator::{FrictionNeeded, Kick};
+use crate::portrait::guarantee::machine::MachineUncertain;
+use crate::portrait::{Course, CubicExpansion, Margin};
 use crate::words::number::significant;
 use crate::words::quantity::with_unit;
 

@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::machine::Tolerances;
-use crate::oscillator::Belt;
-use crate::oscillator::belt::{BeltError, ReducedBelt};
+use crate::model::belt::{BeltError, ReducedBelt};
+use crate::model::{Belt, Tolerances};
 
 /// A machine: a mass on a belt, and the start of the motion on show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -10,13 +10,13 @@ use toml::Spanned;
 
 use super::Machine;
 use super::table::table;
-use crate::machine::{Model, Tolerances};
+use crate::model::belt::FrictionLaw;
+use crate::model::unit::quantity;
+use crate::model::{Belt, Group, Knob, Model, Tolerances, unknown};
 use crate::numerics::decimal::shortest;
 use crate::numerics::spline::SmoothingSpline;
-use crate::oscillator::belt::FrictionLaw;
-use crate::oscillator::unit::quantity;
-use crate::oscillator::{Belt, Group, Knob, unknown};
-use crate::scene::misread::{self, Complaint, Misread};
+use crate::scene::misread;
+use crate::scene::misread::{Complaint, Misread};
 
 /// Maximum number of points of a table.
 const MOST_POINTS: usize = 10_000;

@@ -5,8 +5,8 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::file::{Number, StartTable, duration, exact, or_usual, polynomial};
-use crate::machine::Modal;
-use crate::oscillator::Knob;
+use crate::model::Knob;
+use crate::model::Modal;
 use crate::scene::misread::{self, Complaint, Misread};
 
 /// A vibration mode, and the start of its motion.

@@ -3,8 +3,8 @@
 //! Everything here is a formula of the friction law: a path costs a few hundred evaluations and no motion.
 
 use super::running::Running;
+use crate::model::Parameters;
 use crate::numerics::elementary::{exp, ln, log10};
-use crate::oscillator::Parameters;
 
 /// Slowest speed of a path, relative to the machine's own speed; the fastest is its reciprocal. The range of
 /// the friction law may limit both.

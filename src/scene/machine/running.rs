@@ -6,9 +6,9 @@
 
 use super::Machine;
 use crate::flow::Problem;
+use crate::model::belt::ReducedBelt;
+use crate::model::{Knob, Parameters, State};
 use crate::numerics::elementary::powi;
-use crate::oscillator::belt::ReducedBelt;
-use crate::oscillator::{Knob, Parameters, State};
 
 /// A machine with its belt at a speed.
 #[derive(Clone, Copy, Debug, PartialEq)]

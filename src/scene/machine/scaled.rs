@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::description::Machine;
 use super::running::Running;
 use crate::flow::Problem;
-use crate::oscillator::belt::{BeltError, ReducedBelt};
-use crate::oscillator::{Knob, State};
+use crate::model::belt::{BeltError, ReducedBelt};
+use crate::model::{Knob, State};
 
 /// A machine with its dimensionless form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -6,8 +6,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::Machine;
-use crate::machine::Model;
-use crate::oscillator::{Group, Knob, OutOfRange};
+use crate::model::{Group, Knob, Model, OutOfRange};
 
 /// The speed of a belt and the other numbers of a machine that were changed, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::machine::Body;
+use crate::model::Body;
 use crate::numerics::decimal::shortest;
 use crate::words::number::significant;
 
@@ -47,7 +47,7 @@ mod tests {
     use crate::scene::machine::library::machines;
 
     /// What is unlikely about the textbook's machine after a change.
-    fn after(change: impl FnOnce(&mut crate::oscillator::Belt)) -> Option<String> {
+    fn after(change: impl FnOnce(&mut crate::model::Belt)) -> Option<String> {
         let mut belt = machines()[0].belt.clone();
         change(&mut belt);
         unlikely(&Body::Belt(Box::new(belt)), (0.0, 0.0))

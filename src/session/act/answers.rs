@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::fit::Unfit;
 use crate::flow::{Problem, Reason};
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::question::{NoAnswer, Rows};
 use crate::scene::{Answer, Answered, Fit, Topic, View};
 use crate::session::act::notice::{inform, refuse};

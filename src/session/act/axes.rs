@@ -1,6 +1,6 @@
 //! Commands that change the axes of diagrams and charts.
 
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Axes, ORDINATES, PlotSetup, Span, Unit, View, Window};
 use crate::session::act::notice::inform;

@@ -3,13 +3,13 @@
 
 use crate::flow::Problem;
 use crate::flow::method::Dial;
+use crate::model::Knob;
 use crate::numerics::decimal::shortest;
-use crate::oscillator::Knob;
+use crate::scan::measure::Value;
 use crate::scene::{Axes, View};
 use crate::session::effect::{Done, Effect};
 use crate::session::read::numbers::plain_value;
 use crate::session::state::Session;
-use crate::study::measure::Value;
 
 /// Number of points of a copied branch: as many as a wide plot has columns.
 const BRANCH_POINTS: usize = 200;

@@ -1,8 +1,8 @@
 //! Typing a value: the line opens, takes characters, and its text is accepted or refused.
 
 use crate::flow::{METHODS, Problem, QUALITIES};
-use crate::oscillator::Knob;
-use crate::oscillator::unit::measured;
+use crate::model::Knob;
+use crate::model::unit::measured;
 use crate::session::act::notice::warn_of_units;
 use crate::session::act::parameters::put;
 use crate::session::message::key::Key;

@@ -1,12 +1,12 @@
 //! Commands that belong to no pane: layers, harmonics, the scene's caption, appearance, retry, quitting.
 
+use crate::accuracy::harmonic_error::ladder;
 use crate::scene::Layer;
 use crate::session::act::notice::{inform, with_keys};
 use crate::session::effect::{Done, Effect};
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::state::settings::{DisplaySettings, GLYPHS, THEMES, next_of};
 use crate::session::state::{Overlay, Session, SessionCaption};
-use crate::study::harmonic_error::ladder;
 
 /// Shows or hides a layer.
 pub fn toggle(session: &mut Session, layer: Layer) {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::fit::Unfit;
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::scene::{Answer, Answered, Scene, Topic};
 use crate::session::act::notice::inform;
 use crate::session::act::screen_setup::set_up;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::paper::Claim;
 use crate::scene::{find, letters};
 use crate::session::act::general::toggle;
 use crate::session::act::history::open_scene;
@@ -10,7 +11,6 @@ use crate::session::act::screen_setup::show_from_list;
 use crate::session::effect::Done;
 use crate::session::message::key::Key;
 use crate::session::state::{List, Listed, Overlay, Session};
-use crate::study::claims::Claim;
 
 /// Number of rows that the page keys move by.
 pub const PAGE: isize = 10;

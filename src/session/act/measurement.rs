@@ -6,7 +6,7 @@ use crate::fit::names::{Choice, NAMES, assigned, listed, named};
 use crate::fit::{
     Column, Inertia, LENGTHS, LOSSES, LossName, Reading, Signal, length_in_metres, parse,
 };
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::question::Opened;
 use crate::session::effect::{Done, Effect};
 use crate::session::message::Purpose;

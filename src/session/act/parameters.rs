@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
+use crate::flow::machine::stepped::SteppedMethod;
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
-use crate::machine::stepped::SteppedMethod;
+use crate::model::{Knob, KnobSpec};
 use crate::numerics::decimal::shortest;
 use crate::numerics::elementary::log10;
-use crate::oscillator::{Knob, KnobSpec};
 use crate::scene::{Running, Setting, View};
 use crate::session::act::notice::inform;
 use crate::session::effect::Done;

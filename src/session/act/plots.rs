@@ -1,9 +1,9 @@
 //! Commands of the plots: cursor, zoom, pan, and using the point under the cursor.
 
 use crate::flow::Problem;
+use crate::model::Knob;
+use crate::model::State;
 use crate::numerics::decimal::shortest;
-use crate::oscillator::Knob;
-use crate::oscillator::State;
 use crate::scene::{PlotSetup, Point, Span, View, Window};
 use crate::session::act::notice::{inform, refuse, with_keys};
 use crate::session::act::parameters::{change, put};

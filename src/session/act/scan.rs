@@ -1,7 +1,9 @@
 //! Scans: the form, starting and stopping, moving over the points, and using one of them.
 
+use crate::model::{Group, Knob};
 use crate::numerics::decimal::shortest;
-use crate::oscillator::{Group, Knob};
+use crate::scan::grid::Scan;
+use crate::scan::sweep::Sweep;
 use crate::scene::View;
 use crate::session::act::focus::focus_on;
 use crate::session::act::notice::{inform, with_keys};
@@ -11,8 +13,6 @@ use crate::session::effect::{Done, Effect};
 use crate::session::read::scan::{scan_of, typed};
 use crate::session::state::scan::SCANNING;
 use crate::session::state::{Input, Overlay, Pane, ScanForm, ScanOnShow, ScanProgress, Session};
-use crate::study::scan::Scan;
-use crate::study::sweep::Sweep;
 
 /// The file in which a key saves the rows; the command line takes any name.
 pub const FILE: &str = "scan.csv";

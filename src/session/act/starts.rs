@@ -1,8 +1,9 @@
 //! Starting motions beside each other, such as one on each side of the border of the basin, and removing them.
 
 use crate::flow::Problem;
+use crate::model::State;
 use crate::numerics::decimal::shortest;
-use crate::oscillator::State;
+use crate::portrait::Cycles;
 use crate::scene::Topic;
 use crate::session::act::notice::inform;
 use crate::session::act::parameters::put;
@@ -10,7 +11,6 @@ use crate::session::effect::Done;
 use crate::session::state::starts::MOST_MOTIONS;
 use crate::session::state::step_size::decimal_sum;
 use crate::session::state::{Session, Setup, Starts};
-use crate::study::Cycles;
 
 /// Clearance of a start relative to that of the border: near enough to stay close for a while, far enough to be
 /// distinguished.

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::oscillator::{Knob, unknown};
+use crate::model::{Knob, unknown};
+use crate::portrait::kicks::RandomKick;
 use crate::scene::machine::library::machines;
 use crate::scene::{
     Axes, LAYERS, Layer, ORDINATES, Ordinate, ScaledMachine, Span, Unit, VIEWS, View, Window, find,
@@ -15,7 +16,6 @@ use crate::session::effect::Done;
 use crate::session::read::completion::{properties, rows};
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::state::{Framing, Pane, Row, Session};
-use crate::study::kicks::RandomKick;
 use crate::words::one_of;
 
 /// A list of names, for a line that says what is allowed.

@@ -1,8 +1,8 @@
 //! Walking along the branch: a point is held, moved, and used as the start of the motion.
 
+use crate::model::State;
 use crate::numerics::decimal::shortest;
 use crate::numerics::elementary::hypot;
-use crate::oscillator::State;
 use crate::scene::{Axes, Layer, Topic};
 use crate::session::act::notice::{inform, with_keys};
 use crate::session::act::parameters::change;

@@ -5,7 +5,7 @@ pub mod pointer;
 
 use std::path::PathBuf;
 
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::question::NoAnswer;
 use crate::scene::{Answer, Answered, Request};
 use crate::session::message::key::Key;

@@ -5,8 +5,7 @@
 //! parameters then belong to no belt speed until a speed is set again.
 
 use crate::flow::Problem;
-use crate::machine::Body;
-use crate::oscillator::{Belt, Knob, Parameters, State};
+use crate::model::{Belt, Body, Knob, Parameters, State};
 use crate::question::Whole;
 use crate::question::whole::{Course, WholeCycles};
 use crate::scene::machine::unlikely::unlikely;

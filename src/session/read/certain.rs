@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::oscillator::Parameters;
+use crate::model::Parameters;
 use crate::question;
 use crate::scene::{Layer, Request, View};
 use crate::session::state::Session;

@@ -1,15 +1,15 @@
 //! Completion of the words of a line.
 
 use crate::flow::METHODS;
+use crate::model::Knob;
 use crate::numerics::decimal::shortest;
-use crate::oscillator::Knob;
+use crate::scan::measure::MEASURES;
 use crate::scene::machine::library::machines;
 use crate::scene::ordinate::OrdinateSpec;
 use crate::scene::{LAYERS, ORDINATES, VIEWS, Window, library};
 use crate::session::read::numbers::plain_value;
 use crate::session::state::settings::{COLORS, GLYPHS, THEMES};
 use crate::session::state::{Command, Completion, Keymap, Row, Session, WordKind};
-use crate::study::measure::MEASURES;
 
 /// Candidates for the last of these words, which are all words after the name of the command.
 fn complete(session: &Session, kind: WordKind, given: &[&str]) -> Vec<String> {

@@ -5,13 +5,13 @@
 //! cycles. The end time limits how far a motion is followed, but not what is known of it.
 
 use crate::flow::{Fate, Outcome, Sample, Trajectory};
+use crate::model::Parameters;
 use crate::numerics::elementary::hypot;
-use crate::oscillator::Parameters;
-use crate::portrait::{Border, Cycle};
+use crate::portrait::{Border, Cycle, Cycles};
 use crate::question::whole::Course;
-use crate::scene::said::{self, TextCondition};
+use crate::scene::said;
+use crate::scene::said::TextCondition;
 use crate::session::state::{Session, Setup};
-use crate::study::Cycles;
 
 /// The fate of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -257,9 +257,9 @@ mod tests {
     use super::*;
     use crate::flow::trajectory::trajectory;
     use crate::flow::{Detail, Limits, Problem};
+    use crate::model::State;
     use crate::numerics::elementary::hypot;
-    use crate::oscillator::State;
-    use crate::study::cycle::cycles_drawn;
+    use crate::portrait::basin::cycle::cycles_drawn;
 
     fn motion(parameters: Parameters, initial: State, until: f64) -> Trajectory {
         let problem =

@@ -1,19 +1,19 @@
 //! Windows fitted to what is on show.
 
+use crate::accuracy::trade::TradePoint;
 use crate::closed_form::lyapunov;
 use crate::fit::Signal;
 use crate::fit::curves::Extent;
 use crate::fit::dropped::Dropped;
 use crate::flow::{Outcome, Trajectory};
+use crate::model::energy::energy;
+use crate::model::{Knob, State};
 use crate::numerics::count::{real, truncated};
 use crate::numerics::elementary::hypot;
-use crate::oscillator::energy::energy;
-use crate::oscillator::{Knob, State};
 use crate::question::fit::Measured;
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Answer, Axes, Layer, Point, Request, Span, Topic, View, Window};
 use crate::session::state::{Framing, ScanOnShow, Session};
-use crate::study::trade::TradePoint;
 
 /// Width of a fitted window, relative to its content.
 const ROOM: f64 = 1.1;

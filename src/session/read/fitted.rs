@@ -1,7 +1,7 @@
 //! The fit of the record on show: of all numbers, or of the others while some are held by hand.
 
-use crate::oscillator::Knob;
-use crate::oscillator::belt::Units;
+use crate::model::Knob;
+use crate::model::belt::Units;
 use crate::question;
 use crate::question::fit::Unsure;
 use crate::question::{Fit, Fitted};

@@ -1,14 +1,14 @@
 //! The last answer on each topic, named after its content.
 
+use crate::accuracy::harmonic_error::HarmonicBalance;
+use crate::accuracy::trade::Trade;
 use crate::flow::Trajectory;
+use crate::portrait::{Cycles, ReturnMap};
 use crate::question::Borders;
 use crate::question::speeds::Speeds;
 use crate::question::zones::Zones;
 use crate::scene::{Answer, Topic};
 use crate::session::state::Session;
-use crate::study::harmonic_error::HarmonicBalance;
-use crate::study::trade::Trade;
-use crate::study::{Cycles, ReturnMap};
 
 macro_rules! last_answers {
     (

@@ -3,13 +3,13 @@
 //! Line `i` lies between the heights `-i` and `-i - 1` of the view's world, so that the view draws the same
 //! lines at every size and the cursor points at one of them.
 
-use crate::machine::MachineLedger;
+use crate::flow::MachineLedger;
+use crate::model::{Ledger, Parameters, State};
 use crate::numerics::count::real;
-use crate::oscillator::{Ledger, Parameters, State};
 use crate::portrait::Cycle;
+use crate::portrait::basin::works::works_until;
 use crate::scene::Layer;
 use crate::session::state::Session;
-use crate::study::works::works_until;
 
 /// The owner of a part of the ledger.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
+use crate::paper::{Claim, ClaimResult, Verdict, claims};
 use crate::scene::library::SceneGroup;
 use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, View, ViewSpec, library};
 use crate::session::read::search;
 use crate::session::state::{Kept, List, Listed, Overlay, Session};
-use crate::study::claims::{Claim, ClaimResult, Verdict, claims};
 
 impl List {
     /// The rank of a row with these names and this meaning: the best matches for the search come first.

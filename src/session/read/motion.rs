@@ -1,8 +1,8 @@
 //! The motion on show at a given time.
 
 use crate::flow::{Method, Outcome, Problem, Sample, Trajectory};
+use crate::model::{Parameters, State};
 use crate::numerics::elementary::tanh;
-use crate::oscillator::{Parameters, State};
 use crate::session::state::Session;
 
 impl Session {

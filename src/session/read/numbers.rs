@@ -1,7 +1,7 @@
 //! The rows of the parameter pane as text.
 
+use crate::model::Group;
 use crate::numerics::decimal::shortest;
-use crate::oscillator::Group;
 use crate::session::state::{Row, Session, Setup};
 
 /// The value of a row in a form that can be typed, with its unit and its half width; `None` for a number of a

@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::scene::machine::Machine;
+use crate::paper::{Claim, claims};
 use crate::scene::machine::library::machines;
-use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, ViewSpec, library};
+use crate::scene::{LAYERS, LayerSpec, Machine, Scene, VIEWS, ViewSpec, library};
 use crate::session::message::key::Key;
 use crate::session::read::search;
 use crate::session::state::context::contexts;
 use crate::session::state::{Command, Context, LineCommand, List, Pane, Session};
-use crate::study::claims::{Claim, claims};
 
 #[derive(Clone, Copy, Debug)]
 pub enum PaletteRow {

@@ -6,9 +6,9 @@
 use std::f64::consts::TAU;
 
 use crate::flow::{Sample, Trajectory};
+use crate::portrait::on_belt::FollowedOnBelt;
 use crate::scene::Topic;
 use crate::session::state::{Pace, Session};
-use crate::study::belt::FollowedOnBelt;
 
 impl Session {
     /// Whether the motion is being played.

@@ -1,12 +1,12 @@
 //! The scan that a form or a line describes, and the request of a running one.
 
-use crate::oscillator::Group;
+use crate::model::Group;
+use crate::portrait::basin;
+use crate::scan::grid::Scan;
+use crate::scan::measure::Measure;
+use crate::scan::sweep::Sweep;
 use crate::scene::{Request, Span, View};
 use crate::session::state::{Pane, ScanForm, Session};
-use crate::study::basin;
-use crate::study::measure::Measure;
-use crate::study::scan::Scan;
-use crate::study::sweep::Sweep;
 
 /// The scan of the motion on show that the form describes. Fails with one line that says what is wrong and what
 /// is allowed.

@@ -1,9 +1,9 @@
 //! The view of accuracy against cost: the row nearest to the cursor.
 
+use crate::accuracy::trade::TradePoint;
 use crate::numerics::elementary::hypot;
 use crate::scene::{Point, View, Window};
 use crate::session::state::Session;
-use crate::study::trade::TradePoint;
 
 impl Session {
     /// The row that is nearest to the cursor of a plot on the screen.

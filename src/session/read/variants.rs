@@ -4,12 +4,12 @@
 
 use std::collections::BTreeMap;
 
+use crate::branch::Branch;
 use crate::flow::Problem;
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::question;
 use crate::scene::{Answer, Height, Request, Topic, Variant};
 use crate::session::state::{AnswerState, Session};
-use crate::study::Branch;
 
 /// A motion that a plot shows, and what distinguishes it from the others there.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,9 +3,9 @@
 //! Everything here is a function of the branches; a diagram with variants has several. A walk holds the point
 //! itself and not its index, so that it stays at the same point when the branch is computed again.
 
+use crate::branch::{Branch, SpecialKind};
 use crate::numerics::elementary::{hypot, ln};
 use crate::session::state::BranchStop;
-use crate::study::{Branch, SpecialKind};
 
 /// The connected pieces of branches, each a list of stops.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -175,9 +175,9 @@ fn admits(kind: Option<SpecialKind>, around: (Option<&BranchStop>, Option<&Branc
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::branch::along::{Points, branch};
     use crate::flow::Limits;
-    use crate::oscillator::{Knob, Parameters};
-    use crate::study::branch::{Points, branch};
+    use crate::model::{Knob, Parameters};
 
     const FOLDED: Parameters = Parameters { d: 0.0, d2: 0.2, d3: 0.5, r: 0.1 };
 

@@ -7,17 +7,17 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use crate::accuracy::reference::{Deviation, NoComparison, Reference};
+use crate::branch::chart::{Chart, Plane};
 use crate::flow::Problem;
+use crate::model::{Belt, Knob, Parameters};
 use crate::numerics::elementary::{exp2, hypot, log2};
-use crate::oscillator::{Belt, Knob, Parameters};
+use crate::paper::ClaimResult;
 use crate::proof::Proof;
 use crate::question;
 use crate::question::{Motion, NoAnswer};
 use crate::scene::{Answer, Axes, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::state::{AnswerState, Framing, Listed, Overlay, Pane, Row, Session};
-use crate::study::accuracy::{Deviation, NoComparison, Reference};
-use crate::study::chart::{Chart, Plane};
-use crate::study::claims::ClaimResult;
 
 /// Number of evaluations above which answers on a topic may take longer than a quarter of a frame: further
 /// questions on it are first answered by drafts.

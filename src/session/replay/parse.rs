@@ -3,8 +3,8 @@
 use std::fmt;
 
 use super::mouse;
+use crate::model::{Group, Knob};
 use crate::numerics::similar::most_similar;
-use crate::oscillator::{Group, Knob};
 use crate::session::message::key::{self, Code, Key};
 use crate::session::message::pointer::Gesture;
 use crate::session::replay::script::{self, Instruction, LONGEST, Script, ScriptStep, too_long};

@@ -1,6 +1,6 @@
 //! Keystroke files as data: their steps, and the messages that these give to a session.
 
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::session::message::Msg;
 use crate::session::message::key::Key;
 use crate::session::message::pointer::Pointed;

@@ -6,10 +6,10 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::flow::Problem;
-use crate::oscillator::State;
+use crate::model::State;
+use crate::portrait::kicks::RandomKick;
 use crate::scene::{Arrangement, Axes, Layer, PlotSetup, Point, Scene, Setting, View, Window};
 use crate::session::state::{Framing, StepSizes, Uncertainty};
-use crate::study::kicks::RandomKick;
 
 /// The format that this program writes; it reads this and all earlier formats.
 pub const VERSION: u32 = 1;

@@ -7,9 +7,8 @@ use serde::Deserialize;
 
 use super::file::{SavedChange, SavedPlot, SavedScene, SavedSession, Show, VERSION};
 use crate::flow::Problem;
-use crate::oscillator::{Knob, State};
-use crate::scene::misread::{self, Misread};
-use crate::scene::{MOST_PLOTS, PlotSetup, Scene, Setting, find};
+use crate::model::{Knob, State};
+use crate::scene::{MOST_PLOTS, Misread, PlotSetup, Scene, Setting, find, misread};
 use crate::session::read::numbers::difference;
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::state::starts::MOST_MOTIONS;

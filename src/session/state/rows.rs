@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::flow::Problem;
-use crate::oscillator::{Group, KNOBS, Knob};
+use crate::model::{Group, KNOBS, Knob};
 use crate::scene::{ScaledMachine, Scene};
 use crate::session::state::step_size::StepSize;
 use crate::session::state::uncertainty::symbol_of;

@@ -7,10 +7,10 @@ use std::sync::Arc;
 use crate::numerics::count::real;
 use crate::numerics::elementary::log10;
 use crate::question;
+use crate::scan::grid::{Scan, ScanRow};
+use crate::scan::measure::Value;
+use crate::scan::sweep::{Spacing, Sweep};
 use crate::scene::{Point, Request, Span, View, Window};
-use crate::study::measure::Value;
-use crate::study::scan::{Scan, ScanRow};
-use crate::study::sweep::{Spacing, Sweep};
 
 /// The words that a measure can have as its value; they are plotted at their indices.
 pub const WORDS: [&str; 4] = ["captured", "moving", "escaped", "gave-up"];

@@ -1,8 +1,8 @@
 //! The form for typing a scan.
 
-use crate::oscillator::Knob;
+use crate::model::Knob;
+use crate::scan::measure::MEASURES;
 use crate::session::state::input::Input;
-use crate::study::measure::MEASURES;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FormField {

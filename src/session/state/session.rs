@@ -9,7 +9,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::flow::{Cost, Problem};
-use crate::oscillator::Knob;
+use crate::model::Knob;
+use crate::portrait::kicks::RandomKick;
 use crate::scene::{Arrangement, Layer, Machine, Scene, Setting, Topic};
 use crate::session::effect::Effect;
 use crate::session::message::Notice;
@@ -32,7 +33,6 @@ use crate::session::state::starts::Starts;
 use crate::session::state::stop::BranchStop;
 use crate::session::state::uncertainty::Uncertainty;
 use crate::session::state::waiting::Waiting;
-use crate::study::kicks::RandomKick;
 
 /// Maximum number of harmonics: more would cost more than the picture can show.
 pub const MOST_HARMONICS: usize = 63;

@@ -1,7 +1,7 @@
 //! The motions on show, the numbers of the machine and what is not known exactly: they change together.
 
 use crate::flow::Problem;
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::scene::{ScaledMachine, Scene, Setting};
 use crate::session::state::starts::Starts;
 use crate::session::state::uncertainty::Uncertainty;

@@ -1,6 +1,6 @@
 //! Starts of the motions that are shown beside the present one.
 
-use crate::oscillator::State;
+use crate::model::State;
 
 /// Maximum number of motions on show, including the present one.
 pub const MOST_MOTIONS: usize = 8;

@@ -1,7 +1,7 @@
 //! A point of a branch where a walk can stop.
 
+use crate::branch::{BranchPoint, Special, SpecialKind};
 use crate::portrait::Cycle;
-use crate::study::{BranchPoint, Special, SpecialKind};
 
 /// A point of a branch where a walk can stop.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::machine::Tolerances;
-use crate::oscillator::{Belt, Knob, ParameterBox, Parameters};
+use crate::model::{Belt, Knob, ParameterBox, Parameters, Tolerances};
 use crate::scene::Running;
 
 /// The largest deviations of the parameters from their values, and the bound on a force that varies in any way.

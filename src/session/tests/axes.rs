@@ -1,7 +1,7 @@
 //! The axes of the diagram.
 
 use super::Trial;
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::scene::{Layer, ORDINATES, Ordinate, Topic};
 use crate::session::Framing;
 

@@ -3,8 +3,8 @@
 use super::Trial;
 use super::facts::refuses;
 use super::saved::reopened;
-use crate::oscillator::belt::ReducedBelt;
-use crate::oscillator::{Group, Knob};
+use crate::model::belt::ReducedBelt;
+use crate::model::{Group, Knob};
 use crate::scene::{Layer, ScaledMachine};
 use crate::session::{Effect, Msg, Purpose, Row, save};
 

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use super::Trial;
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::scene::{Axes, Request, Topic, library};
 use crate::session::{Row, Session};
 

@@ -1,12 +1,12 @@
 //! The dial for the accuracy: its stops, what is computed roughly first, and when an error is measured.
 
 use super::{COST, Trial, answered, by_hand};
+use crate::accuracy::reference::Reference;
 use crate::flow::{Limits, Method, Reason};
 use crate::question::{NoAnswer, answer};
 use crate::scene::{Answer, Request, TOPICS, Topic, find};
 use crate::session::read::wants::NoErrorReason;
 use crate::session::{AnswerState, Msg, update};
-use crate::study::accuracy::Reference;
 
 #[test]
 fn the_dial_goes_through_its_stops_and_ends() {

@@ -2,15 +2,15 @@
 
 use std::sync::Arc;
 
+use crate::branch::Branch;
 use crate::flow::Limits;
 use crate::flow::quality::DRAFT;
+use crate::model::Knob;
 use crate::numerics::elementary::hypot;
-use crate::oscillator::Knob;
 use crate::question;
 use crate::question::{NoAnswer, answer};
 use crate::scene::{Answer, Request, TOPICS, Topic, library};
 use crate::session::{Msg, Row, Session, Size, update};
-use crate::study::Branch;
 
 const SIZE: Size = Size { width: 120, height: 40 };
 

@@ -1,7 +1,7 @@
 //! Facts about a session, so that a test is a table of keys and facts.
 
 use super::Trial;
-use crate::oscillator::{Group, Knob};
+use crate::model::{Group, Knob};
 use crate::scene::LAYERS;
 use crate::session::{Overlay, Pane, Session};
 

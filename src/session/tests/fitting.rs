@@ -3,8 +3,8 @@
 use super::Trial;
 use super::saved::reopened;
 use crate::fit::Signal;
+use crate::model::Knob;
 use crate::numerics::elementary::{cos, exp, sin};
-use crate::oscillator::Knob;
 use crate::picture::items::Item;
 use crate::scene::{Topic, View};
 use crate::session::{Code, Effect, Key, Msg, Purpose, save, update};

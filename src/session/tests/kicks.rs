@@ -4,10 +4,10 @@ use super::Trial;
 use super::saved::reopened;
 use crate::flow::Limits;
 use crate::picture::{self, items::Item};
+use crate::portrait::kicks::repeated::repeated;
 use crate::question::{Answer, Request, answer};
 use crate::scene::{Layer, Topic};
 use crate::session::Msg;
-use crate::study::repeated::repeated;
 
 /// The titles of the plots.
 fn titles(trial: &Trial) -> Vec<String> {

@@ -32,23 +32,23 @@ use std::sync::Arc;
 
 use super::replay::{Action, Player, parse};
 use super::{Effect, Msg, Overlay, Session, Size, update};
+use crate::accuracy::harmonic_error::HarmonicBalance;
+use crate::accuracy::reference::{Deviation, Ending, Reference, Source};
+use crate::accuracy::trade::{Trade, TradePoint};
+use crate::branch::chart::Chart;
+use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::flow::{Cost, Limits, Method, Outcome, Problem, Reason, Sample, Trajectory};
+use crate::model::{Ledger, State};
 use crate::numerics::elementary::ln;
 use crate::numerics::twofold::Twofold;
-use crate::oscillator::{Ledger, State};
-use crate::portrait::{Border, Cycle, Margin};
+use crate::portrait::basin::stability::Share;
+use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, ReturnMap};
 use crate::proof::{ParameterBox, Proof};
 use crate::question;
 use crate::question::speeds::Speeds;
 use crate::question::zones::{Extent, Zones};
 use crate::question::{Borders, Rows};
 use crate::scene::{Answer, Fit, Request, Scene, Topic, find};
-use crate::study::accuracy::{Deviation, Ending, Reference, Source};
-use crate::study::chart::Chart;
-use crate::study::harmonic_error::HarmonicBalance;
-use crate::study::stability::Share;
-use crate::study::trade::{Trade, TradePoint};
-use crate::study::{BasinPicture, Branch, BranchPoint, Cycles, ReturnMap, Special, SpecialKind};
 
 /// A session whose questions are answered as soon as they are asked.
 struct Trial {

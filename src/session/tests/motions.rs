@@ -2,7 +2,7 @@
 
 use super::Trial;
 use super::saved::reopened;
-use crate::oscillator::State;
+use crate::model::State;
 use crate::session::save;
 
 /// In the scene, the motion starts at 0.3; in the made-up answer, the unstable cycle turns at 1.1.

@@ -1,11 +1,10 @@
 //! Cursor, zoom, pan and fit; starts beside the cycle.
 
 use super::Trial;
-use crate::oscillator::State;
-use crate::portrait::{Border, Margin};
+use crate::model::State;
+use crate::portrait::{BasinPicture, Border, Cycles, Margin};
 use crate::scene::{Answer, Point, Span, Topic, Window};
 use crate::session::Framing;
-use crate::study::{BasinPicture, Cycles};
 
 #[test]
 fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
@@ -34,7 +33,7 @@ fn the_cursor_stays_inside_its_window() {
 fn the_diagram_is_jumped_to_and_knows_its_limits() {
     let mut trial = Trial::open("plain");
     trial.goes(&[("<tab><tab><left*3><enter>", "focus 1 diagram | D -0.13")]);
-    trial.session.plots[1].axes.abscissa = crate::oscillator::Knob::R;
+    trial.session.plots[1].axes.abscissa = crate::model::Knob::R;
     trial.session.plots[1].cursor = Some(Point { x: -0.2, y: 1.0 });
     trial.goes(&[("<enter>", "notice r = -0.2 is outside its range..")]);
 }
@@ -42,7 +41,7 @@ fn the_diagram_is_jumped_to_and_knows_its_limits() {
 #[test]
 fn a_diagram_outside_the_range_of_its_parameter_asks_nothing() {
     let mut trial = Trial::open("plain");
-    trial.session.plots[1].axes.abscissa = crate::oscillator::Knob::R;
+    trial.session.plots[1].axes.abscissa = crate::model::Knob::R;
     trial.session.plots[1].window.x = Span::new(-2.0, -1.0).unwrap();
     assert_eq!(trial.session.request(crate::scene::Topic::Branch, 1), None);
     assert_eq!(trial.session.wants().len(), 3, "the motion, the cycles and their proof");

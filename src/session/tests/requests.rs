@@ -2,7 +2,7 @@
 
 use super::{COST, Trial, answered};
 use crate::flow::Reason;
-use crate::oscillator::Parameters;
+use crate::model::Parameters;
 use crate::question::NoAnswer;
 use crate::scene::{Request, Topic};
 use crate::session::{Msg, update};

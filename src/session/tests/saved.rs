@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::strange::any_key;
 use super::{Trial, answered};
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::scene::{Request, Topic, library};
 use crate::session::{
     Effect, Kept, Msg, Notice, Purpose, Row, Session, Setup, StepSizes, save, update,

@@ -7,11 +7,11 @@ use super::Trial;
 use crate::flow::Cost;
 use crate::question;
 use crate::question::Rows;
+use crate::scan::grid::{Scan, ScanRow};
+use crate::scan::measure::Value;
 use crate::scene::{Answer, Answered, Request, Topic, View};
 use crate::session::scan::ScanProgress;
 use crate::session::{Effect, Msg, Pane, ScanOnShow, Session, update};
-use crate::study::measure::Value;
-use crate::study::scan::{Scan, ScanRow};
 
 /// Made-up rows: the index of the point in each column.
 pub fn rows(scan: &Scan, points: Range<usize>) -> Vec<ScanRow> {

@@ -1,7 +1,7 @@
 //! One to four plots, each with its own view, and what they ask together.
 
 use super::Trial;
-use crate::oscillator::Knob;
+use crate::model::Knob;
 use crate::scene::{Arrangement, Axes, Ordinate, Topic, View};
 use crate::session::{Framing, Pane};
 

@@ -35,7 +35,7 @@ pub(super) fn check(session: &Session) {
             assert!(cursor.x.is_finite() && cursor.y.is_finite());
         }
     }
-    for knob in crate::oscillator::Knob::MOTION {
+    for knob in crate::model::Knob::MOTION {
         let value = session.value(knob);
         assert_eq!(knob.check(value), Ok(value));
     }

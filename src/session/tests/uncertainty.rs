@@ -3,8 +3,7 @@
 use super::Trial;
 use super::facts::refuses;
 use super::saved::reopened;
-use crate::machine::Tolerances;
-use crate::oscillator::{Interval, Knob, Parameters};
+use crate::model::{Interval, Knob, Parameters, Tolerances};
 use crate::question;
 use crate::question::answer;
 use crate::scene::{Answer, Request, Topic};

@@ -64,7 +64,7 @@ fn reset_gives_a_row_its_value_and_its_step() {
     assert_ne!(trial.session.steps, crate::session::StepSizes::of_scene(&trial.session.scene));
     trial.press("r");
     assert_eq!(trial.session.steps, crate::session::StepSizes::of_scene(&trial.session.scene));
-    assert_eq!(trial.session.value(crate::oscillator::Knob::D), -0.4);
+    assert_eq!(trial.session.value(crate::model::Knob::D), -0.4);
 }
 
 #[test]

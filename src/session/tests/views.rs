@@ -1,10 +1,10 @@
 //! The questions of each view, and what can be taken from it into the phase plane.
 
 use super::Trial;
-use crate::oscillator::{Knob, State};
+use crate::model::{Knob, State};
+use crate::paper::claims;
 use crate::scene::{LAYERS, Request, Topic, VIEWS, View};
 use crate::session::{Context, Pane};
-use crate::study::claims::claims;
 
 /// A scene with a single plot, which shows a view.
 fn turned_to(view: &str) -> Trial {

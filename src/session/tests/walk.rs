@@ -1,7 +1,7 @@
 //! Walking along the made-up branch: unstable at 1.1, a fold at 1.5, stable at 3.1.
 
 use super::Trial;
-use crate::oscillator::State;
+use crate::model::State;
 use crate::scene::View;
 use crate::session::{BranchStop, Context};
 

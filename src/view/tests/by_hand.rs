@@ -1,26 +1,23 @@
 //! Answers made by hand, so that pictures of them are always the same, and sessions that have them.
 
+use crate::accuracy::trade::Trade;
+use crate::branch::chart::{Band, Chart, ChartLine, Plane};
+use crate::branch::regime::Regime;
+use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::flow::{Cost, Crossing, Limits, Outcome, Problem, Sample, Trajectory};
+use crate::model::{Knob, Ledger, Parameters, State};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{cos, ln, sin, sin_cos};
-use crate::oscillator::{Knob, Ledger, Parameters, State};
-use crate::portrait::{Border, Cycle, Margin, RestMargin};
+use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, RestMargin, Return, ReturnMap};
 use crate::proof::cycles::ProvedCycle;
 use crate::proof::{ParameterBox, Proof};
 use crate::question;
 use crate::question::zones::{Extent, Zones};
 use crate::question::{Borders, Rows};
-use crate::scene::library::find;
-use crate::scene::{Answer, Layer, Request};
+use crate::scan::grid::ScanRow;
+use crate::scan::measure::Value;
+use crate::scene::{Answer, Layer, Request, find};
 use crate::session::{Key, Msg, Session, Size, update};
-use crate::study::chart::{Band, Chart, ChartLine, Plane};
-use crate::study::measure::Value;
-use crate::study::regime::Regime;
-use crate::study::scan::ScanRow;
-use crate::study::trade::Trade;
-use crate::study::{
-    BasinPicture, Branch, BranchPoint, Cycles, Return, ReturnMap, Special, SpecialKind,
-};
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 

@@ -3,14 +3,13 @@
 use super::by_hand::{press, settle};
 use super::{braille, draw, letters, settled};
 use crate::flow::Limits;
+use crate::model::Knob;
 use crate::numerics::count::real;
-use crate::oscillator::Knob;
 use crate::picture;
 use crate::picture::items::{Caption, Item, LineStyle};
 use crate::picture::role::{Dash, Mark, Role};
 use crate::question::answer;
-use crate::scene::library::{find, library};
-use crate::scene::{Ordinate, Point, View};
+use crate::scene::{Ordinate, Point, View, find, library};
 use crate::session::{Msg, Session, Size, update};
 use crate::view::look::Look;
 use crate::view::screen::text;

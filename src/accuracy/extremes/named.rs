@@ -1,0 +1,227 @@
+//! Extremes that have names: what is known of them, and how far from it each method ends.
+
+use serde::Serialize;
+
+use crate::flow::trajectory::trajectory;
+use crate::flow::{Cost, Detail, Limits, Method, Outcome, Problem, Trajectory};
+use crate::model::energy::energy;
+use crate::model::{Parameters, State};
+use crate::numerics::scaling::times_power;
+
+/// One of them by one method.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct NamedExtreme {
+    pub what: &'static str,
+    pub method: Method,
+    pub measure: &'static str,
+    /// The measured value; infinite where the answer is of the wrong kind.
+    pub measured: f64,
+    /// The largest value that is right.
+    pub allowed: f64,
+    pub cost: Cost,
+}
+
+/// The methods that find events and control their error, where the motion is not linear.
+const NONLINEAR: [Method; 5] =
+    [Method::Auto, Method::Taylor, Method::Dop853, Method::Dopri5, Method::Stiff];
+
+/// A motion that runs to infinity, and when it gets there.
+///
+/// The times were computed with 40 digits by Taylor series of order 40; where only D2 acts, they agree
+/// with the integral of `dx/v` from the first integral of the motion.
+struct BlowUp {
+    what: &'static str,
+    d: f64,
+    d2: f64,
+    d3: f64,
+    start: (f64, f64),
+    time: f64,
+}
+
+const BLOW_UPS: [BlowUp; 6] = [
+    BlowUp {
+        what: "blow-up beyond the parabola of D2",
+        d: 0.0,
+        d2: -1.0,
+        d3: 0.0,
+        start: (0.1, 3.0),
+        time: 0.338_881_285_452_042_3,
+    },
+    BlowUp {
+        what: "blow-up close to the parabola of D2",
+        d: 0.0,
+        d2: -0.5,
+        d3: 0.0,
+        start: (-0.2, 2.5),
+        time: 0.846_439_335_312_472_2,
+    },
+    BlowUp {
+        what: "blow-up by D3 < 0",
+        d: 0.0,
+        d2: 0.0,
+        d3: -1.0,
+        start: (0.1, 2.0),
+        time: 0.126_165_782_926_803_04,
+    },
+    BlowUp {
+        what: "blow-up by D < 0 and D3 < 0",
+        d: -0.1,
+        d2: 0.0,
+        d3: -0.5,
+        start: (0.5, 1.5),
+        time: 0.489_627_247_499_876_8,
+    },
+    BlowUp {
+        what: "blow-up by D3 < 0 against D and D2",
+        d: 0.2,
+        d2: 0.3,
+        d3: -0.1,
+        start: (0.1, 40.0),
+        time: 0.003_295_064_729_575_763_5,
+    },
+    BlowUp {
+        what: "blow-up by all damping together",
+        d: -0.5,
+        d2: -0.2,
+        d3: -2.0,
+        start: (0.3, 1.2),
+        time: 0.147_045_254_234_713_24,
+    },
+];
+
+/// Every named extreme by the methods that serve it.
+pub fn named(limits: &Limits) -> Vec<NamedExtreme> {
+    let mut all = vec![
+        million_swings(Method::Exact, 1e-13, 1e-15, limits),
+        million_swings(Method::Taylor, 1e-15, 1e-13, limits),
+    ];
+    for blow_up in &BLOW_UPS {
+        all.extend(NONLINEAR.map(|method| blow_up.by(method, limits)));
+    }
+    all.extend([Method::Auto, Method::Stiff].map(|method| far_out(method, limits)));
+    all.extend(NONLINEAR.map(|method| scaled_and_mirrored(method, limits)));
+    all
+}
+
+/// A million half swings of the undamped oscillator, and what they did to its energy.
+fn million_swings(method: Method, tolerance: f64, allowed: f64, limits: &Limits) -> NamedExtreme {
+    const SWINGS: f64 = 1e6;
+    let problem = Problem {
+        parameters: Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 },
+        initial: State { q: 1.0, v: 0.0 },
+        until: (SWINGS + 0.5) * std::f64::consts::PI,
+        method,
+        tolerance,
+        ..Problem::default()
+    };
+    let motion = trajectory(&problem, Detail::default(), limits);
+    let measured = match motion.outcome {
+        Outcome::Moving { q, v, .. } if motion.crossings.len() == 1_000_000 => {
+            (energy(State { q, v }) / energy(problem.initial) - 1.0).abs()
+        }
+        _ => f64::INFINITY,
+    };
+    let what = "a million half swings at D = r = 0";
+    NamedExtreme {
+        what,
+        method,
+        measure: "energy gained or lost",
+        measured,
+        allowed,
+        cost: motion.cost,
+    }
+}
+
+impl BlowUp {
+    fn by(&self, method: Method, limits: &Limits) -> NamedExtreme {
+        let &BlowUp { what, d, d2, d3, start: (q, v), time } = self;
+        let problem = Problem {
+            parameters: Parameters { d, d2, d3, r: 0.0 },
+            initial: State { q, v },
+            method,
+            ..Problem::default()
+        };
+        let motion = trajectory(&problem, Detail::default(), limits);
+        let measured = match motion.outcome {
+            Outcome::Escaped { tau } => (tau / time - 1.0).abs(),
+            _ => f64::INFINITY,
+        };
+        let measure = "relative error of its time";
+        NamedExtreme { what, method, measure, measured, allowed: 1e-8, cost: motion.cost }
+    }
+}
+
+/// The start from which an explicit method needs a hundred million steps.
+fn far_out(method: Method, limits: &Limits) -> NamedExtreme {
+    let problem = Problem {
+        parameters: Parameters { d: -0.1, d2: 0.0, d3: 1.0, r: 0.1 },
+        initial: State { q: 1e6, v: 0.0 },
+        until: 2e4,
+        method,
+        ..Problem::default()
+    };
+    let motion = trajectory(&problem, Detail::default(), limits);
+    #[expect(clippy::cast_precision_loss, reason = "the budget ends it long before")]
+    let measured = match motion.outcome {
+        Outcome::Captured { .. } => motion.cost.steps as f64,
+        _ => f64::INFINITY,
+    };
+    let what = "far out at q0 = 1e6, D3 = 1, until it rests";
+    NamedExtreme { what, method, measure: "steps", measured, allowed: 5_000.0, cost: motion.cost }
+}
+
+/// One motion in units of every power of two from -240 to 240, and its mirror image in each.
+fn scaled_and_mirrored(method: Method, limits: &Limits) -> NamedExtreme {
+    let parameters = Parameters { d: -0.1, d2: 0.3, d3: 0.4, r: 0.05 };
+    let plain = Problem {
+        parameters,
+        initial: State { q: 2.0, v: -1.0 },
+        until: 20.0,
+        method,
+        ..Problem::default()
+    };
+    let follow = |problem: &Problem| trajectory(problem, Detail::default(), limits);
+    let reference = follow(&plain);
+    let mut cost = reference.cost;
+    let mut different = 0.0;
+    for k in -240..=240 {
+        let scaled = Problem {
+            parameters: parameters.times_power(k),
+            initial: State { q: times_power(2.0, k), v: times_power(-1.0, k) },
+            ..plain
+        };
+        let mirrored = Problem {
+            parameters: scaled.parameters.mirrored(),
+            initial: scaled.initial.mirrored(),
+            ..scaled
+        };
+        for (problem, sign) in [(scaled, 1.0), (mirrored, -1.0)] {
+            let motion = follow(&problem);
+            cost += motion.cost;
+            different += f64::from(u8::from(!is_image(&motion, &reference, sign, k)));
+        }
+    }
+    let what = "scaled by 2^k, k = -240 .. 240, and mirrored";
+    let measure = "images that differ in any bit";
+    NamedExtreme { what, method, measure, measured: different, allowed: 0.0, cost }
+}
+
+/// Whether a motion is `sign * 2^k` times another one, to the last bit.
+fn is_image(motion: &Trajectory, of: &Trajectory, sign: f64, k: i32) -> bool {
+    let image = |q: f64| (sign * times_power(q, k)).to_bits();
+    let same_end = match (motion.outcome, of.outcome) {
+        (Outcome::Captured { tau, q }, Outcome::Captured { tau: at, q: place }) => {
+            tau == at && q.to_bits() == image(place)
+        }
+        (Outcome::Moving { q, v, .. }, Outcome::Moving { q: place, v: speed, .. }) => {
+            q.to_bits() == image(place) && v.to_bits() == image(speed)
+        }
+        _ => false,
+    };
+    let pairs = motion.crossings.iter().zip(&of.crossings);
+    same_end
+        && motion.crossings.len() == of.crossings.len()
+        && pairs
+            .into_iter()
+            .all(|(one, other)| one.tau == other.tau && one.q.to_bits() == image(other.q))
+}

@@ -1,0 +1,136 @@
+//! The limit cycles at the parameters of the lattice, and how well they close.
+
+use serde::Serialize;
+
+use super::lattice::all_parameters;
+use crate::flow::{Cost, Limits, Reason};
+use crate::model::Parameters;
+use crate::portrait::Cycle;
+use crate::portrait::closing::all::{STEP, all_closings};
+use crate::portrait::closing::equation::{Equation, Route};
+use crate::portrait::closing::pair::Closing;
+
+/// Maximum number of evaluations of one half map in a search.
+pub const BUDGET: u64 = 3_000_000;
+
+/// Every how many sets the thin lattice takes one: no factor in common with the number of values of any
+/// parameter.
+pub const THIN: usize = 7;
+
+/// Tolerance of the steps by which a cycle is followed again.
+const AGAIN: f64 = 1e-13;
+
+/// A limit cycle of the lattice.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LatticeCycle {
+    #[serde(flatten)]
+    pub cycle: Cycle,
+    /// By what fraction of the clearance a turn fails to close, followed again by steps of another length, along
+    /// the way in which it contracts.
+    pub residual: f64,
+}
+
+/// What the search answered.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum SetAnswer {
+    /// All cycles, by amplitude.
+    Found {
+        /// They.
+        cycles: Vec<LatticeCycle>,
+    },
+    /// No answer.
+    GaveUp {
+        /// Why.
+        #[serde(serialize_with = "as_text")]
+        reason: Reason,
+    },
+}
+
+fn as_text<S: serde::Serializer>(reason: &Reason, out: S) -> Result<S::Ok, S::Error> {
+    out.collect_str(reason)
+}
+
+/// The parameters of a place of the lattice and what the search for cycles answered there.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SetVerdict {
+    pub parameters: Parameters,
+    pub answer: SetAnswer,
+    pub cost: Cost,
+}
+
+impl SetVerdict {
+    /// The cycles; none where it gave up.
+    pub fn cycles(&self) -> &[LatticeCycle] {
+        match &self.answer {
+            SetAnswer::Found { cycles } => cycles,
+            SetAnswer::GaveUp { .. } => &[],
+        }
+    }
+}
+
+/// The parameters of the lattice, every set or, if `thin`, each [`THIN`]th.
+pub fn sets(thin: bool) -> impl Iterator<Item = Parameters> {
+    all_parameters().step_by(if thin { THIN } else { 1 })
+}
+
+/// Searches for all cycles at these parameters within [`BUDGET`].
+pub fn judge_set(parameters: &Parameters, limits: &Limits) -> SetVerdict {
+    let limits =
+        Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
+    let mut equation = Equation::new(parameters, STEP);
+    let answer = match all_closings(&mut equation, &limits) {
+        Err(reason) => SetAnswer::GaveUp { reason },
+        Ok(closings) => SetAnswer::Found {
+            cycles: closings
+                .iter()
+                .map(|closing| LatticeCycle {
+                    cycle: closing.describe(parameters, equation.side),
+                    residual: residual(closing, parameters, &limits),
+                })
+                .collect(),
+        },
+    };
+    SetVerdict { parameters: *parameters, answer, cost: equation.cost() }
+}
+
+/// By how much a turn fails to close; infinite where it cannot be followed.
+fn residual(closing: &Closing, parameters: &Parameters, limits: &Limits) -> f64 {
+    let mut equation = Equation::new(parameters, AGAIN);
+    let route = Route::contracting(closing.log_multiplier(parameters));
+    let again = equation.at(route, closing.node.at, limits);
+    again.map_or(f64::INFINITY, |again| again.node.value().abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+    use crate::accuracy::extremes::lattice::{Case, cases};
+
+    /// Number of different pairs of values of two different coordinates of these points.
+    fn pairs<const N: usize>(points: impl Iterator<Item = [u64; N]>) -> usize {
+        let mut pairs = HashSet::new();
+        for point in points {
+            for first in 0..N {
+                for second in first + 1..N {
+                    pairs.insert((first, second, point[first], point[second]));
+                }
+            }
+        }
+        pairs.len()
+    }
+
+    #[test]
+    fn the_thin_lattices_still_pair_every_value_with_every_other() {
+        let numbers = |Parameters { d, d2, d3, r }: Parameters| [d, r, d2, d3].map(f64::to_bits);
+        let motion = |case: Case| {
+            let [d, r, d2, d3] = numbers(case.parameters);
+            [d, r, d2, d3, case.start as u64]
+        };
+        assert_eq!((cases(false).count(), sets(false).count()), (21_000, 1_500));
+        assert_eq!(pairs(cases(true).map(motion)), pairs(cases(false).map(motion)));
+        assert_eq!(pairs(sets(true).map(numbers)), pairs(sets(false).map(numbers)));
+    }
+}

@@ -1,0 +1,155 @@
+//! How well each method answers a motion of the lattice.
+
+use serde::Serialize;
+
+use super::lattice::{Case, UNTIL};
+use crate::flow::trajectory::trajectory;
+use crate::flow::{Cost, Detail, Limits, Method, Outcome, Problem, Trajectory};
+use crate::model::Parameters;
+use crate::numerics::elementary::log10;
+
+/// Tolerance of the motions where none is given.
+pub const TOLERANCE: f64 = 1e-10;
+
+/// Tolerance of the motion with which others are compared, as a fraction of theirs, and at least.
+const TIGHTER: (f64, f64) = (1e-4, 1e-15);
+
+/// Maximum number of evaluations that a motion may take.
+pub const BUDGET: u64 = 40_000;
+
+/// Maximum number of evaluations that the reference may take.
+const REFERENCE_BUDGET: u64 = 200_000;
+
+/// The methods that find events and control their error, `auto` first.
+pub const METHODS: [Method; 6] =
+    [Method::Auto, Method::Exact, Method::Taylor, Method::Dop853, Method::Dopri5, Method::Stiff];
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MethodAnswer {
+    /// The method that was asked.
+    pub method: Method,
+    /// Its answer.
+    pub outcome: Outcome,
+    /// Digits lost of those that the tolerance asks for; `None` where there is nothing to compare, or
+    /// where the answer is of another kind than that of the reference.
+    pub digits_lost: Option<f64>,
+    /// Whether the answer contradicts the reference.
+    pub contradicts: bool,
+    pub cost: Cost,
+}
+
+/// A motion of the lattice and what the methods answered.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MethodsVerdict {
+    /// The motion.
+    pub case: Case,
+    /// The method of the reference; `None` where no method answered within its budget.
+    pub reference: Option<Method>,
+    /// Digits by which a relative change of the damping is magnified in the answer: nobody who knows the
+    /// damping to the tolerance can ask for these. Infinite where it changes the kind of the answer.
+    /// Computed only where some method lost a digit.
+    pub sensitivity: f64,
+    /// The answers, in the order of [`METHODS`], of the methods that serve these parameters.
+    pub answers: Vec<MethodAnswer>,
+}
+
+impl MethodsVerdict {
+    /// What a method answered, where it serves these parameters.
+    pub fn answer(&self, method: Method) -> Option<&MethodAnswer> {
+        self.answers.iter().find(|answer| answer.method == method)
+    }
+}
+
+/// Follows a motion by every method that serves its parameters, to a relative `tolerance`.
+pub fn judge(case: &Case, tolerance: f64, limits: &Limits) -> MethodsVerdict {
+    let linear = case.parameters.is_piecewise_linear();
+    let reference = reference(case, tolerance, limits);
+    let digits = |distance: f64| log10(distance / tolerance).max(0.0);
+    let methods = METHODS.iter().filter(|&&method| linear || method != Method::Exact);
+    let answers = methods.map(|&method| {
+        let motion = follow(case, method, tolerance, BUDGET, limits);
+        let distance = reference.as_ref().and_then(|reference| distance(&motion, reference));
+        MethodAnswer {
+            method,
+            outcome: motion.outcome,
+            digits_lost: distance.filter(|distance| distance.is_finite()).map(digits),
+            contradicts: distance == Some(f64::INFINITY),
+            cost: motion.cost,
+        }
+    });
+    let answers: Vec<MethodAnswer> = answers.collect();
+    let worst = answers.iter().filter_map(|answer| answer.digits_lost).fold(0.0, f64::max);
+    let sensitivity = match &reference {
+        Some(motion) if worst >= 1.0 || answers.iter().any(|answer| answer.contradicts) => {
+            let changed = changed(motion, tolerance, limits);
+            distance(&changed, motion).map_or(0.0, digits)
+        }
+        _ => 0.0,
+    };
+    MethodsVerdict {
+        case: *case,
+        answers,
+        reference: reference.map(|motion| motion.problem.method),
+        sensitivity,
+    }
+}
+
+/// The same motion with all damping changed by this relative amount.
+fn changed(motion: &Trajectory, part: f64, limits: &Limits) -> Trajectory {
+    let Parameters { d, d2, d3, r } = motion.problem.parameters;
+    let change = 1.0 + part;
+    let parameters = Parameters { d: d * change, d2: d2 * change, d3: d3 * change, r };
+    trajectory(&Problem { parameters, ..motion.problem }, Detail::default(), limits)
+}
+
+fn follow(case: &Case, method: Method, tolerance: f64, budget: u64, limits: &Limits) -> Trajectory {
+    let problem = Problem {
+        parameters: case.parameters,
+        initial: case.initial,
+        until: UNTIL,
+        method,
+        tolerance,
+        ..Problem::default()
+    };
+    let limits =
+        Limits { evaluations: limits.evaluations.min(budget), interrupted: limits.interrupted };
+    trajectory(&problem, Detail::default(), &limits)
+}
+
+/// The motion to compare with: the closed form, else a tight motion by the series, else, where that is
+/// too stiff, by the implicit method.
+fn reference(case: &Case, tolerance: f64, limits: &Limits) -> Option<Trajectory> {
+    let methods: &[Method] = if case.parameters.is_piecewise_linear() {
+        &[Method::Exact]
+    } else {
+        &[Method::Taylor, Method::Stiff]
+    };
+    let tighter = (TIGHTER.0 * tolerance).max(TIGHTER.1);
+    let mut tight =
+        methods.iter().map(|&method| follow(case, method, tighter, REFERENCE_BUDGET, limits));
+    tight.find(|motion| !matches!(motion.outcome, Outcome::GaveUp { .. }))
+}
+
+/// Relative distance of two answers: of places as a fraction of the largest displacement of the last swing, of
+/// times relative to themselves. Infinite where they contradict each other, `None` where one gave up.
+fn distance(one: &Trajectory, other: &Trajectory) -> Option<f64> {
+    let relative = |a: f64, b: f64, scale: f64| if a == b { 0.0 } else { (a - b).abs() / scale };
+    let last_turn = |motion: &Trajectory| {
+        let count = motion.crossings.len();
+        let turn = count.checked_sub(2).map(|index| motion.crossings[index].q);
+        turn.unwrap_or(motion.problem.initial.q).abs()
+    };
+    match (one.outcome, other.outcome) {
+        (Outcome::GaveUp { .. }, _) | (_, Outcome::GaveUp { .. }) => None,
+        (Outcome::Captured { tau, q }, Outcome::Captured { tau: at, q: place }) => {
+            let size = last_turn(other).max(place.abs()).max(other.problem.initial.v.abs());
+            Some(relative(tau, at, at).max(relative(q, place, size)))
+        }
+        (Outcome::Moving { q, v, .. }, Outcome::Moving { q: place, v: speed, .. }) => {
+            let size = place.abs().max(speed.abs());
+            Some(relative(q, place, size).max(relative(v, speed, size)))
+        }
+        (Outcome::Escaped { tau }, Outcome::Escaped { tau: at }) => Some(relative(tau, at, at)),
+        _ => Some(f64::INFINITY),
+    }
+}

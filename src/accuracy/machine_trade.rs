@@ -1,0 +1,66 @@
+//! What accuracy costs: every method that can follow a machine, over its tolerances, on one and the same motion.
+//!
+//! Errors are measured against Taylor series whose steps end below rounding; how far these can be trusted is how far
+//! they are from the other methods at their finest ([`crate::accuracy::trade`] does the same where there are formulas).
+
+use crate::flow::Fate;
+use crate::flow::machine::by_method::MethodMotion;
+use crate::flow::machine::stepped::SteppedMethod;
+use crate::model::Model;
+use crate::model::model::FINEST;
+use crate::numerics::elementary::powi;
+
+/// The methods, Taylor series first.
+const WAYS: [Option<SteppedMethod>; 3] =
+    [None, Some(SteppedMethod::Dop853), Some(SteppedMethod::Dopri5)];
+
+/// Decimal digits of the tolerances.
+const DIGITS: std::ops::RangeInclusive<i32> = 2..=15;
+
+/// One method at one tolerance.
+#[derive(Clone, Debug)]
+pub struct MachineTradePoint {
+    pub way: Option<SteppedMethod>,
+    pub motion: MethodMotion,
+    /// The largest difference in displacement from the reference, at the standstills and at the end, as a part of the
+    /// largest displacement there; `None` where it has not as many standstills.
+    pub error: Option<f64>,
+}
+
+/// Every method over its tolerances on one motion.
+#[derive(Clone, Debug)]
+pub struct MachineTrade {
+    /// What the errors are measured against.
+    pub reference: MethodMotion,
+    pub points: Vec<MachineTradePoint>,
+}
+
+impl MachineTrade {
+    /// Computes every row for a motion from displacement and velocity (m, m/s) of `until` seconds.
+    #[must_use]
+    pub fn new(model: &Model, start: (f64, f64), until: f64) -> Self {
+        let reference = MethodMotion::new(model, (None, FINEST), start, until);
+        let point = |(way, digits): (Option<SteppedMethod>, i32)| {
+            let tolerance = powi(10.0, -digits);
+            let motion = MethodMotion::new(model, (way, tolerance), start, until);
+            let error = deviation(&motion, &reference);
+            MachineTradePoint { way, motion, error }
+        };
+        let ways = WAYS.into_iter().flat_map(|way| DIGITS.map(move |digits| (way, digits)));
+        let points = ways.map(point).collect();
+        MachineTrade { reference, points }
+    }
+}
+
+/// The error of a motion.
+fn deviation(motion: &MethodMotion, reference: &MethodMotion) -> Option<f64> {
+    let [places, expected] =
+        [motion, reference].map(|it| it.places().map(|(_, x)| x).collect::<Vec<f64>>());
+    let unknown = matches!(motion.outcome, Fate::Unknown(_));
+    if unknown || places.len() != expected.len() {
+        return None;
+    }
+    let size = expected.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let far = places.iter().zip(&expected).map(|(one, other)| (one - other).abs());
+    Some(far.fold(0.0, f64::max) / size)
+}

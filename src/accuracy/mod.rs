@@ -1,0 +1,10 @@
+//! What accuracy costs, and how far it can be trusted: references, methods against each other, the extremes.
+
+#[doc(hidden)]
+pub mod extremes;
+#[doc(hidden)]
+pub mod harmonic_error;
+#[doc(hidden)]
+pub mod machine_trade;
+pub(crate) mod reference;
+pub(crate) mod trade;

@@ -1,0 +1,353 @@
+//! Drawing the lines of a chart: the boundaries on each, the bands between them, and further lines where a
+//! boundary is bent.
+
+use super::line::{Band, ChartLine};
+use crate::branch::escape::{escape_point, escape_product};
+use crate::branch::extended::{FoldCycle, FoldGuess, fold_near};
+use crate::branch::fold::fold_within;
+use crate::branch::regime::Regime;
+use crate::closed_form::harmonic;
+use crate::flow::{Cost, Limits, Reason};
+use crate::model::{Knob, Parameters, State};
+use crate::numerics::count::real;
+use crate::numerics::elementary::{exp, hypot, ln, powi};
+use crate::numerics::root::{PlaceTolerance, illinois};
+use crate::portrait::basin::cycle::cycles;
+
+/// Maximum number of halvings between two lines, to come close to a boundary.
+pub(crate) const HALVINGS: u32 = 8;
+
+/// Relative error of a boundary that is sought, in units of that of the clearance at a fold.
+const SLACK: f64 = 100.0;
+
+/// Values of a parameter at which lines are drawn: evenly spaced, and denser towards zero, where a sign
+/// changes; zero itself is replaced by its two sides.
+pub(crate) fn values(symbol: Knob, range: (f64, f64), count: usize) -> Vec<f64> {
+    /// What stands for zero, as a fraction of the range.
+    const SIDE: f64 = 1e-6;
+    let span = range.1 - range.0;
+    let part = |index: usize, of: usize| real(index) / real(of);
+    let mut values: Vec<f64> =
+        (0..=count).map(|index| range.0 + span * part(index, count)).collect();
+    if range.0 <= 0.0 && range.1 >= 0.0 {
+        let dense = count / 4;
+        for index in 1..dense {
+            let cube = powi(part(index, dense), 3);
+            values.extend([range.0, range.1].map(|end| 0.5 * end * cube));
+        }
+        values.extend([-SIDE * span, SIDE * span]);
+        values.retain(|value| value.abs() >= SIDE * span);
+    }
+    values.retain(|&value| value >= range.0 && value <= range.1 && symbol.check(value).is_ok());
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    values
+}
+
+/// Draws lines one after the other; each helps to find the fold on the next.
+pub(crate) struct Tracer<'a> {
+    pub parameters: Parameters,
+    pub along: Knob,
+    pub across: Knob,
+    pub range: (f64, f64),
+    pub across_range: (f64, f64),
+    pub limits: &'a Limits<'a>,
+    pub cost: Cost,
+    /// Relative error of the clearance at a fold.
+    pub tolerance: f64,
+    /// The fold in units of the harmonic one, on the line before.
+    pub ratio: f64,
+    /// The fold found last.
+    pub known: Option<FoldCycle>,
+}
+
+impl Tracer<'_> {
+    /// Adds the lines that are needed between two, so that chords lie close to the boundaries.
+    pub fn between(
+        &mut self,
+        before: &ChartLine,
+        after: &ChartLine,
+        chord: f64,
+        halvings: u32,
+        lines: &mut Vec<ChartLine>,
+    ) -> Result<(), Reason> {
+        let through_zero = before.at < 0.0 && after.at > 0.0;
+        let failed = before.failure.is_some() || after.failure.is_some();
+        if halvings == 0 || chord.is_infinite() || through_zero || failed {
+            return Ok(());
+        }
+        let middle = self.line(f64::midpoint(before.at, after.at))?;
+        let (width, height) =
+            (self.range.1 - self.range.0, self.across_range.1 - self.across_range.0);
+        let bent = [|line: &ChartLine| line.fold, |line: &ChartLine| line.escape].into_iter().any(
+            |boundary| {
+                let [Some(from), Some(middle), Some(to)] = [before, &middle, after].map(boundary)
+                else {
+                    return false;
+                };
+                let slope = (to - from) / width / ((after.at - before.at) / height);
+                (middle - f64::midpoint(from, to)).abs() / width > chord * hypot(1.0, slope)
+            },
+        );
+        if bent || !before.alike(after) {
+            self.between(before, &middle, chord, halvings - 1, lines)?;
+            lines.push(middle.clone());
+            self.between(&middle, after, chord, halvings - 1, lines)?;
+        }
+        Ok(())
+    }
+
+    /// The line at this value of the other parameter.
+    pub fn line(&mut self, at: f64) -> Result<ChartLine, Reason> {
+        let mut here = self.parameters;
+        self.across.set(&mut here, &mut State { q: 0.0, v: 0.0 }, at);
+        let harmonic = self.harmonic(&here);
+        let boundaries = if self.along == Knob::D {
+            self.boundaries_in_d(&here)
+        } else {
+            self.boundaries_at_d(&here)
+        };
+        let (boundaries, failure) = match boundaries {
+            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
+            Err(reason) => (Boundaries::default(), Some(reason)),
+            Ok(boundaries) => (boundaries, None),
+        };
+        if let (Some(fold), Some(harmonic)) = (boundaries.fold, harmonic)
+            && fold.is_finite()
+            && fold != 0.0
+        {
+            self.ratio = fold / harmonic;
+        }
+        let bands = self.bands(&here, &boundaries, failure.is_some());
+        let shown = |boundary: Option<f64>| boundary.filter(|boundary| boundary.is_finite());
+        let (fold, escape) = (shown(boundaries.fold), shown(boundaries.escape));
+        Ok(ChartLine { at, bands, fold, harmonic, escape, failure })
+    }
+
+    /// The parameters with the one along the line at `value`.
+    fn with(&self, here: &Parameters, value: f64) -> Parameters {
+        let mut parameters = *here;
+        self.along.set(&mut parameters, &mut State { q: 0.0, v: 0.0 }, value);
+        parameters
+    }
+
+    /// The fold next to a guess, while `symbol` varies.
+    fn fold_near(&mut self, guess: &FoldGuess, symbol: Knob) -> Result<Option<Parameters>, Reason> {
+        let (found, cost) = fold_near(guess, symbol, self.tolerance, self.limits)?;
+        self.cost += cost;
+        self.known = found.or(self.known);
+        Ok(found.map(|found| found.parameters))
+    }
+
+    fn fold(&mut self, parameters: &Parameters) -> Result<f64, Reason> {
+        let beside = self.known.and_then(|known| FoldGuess::beside(&known, parameters));
+        if let Some(guess) = beside
+            && let Some(found) = self.fold_near(&guess, Knob::D)?
+        {
+            return Ok(found.d);
+        }
+        let (found, cost) = fold_within(parameters, self.tolerance, self.limits)?;
+        self.cost += cost;
+        found
+            .map(|found| found.d)
+            .ok_or(Reason::NoConvergence { sought: "the fold", change: f64::NAN })
+    }
+
+    /// `D_F` and `D_c` on a line along D.
+    fn boundaries_in_d(&mut self, here: &Parameters) -> Result<Boundaries, Reason> {
+        /// Beyond critical damping folds take long; whether the range has any can be asked at its end.
+        const CRITICAL: f64 = -1.0 + 1e-6;
+        const DOUBTFUL: f64 = -0.75;
+        if here.r == 0.0 || here.d3 < 0.0 {
+            return Ok(Boundaries::default());
+        }
+        if here.d3 == 0.0 {
+            let escape = self.escape(here)?;
+            return Ok(Boundaries { fold: None, escape: escape.or(Some(f64::NEG_INFINITY)) });
+        }
+        let strong = harmonic::fold(here.d3, here.r).is_none_or(|fold| fold.d < DOUBTFUL)
+            || here.r * here.d2.abs() > -DOUBTFUL;
+        if strong && self.range.0 >= -1.0 {
+            let end = Parameters { d: self.range.0.max(CRITICAL), ..*here };
+            let found = cycles(&end, false, self.limits)?;
+            self.cost += found.cost;
+            if found.cycles.is_empty() {
+                return Ok(Boundaries { fold: Some(f64::NEG_INFINITY), escape: None });
+            }
+        }
+        Ok(Boundaries { fold: Some(self.fold(here)?), escape: None })
+    }
+
+    /// Where on a line along D3 or r the fold or the escape point comes to the given D.
+    fn boundaries_at_d(&mut self, here: &Parameters) -> Result<Boundaries, Reason> {
+        let Parameters { d, d2, d3, r } = *here;
+        let nowhere = Ok(Boundaries::default());
+        if d >= 0.0 {
+            return nowhere;
+        }
+        if self.along == Knob::D3 {
+            if r == 0.0 {
+                return nowhere;
+            }
+            // As D3 goes to 0 the fold goes to D_c: if that lies below D, so do all folds.
+            let least = self.escape(&Parameters { d3: 0.0, ..*here })?;
+            let none = d2 != 0.0 && least.is_none_or(|least| d >= least);
+            let fold = if none { Some(0.0) } else { self.seek(here)? };
+            return Ok(Boundaries { fold, escape: None });
+        }
+        if d3 > 0.0 {
+            return Ok(Boundaries { fold: self.seek(here)?, escape: None });
+        }
+        if d3 == 0.0 && d2 != 0.0 && d > -1.0 {
+            // D_c depends on r D2 alone.
+            return Ok(Boundaries {
+                fold: None,
+                escape: Some(self.product_of_escape(d)? / d2.abs()),
+            });
+        }
+        nowhere
+    }
+
+    /// The product `r abs(D2)` whose escape point is `d`.
+    fn product_of_escape(&mut self, d: f64) -> Result<f64, Reason> {
+        let (found, cost) = escape_product(d, self.limits)?;
+        self.cost += cost;
+        found.ok_or(Reason::NoConvergence { sought: "the escape point", change: f64::NAN })
+    }
+
+    /// `D_c`.
+    fn escape(&mut self, here: &Parameters) -> Result<Option<f64>, Reason> {
+        let (found, cost) = escape_point(here, self.limits)?;
+        self.cost += cost;
+        Ok(found)
+    }
+
+    /// The value along the line at which the fold is at the line's D; infinite where none is.
+    fn seek(&mut self, here: &Parameters) -> Result<Option<f64>, Reason> {
+        /// First stride in the logarithm: the guess is better than this on all lines but the first.
+        const STRIDE: f64 = 0.1;
+        let d = here.d;
+        let Some(guess) = self.harmonic(here) else { return Ok(None) };
+        let guess = guess * self.ratio;
+        let near = self.with(here, guess);
+        let beside = match &self.known {
+            Some(known) => FoldGuess::beside(known, &near),
+            None => FoldGuess::in_damping(&near),
+        };
+        if let Some(beside) = beside
+            && let Some(found) = self.fold_near(&beside.moved_to(&near), self.along)?
+        {
+            return Ok(Some(self.along.get(&found, &State { q: 0.0, v: 0.0 })));
+        }
+        let excess = |tracer: &mut Self, z: f64| -> Result<f64, Reason> {
+            let found = tracer.fold(&tracer.with(here, exp(z)))?;
+            Ok(ln(found / d))
+        };
+        root(ln(guess), STRIDE, SLACK * self.tolerance, |z| excess(self, z)).map(|z| Some(exp(z)))
+    }
+
+    /// The fold of one harmonic (48) on the line.
+    fn harmonic(&self, here: &Parameters) -> Option<f64> {
+        let Parameters { d, d3, r, .. } = *here;
+        if self.along == Knob::D {
+            return harmonic::fold(d3, r).map(|fold| fold.d);
+        }
+        // (48) solved for r^2 D3.
+        let product = 8.0 * powi(-d, 3) * powi(std::f64::consts::PI / 9.0, 2);
+        let value = match self.along {
+            Knob::D3 => product / (r * r),
+            _ => (product / d3).sqrt(),
+        };
+        (d < 0.0 && value.is_finite() && value > 0.0).then_some(value)
+    }
+
+    /// The bands between the boundaries within the range.
+    fn bands(&self, here: &Parameters, boundaries: &Boundaries, failed: bool) -> Vec<Band> {
+        let (from, to) = self.range;
+        let inside = |value: &f64| *value > from && *value < to;
+        let fixed = match self.along {
+            Knob::D => vec![-1.0, 0.0],
+            _ => vec![0.0],
+        };
+        let boundaries_there = [boundaries.fold, boundaries.escape].into_iter().flatten();
+        let mut ends: Vec<f64> = fixed.into_iter().chain(boundaries_there).filter(inside).collect();
+        ends.extend([from, to]);
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        let mut bands: Vec<Band> = Vec::new();
+        for pair in ends.windows(2) {
+            let regime = self.regime(here, 0.5 * (pair[0] + pair[1]), boundaries, failed);
+            match bands.last_mut() {
+                Some(last) if last.regime == regime => last.to = pair[1],
+                _ => bands.push(Band { from: pair[0], to: pair[1], regime }),
+            }
+        }
+        bands
+    }
+
+    fn regime(
+        &self,
+        here: &Parameters,
+        value: f64,
+        boundaries: &Boundaries,
+        failed: bool,
+    ) -> Option<Regime> {
+        let parameters = self.with(here, value);
+        let Parameters { d, d3, r, .. } = parameters;
+        if failed && d < 0.0 && d3 >= 0.0 && r > 0.0 {
+            return None;
+        }
+        if self.along == Knob::D {
+            return Some(Regime::of(&parameters, boundaries.fold, boundaries.escape));
+        }
+        // A line that crosses a boundary at the given D lies below the boundary in D before it.
+        let boundary = |boundary: Option<f64>| {
+            let beyond = boundary.is_some_and(|boundary| value >= boundary);
+            Some(if beyond { f64::NEG_INFINITY } else { 0.0 })
+        };
+        Some(Regime::of(&parameters, boundary(boundaries.fold), boundary(boundaries.escape)))
+    }
+}
+
+/// The boundaries on a line.
+#[derive(Clone, Copy, Debug, Default)]
+struct Boundaries {
+    fold: Option<f64>,
+    escape: Option<f64>,
+}
+
+/// Where an increasing function is at most `small`, near `start`: strides until its zero lies between,
+/// then the Illinois rule.
+fn root(
+    start: f64,
+    stride: f64,
+    small: f64,
+    mut function: impl FnMut(f64) -> Result<f64, Reason>,
+) -> Result<f64, Reason> {
+    const MOST: usize = 60;
+    let mut low = (start, function(start)?);
+    let mut high = low;
+    let mut stride = stride;
+    let mut steps = 0;
+    while low.1 > 0.0 || high.1 < 0.0 {
+        if low.1 > 0.0 {
+            high = low;
+            low.0 -= stride;
+            low.1 = function(low.0)?;
+        } else {
+            low = high;
+            high.0 += stride;
+            high.1 = function(high.0)?;
+        }
+        stride *= 1.6;
+        steps += 1;
+        if steps > MOST {
+            return Err(Reason::NoConvergence { sought: "a boundary", change: stride });
+        }
+    }
+    let [best, other] = illinois([low, high], small, PlaceTolerance::Absolute(small), function)?;
+    if best.1.abs() <= small || (other.0 - best.0).abs() <= small {
+        return Ok(best.0);
+    }
+    Err(Reason::NoConvergence { sought: "a boundary", change: (other.0 - best.0).abs() })
+}

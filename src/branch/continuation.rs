@@ -1,0 +1,396 @@
+//! One curve of limit cycles in the plane of `u = ln c0` and a parameter p, followed through folds.
+//!
+//! Pseudo-arclength continuation: from a point with a tangent, predict along the tangent and correct by
+//! Newton's method on the closing equation together with the demand to stay on the line through the
+//! prediction across the tangent. The slope in u is exact (the multiplier), the slope in p a difference
+//! quotient that is renewed only when the correction converges slowly. Lengths are measured with p in
+//! units of the range and u in units of 4.
+
+mod point;
+mod spread;
+
+use point::UNIT_OF_U;
+pub use point::{CurvePoint, Tangent, covers, is_beside, passes};
+pub use spread::CurvePlace;
+
+use crate::flow::{Cost, Limits, Reason};
+use crate::model::{Knob, Parameters, Side, State};
+use crate::numerics::elementary::{hypot, ln};
+use crate::numerics::root::try_bisect;
+use crate::portrait::closing::equation::{Equation, Route};
+use crate::portrait::closing::pair::Closing;
+
+/// Tolerance of the integration steps, in units of that of the points.
+const STEP: f64 = 1e-2;
+
+/// Maximum number of evaluations of one swing, a hundred times the usual: beyond, a curve is not followed.
+const SWING_BUDGET: u64 = 60_000;
+
+/// Smallest relative error of the clearance at a fold.
+const FOLD_TOLERANCE: f64 = 1e-13;
+
+/// Smallest logarithm of the multiplier that counts as zero at a fold.
+const LEAST_LOG: f64 = 1e-10;
+
+/// Smallest and largest stride of a difference quotient in p, as fractions of the range: rounding stays behind.
+const PROBES: (f64, f64) = (1e-11, 1e-5);
+
+/// Newton steps of a correction before it counts as failed.
+const CORRECTIONS: usize = 8;
+
+/// A family of closing equations along a parameter.
+pub struct CycleCurve<'a> {
+    parameters: Parameters,
+    symbol: Knob,
+    /// The side of the first swing, the same all along the curve.
+    pub side: Side,
+    /// Unit of the parameter.
+    pub scale: f64,
+    /// Relative error accepted in the clearance.
+    tolerance: f64,
+    /// Length of the longest stride of [`CycleCurve::follow`], in units of the usual one.
+    pub strides: f64,
+    /// Evaluations after which [`CycleCurve::follow`] stops where it is.
+    pub budget: u64,
+    limits: &'a Limits<'a>,
+    /// Stride of a difference quotient in p, as a fraction of the range.
+    probe: f64,
+    /// Difference quotient in p of the residual of a route, kept from point to point.
+    slope_in_p: Option<(Route, f64)>,
+    /// What it cost so far.
+    pub cost: Cost,
+}
+
+impl<'a> CycleCurve<'a> {
+    /// The curve along `symbol` with p measured in units of `scale`; `side` is that of the first swing.
+    pub fn new(
+        parameters: &Parameters,
+        symbol: Knob,
+        side: Side,
+        scale: f64,
+        tolerance: f64,
+        limits: &'a Limits<'a>,
+    ) -> Self {
+        let (parameters, cost) = (*parameters, Cost::default());
+        let (probe, slope_in_p, strides, budget) = (PROBES.1, None, 1.0, u64::MAX);
+        CycleCurve {
+            parameters,
+            symbol,
+            side,
+            scale,
+            tolerance,
+            strides,
+            budget,
+            limits,
+            probe,
+            slope_in_p,
+            cost,
+        }
+    }
+
+    /// The parameters with the varying one at `p`.
+    pub fn parameters_at(&self, p: f64) -> Parameters {
+        let mut parameters = self.parameters;
+        self.symbol.set(&mut parameters, &mut State { q: 0.0, v: 0.0 }, p);
+        parameters
+    }
+
+    /// Relative error of a swing that tells cycles apart which differ by the tolerance: where two are
+    /// about to meet, the residual between them is as small as the square of their distance.
+    pub fn fineness(&self) -> f64 {
+        (self.tolerance * self.tolerance).max(f64::EPSILON)
+    }
+
+    /// Relative error accepted in the clearance.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// The limits under which it computes.
+    pub fn limits(&self) -> &'a Limits<'a> {
+        self.limits
+    }
+
+    /// The pair of swings at a point that need not close; `None` where they are too costly or too large to
+    /// be computed, which ends a curve.
+    fn closing(&mut self, route: Route, u: f64, p: f64) -> Result<Option<Closing>, Reason> {
+        let step = STEP * self.tolerance;
+        let mut equation = Equation::on_side(&self.parameters_at(p), self.side, step);
+        equation.want_fastest(true);
+        let limits = Limits { evaluations: SWING_BUDGET, interrupted: self.limits.interrupted };
+        let closing = equation.at(route, u, &limits);
+        self.cost += equation.cost();
+        match closing {
+            Err(Reason::Budget { .. } | Reason::OutOfRange) => Ok(None),
+            Err(reason) => Err(reason),
+            Ok(closing) => Ok(closing.node.value().is_finite().then_some(closing)),
+        }
+    }
+
+    /// Takes difference quotients over a small part of `stride`: next to an escape the curve bends within less
+    /// than a part of the range.
+    fn probe_within(&mut self, stride: f64) {
+        /// Small enough for two digits of the quotient.
+        const PART: f64 = 1e-2;
+        self.probe = (PART * stride).clamp(PROBES.0, PROBES.1);
+    }
+
+    /// Renews the difference quotient in p.
+    fn renew_slope(&mut self, route: Route, u: f64, p: f64, value: f64) -> Result<f64, Reason> {
+        let stride = self.probe * self.scale;
+        let beside = self.closing(route, u, p + stride)?;
+        let slope = beside.map_or(f64::NAN, |beside| (beside.node.value() - value) / stride);
+        self.slope_in_p = slope.is_finite().then_some((route, slope));
+        Ok(slope)
+    }
+
+    /// Corrects a prediction along the line across `tangent`; `None` where it does not settle.
+    pub fn correct(
+        &mut self,
+        near: (f64, f64),
+        tangent: Tangent,
+        route: Route,
+    ) -> Result<Option<CurvePoint>, Reason> {
+        // Along the line: u = near.0 + UNIT_OF_U tangent.p s, p = near.1 - scale tangent.u s.
+        let scale = self.scale;
+        let place = |s: f64| (near.0 + UNIT_OF_U * tangent.p * s, near.1 - scale * tangent.u * s);
+        let per_s = UNIT_OF_U * tangent.p.abs().max(tangent.u.abs());
+        let (mut s, mut before) = (0.0, None::<(f64, f64)>);
+        for _ in 0..CORRECTIONS {
+            let (u, p) = place(s);
+            let Some(closing) = self.closing(route, u, p)? else { return Ok(None) };
+            let value = closing.node.value();
+            // Where a swing begins at the very end of the sticking set the slope in u does not exist,
+            // and across u it does not matter.
+            let in_u =
+                if tangent.p == 0.0 { 0.0 } else { closing.node.slope * UNIT_OF_U * tangent.p };
+            let along = match (before, self.slope_in_p) {
+                // A secant along the line, which renews the quotient on the way.
+                (Some((s_before, value_before)), _) => {
+                    let along = (value - value_before) / (s - s_before);
+                    if tangent.u.abs() > 0.01 {
+                        let slope = (in_u - along) / (self.scale * tangent.u);
+                        self.slope_in_p = slope.is_finite().then_some((route, slope));
+                    }
+                    along
+                }
+                (None, _) if tangent.u == 0.0 => in_u,
+                (None, Some((of, slope))) if of == route => in_u - slope * self.scale * tangent.u,
+                (None, _) => in_u - self.renew_slope(route, u, p, value)? * self.scale * tangent.u,
+            };
+            let change = -value / along;
+            if !change.is_finite() || per_s * change.abs() > 1.0 {
+                return Ok(None);
+            }
+            if per_s * change.abs() <= self.tolerance {
+                let log_multiplier = closing.log_multiplier(&self.parameters_at(p));
+                return Ok(Some(CurvePoint { u, p, closing, log_multiplier }));
+            }
+            before = Some((s, value));
+            s += change;
+        }
+        Ok(None)
+    }
+
+    /// The cycle at exactly `u`, where the residual falls from positive to negative within `range` of p.
+    ///
+    /// Bisection until Newton's method takes over. In D, D3 and r the residual falls everywhere, because
+    /// each of them takes energy from every swing: then it is the only cycle of this clearance.
+    pub fn bracketed(&mut self, u: f64, range: (f64, f64)) -> Result<Option<CurvePoint>, Reason> {
+        /// Halvings after which the bracket is as fine as the parameter.
+        const HALVINGS: u32 = 60;
+        /// Newton's method is tried after this many of them.
+        const OFTEN: u32 = 4;
+        let (mut halvings, mut found) = (0, None);
+        // What Newton's method finds ends the bisection where an error would.
+        let falls = try_bisect(range.0, range.1, HALVINGS, |p| {
+            halvings += 1;
+            if halvings % OFTEN == 0 {
+                let near = (u, p);
+                found = self.correct(near, Tangent::ACROSS_P, Route::Mixed).map_err(Some)?;
+                if found.is_some() {
+                    return Err(None);
+                }
+            }
+            Ok(self.value(u, p).map_err(Some)? <= 0.0)
+        });
+        match falls {
+            Err(Some(reason)) => Err(reason),
+            Ok(_) | Err(None) => Ok(found),
+        }
+    }
+
+    /// The residual of the mixed route, infinite with its sign where a swing does not end.
+    fn value(&mut self, u: f64, p: f64) -> Result<f64, Reason> {
+        let mut equation = Equation::on_side(&self.parameters_at(p), self.side, self.tolerance);
+        let closing = equation.at(Route::Mixed, u, self.limits);
+        self.cost += equation.cost();
+        Ok(closing?.node.value())
+    }
+
+    /// The cycle at exactly `p`, near `u`.
+    pub fn at_parameter(
+        &mut self,
+        p: f64,
+        u: f64,
+        route: Route,
+    ) -> Result<Option<CurvePoint>, Reason> {
+        self.correct((u, p), Tangent::ACROSS_U, route)
+    }
+
+    /// Where the line between or beyond two points leads after `length` from the second one.
+    pub fn ahead(&self, point: &CurvePoint, tangent: Tangent, length: f64) -> (f64, f64) {
+        (point.u + UNIT_OF_U * tangent.u * length, point.p + self.scale * tangent.p * length)
+    }
+
+    /// Follows the curve from `start` in the direction of growing or falling p until `leaves` says so.
+    ///
+    /// `leaves` sees each new point; the point that leaves is the last one. Steps adapt to the bend of
+    /// the curve and to the convergence of the corrections.
+    pub fn follow(
+        &mut self,
+        start: CurvePoint,
+        direction: f64,
+        leaves: &dyn Fn(&CurvePoint) -> bool,
+    ) -> Result<Vec<CurvePoint>, Reason> {
+        /// First and smallest stride, as fractions of the range.
+        const STRIDES: (f64, f64) = (2e-3, 1e-9);
+        /// Maximum number of points of a curve; a closed or endless one stops here.
+        const MOST: usize = 4000;
+        let mut points = vec![start];
+        let Some(mut tangent) = self.first_tangent(&start, direction)? else {
+            return Ok(points);
+        };
+        let mut stride = STRIDES.0;
+        while points.len() < MOST && self.cost.evaluations < self.budget {
+            let here = points[points.len() - 1];
+            let near = self.ahead(&here, tangent, stride);
+            self.probe_within(stride);
+            let route = here.route();
+            let corrected = self.correct(near, tangent, route)?;
+            // A bend of more than about 15 degrees a step is taken in smaller steps.
+            let next = corrected.map(|next| (next, Tangent::between(&here, &next, self.scale)));
+            match next {
+                Some((next, chord)) if chord.dot(tangent) > 0.97 || stride < 1e-6 => {
+                    let bend = (1.0 - chord.dot(tangent)).max(0.0);
+                    tangent = self.tangent_at(&next, chord).unwrap_or(chord);
+                    // Where the parameter stands still, or a swing starts at the very end of the sticking set,
+                    // the branch ends; it may stand still on the way to another size.
+                    if !next.closing.duration.is_finite() || !next.log_multiplier.is_finite() {
+                        break;
+                    }
+                    points.push(next);
+                    if leaves(&next) {
+                        break;
+                    }
+                    stride *= if bend < 1e-3 {
+                        1.7
+                    } else if bend < 6e-3 {
+                        1.2
+                    } else {
+                        0.8
+                    };
+                    stride = stride.min(self.longest_stride(&next, tangent));
+                }
+                _ => {
+                    stride *= 0.4;
+                    self.slope_in_p = None;
+                    if stride < STRIDES.1 {
+                        break;
+                    }
+                }
+            }
+        }
+        Ok(points)
+    }
+
+    /// The longest stride from a point in the direction of `tangent`.
+    ///
+    /// Swings that begin next to the sticking set are those of the linearised field, whose closing
+    /// depends on u almost linearly: there u may change by a fraction of how far it is below `ln r`. This is
+    /// where cycles go as D goes to -1, and u to minus infinity.
+    fn longest_stride(&self, point: &CurvePoint, tangent: Tangent) -> f64 {
+        /// As a fraction of the range, and of the unit of u or the depth.
+        const LONGEST: f64 = 0.06;
+        let friction = self.parameters_at(point.p).r;
+        let depth = if friction > 0.0 { (ln(friction) - point.u) / UNIT_OF_U } else { 0.0 };
+        LONGEST * self.strides / tangent.p.abs().max(tangent.u.abs() / depth.max(1.0))
+    }
+
+    /// The tangent from the slopes of the residual, turned the way of `along`.
+    fn tangent_at(&self, point: &CurvePoint, along: Tangent) -> Option<Tangent> {
+        let slope_p = self.slope_in_p?.1 * self.scale;
+        let slope_u = point.closing.node.slope * UNIT_OF_U;
+        let length = hypot(slope_u, slope_p);
+        let tangent = Tangent { u: -slope_p / length, p: slope_u / length };
+        let sign = tangent.dot(along).signum();
+        let turned = Tangent { u: sign * tangent.u, p: sign * tangent.p };
+        (turned.dot(along) > 0.9).then_some(turned)
+    }
+
+    fn first_tangent(
+        &mut self,
+        start: &CurvePoint,
+        direction: f64,
+    ) -> Result<Option<Tangent>, Reason> {
+        let route = start.route();
+        let Some(closing) = self.closing(route, start.u, start.p)? else { return Ok(None) };
+        let slope_p = self.renew_slope(route, start.u, start.p, closing.node.value())? * self.scale;
+        let slope_u = closing.node.slope * UNIT_OF_U;
+        let length = hypot(slope_u, slope_p);
+        let sign = (slope_u * direction).signum();
+        let tangent = Tangent { u: -sign * slope_p / length, p: sign * slope_u / length };
+        Ok(length.is_finite().then_some(tangent))
+    }
+
+    /// The point between two neighbours of the curve where the multiplier is 1: a fold.
+    ///
+    /// Bracketing secant (the Illinois rule) on the logarithm of the multiplier along the chord. The
+    /// parameter is stationary there: an error e of the place costs e^2 of the parameter.
+    pub fn fold_between(
+        &mut self,
+        one: &CurvePoint,
+        other: &CurvePoint,
+    ) -> Result<Option<CurvePoint>, Reason> {
+        let tangent = Tangent::between(one, other, self.scale);
+        let chord = hypot((other.u - one.u) / UNIT_OF_U, (other.p - one.p) / self.scale);
+        self.slope_in_p = None;
+        let tolerance = self.tolerance;
+        self.tolerance = self.fineness().max(FOLD_TOLERANCE);
+        let zero = tolerance.max(LEAST_LOG);
+        let ends = [one, other].map(|end| end.log_multiplier);
+        let fold = self.multiplier_one(one, tangent, chord, ends, zero);
+        self.tolerance = tolerance;
+        fold
+    }
+
+    fn multiplier_one(
+        &mut self,
+        one: &CurvePoint,
+        tangent: Tangent,
+        chord: f64,
+        ends: [f64; 2],
+        zero: f64,
+    ) -> Result<Option<CurvePoint>, Reason> {
+        let (mut low, mut high) = ((0.0, ends[0]), (chord, ends[1]));
+        let mut best = None;
+        for _ in 0..60 {
+            let s = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+            let Some(point) = self.correct(self.ahead(one, tangent, s), tangent, Route::Mixed)?
+            else {
+                return Ok(best);
+            };
+            best = Some(point);
+            let here = (s, point.log_multiplier);
+            if here.1.abs() < zero || (high.0 - low.0).abs() < 1e-13 {
+                break;
+            }
+            if (here.1 > 0.0) == (low.1 > 0.0) {
+                (low, high.1) = (here, 0.5 * high.1);
+            } else {
+                (high, low.1) = (here, 0.5 * low.1);
+            }
+        }
+        Ok(best)
+    }
+}

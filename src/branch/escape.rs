@@ -1,0 +1,126 @@
+//! Where the limit cycle goes to infinity: the escape point `D_c` of asymmetric damping.
+//!
+//! With `D3 = 0` and `D2 != 0`, on the side where D2 brakes, a swing from far out forgets where it began:
+//! it ends at a finite `X` for every start beyond some clearance. Run backward, the swing on the other
+//! side does the same. The cycle exists while the first reaches further out than the second asks for,
+//! and at `D_c` the two motions from and to infinity close the cycle: `X(D_c) = 2 r + c1(D_c)`.
+//!
+//! ```
+//! use hopfscope::flow::Limits;
+//! use hopfscope::model::Parameters;
+//! use hopfscope::branch::escape::escape_point;
+//!
+//! let parameters = Parameters { d: 0.0, d2: 0.5, d3: 0.0, r: 0.2 };
+//! let found = escape_point(&parameters, &Limits::PATIENT)?.0.unwrap();
+//! assert!((found + 0.079_769).abs() < 1e-6);
+//! # Ok::<(), hopfscope::flow::Reason>(())
+//! ```
+
+use crate::flow::{Cost, Limits, Reason};
+use crate::model::Parameters;
+use crate::numerics::elementary::ln;
+use crate::numerics::root::{PlaceTolerance, illinois};
+use crate::portrait::closing::balance::weighed_residual;
+use crate::portrait::closing::equation::{Equation, Route};
+
+/// `D_c` at these values of D2 and r, or `None` where no cycle escapes (`D3 != 0`, `D2 = 0` or `r = 0`); and what it
+/// cost.
+///
+/// Bracketing secant (the Illinois rule) on the difference of the two swings from and to infinity, to
+/// rounding. To leading order `D_c = -sqrt(2/pi) r abs(D2)`.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+pub fn escape_point(
+    parameters: &Parameters,
+    limits: &Limits,
+) -> Result<(Option<f64>, Cost), Reason> {
+    let mut cost = Cost::default();
+    let excess = |d: f64| excess_at_infinity(&Parameters { d, ..*parameters }, limits, &mut cost);
+    let found = least_without_cycle(parameters, excess)?;
+    Ok((found, cost))
+}
+
+/// `D_c` from the excess at each D.
+fn least_without_cycle(
+    parameters: &Parameters,
+    mut excess: impl FnMut(f64) -> Result<f64, Reason>,
+) -> Result<Option<f64>, Reason> {
+    let Parameters { d2, d3, r, .. } = *parameters;
+    if d3 != 0.0 || d2 == 0.0 || r == 0.0 {
+        return Ok(None);
+    }
+    let leading = -(2.0 / std::f64::consts::PI).sqrt() * r * d2.abs();
+    // The excess falls from positive at D = -1 to negative at D = 0 (no cycle without self-excitation).
+    let mut low = (f64::max(1.2 * leading, -1.0 + f64::EPSILON), 0.0);
+    low.1 = excess(low.0)?;
+    let mut high = (0.8 * leading, 0.0);
+    if high.0 < -1.0 {
+        return Ok(None);
+    }
+    high.1 = excess(high.0)?;
+    if !(low.1 > 0.0 && high.1 < 0.0) {
+        low = (-1.0 + 1e-9, excess(-1.0 + 1e-9)?);
+        high = (0.0, excess(0.0)?);
+    }
+    if !(low.1 > 0.0 && high.1 < 0.0) {
+        return Ok(None);
+    }
+    let [(d, _), _] =
+        illinois([low, high], 0.0, PlaceTolerance::Relative(2.0 * f64::EPSILON), excess)?;
+    Ok(Some(d))
+}
+
+/// The product `r abs(D2)` at which the cycle of a given damping goes to infinity, or `None` where none does: the
+/// inverse of [`escape_point`] at `r = 1`.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+pub fn escape_product(d: f64, limits: &Limits) -> Result<(Option<f64>, Cost), Reason> {
+    /// The bracket, in units of the leading order.
+    const AROUND: (f64, f64) = (0.25, 4.0);
+    let mut cost = Cost::default();
+    let mut excess = |product: f64| {
+        let unit = Parameters { d, d2: product, d3: 0.0, r: 1.0 };
+        excess_at_infinity(&unit, limits, &mut cost)
+    };
+    if !(d < 0.0 && d > -1.0) {
+        return Ok((None, cost));
+    }
+    let leading = -d * (std::f64::consts::PI / 2.0).sqrt();
+    let ends = [AROUND.0 * leading, AROUND.1 * leading];
+    let ends = [(ends[0], excess(ends[0])?), (ends[1], excess(ends[1])?)];
+    if !(ends[0].1 > 0.0 && ends[1].1 < 0.0) {
+        return Ok((None, cost));
+    }
+    let [(product, _), _] =
+        illinois(ends, 0.0, PlaceTolerance::Relative(2.0 * f64::EPSILON), &mut excess)?;
+    Ok((Some(product), cost))
+}
+
+/// By how much, as a logarithm, the swing from infinity passes the one to infinity; adds what it cost.
+///
+/// # Errors
+/// The [`Reason`] why a swing failed.
+fn excess_at_infinity(
+    parameters: &Parameters,
+    limits: &Limits,
+    cost: &mut Cost,
+) -> Result<f64, Reason> {
+    /// Clearance, in units of `1/abs(D2)`, from which a swing has forgotten its start to rounding: what
+    /// is left of it decays as `exp(-2 D2 c)`.
+    const FAR: f64 = 40.0;
+    /// Excess below which a difference of logarithms has lost digits.
+    const NEAR: f64 = 1e-2;
+    let far = ln(FAR / parameters.d2.abs() + 2.0 * parameters.r);
+    let mut equation = Equation::new(parameters, f64::EPSILON);
+    let plain = equation.at(Route::Mixed, far, limits).map(|found| found.node.value());
+    // Weighed as energy, it keeps the digits that the difference loses near `D_c`.
+    let weighed = match plain {
+        Ok(plain) if plain.abs() < NEAR => weighed_residual(&mut equation, far, limits),
+        _ => Ok(None),
+    };
+    *cost += equation.cost();
+    let (plain, weighed) = (plain?, weighed?);
+    Ok(weighed.filter(|(_, noise)| *noise < f64::EPSILON).map_or(plain, |(weighed, _)| weighed))
+}

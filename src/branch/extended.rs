@@ -1,0 +1,265 @@
+//! A fold as a root of two equations in two unknowns: the extended system.
+//!
+//! Where two cycles meet, the residual `F` of the closing equation vanishes, and with it the logarithm `G` of what a
+//! turn makes of an error. Both are smooth in `u = ln c0` and in the logarithm of a parameter, in which folds lie on
+//! nearly straight lines (`D_F` is almost a power of `r^2 D3`). Newton's method, with coarse integration steps first:
+//! the slope of F in u is exact everywhere, the other derivatives are those of a fold nearby or difference quotients,
+//! and are renewed on the way.
+//!
+//! Guarantee: what is found is a root of both, and the inner one of the two cycles is unstable. That there is no
+//! other one is the argument of [`super::regime`].
+
+use crate::closed_form::harmonic;
+use crate::flow::{Cost, Limits, Reason};
+use crate::model::{Knob, Parameters, Side, State};
+use crate::numerics::elementary::{cbrt, exp, ln, powi};
+use crate::portrait::closing::equation::{Equation, Route, first_side};
+use crate::portrait::closing::pair::Closing;
+
+/// A fold: the cycle at which two meet.
+#[derive(Clone, Copy, Debug)]
+pub struct FoldCycle {
+    pub parameters: Parameters,
+    /// The cycle.
+    pub closing: Closing,
+    /// The side of its first swing.
+    pub side: Side,
+    /// Its unknown `ln c0`.
+    u: f64,
+    /// Along which parameter it was found, and the derivatives of F and G by u and by the logarithm of it.
+    along: (Knob, Slopes),
+}
+
+/// A place near a fold.
+#[derive(Clone, Copy, Debug)]
+pub struct FoldGuess {
+    pub parameters: Parameters,
+    /// The unknown `ln c0`.
+    pub u: f64,
+    slopes: Option<(Knob, Slopes)>,
+}
+
+type Slopes = [[f64; 2]; 2];
+
+impl FoldGuess {
+    /// A place known otherwise.
+    pub fn at(parameters: &Parameters, u: f64) -> Self {
+        FoldGuess { parameters: *parameters, u, slopes: None }
+    }
+
+    /// The fold in D at these values of D2, D3 and r; `None` where there is none, or D2 bends the cycle too much.
+    pub fn in_damping(parameters: &Parameters) -> Option<Self> {
+        /// Largest product of D2 and the amplitude at which the estimate is any good.
+        const BENT: f64 = 3.5;
+        let FoldEstimate { d, u, bend } = FoldEstimate::of(parameters)?;
+        (bend <= BENT).then(|| FoldGuess::at(&Parameters { d, ..*parameters }, u))
+    }
+
+    /// The same beside a fold that is known: as far from the estimate as this one is.
+    pub fn beside(known: &FoldCycle, parameters: &Parameters) -> Option<Self> {
+        let (here, there) = (FoldEstimate::of(parameters)?, FoldEstimate::of(&known.parameters)?);
+        let d = here.d * (known.parameters.d / there.d);
+        let (parameters, u) = (Parameters { d, ..*parameters }, known.u + here.u - there.u);
+        Some(FoldGuess { parameters, u, slopes: Some(known.along) })
+    }
+
+    /// The same cycle at other parameters.
+    pub fn moved_to(self, parameters: &Parameters) -> Self {
+        FoldGuess { parameters: *parameters, ..self }
+    }
+}
+
+/// An estimate of a fold.
+///
+/// The harmonic fold (48, 49), with the leading order of the escape point, to which it tends for weak D3, and
+/// turning points to second order in D2. The rest was fitted to a few per cent of computed folds: an estimate decides
+/// how long the search takes, and nothing else.
+struct FoldEstimate {
+    d: f64,
+    u: f64,
+    /// D2 times the amplitude.
+    bend: f64,
+}
+
+impl FoldEstimate {
+    fn of(parameters: &Parameters) -> Option<Self> {
+        let Parameters { d2, d3, r, .. } = *parameters;
+        let harmonic = harmonic::fold(d3, r)?;
+        // In units of the friction.
+        let (amplitude, d2, d3) = (harmonic.amplitude / r, r * d2.abs(), r * r * d3);
+        let bend = d2 * amplitude;
+        let symmetric = (amplitude - 0.98 + 0.09 * d3).max(2e-3);
+        let clearance = symmetric + 2.0 / 3.0 * amplitude * bend * (1.0 + 0.6 * bend);
+        let farthest = 14.0 / d2;
+        let escape = (2.0 / std::f64::consts::PI).sqrt() * d2;
+        let d = -cbrt(powi(escape, 3) - powi(harmonic.d, 3));
+        Some(FoldEstimate { d, u: ln(r * clearance.min(farthest)), bend })
+    }
+}
+
+/// Finds the fold next to a guess while `symbol` varies, to a relative error of `tolerance` of its clearance, and its
+/// square of the parameter; `None` where Newton's method leads nowhere. Fails with [`Reason::Interrupted`].
+pub fn fold_near(
+    guess: &FoldGuess,
+    symbol: Knob,
+    tolerance: f64,
+    limits: &Limits,
+) -> Result<(Option<FoldCycle>, Cost), Reason> {
+    let side = first_side(&guess.parameters);
+    let mut system = System { guess, symbol, side, limits, cost: Cost::default() };
+    let found = system.solve(tolerance)?;
+    Ok((found, system.cost))
+}
+
+/// Both functions at a place, and the exact slope of the first in u.
+#[derive(Clone, Copy)]
+struct Values {
+    step: f64,
+    f: f64,
+    g: f64,
+    slope: f64,
+    closing: Closing,
+}
+
+/// The two equations. A place is a value of u and the logarithm of the parameter in units of the guess.
+struct System<'a> {
+    guess: &'a FoldGuess,
+    symbol: Knob,
+    side: Side,
+    limits: &'a Limits<'a>,
+    cost: Cost,
+}
+
+impl System<'_> {
+    fn parameters_at(&self, z: f64) -> Parameters {
+        let mut parameters = self.guess.parameters;
+        let value = self.symbol.get(&parameters, &State { q: 0.0, v: 0.0 });
+        self.symbol.set(&mut parameters, &mut State { q: 0.0, v: 0.0 }, value * exp(z));
+        parameters
+    }
+
+    /// `None` where a swing does not end, or takes too long.
+    fn at(&mut self, [u, z]: [f64; 2], step: f64) -> Result<Option<Values>, Reason> {
+        /// Evaluations of one swing, some dozens of times the usual.
+        const BUDGET: u64 = 5_000;
+        let mut equation = Equation::on_side(&self.parameters_at(z), self.side, step);
+        equation.want_fastest(true);
+        let limits = Limits { evaluations: BUDGET, interrupted: self.limits.interrupted };
+        let closing = equation.at(Route::Mixed, u, &limits);
+        self.cost += equation.cost();
+        let closing = match closing {
+            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
+            Err(_) => return Ok(None),
+            Ok(closing) => closing,
+        };
+        let (f, g) = (closing.node.value(), closing.growth[0] + closing.growth[1]);
+        let slope = closing.node.slope;
+        let finite = f.is_finite() && g.is_finite() && slope.is_finite();
+        Ok(finite.then_some(Values { step, f, g, slope, closing }))
+    }
+
+    fn solve(&mut self, tolerance: f64) -> Result<Option<FoldCycle>, Reason> {
+        /// Steps before giving up.
+        const STEPS: usize = 16;
+        /// Tolerance of coarse integration steps, and the change for which they are too coarse.
+        const COARSE: f64 = 1e-8;
+        const ROUGHLY: f64 = 1e-4;
+        /// Smallest changes of u and of the logarithm of the parameter that matter: an error of u counts by its square.
+        const SMALL: [f64; 2] = [1e-9, 1e-13];
+        /// Largest change that can be due to rounding, beside weak damping.
+        const ROUNDING: f64 = 1e-7;
+        let fine = 1e-2 * (tolerance * tolerance).max(1e-13);
+        let mut step = fine.max(COARSE);
+        let mut place = [self.guess.u, 0.0];
+        let Some(mut here) = self.at(place, step)? else { return Ok(None) };
+        let known = self.guess.slopes.filter(|(symbol, _)| *symbol == self.symbol);
+        let slopes = match known {
+            Some((_, slopes)) => Some(slopes),
+            None => self.quotients(place, &here)?,
+        };
+        let Some(mut slopes) = slopes else { return Ok(None) };
+        let mut last = f64::INFINITY;
+        for _ in 0..STEPS {
+            slopes[0][0] = here.slope;
+            let Some(change) = solution(slopes, [-here.f, -here.g]) else { return Ok(None) };
+            let [du, dz] = change.map(f64::abs);
+            let small = du <= SMALL[0].max(tolerance) && dz <= SMALL[1].max(tolerance * tolerance);
+            let length = du.max(dz);
+            let stands = length <= ROUNDING && length >= 0.5 * last;
+            if step == fine && (small || stands) {
+                return Ok(self.accepted(place, change, &here, slopes));
+            }
+            last = if step == fine { length } else { f64::INFINITY };
+            if length <= ROUGHLY {
+                step = fine;
+            }
+            let change = limited(change);
+            place = [place[0] + change[0], place[1] + change[1]];
+            let Some(next) = self.at(place, step)? else { return Ok(None) };
+            learn(&mut slopes, change, (&here, &next));
+            here = next;
+        }
+        Ok(None)
+    }
+
+    /// The fold, if the inner one of both cycles is unstable there.
+    fn accepted(
+        &self,
+        place: [f64; 2],
+        change: [f64; 2],
+        here: &Values,
+        slopes: Slopes,
+    ) -> Option<FoldCycle> {
+        let fold = FoldCycle {
+            parameters: self.parameters_at(place[1] + change[1]),
+            closing: here.closing,
+            side: self.side,
+            u: place[0] + change[0],
+            along: (self.symbol, slopes),
+        };
+        (slopes[1][0] < 0.0).then_some(fold)
+    }
+
+    /// The derivatives as difference quotients.
+    fn quotients(&mut self, [u, z]: [f64; 2], here: &Values) -> Result<Option<Slopes>, Reason> {
+        /// Large beside the noise of coarse steps, small beside the bend of the functions.
+        const STRIDE: f64 = 1e-3;
+        let Some(out) = self.at([u + STRIDE, z], here.step)? else { return Ok(None) };
+        let Some(up) = self.at([u, z + STRIDE], here.step)? else { return Ok(None) };
+        let quotient = |to: f64, from: f64| (to - from) / STRIDE;
+        let of_g = [quotient(out.g, here.g), quotient(up.g, here.g)];
+        Ok(Some([[here.slope, quotient(up.f, here.f)], of_g]))
+    }
+}
+
+/// The solution of two linear equations, if there is one.
+fn solution([[a, b], [c, d]]: Slopes, [f, g]: [f64; 2]) -> Option<[f64; 2]> {
+    let determinant = a * d - b * c;
+    let solution = [(f * d - b * g) / determinant, (a * g - c * f) / determinant];
+    solution.iter().all(|it| it.is_finite()).then_some(solution)
+}
+
+/// A change in the same direction that is not too long for Newton's method.
+fn limited([du, dz]: [f64; 2]) -> [f64; 2] {
+    const LONGEST: [f64; 2] = [1.0, 0.4];
+    let excess = (du.abs() / LONGEST[0]).max(dz.abs() / LONGEST[1]).max(1.0);
+    [du / excess, dz / excess]
+}
+
+/// Learns from a step: of F what its exact slopes in u leave to the parameter, of G the least change of its slopes
+/// that explains it (Broyden). Differences over too little would say more about rounding than about slopes.
+fn learn(slopes: &mut Slopes, [du, dz]: [f64; 2], (from, to): (&Values, &Values)) {
+    const LEAST: [f64; 2] = [1e-5, 1e-8];
+    if from.step != to.step {
+        return;
+    }
+    if dz.abs() >= LEAST[1] {
+        slopes[0][1] = (to.f - from.f - 0.5 * (from.slope + to.slope) * du) / dz;
+    }
+    if du.abs() >= LEAST[0] {
+        let [in_u, in_z] = &mut slopes[1];
+        let missed = (to.g - from.g - *in_u * du - *in_z * dz) / (du * du + dz * dz);
+        *in_u += missed * du;
+        *in_z += missed * dz;
+    }
+}

@@ -1,0 +1,89 @@
+//! The special points of a branch of limit cycles.
+
+use serde::Serialize;
+
+use crate::portrait::{Cycle, CycleErrors};
+
+/// What makes a point of a branch special.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SpecialKind {
+    /// Two cycles meet and vanish. Well below `D = -1` the unstable one exists only so close to the sticking
+    /// set that numbers do not tell it from the set: the stable cycle grazes it.
+    Fold,
+    /// The cycle goes to infinity.
+    Escape,
+    /// The steady state changes its stability (r = 0).
+    Hopf,
+    /// The branch crosses the value zero of its parameter.
+    ZeroCrossing,
+}
+
+/// A special point of a branch.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Special {
+    /// What it is.
+    pub kind: SpecialKind,
+    /// Value of the parameter there.
+    pub value: f64,
+    /// Right turning point of the cycle there; `None` where it is infinite.
+    pub q_max: Option<f64>,
+    /// The cycle there, shrunk to a point at the Hopf point; `None` where it is infinite.
+    #[serde(skip)]
+    pub cycle: Option<Cycle>,
+}
+
+impl SpecialKind {
+    /// Whether the branch ends in a stable `cycle` that grazes the sticking set, instead of meeting an unstable
+    /// one.
+    #[must_use]
+    pub fn grazes(self, cycle: Option<&Cycle>) -> bool {
+        self == SpecialKind::Fold && cycle.is_some_and(Cycle::is_stable_beyond_doubt)
+    }
+
+    /// What such a point is called, `cycle` being the one that lives there.
+    #[must_use]
+    pub fn name(self, cycle: Option<&Cycle>) -> &'static str {
+        match self {
+            SpecialKind::Fold if self.grazes(cycle) => "grazing",
+            SpecialKind::Fold => "fold",
+            SpecialKind::Escape => "escape",
+            SpecialKind::Hopf => "Hopf point",
+            SpecialKind::ZeroCrossing => "zero crossing",
+        }
+    }
+}
+
+impl Special {
+    /// A special point at which this cycle lives; `None` where it is infinite.
+    #[must_use]
+    pub fn new(kind: SpecialKind, value: f64, cycle: Option<Cycle>) -> Self {
+        Special { kind, value, q_max: cycle.map(|cycle| cycle.q_max), cycle }
+    }
+}
+
+/// The cycle at the Hopf point: the steady state, about to swing at the undamped frequency.
+pub(crate) const VANISHING: Cycle = Cycle {
+    stable: false,
+    q_min: 0.0,
+    q_max: 0.0,
+    v_min: 0.0,
+    v_max: 0.0,
+    period: std::f64::consts::TAU,
+    multiplier: Some(1.0),
+    log_multiplier: 0.0,
+    clearance: 0.0,
+    log_clearance: f64::NEG_INFINITY,
+    error: Some(0.0),
+    errors: Some(CycleErrors {
+        q_min: 0.0,
+        q_max: 0.0,
+        v_min: 0.0,
+        v_max: 0.0,
+        period: 0.0,
+        log_multiplier: 0.0,
+        log_clearance: 0.0,
+    }),
+    ride: None,
+    overtakes: false,
+};

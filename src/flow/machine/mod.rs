@@ -1,0 +1,16 @@
+//! Motions of a machine by the whole model: friction by its own law, two switching lines, riding on the belt and
+//! overtaking it.
+
+#[warn(clippy::missing_errors_doc)]
+pub(crate) mod arc;
+#[doc(hidden)]
+pub mod by_method;
+pub(crate) mod curve;
+pub(crate) mod ledger;
+#[doc(hidden)]
+pub mod motion;
+pub(crate) mod series;
+#[doc(hidden)]
+pub mod stepped;
+#[doc(hidden)]
+pub mod turn;

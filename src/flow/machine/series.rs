@@ -1,0 +1,202 @@
+//! The Taylor series of a motion within one phase.
+//!
+//! `x' = y`, `y' = -(x + offset) + h(y)`: h is a polynomial about the present velocity, composed with the
+//! series by Horner's scheme, plus an exponential with a recurrence of its own. The step is the one that
+//! keeps the last terms below rounding (Jorba and Zou, Experimental Mathematics 14, 2005).
+
+use crate::model::force::{Fall, ForceBranch, ForcePiece};
+use crate::numerics::count::real;
+use crate::numerics::elementary::{exp2, log2, pow};
+use crate::numerics::polynomial::{reciprocals, value, value_and_slope};
+
+/// Order of the series; near the one that costs least at full precision.
+pub const ORDER: usize = 20;
+
+/// Terms of a series.
+pub const TERMS: usize = ORDER + 1;
+
+/// Coefficients in powers of time.
+pub type Terms = [f64; TERMS];
+
+/// `1/k`.
+const INVERSE: Terms = reciprocals();
+
+/// The series of one step.
+#[derive(Clone, Debug)]
+pub struct Series {
+    /// Displacement from the balance of the phase, `x + offset`.
+    pub x: Terms,
+    /// Velocity.
+    pub y: Terms,
+    /// Coefficients of h about the present velocity.
+    local: Vec<f64>,
+    /// Partial sums of Horner's scheme, as series.
+    rows: Vec<Terms>,
+    /// Powers of the slip up to the exponent of the falling part.
+    powers: Vec<Terms>,
+    /// The derivative of the last of them, each term multiplied by its time.
+    slopes: Terms,
+    /// The falling part, if it counts here.
+    falling: Option<Fall>,
+    fall: Terms,
+}
+
+impl Series {
+    pub fn new() -> Self {
+        Series {
+            x: [0.0; TERMS],
+            y: [0.0; TERMS],
+            local: Vec::new(),
+            rows: Vec::new(),
+            powers: Vec::new(),
+            slopes: [0.0; TERMS],
+            falling: None,
+            fall: [0.0; TERMS],
+        }
+    }
+
+    /// Expands the motion at displacement `x` from the balance and velocity `y`; `forward` is 1, or -1 for
+    /// time reversed. `acceleration` replaces the first derivative where it is known exactly.
+    pub fn expand(
+        &mut self,
+        (side, piece): (&ForceBranch, &ForcePiece),
+        (x, y): (f64, f64),
+        forward: f64,
+        acceleration: Option<f64>,
+    ) {
+        self.local.clear();
+        self.local.extend_from_slice(&piece.coefficients);
+        let by = y - piece.center;
+        for start in 1..self.local.len() {
+            for k in (start - 1..self.local.len() - 1).rev() {
+                self.local[k] += by * self.local[k + 1];
+            }
+        }
+        let degree = self.local.len() - 1;
+        let products = degree.saturating_sub(1);
+        if self.rows.len() < products {
+            self.rows.resize(products, [0.0; TERMS]);
+        }
+        for row in 0..products {
+            self.rows[row][0] = self.local[row + 1];
+        }
+        let mut force = self.local[0];
+        self.falling = side.fall.filter(|_| piece.falls);
+        if let Some(fall) = self.falling {
+            force += fall.value(y);
+            self.begin_fall(&fall, y);
+        }
+        (self.x[0], self.y[0]) = (x, y);
+        for k in 0..ORDER {
+            let mut rate = force - self.x[k];
+            if k == 0
+                && let Some(acceleration) = acceleration
+            {
+                rate = acceleration;
+            }
+            let factor = forward * INVERSE[k + 1];
+            self.x[k + 1] = factor * self.y[k];
+            self.y[k + 1] = factor * rate;
+            force = self.polynomial(k + 1, degree);
+            if let Some(fall) = self.falling {
+                force += self.next_fall(&fall, k + 1);
+            }
+        }
+    }
+
+    /// Coefficient k of the polynomial part of h, k > 0.
+    fn polynomial(&mut self, k: usize, degree: usize) -> f64 {
+        if degree == 0 {
+            return 0.0;
+        }
+        if degree == 1 {
+            return self.local[1] * self.y[k];
+        }
+        // Row r holds `c_(r+1) + d (c_(r+2) + d (..))` with d = y - y(0); the last of all is a constant.
+        for row in 0..degree - 1 {
+            self.rows[row][k] = if row + 2 == degree {
+                self.local[degree] * self.y[k]
+            } else {
+                product(&self.y, &self.rows[row + 1], k)
+            };
+        }
+        product(&self.y, &self.rows[0], k)
+    }
+
+    fn begin_fall(&mut self, fall: &Fall, y: f64) {
+        self.fall[0] = fall.full(y);
+        let ratio = fall.slip(y) / fall.velocity;
+        if let Some(exponent) = whole(fall) {
+            self.powers.resize(exponent, [0.0; TERMS]);
+            let mut power = 1.0;
+            for row in &mut self.powers {
+                power *= ratio;
+                row[0] = power;
+            }
+        } else {
+            self.powers.resize(1, [0.0; TERMS]);
+            self.powers[0][0] = pow(ratio.max(LEAST_SLIP), fall.exponent);
+        }
+    }
+
+    /// Coefficient k of the exponential part, k > 0: `E' = -((slip/velocity)^n)' E`.
+    fn next_fall(&mut self, fall: &Fall, k: usize) -> f64 {
+        let toward = -fall.sign() / fall.velocity;
+        if let Some(exponent) = whole(fall) {
+            self.powers[0][k] = toward * self.y[k];
+            for row in 1..exponent {
+                let (slip, below) = (&self.powers[0], &self.powers[row - 1]);
+                self.powers[row][k] = product(slip, below, k) + slip[0] * below[k];
+            }
+        } else {
+            // slip P' = n slip' P for the power P of the slip.
+            let ratio = (fall.slip(self.y[0]) / fall.velocity).max(LEAST_SLIP);
+            let weight = |j: usize| fall.exponent * real(j) - real(k - j);
+            let power = &self.powers[0];
+            let sum: f64 = (1..=k).map(|j| weight(j) * toward * self.y[j] * power[k - j]).sum();
+            self.powers[0][k] = sum / ratio * INVERSE[k];
+        }
+        let last = self.powers.len() - 1;
+        self.slopes[k] = real(k) * self.powers[last][k];
+        self.fall[k] = -product(&self.slopes, &self.fall, k) * INVERSE[k];
+        self.fall[k]
+    }
+
+    /// The longest step that keeps the last terms below `aim`, relative to the state; infinite for a state
+    /// that does not move.
+    pub fn length(&self, aim: f64) -> f64 {
+        let size = self.x[0].abs().max(self.y[0].abs());
+        let allowed = |k: usize| {
+            let term = self.x[k].abs().max(self.y[k].abs());
+            if term > 0.0 { log2(aim * size / term) * INVERSE[k] } else { f64::INFINITY }
+        };
+        exp2((ORDER - 2..=ORDER).map(allowed).fold(f64::INFINITY, f64::min))
+    }
+
+    /// The derivative of the force by the velocity, the divergence of the field. The exponential is that of the series.
+    pub fn force_slope(&self, t: f64) -> f64 {
+        let y = value(&self.y, t);
+        let (_, slope) = value_and_slope(&self.local, y - self.y[0]);
+        let fall = self.falling.map(|fall| fall.sign() * value(&self.fall, t) * fall.steepness(y));
+        slope + fall.unwrap_or(0.0)
+    }
+
+    /// The velocity and its derivative.
+    pub fn velocity(&self, t: f64) -> (f64, f64) {
+        value_and_slope(&self.y, t)
+    }
+}
+
+/// Where a law with a broken exponent has no derivatives, at slip 0, it is expanded this far beside it, in
+/// units of its own velocity: a distance that velocities can still resolve.
+const LEAST_SLIP: f64 = 1e-10;
+
+/// The exponent as a whole number, if it is a small one.
+fn whole(fall: &Fall) -> Option<usize> {
+    (1..=10).find(|n| real(*n) == fall.exponent)
+}
+
+/// Coefficient k of the product of a series without its constant and another.
+fn product(one: &Terms, other: &Terms, k: usize) -> f64 {
+    one[1..=k].iter().zip(other[..k].iter().rev()).map(|(a, b)| a * b).sum()
+}

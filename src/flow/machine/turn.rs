@@ -1,0 +1,122 @@
+//! The phase that follows at a switching line, and the motion up to its next turning point.
+//!
+//! Where the inclusion leaves a choice, the mass is held: by the belt wherever static friction suffices, and
+//! likewise by the guide. An orbit that touches the belt's line tangentially sticks.
+
+use super::arc::{ArcEnd, Flow, LostMotion, Watch};
+use crate::model::{Model, Phase};
+
+/// The state of contact at a point of the phase plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactState {
+    Slips(Phase),
+    /// It rides on the belt.
+    Sticks,
+    /// It rests, held by the guide.
+    Rests,
+}
+
+/// A turning point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    /// Its displacement.
+    pub x: f64,
+    /// Whether the mass comes to rest.
+    pub rests: bool,
+    /// The motion that led there.
+    pub way: WayToTurn,
+}
+
+/// Properties of the motion to a turning point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WayToTurn {
+    /// Logarithm of the product of (acceleration in/acceleration out) over the arcs; together with the integral of
+    /// the divergence, it is that of the derivative of the map. Minus infinity after sticking.
+    pub log_ratio: f64,
+    /// Displacement at which the mass began to ride on the belt.
+    pub sticks_from: Option<f64>,
+    /// Displacement at which it left the belt's line upwards.
+    pub overtakes_from: Option<f64>,
+}
+
+impl Model {
+    /// The state of contact at displacement `x` and velocity `y` (divided by the natural frequency).
+    pub fn place(&self, x: f64, y: f64) -> ContactState {
+        if y == 0.0 {
+            return if self.rests_at(x) {
+                ContactState::Rests
+            } else {
+                ContactState::Slips(if x > 0.0 { Phase::Below } else { Phase::Between })
+            };
+        }
+        match (self.lines, y.total_cmp(&self.speed)) {
+            (Some(lines), std::cmp::Ordering::Equal) => {
+                if x > lines.release {
+                    ContactState::Slips(Phase::Between)
+                } else if x < lines.low {
+                    ContactState::Slips(Phase::Above)
+                } else {
+                    ContactState::Sticks
+                }
+            }
+            (_, std::cmp::Ordering::Greater) => ContactState::Slips(Phase::Above),
+            _ => ContactState::Slips(if y < 0.0 { Phase::Below } else { Phase::Between }),
+        }
+    }
+}
+
+impl Flow<'_> {
+    /// Follows a motion to its next turning point: the left one from `y < 0`, the right one otherwise. Fails with
+    /// [`LostMotion`] if it does not turn.
+    pub fn turn(
+        &mut self,
+        place: ContactState,
+        (mut x, mut y): (f64, f64),
+        watch: &mut impl Watch,
+    ) -> Result<Turn, LostMotion> {
+        /// Maximum number of contacts with the belt's line: three, and one more by rounding.
+        const CONTACTS: usize = 8;
+        let model = self.model;
+        let mut way = WayToTurn::default();
+        let mut place = place;
+        for _ in 0..CONTACTS {
+            let phase = match place {
+                ContactState::Rests => return Ok(Turn { x, rests: true, way }),
+                ContactState::Slips(phase) => phase,
+                ContactState::Sticks => {
+                    let release = model.lines.map_or(x, |lines| lines.release);
+                    watch.stick(model, x, release);
+                    way.sticks_from = way.sticks_from.or(Some(x));
+                    way.log_ratio = f64::NEG_INFINITY;
+                    x = release;
+                    Phase::Between
+                }
+            };
+            let end = self.arc(phase, (x, y), false, watch)?;
+            way.log_ratio += end.log_ratio();
+            (place, x) = self.after(phase, &end);
+            if !end.on_belt {
+                return Ok(Turn { x, rests: place == ContactState::Rests, way });
+            }
+            y = model.speed;
+            if place == ContactState::Slips(Phase::Above) {
+                way.overtakes_from = Some(x);
+            }
+        }
+        Err(LostMotion::Steps)
+    }
+
+    /// The phase that follows an arc, and its start. Only by rounding does a motion arrive where its own side
+    /// pushes it away.
+    pub(crate) fn after(&self, phase: Phase, end: &ArcEnd) -> (ContactState, f64) {
+        let model = self.model;
+        let x = match (end.on_belt, phase, model.lines) {
+            (false, Phase::Below, _) => end.x.min(model.guide),
+            (false, ..) => end.x.max(-model.guide),
+            (true, Phase::Above, Some(lines)) => end.x.max(lines.low),
+            (true, _, Some(lines)) => end.x.min(lines.fold),
+            (true, _, None) => end.x,
+        };
+        (model.place(x, if end.on_belt { model.speed } else { 0.0 }), x)
+    }
+}

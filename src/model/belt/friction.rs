@@ -1,0 +1,183 @@
+//! Friction laws: the coefficient of friction over the relative velocity, with three derivatives.
+//!
+//! The oscillator of the paper knows a friction characteristic only by its value and its first three
+//! derivatives at the belt speed (equation 3); how well these represent it is measured against the law
+//! itself ([`super::taylor`]).
+
+use serde::{Deserialize, Serialize};
+
+use crate::numerics::elementary::{exp, pow, powi};
+pub use crate::numerics::polynomial::Derivatives;
+use crate::numerics::polynomial::derivatives;
+use crate::numerics::spline::SmoothingSpline;
+
+/// The coefficient of friction `mu` over the relative velocity `v >= 0`, in m/s.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FrictionLaw {
+    /// The same at every velocity.
+    Constant {
+        /// The coefficient.
+        mu: f64,
+    },
+    /// A polynomial in v.
+    Polynomial {
+        /// Coefficients of 1, v, v^2, ...: without unit, s/m, s^2/m^2, ...
+        coefficients: Vec<f64>,
+    },
+    /// Stribeck's characteristic, `mu = kinetic + (rest - kinetic) exp(-(v/velocity)^exponent) + viscous v`.
+    Stribeck {
+        /// Coefficient at v = 0.
+        rest: f64,
+        /// The lower coefficient to which it falls.
+        kinetic: f64,
+        /// Velocity over which it falls, in m/s.
+        velocity: f64,
+        /// 1 for the exponential, 2 for the Gaussian form.
+        exponent: f64,
+        /// Rise by lubrication, in s/m.
+        viscous: f64,
+    },
+    /// Measured points, through or near which runs the smoothest curve.
+    Table(SmoothingSpline),
+}
+
+impl FrictionLaw {
+    /// The coefficient and its derivatives with respect to the relative velocity, at `v`.
+    ///
+    /// `None` outside of the [range](Self::range) of the law. Derivatives that do not exist (a Stribeck
+    /// law with a fractional exponent, at v = 0) are infinite or not numbers.
+    #[must_use]
+    pub fn at(&self, v: f64) -> Option<Derivatives> {
+        let (low, high) = self.range();
+        if !(low..=high).contains(&v) {
+            return None;
+        }
+        Some(match self {
+            FrictionLaw::Constant { mu } => Derivatives { value: *mu, ..Derivatives::default() },
+            FrictionLaw::Polynomial { coefficients } => derivatives(coefficients, v),
+            FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
+                let fall = stretched_exponential(v / velocity, *exponent);
+                let drop = rest - kinetic;
+                Derivatives {
+                    value: kinetic + drop * fall.value + viscous * v,
+                    first: drop * fall.first / velocity + viscous,
+                    second: drop * fall.second / powi(*velocity, 2),
+                    third: drop * fall.third / powi(*velocity, 3),
+                }
+            }
+            FrictionLaw::Table(spline) => spline.at(v),
+        })
+    }
+
+    /// The coefficient at `v`, where the law reaches.
+    #[must_use]
+    pub fn mu(&self, v: f64) -> Option<f64> {
+        self.at(v).map(|mu| mu.value)
+    }
+
+    /// Smallest and largest relative velocity for which the law says something, in m/s.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        match self {
+            FrictionLaw::Table(spline) => spline.range(),
+            _ => (0.0, f64::MAX),
+        }
+    }
+
+    /// The name in files.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            FrictionLaw::Constant { .. } => "constant",
+            FrictionLaw::Polynomial { .. } => "polynomial",
+            FrictionLaw::Stribeck { .. } => "stribeck",
+            FrictionLaw::Table(_) => "table",
+        }
+    }
+}
+
+/// `exp(-u^exponent)` for `u >= 0` with its derivatives.
+fn stretched_exponential(u: f64, exponent: f64) -> Derivatives {
+    // Derivatives of the power; a factor of 0 wins over an infinite power (whole exponents at u = 0).
+    let power = |factor: f64, order: f64| {
+        if factor == 0.0 { 0.0 } else { factor * pow(u, exponent - order) }
+    };
+    let n = exponent;
+    let p = Derivatives {
+        value: power(1.0, 0.0),
+        first: power(n, 1.0),
+        second: power(n * (n - 1.0), 2.0),
+        third: power(n * (n - 1.0) * (n - 2.0), 3.0),
+    };
+    let value = exp(-p.value);
+    Derivatives {
+        value,
+        first: -p.first * value,
+        second: (p.first * p.first - p.second) * value,
+        third: (p.first * (3.0 * p.second - p.first * p.first) - p.third) * value,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::model::belt::tests::differences;
+    use crate::numerics::elementary::powi;
+
+    fn laws() -> [FrictionLaw; 5] {
+        let stribeck = |exponent, viscous| FrictionLaw::Stribeck {
+            rest: 0.5,
+            kinetic: 0.2,
+            velocity: 0.3,
+            exponent,
+            viscous,
+        };
+        [
+            FrictionLaw::Constant { mu: 0.3 },
+            FrictionLaw::Polynomial { coefficients: vec![0.5, -0.3, 0.0, 0.4, 0.1] },
+            stribeck(1.0, 0.0),
+            stribeck(2.0, 0.05),
+            stribeck(1.5, 0.05),
+        ]
+    }
+
+    proptest! {
+        #[test]
+        fn derivatives_are_those_of_the_law(v in 0.2_f64..1.5) {
+            for law in laws() {
+                let found = law.at(v).unwrap();
+                let measured = differences(|v| law.mu(v).unwrap(), v, 0.2);
+                for (found, measured, tolerance) in [
+                    (found.value, measured.value, 1e-15),
+                    (found.first, measured.first, 1e-9),
+                    (found.second, measured.second, 1e-7),
+                    (found.third, measured.third, 1e-4),
+                ] {
+                    prop_assert!((found - measured).abs() <= tolerance * (1.0 + found.abs()), "{law:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn whole_exponents_have_derivatives_at_rest() {
+        let [.., exponential, gaussian, fractional] = laws();
+        let at_rest = exponential.at(0.0).unwrap();
+        assert!((at_rest.third + 0.3 / powi(0.3, 3)).abs() < 1e-12);
+        assert_eq!(gaussian.at(0.0).unwrap().first, 0.05);
+        assert!(!fractional.at(0.0).unwrap().is_finite() && fractional.mu(0.0) == Some(0.5));
+        assert_eq!(exponential.at(-1e-9), None, "no law for a belt that runs backward");
+    }
+
+    #[test]
+    fn the_cubic_repeats_a_cubic() {
+        let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.3, 0.2, 0.4] };
+        let cubic = law.at(0.7).unwrap();
+        for v in [0.0, 0.3, 0.7, 2.0] {
+            assert!((cubic.cubic(v - 0.7) - law.mu(v).unwrap()).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,283 @@
+//! Numbers that can be set: reading, checking, writing and refusing their values, in one way and in the same words.
+
+mod table;
+
+use std::fmt;
+
+use serde::de::{Deserialize, Deserializer, Error, Visitor};
+use serde::{Serialize, Serializer};
+
+use super::belt::mass::Belt;
+use super::modal::Modal;
+use super::parameters::{Parameters, State};
+use super::unit::{Measured, WithTolerance, measured, toleranced};
+use crate::numerics::Interval;
+use crate::numerics::decimal::{brief, shortest};
+use crate::numerics::similar::most_similar;
+pub use table::{Group, KNOBS, Knob, KnobSpec};
+
+/// A value that a number cannot take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutOfRange {
+    /// Which number.
+    pub knob: Knob,
+    /// The value refused, in SI units.
+    pub value: f64,
+}
+
+impl fmt::Display for OutOfRange {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let OutOfRange { knob, value } = *self;
+        let KnobSpec { min, max, least, unit, .. } = *knob.spec();
+        if (min..=max).contains(&value) {
+            let (value, least) = (knob.print(value), with_unit(brief(least), unit));
+            return write!(
+                out,
+                "{knob} = {value} is too close to 0; allowed: 0, or {least} and more in magnitude"
+            );
+        }
+        write!(out, "{knob} = {} is outside its range {}", knob.print(value), knob.range())?;
+        if knob == Knob::BeltSpeed && value == 0.0 {
+            // At v0 = 0 both switching lines are one, and the pull of the belt is only bounded.
+            write!(
+                out,
+                "; a belt at rest only brakes, and holds the mass wherever abs(c X) <= R + F mu_s"
+            )?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for OutOfRange {}
+
+impl From<OutOfRange> for String {
+    /// The refusal in one line.
+    fn from(refused: OutOfRange) -> Self {
+        refused.to_string()
+    }
+}
+
+impl Knob {
+    /// The number of these groups with this name, compared exactly.
+    ///
+    /// # Errors
+    /// One line with the number that was probably meant, and the names of all.
+    pub fn named(name: &str, groups: &[Group]) -> Result<Self, String> {
+        let mut all = KNOBS.iter().filter(|row| groups.contains(&row.group));
+        let known: Vec<&str> = all.clone().map(|row| row.name).collect();
+        let found = all.find(|row| row.name == name).map(|row| row.knob);
+        found.ok_or_else(|| unknown(name, &known))
+    }
+
+    /// Accepts a value, in SI units.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] if it is not a number, outside the range of the table, or closer to 0 than it allows without
+    /// being 0.
+    pub fn check(self, value: f64) -> Result<f64, OutOfRange> {
+        let KnobSpec { min, max, least, .. } = *self.spec();
+        let is_large_enough = value == 0.0 || value.abs() >= least;
+        let is_allowed = is_large_enough && (min..=max).contains(&value);
+        if is_allowed { Ok(value) } else { Err(OutOfRange { knob: self, value }) }
+    }
+
+    /// Reads a value with or without its unit: `0.2`, `20 cm/s`.
+    ///
+    /// # Errors
+    /// One line that says what is wrong, and what is allowed.
+    pub fn parse(self, text: &str) -> Result<f64, String> {
+        let read = measured(text).map_err(|why| self.unread(text, why))?;
+        self.accept(text, read)
+    }
+
+    /// Reads a value that may have a tolerance: `1 N +- 0.2 N`, `0.8 N .. 1.2 N`, `0.1+-5 %`.
+    ///
+    /// # Errors
+    /// One line that says what is wrong, and what is allowed.
+    pub fn parse_toleranced(self, text: &str) -> Result<WithTolerance, String> {
+        let read = toleranced(text).map_err(|why| self.unread(text, why))?;
+        let value = self.accept(text, read.middle)?;
+        let middle = Measured { value, ..read.middle };
+        if read.half_width == 0.0 {
+            return Ok(WithTolerance { middle, ends: Interval::point(value), ..read });
+        }
+        for end in [value - read.half_width, value + read.half_width] {
+            self.check(end)?;
+        }
+        let KnobSpec { min, max, .. } = *self.spec();
+        let ends = Interval::new(read.ends.lower().max(min), read.ends.upper().min(max));
+        for end in [ends.lower(), ends.upper()] {
+            self.check(end)?;
+        }
+        Ok(WithTolerance { middle, ends, ..read })
+    }
+
+    /// A measured value in the unit and the range of this number; zero has one sign.
+    fn accept(self, text: &str, read: Measured) -> Result<f64, String> {
+        let value = read.in_unit(self.spec().unit);
+        let value = value.map_err(|refused| format!("{self} = {} {refused}", text.trim()))?;
+        Ok(self.check(value + 0.0)?)
+    }
+
+    fn unread(self, text: &str, why: String) -> String {
+        // Where there is no unit, letters behind a number are no attempt at one.
+        let text = text.trim();
+        let plain = self.spec().unit.is_empty() && !text.contains("+-") && !text.contains("..");
+        let why = if plain && text.parse::<f64>().is_err() {
+            format!("{text:?} is not a number")
+        } else {
+            why
+        };
+        format!("{why}; {self} takes {}", self.range())
+    }
+
+    /// A value with its unit, such that it can be typed in again.
+    #[must_use]
+    pub fn print(self, value: f64) -> String {
+        with_unit(shortest(value), self.spec().unit)
+    }
+
+    /// What it can be: `0 .. 1e12 N`.
+    #[must_use]
+    pub fn range(self) -> String {
+        let KnobSpec { min, max, unit, .. } = *self.spec();
+        with_unit(format!("{} .. {}", brief(min), brief(max)), unit)
+    }
+
+    /// That it can be stepped no further.
+    #[must_use]
+    pub fn at_end(self, value: f64) -> String {
+        let KnobSpec { symbol, max, .. } = *self.spec();
+        let end = if value < max { "minimum" } else { "maximum" };
+        format!("{symbol} is at its {end}, {}", with_unit(brief(value), self.spec().unit))
+    }
+
+    /// The value where nothing is said; 0 where something must be.
+    #[must_use]
+    pub fn usual(self) -> f64 {
+        self.spec().default.unwrap_or(0.0)
+    }
+
+    /// Reads a number of a motion; not a number if it is one of a machine.
+    #[must_use]
+    pub fn get(self, parameters: &Parameters, initial: &State) -> f64 {
+        let both = (*parameters, *initial);
+        self.spec().motion.and_then(|at| (at.get)(&both)).unwrap_or(f64::NAN)
+    }
+
+    /// Writes a number of a motion; one of a machine changes nothing.
+    pub fn set(self, parameters: &mut Parameters, initial: &mut State, value: f64) {
+        let mut both = (*parameters, *initial);
+        if let Some(place) = self.spec().motion.and_then(|at| (at.place)(&mut both)) {
+            *place = value;
+        }
+        (*parameters, *initial) = both;
+    }
+
+    /// Reads a number of a mass on a belt; `None` if it has none. Static friction that is not given is that of the law
+    /// at rest, and R.
+    #[must_use]
+    pub fn of_belt(self, belt: &Belt) -> Option<f64> {
+        (self.spec().belt?.get)(belt)
+    }
+
+    /// Reads a number of a vibration mode; `None` if it has none.
+    #[must_use]
+    pub fn of_mode(self, mode: &Modal) -> Option<f64> {
+        (self.spec().mode?.get)(mode)
+    }
+
+    /// Writes a number of a mass on a belt, in SI units.
+    ///
+    /// # Errors
+    /// One line if it has no such number.
+    pub fn set_in_belt(self, belt: &mut Belt, value: f64) -> Result<(), String> {
+        let place = self.spec().belt.and_then(|at| (at.place)(belt));
+        if let Some(place) = place {
+            *place = value;
+            return Ok(());
+        }
+        Err(self.missing(&|knob| knob.of_belt(belt).is_some()))
+    }
+
+    /// Writes a number of a vibration mode, in SI units.
+    ///
+    /// # Errors
+    /// One line if it has no such number.
+    pub fn set_in_mode(self, mode: &mut Modal, value: f64) -> Result<(), String> {
+        let place = self.spec().mode.and_then(|at| (at.place)(mode));
+        if let Some(place) = place {
+            *place = value;
+            return Ok(());
+        }
+        Err(self.missing(&|knob| knob.of_mode(mode).is_some()))
+    }
+
+    /// That what has these numbers does not have this one.
+    fn missing(self, has: &dyn Fn(Self) -> bool) -> String {
+        let all = KNOBS.iter().filter(|row| has(row.knob)).map(|row| row.name);
+        format!("no {self} here; there are {}", all.collect::<Vec<_>>().join(", "))
+    }
+}
+
+/// That there is no such number, and which was probably meant.
+#[must_use]
+pub fn unknown(name: &str, known: &[&str]) -> String {
+    // A single letter resembles too much.
+    let alike = |meant: &&&str| name.chars().count() > 1 || name.eq_ignore_ascii_case(meant);
+    let meant = most_similar(name, known).filter(alike);
+    let meant = meant.map_or_else(String::new, |meant| format!("did you mean {meant}? "));
+    format!("no number {name:?}; {meant}there are {}", known.join(", "))
+}
+
+fn with_unit(text: String, unit: &str) -> String {
+    if unit.is_empty() { text } else { format!("{text} {unit}") }
+}
+
+impl fmt::Display for Knob {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(self.spec().name)
+    }
+}
+
+impl Serialize for Knob {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.spec().name)
+    }
+}
+
+impl<'de> Deserialize<'de> for Knob {
+    /// Reads the name of a number of a motion, which are those that scenes and sessions name.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Name;
+        impl Visitor<'_> for Name {
+            type Value = Knob;
+
+            fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+                out.write_str("the name of a number, such as \"D\"")
+            }
+
+            fn visit_str<E: Error>(self, name: &str) -> Result<Knob, E> {
+                Knob::named(name, &[Group::Motion]).map_err(E::custom)
+            }
+        }
+        deserializer.deserialize_str(Name)
+    }
+}
+
+impl Default for Parameters {
+    fn default() -> Self {
+        let [d, d2, d3, r, ..] = Knob::MOTION.map(Knob::usual);
+        Parameters { d, d2, d3, r }
+    }
+}
+
+impl Default for State {
+    fn default() -> Self {
+        let [.., q, v] = Knob::MOTION.map(Knob::usual);
+        State { q, v }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,378 @@
+//! The one table of every number that can be set.
+//!
+//! A number is a row of [`KNOBS`]: what it is called, its unit, its range, its default and first step, and where it
+//! stands. The pane, the command line, the files of scenes, machines and sessions, scans, charts and all that is said
+//! about a wrong value read it.
+
+use crate::model::belt::friction::FrictionLaw;
+use crate::model::belt::mass::Belt;
+use crate::model::modal::Modal;
+use crate::model::parameters::{Parameters, State};
+
+/// What a number belongs to. Names are different within a group, and within [`Group::SOURCE`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// The dimensionless motion: parameters and start.
+    Motion,
+    /// A mass on a belt, without its friction law.
+    Machine,
+    /// Static friction, and the numbers of friction laws.
+    Law,
+    /// The points of a friction law.
+    Table,
+    /// A vibration mode.
+    Mode,
+    /// What only a recorded motion has.
+    Record,
+    /// The start of a motion of a machine or a mode, how long it is followed, and what disturbs it.
+    Course,
+    /// How long a dimensionless motion is followed, what disturbs it, and how exactly it is computed.
+    Setting,
+}
+
+impl Group {
+    /// What can be set and varied in a machine or a mode.
+    pub const SOURCE: &[Self] = &[Group::Machine, Group::Law, Group::Mode];
+
+    /// Its numbers, in the order of the table.
+    pub fn knobs(self) -> impl Iterator<Item = Knob> + Clone {
+        KNOBS.iter().filter(move |row| row.group == self).map(|row| row.knob)
+    }
+
+    /// How many numbers it has.
+    #[must_use]
+    pub const fn count(self) -> usize {
+        let (mut row, mut count) = (0, 0);
+        while row < KNOBS.len() {
+            if KNOBS[row].group as u8 == self as u8 {
+                count += 1;
+            }
+            row += 1;
+        }
+        count
+    }
+}
+
+/// How a number is read from what has it, and where it is written.
+#[derive(Debug)]
+pub(crate) struct Access<T> {
+    pub get: fn(&T) -> Option<f64>,
+    pub place: fn(&mut T) -> Option<&mut f64>,
+}
+
+impl<T> Clone for Access<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Access<T> {}
+
+/// One row of [`KNOBS`].
+#[derive(Clone, Copy, Debug)]
+pub struct KnobSpec {
+    /// Which number.
+    pub knob: Knob,
+    /// The name in files and on the command line.
+    pub name: &'static str,
+    /// The name on the screen.
+    pub symbol: &'static str,
+    /// What it means, in a few words.
+    pub meaning: &'static str,
+    /// Its SI unit; empty for a pure number.
+    pub unit: &'static str,
+    /// What it belongs to.
+    pub group: Group,
+    /// Smallest allowed value.
+    pub min: f64,
+    /// Largest allowed value.
+    pub max: f64,
+    /// Smallest allowed magnitude besides 0.
+    pub least: f64,
+    /// The value where nothing is said; `None` where something must be.
+    pub default: Option<f64>,
+    /// First step of the keys that change it; for a number of a machine, as a fraction of its value.
+    pub step: f64,
+    /// First range of a diagram over it: wide enough for what happens at friction and damping of everyday size.
+    pub drawn: (f64, f64),
+    pub(crate) motion: Option<Access<(Parameters, State)>>,
+    pub(crate) belt: Option<Access<Belt>>,
+    pub(crate) mode: Option<Access<Modal>>,
+}
+
+impl KnobSpec {
+    const fn of(group: Group, unit: &'static str, (min, max): (f64, f64)) -> Self {
+        KnobSpec {
+            knob: Knob::D,
+            name: "",
+            symbol: "",
+            meaning: "",
+            unit,
+            group,
+            min,
+            max,
+            least: 0.0,
+            default: None,
+            step: 0.05,
+            drawn: (-1.0, 1.0),
+            motion: None,
+            belt: None,
+            mode: None,
+        }
+    }
+
+    const fn or(self, default: f64) -> Self {
+        KnobSpec { default: Some(default), ..self }
+    }
+
+    const fn step(self, step: f64) -> Self {
+        KnobSpec { step, ..self }
+    }
+
+    const fn drawn(self, from: f64, to: f64) -> Self {
+        KnobSpec { drawn: (from, to), ..self }
+    }
+
+    const fn shown(self, symbol: &'static str) -> Self {
+        KnobSpec { symbol, ..self }
+    }
+
+    const fn motion(self, at: Access<(Parameters, State)>) -> Self {
+        KnobSpec { motion: Some(at), ..self }
+    }
+
+    const fn belt(self, at: Access<Belt>) -> Self {
+        KnobSpec { belt: Some(at), ..self }
+    }
+
+    const fn mode(self, at: Access<Modal>) -> Self {
+        KnobSpec { mode: Some(at), ..self }
+    }
+}
+
+/// The names of numbers, and their table.
+macro_rules! knobs {
+    ($($knob:ident $name:literal $meaning:literal $row:expr;)+) => {
+        /// A number that can be set.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Knob {
+            $(#[doc = $meaning] $knob,)+
+        }
+
+        /// Every number that can be set, those of a group together.
+        pub const KNOBS: &[KnobSpec] = &[$({
+            let row = $row;
+            let symbol = if row.symbol.is_empty() { $name } else { row.symbol };
+            KnobSpec { knob: Knob::$knob, name: $name, symbol, meaning: $meaning, ..row }
+        }),+];
+    };
+}
+
+/// A number that is a field.
+macro_rules! at {
+    ($($field:tt)+) => {
+        Access { get: |it| Some(it.$($field)+), place: |it| Some(&mut it.$($field)+) }
+    };
+}
+
+/// A number of a friction law.
+macro_rules! law {
+    ($law:ident $number:ident) => {
+        Access {
+            get: |belt: &Belt| match &belt.law {
+                FrictionLaw::$law { $number, .. } => Some(*$number),
+                _ => None,
+            },
+            place: |belt: &mut Belt| match &mut belt.law {
+                FrictionLaw::$law { $number, .. } => Some($number),
+                _ => None,
+            },
+        }
+    };
+}
+
+/// A coefficient of a polynomial law.
+macro_rules! coefficient {
+    ($power:literal) => {
+        Access {
+            get: |belt: &Belt| match &belt.law {
+                FrictionLaw::Polynomial { coefficients } => coefficients.get($power).copied(),
+                _ => None,
+            },
+            place: |belt: &mut Belt| match &mut belt.law {
+                FrictionLaw::Polynomial { coefficients } => coefficients.get_mut($power),
+                _ => None,
+            },
+        }
+    };
+}
+
+/// A coefficient of a damping ratio.
+macro_rules! ratio {
+    ($power:literal) => {
+        Access {
+            get: |mode: &Modal| mode.damping_ratio.get($power).copied(),
+            place: |mode: &mut Modal| mode.damping_ratio.get_mut($power),
+        }
+    };
+}
+
+/// Largest magnitude of a number without a unit; the least, besides 0, is its reciprocal. Between them products of a
+/// few numbers neither over- nor underflow.
+const FAR: f64 = 1e150;
+
+/// Any number of a dimensionless motion.
+const WIDE: (f64, f64) = (-FAR, FAR);
+
+/// Any number of a machine, in SI units.
+const ANY: (f64, f64) = (-1e12, 1e12);
+
+/// A number of a machine that is 0 or more.
+const NO_LESS: (f64, f64) = (0.0, 1e12);
+
+/// A number of a machine that is more than 0.
+const POSITIVE: (f64, f64) = (1e-12, 1e12);
+
+/// A start in metres or metres per second.
+const START: (f64, f64) = (-1e6, 1e6);
+
+const fn motion(range: (f64, f64)) -> KnobSpec {
+    KnobSpec { least: 1.0 / FAR, ..KnobSpec::of(Group::Motion, "", range) }
+}
+
+const fn machine(unit: &'static str, range: (f64, f64)) -> KnobSpec {
+    KnobSpec::of(Group::Machine, unit, range)
+}
+
+const fn friction(unit: &'static str, range: (f64, f64)) -> KnobSpec {
+    KnobSpec::of(Group::Law, unit, range)
+}
+
+const fn mode(unit: &'static str, range: (f64, f64)) -> KnobSpec {
+    KnobSpec::of(Group::Mode, unit, range)
+}
+
+const fn course(unit: &'static str, range: (f64, f64)) -> KnobSpec {
+    KnobSpec::of(Group::Course, unit, range).or(0.0)
+}
+
+const fn setting(range: (f64, f64)) -> KnobSpec {
+    KnobSpec::of(Group::Setting, "", range)
+}
+
+/// The coefficient of the belt at rest: that of the law where nothing is said.
+const HELD_BY_BELT: Access<Belt> = Access {
+    get: |belt| belt.static_coefficient.or_else(|| belt.law.mu(0.0)),
+    place: |belt| Some(belt.static_coefficient.get_or_insert(0.0)),
+};
+
+/// The friction of the guide at rest: that of the moving mass where nothing is said.
+const HELD_BY_GUIDE: Access<Belt> = Access {
+    get: |belt| Some(belt.static_guide.unwrap_or(belt.friction)),
+    place: |belt| Some(belt.static_guide.get_or_insert(0.0)),
+};
+
+/// The same of a mode.
+const MODE_HELD: Access<Modal> = Access {
+    get: |mode| Some(mode.static_guide.unwrap_or(mode.friction)),
+    place: |mode| Some(mode.static_guide.get_or_insert(0.0)),
+};
+
+knobs! {
+    D "D" "linear damping" motion((-1e6, 1e6)).or(-0.1).step(0.01).drawn(-0.9, 0.1).motion(at!(0.d));
+    D2 "D2" "asymmetric damping" motion(WIDE).or(0.0).motion(at!(0.d2));
+    D3 "D3" "cubic damping" motion(WIDE).or(0.0).motion(at!(0.d3));
+    R "r" "dry friction" motion((0.0, FAR)).or(0.1).step(0.01).drawn(0.0, 0.5).motion(at!(0.r));
+    Q0 "q0" "initial displacement" motion(WIDE).or(1.0).motion(at!(1.q));
+    V0 "v0" "initial velocity" motion(WIDE).or(0.0).motion(at!(1.v));
+
+    Mass "m" "mass" machine("kg", POSITIVE).belt(at!(mass));
+    Stiffness "c" "stiffness of the spring" machine("N/m", POSITIVE).belt(at!(stiffness));
+    Damping "d1" "linear damping" machine("N s/m", ANY).or(0.0).belt(at!(damping));
+    CubicDamping "d3" "cubic damping" machine("N s^3/m^3", ANY).or(0.0).belt(at!(cubic_damping));
+    NormalForce "F" "force onto the belt" machine("N", POSITIVE).belt(at!(normal_force));
+    Friction "R" "friction element" machine("N", NO_LESS).or(0.0).belt(at!(friction)).mode(at!(friction));
+    BeltSpeed "v0" "belt speed" machine("m/s", POSITIVE).shown("belt").step(1.0 / 30.0).belt(at!(belt_speed));
+
+    StaticCoefficient "mu_s" "static friction of the belt" friction("", NO_LESS).belt(HELD_BY_BELT);
+    StaticGuide "R_static" "static friction element" friction("N", NO_LESS).belt(HELD_BY_GUIDE).mode(MODE_HELD);
+    Mu "mu" "coefficient of friction" friction("", ANY).belt(law!(Constant mu));
+    Rest "rest" "coefficient of friction at rest" friction("", ANY).belt(law!(Stribeck rest));
+    Kinetic "kinetic" "coefficient to which friction falls" friction("", ANY).belt(law!(Stribeck kinetic));
+    Velocity "velocity" "velocity over which friction falls" friction("m/s", POSITIVE).belt(law!(Stribeck velocity));
+    Exponent "exponent" "1 exponential, 2 Gaussian" friction("", (0.1, 10.0)).or(1.0).belt(law!(Stribeck exponent));
+    Viscous "viscous" "rise by lubrication" friction("s/m", ANY).or(0.0).belt(law!(Stribeck viscous));
+    Mu0 "mu0" "coefficient of friction at rest" friction("", ANY).belt(coefficient!(0));
+    Mu1 "mu1" "its slope at rest" friction("s/m", ANY).belt(coefficient!(1));
+    Mu2 "mu2" "coefficient of v^2" friction("s^2/m^2", ANY).belt(coefficient!(2));
+    Mu3 "mu3" "coefficient of v^3" friction("s^3/m^3", ANY).belt(coefficient!(3));
+    Mu4 "mu4" "coefficient of v^4" friction("s^4/m^4", ANY).belt(coefficient!(4));
+    Mu5 "mu5" "coefficient of v^5" friction("s^5/m^5", ANY).belt(coefficient!(5));
+
+    Frequency "frequency" "natural frequency" mode("Hz", (1e-9, 1e12)).mode(at!(frequency));
+    ModalMass "modal_mass" "modal mass" mode("kg", POSITIVE).mode(at!(mass));
+    Ratio0 "ratio0" "damping ratio at rest" mode("", ANY).mode(ratio!(0));
+    Ratio1 "ratio1" "its slope at rest" mode("s/m", ANY).mode(ratio!(1));
+    Ratio2 "ratio2" "coefficient of v^2" mode("s^2/m^2", ANY).mode(ratio!(2));
+    Ratio3 "ratio3" "coefficient of v^3" mode("s^3/m^3", ANY).mode(ratio!(3));
+    Ratio4 "ratio4" "coefficient of v^4" mode("s^4/m^4", ANY).mode(ratio!(4));
+    Ratio5 "ratio5" "coefficient of v^5" mode("s^5/m^5", ANY).mode(ratio!(5));
+
+    Scatter "scatter" "scatter of the points" KnobSpec::of(Group::Table, "", NO_LESS).or(0.0);
+
+    Omega0 "omega0" "natural frequency" KnobSpec::of(Group::Record, "1/s", (1.0 / FAR, FAR));
+    Offset "offset" "displacement of the middle" KnobSpec::of(Group::Record, "", WIDE).or(0.0);
+    Confidence "confidence" "confidence of a statement" KnobSpec::of(Group::Record, "", (0.5, 0.999)).or(0.95);
+
+    X "x" "displacement at the start" course("m", START);
+    V "v" "velocity at the start" course("m/s", START);
+    Duration "until" "end time" course("s", (0.0, 1e6));
+    DisturbingForce "disturbance" "bound on a disturbance" course("N", (0.0, 1e6));
+
+    Disturbance "disturbance" "bound on a disturbance" setting((0.0, FAR)).shown("w").or(0.0).step(0.01);
+    Until "until" "end time" setting((0.0, 1e9)).or(60.0).step(10.0);
+    Tolerance "tolerance" "relative error of a step" setting((1e-15, 1e-2)).or(1e-10);
+    Step "step" "length of a step" setting((1e-7, 1.0)).or(0.01);
+    Epsilon "epsilon" "velocity that smooths" setting((1e-12, 1e6)).or(1e-3);
+}
+
+impl Knob {
+    /// The six numbers of a dimensionless motion: parameters and start.
+    pub const MOTION: [Self; 6] = [Knob::D, Knob::D2, Knob::D3, Knob::R, Knob::Q0, Knob::V0];
+
+    /// The four numbers of equation (4).
+    pub const PARAMETERS: [Self; 4] = [Knob::D, Knob::D2, Knob::D3, Knob::R];
+
+    /// How many numbers a mass on a belt and its friction law can have.
+    pub const OF_MACHINES: usize = Group::Machine.count() + Group::Law.count();
+
+    /// Those numbers, in the order of the table.
+    pub fn of_machines() -> impl Iterator<Item = Self> + Clone {
+        Group::Machine.knobs().chain(Group::Law.knobs())
+    }
+
+    /// Whether it is a number of a mass on a belt or its friction law.
+    #[must_use]
+    pub fn is_of_machine(self) -> bool {
+        self.spec().belt.is_some()
+    }
+
+    /// Whether it is a number of equation (4), and not of a start.
+    #[must_use]
+    pub fn is_parameter(self) -> bool {
+        Knob::PARAMETERS.contains(&self)
+    }
+
+    /// Its place within its group.
+    #[must_use]
+    pub fn place(self) -> usize {
+        let group = self.spec().group;
+        self as usize - KNOBS.iter().position(|row| row.group == group).unwrap_or(0)
+    }
+
+    /// The row of [`KNOBS`] that describes this number.
+    #[must_use]
+    pub fn spec(self) -> &'static KnobSpec {
+        &KNOBS[self as usize]
+    }
+}

@@ -1,0 +1,30 @@
+//! The numbers of a vibration mode that has no belt.
+
+use super::model::{Model, NoModel};
+
+/// A vibration mode: what feeds and damps it is a polynomial in its velocity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Modal {
+    /// Natural frequency, in cycles a second.
+    pub frequency: f64,
+    /// Modal mass, in kg.
+    pub mass: f64,
+    /// Damping ratio: coefficients of 1, v, v^2, .. in SI units.
+    pub damping_ratio: Vec<f64>,
+    /// Friction of the guide while it moves, in N.
+    pub friction: f64,
+    /// The same at rest; `None`: the same.
+    pub static_guide: Option<f64>,
+}
+
+impl Modal {
+    /// Its whole model.
+    ///
+    /// # Errors
+    /// [`NoModel`] where the static friction or the numbers allow none.
+    pub fn model(&self) -> Result<Model, NoModel> {
+        let omega_0 = std::f64::consts::TAU * self.frequency;
+        let at_rest = self.static_guide.unwrap_or(self.friction);
+        Model::of_mode(omega_0, self.mass, &self.damping_ratio, self.friction, at_rest)
+    }
+}

@@ -1,0 +1,99 @@
+//! How far a friction law may be believed: up to the slip at which its coefficient falls below zero.
+
+use super::force::shifted;
+use crate::model::belt::FrictionLaw;
+use crate::numerics::elementary::{exp, exp2, pow};
+use crate::numerics::polynomial;
+use crate::numerics::root::{TO_ROUNDING, bisect};
+
+/// The smallest slip, in m/s, beyond which the coefficient of friction is negative; infinite where there is
+/// none.
+pub fn first_below_zero(law: &FrictionLaw) -> f64 {
+    let end = f64::INFINITY;
+    match law {
+        FrictionLaw::Constant { .. } => end,
+        FrictionLaw::Polynomial { coefficients } => {
+            falls_below_zero(coefficients, end).unwrap_or(end)
+        }
+        FrictionLaw::Table(spline) => spline
+            .polynomials()
+            .find_map(|(from, to, c)| falls_below_zero(&c, to - from).map(|at| from + at))
+            .unwrap_or(end),
+        FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
+            let mu = |u: f64| {
+                kinetic + (rest - kinetic) * exp(-pow(u / velocity, *exponent)) + viscous * u
+            };
+            stribeck_zero(mu, *velocity, *kinetic, *viscous)
+        }
+    }
+}
+
+/// The first zero of Stribeck's law on a fine ladder of slips: between two rungs it is monotone but near its
+/// only minimum.
+fn stribeck_zero(mu: impl Fn(f64) -> f64, velocity: f64, kinetic: f64, viscous: f64) -> f64 {
+    /// Rungs in a doubling of the slip.
+    const RUNGS: i32 = 32;
+    // From where the law has hardly fallen to where only its straight part is left.
+    let far = if viscous < 0.0 { 2.0 * (kinetic / viscous).abs() } else { 0.0 };
+    let last = far.max(1024.0 * velocity);
+    let ladder = (0..).map(|rung| velocity * exp2(f64::from(rung - 20 * RUNGS) / f64::from(RUNGS)));
+    let mut below = 0.0;
+    for slip in ladder.take_while(|slip| *slip <= 2.0 * last) {
+        if mu(slip) < 0.0 {
+            return bisect(below, slip, TO_ROUNDING, |at| mu(at) < 0.0).0;
+        }
+        below = slip;
+    }
+    f64::INFINITY
+}
+
+/// Where a polynomial first becomes negative on `0 .. end`.
+fn falls_below_zero(coefficients: &[f64], end: f64) -> Option<f64> {
+    let value = |at: f64| polynomial::value(coefficients, at);
+    if value(0.0) < 0.0 {
+        return Some(0.0);
+    }
+    let mut from = 0.0;
+    for turn in zeros(&derivative(coefficients), end).into_iter().chain([end]) {
+        let far = if turn.is_finite() { turn } else { beyond_zeros(coefficients).max(2.0 * from) };
+        if value(far) < 0.0 {
+            return Some(bisect(from, far, TO_ROUNDING, |at| value(at) < 0.0).0);
+        }
+        from = turn;
+    }
+    None
+}
+
+/// The zeros in `0 .. end` at which a polynomial changes its sign, in their order: between two zeros of its
+/// derivative there is one at most.
+pub fn zeros(coefficients: &[f64], end: f64) -> Vec<f64> {
+    let value = |at: f64| polynomial::value(coefficients, at);
+    if coefficients.len() < 2 {
+        return Vec::new();
+    }
+    let far = if end.is_finite() { end } else { beyond_zeros(coefficients) };
+    let mut found = Vec::new();
+    let mut from = 0.0;
+    for to in zeros(&derivative(coefficients), far).into_iter().chain([far]) {
+        let (left, right) = (value(from), value(to));
+        if (left < 0.0) != (right < 0.0) {
+            let changed = |at: f64| (value(at) < 0.0) != (left < 0.0);
+            found.push(bisect(from, to, TO_ROUNDING, changed).0);
+        }
+        from = to;
+    }
+    found
+}
+
+fn derivative(coefficients: &[f64]) -> Vec<f64> {
+    let shifted = shifted(coefficients, 0.0);
+    let pairs = shifted.iter().skip(1).zip(1_u32..);
+    pairs.map(|(c, k)| f64::from(k) * c).collect()
+}
+
+/// Cauchy's bound: all zeros are smaller.
+fn beyond_zeros(coefficients: &[f64]) -> f64 {
+    let Some(last) = coefficients.iter().rposition(|c| *c != 0.0) else { return 1.0 };
+    let largest = coefficients[..last].iter().fold(0.0_f64, |most, c| most.max(c.abs()));
+    1.0 + largest / coefficients[last].abs()
+}

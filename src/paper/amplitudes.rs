@@ -1,0 +1,439 @@
+//! Section 6.2: stationary amplitudes, the fold, characteristic points and asymptotes.
+
+use std::f64::consts::PI;
+
+use super::certain::BoundedCycle;
+use super::harmonic::{NO_AMPLITUDE, largest_amplitude};
+use super::measure::{
+    Known, amplitude, beside_proof, cycles, largest, last_cycle, of_cycle, oscillator, place,
+    smallest,
+};
+use super::{Claim, Finding};
+use crate::branch::fold::fold;
+use crate::branch::fold_point::FoldPoint;
+use crate::closed_form::harmonic::{self, Harmonic, amplitudes};
+use crate::flow::{Limits, Reason};
+use crate::model::Parameters;
+use crate::numerics::elementary::{cbrt, powi};
+use crate::portrait::basin::cycle::cycles as cycles_of;
+
+pub const CLAIMS: &[Claim] = &[
+    Claim {
+        equation: "(42)",
+        section: "6.2",
+        statement: "the stationary amplitudes are those of the cycles: the unstable one, over D = -0.9 .. -0.18",
+        basis: "cycle",
+        scene: Some("fig12"),
+        check: |limits| {
+            over_branch(|parameters| {
+                let cycle = smallest(parameters, limits)?;
+                Ok(Finding::near(amplitudes(parameters)[0].amplitude, amplitude(&cycle)))
+            })
+        },
+    },
+    Claim {
+        equation: "(42)",
+        section: "6.2",
+        statement: "the stationary amplitudes are those of the cycles: the stable one, over D = -0.9 .. -0.18",
+        basis: "cycle",
+        scene: Some("fig12"),
+        check: |limits| {
+            over_branch(|parameters| {
+                let cycle = largest(parameters, limits)?;
+                Ok(Finding::near(largest_amplitude(parameters)?, amplitude(&cycle)))
+            })
+        },
+    },
+    Claim {
+        equation: "(43, 47)",
+        section: "6.2.1",
+        statement: "discriminant of (42): (47) is (43) written out",
+        basis: "(43)",
+        scene: Some("fig10"),
+        check: |_| {
+            Finding::worst(dampings().map(|(d, d3)| {
+                let r = 0.1;
+                let (a, b) = (8.0 * d / (3.0 * d3), 16.0 * r / (3.0 * PI * d3));
+                let (cube, square) = (-4.0 * a * a * a, 27.0 * b * b);
+                // What is left of the difference of two terms is uncertain by their rounding.
+                let error = 32.0 * f64::EPSILON * (cube.abs() + square);
+                let computed = Known::new(cube - square, error);
+                let scale = powi(16.0 / (3.0 * d3), 2) / 3.0;
+                let formula = scale * (-8.0 * d * d * (d / d3) - powi(9.0 / PI, 2) * r * r);
+                Ok(Finding::equal(formula, computed).at(place(&oscillator(d, 0.0, d3, r))))
+            }))
+        },
+    },
+    Claim {
+        equation: "(44-46)",
+        section: "6.2.1",
+        statement: "its sign tells the number of real roots of (42): three or one",
+        basis: "(42)",
+        scene: Some("fig10"),
+        check: |_| {
+            let cases = dampings().map(|(d, d3)| {
+                let parameters = oscillator(d, 0.0, d3, 0.1);
+                let positive = harmonic::discriminant(&parameters).is_some_and(|value| value > 0.0);
+                let expected = if positive { 3 } else { 1 };
+                (place(&parameters), real_roots(&parameters) == expected)
+            });
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "Fig. 10",
+        section: "6.2.1",
+        statement: "for D3 > 0 there are two cycles for D < D_F and none for D > D_F, by (48)",
+        basis: "cycle",
+        scene: Some("fig10"),
+        check: |limits| {
+            // Up to strong friction, and next to the border, where it matters: r^2 D3 = 1e-3 .. 0.25.
+            const PARTS: [f64; 8] = [0.2, 0.8, 0.95, 1.0025, 1.05, 1.3, 2.0, 3.0];
+            let cases = [0.1, 0.5, 2.0, 25.0].into_iter().flat_map(|d3| {
+                let fold = printed_fold(d3, 0.1);
+                PARTS.map(|part| {
+                    (oscillator(part * fold, 0.0, d3, 0.1), 2 * usize::from(part > 1.0))
+                })
+            });
+            let between = (oscillator(-0.637, 0.0, 0.25, 1.0), 2);
+            let cases = std::iter::once(between).chain(cases);
+            counted(limits, cases.filter(|(parameters, _)| parameters.d.abs() <= 1.0))
+        },
+    },
+    Claim {
+        equation: "Fig. 10",
+        section: "6.2.1",
+        statement: "for D3 < 0 there is one cycle for all D",
+        basis: "cycle",
+        scene: Some("fig10"),
+        check: |limits| {
+            const DAMPINGS: [f64; 9] = [-1.0, -0.99, -0.75, -0.2, -0.02, 0.0, 0.2, 0.75, 1.0];
+            let cases = [-0.1, -0.5, -2.0]
+                .into_iter()
+                .flat_map(|d3| DAMPINGS.map(|d| (oscillator(d, 0.0, d3, 0.1), 1)));
+            counted(limits, cases)
+        },
+    },
+    Claim {
+        equation: "Fig. 10",
+        section: "6.2.1",
+        statement: "for D3 = 0 there is one cycle for D <= 0, and none for D > 0",
+        basis: "cycle",
+        scene: Some("fig10"),
+        check: |limits| {
+            let dampings = [-1.0, -0.9, -0.5, -0.1, -1e-3, 0.0, 0.1, 0.5];
+            let case = |d: f64| (oscillator(d, 0.0, 0.0, 0.1), usize::from(d <= 0.0));
+            counted(limits, dampings.map(case))
+        },
+    },
+    Claim {
+        equation: "(48)",
+        section: "6.2.1",
+        statement: "fold at D_F = -(1/2) cbrt((9/pi)^2 r^2 D3), for D2 = 0: the worst of r^2 D3 = 1e-4 .. \
+                    0.25",
+        basis: "cycle",
+        scene: Some("fig11"),
+        check: |limits| {
+            Finding::worst(
+                [1e-4, 1e-3, 0.01, 0.05, 0.1, 0.25].map(|d3| fold_against(limits, 0.0, d3, 1.0)),
+            )
+        },
+    },
+    Claim {
+        equation: "(48)",
+        section: "6.2.1",
+        statement: "the fold does not depend on D2: over D2 = 0.2 .. 0.5",
+        basis: "cycle",
+        scene: Some("asymmetry"),
+        check: |limits| Finding::worst([0.2, 0.5].map(|d2| fold_against(limits, d2, 0.01, 0.1))),
+    },
+    Claim {
+        equation: "Fig. 11",
+        section: "6.2.1",
+        statement: "beyond (48) the rest attracts from everywhere, below it the basin is finite, whatever D2",
+        basis: "cycle",
+        scene: Some("fig11"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d2 in [0.0, 0.2, 0.5, 1.0] {
+                for part in [0.9, 1.1] {
+                    let d = part * printed_fold(0.01, 0.1);
+                    let parameters = oscillator(d, d2, 0.01, 0.1);
+                    let finite = cycles(&parameters, limits)?.answer(|found| !found.is_empty());
+                    let case = format!("D = {part} D_F, D2 = {d2}, D3 = 0.01, r = 0.1");
+                    cases.push((case, finite.is(part > 1.0)));
+                }
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "(49)",
+        section: "6.2.1",
+        statement: "amplitude at the fold, A_F = cbrt(8 r/(3 pi D3)): its half extent, over r^2 D3 = 1e-4 .. 0.25",
+        basis: "cycle",
+        scene: Some("fig12"),
+        check: |limits| {
+            Finding::worst([1e-4, 1e-3, 0.01, 0.05, 0.1, 0.25].map(|d3| {
+                let parameters = oscillator(0.0, 0.0, d3, 1.0);
+                let found = found_fold(&parameters, limits)?;
+                let formula = cbrt(8.0 * parameters.r / (3.0 * PI * parameters.d3));
+                // Next to a fold an amplitude is known to the root of what D is.
+                let computed = Known::relative(found.q_max, 1e-7);
+                Ok(Finding::near(formula, computed).at(format!("D3 = {d3}, r = 1")))
+            }))
+        },
+    },
+    Claim {
+        equation: "(50)",
+        section: "6.2.1",
+        statement: "for D3 < 0 the cycle at D = 0 has the amplitude A_Z = cbrt(-16 r/(3 pi D3)): over r^2 D3 = -0.25 .. -1e-4",
+        basis: "cycle",
+        scene: Some("fig12"),
+        check: |limits| {
+            Finding::worst([-0.01, -0.1, -1.0, -10.0, -25.0].map(|d3| {
+                let parameters = oscillator(0.0, 0.0, d3, 0.1);
+                let cycle = smallest(&parameters, limits)?;
+                let formula = cbrt(-16.0 * parameters.r / (3.0 * PI * d3));
+                Ok(Finding::near(formula, amplitude(&cycle)).at(place(&parameters)))
+            }))
+        },
+    },
+    Claim {
+        equation: "(51)",
+        section: "6.2.1",
+        statement: "A_1 = -2 r/(pi D) is the exact solution of (42) for D3 = 0",
+        basis: "(42)",
+        scene: Some("fig09"),
+        check: |_| {
+            Finding::worst([-0.9, -0.4, -0.01].map(|d| {
+                let parameters = oscillator(d, 0.0, 0.0, 0.1);
+                let root = largest_amplitude(&parameters)?;
+                let left = 4.0 * parameters.r / PI + 2.0 * d * root;
+                let computed = Known::new(root - left / (2.0 * d), f64::EPSILON * root);
+                Ok(Finding::equal(small(&parameters), computed).at(place(&parameters)))
+            }))
+        },
+    },
+    Claim {
+        equation: "(51)",
+        section: "6.2.2",
+        statement: "for D3 = 0 that is the exact amplitude of the cycle, over D = -0.9 .. -0.01",
+        basis: "cycle",
+        scene: Some("fig09"),
+        check: |limits| {
+            Finding::worst([-0.9, -0.7, -0.4, -0.1, -0.01].map(|d| {
+                let parameters = oscillator(d, 0.0, 0.0, 0.1);
+                let cycle = smallest(&parameters, limits)?;
+                let computed = of_cycle(&cycle, cycle.q_max, |it| it.q_max);
+                Ok(Finding::equal(small(&parameters), computed).at(place(&parameters)))
+            }))
+        },
+    },
+    Claim {
+        equation: "(51)",
+        section: "6.2.1",
+        statement: "A_1 approximates the small amplitude where D3 acts, over D = -0.9 .. -0.18",
+        basis: "cycle",
+        scene: Some("fig12"),
+        check: |limits| {
+            over_branch(|parameters| {
+                Ok(Finding::near(small(parameters), amplitude(&smallest(parameters, limits)?)))
+            })
+        },
+    },
+    Claim {
+        equation: "after (51)",
+        section: "6.2.1",
+        statement: "A_1 is about -0.6 r/D",
+        basis: "(51)",
+        scene: Some("fig12"),
+        check: |_| {
+            let parameters = oscillator(-1.0, 0.0, 0.0, 1.0);
+            Ok(Finding::near(0.6, Known::relative(largest_amplitude(&parameters)?, 1e-15)))
+        },
+    },
+    Claim {
+        equation: "before (52)",
+        section: "6.2.1",
+        statement: "(42) divided by 2 D reads 2 r/(pi D) + A + 8 D3/(3 D) A^3 = 0: the last two terms",
+        basis: "(42)",
+        scene: Some("fig12"),
+        check: |_| {
+            let Parameters { d, d3, r, .. } = TWO_CYCLES;
+            let root = largest_amplitude(&TWO_CYCLES)?;
+            let computed = Known::relative(-2.0 * r / (PI * d), 1e-14);
+            let terms = |factor: f64| root + factor * d3 / d * powi(root, 3);
+            let finding = Finding::equal(terms(8.0 / 3.0), computed).corrected(terms(3.0 / 8.0));
+            Ok(finding.at(place(&TWO_CYCLES)))
+        },
+    },
+    Claim {
+        equation: "(52)",
+        section: "6.2.1",
+        statement: "A_2 = sqrt(-8 D/(3 D3)) approximates the large amplitude, over D = -0.9 .. -0.18",
+        basis: "cycle",
+        scene: Some("fig12"),
+        check: |limits| {
+            over_branch(|parameters| {
+                Ok(Finding::near(large(parameters), amplitude(&largest(parameters, limits)?)))
+            })
+        },
+    },
+    Claim {
+        equation: "Fig. 12a",
+        section: "6.2.2",
+        statement: "for D3 > 0 the solutions of (42) approach A_1 and A_2 as D goes to -1",
+        basis: "(42)",
+        scene: Some("fig12"),
+        check: |_| {
+            Finding::worst([
+                approached(0.5, -1.0, <[_]>::first, small),
+                approached(0.5, -1.0, <[_]>::last, large),
+            ])
+        },
+    },
+    Claim {
+        equation: "Fig. 12a",
+        section: "6.2.2",
+        statement: "for D3 > 0 the lower branch is unstable and the upper one stable",
+        basis: "cycle",
+        scene: Some("fig12"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d in [-0.9, -0.5, -0.3, -0.2] {
+                let parameters = Parameters { d, ..TWO_CYCLES };
+                let found = cycles(&parameters, limits)?;
+                let pair = |found: &[BoundedCycle]| {
+                    found.iter().map(|cycle| cycle.stable).eq([false, true])
+                };
+                cases.push((place(&parameters), found.answer(pair)));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "Fig. 12b",
+        section: "6.2.2",
+        statement: "for D3 < 0 all cycles are unstable",
+        basis: "cycle",
+        scene: Some("fig12"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d in [-0.8, -0.3, 0.0, 0.3, 0.8] {
+                let parameters = oscillator(d, 0.0, -0.5, 0.1);
+                let found = cycles(&parameters, limits)?;
+                let unstable = |found: &[BoundedCycle]| found.iter().all(|cycle| !cycle.stable);
+                cases.push((place(&parameters), found.answer(unstable)));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "Fig. 12b",
+        section: "6.2.2",
+        statement: "for D3 < 0 the solution of (42) approaches A_1 as D goes to -1, and A_2 as it goes to 1",
+        basis: "(42)",
+        scene: Some("fig12"),
+        check: |_| {
+            Finding::worst([
+                approached(-0.5, -1.0, <[_]>::first, small),
+                approached(-0.5, 1.0, <[_]>::first, large),
+            ])
+        },
+    },
+];
+
+/// An oscillator with two cycles.
+const TWO_CYCLES: Parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+
+/// Linear and cubic dampings on both sides of the fold.
+fn dampings() -> impl Iterator<Item = (f64, f64)> {
+    let cubic = [-2.0, -0.5, -0.1, 0.1, 0.5, 2.0];
+    [-0.9, -0.3, -0.1, -0.01, 0.1, 0.5].into_iter().flat_map(move |d| cubic.map(|d3| (d, d3)))
+}
+
+/// How many real roots (42) has: changes of its sign between the places where it turns.
+fn real_roots(parameters: &Parameters) -> usize {
+    let Parameters { d, d3, r, .. } = *parameters;
+    let cubic = |a: f64| 4.0 * r / PI + a * (2.0 * d + 0.75 * d3 * a * a);
+    let square = -8.0 * d / (9.0 * d3);
+    let turns = if square > 0.0 { vec![-square.sqrt(), square.sqrt()] } else { Vec::new() };
+    let far = 1e6;
+    let places = [vec![-far], turns, vec![far]].concat();
+    places.windows(2).filter(|pair| (cubic(pair[0]) > 0.0) != (cubic(pair[1]) > 0.0)).count()
+}
+
+/// The number of cycles at some parameters against what it should be.
+fn counted(
+    limits: &Limits,
+    expected: impl IntoIterator<Item = (Parameters, usize)>,
+) -> Result<Finding, Reason> {
+    let mut cases = Vec::new();
+    for (parameters, expected) in expected {
+        // The search has nothing to go by where the motion is linear and no swing ends.
+        let found = if parameters.omega().is_none() && parameters.is_piecewise_linear() {
+            beside_proof(&parameters, cycles_of(&parameters, false, limits)?.cycles)
+        } else {
+            cycles(&parameters, limits)?
+        };
+        cases.push((place(&parameters), found.are(expected)));
+    }
+    Ok(Finding::always(cases))
+}
+
+fn printed_fold(d3: f64, r: f64) -> f64 {
+    -0.5 * cbrt(powi(9.0 / PI, 2) * r * r * d3)
+}
+
+/// The fold of the cycles.
+fn found_fold(parameters: &Parameters, limits: &Limits) -> Result<FoldPoint, Reason> {
+    let lost = Reason::NoConvergence { sought: "the fold", change: f64::NAN };
+    fold(parameters, limits)?.0.ok_or(lost)
+}
+
+/// (48) against the fold of the cycles.
+fn fold_against(limits: &Limits, d2: f64, d3: f64, r: f64) -> Result<Finding, Reason> {
+    let parameters = oscillator(0.0, d2, d3, r);
+    let found = found_fold(&parameters, limits)?;
+    let asymmetry = if d2 == 0.0 { String::new() } else { format!("D2 = {d2}, ") };
+    let at = format!("{asymmetry}D3 = {d3}, r = {r}");
+    Ok(Finding::near(printed_fold(d3, r), last_cycle(&parameters, found.d, 1e-12)).at(at))
+}
+
+/// (51).
+fn small(parameters: &Parameters) -> f64 {
+    -2.0 * parameters.r / (PI * parameters.d)
+}
+
+/// (52).
+fn large(parameters: &Parameters) -> f64 {
+    (-8.0 * parameters.d / (3.0 * parameters.d3)).sqrt()
+}
+
+/// A comparison along both cycles, from strong damping to next to the fold.
+fn over_branch(
+    compare: impl Fn(&Parameters) -> Result<Finding, Reason>,
+) -> Result<Finding, Reason> {
+    Finding::worst([-0.9, -0.7, -0.5, -0.3, -0.2, -0.18].map(|d| {
+        let parameters = Parameters { d, ..TWO_CYCLES };
+        Ok(compare(&parameters)?.at(place(&parameters)))
+    }))
+}
+
+/// How a solution of (42) approaches a formula as abs(D) grows to 1.
+fn approached(
+    d3: f64,
+    direction: f64,
+    of: fn(&[Harmonic]) -> Option<&Harmonic>,
+    formula: fn(&Parameters) -> f64,
+) -> Result<Finding, Reason> {
+    let at = |size: f64| {
+        let parameters = oscillator(direction * size, 0.0, d3, 0.1);
+        let solutions = amplitudes(&parameters);
+        let root = of(&solutions).ok_or(NO_AMPLITUDE)?.amplitude;
+        Ok((formula(&parameters), Known::relative(root, 1e-14)))
+    };
+    let near = oscillator(direction * 0.95, 0.0, d3, 0.1);
+    Ok(Finding::tends(at(0.3)?, at(0.95)?).at(place(&near)))
+}

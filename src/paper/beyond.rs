@@ -1,0 +1,274 @@
+//! What the paper does not say: the multiplier, a first integral, escape, and where the cycle ends.
+
+use std::f64::consts::PI;
+
+use super::certain::enclosed;
+use super::known::KnownAnswer;
+use super::measure::{
+    Known, at_rest, cycles, half_swing, last_cycle, of_cycle, oscillator, outcome, place, smallest,
+    state_at,
+};
+use super::{Claim, Finding, UNSAID, belt};
+use crate::branch::escape::escape_point;
+use crate::flow::trajectory::trajectory;
+use crate::flow::{Detail, Limits, Outcome, Problem, Reason};
+use crate::model::{Parameters, Side, State};
+use crate::numerics::Interval;
+use crate::numerics::elementary::exp;
+use crate::portrait::basin::arc::{Arc, Direction};
+use crate::portrait::basin::basin;
+use crate::portrait::closing::half_map::Length;
+use crate::proof::motion::ProvedFate;
+
+pub const CLAIMS: &[Claim] = &[
+    Claim {
+        equation: "x' < v0",
+        section: UNSAID,
+        statement: "below this speed of the belt the stable cycle overtakes it, and the mass sticks: where the \
+                    amplitude of one harmonic is v0/(omega_0 x_0)",
+        basis: "cycle",
+        scene: Some("belt-speed"),
+        check: belt::contact,
+    },
+    Claim {
+        equation: "multiplier",
+        section: UNSAID,
+        statement: "mu = (a - r)/(a + r) (b - r)/(b + r) exp(- integral of 2 D + 2 D2 v + 3 D3 v^2): slope of \
+                    the return map",
+        basis: "motion",
+        scene: Some("supercritical"),
+        check: |limits| {
+            let parameters = oscillator(-0.3, 0.2, 0.5, 0.1);
+            Finding::worst(cycles(&parameters, limits)?.cycles.into_iter().map(|cycle| {
+                let arc = |side, clearance| {
+                    Arc::new(&parameters, side, Direction::Forward, Length::new(clearance), limits)
+                };
+                let Parameters { d, d3, r, .. } = parameters;
+                let square = arc(Side::Upper, -cycle.q_min - r)?.area()
+                    + arc(Side::Lower, cycle.q_max - r)?.area();
+                let share = |turning: f64| (turning - r) / (turning + r);
+                // On a closed curve the integral of v vanishes.
+                let formula = share(-cycle.q_min)
+                    * share(cycle.q_max)
+                    * exp(-2.0 * d * cycle.period - 3.0 * d3 * square);
+                let computed = return_slope(&parameters, cycle.q_max, limits)?
+                    .within(cycle.bounds.map(|it| it.multiplier));
+                let at = format!("{}, q_max = {:.6}", place(&parameters), cycle.q_max);
+                Ok(Finding::equal(formula, computed).at(at))
+            }))
+        },
+    },
+    Claim {
+        equation: "multiplier",
+        section: UNSAID,
+        statement: "for D2 = D3 = 0 it is e^(-2 pi D/omega)",
+        basis: "motion",
+        scene: Some("linear"),
+        check: |limits| {
+            let parameters = oscillator(-0.4, 0.0, 0.0, 0.1);
+            let cycle = smallest(&parameters, limits)?;
+            let omega = (1.0 - parameters.d * parameters.d).sqrt();
+            let computed = return_slope(&parameters, cycle.q_max, limits)?
+                .within(cycle.bounds.map(|it| it.multiplier));
+            let formula = exp(-2.0 * PI * parameters.d / omega);
+            Ok(Finding::equal(formula, computed).at(place(&parameters)))
+        },
+    },
+    Claim {
+        equation: "h",
+        section: UNSAID,
+        statement: "h = (v^2/2 + q/(2 D2) - 1/(4 D2^2)) e^(2 D2 q) is conserved where only D2 acts",
+        basis: "motion",
+        scene: None,
+        check: |limits| {
+            let parameters = oscillator(0.0, 0.4, 0.0, 0.0);
+            let start = State { q: 0.3, v: 0.6 };
+            let [q, v] = state_at(&parameters, start, 4.0, limits)?;
+            let before = first_integral(parameters.d2, start);
+            let after = first_integral(parameters.d2, State { q: q.value, v: v.value });
+            let error = 4.0 * (q.error + v.error) + 64.0 * f64::EPSILON;
+            let at = format!("{}, from (0.3, 0.6) until tau = 4", place(&parameters));
+            let bounds =
+                q.bounds.zip(v.bounds).map(|(q, v)| enclosed_integral(parameters.d2, q, v));
+            Ok(Finding::equal(before, Known::new(after, error).within(bounds)).at(at))
+        },
+    },
+    Claim {
+        equation: "h",
+        section: UNSAID,
+        statement: "so no motion comes back to where it was for D >= 0, D3 >= 0, whatever D2",
+        basis: "motion",
+        scene: Some("asymmetry"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for (d, d2, d3, r) in [
+                (0.0, 0.5, 0.0, 0.1),
+                (0.0, 2.0, 0.5, 0.01),
+                (0.01, -1.0, 0.0, 0.1),
+                (0.3, 0.3, 0.3, 0.0),
+            ] {
+                let parameters = oscillator(d, d2, d3, r);
+                for q in [0.2, 1.0, 3.0] {
+                    let returned = returns_to(&parameters, q, limits)?;
+                    cases.push((format!("{}, q = {q}", place(&parameters)), returned.is(false)));
+                }
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "escape",
+        section: UNSAID,
+        statement: "with D3 = 0 motions beyond the parabola v^2 = 1/(2 D2^2) - q/D2 escape, as D and r go to 0: impulse that is \
+                    not survived",
+        basis: "border",
+        scene: Some("escape"),
+        check: |limits| {
+            let impulse = |part: f64| {
+                let parameters = oscillator(-1e-3 * part, 0.5, 0.0, 1e-2 * part);
+                let margin = basin(&parameters, 10.0, limits)?.margin();
+                let lost = Reason::NoConvergence { sought: "the separatrix", change: f64::NAN };
+                let formula = (0.5 / (parameters.d2 * parameters.d2)).sqrt();
+                Ok((formula, Known::relative(margin.impulse.ok_or(lost)?, 1e-12)))
+            };
+            let finding = Finding::tends(impulse(1.0)?, impulse(0.01)?);
+            Ok(finding.at("D = -1e-5, D2 = 0.5, r = 1e-4"))
+        },
+    },
+    Claim {
+        equation: "escape",
+        section: UNSAID,
+        statement: "with D3 < 0 every motion outside the unstable cycle escapes in finite time",
+        basis: "motion",
+        scene: Some("subcritical"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d in [-0.3, 0.0, 0.3] {
+                let parameters = oscillator(d, 0.2, -0.5, 0.1);
+                let cycle = smallest(&parameters, limits)?;
+                for part in [1.001, 1.5, 10.0] {
+                    let start = at_rest(part * cycle.q_max);
+                    let end = outcome(&parameters, start, 1e3, limits)?;
+                    let case = format!("{}, q = {:.6}", place(&parameters), start.q);
+                    let fate = enclosed(&parameters, start, 1e3).fate;
+                    let holds = matches!(end, Outcome::Escaped { .. });
+                    let certain = holds && matches!(fate, ProvedFate::Escaped { .. });
+                    cases.push((case, KnownAnswer { holds, certain }));
+                }
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "D_c",
+        section: UNSAID,
+        statement: "with D3 = 0 the cycle goes to infinity at D_c = -sqrt(2/pi) r abs(D2): the worst of \
+                    r D2 = 0.02 .. 1",
+        basis: "cycle",
+        scene: Some("escape"),
+        check: |limits| {
+            Finding::worst([0.02, 0.05, 0.1, 0.25, 0.5, 1.0].map(|d2| {
+                let parameters = oscillator(0.0, d2, 0.0, 1.0);
+                let end = end_of_cycle(&parameters, limits)?;
+                let computed = last_cycle(&parameters, end, 1e-12);
+                let formula = -(2.0 / PI).sqrt() * d2;
+                Ok(Finding::near(formula, computed).at(format!("D2 = {d2}, r = 1")))
+            }))
+        },
+    },
+    Claim {
+        equation: "D_c",
+        section: UNSAID,
+        statement: "there is one cycle below D_c and none above",
+        basis: "cycle",
+        scene: Some("escape"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d2 in [0.1, 0.5, 2.0] {
+                let end = end_of_cycle(&oscillator(0.0, d2, 0.0, 0.3), limits)?;
+                for (part, expected) in [(1.5, 1), (1.01, 1), (0.99, 0), (0.5, 0)] {
+                    let parameters = oscillator(part * end, d2, 0.0, 0.3);
+                    let case = format!("D = {part} D_c, D2 = {d2}, r = 0.3");
+                    cases.push((case, cycles(&parameters, limits)?.are(expected)));
+                }
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "D_c",
+        section: UNSAID,
+        statement: "on the way there its left turning point goes to infinity: 1/abs(q_min)",
+        basis: "cycle",
+        scene: Some("escape"),
+        check: |limits| {
+            let end = end_of_cycle(&oscillator(0.0, 0.5, 0.0, 0.1), limits)?;
+            let extent = |part: f64| {
+                let cycle = smallest(&oscillator(part * end, 0.5, 0.0, 0.1), limits)?;
+                let nearness =
+                    of_cycle(&cycle, -1.0 / cycle.q_min, |it| Interval::point(-1.0) / it.q_min);
+                Ok((0.0, nearness))
+            };
+            let finding = Finding::tends(extent(2.0)?, extent(1.000_001)?);
+            Ok(finding.at("D = 1.000001 D_c, D2 = 0.5, r = 0.1"))
+        },
+    },
+];
+
+/// Whether a motion from rest at `q` is at rest there, or further out, one turn later.
+fn returns_to(parameters: &Parameters, q: f64, limits: &Limits) -> Result<KnownAnswer, Reason> {
+    let problem = Problem {
+        parameters: *parameters,
+        initial: at_rest(q),
+        until: 60.0,
+        tolerance: 1e-12,
+        ..Problem::default()
+    };
+    let motion = trajectory(&problem, Detail::default(), limits);
+    if let Outcome::GaveUp { reason, .. } = motion.outcome {
+        return Err(reason);
+    }
+    let holds = motion.crossings.get(1).is_some_and(|crossing| crossing.q >= q);
+    let bounds = enclosed(parameters, at_rest(q), 60.0);
+    let nearer = match (bounds.turns.get(1), bounds.fate) {
+        (Some(turn), _) => turn.q.upper() < q,
+        (None, ProvedFate::Captured { .. } | ProvedFate::Escaped { .. }) => true,
+        (None, _) => false,
+    };
+    Ok(KnownAnswer { holds, certain: nearer && !holds })
+}
+
+/// The slope of the return map of `v = 0, q > r` at `q`: central differences of integrated motions.
+fn return_slope(parameters: &Parameters, q: f64, limits: &Limits) -> Result<Known, Reason> {
+    let turn = |q: f64| {
+        let [left, _] = half_swing(parameters, at_rest(q), limits)?;
+        half_swing(parameters, at_rest(left.value), limits).map(|[right, _]| right.value)
+    };
+    let slope = |h: f64| -> Result<f64, Reason> {
+        let wide = (turn(q + 2.0 * h)? - turn(q - 2.0 * h)?) / (4.0 * h);
+        let narrow = (turn(q + h)? - turn(q - h)?) / (2.0 * h);
+        Ok(narrow + (narrow - wide) / 3.0)
+    };
+    let step = 1e-3 * (q - parameters.r);
+    let known = Known::twice(slope(step)?, slope(2.0 * step)?);
+    // The integrated turns themselves are known to some 1e-14.
+    Ok(Known::new(known.value, known.error + 1e-13 * q / step))
+}
+
+/// The first integral of the motion with D2 alone.
+fn first_integral(d2: f64, State { q, v }: State) -> f64 {
+    (0.5 * v * v + q / (2.0 * d2) - 1.0 / (4.0 * d2 * d2)) * exp(2.0 * d2 * q)
+}
+
+/// The same, of all states of a box.
+fn enclosed_integral(d2: f64, q: Interval, v: Interval) -> Interval {
+    let [half, one, d2] = [0.5, 1.0, d2].map(Interval::point);
+    let bracket = half * v.square() + q / d2.twice() - one / d2.twice().square();
+    bracket * (d2.twice() * q).exp()
+}
+
+/// `D_c`.
+fn end_of_cycle(parameters: &Parameters, limits: &Limits) -> Result<f64, Reason> {
+    let lost = Reason::NoConvergence { sought: "the end of the cycle", change: f64::NAN };
+    escape_point(parameters, limits)?.0.ok_or(lost)
+}

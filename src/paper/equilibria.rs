@@ -1,0 +1,308 @@
+//! Section 4: the set of equilibria, and what Lyapunov's method says about its basin.
+
+use std::f64::consts::PI;
+
+use super::certain::enclosed;
+use super::known::KnownAnswer;
+use super::measure::{
+    Known, at_rest, captured, energy_change, half_swing, oscillator, outcome, place,
+};
+use super::{Claim, Finding};
+use crate::closed_form::lyapunov::{self, Disk};
+use crate::flow::{Limits, Outcome, Reason};
+use crate::model::{HalfPlane, Parameters, Side, State};
+use crate::numerics::Interval;
+use crate::numerics::elementary::{exp, hypot};
+use crate::portrait::Margin;
+use crate::portrait::basin::basin;
+use crate::proof::kicks::kicks;
+use crate::proof::motion::ProvedFate;
+use crate::proof::{ParameterBox, prove};
+
+pub const CLAIMS: &[Claim] = &[
+    Claim {
+        equation: "(10)",
+        section: "4",
+        statement: "rest is possible where abs(q) <= r, and nowhere else",
+        basis: "motion",
+        scene: Some("fig03"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for q in displacements() {
+                let rests = captured(&PLAIN, at_rest(q), 1e-3, limits)?;
+                cases.push((format!("q = {q}"), rests.is(q.abs() <= PLAIN.r)));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "(11)",
+        section: "4",
+        statement: "motions cross v = 0 where (n f+)(n f+) > 0: the number of places that cross",
+        basis: "motion",
+        scene: Some("fig03"),
+        check: |limits| {
+            crossings(limits, |upper, lower| (upper * upper > 0.0, upper * lower > 0.0), true)
+        },
+    },
+    Claim {
+        equation: "(12)",
+        section: "4",
+        statement: "motions stop where (n f+)(n f+) < 0: the number of places that stop",
+        basis: "motion",
+        scene: Some("fig03"),
+        check: |limits| {
+            crossings(limits, |upper, lower| (upper * upper < 0.0, upper * lower < 0.0), false)
+        },
+    },
+    Claim {
+        equation: "(13)",
+        section: "4.1",
+        statement: "next to the set the terms of higher order may be left out: where a swing ends, as it gets shorter",
+        basis: "motion",
+        scene: Some("fig03"),
+        check: |limits| {
+            let parameters = oscillator(-0.3, 0.5, 0.5, 0.1);
+            let linear = oscillator(-0.3, 0.0, 0.0, 0.1);
+            let swing = |clearance: f64| {
+                let start = at_rest(-(parameters.r + clearance));
+                let [full, _] = half_swing(&parameters, start, limits)?;
+                let [simple, _] = half_swing(&linear, start, limits)?;
+                Ok((simple.plus(parameters.r).value, full.plus(parameters.r)))
+            };
+            let finding = Finding::tends(swing(0.1)?, swing(0.001)?);
+            Ok(finding.at(format!("{}, from q = -0.101", place(&parameters))))
+        },
+    },
+    Claim {
+        equation: "(14)",
+        section: "4.1",
+        statement: "above v = 0 the motion is linear in q + r: where a half swing ends",
+        basis: "motion",
+        scene: Some("linear"),
+        check: |limits| shifted(limits, -1.0),
+    },
+    Claim {
+        equation: "4.1",
+        section: "4.1",
+        statement: "for abs(D) < 1 the set is stable: motions that start close to it come to rest",
+        basis: "motion",
+        scene: Some("linear"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d in [-0.99, -0.9, -0.5, -0.1, 0.0, 0.5, 0.99] {
+                let parameters = oscillator(d, 0.3, -0.5, 1.0);
+                // At D = -0.99 the clearance of the basin is some 1e-10.
+                let rests = captured(&parameters, at_rest(1.0 + 1e-12), 1e3, limits)?;
+                cases.push((format!("D = {d}"), rests));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "4.1",
+        section: "4.1",
+        statement: "no single equilibrium attracts: motions that start beside one end beside it",
+        basis: "motion",
+        scene: Some("capture"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for part in [-0.8, -0.3, 0.0, 0.5] {
+                let q = part * PLAIN.r;
+                let start = State { q, v: 1e-3 };
+                let end = outcome(&PLAIN, start, 10.0, limits)?;
+                let holds = matches!(end, Outcome::Captured { q: end, .. } if end != q);
+                let fate = enclosed(&PLAIN, start, 10.0).fate;
+                let certain =
+                    matches!(fate, ProvedFate::Captured { q: end, .. } if !end.contains(q));
+                cases.push((format!("q = {q}"), KnownAnswer { holds, certain: certain && holds }));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "(18)",
+        section: "4.2",
+        statement: "V' = -2 D v^2 - v f_R, with f_R of (5): change of the energy over a motion",
+        basis: "motion",
+        scene: Some("fig04"),
+        check: |limits| energy(limits, -1.0),
+    },
+    Claim {
+        equation: "(19)",
+        section: "4.2",
+        statement: "V' = -2 D v^2 - r abs(v): change of the energy over a motion",
+        basis: "motion",
+        scene: Some("fig04"),
+        check: |limits| energy(limits, 1.0),
+    },
+    Claim {
+        equation: "(17-19)",
+        section: "4.2",
+        statement: "for small v the terms of higher order are negligible in V'",
+        basis: "V'",
+        scene: Some("fig04"),
+        check: |_| {
+            let parameters = oscillator(-0.3, 0.2, 0.5, 0.1);
+            let linear = oscillator(-0.3, 0.0, 0.0, 0.1);
+            let rates = |v: f64| {
+                let rate = |it: &Parameters| lyapunov::energy_rate(it, State { q: 0.0, v });
+                (rate(&linear), Known::relative(rate(&parameters), 1e-15))
+            };
+            let finding = Finding::tends(rates(0.1), rates(0.001));
+            Ok(finding.at(format!("{}, v = 0.001", place(&parameters))))
+        },
+    },
+    Claim {
+        equation: "(20-23)",
+        section: "4.2",
+        statement: "the energy of the linearised system falls for abs(v) < -r/(2 D) and grows beyond",
+        basis: "V'",
+        scene: Some("fig04"),
+        check: |_| {
+            let cases = [-0.9, -0.5, -0.1, -0.01].into_iter().flat_map(|d| {
+                [0.5, 0.999, 1.001, 2.0, -0.5, -0.999, -1.001, -2.0].map(|part: f64| {
+                    let parameters = oscillator(d, 0.0, 0.0, 0.1);
+                    let v = -part * parameters.r / (2.0 * d);
+                    let rate = lyapunov::energy_rate(&parameters, State { q: 0.0, v });
+                    (format!("D = {d}, v = {v}"), (rate < 0.0) == (part.abs() < 1.0))
+                })
+            });
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "(24)",
+        section: "4.2",
+        statement: "the circle of radius l = -r/(2 D) belongs to the basin: the smallest kick out of it",
+        basis: "border",
+        scene: Some("fig04"),
+        check: |limits| {
+            Finding::worst([-0.95, -0.7, -0.4, -0.1, -0.01].map(|d| {
+                let parameters = oscillator(d, 0.0, 0.0, 0.1);
+                let least = least_kick(&parameters, limits)?;
+                Ok(Finding::at_most(circle(&parameters), least).at(place(&parameters)))
+            }))
+        },
+    },
+    Claim {
+        equation: "(24)",
+        section: "4.2",
+        statement: "that circle is a quite good conservative estimate of the basin: as -0.5 r/D to -0.6 r/D, a part",
+        basis: "border",
+        scene: Some("fig04"),
+        check: |limits| {
+            Finding::worst([-0.9, -0.7, -0.4, -0.1, -0.01].map(|d| {
+                let parameters = oscillator(d, 0.0, 0.0, 0.1);
+                let least = least_kick(&parameters, limits)?;
+                let part = circle(&parameters) / least.value;
+                let computed = Known::relative(part, least.error / least.value);
+                Ok(Finding::near(0.5 / 0.6, computed).at(place(&parameters)))
+            }))
+        },
+    },
+    Claim {
+        equation: "(24)",
+        section: "4.2",
+        statement: "the same circle where D2 acts too; corrected by all terms of V'",
+        basis: "border",
+        scene: Some("escape"),
+        check: |limits| {
+            let parameters = oscillator(-0.02, 0.5, 0.0, 0.1);
+            let least = least_kick(&parameters, limits)?;
+            let finding = Finding::at_most(circle(&parameters), least).at(place(&parameters));
+            Ok(match lyapunov::full_disk(&parameters) {
+                Disk::Radius(radius) => finding.corrected(radius),
+                Disk::Plane => finding,
+            })
+        },
+    },
+];
+
+/// The plain oscillator.
+const PLAIN: Parameters = Parameters { d: -0.1, d2: 0.0, d3: 0.0, r: 0.1 };
+
+/// Places at rest inside and outside of the sticking set, its ends included.
+fn displacements() -> impl Iterator<Item = f64> {
+    const PARTS: [f64; 7] = [0.0, 0.3, 0.9, 1.0, 1.001, 1.5, 3.0];
+    PARTS.into_iter().flat_map(|part| [part, -part]).map(|part| part * PLAIN.r).skip(1)
+}
+
+/// How many places on `v = 0` satisfy a condition on the two limits of `v'`, as printed and corrected,
+/// against the number that a motion crosses (or does not).
+fn crossings(
+    limits: &Limits,
+    condition: fn(f64, f64) -> (bool, bool),
+    crosses: bool,
+) -> Result<Finding, Reason> {
+    let (mut printed, mut corrected, mut computed) = (0.0, 0.0, 0.0);
+    let mut certain = true;
+    // At the ends of the set one of the limits vanishes, and neither condition speaks of them.
+    for q in displacements().filter(|q| q.abs() != PLAIN.r) {
+        let limit = |side: Side| {
+            let field = HalfPlane::new(&PLAIN, side);
+            side.sign() * field.acceleration(side.position(q, PLAIN.r), 0.0)
+        };
+        let (first, second) = condition(limit(Side::Upper), limit(Side::Lower));
+        printed += f64::from(u8::from(first));
+        corrected += f64::from(u8::from(second));
+        // A motion on its way to the place: a little earlier it was a little above or below.
+        let from_above = State { q, v: 1e-9 };
+        let from_below = State { v: -from_above.v, ..from_above };
+        let stops = [from_above, from_below].map(|state| captured(&PLAIN, state, 1e-3, limits));
+        let [above, below] = stops;
+        let (above, below) = (above?, below?);
+        certain &= above.certain && below.certain;
+        computed += f64::from(u8::from((above.holds && below.holds) != crosses));
+    }
+    let at = format!("{} places beside the ends, {}", 11, place(&PLAIN));
+    let computed = Known::exact(computed).within(certain.then_some(Interval::point(computed)));
+    Ok(Finding::equal(printed, computed).corrected(corrected).at(at))
+}
+
+/// Where a half swing above `v = 0` ends, if the motion is linear in `q - shift r`.
+pub(crate) fn shifted(limits: &Limits, shift: f64) -> Result<Finding, Reason> {
+    let parameters = oscillator(-0.1, 0.0, 0.0, 0.2);
+    let start = at_rest(-1.0);
+    let [end, _] = half_swing(&parameters, start, limits)?;
+    let (d, r) = (parameters.d, parameters.r);
+    let growth = exp(-PI * d / (1.0 - d * d).sqrt());
+    let linear = |centre: f64| centre - (start.q - centre) * growth;
+    let finding = Finding::equal(linear(shift * r), end);
+    let finding = if shift < 0.0 { finding } else { finding.corrected(linear(-r)) };
+    Ok(finding.at(format!("{}, from q = -1", place(&parameters))))
+}
+
+/// Change of the energy along a motion by (19), with friction's part multiplied by `sign`.
+fn energy(limits: &Limits, sign: f64) -> Result<Finding, Reason> {
+    let parameters = oscillator(-0.1, 0.0, 0.0, 0.1);
+    let [change, linear, friction] = energy_change(&parameters, at_rest(1.5), 20.0, limits)?;
+    let by_rate = |sign: f64| linear.value + sign * friction.value;
+    let error = change.error + linear.error + friction.error;
+    let finding = Finding::equal(by_rate(sign), Known { error, ..change });
+    let finding = if sign > 0.0 { finding } else { finding.corrected(by_rate(1.0)) };
+    Ok(finding.at(format!("{}, from q = 1.5 until tau = 20", place(&parameters))))
+}
+
+/// Radius (24).
+fn circle(parameters: &Parameters) -> f64 {
+    -parameters.r / (2.0 * parameters.d)
+}
+
+/// Distance of the border of the basin from the origin.
+pub(crate) fn least_kick(parameters: &Parameters, limits: &Limits) -> Result<Known, Reason> {
+    /// Points on each step of the border, and the relative error of a distance between them.
+    const POINTS: (u16, f64) = (200, 1e-5);
+    let basin = basin(parameters, 10.0, limits)?;
+    let border = basin.borders.first().map(|border| border.curve(POINTS.0)).unwrap_or_default();
+    let least = border.iter().map(|point| hypot(point.q, point.v)).fold(f64::INFINITY, f64::min);
+    Ok(Known::relative(least, POINTS.1).within(at_most(parameters, &basin.margin())))
+}
+
+/// The distance of the border is at most that of two of its points, where these are enclosed.
+fn at_most(parameters: &Parameters, margin: &Margin) -> Option<Interval> {
+    let proof = prove(&ParameterBox::from(parameters), &[]);
+    let found = kicks(&proof, [margin.displacement, margin.impulse, None]);
+    let nearer = found.displacement?.upper().min(found.impulse?.upper());
+    Some(Interval::new(f64::NEG_INFINITY, nearer))
+}

@@ -1,0 +1,253 @@
+//! Sections 5.2 and 6.1: the harmonic approximation, and how near it comes.
+
+use std::f64::consts::{PI, TAU};
+
+use super::certain::{BoundedCycle, enclosed};
+use super::known::KnownAnswer;
+use super::measure::{
+    Known, amplitude, at_rest, half_swing, largest, mean, of_cycle, oscillator, place, smallest,
+};
+use super::{Claim, Finding, UNSAID};
+use crate::accuracy::harmonic_error::harmonic_balance;
+use crate::closed_form::harmonic::{Harmonic, amplitudes, mean as harmonic_mean};
+use crate::flow::{Limits, Reason};
+use crate::model::Parameters;
+use crate::numerics::Interval;
+use crate::numerics::elementary::{powi, sin};
+use crate::numerics::interval::PI as PI_BOUNDS;
+use crate::proof::Enclosure;
+
+pub const CLAIMS: &[Claim] = &[
+    Claim {
+        equation: "(34)",
+        section: "5.2",
+        statement: "periodic solutions are approximated by Fourier series: the amplitude by 31 harmonics",
+        basis: "cycle",
+        scene: Some("linear"),
+        check: |limits| {
+            let parameters = oscillator(-0.7, 0.0, 0.0, 0.1);
+            let [few, many] = [3, 31].map(|number| by_harmonics(&parameters, number, limits));
+            let computed = amplitude(&smallest(&parameters, limits)?);
+            Ok(Finding::tends((few?, computed), (many?, computed)).at(place(&parameters)))
+        },
+    },
+    Claim {
+        equation: "(36)",
+        section: "5.2",
+        statement: "the second derivative of A cos(psi) at psi = 0 contains - A eta^2 sin(psi)",
+        basis: "A cos(psi)",
+        scene: None,
+        check: |_| {
+            // Central differences of the velocity - A eta sin(eta tau), two of them.
+            let (size, eta) = (0.7, 1.3);
+            let velocity = |tau: f64| -size * eta * sin(eta * tau);
+            let slope = |h: f64| {
+                (8.0 * (velocity(h) - velocity(-h)) - velocity(2.0 * h) + velocity(-2.0 * h))
+                    / (12.0 * h)
+            };
+            let computed = Known::twice(slope(1e-3), slope(2e-3));
+            let finding = Finding::equal(0.0, computed).corrected(-size * eta * eta);
+            Ok(finding.at("A = 0.7, eta = 1.3"))
+        },
+    },
+    Claim {
+        equation: "(39)",
+        section: "5.2",
+        statement: "cycles have the frequency 1: over D = -0.9 .. -0.01",
+        basis: "cycle",
+        scene: Some("fig09"),
+        check: |limits| {
+            over_dampings(limits, |_, cycle| {
+                let bounds = |it: &Enclosure| PI_BOUNDS.twice() / it.period;
+                Ok(Finding::near(1.0, of_cycle(cycle, TAU / cycle.period, bounds)))
+            })
+        },
+    },
+    Claim {
+        equation: "5.2",
+        section: "5.2",
+        statement: "cycles of small amplitude tend to be harmonic (Fig. 7), v_max equal to q_max: D = -0.999",
+        basis: "cycle",
+        scene: Some("linear"),
+        check: |limits| {
+            let parameters = oscillator(-0.999, 0.0, 0.0, 1.0);
+            let cycle = smallest(&parameters, limits)?;
+            let weaker = oscillator(-0.9, 0.0, 0.0, 1.0);
+            let other = smallest(&weaker, limits)?;
+            let ratio = |cycle: &BoundedCycle| {
+                of_cycle(cycle, cycle.v_max / cycle.q_max, |it| it.v_max / it.q_max)
+            };
+            Ok(Finding::tends((1.0, ratio(&other)), (1.0, ratio(&cycle))).at(place(&parameters)))
+        },
+    },
+    Claim {
+        equation: "(40)",
+        section: "5.2",
+        statement: "mean displacement A0 = -(D2/2) A^2 of a cycle: the stable one, over D = -0.4 .. -0.02",
+        basis: "cycle",
+        scene: Some("fig14"),
+        check: |limits| {
+            Finding::worst([-0.4, -0.2, -0.1, -0.05, -0.02].map(|d| {
+                let parameters = oscillator(d, 0.2, 0.2, 1e-3);
+                let cycle = largest(&parameters, limits)?;
+                let formula = harmonic_mean(parameters.d2, largest_amplitude(&parameters)?);
+                let computed = mean(&parameters, &cycle, limits)?;
+                Ok(Finding::near(formula, computed).at(place(&parameters)))
+            }))
+        },
+    },
+    Claim {
+        equation: "(41)",
+        section: "5.2",
+        statement: "A' = -4 r/pi - 2 D A - (3/4) D3 A^3: change of the amplitude in a turn, over A = 0.5 .. 2",
+        basis: "motion",
+        scene: Some("fig09"),
+        check: |limits| {
+            Finding::worst([0.5, 1.0, 2.0].map(|size| {
+                let parameters = oscillator(-1e-3, 0.0, 2e-3, 1e-3);
+                let [left, _] = half_swing(&parameters, at_rest(size), limits)?;
+                let [right, _] = half_swing(&parameters, at_rest(left.value), limits)?;
+                let turns = enclosed(&parameters, at_rest(size), 10.0).turns;
+                let bounds = turns.get(1).map(|turn| turn.q - Interval::point(size));
+                let computed =
+                    Known::new(right.value - size, right.error + left.error).within(bounds);
+                let Parameters { d, d3, r, .. } = parameters;
+                let printed = -4.0 * r / PI - 2.0 * d * size - 0.75 * d3 * powi(size, 3);
+                let finding = Finding::near(TAU * printed, computed).corrected(PI * printed);
+                Ok(finding.at(format!("{}, A = {size}", place(&parameters))))
+            }))
+        },
+    },
+    Claim {
+        equation: "(41)",
+        section: "6.1",
+        statement: "the amplitude A of (41) may be used for the size of the basin: over D = -0.9 .. -0.01",
+        basis: "cycle",
+        scene: Some("fig09"),
+        check: |limits| {
+            over_dampings(limits, |parameters, cycle| {
+                Ok(Finding::near(largest_amplitude(parameters)?, amplitude(cycle)))
+            })
+        },
+    },
+    Claim {
+        equation: "Fig. 8",
+        section: "6.1",
+        statement: "as D goes to -1 the extent A_q shrinks to that of the sticking set",
+        basis: "cycle",
+        scene: Some("fig08"),
+        check: |limits| {
+            let extent = |d: f64| {
+                let cycle = smallest(&oscillator(d, 0.0, 0.0, 1.0), limits)?;
+                Ok((1.0, of_cycle(&cycle, cycle.q_max, |it| it.q_max)))
+            };
+            Ok(Finding::tends(extent(-0.7)?, extent(-0.9)?).at("D = -0.9, r = 1"))
+        },
+    },
+    Claim {
+        equation: "Fig. 9",
+        section: "6.1",
+        statement: "as D goes to 0 the extents A_q and A_v tend to the same value",
+        basis: "cycle",
+        scene: Some("fig09"),
+        check: |limits| {
+            let extents = |d: f64| {
+                let cycle = smallest(&oscillator(d, 0.0, 0.0, 0.1), limits)?;
+                Ok((cycle.v_max, of_cycle(&cycle, cycle.q_max, |it| it.q_max)))
+            };
+            Ok(Finding::tends(extents(-0.4)?, extents(-0.02)?).at("D = -0.02, r = 0.1"))
+        },
+    },
+    Claim {
+        equation: "Fig. 9",
+        section: "6.1",
+        statement: "the harmonic amplitude A lies between A_q and A_v",
+        basis: "cycle",
+        scene: Some("fig09"),
+        check: |limits| harmonic_against_extents(limits, |a, low, high| low <= a && a <= high),
+    },
+    Claim {
+        equation: "Fig. 9",
+        section: UNSAID,
+        statement: "the harmonic amplitude A lies below both A_q and A_v",
+        basis: "cycle",
+        scene: Some("fig09"),
+        check: |limits| harmonic_against_extents(limits, |a, low, _| a < low),
+    },
+    Claim {
+        equation: "Fig. 8",
+        section: UNSAID,
+        statement: "as D goes to -1 the extent A_v shrinks to 2 r/e, less than the sticking set",
+        basis: "cycle",
+        scene: Some("fig08"),
+        check: |limits| {
+            let extent = |d: f64| {
+                let cycle = smallest(&oscillator(d, 0.0, 0.0, 1.0), limits)?;
+                let limit = 2.0 / std::f64::consts::E;
+                Ok((limit, of_cycle(&cycle, cycle.v_max, |it| it.v_max)))
+            };
+            Ok(Finding::tends(extent(-0.9)?, extent(-0.999)?).at("D = -0.999, r = 1"))
+        },
+    },
+];
+
+/// The amplitude by a number of harmonics.
+fn by_harmonics(parameters: &Parameters, number: usize, limits: &Limits) -> Result<f64, Reason> {
+    let lost = Reason::NoConvergence { sought: "a cycle of some harmonics", change: f64::NAN };
+    let found = harmonic_balance(parameters, number, 0, limits)?;
+    let cycle = found.balanced.first().and_then(|balanced| balanced.cycle.as_ref().ok());
+    cycle.map(crate::closed_form::harmonics::HarmonicCycle::amplitude).ok_or(lost)
+}
+
+/// (42) has no solution where it should.
+pub(crate) const NO_AMPLITUDE: Reason =
+    Reason::NoConvergence { sought: "a stationary amplitude", change: f64::NAN };
+
+/// The largest stationary amplitude of (42).
+pub(crate) fn largest_amplitude(parameters: &Parameters) -> Result<f64, Reason> {
+    let last = amplitudes(parameters).last().map(|harmonic: &Harmonic| harmonic.amplitude);
+    last.ok_or(NO_AMPLITUDE)
+}
+
+/// A number of the piecewise linear cycle, at some dampings.
+fn over_dampings(
+    limits: &Limits,
+    compare: impl Fn(&Parameters, &BoundedCycle) -> Result<Finding, Reason>,
+) -> Result<Finding, Reason> {
+    Finding::worst([-0.9, -0.7, -0.4, -0.2, -0.1, -0.01].map(|d| {
+        let parameters = oscillator(d, 0.0, 0.0, 0.1);
+        let cycle = smallest(&parameters, limits)?;
+        Ok(compare(&parameters, &cycle)?.at(place(&parameters)))
+    }))
+}
+
+/// Whether the harmonic amplitude lies where `holds` says, given the smaller and the larger extent.
+fn harmonic_against_extents(
+    limits: &Limits,
+    holds: fn(f64, f64, f64) -> bool,
+) -> Result<Finding, Reason> {
+    let mut cases = Vec::new();
+    for number in 1..20 {
+        let d = -0.05 * f64::from(number);
+        let parameters = oscillator(d, 0.0, 0.0, 0.1);
+        let cycle = smallest(&parameters, limits)?;
+        let harmonic = largest_amplitude(&parameters)?;
+        let (low, high) = (cycle.v_max.min(cycle.q_max), cycle.v_max.max(cycle.q_max));
+        let place =
+            format!("{}: A = {harmonic:.5}, A_v = {low:.5}, A_q = {high:.5}", place(&parameters));
+        let decided = holds(harmonic, low, high);
+        let certain = cycle.bounds.is_some_and(|it| {
+            let [v, q] = [it.v_max, it.q_max];
+            // The formula is rounded, and which of both extents is the larger one is certain.
+            let ordered = v.upper() < q.lower() || q.upper() < v.lower();
+            let agrees = |a: f64, v: f64, q: f64| holds(a, v.min(q), v.max(q)) == decided;
+            let formula = [harmonic * (1.0 - 1e-9), harmonic * (1.0 + 1e-9)];
+            ordered
+                && formula
+                    .iter()
+                    .all(|&a| agrees(a, v.lower(), q.lower()) && agrees(a, v.upper(), q.upper()))
+        });
+        cases.push((place, KnownAnswer { holds: decided, certain }));
+    }
+    Ok(Finding::always(cases))
+}

@@ -1,0 +1,287 @@
+//! Section 5.1: the cycle of the piecewise linear oscillator, and the basin that it borders.
+
+use std::f64::consts::PI;
+
+use super::certain::BoundedCycle;
+use super::equilibria::{least_kick, shifted};
+use super::measure::{
+    Known, at_rest, edge, half_swing, of_cycle, oscillator, place, smallest, state_at,
+};
+use super::{Claim, Finding};
+use crate::flow::{Limits, Reason};
+use crate::model::{Parameters, State};
+use crate::numerics::Interval;
+use crate::numerics::elementary::{atan, atan2, exp, sin, sin_cos};
+use crate::portrait::{Border, Cycle};
+use crate::proof::Enclosure;
+
+pub const CLAIMS: &[Claim] = &[
+    Claim {
+        equation: "5",
+        section: "5",
+        statement: "in the plane the border of a basin must be a periodic solution: cycles on the border",
+        basis: "border",
+        scene: Some("escape"),
+        check: |limits| {
+            let parameters = oscillator(-0.02, 0.5, 0.0, 0.1);
+            let found = edge(&parameters, limits)?;
+            let cycles = f64::from(u8::from(found.border == Border::Cycle));
+            let at = format!("{}, where starts beyond a finite border escape", place(&parameters));
+            // A basin without a border would need none.
+            let needed = f64::from(u8::from(found.border != Border::None));
+            let bounds = found.certain.then_some(Interval::point(cycles));
+            Ok(Finding::equal(needed, Known::exact(cycles).within(bounds)).at(at))
+        },
+    },
+    Claim {
+        equation: "5.1",
+        section: "5.1",
+        statement: "for D < 0 there is one cycle, and it reaches further than r",
+        basis: "cycle",
+        scene: Some("linear"),
+        check: |limits| {
+            let mut cases = Vec::new();
+            for d in DAMPINGS {
+                let found = crate::paper::measure::cycles(&units_of_friction(d), limits)?;
+                let further = |found: &[BoundedCycle]| found.len() == 1 && found[0].clearance > 0.0;
+                cases.push((format!("D = {d}"), found.answer(further)));
+            }
+            Ok(Finding::always(cases))
+        },
+    },
+    Claim {
+        equation: "5.1",
+        section: "5.1",
+        statement: "motions that start within a circle of radius r are trapped: the smallest kick out of \
+                    the basin",
+        basis: "border",
+        scene: Some("linear"),
+        check: |limits| {
+            Finding::worst(DAMPINGS.map(|d| {
+                let parameters = units_of_friction(d);
+                let least = least_kick(&parameters, limits)?;
+                Ok(Finding::at_most(parameters.r, least).at(place(&parameters)))
+            }))
+        },
+    },
+    Claim {
+        equation: "after (27)",
+        section: "5.1",
+        statement: "a half swing takes pi/omega_d",
+        basis: "motion",
+        scene: Some("fig06"),
+        check: |limits| over_swings(limits, |swing| PI / swing.omega, |[_, tau]| tau),
+    },
+    Claim {
+        equation: "(25)",
+        section: "5.1",
+        statement: "above v = 0 the motion is linear in q - r: where a half swing ends",
+        basis: "motion",
+        scene: Some("fig06"),
+        check: |limits| shifted(limits, 1.0),
+    },
+    Claim {
+        equation: "(25-28)",
+        section: "5.1",
+        statement: "with A = -c, B = -c D/omega_d the velocity on the way is (26, 27)",
+        basis: "motion",
+        scene: Some("fig06"),
+        check: |limits| {
+            Finding::worst(DAMPINGS.map(|d| {
+                let (parameters, swing) = (units_of_friction(d), LinearSwing::new(d));
+                let tau = 0.4 * PI / swing.omega;
+                let start = at_rest(-parameters.r - 1.0);
+                let [_, velocity] = state_at(&parameters, start, tau, limits)?;
+                let (a, b) = (-1.0, -d / swing.omega);
+                let (sine, cosine) = sin_cos(swing.omega * tau);
+                let formula =
+                    -(a * d - b * swing.omega) * cosine - (b * d + a * swing.omega) * sine;
+                let at = format!("{}, from q = -2, at tau = {tau:.4}", place(&parameters));
+                Ok(Finding::equal(formula * exp(-d * tau), velocity).at(at))
+            }))
+        },
+    },
+    Claim {
+        equation: "(29)",
+        section: "5.1",
+        statement: "a half swing that starts with clearance c ends at c e^(-pi D/omega_d), counted from -r",
+        basis: "motion",
+        scene: Some("fig06"),
+        check: |limits| over_swings(limits, |swing| swing.growth, |[end, _]| end.plus(1.0)),
+    },
+    Claim {
+        equation: "(30)",
+        section: "5.1",
+        statement: "clearance c of the cycle: how far it passes the sticking set, down to D = -0.999 of Fig. 7",
+        basis: "cycle",
+        scene: Some("fig07"),
+        check: |limits| {
+            let dampings = std::iter::once(-0.999).chain(DAMPINGS);
+            Finding::worst(dampings.map(|d| {
+                let parameters = units_of_friction(d);
+                let cycle = smallest(&parameters, limits)?;
+                // An exponential has as many times the relative error of its exponent, 70 at D = -0.999.
+                let exponent = 1.0 + PI * d.abs() / (1.0 - d * d).sqrt();
+                let error = cycle.error.unwrap_or(f64::INFINITY) + exponent * 1e-14;
+                let bounds = cycle.bounds.map(|it| it.clearance);
+                let computed = Known::relative(cycle.clearance, error).within(bounds);
+                Ok(Finding::equal(LinearSwing::new(d).clearance(), computed).at(place(&parameters)))
+            }))
+        },
+    },
+    Claim {
+        equation: "(31)",
+        section: "5.1",
+        statement: "the border as a curve over the angle phi: displacement and velocity at phi = 2",
+        basis: "motion",
+        scene: Some("fig07"),
+        check: on_the_curve,
+    },
+    Claim {
+        equation: "(32)",
+        section: "5.1",
+        statement: "largest displacement A_q of the cycle",
+        basis: "cycle",
+        scene: Some("fig08"),
+        check: |limits| {
+            over_cycles(
+                limits,
+                |swing| ((swing.growth + 1.0) / (swing.growth - 1.0), None),
+                (|cycle| cycle.q_max, |bounds| bounds.q_max),
+            )
+        },
+    },
+    Claim {
+        equation: "(33)",
+        section: "5.1",
+        statement: "largest velocity A_v of the cycle",
+        basis: "cycle",
+        scene: Some("fig08"),
+        check: |limits| {
+            over_cycles(
+                limits,
+                |swing| (swing.printed_velocity(), Some(swing.largest_velocity())),
+                (|cycle| cycle.v_max, |bounds| bounds.v_max),
+            )
+        },
+    },
+    Claim {
+        equation: "Fig. 7",
+        section: "6.1",
+        statement: "the cycle scales with r: its extent for r = 3 in terms of that for r = 1",
+        basis: "cycle",
+        scene: Some("fig07"),
+        check: |limits| {
+            let cycle = |r: f64| smallest(&oscillator(-0.4, 0.0, 0.0, r), limits);
+            let (one, three) = (cycle(1.0)?, cycle(3.0)?);
+            let ratio = three.q_max / one.q_max;
+            let ratio = match one.bounds {
+                Some(unit) => of_cycle(&three, ratio, |it| it.q_max / unit.q_max),
+                None => of_cycle(&three, ratio, |_| Interval::ALL),
+            };
+            Ok(Finding::equal(3.0, ratio).at("D = -0.4, D2 = D3 = 0"))
+        },
+    },
+];
+
+/// Dampings at which formulas of the piecewise linear oscillator are tested.
+const DAMPINGS: [f64; 5] = [-0.9, -0.7, -0.4, -0.1, -0.01];
+
+/// The oscillator in units of its friction.
+fn units_of_friction(d: f64) -> Parameters {
+    oscillator(d, 0.0, 0.0, 1.0)
+}
+
+/// What the formulas of a half swing are made of, in units of friction.
+struct LinearSwing {
+    d: f64,
+    /// Frequency `omega_d`.
+    omega: f64,
+    /// `e^(-pi D/omega_d)`.
+    growth: f64,
+}
+
+impl LinearSwing {
+    fn new(d: f64) -> Self {
+        let omega = (1.0 - d * d).sqrt();
+        LinearSwing { d, omega, growth: exp(-PI * d / omega) }
+    }
+
+    fn clearance(&self) -> f64 {
+        2.0 / (self.growth - 1.0)
+    }
+
+    /// (33) as it stands in the paper.
+    fn printed_velocity(&self) -> f64 {
+        let LinearSwing { d, omega, growth } = *self;
+        let angle = atan(omega / d);
+        2.0 * exp(-d * PI) / (omega * (growth - 1.0)) * exp(-d / omega * angle) * sin(omega + angle)
+    }
+
+    /// (33) as it should read: the maximum of (31).
+    fn largest_velocity(&self) -> f64 {
+        let angle = atan2(self.omega, self.d);
+        self.clearance() * exp(-self.d / self.omega * angle)
+    }
+
+    /// (31), on the upper half.
+    fn curve(&self, angle: f64) -> State {
+        let LinearSwing { d, omega, growth } = *self;
+        let grown = 2.0 / (growth - 1.0) * exp(-d / omega * angle);
+        let (sine, cosine) = sin_cos(angle);
+        State { q: -1.0 - grown * (cosine + d / omega * sine), v: grown / omega * sine }
+    }
+}
+
+/// A formula of the half swing from `(-2, 0)` against the integrated one, at the worst of some dampings.
+fn over_swings(
+    limits: &Limits,
+    formula: fn(&LinearSwing) -> f64,
+    read: fn([Known; 2]) -> Known,
+) -> Result<Finding, Reason> {
+    Finding::worst(DAMPINGS.map(|d| {
+        let parameters = units_of_friction(d);
+        let paper = formula(&LinearSwing::new(d));
+        let computed = read(half_swing(&parameters, at_rest(-2.0), limits)?);
+        Ok(Finding::equal(paper, computed).at(format!("{}, from q = -2", place(&parameters))))
+    }))
+}
+
+/// How a number is read from a cycle, and its bounds.
+type Reading = (fn(&Cycle) -> f64, fn(&Enclosure) -> Interval);
+
+/// A formula of the cycle against the one found by the search, at the worst of some dampings.
+fn over_cycles(
+    limits: &Limits,
+    formula: fn(&LinearSwing) -> (f64, Option<f64>),
+    (read, bounds): Reading,
+) -> Result<Finding, Reason> {
+    Finding::worst(DAMPINGS.map(|d| {
+        let parameters = units_of_friction(d);
+        let cycle = smallest(&parameters, limits)?;
+        let (paper, corrected) = formula(&LinearSwing::new(d));
+        let computed = of_cycle(&cycle, read(&cycle), bounds);
+        let finding = Finding::equal(paper, computed).at(place(&parameters));
+        Ok(Finding { corrected, ..finding })
+    }))
+}
+
+/// Both coordinates of (31) against the motion that starts at the turning point of the cycle.
+fn on_the_curve(limits: &Limits) -> Result<Finding, Reason> {
+    const ANGLE: f64 = 2.0;
+    let mut findings = Vec::new();
+    for d in DAMPINGS {
+        let (parameters, swing) = (units_of_friction(d), LinearSwing::new(d));
+        let start = at_rest(swing.curve(0.0).q);
+        let state = state_at(&parameters, start, ANGLE / swing.omega, limits)?;
+        // The start is rounded, and near D = -1 its clearance is a small fraction of it.
+        let rounded = 4.0 * f64::EPSILON * swing.growth * swing.clearance().max(1.0);
+        let State { q, v } = swing.curve(ANGLE);
+        for (name, formula, known) in [("q", q, state[0]), ("v", v, state[1])] {
+            let known = Known { error: known.error + rounded, ..known };
+            let at = format!("{name} at {}", place(&parameters));
+            findings.push(Ok(Finding::equal(formula, known).at(at)));
+        }
+    }
+    Finding::worst(findings)
+}

@@ -1,0 +1,103 @@
+//! The paper against computation: every claim that can be tested, tested.
+//!
+//! [`SECTIONS`] is the table. A [`Claim`] says where it stands, what it says, and holds a function that
+//! evaluates the paper's formula and computes the same thing without it: by integrating motions, by
+//! searching cycles, by differentiating the physical law. That function returns a [`Finding`], numbers
+//! and nothing else; the [`Verdict`] follows from the numbers by one rule for all claims
+//! ([`Finding::verdict`]). Where a proof encloses what was computed, a [`Certainty`] says what is certain.
+
+mod amplitudes;
+pub(crate) mod belt;
+mod beyond;
+mod bifurcation;
+mod certain;
+mod equilibria;
+mod harmonic;
+mod known;
+mod linear;
+mod measure;
+mod model;
+mod summary;
+mod verdict;
+
+pub use certain::Certainty;
+pub use known::{POOR, Sense};
+pub use verdict::{Finding, Verdict};
+
+use crate::flow::{Limits, Reason};
+
+/// A sentence or an equation of the paper that numbers can decide.
+#[derive(Debug)]
+pub struct Claim {
+    /// Number of the equation or of the figure, or a word for what has no number.
+    pub equation: &'static str,
+    /// Section of the paper; [`UNSAID`] for what the paper does not say.
+    pub section: &'static str,
+    /// What it says.
+    pub statement: &'static str,
+    /// What its numbers are compared with: an equation of the paper by its number, or what is computed without
+    /// any, such as the true `cycle`, a `motion`, the `border` of the basin, the friction `law` itself.
+    pub basis: &'static str,
+    /// A scene that shows it.
+    pub scene: Option<&'static str>,
+    /// Evaluates the formula and computes the same thing otherwise.
+    pub check: fn(&Limits) -> Result<Finding, Reason>,
+}
+
+/// Stands for the section of what the paper does not say.
+pub const UNSAID: &str = "-";
+
+/// A claim and what became of it.
+#[derive(Clone, Debug)]
+pub struct ClaimResult {
+    pub claim: &'static Claim,
+    /// The numbers, or why there are none.
+    pub finding: Result<Finding, Reason>,
+}
+
+impl PartialEq for ClaimResult {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.claim, other.claim) && self.finding == other.finding
+    }
+}
+
+impl ClaimResult {
+    /// What the numbers say; `None` where they could not be computed.
+    pub fn verdict(&self) -> Option<Verdict> {
+        self.finding.as_ref().ok().map(Finding::verdict)
+    }
+}
+
+/// All claims, section by section, then what the paper does not say.
+pub const SECTIONS: [&[Claim]; 8] = [
+    model::CLAIMS,
+    equilibria::CLAIMS,
+    linear::CLAIMS,
+    harmonic::CLAIMS,
+    amplitudes::CLAIMS,
+    bifurcation::CLAIMS,
+    summary::CLAIMS,
+    beyond::CLAIMS,
+];
+
+/// Every claim, in the order of the paper.
+pub fn claims() -> impl Iterator<Item = &'static Claim> {
+    SECTIONS.iter().copied().flatten()
+}
+
+/// Puts all claims to the test. Fails with [`Reason::Interrupted`] and no other.
+pub fn examine_all(limits: &Limits) -> Result<Vec<ClaimResult>, Reason> {
+    claims().map(|claim| examine(claim, limits)).collect()
+}
+
+/// Puts one claim to the test. Fails with [`Reason::Interrupted`] and no other: any other reason belongs to the
+/// answer.
+pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<ClaimResult, Reason> {
+    match (claim.check)(limits) {
+        Err(Reason::Interrupted) => Err(Reason::Interrupted),
+        Ok(finding) if claim.section == UNSAID => {
+            Ok(ClaimResult { claim, finding: Ok(finding.unsaid()) })
+        }
+        finding => Ok(ClaimResult { claim, finding }),
+    }
+}

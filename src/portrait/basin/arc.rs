@@ -1,0 +1,258 @@
+//! One half swing as a curve: its speed as a function of the displacement.
+//!
+//! Above `v = 0` displacement only grows, below it only falls, so within its half plane every motion is
+//! a graph over q. That is what makes basins cheap: whether a start lies inside a closed orbit is one
+//! comparison with the graph at its q. The graph is kept as the polynomials of the
+//! integration steps and evaluated to rounding by Newton's method in time.
+
+use crate::flow::auto::LastStep;
+use crate::flow::exact::Exact;
+use crate::flow::step::{Powers, Stepper};
+use crate::flow::{Cost, Limits, Reason};
+use crate::model::{HalfPlane, Parameters, Side, State};
+use crate::numerics::quadrature::gauss;
+use crate::numerics::root::{Bracket, PlaceTolerance, newton};
+use crate::numerics::scaling::times_power;
+use crate::portrait::closing::half_map::{HalfMap, HalfSwing, Length, NoEnd, linear_below};
+
+/// Integration tolerance of an arc.
+const TOLERANCE: f64 = 1e-14;
+
+/// Part of its start below which an arc is not resolved: it is drawn and compared, not continued.
+const DETAIL: f64 = 1e-12;
+
+/// Maximum number of evaluations of an arc. All its steps are kept, and this many take some ten megabytes.
+const BUDGET: u64 = 400_000;
+
+/// The direction in which an arc is computed; as a curve it is the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// From where the swing starts.
+    Forward,
+    /// From where the swing ends, backward in time.
+    Backward,
+}
+
+impl Direction {
+    fn sense(self) -> f64 {
+        match self {
+            Direction::Forward => 1.0,
+            Direction::Backward => -1.0,
+        }
+    }
+}
+
+/// One integration step of an arc.
+#[derive(Clone, Debug)]
+struct ArcStep {
+    step: LastStep,
+    unit: i32,
+    duration: f64,
+    /// Position at its end, in the direction of the computation.
+    end: f64,
+}
+
+/// A half swing as a graph `v(q)`.
+#[derive(Clone, Debug)]
+pub struct Arc {
+    side: Side,
+    r: f64,
+    /// That in which the arc was computed.
+    field: HalfPlane,
+    /// Computed backward, positions are those of `y = -x`.
+    direction: Direction,
+    /// Of the swing (forward), or of the next one (backward).
+    clearance: Length,
+    /// At which the computation began.
+    length: Length,
+    pieces: Vec<ArcStep>,
+    /// From where the motion is linear to its end, if it was not followed there.
+    rest: Option<ArcStep>,
+    /// The swing, or why it has no end.
+    pub swing: Result<HalfSwing, NoEnd>,
+    pub cost: Cost,
+}
+
+impl Arc {
+    /// The swing on `side` that starts with this `clearance` (forward), or after which the next one starts
+    /// starts with it (backward). Fails with the [`Reason`] why it could not be computed; escape is not an error.
+    pub fn new(
+        parameters: &Parameters,
+        side: Side,
+        direction: Direction,
+        clearance: Length,
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
+        let forward = HalfPlane::new(parameters, side);
+        let (field, length) = match direction {
+            Direction::Forward => (forward, clearance),
+            Direction::Backward => (forward.reversed(), clearance.plus(2.0 * parameters.r)),
+        };
+        // Where friction is many times the natural scale, the motion is not linear yet at that size.
+        let detail =
+            (DETAIL * (clearance.value + parameters.r)).min(linear_below(&field, TOLERANCE));
+        let mut map = HalfMap::integrating_above(detail, field, TOLERANCE);
+        let mut pieces: Vec<ArcStep> = Vec::new();
+        let limits =
+            Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
+        let swing = map.swing_watched(length, &limits, |stepper, unit, duration| {
+            let step = stepper.last_step();
+            let end = times_power(step.at(duration).x, unit);
+            pieces.push(ArcStep { step, unit, duration, end });
+        });
+        if let Err(NoEnd::Failed(reason)) = swing {
+            return Err(reason);
+        }
+        Ok(Arc {
+            side,
+            r: parameters.r,
+            field,
+            direction,
+            clearance,
+            length,
+            rest: rest(&field, &pieces, detail),
+            pieces,
+            swing,
+            cost: map.cost(),
+        })
+    }
+
+    /// Speed `abs(v)` where the arc passes the displacement `q`: `None` beyond its turning points,
+    /// infinity beyond where it ran away.
+    pub fn speed_at(&self, q: f64) -> Option<f64> {
+        let target = self.direction.sense() * self.side.position(q, self.r);
+        if self.direction == Direction::Backward {
+            let short = self.clearance.value - (self.side.sign() * q - self.r);
+            if short < 0.0 {
+                return None;
+            }
+            if let Some(speed) = self.speed_before_end(short) {
+                return Some(speed);
+            }
+        }
+        if target < -self.length.value {
+            return None;
+        }
+        let index = self.pieces.partition_point(|piece| piece.end < target);
+        let rest = self.rest.as_ref().filter(|rest| target <= rest.end);
+        let Some(piece) = self.pieces.get(index).or(rest) else {
+            let gone = matches!(self.swing, Err(NoEnd::Escapes));
+            return gone.then_some(f64::INFINITY);
+        };
+        Some(piece.speed_at(target))
+    }
+
+    /// The speed at a place that is `short` of where the swing ends by next to nothing.
+    ///
+    /// There a position has lost the digits that decide: `v` follows from the way that is left as in
+    /// [`crate::flow::stop`], turned round, to second order.
+    fn speed_before_end(&self, short: f64) -> Option<f64> {
+        /// Part of the position below which it is next to nothing, and largest damping force beside it.
+        const NEAR: f64 = 1e-10;
+        const WEAK: f64 = 1e-3;
+        let end = self.length.value;
+        let speed = (2.0 * short).sqrt() * end.sqrt();
+        let HalfPlane { d, d2, d3 } = self.field;
+        let force = speed * (2.0 * d.abs() + speed * (d2.abs() + speed * d3.abs()));
+        let is_near = short <= NEAR * end && force <= WEAK * end;
+        is_near.then(|| speed * (1.0 - 2.0 / 3.0 * d * (speed / end)))
+    }
+
+    /// The clearance at which the swing starts: 0 where it leaves a node that repels, `None` where it comes
+    /// from infinity.
+    pub fn clearance(&self) -> Option<Length> {
+        if self.direction == Direction::Forward {
+            return Some(self.clearance);
+        }
+        match &self.swing {
+            Ok(swing) => Some(swing.end),
+            Err(NoEnd::Never) => Some(Length::ZERO),
+            Err(NoEnd::Escapes | NoEnd::Failed(_)) => None,
+        }
+    }
+
+    /// Area between the arc and `v = 0`: the integral of `v dq`, which is that of `v^2 dtau`.
+    pub fn area(&self) -> f64 {
+        let piece_area = |piece: &ArcStep| {
+            let second = piece.step.powers().second;
+            times_power(times_power(second, piece.unit), piece.unit)
+        };
+        self.pieces.iter().map(piece_area).sum()
+    }
+
+    /// The integrals of powers of the speed over time.
+    pub fn powers(&self) -> Powers {
+        let mut sum = Powers::default();
+        for ArcStep { step, unit, .. } in &self.pieces {
+            let powers = step.powers();
+            let square = times_power(times_power(1.0, *unit), *unit);
+            sum.second += square * powers.second;
+            sum.third += times_power(square * powers.third, *unit);
+            sum.fourth += square * (square * powers.fourth);
+        }
+        sum
+    }
+
+    /// The integral of the displacement over time.
+    pub fn time_integral(&self) -> f64 {
+        let piece_integral = |piece: &ArcStep| {
+            let displacement = |time: f64| {
+                let x = self.direction.sense() * times_power(piece.step.at(time).x, piece.unit);
+                self.side.displacement(x, self.r)
+            };
+            piece.duration * gauss(|part| displacement(part * piece.duration))
+        };
+        self.pieces.iter().map(piece_integral).sum()
+    }
+
+    /// Points along the arc in the order of time, `count` on each integration step.
+    pub fn points(&self, count: u16) -> Vec<State> {
+        let mut points = Vec::new();
+        for piece in &self.pieces {
+            let first = u16::from(!points.is_empty());
+            for index in first..=count {
+                let point = piece.step.at(piece.duration * f64::from(index) / f64::from(count));
+                let x = self.direction.sense() * times_power(point.x, piece.unit);
+                let v = self.side.sign() * times_power(point.v, piece.unit);
+                points.push(State { q: self.side.displacement(x, self.r), v });
+            }
+        }
+        if self.direction == Direction::Backward {
+            points.reverse();
+        }
+        points
+    }
+}
+
+/// What is left of an arc after `pieces` that end below `detail`: linear, so in closed form.
+fn rest(field: &HalfPlane, pieces: &[ArcStep], detail: f64) -> Option<ArcStep> {
+    /// Time after which a motion that creeps has decayed beyond the range of numbers, in units of its own.
+    const DECAYED: f64 = 750.0;
+    let &ArcStep { ref step, unit, duration, .. } = pieces.last()?;
+    let from = step.at(duration);
+    if field.d < 0.0 || from.v <= 0.0 || times_power(from.size(), unit) > detail {
+        return None;
+    }
+    let mut exact = Exact::new();
+    exact.begin(&HalfPlane { d: field.d, d2: 0.0, d3: 0.0 });
+    // Both times of decay have the product 1, and the sum 2 D.
+    let step = exact.advance(from, DECAYED * (2.0 * field.d).max(1.0)).ok()?;
+    let end = times_power(step.end.x, unit);
+    Some(ArcStep { step: LastStep::Closed(exact), unit, duration: step.duration, end })
+}
+
+impl ArcStep {
+    /// v where the position is `target`, which lies on this piece.
+    fn speed_at(&self, target: f64) -> f64 {
+        // The position is monotone in time.
+        let target = times_power(target, -self.unit);
+        let bracket = Bracket::rising(0.0, self.duration);
+        let settled = PlaceTolerance::Absolute(1e-12 * self.duration);
+        let found = newton(bracket, bracket.middle(), settled, |time| {
+            let point = self.step.at(time);
+            (point.x - target, point.v)
+        });
+        let time = found.at;
+        times_power(self.step.at(time).v, self.unit).max(0.0)
+    }
+}

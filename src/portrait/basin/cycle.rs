@@ -1,0 +1,159 @@
+//! Every limit cycle at given parameters, described: extremes, period, multiplier, and what borders the
+//! basin. The closed pairs of half swings behind them are found in [`crate::portrait::closing::all`].
+//!
+//! ```
+//! use hopfscope::flow::Limits;
+//! use hopfscope::model::Parameters;
+//! use hopfscope::portrait::Border;
+//! use hopfscope::portrait::basin::cycle::cycles;
+//!
+//! let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+//! let found = cycles(&parameters, false, &Limits::PATIENT)?;
+//! let [inner, outer] = &found.cycles[..] else { panic!("two cycles") };
+//! assert!(!inner.stable && outer.stable && inner.q_max < outer.q_max);
+//! assert_eq!(found.border, Border::Cycle);
+//! # Ok::<(), hopfscope::flow::Reason>(())
+//! ```
+
+use super::Basin;
+pub use super::limit_cycle::{BasinPicture, Cycles};
+use super::works::works as works_over;
+use crate::closed_form::harmonic::amplitudes;
+use crate::flow::{Limits, Reason};
+use crate::model::{Parameters, Side, State};
+use crate::numerics::elementary::exp;
+use crate::portrait::closing::all::{STEP, all_closings};
+use crate::portrait::closing::equation::Equation;
+use crate::portrait::closing::pair::{Closing, share};
+use crate::portrait::{Border, Cycle, CycleErrors};
+
+/// Points drawn on each integration step of a curve.
+const CURVE_POINTS: u16 = 12;
+
+/// How far a separatrix is followed for a picture, in units of `1/abs(D2)`.
+pub(crate) const PICTURE_REACH: f64 = 20.0;
+
+/// Finds all limit cycles at these parameters; `curves` asks for a picture too.
+///
+/// The piecewise linear cycle comes from its closed form, all others from the search. Clearances are
+/// computed to rounding; `error` of each cycle says what that is worth near a fold.
+///
+/// # Errors
+/// The [`Reason`] why the search could not be completed.
+pub fn cycles(parameters: &Parameters, curves: bool, limits: &Limits) -> Result<Cycles, Reason> {
+    found(parameters, curves.then_some(CURVE_POINTS), limits)
+}
+
+/// The same with a picture, of this many points on each integration step of a curve.
+///
+/// # Errors
+/// The [`Reason`] why the search could not be completed.
+pub fn cycles_drawn(
+    parameters: &Parameters,
+    points: u16,
+    limits: &Limits,
+) -> Result<Cycles, Reason> {
+    found(parameters, Some(points), limits)
+}
+
+fn found(parameters: &Parameters, points: Option<u16>, limits: &Limits) -> Result<Cycles, Reason> {
+    let (mut answer, closings) = cycles_and_closings(parameters, limits)?;
+    if let Some(points) = points {
+        let reach = PICTURE_REACH / parameters.d2.abs().max(f64::MIN_POSITIVE);
+        let basin = Basin::around(parameters, &closings, reach, limits)?;
+        answer.cost += basin.cost;
+        answer.picture = Some(BasinPicture::of(&basin, points));
+    }
+    Ok(answer)
+}
+
+/// All limit cycles, without a picture, and the closed pairs of half swings that they are.
+///
+/// # Errors
+/// The [`Reason`] why the search could not be completed.
+pub(crate) fn cycles_and_closings(
+    parameters: &Parameters,
+    limits: &Limits,
+) -> Result<(Cycles, Vec<Closing>), Reason> {
+    let mut equation = Equation::new(parameters, STEP);
+    let closings = all_closings(&mut equation, limits)?;
+    let describe = |closing: &Closing| closing.describe(parameters, equation.side);
+    let stable: Vec<bool> =
+        closings.iter().map(|closing| closing.log_multiplier(parameters) < 0.0).collect();
+    let answer = Cycles {
+        parameters: *parameters,
+        cycles: closings.iter().map(describe).collect(),
+        harmonic: amplitudes(parameters),
+        border: Border::around(parameters, &stable),
+        picture: None,
+        cost: equation.cost(),
+    };
+    Ok((answer, closings))
+}
+
+impl BasinPicture {
+    fn of(basin: &Basin, points: u16) -> Self {
+        let mut curves: Vec<Vec<State>> =
+            basin.borders.iter().map(|border| border.curve(points)).collect();
+        let works = basin.borders.iter().skip(usize::from(basin.border == Border::Separatrix));
+        let works = works.filter_map(|border| works_over(border, &basin.parameters)).collect();
+        let border = match basin.border {
+            Border::Cycle => curves.first().cloned().unwrap_or_default(),
+            Border::Separatrix => curves.remove(0),
+            _ => Vec::new(),
+        };
+        BasinPicture {
+            curves,
+            works,
+            border,
+            margin: basin.margin(),
+            area: basin.area(),
+            lyapunov_share: basin.lyapunov_share(),
+        }
+    }
+}
+
+impl Closing {
+    /// The cycle that this closed pair of swings is; the first swing runs on `side`.
+    #[must_use]
+    pub fn describe(&self, parameters: &Parameters, side: Side) -> Cycle {
+        let Parameters { d, d3, r, .. } = *parameters;
+        let log_multiplier = self.log_multiplier(parameters);
+        let multiplier = exp(log_multiplier);
+        let spread = self.spread();
+        let turning = [(self.first, spread.clearance[0]), (self.second, spread.clearance[1])];
+        let fastest = [(self.fastest[0], spread.fastest[0]), (self.fastest[1], spread.fastest[1])];
+        // The first swing starts on the far side of the half plane that it crosses.
+        let ([left, right], [up, down]) = match side {
+            Side::Upper => (turning, fastest),
+            Side::Lower => ([turning[1], turning[0]], [fastest[1], fastest[0]]),
+        };
+        let unshared = turning.map(|(clearance, error)| error * (1.0 - share(clearance, 2.0 * r)));
+        let dampings = 2.0 * d.abs() * spread.duration + 3.0 * (d3.abs() * spread.square);
+        Cycle {
+            stable: log_multiplier < 0.0,
+            q_min: -(r + left.0.value),
+            q_max: r + right.0.value,
+            v_min: -down.0,
+            v_max: up.0,
+            period: self.duration,
+            multiplier: multiplier.is_finite().then_some(multiplier),
+            log_multiplier,
+            clearance: right.0.value,
+            log_clearance: right.0.log,
+            ..Cycle::default()
+        }
+        .rounded(CycleErrors {
+            q_min: left.1 * left.0.value,
+            q_max: right.1 * right.0.value,
+            v_min: down.1,
+            v_max: up.1,
+            period: spread.duration,
+            log_multiplier: unshared[0]
+                + unshared[1]
+                + dampings
+                + f64::EPSILON * self.log_terms(parameters),
+            log_clearance: right.1,
+        })
+    }
+}

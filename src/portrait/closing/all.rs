@@ -1,0 +1,282 @@
+//! All closed pairs of half swings at given parameters.
+//!
+//! The roots of the closing equation ([`super::equation`]) are searched for between the smallest
+//! clearance that a swing past the sticking set can have and the edge of escape ([`super::search`]), then polished
+//! ([`super::polish`]).
+
+use super::balance::weighed_residual;
+use super::equation::{Equation, Route};
+use super::half_map::Length;
+use super::pair::Closing;
+use super::polish::{VAGUE, is_exact, polish};
+use super::precise::{FINER, PreciseEquation};
+use super::search::{Bracket, Node, search};
+use super::weak::{has_cycle, is_one_way, weak_closing};
+use crate::closed_form::piecewise_linear::LinearCycle;
+use crate::flow::{Limits, Reason};
+use crate::model::Parameters;
+use crate::numerics::elementary::ln;
+use crate::numerics::twofold::Twofold;
+
+/// Tolerance of the integration steps of the search and the polish: rounding.
+pub const STEP: f64 = 1e-16;
+
+/// All closings, from the closed form where there is one.
+pub fn all_closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
+    some_closings(equation, usize::MAX, limits)
+}
+
+/// The closing of the smallest amplitude, from the closed form where there is one: half the work of
+/// finding all.
+pub fn innermost_closing(
+    equation: &mut Equation,
+    limits: &Limits,
+) -> Result<Option<Closing>, Reason> {
+    Ok(some_closings(equation, 1, limits)?.pop())
+}
+
+/// As many closings as are wanted, by amplitude, from the closed form where there is one.
+fn some_closings(
+    equation: &mut Equation,
+    most: usize,
+    limits: &Limits,
+) -> Result<Vec<Closing>, Reason> {
+    let parameters = equation.parameters;
+    if parameters.is_piecewise_linear() {
+        let cycle = LinearCycle::new(parameters.d, parameters.r).ok();
+        return Ok(cycle.iter().map(Closing::from).collect());
+    }
+    if let Some(closing) = weak_closing(&parameters) {
+        return Ok(vec![closing]);
+    }
+    searched(equation, most, &[], limits)
+}
+
+impl From<&LinearCycle> for Closing {
+    fn from(cycle: &LinearCycle) -> Self {
+        let clearance = Length { value: cycle.clearance, log: cycle.log_clearance };
+        Closing::in_closed_form([clearance; 2], cycle.period, 0.0, cycle.v_max)
+    }
+}
+
+/// All closings, by amplitude.
+pub fn closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
+    searched(equation, usize::MAX, &[], limits)
+}
+
+/// All closings outside of the intervals of `ln c0` in which all are known, by amplitude.
+pub fn other_closings(
+    equation: &mut Equation,
+    known: &[(f64, f64)],
+    limits: &Limits,
+) -> Result<Vec<Closing>, Reason> {
+    searched(equation, usize::MAX, known, limits)
+}
+
+/// As many closings as are wanted, by amplitude, from the search outside of the `known` intervals.
+fn searched(
+    equation: &mut Equation,
+    most: usize,
+    known: &[(f64, f64)],
+    limits: &Limits,
+) -> Result<Vec<Closing>, Reason> {
+    /// A search takes some tens of thousands of evaluations; where it takes this many on one half map,
+    /// the flow is too stiff for it.
+    const BUDGET: u64 = 40_000_000;
+    let budget = limits.evaluations.min(BUDGET);
+    let limits = &Limits { evaluations: budget, interrupted: limits.interrupted };
+    let Parameters { d, .. } = equation.parameters;
+    // No swing of an overdamped linear motion comes back.
+    let never_back = equation.parameters.is_piecewise_linear() && d <= -1.0;
+    if never_back || is_one_way(&equation.parameters) {
+        return Ok(Vec::new());
+    }
+    let sought = "a limit cycle";
+    let low = lower_end(equation, limits)?;
+    equation.want_fastest(true);
+    let brackets = match low {
+        Some(low) => brackets(equation, low, most, known, limits)?,
+        None => Vec::new(),
+    };
+    let mut found = Vec::new();
+    for bracket in brackets {
+        let closing = polish(equation, bracket, limits)?;
+        // Where the second swing would have to start at the very end of the sticking set, nothing closes.
+        if closing.duration.is_finite() && found.len() < most {
+            let log_multiplier = closing.log_multiplier(&equation.parameters);
+            if !log_multiplier.is_finite() || loses_square(&closing, &equation.parameters) {
+                return Err(Reason::OutOfRange);
+            }
+            if closing.uncertainty > VAGUE && is_exact(equation) {
+                return Err(Reason::NoConvergence { sought, change: closing.uncertainty });
+            }
+            found.push(closing);
+        }
+    }
+    if known.is_empty() && found.is_empty() && has_cycle(&equation.parameters) {
+        return Err(Reason::OutOfRange);
+    }
+    // Between two cycles that both attract, or both repel, lies another one.
+    let stable = |closing: &Closing| closing.log_multiplier(&equation.parameters) < 0.0;
+    let alternate = found.windows(2).all(|pair| stable(&pair[0]) != stable(&pair[1]));
+    if known.is_empty() && !alternate {
+        let change = found.iter().fold(0.0, |most, it| it.uncertainty.max(most));
+        return Err(Reason::NoConvergence { sought, change });
+    }
+    Ok(found)
+}
+
+/// Whether cubic damping matters to the multiplier of a cycle the square of whose speed is too small a number.
+fn loses_square(closing: &Closing, parameters: &Parameters) -> bool {
+    /// Smaller ones have less than seven digits left.
+    const LEAST: f64 = 1e-315;
+    let Parameters { d, d3, .. } = *parameters;
+    let speed = closing.fastest[0].max(closing.fastest[1]);
+    closing.square < LEAST && d3.abs() * speed * speed > f64::EPSILON * d.abs()
+}
+
+/// The residual of the mixed route, with a sign that can be relied on.
+///
+/// Where rounding reaches it, the works are weighed; where they are not decisive either, the swings are
+/// computed in twice the working precision.
+fn resolved(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Node, Reason> {
+    /// How far beyond its error bound a residual is smooth enough to be interpolated.
+    const SMOOTH: f64 = 32.0;
+    let closing = equation.at(Route::Mixed, u, limits)?;
+    let node = closing.node;
+    let decided = |value: f64, noise: f64| value.is_nan() || value.abs() >= SMOOTH * noise;
+    let known = decided(node.value(), closing.noise) || !closing.duration.is_finite();
+    if known || !is_exact(equation) {
+        return Ok(node);
+    }
+    let (mut difference, mut noise) = (node.value(), closing.noise);
+    if let Some((weighed, bound)) = weighed_residual(equation, u, limits)?
+        && bound < noise
+    {
+        (difference, noise) = (weighed, bound);
+    }
+    if !decided(difference, noise) && FINER * closing.noise < noise {
+        let mut precise = PreciseEquation::new(&equation.parameters, equation.side);
+        let start = Twofold::of(closing.first.value);
+        let found = precise.at(Route::Mixed, start, limits);
+        equation.charge(precise.cost());
+        match found {
+            Ok(found) => difference = found.map_or(difference, |found| found.value),
+            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
+            // Too stiff, or out of range: doubles have to do.
+            Err(_) => {}
+        }
+    }
+    Ok(Node { difference, ..node })
+}
+
+/// Where the search begins, or `None` where no swing passes the sticking set.
+fn lower_end(equation: &mut Equation, limits: &Limits) -> Result<Option<f64>, Reason> {
+    /// Without friction the linear terms alone decide about amplitudes this much below balance.
+    const SMALL: f64 = 1e-4;
+    /// A step down in the logarithm that no rounding bridges.
+    const CLEARLY: f64 = 0.125;
+    let Parameters { d, d2, d3, r } = equation.parameters;
+    let smallest = equation.smallest_clearance(limits)?;
+    let mut rim = f64::NEG_INFINITY;
+    if d <= -1.0 && r > 0.0 {
+        let Some(bound) = equation.rim(limits)? else { return Ok(None) };
+        rim = bound;
+    }
+    Ok(smallest.map(|smallest| {
+        if rim > smallest.log {
+            rim - CLEARLY
+        } else if smallest.log.is_finite() {
+            // A cycle of large multiplier lies within rounding of it: begin clearly below.
+            smallest.log - CLEARLY
+        } else if r > 0.0 {
+            // Beyond critical damping a swing passes from any clearance, however small.
+            ln(SMALL * f64::EPSILON * r)
+        } else {
+            let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
+            ln(SMALL * d.abs().sqrt().min(1.0) * natural)
+        }
+    }))
+}
+
+/// Where the search ends if no escape ends it before.
+fn upper_end(parameters: &Parameters) -> f64 {
+    let Parameters { d, d2, d3, r } = *parameters;
+    if d3 != 0.0 {
+        f64::INFINITY
+    } else if d2 != 0.0 {
+        // A swing from far out forgets where it began as exp(-2 D2 c): beyond this all are one.
+        ln(60.0 / d2.abs() + 2.0 * r)
+    } else {
+        // The piecewise linear cycle is near 2 r/(pi abs(D)).
+        ln(2.0 * r / d.abs()) + 3.0
+    }
+}
+
+/// Marches outwards in `ln c0` until the end of the domain, leaving out the `known` intervals, and collects
+/// brackets of roots until there are as many as are wanted.
+fn brackets(
+    equation: &mut Equation,
+    low: f64,
+    most: usize,
+    known: &[(f64, f64)],
+    limits: &Limits,
+) -> Result<Vec<Bracket>, Reason> {
+    /// Tolerance of the steps of the search where the polish needs no coarser ones, and the blur of a
+    /// residual that comes of it, in units of the tolerance; weak damping makes residuals that small and
+    /// needs the steps of the polish from the beginning.
+    const ROUGH: f64 = 1e-8;
+    const BLUR: f64 = 1e3;
+    const WEAK: f64 = 0.01;
+    /// First stride and longest stride, in `ln c0`.
+    const STRIDES: (f64, f64) = (0.5, 2.0);
+    let high = upper_end(&equation.parameters);
+    let parameters = equation.parameters;
+    let fine = equation.tolerance();
+    let rough = fine.max(ROUGH);
+    let (step, blur) = if parameters.d.abs() < WEAK { (fine, 0.0) } else { (rough, BLUR * rough) };
+    let mut rough = equation.again(step);
+    let mut function = |u: f64, fine: bool| {
+        if fine {
+            resolved(equation, u, limits)
+        } else {
+            Ok(rough.at(Route::Mixed, u, limits)?.node)
+        }
+    };
+    let mut found = Vec::new();
+    // Where the next unknown interval begins, at or beyond a place.
+    let unknown = |mut at: f64| {
+        while let Some(&(_, to)) = known.iter().find(|(from, to)| *from <= at && at < *to) {
+            at = to;
+        }
+        at
+    };
+    let exact = blur == 0.0;
+    let (mut here, mut stride) = (function(unknown(low), exact)?, STRIDES.0);
+    while here.at < high {
+        let ahead = known.iter().map(|(from, _)| *from).filter(|from| *from > here.at);
+        let next = function(ahead.fold((here.at + stride).min(high), f64::min), exact)?;
+        search(here, next, blur, &mut function, &mut found)?;
+        let beyond = unknown(next.at);
+        here = if beyond > next.at { function(beyond, exact)? } else { next };
+        // A swing that never starts out, or never ends, is not an end of the domain: from further out it may.
+        let escapes = here.rise == f64::INFINITY || here.fall == f64::INFINITY;
+        // One of them may turn out to be no cycle.
+        if found.len() > most || (found.len() == most && parameters.d > -1.0) || escapes {
+            break;
+        }
+        stride = (1.5 * stride).min(STRIDES.1);
+    }
+    equation.charge(rough.cost());
+    Ok(found)
+}
+
+/// The bracket of the innermost closing, without any use of closed forms or of the parameters' D2: it serves an
+/// equation whose damping differs by side.
+pub(crate) fn innermost_bracket(
+    equation: &mut Equation,
+    limits: &Limits,
+) -> Result<Option<Bracket>, Reason> {
+    let Some(low) = lower_end(equation, limits)? else { return Ok(None) };
+    Ok(brackets(equation, low, 1, &[], limits)?.into_iter().next())
+}

@@ -1,0 +1,101 @@
+//! The closing of a cycle weighed as energy, for cycles whose multiplier is close to 1.
+//!
+//! As `D -> 0-` one turn changes the amplitude only by a factor of `1 + 2 pi abs(D)`, and the difference of two
+//! turning points keeps as few digits. The works over the turn keep all of theirs. With
+//! `K = (v^2/2 + x/(2 D2) - 1/(4 D2^2)) exp(2 D2 x)` (the first integral of the motion with D2 alone)
+//! `K' = -exp(2 D2 x) (2 D v^2 + D3 v^4)`, so that D2 itself, which takes on one side what it gives on
+//! the other, drops out; with D2 = 0, K is the energy. On `v = 0`, `dK/dx = x exp(2 D2 x)`. Adding both
+//! swings of a turn, what friction takes must equal what the damping gives:
+//!
+//! `integral of x exp(2 D2 x) over [c1, c1 + 2 r] + integral of x exp(-2 D2 x) over [c0, c0 + 2 r] = W`
+
+use super::equation::{Equation, Route};
+use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
+use super::pair::Closing;
+use super::roundoff::UNIT;
+use crate::flow::step::Stepper;
+use crate::flow::{Limits, Reason};
+use crate::model::HalfPlane;
+use crate::numerics::elementary::{exp, ln_1p};
+use crate::numerics::quadrature::{GAUSS, gauss};
+use crate::numerics::scaling::{exponent, times_power};
+
+/// A residual weighed as energy, and a bound on its error.
+pub type Weighed = (f64, f64);
+
+/// The residual of [`Route::Mixed`] at `u = ln c0`, with the digits that a difference would lose.
+///
+/// Beside it a bound on its error: each work is known to rounding. `None` where a swing does not end.
+pub fn weighed_residual(
+    equation: &mut Equation,
+    u: f64,
+    limits: &Limits,
+) -> Result<Option<Weighed>, Reason> {
+    Ok(weighed_closing(equation, u, limits)?.map(|(_, weighed)| weighed))
+}
+
+/// The same with the pair of swings that was weighed.
+pub fn weighed_closing(
+    equation: &mut Equation,
+    u: f64,
+    limits: &Limits,
+) -> Result<Option<(Closing, Weighed)>, Reason> {
+    let gap = 2.0 * equation.parameters.r;
+    let start = Length::from_log(u);
+    // Squares of lengths leave the range of numbers long before lengths do: all in units of the start.
+    let unit = exponent(start.value);
+    let [forward, backward] = equation.maps(Route::Mixed);
+    let Some((first, gained_first)) = weigh(forward, start, unit, limits)? else { return Ok(None) };
+    // Run backward, positions and damping change their signs; the work is that of the motion forward.
+    let Some((second, lost_second)) = weigh(backward, start.plus(gap), unit, limits)? else {
+        return Ok(None);
+    };
+    let d2 = times_power(forward.field().d2, unit);
+    let closing = equation.pair(start, first, second);
+    let [start, second, gap] =
+        [start.value, second.end.value, gap].map(|length| times_power(length, -unit));
+    let taken = friction(second, gap, d2) + friction(start, gap, -d2);
+    let target = second + gap;
+    let gained_second = -lost_second;
+    let weight = target * target * exp(2.0 * d2 * target);
+    let excess = (gained_first + gained_second - taken) / weight;
+    let noise = UNIT * (gained_first.abs() + gained_second.abs() + taken) / weight;
+    Ok(Some((closing, (ln_1p(excess), noise))))
+}
+
+/// Swings and integrates `-exp(2 D2 x) (2 D v^2 + D3 v^4)`, lengths measured in units of `2^measure`.
+fn weigh(
+    map: &mut HalfMap,
+    start: Length,
+    measure: i32,
+    limits: &Limits,
+) -> Result<Option<(HalfSwing, f64)>, Reason> {
+    let HalfPlane { d, d2, d3 } = map.field().in_units(measure);
+    let mut gained = 0.0;
+    // Every part of the swing counts: none may be skipped by a closed form.
+    let skipped = map.set_linear_below(0.0);
+    let swing = map.swing_watched(start, limits, |stepper, unit, duration| {
+        stepper.prepare_dense();
+        for &(node, weight) in &GAUSS {
+            let point = stepper.at(node * duration);
+            let (x, v) =
+                (times_power(point.x, unit - measure), times_power(point.v, unit - measure));
+            let square = v * v;
+            gained -= weight * duration * exp(2.0 * d2 * x) * square * (2.0 * d + d3 * square);
+        }
+    });
+    map.set_linear_below(skipped);
+    match swing {
+        Ok(swing) => Ok(Some((swing, gained))),
+        Err(NoEnd::Failed(reason)) => Err(reason),
+        Err(NoEnd::Escapes | NoEnd::Never) => Ok(None),
+    }
+}
+
+/// The integral of `x exp(2 d2 x)` over `[start, start + gap]`: what friction takes between two swings.
+fn friction(start: f64, gap: f64, d2: f64) -> f64 {
+    gap * gauss(|part| {
+        let x = start + part * gap;
+        x * exp(2.0 * d2 * x)
+    })
+}

@@ -1,0 +1,346 @@
+//! The half-swing map: from the clearance at which a swing starts to the position at which it ends.
+//!
+//! In the frame of a half plane a swing leads from `(-c, 0)` to `(X, 0)`. The map `c -> X` contains no
+//! friction; dry friction only turns the end of one swing into the start of the next, `c' = X - 2 r`.
+//! It is smooth, increasing and invertible, and its inverse is the same map of another field: with
+//! time reversed, `y = -x` obeys the equation of `-D, -D2, -D3`. So inverse half maps need no code of
+//! their own, and they contract where the forward map explodes.
+//!
+//! Lengths are carried with their logarithm. Near the end point of the sticking set the motion is a
+//! linear spiral that scales with `c` exactly, so a swing may start or end at lengths that underflow.
+
+use std::ops::ControlFlow;
+
+use super::roundoff::{Errors, Roundoff};
+use crate::closed_form::linear::first_standstill;
+use crate::flow::auto::Auto;
+use crate::flow::step::{Step, StepPoint, Stepper};
+use crate::flow::swing::{Failed, SwingEnd, is_escaping, swing};
+use crate::flow::{Cost, Limits, Reason};
+use crate::model::HalfPlane;
+use crate::numerics::elementary::{atan2, exp, hypot, ln, ln_1p, sin_cos};
+use crate::numerics::scaling::times_power;
+
+/// Below this fraction of its natural scale, in units of the tolerance of a step, the damping is linear to far
+/// below that tolerance.
+const LINEAR_BELOW: f64 = 1e-5;
+
+/// The least tolerance that counts there: rounding.
+const ROUNDING: f64 = 1e-16;
+
+/// A half swing longer than this is taken to never arrive; slow ones of 1e100 do (D3 = 1 from 1e150).
+const LONGEST: f64 = 1e300;
+
+/// The size below which the damping is linear for steps within the relative `tolerance`.
+pub fn linear_below(field: &HalfPlane, tolerance: f64) -> f64 {
+    let natural = (1.0 / field.d2.abs()).min(1.0 / field.d3.abs().sqrt());
+    LINEAR_BELOW * tolerance.max(ROUNDING) * natural
+}
+
+/// A positive length with its logarithm, which exists even where the length underflows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Length {
+    /// The length; 0 where it underflows.
+    pub value: f64,
+    /// Its natural logarithm.
+    pub log: f64,
+}
+
+impl Length {
+    /// No length at all.
+    pub const ZERO: Length = Length { value: 0.0, log: f64::NEG_INFINITY };
+
+    /// From a length.
+    pub fn new(value: f64) -> Self {
+        Length { value, log: ln(value) }
+    }
+
+    /// From the logarithm of a length.
+    pub fn from_log(log: f64) -> Self {
+        Length { value: exp(log), log }
+    }
+
+    /// Difference of the logarithms, which is the relative difference where that is small.
+    pub fn apart(self, other: Self) -> f64 {
+        if self.log == other.log { 0.0 } else { (self.log - other.log).abs() }
+    }
+
+    /// This length and another one put together.
+    pub fn plus(self, more: f64) -> Self {
+        if more == 0.0 { self } else { Length::new(self.value + more) }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSwing {
+    /// Clearance at which it starts: at `(-start, 0)`.
+    pub start: Length,
+    /// Position at which it ends: at `(end, 0)`.
+    pub end: Length,
+    /// How long it takes.
+    pub duration: f64,
+    /// Integral of `v^2` (0 for a linear field, where nothing needs it).
+    pub square: f64,
+    /// Largest v, if asked for.
+    pub fastest: f64,
+    /// Logarithm of the elasticity of the map, `d ln(end) / d ln(start)`.
+    ///
+    /// From the divergence with the turning points built in (Liouville): `dX/dc = (c/X) exp(integral of
+    /// the divergence)`; the D2 part of the integral is exact because the integral of v is `X + c`.
+    pub log_elasticity: f64,
+    /// What rounding does to these numbers, and a relative error 1 of the start; zero unless asked for.
+    pub errors: [Errors; 2],
+}
+
+/// Why a half swing has no end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoEnd {
+    /// The velocity runs to infinity.
+    Escapes,
+    /// The motion creeps towards the centre of its spiral and never arrives at `v = 0`.
+    Never,
+    /// The computation failed.
+    Failed(Reason),
+}
+
+/// The half-swing map of one field.
+#[derive(Clone, Debug)]
+pub struct HalfMap {
+    field: HalfPlane,
+    stepper: Auto,
+    /// Relative error of a step.
+    tolerance: f64,
+    /// States smaller than this move linearly.
+    linear_below: f64,
+    /// Whether to find the largest velocity of each swing, and the errors of its numbers.
+    pub fastest: bool,
+    steps: u64,
+    /// Swings computed so far.
+    pub swings: u64,
+}
+
+impl HalfMap {
+    /// The map of this field, each step within the relative `tolerance`.
+    pub fn new(field: HalfPlane, tolerance: f64) -> Self {
+        Self::integrating_above(linear_below(&field, tolerance), field, tolerance)
+    }
+
+    /// The same map, integrated step by step wherever the state is larger than `linear_below`.
+    pub fn integrating_above(linear_below: f64, field: HalfPlane, tolerance: f64) -> Self {
+        let stepper = Auto::new(tolerance);
+        // A node that repels has no part worth skipping.
+        let linear_below = if field.d > -1.0 { linear_below } else { 0.0 };
+        HalfMap { field, stepper, tolerance, linear_below, fastest: false, steps: 0, swings: 0 }
+    }
+
+    /// Changes the size below which the motion is taken to be linear; returns the former one.
+    pub fn set_linear_below(&mut self, bound: f64) -> f64 {
+        std::mem::replace(&mut self.linear_below, bound)
+    }
+
+    /// Relative error of a step.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    pub fn field(&self) -> &HalfPlane {
+        &self.field
+    }
+
+    /// What the swings so far cost.
+    pub fn cost(&self) -> Cost {
+        Cost {
+            evaluations: self.stepper.evaluations(),
+            steps: self.steps,
+            rejected: self.stepper.rejected(),
+        }
+    }
+
+    /// Swings from `(-start, 0)`, handing each step to `watch` as (stepper, unit exponent, duration). Fails with
+    /// [`NoEnd`] if the motion does not come back to `v = 0`.
+    pub fn swing_watched(
+        &mut self,
+        start: Length,
+        limits: &Limits,
+        watch: impl FnMut(&mut Auto, i32, f64),
+    ) -> Result<HalfSwing, NoEnd> {
+        self.run(start, true, limits, watch)
+    }
+
+    /// The same; a motion that is certain to escape is followed further only if its `tail` is wanted.
+    fn run(
+        &mut self,
+        start: Length,
+        tail: bool,
+        limits: &Limits,
+        mut watch: impl FnMut(&mut Auto, i32, f64),
+    ) -> Result<HalfSwing, NoEnd> {
+        self.swings += 1;
+        // A swing in closed form takes no steps, but thousands of them take time.
+        if (limits.interrupted)() {
+            return Err(NoEnd::Failed(Reason::Interrupted));
+        }
+        let spent = self.stepper.evaluations() + self.swings;
+        if spent > limits.evaluations {
+            return Err(NoEnd::Failed(Reason::Budget { evaluations: spent }));
+        }
+        let mut leg = Leg { point: StepPoint { x: -start.value, v: 0.0 }, duration: 0.0 };
+        if self.linear_below > 0.0 && self.field.d < 1.0 {
+            match Spiral::of(self.field.d).grow(start, self.linear_below) {
+                Growth::Whole(end, duration) => {
+                    let fastest = Spiral::of(self.field.d).fastest(start);
+                    let errors = Roundoff::closed(end.log, duration, fastest);
+                    return Ok(self.finish(start, end, duration, 0.0, fastest, errors));
+                }
+                Growth::Until(grown) => leg = grown,
+            }
+        }
+        let (mut square, mut fastest) = (0.0, 0.0_f64);
+        let skipped = (start.log, leg.point, leg.duration);
+        let mut roundoff = self.fastest.then(|| Roundoff::new(self.field, self.tolerance, skipped));
+        let nonlinear = !self.field.is_linear();
+        let (field, mut escapes) = (self.field, false);
+        // Once small, a decaying motion stays small and is linear to its end.
+        let small = if self.field.d >= 0.0 { self.linear_below } else { 0.0 };
+        let mut see = |stepper: &mut Auto, _: f64, unit: i32, step: &Step| {
+            let mut squared = 0.0;
+            if nonlinear {
+                squared = stepper.square_integral();
+                square += times_power(times_power(squared, unit), unit);
+            }
+            if let Some(roundoff) = &mut roundoff {
+                let largest = stepper.fastest();
+                if let Some(v) = largest {
+                    fastest = fastest.max(times_power(v, unit));
+                }
+                roundoff.step(unit, step, squared, largest);
+            }
+            watch(stepper, unit, step.duration);
+            if step.crossed {
+                return ControlFlow::Continue(());
+            }
+            escapes = !tail && is_escaping(&field.in_units(unit), step.end);
+            if escapes || times_power(step.end.size(), unit) < small {
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
+        };
+        let done = match swing(
+            &mut self.stepper,
+            &self.field,
+            (leg.point, 0),
+            LONGEST,
+            limits,
+            &mut see,
+        ) {
+            Ok(done) => done,
+            Err(Failed { reason, steps, .. }) => {
+                self.steps += steps;
+                return Err(NoEnd::Failed(reason));
+            }
+        };
+        self.steps += done.steps;
+        let duration = leg.duration + done.duration;
+        let (end, rest) = match done.end {
+            SwingEnd::Crossing { x } => (Length::new(x), 0.0),
+            SwingEnd::Escape => return Err(NoEnd::Escapes),
+            SwingEnd::Stopped { .. } if escapes => return Err(NoEnd::Escapes),
+            SwingEnd::Stopped { point } if point.size() < small => {
+                if self.field.d < 1.0 {
+                    Spiral::of(self.field.d).arrive(point)
+                } else {
+                    let end = first_standstill(self.field.d, point.x, point.v);
+                    end.map(|end| (Length::new(end.x), end.time)).ok_or(NoEnd::Never)?
+                }
+            }
+            SwingEnd::Stopped { .. } => return Err(NoEnd::Never),
+        };
+        let errors = roundoff.map(|roundoff| roundoff.done(&self.field, end.log, rest));
+        let errors = errors.unwrap_or_default();
+        Ok(self.finish(start, end, duration + rest, square, fastest, errors))
+    }
+
+    /// Swings from `(-start, 0)`. Fails with [`NoEnd`] if the motion does not come back to `v = 0`.
+    pub fn swing(&mut self, start: Length, limits: &Limits) -> Result<HalfSwing, NoEnd> {
+        self.run(start, false, limits, |_, _, _| {})
+    }
+
+    fn finish(
+        &self,
+        start: Length,
+        end: Length,
+        duration: f64,
+        square: f64,
+        fastest: f64,
+        errors: [Errors; 2],
+    ) -> HalfSwing {
+        let HalfPlane { d, d2, d3 } = self.field;
+        let path = start.value + end.value;
+        let divergence = -2.0 * d * duration - 2.0 * d2 * path - 3.0 * d3 * square;
+        let log_elasticity = 2.0 * (start.log - end.log) + divergence;
+        HalfSwing { start, end, duration, square, fastest, log_elasticity, errors }
+    }
+}
+
+/// A state and when it was reached.
+struct Leg {
+    point: StepPoint,
+    duration: f64,
+}
+
+/// How far the linear part of a swing goes.
+enum Growth {
+    /// To its end: position and duration.
+    Whole(Length, f64),
+    /// Until the state is no longer small.
+    Until(Leg),
+}
+
+/// The linear spiral about the centre of a half plane, `abs(D) < 1`.
+struct Spiral {
+    d: f64,
+    omega: f64,
+}
+
+impl Spiral {
+    fn of(d: f64) -> Self {
+        Spiral { d, omega: ((1.0 - d) * (1.0 + d)).sqrt() }
+    }
+
+    /// Largest v of the spiral from `(-start, 0)` (equation 33, corrected).
+    fn fastest(&self, start: Length) -> f64 {
+        exp(start.log - self.d * atan2(self.omega, self.d) / self.omega)
+    }
+
+    /// Follows the spiral from `(-start, 0)` while it is smaller than `bound`.
+    fn grow(&self, start: Length, bound: f64) -> Growth {
+        let half_turn = std::f64::consts::PI / self.omega;
+        // The spiral scales as e^(-D t); beside this factor it is at most 1 + t in size.
+        let room = ln(bound) - start.log - ln_1p(half_turn);
+        if room <= 0.0 {
+            return Growth::Until(Leg {
+                point: StepPoint { x: -start.value, v: 0.0 },
+                duration: 0.0,
+            });
+        }
+        if -self.d * half_turn <= room {
+            return Growth::Whole(Length::from_log(start.log - self.d * half_turn), half_turn);
+        }
+        let time = room / -self.d;
+        let (sine, cosine) = sin_cos(self.omega * time);
+        let size = exp(start.log + room);
+        let velocity = sine / self.omega;
+        let point = StepPoint { x: -size * (cosine + self.d * velocity), v: size * velocity };
+        Growth::Until(Leg { point, duration: time })
+    }
+
+    /// Follows the spiral from a point with `v > 0` to `v = 0`: position there, and duration.
+    ///
+    /// `x^2 + 2 D x v + v^2` decays as `e^(-2 D t)` exactly and equals `x^2` at the end.
+    fn arrive(&self, point: StepPoint) -> (Length, f64) {
+        let along = point.x + self.d * point.v;
+        let across = self.omega * point.v;
+        let time = atan2(across, along) / self.omega;
+        (Length::from_log(ln(hypot(along, across)) - self.d * time), time)
+    }
+}

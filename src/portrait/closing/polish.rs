@@ -1,0 +1,346 @@
+//! A closed pair of half swings, from a bracket to rounding.
+//!
+//! Newton's method in the logarithm of the clearance, along the route that contracts; weighed as energy
+//! ([`super::balance`]) where the multiplier is close to 1, and in twice the working precision
+//! ([`super::precise`]) where doubles leave too few digits.
+
+use super::balance::weighed_closing;
+use super::equation::{Equation, Route};
+use super::half_map::Length;
+use super::pair::Closing;
+use super::precise::{FINER, PreciseEquation};
+use super::search::{Bracket, Node};
+use crate::flow::{Limits, Reason};
+use crate::numerics::elementary::exp_m1;
+use crate::numerics::root::{self, try_newton};
+use crate::numerics::twofold::Twofold;
+
+/// Slope of the residual below which it is weighed as energy.
+const FLAT: f64 = 0.3;
+
+/// Relative error of a clearance above which it is computed to more digits.
+const SHARP: f64 = 1e-8;
+
+/// Relative error of a clearance above which it is not an answer.
+pub(crate) const VAGUE: f64 = 1e-3;
+
+/// Newton steps without progress, all within the error bound of the residual, that are enough.
+const STALLS: u8 = 4;
+
+/// Whether rounding is what limits an equation, so that weighing works and more digits help.
+pub(crate) fn is_exact(equation: &Equation) -> bool {
+    equation.tolerance() <= 4.0 * f64::EPSILON && equation.is_of_one_motion()
+}
+
+/// The closing in a bracket, to rounding where doubles allow it, else in twice the working precision. Fails with
+/// the [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
+pub fn polish(
+    equation: &mut Equation,
+    bracket: Bracket,
+    limits: &Limits,
+) -> Result<Closing, Reason> {
+    polish_within(equation, bracket, SHARP, limits)
+}
+
+/// The same, to more digits only where doubles leave a larger relative error than `sharp`.
+fn polish_within(
+    equation: &mut Equation,
+    bracket: Bracket,
+    sharp: f64,
+    limits: &Limits,
+) -> Result<Closing, Reason> {
+    let start = near_root(equation, &bracket, limits)?;
+    polish_from(equation, start, bracket, sharp, limits)
+}
+
+/// A place to begin with, and whether the residual is so flat there that it is weighed as energy.
+type Guess = (f64, bool);
+
+/// The same by Newton's method from `start`.
+fn polish_from(
+    equation: &mut Equation,
+    start: Guess,
+    bracket: Bracket,
+    sharp: f64,
+    limits: &Limits,
+) -> Result<Closing, Reason> {
+    let rough = newton(equation, start, bracket, limits)?;
+    let worst = rough.spread().clearance.into_iter().fold(rough.uncertainty, f64::max);
+    if worst <= sharp || !is_exact(equation) {
+        return Ok(rough);
+    }
+    Ok(sharpen(equation, &rough, bracket, limits)?.unwrap_or(rough))
+}
+
+/// The closing next to `u`, known to have a multiplier near this one, by [`polish`]; `None` where doubles and thirty
+/// digits leave it vague. More digits than doubles have are asked for a relative error of `sharp` only.
+pub fn polish_near(
+    equation: &mut Equation,
+    u: f64,
+    log_multiplier: f64,
+    sharp: f64,
+    limits: &Limits,
+) -> Result<Option<Closing>, Reason> {
+    /// How far in `ln c0` the guess may be off: where another cycle may be near, and where none is.
+    const WIDTHS: (f64, f64) = (0.05, 0.5);
+    let width = if log_multiplier.abs() < 1.0 { WIDTHS.0 } else { WIDTHS.1 };
+    let sign = log_multiplier.signum();
+    let end = |sign: f64, side: f64| Node::new(u + side * width, sign * side * width, 0.0, sign);
+    equation.want_fastest(true);
+    let bracket = (end(sign, -1.0), end(sign, 1.0));
+    let start = (u, log_multiplier.abs() < FLAT);
+    let closing = polish_from(equation, start, bracket, sharp, limits)?;
+    let moved = (closing.node.at - u).abs();
+    Ok(Some(closing)
+        .filter(|it| it.uncertainty <= VAGUE && moved < 0.9 * width && it.duration.is_finite()))
+}
+
+/// Newton's method on the contracting route, inside the bracket.
+fn newton(
+    equation: &mut Equation,
+    start: Guess,
+    bracket: Bracket,
+    limits: &Limits,
+) -> Result<Closing, Reason> {
+    /// How far off coarse steps may put a cliff of the residual, such as the edge of an escape, and its slope.
+    const SLACK: f64 = 1e-6;
+    const STEEP: f64 = 1e3;
+    /// No change ends the method by itself: what ends it depends on noise.
+    const NEVER: f64 = -1.0;
+    let rising = bracket.1.value() > bracket.0.value();
+    let (mut low, mut high) = (bracket.0.at, bracket.1.at);
+    if (bracket.1.value() - bracket.0.value()).abs() > STEEP * (high - low) {
+        (low, high) = (low - SLACK, high + SLACK);
+    }
+    let ends = root::Bracket { low, high, rising };
+    let mut steps = Steps::new(equation, beyond_the_end(&bracket), start.1);
+    let found =
+        try_newton(ends, start.0, root::PlaceTolerance::Absolute(NEVER), |u| steps.at(u, limits));
+    let Steps { settled, change, .. } = steps;
+    let lost = Reason::NoConvergence { sought: "a limit cycle", change };
+    match found {
+        Err(Some(reason)) => Err(reason),
+        Err(None) => settled.ok_or(lost),
+        Ok(root) => {
+            let width = root.bracket.high - root.bracket.low;
+            let narrow = width <= 2.0 * f64::EPSILON * root.at.abs();
+            if narrow { closest(equation, root.at, limits) } else { Err(lost) }
+        }
+    }
+}
+
+/// The evaluations of Newton's method, and what they tell about where it ends.
+struct Steps<'a> {
+    equation: &'a mut Equation,
+    route: Route,
+    /// Whether the residual is to be weighed as energy next time.
+    weigh: bool,
+    /// Newton's last change of the unknown.
+    change: f64,
+    stalls: u8,
+    /// The closing at which the method ends.
+    settled: Option<Closing>,
+}
+
+impl<'a> Steps<'a> {
+    fn new(equation: &'a mut Equation, route: Route, weigh: bool) -> Self {
+        Steps { equation, route, weigh, change: f64::INFINITY, stalls: 0, settled: None }
+    }
+
+    /// The residual and its slope at `u`; an error without a reason once the closing there is settled.
+    fn at(&mut self, u: f64, limits: &Limits) -> Result<(f64, f64), Option<Reason>> {
+        let (mut closing, mut energy) = self.closing(u, limits).map_err(Some)?;
+        let ends = closing.duration.is_finite();
+        let flat = self.route == Route::Mixed && closing.node.slope.abs() < FLAT;
+        self.weigh = flat && ends;
+        if self.weigh && energy.is_none() {
+            let weighed = weighed_closing(self.equation, u, limits).map_err(Some)?;
+            energy = weighed.map(|(_, energy)| energy);
+        }
+        // The closing keeps the plain residual.
+        let mut node = closing.node;
+        if self.weigh
+            && let Some((weighed, noise)) = energy
+        {
+            node.difference = weighed;
+            closing.uncertainty = (weighed.abs() + noise) / node.slope.abs();
+        }
+        let (value, slope) = (node.value(), node.slope);
+        let newton = u - value / slope;
+        let last = std::mem::replace(&mut self.change, (newton - u).abs());
+        let change = self.change;
+        // Rounding moves the root by an ulp, divided by the slope where the residual is a plain
+        // difference. A weighed one does better: it continues while it does.
+        let rounding = 4.0 * f64::EPSILON * u.abs().max(1.0);
+        let blurred = change.is_finite() && change <= rounding / slope.abs().min(1.0);
+        // Where rounding of the swings is larger than that, Newton's method stops making progress.
+        let idle = change >= 0.5 * last;
+        self.stalls += u8::from(idle && change <= closing.noise / slope.abs());
+        let stalled = (idle && change <= 16.0 * rounding) || self.stalls >= STALLS;
+        let settled = change <= rounding || stalled || (blurred && (!flat || idle));
+        if settled && value.is_finite() {
+            self.settled = Some(closing);
+            return Err(None);
+        }
+        Ok((value, slope))
+    }
+
+    /// The closing at `u` along the route that contracts, and what it is weighed as.
+    fn closing(
+        &mut self,
+        u: f64,
+        limits: &Limits,
+    ) -> Result<(Closing, Option<(f64, f64)>), Reason> {
+        let mut switched = false;
+        loop {
+            let route = self.route;
+            let weighed = if self.weigh && route == Route::Mixed {
+                weighed_closing(self.equation, u, limits)?
+            } else {
+                None
+            };
+            let (closing, energy) = match weighed {
+                Some((closing, energy)) => (closing, Some(energy)),
+                None => (self.equation.at(route, u, limits)?, None),
+            };
+            // Where two routes contract alike each may say that the other is better: move on regardless.
+            if switched {
+                return Ok((closing, energy));
+            }
+            let finite = closing.node.value().is_finite();
+            self.route = if finite {
+                Route::steadiest(closing.growth)
+            } else if route != Route::Mixed {
+                Route::Mixed
+            } else if closing.node.rise == f64::INFINITY {
+                // Beyond the domain of one swing a route that runs it the other way has a value.
+                Route::Backward
+            } else {
+                Route::Forward
+            };
+            if self.route == route || (!finite && route != Route::Mixed) {
+                return Ok((closing, energy));
+            }
+            switched = true;
+        }
+    }
+}
+
+/// The route to begin with: where one swing has no end on one side of the bracket, the one that runs it the
+/// other way, and contracts there.
+fn beyond_the_end((low, high): &Bracket) -> Route {
+    if low.rise == f64::INFINITY || high.rise == f64::INFINITY {
+        Route::Backward
+    } else if low.fall == f64::INFINITY || high.fall == f64::INFINITY {
+        Route::Forward
+    } else {
+        Route::Mixed
+    }
+}
+
+/// The closing at an unknown known to rounding, by the route on which it is known best.
+///
+/// A swing that magnifies rounding beyond its own size, such as one along the border of escape, is of no
+/// use forward: backward it contracts.
+fn closest(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Closing, Reason> {
+    let mut best: Option<Closing> = None;
+    for route in [Route::Mixed, Route::Backward, Route::Forward] {
+        let closing = equation.at(route, u, limits)?;
+        let worst =
+            |it: &Closing| if it.node.value().is_finite() { it.uncertainty } else { f64::INFINITY };
+        if best.as_ref().is_none_or(|best| worst(&closing) < worst(best)) {
+            best = Some(closing);
+        }
+    }
+    best.ok_or(Reason::NoConvergence { sought: "a limit cycle", change: f64::INFINITY })
+}
+
+/// The same closing in twice the working precision; `None` where that is not possible either.
+///
+/// Newton's method, then secants, in the bracket, along the route on which rounding grows least.
+fn sharpen(
+    equation: &mut Equation,
+    rough: &Closing,
+    bracket: Bracket,
+    limits: &Limits,
+) -> Result<Option<Closing>, Reason> {
+    /// Steps, and the relative change of the last one.
+    const STEPS: usize = 20;
+    const SETTLED: f64 = 1e-17;
+    let route = Route::steadiest(rough.growth);
+    let rising = bracket.1.value() > bracket.0.value();
+    let mut precise = PreciseEquation::new(&equation.parameters, equation.side);
+    let seen = equation.at(route, rough.node.at, limits)?;
+    let mut slope = seen.node.slope;
+    // The unknown is the start of the rough closing times e^s.
+    let start = Twofold::of(Length::from_log(rough.node.at).value);
+    // Its ends were decided by doubles, which may have been too few.
+    let slack = 2.0 * rough.uncertainty.min(1.0);
+    let (low, high) =
+        ((bracket.0.at - rough.node.at).min(-slack), (bracket.1.at - rough.node.at).max(slack));
+    let mut ends = root::Bracket { low, high, rising };
+    let (mut s, mut before, mut found) = (0.0_f64, None::<(f64, f64)>, None);
+    for _ in 0..STEPS {
+        let here = start.plus(start.times(exp_m1(s)));
+        let residual = match precise.at(route, here, limits) {
+            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
+            Ok(Some(residual)) => residual,
+            Ok(None) | Err(_) => break,
+        };
+        if let Some((there, value)) = before.filter(|(there, _)| *there != s) {
+            slope = (residual.value - value) / (s - there);
+        }
+        before = Some((s, residual.value));
+        ends.narrow(s, residual.value);
+        let newton = s - residual.value / slope;
+        let change = (newton - s).abs();
+        if change <= SETTLED || residual.value == 0.0 || ends.high - ends.low <= SETTLED {
+            found = Some((here, residual, change));
+            break;
+        }
+        s = ends.inside(newton);
+    }
+    equation.charge(precise.cost());
+    let Some((first, residual, change)) = found else { return Ok(None) };
+    let closing = equation.from(route, Length::new(first.value()), limits)?;
+    let uncertainty = change + FINER * closing.noise / slope.abs();
+    let passed = FINER * closing.errors()[0].clearance[1];
+    let numbers = (first.value(), residual.second, residual.duration);
+    Ok(Some(closing.sharpened(numbers, [uncertainty, passed])))
+}
+
+/// A place near the root in a bracket, by Newton's method with integration steps that are coarser than those of the
+/// equation and cost half as much.
+fn near_root(equation: &mut Equation, bracket: &Bracket, limits: &Limits) -> Result<Guess, Reason> {
+    /// Tolerance of the coarse steps, how many of them, and the change of the unknown that is theirs.
+    const COARSE: f64 = 1e-8;
+    const STEPS: usize = 3;
+    const SETTLED: f64 = 1e-4;
+    let (mut u, mut flat) = (secant(bracket), false);
+    if !is_exact(equation) {
+        return Ok((u, flat));
+    }
+    let (mut coarse, route) = (equation.again(COARSE), beyond_the_end(bracket));
+    for _ in 0..STEPS {
+        let node = coarse.at(route, u, limits)?.node;
+        let change = -node.value() / node.slope;
+        let inside = u + change > bracket.0.at && u + change < bracket.1.at;
+        if !inside {
+            break;
+        }
+        u += change;
+        flat = node.slope.abs() < FLAT;
+        if change.abs() <= SETTLED {
+            break;
+        }
+    }
+    equation.charge(coarse.cost());
+    Ok((u, flat))
+}
+
+/// Where the line through both ends of a bracket vanishes; its middle where an end is infinite.
+fn secant((low, high): &Bracket) -> f64 {
+    let middle = 0.5 * (low.at + high.at);
+    let secant = low.at - low.value() * (high.at - low.at) / (high.value() - low.value());
+    if secant > low.at && secant < high.at { secant } else { middle }
+}

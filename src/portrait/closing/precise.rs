@@ -1,0 +1,119 @@
+//! The closing equation in numbers of twice the working precision, for where doubles cannot decide.
+//!
+//! Next to a fold two cycles nearly cancel the residual between them; next to the escape point swings from
+//! and to infinity differ by as little as the parameter does; beyond critical negative damping a cycle
+//! may graze the sticking set. There the residual is smaller than the rounding of a double. Thirty digits tell
+//! on which side of each such place a double lies, and fix the cycle itself to all digits of a double.
+
+use super::equation::Route;
+use crate::flow::precise::{Grain, half_swing};
+use crate::flow::trajectory::Cost;
+use crate::flow::{Limits, Reason};
+use crate::model::{HalfPlane, Parameters, Side};
+use crate::numerics::elementary::ln_1p;
+use crate::numerics::twofold::Twofold;
+
+/// Rounding and truncation here, as a fraction of those of a double, with a few digits to spare.
+pub const FINER: f64 = 1e-12;
+
+/// Truncation well below that.
+const GRAIN: Grain = Grain { order: 30, tolerance: 1e-29 };
+
+/// What an evaluation costs in units of one in doubles.
+const COSTLIER: u64 = 100;
+
+/// Maximum number of evaluations of one swing.
+const BUDGET: u64 = 20_000;
+
+/// Both swings of a turn, in either direction.
+#[derive(Clone, Debug)]
+pub struct PreciseEquation {
+    fields: [HalfPlane; 2],
+    gap: Twofold,
+    cost: Cost,
+}
+
+/// How far two swings are from closing.
+#[derive(Clone, Copy, Debug)]
+pub struct ClosingResidual {
+    /// The residual of the route, as a closing in doubles has it.
+    pub value: f64,
+    /// Clearance at which the second swing starts.
+    pub second: f64,
+    /// Duration of both.
+    pub duration: f64,
+}
+
+impl PreciseEquation {
+    /// The equation with the first swing on a given side.
+    pub fn new(parameters: &Parameters, side: Side) -> Self {
+        let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
+        PreciseEquation { fields, gap: Twofold::of(2.0 * parameters.r), cost: Cost::default() }
+    }
+
+    /// What it cost, in evaluations of a double.
+    pub fn cost(&self) -> Cost {
+        Cost { evaluations: COSTLIER * self.cost.evaluations, ..self.cost }
+    }
+
+    fn swing(
+        &mut self,
+        index: usize,
+        forward: bool,
+        start: Twofold,
+        limits: &Limits,
+    ) -> Result<Option<(Twofold, Twofold)>, Reason> {
+        let field = self.fields[index];
+        let field = if forward { field } else { field.reversed() };
+        let mut cost = Cost::default();
+        let limits = Limits { evaluations: BUDGET, interrupted: limits.interrupted };
+        let found = half_swing(field, start, GRAIN, &mut cost, &limits);
+        self.cost += cost;
+        found
+    }
+
+    /// The residual at a clearance of the first swing; `None` where a swing escapes or is captured.
+    pub fn at(
+        &mut self,
+        route: Route,
+        start: Twofold,
+        limits: &Limits,
+    ) -> Result<Option<ClosingResidual>, Reason> {
+        let gap = self.gap;
+        let positive = |length: Twofold| Some(length).filter(|length| length.high > 0.0);
+        let (second, times, difference, unit) = match route {
+            Route::Mixed | Route::Backward => {
+                let back = self.swing(1, false, start.plus(gap), limits)?;
+                let Some((second, time)) = back else { return Ok(None) };
+                let target = second.plus(gap);
+                if route == Route::Mixed {
+                    let Some((end, other)) = self.swing(0, true, start, limits)? else {
+                        return Ok(None);
+                    };
+                    (second, [time, other], end.minus(target), target)
+                } else {
+                    let Some((end, other)) = self.swing(0, false, target, limits)? else {
+                        return Ok(None);
+                    };
+                    (second, [time, other], start.minus(end), end)
+                }
+            }
+            Route::Forward => {
+                let Some((end, time)) = self.swing(0, true, start, limits)? else {
+                    return Ok(None);
+                };
+                let Some(second) = positive(end.minus(gap)) else { return Ok(None) };
+                let Some((end, other)) = self.swing(1, true, second, limits)? else {
+                    return Ok(None);
+                };
+                let Some(end) = positive(end.minus(gap)) else { return Ok(None) };
+                (second, [time, other], end.minus(start), start)
+            }
+        };
+        let value = ln_1p(difference.over(unit).value());
+        let duration = times[0].plus(times[1]).value();
+        let residual = ClosingResidual { value, second: second.value(), duration };
+        let sound = value.is_finite() && residual.second > 0.0;
+        Ok(sound.then_some(residual))
+    }
+}

@@ -1,0 +1,244 @@
+//! The return map: from a turning point to the next one on the same side, two half swings later.
+//!
+//! A motion turns on `v = 0`, on the right and on the left in turn, until a turning point lies on the
+//! sticking set: there it stays. So a turning point at rest is its own image, and a motion that is
+//! captured on the other side has the place of its rest for its next turning point. Fixed points beyond
+//! the sticking set are the limit cycles; the slope there is the Floquet multiplier.
+//!
+//! With D2 = D3 = 0 every half swing is the closed form (29), and nothing is integrated.
+
+use super::half_map::{HalfMap, Length, NoEnd};
+use crate::flow::{Cost, Limits, Reason};
+use crate::model::{HalfPlane, Parameters, Side};
+
+/// Tolerance of the integration steps.
+const STEP: f64 = 1e-13;
+
+/// A turning point and the next one on the same side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Return {
+    /// Displacement of the turning point.
+    pub from: f64,
+    /// Displacement of the next one; `None` if the motion escapes, or creeps and never turns.
+    pub to: Option<f64>,
+}
+
+/// The return map over an interval of displacements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReturnMap {
+    /// The parameters.
+    pub parameters: Parameters,
+    /// Turning points on the left and on the right, each side in the order of its clearance.
+    pub sides: [Vec<Return>; 2],
+    /// What it cost.
+    pub cost: Cost,
+}
+
+/// Computes the return map of turning points within `range`, at `count` points on each side and at the
+/// borders of capture: where the map has kinks.
+///
+/// # Errors
+/// The [`Reason`] why a half swing failed; escape is not an error.
+pub fn return_map(
+    parameters: &Parameters,
+    range: (f64, f64),
+    count: u16,
+    limits: &Limits,
+) -> Result<ReturnMap, Reason> {
+    let mut cost = Cost::default();
+    let mut side = |side: Side| {
+        // Turning points on the right enter the lower half plane.
+        let (near, far) = match side {
+            Side::Lower => range,
+            Side::Upper => (-range.1, -range.0),
+        };
+        let mut turns = Turns::new(parameters, side);
+        let found = turns.between(near.max(parameters.r), far, count, limits);
+        cost += turns.cost();
+        found
+    };
+    let sides = [side(Side::Upper)?, side(Side::Lower)?];
+    Ok(ReturnMap { parameters: *parameters, sides, cost })
+}
+
+/// The two half swings that lead from a turning point on one side back to that side.
+struct Turns {
+    r: f64,
+    /// The side of the first half swing.
+    side: Side,
+    forward: [HalfMap; 2],
+    backward: [HalfMap; 2],
+}
+
+impl Turns {
+    fn new(parameters: &Parameters, side: Side) -> Self {
+        let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
+        Turns {
+            r: parameters.r,
+            side,
+            forward: fields.map(|field| HalfMap::new(field, STEP)),
+            backward: fields.map(|field| HalfMap::new(field.reversed(), STEP)),
+        }
+    }
+
+    fn cost(&self) -> Cost {
+        let mut cost = Cost::default();
+        for map in self.forward.iter().chain(&self.backward) {
+            cost += map.cost();
+        }
+        cost
+    }
+
+    /// The map at evenly spaced distances from zero, both ends included, and at its kinks.
+    fn between(
+        &mut self,
+        near: f64,
+        far: f64,
+        count: u16,
+        limits: &Limits,
+    ) -> Result<Vec<Return>, Reason> {
+        if near >= far {
+            return Ok(Vec::new());
+        }
+        let part = |index: u16| f64::from(index) / f64::from(count.max(2) - 1);
+        let mut starts: Vec<f64> =
+            (0..count.max(2)).map(|index| near + (far - near) * part(index)).collect();
+        starts.extend(self.kinks(limits)?.into_iter().filter(|kink| near < *kink && *kink < far));
+        starts.sort_by(f64::total_cmp);
+        starts.dedup();
+        let outward = -self.side.sign();
+        let at = |start: f64| {
+            let to = self.next(start - self.r, limits)?;
+            Ok(Return { from: outward * start, to })
+        };
+        starts.into_iter().map(at).collect()
+    }
+
+    /// The next turning point of a motion that starts with this clearance.
+    fn next(&mut self, clearance: f64, limits: &Limits) -> Result<Option<f64>, Reason> {
+        let (r, side) = (self.r, self.side);
+        if clearance <= 0.0 {
+            return Ok(Some(-side.sign() * r));
+        }
+        let Some(first) = end(&mut self.forward[0], Length::new(clearance), limits)? else {
+            return Ok(None);
+        };
+        if first.value <= 2.0 * r {
+            return Ok(Some(side.displacement(first.value, r)));
+        }
+        let second = end(&mut self.forward[1], Length::new(first.value - 2.0 * r), limits)?;
+        Ok(second.map(|second| side.opposite().displacement(second.value, r)))
+    }
+
+    /// Distances from zero of the turning points that are captured on an end of the sticking set: by the
+    /// first half swing, and by the second.
+    fn kinks(&mut self, limits: &Limits) -> Result<Vec<f64>, Reason> {
+        let r = self.r;
+        if r == 0.0 {
+            return Ok(Vec::new());
+        }
+        let whole = Length::new(2.0 * r);
+        let [first, second] = &mut self.backward;
+        let once = end(first, whole, limits)?;
+        let twice = match end(second, whole, limits)? {
+            Some(clearance) => end(first, clearance.plus(2.0 * r), limits)?,
+            None => None,
+        };
+        Ok(once.into_iter().chain(twice).map(|clearance| r + clearance.value).collect())
+    }
+}
+
+/// Where a half swing ends, if it does.
+fn end(map: &mut HalfMap, start: Length, limits: &Limits) -> Result<Option<Length>, Reason> {
+    match map.swing(start, limits) {
+        Ok(swing) => Ok(Some(swing.end)),
+        Err(NoEnd::Escapes | NoEnd::Never) => Ok(None),
+        Err(NoEnd::Failed(reason)) => Err(reason),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::portrait::basin::cycle::cycles;
+
+    const LIMITS: Limits = Limits::PATIENT;
+
+    fn map(parameters: Parameters, range: (f64, f64)) -> ReturnMap {
+        return_map(&parameters, range, 61, &LIMITS).unwrap()
+    }
+
+    /// The next turning point of one that need not be a point of a map.
+    fn next(parameters: &Parameters, q: f64) -> f64 {
+        let side = if q > 0.0 { Side::Lower } else { Side::Upper };
+        Turns::new(parameters, side).next(q.abs() - parameters.r, &LIMITS).unwrap().unwrap()
+    }
+
+    #[test]
+    fn the_fixed_points_are_the_cycles_and_the_slope_there_is_the_multiplier() {
+        for (d, d2, d3, r) in [
+            (-0.3, 0.0, 0.5, 0.1),
+            (-0.3, 0.2, 0.5, 0.1),
+            (-0.2, 0.2, 0.0, 0.5),
+            (-0.1, 0.0, -0.5, 0.1),
+            (-0.1, 0.0, 0.5, 0.0),
+            (-0.4, 0.0, 0.0, 1.0),
+        ] {
+            let parameters = Parameters { d, d2, d3, r };
+            let found = cycles(&parameters, false, &LIMITS).unwrap();
+            assert!(!found.cycles.is_empty());
+            for cycle in &found.cycles {
+                for turning in [cycle.q_max, cycle.q_min] {
+                    let back = next(&parameters, turning);
+                    assert!((back / turning - 1.0).abs() < 1e-10, "{turning} to {back}");
+                    let step = 1e-5 * (turning.abs() - r);
+                    let slope = (next(&parameters, turning + step)
+                        - next(&parameters, turning - step))
+                        / (2.0 * step);
+                    let multiplier = cycle.multiplier.unwrap();
+                    assert!((slope / multiplier - 1.0).abs() < 1e-4, "{slope} {multiplier}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn without_damping_a_turn_loses_four_times_the_friction_and_nothing_is_integrated() {
+        let parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.125 };
+        let found = map(parameters, (-1.0, 1.0));
+        assert_eq!(found.cost.evaluations, 0);
+        for Return { from, to } in found.sides.iter().flatten() {
+            // Seen from the side of the turning point. Within 3 r the first half swing is captured, the
+            // second within 5 r.
+            let (size, to) = (from.abs(), to.unwrap() * from.signum());
+            let expected = if size <= 0.375 { 0.25 - size } else { size - 0.5 };
+            assert!((to - expected).abs() < 1e-14, "{from} to {to}");
+        }
+    }
+
+    #[test]
+    fn the_map_is_continuous_and_has_its_kinks_among_its_points() {
+        let parameters = Parameters { d: -0.3, d2: 0.3, d3: 0.5, r: 0.1 };
+        let found = map(parameters, (-2.0, 2.0));
+        for (side, sign) in found.sides.iter().zip([-1.0, 1.0]) {
+            assert!(side.windows(2).all(|pair| pair[0].from.abs() < pair[1].from.abs()));
+            assert!(side.iter().all(|turn| turn.from.signum() == sign));
+            let reached = |place: f64| {
+                side.iter().any(|turn| turn.to.is_some_and(|to| (to - place).abs() < 1e-12))
+            };
+            assert!(reached(-sign * parameters.r), "captured on the far end");
+            assert!(reached(sign * parameters.r), "captured on the near end");
+            let farthest =
+                side.windows(2).map(|pair| (pair[1].to.unwrap() - pair[0].to.unwrap()).abs());
+            assert!(farthest.fold(0.0, f64::max) < 0.2);
+        }
+    }
+
+    #[test]
+    fn where_motions_escape_the_map_has_no_value() {
+        let found = map(Parameters { d: -0.1, d2: 0.0, d3: -0.5, r: 0.1 }, (0.0, 5.0));
+        let [left, right] = &found.sides;
+        assert!(left.is_empty());
+        assert!(right.first().unwrap().to.is_some() && right.last().unwrap().to.is_none());
+    }
+}

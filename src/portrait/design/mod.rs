@@ -1,0 +1,5 @@
+//! How much friction a margin needs.
+
+pub(crate) mod machine;
+#[warn(clippy::missing_errors_doc)]
+pub mod oscillator;

@@ -1,0 +1,317 @@
+//! How much dry friction a margin needs: the margin as a function of r, inverted.
+//!
+//! More friction turns the field inwards everywhere but on `v = 0`: the fields of growing r are a rotated
+//! family in Duff's sense. So the basin of the sticking set grows with r, and both its margins increase;
+//! where an unstable and a stable cycle meet (the fold) they jump to infinity. Every margin therefore has
+//! a smallest r from which on it is kept, and a bracket around it only needs halving.
+
+use serde::Serialize;
+
+use crate::flow::{Cost, Limits, Reason};
+use crate::model::Parameters;
+use crate::numerics::elementary::{exp, ln};
+use crate::numerics::root::{PlaceTolerance, illinois};
+use crate::portrait::Margin;
+use crate::portrait::basin::basin;
+
+/// A kick out of rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kick {
+    /// Displaced, and let go.
+    Displacement,
+    /// Struck, so that it starts from the origin with a velocity.
+    Impulse,
+}
+
+impl Kick {
+    /// One word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Kick::Displacement => "displacement",
+            Kick::Impulse => "impulse",
+        }
+    }
+
+    /// The margin of this kick; infinite where every kick is survived.
+    #[must_use]
+    pub fn margin(self, margin: &Margin) -> f64 {
+        match self {
+            Kick::Displacement => margin.displacement,
+            Kick::Impulse => margin.impulse,
+        }
+        .unwrap_or(f64::INFINITY)
+    }
+}
+
+/// The friction that a margin needs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum FrictionNeeded {
+    /// Any, however small.
+    Any,
+    /// This much: the margin is then as wanted.
+    Friction {
+        /// The least friction intensity.
+        r: f64,
+    },
+    /// Just above this much, where the cycles that border the basin have met: every kick is survived then.
+    Fold {
+        /// The friction intensity at the fold.
+        r: f64,
+        /// The margin just below it: the largest that is finite.
+        below: f64,
+    },
+}
+
+impl FrictionNeeded {
+    /// The least friction; 0 if any suffices.
+    #[must_use]
+    pub fn least(self) -> f64 {
+        match self {
+            FrictionNeeded::Any => 0.0,
+            FrictionNeeded::Friction { r } | FrictionNeeded::Fold { r, .. } => r,
+        }
+    }
+}
+
+/// Friction needed, and what it cost to know.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Design {
+    /// The friction.
+    pub needed: FrictionNeeded,
+    /// Evaluations and steps.
+    pub cost: Cost,
+}
+
+/// Relative width of the bracket at which r is known.
+const WIDTH: f64 = 4.0 * f64::EPSILON;
+
+/// Relative width of a bracket so close to a fold that rounding may hide which of two cycles attracts: they
+/// are apart by its square root.
+const BLUR: f64 = 1e-9;
+
+/// Steps that enclose r, and that narrow it; bisection of the whole range of doubles needs some 2100.
+const STEPS: usize = 2200;
+
+/// The least r at which the margin of `kick` is `wanted` or more; the r in `parameters` does not matter.
+///
+/// # Errors
+/// The [`Reason`] why a basin could not be computed, [`Reason::NotApplicable`] unless `wanted` is positive
+/// and finite.
+pub fn friction_for(
+    parameters: &Parameters,
+    kick: Kick,
+    wanted: f64,
+    limits: &Limits,
+) -> Result<Design, Reason> {
+    if !(wanted > 0.0 && wanted.is_finite()) {
+        return Err(Reason::NotApplicable { needs: "a positive margin" });
+    }
+    let mut cost = Cost::default();
+    // Logarithm of the margin, as a fraction of the one wanted.
+    let mut excess = |r: f64| -> Result<f64, Reason> {
+        let found = basin(&Parameters { r, ..*parameters }, wanted, limits)?;
+        cost += found.cost;
+        Ok(ln(kick.margin(&found.margin()) / wanted))
+    };
+    let needed = least_friction(wanted, hardly_any(parameters, wanted), &mut excess)?;
+    Ok(Design { needed, cost })
+}
+
+/// The least friction at which an increasing function of it, which may jump, becomes positive; `any` is one
+/// that counts as none.
+///
+/// # Errors
+/// Those of the function, [`Reason::NoConvergence`] where no bracket is found.
+pub fn least_friction(
+    wanted: f64,
+    any: Option<f64>,
+    excess: &mut impl FnMut(f64) -> Result<f64, Reason>,
+) -> Result<FrictionNeeded, Reason> {
+    if let Some(r) = any
+        && excess(r)? >= 0.0
+    {
+        return Ok(FrictionNeeded::Any);
+    }
+    smallest(wanted, excess)
+}
+
+/// The friction at which a margin of this size is the one without friction; `None` where that is none,
+/// because the steady state repels by itself.
+fn hardly_any(parameters: &Parameters, wanted: f64) -> Option<f64> {
+    let Parameters { d, d3, .. } = *parameters;
+    if d > 0.0 || (d == 0.0 && d3 > 0.0) {
+        Some(0.0)
+    } else {
+        // Undamped motions come to rest by friction alone, in the end by any.
+        (d == 0.0 && d3 == 0.0).then_some(wanted * f64::EPSILON)
+    }
+}
+
+/// Encloses and narrows the r at which an increasing function, which may jump, becomes positive.
+fn smallest(
+    wanted: f64,
+    excess: &mut impl FnMut(f64) -> Result<f64, Reason>,
+) -> Result<FrictionNeeded, Reason> {
+    let lost = Reason::NoConvergence { sought: "the friction for a margin", change: f64::NAN };
+    // A displacement within the sticking set is kept: the first is high enough, or nearly so.
+    let mut high = (wanted, excess(wanted)?);
+    let mut low = high;
+    for _ in 0..STEPS {
+        if high.1 < 0.0 {
+            low = high;
+            high = (2.0 * high.0, excess(2.0 * high.0)?);
+        } else if low.1 >= 0.0 {
+            high = low;
+            low = (0.5 * low.0, excess(0.5 * low.0)?);
+        } else {
+            break;
+        }
+    }
+    if high.1 < 0.0 || low.1 >= 0.0 {
+        return Err(lost);
+    }
+    // In the logarithm of r, as a fraction of the first upper end.
+    let unit = high.0;
+    let ends = [(ln(low.0 / unit), low.1), (0.0, high.1)];
+    let searched = illinois(ends, WIDTH, PlaceTolerance::Absolute(WIDTH), |log| {
+        let r = unit * exp(log);
+        let here = match excess(r) {
+            // The upper end is the safe one, and known: that ends the search where an error would.
+            Err(Reason::NoConvergence { .. }) if high.0 - low.0 <= BLUR * high.0 => Err(None),
+            here => here.map_err(Some),
+        }?;
+        *(if here < 0.0 { &mut low } else { &mut high }) = (r, here);
+        Ok(here)
+    });
+    if let Err(Some(reason)) = searched {
+        return Err(reason);
+    }
+    if low.1 >= -WIDTH {
+        return Ok(FrictionNeeded::Friction { r: low.0 });
+    }
+    Ok(if high.1.is_finite() {
+        FrictionNeeded::Friction { r: high.0 }
+    } else {
+        FrictionNeeded::Fold { r: high.0, below: wanted * exp(low.1) }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::branch::fold::fold;
+    use crate::closed_form::piecewise_linear::LinearCycle;
+
+    fn needed(d: f64, d2: f64, d3: f64, kick: Kick, wanted: f64) -> FrictionNeeded {
+        let parameters = Parameters { d, d2, d3, r: 7.0 };
+        friction_for(&parameters, kick, wanted, &Limits::PATIENT).unwrap().needed
+    }
+
+    fn margin(d: f64, d2: f64, d3: f64, r: f64) -> Margin {
+        basin(&Parameters { d, d2, d3, r }, 1.0, &Limits::PATIENT).unwrap().margin()
+    }
+
+    #[test]
+    fn linear_margins_are_inverted_to_the_closed_form() {
+        for d in [-0.9, -0.3, -0.01, -1e-6] {
+            let unit = LinearCycle::new(d, 1.0).unwrap();
+            let FrictionNeeded::Friction { r } = needed(d, 0.0, 0.0, Kick::Displacement, 0.3)
+            else {
+                panic!("D = {d} needs some friction")
+            };
+            assert!((r * unit.q_max / 0.3 - 1.0).abs() < 1e-9, "D = {d}: {r}");
+        }
+    }
+
+    #[test]
+    fn the_friction_found_gives_the_margin_wanted() {
+        for (d, d2, d3) in
+            [(-0.1, 0.0, 0.4), (-0.1, 0.2, 0.3), (-0.2, -0.1, -0.3), (-0.1, 0.1, 0.0)]
+        {
+            for kick in [Kick::Displacement, Kick::Impulse] {
+                let found = needed(d, d2, d3, kick, 0.25);
+                let FrictionNeeded::Friction { r } = found else {
+                    panic!("{d} {d2} {d3}: {found:?}")
+                };
+                let margin = kick.margin(&margin(d, d2, d3, r));
+                assert!((margin / 0.25 - 1.0).abs() < 1e-9, "{d} {d2} {d3} {kick:?}: {margin}");
+            }
+        }
+    }
+
+    #[test]
+    fn beyond_the_fold_every_kick_is_survived() {
+        let found = needed(-0.1, 0.2, 0.4, Kick::Displacement, 5.0);
+        let FrictionNeeded::Fold { r, below } = found else { panic!("{found:?}") };
+        let parameters = Parameters { d: 0.0, d2: 0.2, d3: 0.4, r };
+        let fold = fold(&parameters, &Limits::PATIENT).unwrap().0.unwrap();
+        assert!((fold.d + 0.1).abs() < 1e-7, "{}", fold.d);
+        assert!(below > 0.3 && below < 5.0);
+        assert_eq!(margin(-0.1, 0.2, 0.4, 1.001 * r).displacement, None);
+        assert!(margin(-0.1, 0.2, 0.4, 0.999 * r).displacement.is_some());
+    }
+
+    #[test]
+    fn a_damped_rest_needs_no_friction_for_what_it_keeps_by_itself() {
+        assert_eq!(needed(0.1, 0.0, 0.0, Kick::Displacement, 1e3), FrictionNeeded::Any);
+        assert_eq!(needed(0.1, 0.3, 0.2, Kick::Impulse, 1e3), FrictionNeeded::Any);
+        assert_eq!(needed(0.0, 0.0, 0.0, Kick::Impulse, 1.0), FrictionNeeded::Any);
+        // Undamped with D2 alone: the parabola of escape begins at 1/(2 D2).
+        assert_eq!(needed(0.0, 0.5, 0.0, Kick::Displacement, 0.99), FrictionNeeded::Any);
+        assert!(matches!(
+            needed(0.0, 0.5, 0.0, Kick::Displacement, 1.01),
+            FrictionNeeded::Friction { .. }
+        ));
+        // With D3 < 0 an unstable cycle borders the basin without friction too, near sqrt(-8 D/(3 D3)).
+        assert_eq!(needed(0.1, 0.0, -0.3, Kick::Displacement, 0.9), FrictionNeeded::Any);
+        let FrictionNeeded::Friction { r } = needed(0.1, 0.0, -0.3, Kick::Displacement, 1.2) else {
+            panic!("some friction")
+        };
+        assert!((margin(0.1, 0.0, -0.3, r).displacement.unwrap() / 1.2 - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn without_friction_a_repelling_rest_has_no_margin() {
+        let none = Margin::ZERO;
+        for (d, d2, d3) in [(-0.1, 0.0, 0.4), (-0.1, 0.0, 0.0), (-0.1, 0.3, 0.0), (0.0, 0.0, -1.0)]
+        {
+            assert_eq!(margin(d, d2, d3, 0.0), none, "{d} {d2} {d3}");
+        }
+        assert_eq!(margin(0.1, 0.0, 0.4, 0.0).displacement, None);
+    }
+
+    #[test]
+    fn margins_grow_with_friction() {
+        for (d, d2, d3) in [(-0.1, 0.0, 0.4), (-0.1, 0.3, 0.3), (0.05, 0.2, -0.3), (-0.1, 0.1, 0.0)]
+        {
+            let mut last = (0.0, 0.0);
+            for step in 1..40 {
+                let margin = margin(d, d2, d3, 0.01 * f64::from(step));
+                let here = (Kick::Displacement.margin(&margin), Kick::Impulse.margin(&margin));
+                assert!(here.0 >= last.0 && here.1 >= last.1, "{d} {d2} {d3} at {step}");
+                assert!(here.0 > last.0 || here.0.is_infinite());
+                last = here;
+            }
+        }
+    }
+
+    #[test]
+    fn far_beyond_critical_damping_rest_itself_is_the_margin() {
+        let FrictionNeeded::Friction { r } = needed(-1.5, 0.0, 0.0, Kick::Displacement, 0.3) else {
+            panic!("some friction")
+        };
+        assert!((r / 0.3 - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_margin_that_is_none_is_refused() {
+        for wanted in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let parameters = Parameters::default();
+            let refused = friction_for(&parameters, Kick::Impulse, wanted, &Limits::PATIENT);
+            assert!(matches!(refused, Err(Reason::NotApplicable { .. })));
+        }
+    }
+}

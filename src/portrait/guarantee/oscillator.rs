@@ -1,0 +1,377 @@
+//! How large a kick is survived for certain: whatever a bounded disturbance does, at whatever parameters of a box.
+//!
+//! `q'' + 2 D q' + D2 q'^2 + D3 q'^3 + q = friction + u(tau)` with `abs(u) <= w`. Above `v = 0` the acceleration
+//! of every such system is at most that of the *worst* one, which has the smallest D, D2, D3 and the friction
+//! `r - w`; below it is at least that of the same system with the largest D2. So at every point of the worst
+//! system's border the true field points inwards, or along it, and no motion leaves its interior. The bound is
+//! attained: the disturbance `w sign(v)` at the worst parameters keeps to the border. In the same way no motion
+//! enters the basin of the *best* system from outside.
+//!
+//! An extreme system has a D2 of its own on each side, so it is a [`TwoSided`] one; half maps and arcs are
+//! computed side by side anyway.
+
+use serde::Serialize;
+
+use crate::closed_form::piecewise_linear::LinearCycle;
+use crate::flow::{Cost, Fate, Limits, Reason};
+use crate::model::{HalfPlane, ParameterBox, Parameters, Side};
+use crate::numerics::root::{PlaceTolerance, illinois};
+use crate::portrait::basin::arc::{Arc, Direction};
+use crate::portrait::basin::orbit::Orbit;
+use crate::portrait::basin::{Basin, basin};
+use crate::portrait::closing::all::{STEP, innermost_bracket};
+use crate::portrait::closing::equation::{Equation, Route};
+use crate::portrait::closing::half_map::{HalfMap, Length};
+use crate::portrait::closing::pair::Closing;
+use crate::portrait::closing::search::Bracket;
+use crate::portrait::closing::weak::has_cycle;
+use crate::portrait::{Border, Margin, RestMargin};
+
+/// An oscillator with parameters of its own on each side of `v = 0`, the friction being the same.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoSided {
+    /// Where `v > 0`.
+    pub upper: Parameters,
+    /// Where `v < 0`.
+    pub lower: Parameters,
+}
+
+impl TwoSided {
+    /// The system that keeps the smallest basin, for disturbances up to `disturbance`, which is less than the
+    /// friction.
+    #[must_use]
+    pub fn worst(known: &ParameterBox, disturbance: f64) -> Self {
+        let ParameterBox { d, d2, d3, r } = *known;
+        let r = if disturbance > 0.0 { (r.lower() - disturbance).next_down() } else { r.lower() };
+        let upper = Parameters { d: d.lower(), d2: d2.lower(), d3: d3.lower(), r };
+        TwoSided { upper, lower: Parameters { d2: d2.upper(), ..upper } }
+    }
+
+    /// The system that keeps the largest basin.
+    #[must_use]
+    pub fn best(known: &ParameterBox, disturbance: f64) -> Self {
+        let ParameterBox { d, d2, d3, r } = *known;
+        let r = if disturbance > 0.0 { (r.upper() + disturbance).next_up() } else { r.upper() };
+        let upper = Parameters { d: d.upper(), d2: d2.upper(), d3: d3.upper(), r };
+        TwoSided { upper, lower: Parameters { d2: d2.lower(), ..upper } }
+    }
+
+    fn on(&self, side: Side) -> &Parameters {
+        match side {
+            Side::Upper => &self.upper,
+            Side::Lower => &self.lower,
+        }
+    }
+
+    fn field(&self, side: Side) -> HalfPlane {
+        HalfPlane::new(self.on(side), side)
+    }
+
+    /// The basin of its sticking set, which is all that its innermost border parts, for `D > -1`; `reach` as
+    /// for [`crate::portrait::basin::basin`]. The second number bounds the relative error of the border's clearance.
+    ///
+    /// # Errors
+    /// The [`Reason`] why the border could not be computed; [`Reason::NotApplicable`] for `D <= -1`.
+    pub fn basin(&self, reach: f64, limits: &Limits) -> Result<(Basin, f64), Reason> {
+        if self.upper.d <= -1.0 {
+            return Err(Reason::NotApplicable { needs: "D above -1" });
+        }
+        let mut equation = self.equation();
+        let (first, second) = (equation.side, equation.side.opposite());
+        let arc = |side: Side, next: Length| {
+            Arc::new(self.on(side), side, Direction::Backward, next, limits)
+        };
+        let escaping = self.field(second).d2;
+        let (border, orbit, error) =
+            if let Some((closing, error)) = self.closing(&mut equation, limits)? {
+                let own = [self.on(first), self.on(second)];
+                let orbit = Orbit::of_closing(own, first, &closing, true, limits)?;
+                (Border::Cycle, Some(orbit), error)
+            } else if self.upper.d3 == 0.0 && escaping < 0.0 {
+                // Run backward, the motion that goes out along the parabola forever attracts, to rounding after
+                // this clearance in units of 1/abs(D2).
+                const FORGETS: f64 = 40.0;
+                let out = arc(second, Length::new(reach + FORGETS / escaping.abs()))?;
+                let before = arc(first, out.clearance().unwrap_or(Length::ZERO))?;
+                (Border::Separatrix, Some(Orbit::of(first, [before, out], false)), NOISE)
+            } else {
+                (Border::None, None, 0.0)
+            };
+        let mut cost = equation.cost();
+        let mut fates = vec![Fate::Rest];
+        if let Some(orbit) = &orbit {
+            cost += orbit.upper.cost;
+            cost += orbit.lower.cost;
+            fates.push(Fate::Escapes);
+        }
+        let borders = orbit.into_iter().collect();
+        Ok((Basin { parameters: self.upper, border, borders, fates, cost }, error))
+    }
+
+    /// The innermost closed pair of swings, and the relative error of its clearances: from the closed form where
+    /// there is one, else just inside of where the search closes.
+    fn closing(
+        &self,
+        equation: &mut Equation,
+        limits: &Limits,
+    ) -> Result<Option<(Closing, f64)>, Reason> {
+        if self.upper == self.lower && self.upper.is_piecewise_linear() {
+            let cycle = LinearCycle::new(self.upper.d, self.upper.r).ok();
+            return Ok(cycle.map(|cycle| (Closing::from(&cycle), NOISE)));
+        }
+        let Some(bracket) = innermost_bracket(equation, limits)? else {
+            return if has_cycle(&self.upper) { Err(Reason::OutOfRange) } else { Ok(None) };
+        };
+        let (inside, error) = refine(equation, bracket, limits)?;
+        let mut closing = equation.at(Route::Mixed, inside, limits)?;
+        if !closing.node.value().is_finite() {
+            // The first swing escapes from within rounding of the border.
+            closing = equation.at(Route::Backward, inside, limits)?;
+        }
+        Ok(Some((closing, error)))
+    }
+
+    /// The closing equation, and with it the side of its first swing: that on which D2 brakes more, because a
+    /// swing of the other one, run backward, does not escape.
+    fn equation(&self) -> Equation {
+        let first = if self.field(Side::Upper).d2 >= self.field(Side::Lower).d2 {
+            Side::Upper
+        } else {
+            Side::Lower
+        };
+        let fields = [first, first.opposite()].map(|side| self.field(side));
+        // How far out a search goes follows from the weaker D2.
+        let weaker = fields.map(|field| field.d2.abs()).into_iter().fold(f64::INFINITY, f64::min);
+        let parameters = Parameters { d2: weaker, ..self.upper };
+        Equation::on_fields(&parameters, first, fields, |field| HalfMap::new(field, STEP))
+    }
+}
+
+/// Relative error of a clearance, of rounding and of steps, where the closing equation is not flat.
+const NOISE: f64 = 1e-12;
+
+/// An error of the clearance beyond which the other way of closing is asked.
+const FLAT: f64 = 1e-10;
+
+/// The inner end of a bracket as narrow as rounding allows, and the relative error of the clearance there.
+fn refine(
+    equation: &mut Equation,
+    (low, high): Bracket,
+    limits: &Limits,
+) -> Result<(f64, f64), Reason> {
+    /// A value of 0 does not end the search, which is for both ends of the bracket.
+    const BOTH_ENDS: f64 = -1.0;
+    let mut slope = low.slope;
+    let width = PlaceTolerance::Absolute(4.0 * f64::EPSILON * low.at.abs().max(1.0));
+    let ends = [(low.at, low.value()), (high.at, high.value())];
+    let [one, other] = illinois(ends, BOTH_ENDS, width, |at| {
+        let node = equation.at(Route::Mixed, at, limits)?.node;
+        if node.slope.is_finite() {
+            slope = node.slope;
+        }
+        if node.value().is_nan() { Err(Reason::OutOfRange) } else { Ok(node.value()) }
+    })?;
+    let width = (other.0 - one.0).abs();
+    let (inside, error) = (one.0.min(other.0), width + NOISE / slope.abs().min(1.0));
+    let again = if error > FLAT { settled(equation, inside, limits)? } else { None };
+    Ok(again.unwrap_or((inside, error)))
+}
+
+/// A border whose far end lies where both swings, the first forward and the second backward, have forgotten their starts:
+/// the closing equation is flat there, and says little of that end. Run backward, both swings forget where they started
+/// and tell both ends.
+fn settled(
+    equation: &mut Equation,
+    inside: f64,
+    limits: &Limits,
+) -> Result<Option<(f64, f64)>, Reason> {
+    const ROUNDS: usize = 40;
+    let mut at = inside;
+    for _ in 0..ROUNDS {
+        let node = equation.at(Route::Backward, at, limits)?.node;
+        let (value, slope) = (node.value(), node.slope);
+        if !value.is_finite() || slope.is_nan() || slope <= 0.0 {
+            break;
+        }
+        if value.abs() <= 4.0 * f64::EPSILON * at.abs().max(1.0) {
+            return Ok(Some((at, NOISE / slope.min(1.0))));
+        }
+        at -= value;
+    }
+    Ok(None)
+}
+
+/// Margins that hold for certain.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Guaranteed {
+    /// The margin, rounded down by its error; `None` where no kick is lost, or nothing is certain.
+    #[serde(flatten)]
+    pub margin: Margin,
+    /// Why nothing is certain.
+    pub reason: Option<Uncertain>,
+}
+
+/// Why no kick is survived for certain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Uncertain {
+    /// The disturbance moves the mass from its rest by itself.
+    Disturbance {
+        /// The disturbance.
+        w: f64,
+        /// The smallest friction.
+        r: f64,
+    },
+    /// The end of the sticking set repels.
+    Repels {
+        /// The smallest D.
+        d: f64,
+    },
+}
+
+impl std::fmt::Display for Uncertain {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Uncertain::Disturbance { w, r } => {
+                write!(out, "the disturbance w = {w} is not below the smallest friction r = {r}")
+            }
+            Uncertain::Repels { d } => {
+                write!(out, "at the smallest D = {d} the ends of the sticking set repel")
+            }
+        }
+    }
+}
+
+impl Serialize for Uncertain {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+/// What is known for certain, beside what holds at the middle of the box without a disturbance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Guarantee {
+    /// The parameters.
+    pub known: ParameterBox,
+    /// Bound on the disturbance.
+    pub disturbance: f64,
+    /// The margin at the middle of the box, undisturbed.
+    pub nominal: Margin,
+    /// The margin that holds for certain.
+    pub guaranteed: Guaranteed,
+    /// What it cost.
+    pub cost: Cost,
+}
+
+/// Why nothing is certain, if so.
+#[must_use]
+pub fn uncertain(known: &ParameterBox, disturbance: f64) -> Option<Uncertain> {
+    let (d, r) = (known.d.lower(), known.r.lower());
+    let worst = TwoSided::worst(known, disturbance).upper;
+    if disturbance > 0.0 && worst.r <= 0.0 {
+        Some(Uncertain::Disturbance { w: disturbance, r })
+    } else {
+        (d <= -1.0).then_some(Uncertain::Repels { d })
+    }
+}
+
+/// The margins for all parameters of a box and all disturbances up to `disturbance`, and the nominal ones.
+///
+/// Guarantee: see the module; the numbers are rounded down by their error, which is estimated, not enclosed.
+///
+/// # Errors
+/// The [`Reason`] why a border could not be computed.
+pub fn guarantee(
+    known: &ParameterBox,
+    disturbance: f64,
+    limits: &Limits,
+) -> Result<Guarantee, Reason> {
+    let middle = known.middle();
+    let nominal = if middle.d > -1.0 {
+        TwoSided { upper: middle, lower: middle }.basin(0.0, limits)?.0
+    } else {
+        basin(&middle, 0.0, limits)?
+    };
+    let mut cost = nominal.cost;
+    let (guaranteed, spent) = guaranteed(known, disturbance, limits)?;
+    cost += spent;
+    Ok(Guarantee { known: *known, disturbance, nominal: nominal.margin(), guaranteed, cost })
+}
+
+/// The margin that holds for certain, and what it cost.
+///
+/// # Errors
+/// The [`Reason`] why the border could not be computed.
+pub fn guaranteed(
+    known: &ParameterBox,
+    disturbance: f64,
+    limits: &Limits,
+) -> Result<(Guaranteed, Cost), Reason> {
+    if let Some(reason) = uncertain(known, disturbance) {
+        return Ok((Guaranteed { margin: Margin::ENDLESS, reason: Some(reason) }, Cost::default()));
+    }
+    let worst = TwoSided::worst(known, disturbance);
+    let (basin, error) = worst.basin(0.0, limits)?;
+    if error > 0.5 {
+        return Err(Reason::NoConvergence {
+            sought: "the border of the worst system",
+            change: error,
+        });
+    }
+    let margin = rounded_down(&basin, farthest_rest(known, disturbance), error);
+    Ok((Guaranteed { margin, reason: None }, basin.cost))
+}
+
+/// How far out a mass may rest before the kick: at the smallest friction, because the gap to the border only grows
+/// with it, and on the side to which the disturbance pushes.
+fn farthest_rest(known: &ParameterBox, disturbance: f64) -> f64 {
+    let r = known.r.lower();
+    if disturbance > 0.0 { (r + disturbance).next_up() } else { r }
+}
+
+/// The margin of a basin whose border has clearances with this relative error, rounded down.
+fn rounded_down(basin: &Basin, farthest: f64, error: f64) -> Margin {
+    let r = basin.parameters.r;
+    let Margin { displacement, impulse, from_rest } = basin.margin_within(farthest);
+    // Of a displacement only the clearance is in error; an impulse comes of an arc from that clearance.
+    let shrunk = |length: f64, error: f64| (length * (1.0 - error)).next_down().max(0.0);
+    // What is left of the clearance beyond the farthest rest has all of its error.
+    let left = from_rest.displacement.unwrap_or(f64::INFINITY);
+    let beyond = error * (1.0 + (farthest - r) / left).min(1.0 / error);
+    Margin {
+        displacement: displacement.map(|q| (r + shrunk(q - r, error)).next_down().max(r.min(q))),
+        impulse: impulse.map(|impulse| shrunk(impulse, error)),
+        from_rest: RestMargin {
+            displacement: from_rest.displacement.map(|gap| shrunk(gap, beyond)),
+            impulse: from_rest.impulse.map(|impulse| shrunk(impulse, beyond)),
+        },
+    }
+}
+
+/// The starts that are safe for certain, and those that are lost for certain.
+#[derive(Clone, Debug)]
+pub struct Zones {
+    /// The basin of the worst system: inside its first border every motion stays. `None` where nothing is safe.
+    pub safe: Option<Basin>,
+    /// The basin of the best system: outside of its first border nothing comes to rest. `None` where that is
+    /// not known.
+    pub lost: Option<Basin>,
+}
+
+/// Both zones, as far as `reach`.
+///
+/// # Errors
+/// The [`Reason`] why a border could not be computed.
+pub fn zones(
+    known: &ParameterBox,
+    disturbance: f64,
+    reach: f64,
+    limits: &Limits,
+) -> Result<Zones, Reason> {
+    let safe = match uncertain(known, disturbance) {
+        Some(_) => None,
+        None => Some(TwoSided::worst(known, disturbance).basin(reach, limits)?.0),
+    };
+    let best = TwoSided::best(known, disturbance);
+    let lost = (best.upper.d > -1.0).then(|| best.basin(reach, limits)).transpose()?;
+    Ok(Zones { safe, lost: lost.map(|(basin, _)| basin) })
+}

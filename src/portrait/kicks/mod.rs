@@ -1,0 +1,336 @@
+//! Random kicks: what fraction of them is lost.
+//!
+//! A kick displaces the mass from its rest at the origin and gives it a velocity; both are random, independent
+//! and normal or uniform. What is lost is an integral of their density over the exact basin, whose border is a
+//! graph over the displacement ([`super::basin::arc`]): no start is drawn or followed.
+
+pub mod machine;
+pub(crate) mod repeated;
+
+use std::f64::consts::{PI, SQRT_2};
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+use super::basin::Basin;
+use super::basin::stability::{Share, Span, over_scales, support};
+use crate::flow::Fate;
+use crate::model::unit::quantity;
+use crate::numerics::elementary::exp;
+use crate::numerics::quadrature::Integral;
+
+/// How a random number is spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Distribution {
+    /// Normal; the spread is the standard deviation.
+    Normal,
+    /// Evenly within the spread on either side.
+    Uniform,
+}
+
+/// As far as kicks may reach: basins are still known well there.
+const FARTHEST: f64 = 1e8;
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct RandomKick {
+    /// How both parts are spread.
+    pub law: Distribution,
+    /// Mean and spread of the displacement.
+    pub q: (f64, f64),
+    /// Mean and spread of the velocity.
+    pub v: (f64, f64),
+}
+
+impl Default for RandomKick {
+    /// Normal, with standard deviations of 1.
+    fn default() -> Self {
+        RandomKick { law: Distribution::Normal, q: (0.0, 1.0), v: (0.0, 1.0) }
+    }
+}
+
+impl FromStr for RandomKick {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        RandomKick::read(text, ["", ""])
+    }
+}
+
+impl RandomKick {
+    /// Reads `q=0+-0.1,v=0+-0.05`, with `uniform:` before it for a law that is not normal; displacements and velocities
+    /// in these units, or with their own. Fails with one line that says what is wrong and what is allowed.
+    pub fn read(text: &str, units: [&str; 2]) -> Result<Self, String> {
+        let form = || {
+            format!("{text:?}: expected kicks such as q=0+-0.1,v=0+-0.05 or uniform:q=0+-0.1,v=0")
+        };
+        let (law, parts) = match text.split_once(':') {
+            None => (Distribution::Normal, text),
+            Some(("normal", parts)) => (Distribution::Normal, parts),
+            Some(("uniform", parts)) => (Distribution::Uniform, parts),
+            Some(_) => return Err(form()),
+        };
+        let mut kicks = RandomKick { law, q: (0.0, 0.0), v: (0.0, 0.0) };
+        for part in parts.split(',') {
+            let (name, interval) = part.split_once('=').ok_or_else(form)?;
+            let (place, unit) = match name.trim() {
+                "q" => (&mut kicks.q, units[0]),
+                "v" => (&mut kicks.v, units[1]),
+                _ => return Err(form()),
+            };
+            let number = |text: &str| {
+                let value = quantity(text, unit).ok().filter(|value| value.is_finite());
+                value.ok_or_else(|| format!("{name}: {text:?} is not a finite number"))
+            };
+            let (mean, spread) = interval.split_once("+-").unwrap_or((interval, "0"));
+            let (mean, spread) = (number(mean)?, number(spread)?);
+            if spread < 0.0 {
+                return Err(format!("{name}: the spread {spread} is negative"));
+            }
+            *place = (mean, spread);
+        }
+        if kicks.reach() > FARTHEST {
+            return Err(format!("{text:?} reaches too far; kicks stay within {FARTHEST:e}"));
+        }
+        Ok(kicks)
+    }
+}
+
+impl TryFrom<String> for RandomKick {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<RandomKick> for String {
+    fn from(kicks: RandomKick) -> Self {
+        kicks.to_string()
+    }
+}
+
+impl fmt::Display for RandomKick {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let law = if self.law == Distribution::Uniform { "uniform:" } else { "" };
+        let (q, v) = (self.q, self.v);
+        write!(out, "{law}q={}+-{},v={}+-{}", q.0, q.1, v.0, v.1)
+    }
+}
+
+impl Distribution {
+    /// One word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Distribution::Normal => "normal",
+            Distribution::Uniform => "uniform",
+        }
+    }
+
+    /// Probability that a number of mean 0 and this spread is larger than `x`.
+    fn above(self, x: f64, spread: f64) -> f64 {
+        if spread == 0.0 {
+            return f64::from(u8::from(x <= 0.0));
+        }
+        match self {
+            Distribution::Normal => 0.5 * erfc(x / spread / SQRT_2),
+            Distribution::Uniform => (0.5 - 0.5 * x / spread).clamp(0.0, 1.0),
+        }
+    }
+
+    /// Density of a number of mean 0 and this spread.
+    pub(crate) fn density(self, x: f64, spread: f64) -> f64 {
+        let scaled = x / spread;
+        match self {
+            Distribution::Normal => exp(-0.5 * scaled * scaled) / (spread * (2.0 * PI).sqrt()),
+            Distribution::Uniform => f64::from(u8::from(scaled.abs() <= 1.0)) / (2.0 * spread),
+        }
+    }
+
+    /// How many times the spread a number can be away from its mean, to 1e-18.
+    pub(crate) fn reach(self) -> f64 {
+        match self {
+            Distribution::Normal => 9.0,
+            Distribution::Uniform => 1.0,
+        }
+    }
+}
+
+impl RandomKick {
+    /// The largest displacement that matters.
+    pub fn reach(&self) -> f64 {
+        self.q.0.abs() + self.law.reach() * self.q.1
+    }
+
+    /// The fraction of the kicks that is lost: that leads out of the basin of the sticking set.
+    ///
+    /// The basin has to be known as far as [`RandomKick::reach`]. Quadrature as in [`Basin::captured_share`].
+    pub fn lost(&self, basin: &Basin) -> Share {
+        let all = |part| Share { part, error: 0.0 };
+        if basin.fates.first() != Some(&Fate::Rest) {
+            return all(1.0);
+        }
+        let Some(edge) = basin.borders.first() else { return all(0.0) };
+        self.lost_outside(&|q| edge.span_at(q))
+    }
+
+    /// The fraction of the kicks that leads out of a border.
+    pub fn lost_outside(&self, span: Span) -> Share {
+        let (law, (mean, spread)) = (self.law, self.q);
+        let lost_at = |q: f64| {
+            let Some((low, high)) = span(q) else { return 1.0 };
+            law.above(high - self.v.0, self.v.1) + law.above(self.v.0 - low, self.v.1)
+        };
+        if spread == 0.0 {
+            // A border and an erfc known to 1e-12 of themselves: a tail nine spreads out falls eighty times as fast.
+            const KNOWN: f64 = 1e-10;
+            let part = lost_at(mean).min(1.0);
+            return Share { part, error: KNOWN * part };
+        }
+        let far = law.reach() * spread;
+        let Some((left, right)) = support(span, (mean - far, mean + far)) else {
+            return Share { part: 1.0, error: 0.0 };
+        };
+        let beyond = law.above(right - mean, spread) + law.above(mean - left, spread);
+        let lost = |q: f64| law.density(q - mean, spread) * lost_at(q);
+        let Integral { value, error } = over_scales(lost, left, right);
+        Share { part: (beyond + value).clamp(0.0, 1.0), error }
+    }
+}
+
+/// The complementary error function, to some 1e-13 of itself.
+///
+/// The series of erf for small arguments, the continued fraction beyond (DLMF 7.6.1 and 7.9.1).
+fn erfc(x: f64) -> f64 {
+    /// Where the fraction of `DEPTH` terms is as good as the series.
+    const SMALL: f64 = 2.0;
+    const DEPTH: i32 = 60;
+    if x < 0.0 {
+        return 2.0 - erfc(-x);
+    }
+    let square = x * x;
+    if x < SMALL {
+        let (mut term, mut sum, mut index) = (x, x, 0.0);
+        while term.abs() > f64::EPSILON * 0.01 * sum.abs() {
+            index += 1.0;
+            term *= 2.0 * square / (2.0 * index + 1.0);
+            sum += term;
+        }
+        return 1.0 - 2.0 / PI.sqrt() * exp(-square) * sum;
+    }
+    let fraction = (1..=DEPTH).rev().fold(x, |rest, index| x + 0.5 * f64::from(index) / rest);
+    exp(-square) / (PI.sqrt() * fraction)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::Limits;
+    use crate::model::{Parameters, State};
+    use crate::numerics::root::bisect;
+    use crate::portrait::basin::{Window, basin};
+
+    #[test]
+    fn erfc_has_the_digits_of_the_tables() {
+        // NIST Digital Library, table 7.23, and 30-digit arithmetic.
+        for (x, expected) in [
+            (0.0, 1.0),
+            (0.5, 0.479_500_122_186_953_5),
+            (1.0, 0.157_299_207_050_285_13),
+            (1.999, 0.004_698_443_348_628_49),
+            (2.5, 4.069_520_174_449_589e-4),
+            (5.0, 1.537_459_794_428_035e-12),
+            (-1.0, 1.842_700_792_949_715),
+        ] {
+            assert!((erfc(x) / expected - 1.0_f64).abs() < 1e-11, "{x}: {:e}", erfc(x));
+        }
+    }
+
+    #[test]
+    fn kicks_are_read_and_written() {
+        let kicks: RandomKick = "q=0+-0.1,v=0.2+-0.05".parse().unwrap();
+        assert_eq!(kicks.law, Distribution::Normal);
+        assert_eq!((kicks.q, kicks.v), ((0.0, 0.1), (0.2, 0.05)));
+        assert_eq!(kicks.to_string(), "q=0+-0.1,v=0.2+-0.05");
+        assert_eq!("uniform:v=1+-1".parse::<RandomKick>().unwrap().law, Distribution::Uniform);
+        for text in ["q", "x=1", "cauchy:q=1", "q=1+-", "q=1+--1", "q=inf"] {
+            assert!(text.parse::<RandomKick>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn uniform_kicks_over_a_window_lose_what_the_window_does_not_hold() {
+        for (d, d2, d3) in [(-0.2, 0.0, 0.0), (-0.3, 0.4, 0.2), (-0.05, 0.5, 0.0)] {
+            let parameters = Parameters { d, d2, d3, r: 0.1 };
+            let found = basin(&parameters, 2.0, &Limits::PATIENT).unwrap();
+            let window = Window { q: (-0.5, 0.7), v: (-0.6, 0.4) };
+            let kicks = RandomKick { law: Distribution::Uniform, q: (0.1, 0.6), v: (-0.1, 0.5) };
+            let (lost, held) = (kicks.lost(&found), found.captured_share(&window));
+            assert!((lost.part + held.part - 1.0).abs() <= lost.error + held.error + 1e-12);
+        }
+    }
+
+    #[test]
+    fn normal_kicks_are_lost_as_often_as_a_monte_carlo_loses_them() {
+        let parameters = Parameters { d: -0.3, d2: 0.2, d3: 0.5, r: 0.1 };
+        let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
+        let kicks = RandomKick { law: Distribution::Normal, q: (0.02, 0.08), v: (0.0, 0.1) };
+        let lost = kicks.lost(&found);
+        // Points of a lattice in the unit square, made normal by the inverse of the distribution.
+        let inverse =
+            |part: f64| bisect(-9.0, 9.0, 40, |at| Distribution::Normal.above(at, 1.0) <= part).0;
+        let draws = 20_000;
+        let mut out = 0;
+        for index in 0..draws {
+            let spread = |ratio: f64| (0.5 + ratio * f64::from(index)).fract();
+            let (a, b) = (spread(0.754_877_666_246_693), spread(0.569_840_290_998_053));
+            let start = State { q: 0.02 + 0.08 * inverse(a), v: 0.1 * inverse(b) };
+            out += u32::from(found.fate(start) != Fate::Rest);
+        }
+        let counted = f64::from(out) / f64::from(draws);
+        assert!(lost.part > 0.02 && lost.part < 0.5 && lost.error < 1e-8, "{lost:?}");
+        assert!((counted - lost.part).abs() < 1e-3, "{lost:?} {counted}");
+    }
+
+    #[test]
+    fn kicks_spread_far_beyond_the_sticking_set_are_not_overlooked_next_to_it() {
+        // From far on one side of a separatrix every kick is lost, from far on the other none: what is not half
+        // comes from next to the sticking set and falls as the spread grows.
+        let parameters = Parameters { d: -0.05, d2: 0.5, d3: 0.0, r: 0.2 };
+        let short_of_half = |spread: f64| {
+            let kicks = RandomKick { law: Distribution::Normal, q: (0.0, spread), v: (0.0, 1.0) };
+            let found = basin(&parameters, kicks.reach(), &Limits::PATIENT).unwrap();
+            0.5 - kicks.lost(&found).part
+        };
+        let at_thousand = 1e3 * short_of_half(1e3);
+        for spread in [1e4, 1e6] {
+            let short = short_of_half(spread);
+            assert!((short - at_thousand / spread).abs() < 1e-8, "{spread:e}: {short:e}");
+        }
+    }
+
+    #[test]
+    fn impulses_of_one_margin_as_spread_are_lost_beyond_one_standard_deviation() {
+        // Without D2 both sides are alike: erfc(1/sqrt(2)) lie beyond.
+        for (d, d3) in [(-0.3, 0.0), (-0.3, 0.5), (0.1, -0.2)] {
+            let parameters = Parameters { d, d2: 0.0, d3, r: 0.1 };
+            let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
+            let v = (0.0, found.margin().impulse.unwrap());
+            let lost = RandomKick { law: Distribution::Normal, q: (0.0, 0.0), v }.lost(&found);
+            assert!((lost.part - 0.317_310_507_862_914_15).abs() <= lost.error, "{lost:?}");
+            assert!(lost.error < 1e-10, "{lost:?}");
+        }
+    }
+
+    #[test]
+    fn kicks_without_spread_are_lost_or_not() {
+        let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 };
+        let found = basin(&parameters, 3.0, &Limits::PATIENT).unwrap();
+        let margin = found.margin().impulse.unwrap();
+        let lost = |v: f64| {
+            RandomKick { law: Distribution::Normal, q: (0.0, 0.0), v: (v, 0.0) }.lost(&found).part
+        };
+        assert_eq!([lost(0.999 * margin), lost(1.001 * margin)], [0.0, 1.0]);
+    }
+}

@@ -1,0 +1,357 @@
+//! Repeated kicks, each after the mass has come to rest: how many until the rest is lost.
+//!
+//! Where a kick from one place of rest ends is decided by the motion alone, so the places of rest are a Markov
+//! chain on the sticking set that a kick can leave forever. Its leading left eigenvector is the density of the
+//! places after many kicks, given that none was lost (quasi-stationary; Darroch and Seneta, J. Appl. Prob. 2
+//! (1965) 88); the mean number of kicks until one is lost solves `n = 1 + K n`.
+//!
+//! The sticking set is cut into cells. Motions from a grid of starts say where kicks end; the part that is lost
+//! comes from the exact basin ([`crate::portrait::kicks`]), and each row of the chain is scaled to leave just that.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::RandomKick;
+use crate::flow::trajectory::trajectory;
+use crate::flow::{Cost, Detail, Fate, Limits, Outcome, Problem, Reason};
+use crate::model::{Parameters, State};
+use crate::numerics::count::{real, truncated};
+use crate::portrait::basin::basin;
+use crate::portrait::basin::stability::Share;
+
+/// What becomes of repeated kicks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repeated {
+    /// The fraction of the first kicks, from the middle of the sticking set, that is lost.
+    pub first: Share,
+    /// The fraction of the kicks that is lost after many that were not.
+    pub later: f64,
+    /// Mean number of kicks until one is lost, that one included, from the middle; infinite where none is.
+    pub mean: f64,
+    /// Relative error of both, from a chain of half the cells and a grid of half the starts.
+    pub error: f64,
+    /// Density of the places of rest after many kicks, in cells of equal width from -r to r.
+    pub density: Vec<f64>,
+    pub cost: Cost,
+}
+
+/// Cells of the sticking set.
+const CELLS: usize = 64;
+
+/// Columns of starts for one spread of a kick; twice as many rows.
+const FINENESS: f64 = 10.0;
+
+/// Maximum number of columns of starts.
+const COLUMNS: f64 = 600.0;
+
+/// Kicks beyond this many spreads are too rare to matter for where kicks end.
+const FAR: f64 = 5.0;
+
+/// Follows kicks until one is lost. Fails with the [`Reason`] why the basin could not be computed;
+/// [`Reason::NotApplicable`] without friction.
+pub fn repeated(
+    parameters: &Parameters,
+    kicks: &RandomKick,
+    limits: &Limits,
+) -> Result<Repeated, Reason> {
+    if parameters.r == 0.0 {
+        return Err(WITHOUT);
+    }
+    let basin = basin(parameters, kicks.reach() + parameters.r, limits)?;
+    let rest = |start: State| {
+        if basin.fate(start) != Fate::Rest {
+            return Ok((None, Cost::default()));
+        }
+        rest_of(parameters, start, limits)
+    };
+    let lost = |kicks: &RandomKick| kicks.lost(&basin).part;
+    let kicked = Kicked { half: parameters.r, rest: &rest, lost: &lost };
+    let mut found = kicked.repeated(kicks, kicks.lost(&basin))?;
+    found.cost += basin.cost;
+    Ok(found)
+}
+
+/// Where the motion from a start comes to rest; `None` where it is lost, or where that takes too long.
+type RestOf<'a> = &'a (dyn Fn(State) -> Result<(Option<f64>, Cost), Reason> + Sync);
+
+/// An oscillator that is kicked.
+pub struct Kicked<'a> {
+    /// Farthest place of rest on either side.
+    pub half: f64,
+    pub rest: RestOf<'a>,
+    /// The fraction of kicks from the middle that is lost.
+    pub lost: &'a dyn Fn(&RandomKick) -> f64,
+}
+
+impl Kicked<'_> {
+    /// Follows kicks until one is lost, `first` being the fraction of the first ones that is. Fails with the [`Reason`]
+    /// why a motion could not be followed; [`Reason::NotApplicable`] without friction.
+    pub fn repeated(&self, kicks: &RandomKick, first: Share) -> Result<Repeated, Reason> {
+        if self.half == 0.0 {
+            return Err(WITHOUT);
+        }
+        let coarse = Chain::new(self, kicks, CELLS / 2)?;
+        let fine = Chain::new(self, kicks, CELLS)?;
+        let mut cost = coarse.cost;
+        cost += fine.cost;
+        let (density, later) = fine.settled();
+        let (_, before) = coarse.settled();
+        let mean = fine.mean(later);
+        let relative =
+            |one: f64, other: f64| if one == other { 0.0 } else { (one / other - 1.0).abs() };
+        let error = relative(before, later).max(relative(coarse.mean(before), mean));
+        Ok(Repeated { first, later, mean, error, density, cost })
+    }
+}
+
+/// Why there is no chain without friction.
+const WITHOUT: Reason =
+    Reason::NotApplicable { needs: "friction, without which nothing comes to rest" };
+
+impl Repeated {
+    /// The middles of the cells, and the density there, `r` being the friction.
+    pub fn places(&self, r: f64) -> impl Iterator<Item = (f64, f64)> {
+        let width = 2.0 * r / real(self.density.len());
+        let middle = move |cell: usize| (real(cell) + 0.5) * width - r;
+        self.density.iter().enumerate().map(move |(cell, &density)| (middle(cell), density))
+    }
+}
+
+/// The starts that kicks from a place of rest lead to, as kicks from the origin.
+fn from(kicks: &RandomKick, place: f64) -> RandomKick {
+    RandomKick { q: (kicks.q.0 + place, kicks.q.1), ..*kicks }
+}
+
+/// The chain on cells.
+struct Chain {
+    /// Row by row: the chances to come from one cell to another.
+    steps: DMatrix<f64>,
+    /// The chance to be lost from each cell.
+    lost: DVector<f64>,
+    half: f64,
+    cost: Cost,
+}
+
+impl Chain {
+    fn new(kicked: &Kicked, kicks: &RandomKick, cells: usize) -> Result<Self, Reason> {
+        let r = kicked.half;
+        let width = 2.0 * r / real(cells);
+        let centres: Vec<f64> = (0..cells).map(|cell| (real(cell) + 0.5) * width - r).collect();
+        let fineness = FINENESS * real(cells) / real(CELLS);
+        let (columns, rows) = (columns(kicks, &centres, fineness), rows(kicks, fineness));
+        let mut cost = Cost::default();
+        let mut steps = DMatrix::zeros(cells, cells);
+        let rest = kicked.rest;
+        let of = |column: &Column| {
+            let rests = rows.iter().map(|&(v, share)| Ok((rest(State { q: column.q, v })?, share)));
+            rests.collect::<Result<Vec<_>, Reason>>()
+        };
+        let found: Vec<_> = columns.par_iter().map(of).collect::<Result<_, _>>()?;
+        for (column, rests) in columns.iter().zip(found) {
+            for ((rest, more), share) in rests {
+                cost += more;
+                let Some(rest) = rest else { continue };
+                // Shared between the two cells whose centres it lies between.
+                let place = ((rest + r) / width - 0.5).clamp(0.0, real(cells - 1));
+                let left = (truncated(place)).min(cells - 2);
+                let part = place - real(left);
+                for &(from, weight) in &column.weights {
+                    steps[(from, left)] += weight * share * (1.0 - part);
+                    steps[(from, left + 1)] += weight * share * part;
+                }
+            }
+        }
+        let lost = centres.iter().map(|&centre| (kicked.lost)(&from(kicks, centre)));
+        let lost = DVector::from_iterator(cells, lost);
+        for (row, lost) in lost.iter().enumerate() {
+            let sum: f64 = steps.row(row).sum();
+            let scale = if sum > 0.0 { (1.0 - lost) / sum } else { 0.0 };
+            steps.row_mut(row).scale_mut(scale);
+        }
+        Ok(Chain { steps, lost, half: r, cost })
+    }
+
+    /// The density after many kicks, and the part that is then lost.
+    fn settled(&self) -> (Vec<f64>, f64) {
+        /// Kicks until nothing changes any more.
+        const KICKS: usize = 10_000;
+        const STILL: f64 = 1e-14;
+        let cells = self.lost.len();
+        let mut shares = DVector::repeat(cells, 1.0 / real(cells));
+        for _ in 0..KICKS {
+            let next = self.steps.tr_mul(&shares);
+            let sum = next.sum();
+            if sum <= 0.0 {
+                // Every kick is lost.
+                break;
+            }
+            let next = next / sum;
+            let change = (&next - &shares).amax();
+            shares = next;
+            if change < STILL {
+                break;
+            }
+        }
+        let later = shares.dot(&self.lost);
+        let width = 2.0 * self.half / real(cells);
+        (shares.iter().map(|share| share / width).collect(), later)
+    }
+
+    /// Mean number of kicks from the middle; `later` is the part that is lost in the long run.
+    fn mean(&self, later: f64) -> f64 {
+        /// Chances of loss below which the equations have no digits left, and all places are alike.
+        const RARE: f64 = 1e-9;
+        let cells = self.lost.len();
+        if later < RARE {
+            return 1.0 / later;
+        }
+        let system = DMatrix::identity(cells, cells) - &self.steps;
+        let means = system.lu().solve(&DVector::repeat(cells, 1.0));
+        let middle = |means: DVector<f64>| 0.5 * (means[cells / 2 - 1] + means[cells / 2]);
+        means.map_or(f64::INFINITY, middle)
+    }
+}
+
+/// A column of starts, and with which weight kicks from each cell lead to it.
+struct Column {
+    q: f64,
+    weights: Vec<(usize, f64)>,
+}
+
+fn columns(kicks: &RandomKick, centres: &[f64], fineness: f64) -> Vec<Column> {
+    let (mean, spread) = kicks.q;
+    if spread == 0.0 {
+        let column =
+            |(cell, centre): (usize, &f64)| Column { q: centre + mean, weights: vec![(cell, 1.0)] };
+        return centres.iter().enumerate().map(column).collect();
+    }
+    let far = kicks.law.reach().min(FAR) * spread;
+    let half = far + centres.last().copied().unwrap_or_default();
+    let step = (spread / fineness).max(2.0 * half / COLUMNS);
+    steps(mean, half, step)
+        .map(|q| {
+            let weight = |centre: &f64| kicks.law.density(q - mean - centre, spread);
+            let weights = centres.iter().map(weight).enumerate();
+            Column { q, weights: weights.filter(|(_, weight)| *weight > 0.0).collect() }
+        })
+        .collect()
+}
+
+/// Velocities of starts with their weights.
+fn rows(kicks: &RandomKick, fineness: f64) -> Vec<(f64, f64)> {
+    let (mean, spread) = kicks.v;
+    if spread == 0.0 {
+        return vec![(mean, 1.0)];
+    }
+    let far = kicks.law.reach().min(FAR) * spread;
+    let weighted = |v: f64| (v, kicks.law.density(v - mean, spread));
+    steps(mean, far, 0.5 * spread / fineness).map(weighted).collect()
+}
+
+/// Middles of steps of about this length, over `half` on either side of `mean`.
+fn steps(mean: f64, half: f64, step: f64) -> impl Iterator<Item = f64> {
+    let count = truncated((2.0 * half / step).ceil().max(1.0));
+    (0..count).map(move |index| mean - half + 2.0 * half * (real(index) + 0.5) / real(count))
+}
+
+/// Where the motion from a start of the basin comes to rest; `None` where that takes too long.
+fn rest_of(
+    parameters: &Parameters,
+    initial: State,
+    limits: &Limits,
+) -> Result<(Option<f64>, Cost), Reason> {
+    /// Error of a place of rest that matters to no cell.
+    const TOLERANCE: f64 = 1e-7;
+    const UNTIL: f64 = 1e4;
+    let problem = Problem {
+        parameters: *parameters,
+        initial,
+        until: UNTIL,
+        tolerance: TOLERANCE,
+        ..Problem::default()
+    };
+    let motion = trajectory(&problem, Detail::default(), limits);
+    match motion.outcome {
+        Outcome::Captured { q, .. } => Ok((Some(q), motion.cost)),
+        Outcome::GaveUp { reason: Reason::Interrupted, .. } => Err(Reason::Interrupted),
+        _ => Ok((None, motion.cost)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::random::Random;
+    use crate::portrait::kicks::Distribution;
+
+    /// Kicks one after the other, each from where the last one came to rest: mean number until one is lost, and
+    /// its standard error.
+    fn drawn(parameters: &Parameters, kicks: &RandomKick, most: u32) -> (f64, f64) {
+        let found = basin(parameters, 5.0, &Limits::PATIENT).unwrap();
+        let mut random = Random::new(7);
+        let (mut kicked, mut runs, mut squares, mut sum) = (0, 0.0, 0.0, 0.0);
+        while kicked < most {
+            let (mut place, mut run) = (0.0, 0.0);
+            loop {
+                let (a, b) = (random.normal(), random.normal());
+                let start =
+                    State { q: place + kicks.q.0 + kicks.q.1 * a, v: kicks.v.0 + kicks.v.1 * b };
+                kicked += 1;
+                run += 1.0;
+                if found.fate(start) != Fate::Rest {
+                    break;
+                }
+                place = rest_of(parameters, start, &Limits::PATIENT).unwrap().0.unwrap();
+            }
+            (runs, sum, squares) = (runs + 1.0, sum + run, squares + run * run);
+        }
+        let mean: f64 = sum / runs;
+        (mean, ((squares / runs - mean * mean) / runs).sqrt())
+    }
+
+    const PARAMETERS: Parameters = Parameters { d: -0.3, d2: 0.2, d3: 0.5, r: 0.1 };
+    const KICKS: RandomKick =
+        RandomKick { law: Distribution::Normal, q: (0.0, 0.04), v: (0.02, 0.08) };
+
+    fn agrees(parameters: &Parameters, kicks: &RandomKick, drawn_kicks: u32) {
+        let found = repeated(parameters, kicks, &Limits::PATIENT).unwrap();
+        let (mean, deviation) = drawn(parameters, kicks, drawn_kicks);
+        let error = 3.0 * deviation + found.error * found.mean;
+        assert!(
+            (mean - found.mean).abs() < error,
+            "{mean} +- {deviation}, {} {}",
+            found.mean,
+            found.error
+        );
+        assert!(found.error < 0.02, "{}", found.error);
+        let width = 2.0 * parameters.r / real(found.density.len());
+        assert!((found.density.iter().sum::<f64>() * width - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn kicks_are_lost_after_as_many_as_a_monte_carlo_needs() {
+        agrees(&PARAMETERS, &KICKS, 20_000);
+    }
+
+    #[test]
+    #[ignore = "1e6 kicks: a minute"]
+    fn kicks_are_lost_after_as_many_as_a_large_monte_carlo_needs() {
+        agrees(&PARAMETERS, &KICKS, 1_000_000);
+        let impulses = RandomKick { q: (0.0, 0.0), ..KICKS };
+        agrees(
+            &Parameters { d: -0.05, d2: 0.5, d3: 0.0, r: 0.2 },
+            &RandomKick { v: (0.0, 0.6), ..impulses },
+            1_000_000,
+        );
+    }
+
+    #[test]
+    fn where_nothing_is_lost_nothing_ever_is() {
+        let damped = Parameters { d: 0.2, d2: 0.0, d3: 0.0, r: 0.1 };
+        let kicks = RandomKick { q: (0.0, 0.0), ..KICKS };
+        let found = repeated(&damped, &kicks, &Limits::PATIENT).unwrap();
+        assert_eq!((found.first.part, found.later, found.mean), (0.0, 0.0, f64::INFINITY));
+        let without = Parameters { r: 0.0, ..damped };
+        assert!(repeated(&without, &kicks, &Limits::PATIENT).is_err());
+    }
+}

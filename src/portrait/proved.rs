@@ -1,0 +1,113 @@
+//! The limit cycles, found by the search and then proved.
+//!
+//! The two share no code but the parameters. Where both are sure and differ, one of them is wrong, and the
+//! answer is a [`Contradiction`] instead of either.
+
+use std::fmt;
+
+use super::basin::SurveyedBasin;
+use super::basin::cycle::Cycles;
+use crate::numerics::Interval;
+use crate::portrait::{Border, Cycle};
+use crate::proof::cycles::{Open, ProvedCycle};
+use crate::proof::kicks::{ProvedEdge, ProvedKicks};
+use crate::proof::{ParameterBox, Proof, prove};
+
+/// The search and the proof say different things: an error of this program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contradiction {
+    /// What differs.
+    pub what: String,
+}
+
+impl fmt::Display for Contradiction {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            out,
+            "search and proof contradict each other, so that one of them is wrong: {}; please report these \
+             parameters",
+            self.what
+        )
+    }
+}
+
+impl std::error::Error for Contradiction {}
+
+/// Proves what the search found, for the parameters as the doubles that they are. Fails with a [`Contradiction`]
+/// where the proof excludes a cycle that was found, or proves one that was not.
+pub fn proved(found: &Cycles) -> Result<Proof, Contradiction> {
+    let hints: Vec<f64> = found.cycles.iter().map(|cycle| cycle.clearance).collect();
+    let proof = prove(&ParameterBox::from(&found.parameters), &hints);
+    compare(&found.cycles, &proof)?;
+    Ok(proof)
+}
+
+/// Compares the cycles of the search with a proof. Fails with a [`Contradiction`] where they differ.
+pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
+    let contradiction = |what| Err(Contradiction { what });
+    for cycle in found {
+        let is_open = |open: &Open| is_near(Interval::new(open.lower, open.upper), cycle.clearance);
+        if matching(proof, cycle).is_none() && !proof.open.iter().any(is_open) {
+            return contradiction(format!("there is no cycle with q_max = {:?}", cycle.q_max));
+        }
+    }
+    for proved in &proof.cycles {
+        let is_it = |cycle: &&Cycle| matching(proof, cycle) == Some(proved);
+        match found.iter().filter(is_it).count() {
+            1 => {}
+            0 => {
+                let within = proved.within;
+                return contradiction(format!(
+                    "a cycle with a clearance in {within} was not found"
+                ));
+            }
+            more => {
+                return contradiction(format!("{more} of the cycles found are the same one"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What is proved about the edge of a basin; nothing where a survey says otherwise.
+#[must_use]
+pub fn agreed(proved: ProvedKicks, found: &SurveyedBasin) -> ProvedKicks {
+    const DIFFERENT: &str = "not proved, because the proof contradicts the numbers above";
+    let edge = match proved.edge {
+        Some(ProvedEdge::None) => Some(Border::None),
+        Some(ProvedEdge::Cycle) => Some(Border::Cycle),
+        Some(ProvedEdge::Separatrix) => Some(Border::Separatrix),
+        None => None,
+    };
+    let (margin, from_rest) = (&found.margin, &found.margin.from_rest);
+    let pairs = [
+        (proved.displacement, margin.displacement),
+        (proved.impulse, margin.impulse),
+        (proved.rest_displacement, from_rest.displacement),
+        (proved.rest_impulse, from_rest.impulse),
+    ];
+    let agree = |(bounds, value): (Option<Interval>, Option<f64>)| {
+        bounds.zip(value).is_none_or(|(bounds, value)| is_near(bounds, value))
+    };
+    if edge.is_none_or(|edge| edge == found.border) && pairs.into_iter().all(agree) {
+        return proved;
+    }
+    ProvedKicks { open: Some(DIFFERENT), ..ProvedKicks::default() }
+}
+
+/// The proved cycle that a cycle of the search is, if there is one.
+///
+/// Next to a fold two cycles may both be near: one of them attracts, the other repels.
+pub fn matching<'a>(proof: &'a Proof, cycle: &Cycle) -> Option<&'a ProvedCycle> {
+    let place = |proved: &ProvedCycle| proved.enclosure.map_or(proved.within, |it| it.clearance);
+    let mut alike = proof.cycles.iter().filter(|proved| proved.stable == cycle.stable);
+    alike.find(|proved| is_near(place(proved), cycle.clearance))
+}
+
+/// Whether a number of the search is off its enclosure at most by what rounding explains.
+fn is_near(enclosure: Interval, value: f64) -> bool {
+    /// Relative distance, for rounding of steep and of flat maps.
+    const ROUNDING: f64 = 1e-6;
+    let slack = ROUNDING * value;
+    enclosure.lower() - slack <= value && value <= enclosure.upper() + slack
+}

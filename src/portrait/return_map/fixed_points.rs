@@ -1,0 +1,415 @@
+//! The limit cycles of a machine: the fixed points of the return map, each found and described.
+
+use super::landmarks::Landmarks;
+use super::machine_return::{Image, MachineReturn};
+use super::zeros::{GrowthSample, NOTHING, zeros};
+use crate::flow::machine::arc::{SeriesStep, Watch};
+use crate::flow::machine::ledger::StepWorks;
+use crate::flow::machine::turn::ContactState;
+use crate::flow::{Flow, LostMotion, MachineLedger};
+use crate::model::{Model, Phase};
+use crate::numerics::elementary::{exp, ln, pow};
+use crate::numerics::root::bisect;
+use crate::numerics::scaling::{exponent, times_power};
+use crate::portrait::{Cycle, Ride};
+
+/// Extremes of the velocity, and durations, along a motion.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Extremes {
+    /// Smallest and largest velocity.
+    pub y: (f64, f64),
+    /// Total time.
+    pub duration: f64,
+    /// The last ride on the belt, with the time spent on all.
+    pub ride: Option<Ride>,
+}
+
+impl Watch for Extremes {
+    fn step(&mut self, _: &Model, step: &SeriesStep) {
+        self.duration += step.duration;
+        if let Some(peak) = step.peak {
+            let y = step.series.velocity(peak).0;
+            self.y = (self.y.0.min(y), self.y.1.max(y));
+        }
+    }
+
+    fn stick(&mut self, model: &Model, from: f64, to: f64) {
+        let duration = (to - from) / model.speed;
+        self.duration += duration;
+        self.y.1 = self.y.1.max(model.speed);
+        let before = self.ride.map_or(0.0, |ride| ride.duration);
+        self.ride = Some(Ride { from, to, duration: before + duration });
+    }
+}
+
+/// The fixed points of the return map, and whether it is the identity somewhere.
+#[derive(Clone, Debug, Default)]
+pub struct FixedPoints {
+    /// Right turning points with their images, by amplitude.
+    pub points: Vec<(f64, Image)>,
+    /// Whether all motions that slip are periodic.
+    pub neutral: bool,
+    /// The point up to which they were sought, and what ended the search.
+    pub end: f64,
+    /// See [`Self::end`].
+    pub stop: Option<LostMotion>,
+    /// Intervals in which the search did not settle.
+    pub unresolved: Vec<(f64, f64)>,
+    /// Right turning point up to which the guide catches the mass within one return, if motions from beyond it
+    /// grow. The border of rest is then the motion that just reaches the end of what the guide holds.
+    pub capture: Option<f64>,
+}
+
+/// Logarithm of the multiplier from which cycles are computed backward in time.
+const STRONG: f64 = 4.0;
+
+/// Replaces a value that does not exist because the mass comes to rest or escapes.
+const FAR: f64 = 1e3;
+
+impl Flow<'_> {
+    /// `ln(image/x)` of the return map over `u = ln(x/unit)`.
+    pub(crate) fn growth(&mut self, u: f64, unit: f64) -> Result<GrowthSample, LostMotion> {
+        let x = unit * exp(u);
+        let lost = |f| Ok(GrowthSample { u, f, slope: 0.0 });
+        match self.returned(x) {
+            Ok(MachineReturn::Turns(image)) => {
+                let slope = exp(image.log_slope) * x / image.x - 1.0;
+                Ok(GrowthSample { u, f: ln(image.x / x), slope })
+            }
+            Ok(MachineReturn::Rests(_)) => lost(-FAR),
+            Err(LostMotion::Escaped) => lost(FAR),
+            Err(stop) => Err(stop),
+        }
+    }
+
+    /// All fixed points of the return map.
+    ///
+    /// # Errors
+    /// [`LostMotion`] if even the motions next to rest cannot be followed.
+    pub fn fixed_points(&mut self, marks: Option<&Landmarks>) -> Result<FixedPoints, LostMotion> {
+        let mut found = FixedPoints::default();
+        let touch = marks.and_then(|marks| marks.grazing.right);
+        let scale = self.scale(marks);
+        let at = |x: f64| ln(x / scale);
+        let caught = match self.smallest(scale) {
+            // Every motion comes to rest at once, or leaves the law.
+            Err(stop @ LostMotion::OutsideLaw { .. }) => {
+                let held = GrowthSample { u: at(self.model.guide_static), f: -FAR, slope: 0.0 };
+                found.stop = Some(stop);
+                found.end = scale * exp(self.edge(held, at(scale), scale).u);
+                return Ok(found);
+            }
+            smallest => smallest?,
+        };
+        // By rounding, a motion from there may still come to rest.
+        let beyond = |x: f64| x * (1.0 + 1e-12);
+        let held = self.model.guide_static;
+        let mut smallest = caught.max(beyond(held));
+        if let Some((x, image)) = self.innermost(smallest)? {
+            found.points.push((x, image));
+            smallest = x;
+        }
+        smallest = beyond(smallest);
+        let touches_before = touch.is_some_and(|touch| touch > held && touch <= smallest);
+        if held > 0.0 && smallest.is_finite() && !touches_before && found.points.is_empty() {
+            let grows = self.growth(at(smallest), scale)?.f > 0.0;
+            found.capture = grows.then_some(caught);
+        }
+        let slipping = match touch {
+            _ if smallest.is_infinite() => None,
+            Some(touch) if touch > smallest => {
+                let grazing = marks.map_or(touch, |marks| marks.grazing.image);
+                let slope = marks.map_or(0.0, |marks| exp(marks.grazing.log_slope));
+                Some(GrowthSample {
+                    u: at(touch),
+                    f: if grazing > 0.0 { ln(grazing / touch) } else { -FAR },
+                    slope: slope * touch / grazing - 1.0,
+                })
+            }
+            Some(_) => None,
+            None => Some(self.farthest(smallest, scale, &mut found)?),
+        };
+        let mut roots = Vec::new();
+        if let Some(last) = slipping {
+            let first = self.growth(at(smallest), scale)?;
+            found.end = scale * exp(last.u);
+            found.neutral = self.is_neutral(first, last, scale)?;
+            if !found.neutral {
+                roots = self.zeros_between(first, last, scale, &mut found)?;
+            }
+        }
+        if let Some(marks) = marks {
+            let released = marks.released.filter(|x| touch.is_some_and(|touch| *x >= touch));
+            match released.map(|released| (released, self.returned(released))) {
+                Some((released, Ok(MachineReturn::Turns(image))))
+                    if image.sticks_from.is_some() =>
+                {
+                    found.points.push((released, image));
+                }
+                // What escapes is known.
+                Some((_, Err(stop))) if stop != LostMotion::Escaped => found.stop = Some(stop),
+                _ => {}
+            }
+            if let Some(beyond) = marks.beyond {
+                let start = beyond * (1.0 + 4.0 * f64::EPSILON);
+                let start = if smallest.is_finite() { start.max(smallest) } else { start };
+                if let Ok(first) = self.growth(at(start), scale) {
+                    let last = self.farthest(start, scale, &mut found)?;
+                    found.end = scale * exp(last.u);
+                    roots.extend(self.zeros_between(first, last, scale, &mut found)?);
+                }
+            }
+        }
+        if found.stop.is_none() && self.model.law_ends() {
+            // Motions that come to ride on the belt are known as far as the law reaches.
+            let from = if smallest.is_finite() { smallest } else { beyond(held) };
+            let last = self.farthest(from.max(found.end), scale, &mut found)?;
+            found.end = found.end.max(scale * exp(last.u));
+        }
+        for u in roots {
+            found.points.extend(self.sharpened(scale * exp(u))?);
+        }
+        found.points.sort_by(|one, other| one.0.total_cmp(&other.0));
+        Ok(found)
+    }
+
+    /// A power of two beyond all special lengths of the machine, so that results do not depend on their unit.
+    fn scale(&self, marks: Option<&Landmarks>) -> f64 {
+        let model = self.model;
+        let mut lengths = vec![model.guide_static, model.pull];
+        if model.speed.is_finite() {
+            lengths.push(model.speed);
+        }
+        if let Some(marks) = marks {
+            lengths.extend(marks.grazing.right);
+            lengths.extend(marks.released);
+            lengths.extend(marks.beyond);
+        }
+        lengths.extend(model.velocities());
+        let largest = lengths.into_iter().filter(|x| x.is_finite()).fold(0.0, f64::max);
+        if largest > 0.0 { times_power(1.0, exponent(largest) + 1) } else { 1.0 }
+    }
+
+    /// The right turning point below which every motion comes to rest; without friction of the guide, a point
+    /// below which the map is linear.
+    fn smallest(&mut self, scale: f64) -> Result<f64, LostMotion> {
+        /// Growth below this is about to be lost in rounding.
+        const WEAK: f64 = 1e-9;
+        let held = self.model.guide_static;
+        if held > 0.0 {
+            // A motion that comes to rest there was released by the belt: those that only slip rest before.
+            let before = self.preimage(held)?;
+            return Ok(before.map_or(f64::INFINITY, |before| before.x.max(held)));
+        }
+        let mut x = scale * 1e-3;
+        let linear = self.model.linear_growth();
+        for _ in 0..12 {
+            let here = self.growth(ln(x / scale), scale)?;
+            let settled = (here.f - linear).abs() <= 0.1 * linear.abs() || here.f.abs() < WEAK;
+            if settled || !linear.is_finite() {
+                break;
+            }
+            x *= 0.1;
+        }
+        Ok(x)
+    }
+
+    /// The zeros of the growth between two samples.
+    fn zeros_between(
+        &mut self,
+        first: GrowthSample,
+        last: GrowthSample,
+        scale: f64,
+        found: &mut FixedPoints,
+    ) -> Result<Vec<f64>, LostMotion> {
+        let zeros = zeros((first, last), &mut |u| self.growth(u, scale))?;
+        let turn = |u: f64| scale * exp(u);
+        found.unresolved.extend(zeros.unresolved.iter().map(|(from, to)| (turn(*from), turn(*to))));
+        Ok(zeros.found)
+    }
+
+    /// The innermost cycle, if it repels so strongly that a few turns backward lead to it from rest and the map
+    /// itself cannot resolve it.
+    fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, LostMotion> {
+        /// Maximum number of turns.
+        const TURNS: usize = 8;
+        /// To rounding, a cycle that repels beyond all digits turns where the guide lets go.
+        const ROUNDING: f64 = 1e-12;
+        let held = self.model.guide_static;
+        if held == 0.0 || smallest.is_infinite() {
+            return Ok(None);
+        }
+        let mut x = smallest;
+        for _ in 0..TURNS {
+            // A turning point that the guide holds is on no cycle; neither is the equilibrium of a phase.
+            let moves = |image: &Image| {
+                let left = -image.left >= held * (1.0 - ROUNDING);
+                image.x >= held && left && image.log_slope.is_finite()
+            };
+            let Some(image) = self.preimage(x)?.filter(moves) else { return Ok(None) };
+            if (image.x - x).abs() <= 2.0 * f64::EPSILON * x {
+                return Ok(Some((x, image)));
+            }
+            if image.log_slope < STRONG {
+                return Ok(None);
+            }
+            x = image.x;
+        }
+        Ok(None)
+    }
+
+    /// The fixed point near `x` with its image; if it repels strongly, by the inverse map.
+    fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, LostMotion> {
+        let MachineReturn::Turns(image) = self.returned(x)? else { return Ok(None) };
+        let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
+        if !slips || image.log_slope < STRONG {
+            return Ok(Some((x, image)));
+        }
+        let before = self.preimage(x)?;
+        let again = before.map(|before| self.preimage(before.x)).transpose()?.flatten();
+        Ok(Some(again.zip(before).map_or((x, image), |(again, before)| (before.x, again))))
+    }
+
+    /// A right turning point far beyond `scale`, or as far as motions can be followed.
+    fn farthest(
+        &mut self,
+        from: f64,
+        scale: f64,
+        found: &mut FixedPoints,
+    ) -> Result<GrowthSample, LostMotion> {
+        /// Factor by which it lies beyond.
+        const DOUBLINGS: u32 = 10;
+        /// Doublings after which the shrinking of motions counts.
+        const ENOUGH: u32 = 3;
+        /// If a swing takes more than half of the amplitude, and the more the larger it is, dissipation dominates.
+        const CONTRACTS: f64 = -0.7;
+        let at = |x: f64| ln(x / scale);
+        let mut last = self.growth(at(from), scale)?;
+        let mut x = from.max(scale);
+        for doubling in 0..DOUBLINGS {
+            let before = last;
+            match self.growth(at(x), scale) {
+                Ok(sample) => last = sample,
+                Err(stop) => {
+                    found.stop = Some(stop);
+                    // Where motions take too many steps, finding the first of them costs too much.
+                    let dear = stop == LostMotion::Steps;
+                    return Ok(if dear { last } else { self.edge(last, at(x), scale) });
+                }
+            }
+            let shrinks = doubling > ENOUGH && last.f < CONTRACTS && last.f < before.f;
+            if shrinks || last.f >= FAR {
+                break;
+            }
+            x *= 2.0;
+        }
+        Ok(last)
+    }
+
+    /// The last point up to which the map is known, between one where it is and one where it is not.
+    fn edge(&mut self, known: GrowthSample, unknown: f64, unit: f64) -> GrowthSample {
+        let mut last = known;
+        bisect(known.u, unknown, 40, |u| self.growth(u, unit).map(|sample| last = sample).is_err());
+        last
+    }
+
+    /// Whether all motions between two samples are periodic.
+    fn is_neutral(
+        &mut self,
+        first: GrowthSample,
+        last: GrowthSample,
+        unit: f64,
+    ) -> Result<bool, LostMotion> {
+        let middle = self.growth(0.5 * (first.u + last.u), unit)?;
+        let other = self.growth(0.3 * first.u + 0.7 * last.u, unit)?;
+        Ok([first, middle, other, last].iter().all(|sample| sample.f.abs() < NOTHING))
+    }
+
+    /// The description of the cycle through a right turning point.
+    ///
+    /// # Errors
+    /// [`LostMotion`] if rounding carries the motion away.
+    pub fn describe(&mut self, x: f64, image: &Image, stable: bool) -> Result<Cycle, LostMotion> {
+        let Model { omega_0, guide, .. } = *self.model;
+        let sticks = image.sticks_from.is_some();
+        let overtakes = image.overtakes_from.is_some();
+        let mut extremes = Extremes::default();
+        self.around(x, !stable && !sticks && !overtakes, &mut extremes)?;
+        let Extremes { y: (slowest, fastest), duration, ride } = extremes;
+        let log_multiplier = if sticks { f64::NEG_INFINITY } else { image.log_slope };
+        let ride = ride.map(|ride| Ride { duration: ride.duration / omega_0, ..ride });
+        Ok(Cycle {
+            stable,
+            q_min: image.left,
+            q_max: x,
+            v_min: slowest * omega_0,
+            v_max: fastest * omega_0,
+            period: duration / omega_0,
+            multiplier: Some(exp(log_multiplier)).filter(|multiplier| multiplier.is_finite()),
+            log_multiplier,
+            clearance: x - guide,
+            log_clearance: ln(x - guide),
+            error: None,
+            errors: None,
+            ride: ride.filter(|_| sticks),
+            overtakes,
+        })
+    }
+
+    /// Follows a motion once around from a right turning point; backward in time if that attracts.
+    ///
+    /// # Errors
+    /// [`LostMotion`] if rounding carries the motion away.
+    pub fn around(
+        &mut self,
+        x: f64,
+        backward: bool,
+        watch: &mut impl Watch,
+    ) -> Result<f64, LostMotion> {
+        if backward {
+            let left = self.arc(Phase::Between, (x, 0.0), true, watch)?.x;
+            self.arc(Phase::Below, (left, 0.0), true, watch)?;
+            return Ok(left);
+        }
+        let left = self.turn(ContactState::Slips(Phase::Below), (x, 0.0), watch)?.x;
+        self.turn(ContactState::Slips(Phase::Between), (left, 0.0), watch)?;
+        Ok(left)
+    }
+
+    /// The ledger of one turn of a cycle.
+    ///
+    /// # Errors
+    /// [`LostMotion`], where rounding carries the motion off.
+    pub fn works_around(&mut self, cycle: &Cycle) -> Result<MachineLedger, LostMotion> {
+        let mut works = StepWorks::default();
+        let start = (cycle.q_max, 0.0);
+        self.around(cycle.q_max, cycle.is_followed_backward(), &mut works)?;
+        Ok(works.ledger(self.model, start, start))
+    }
+}
+
+impl Model {
+    /// The logarithm by which a small motion grows in one swing around a rest without friction of the guide;
+    /// infinite where it does not swing.
+    #[must_use]
+    pub fn linear_growth(&self) -> f64 {
+        let d = 0.5 * self.damping;
+        let turning = (1.0 - d * d).sqrt();
+        if turning > 0.0 { -std::f64::consts::TAU * d / turning } else { f64::NEG_INFINITY * d }
+    }
+
+    /// Velocities at which the force changes its form.
+    fn velocities(&self) -> Vec<f64> {
+        let mut found: Vec<f64> = self.slower.fall.iter().map(|fall| fall.velocity).collect();
+        for piece in &self.slower.pieces {
+            let c = &piece.coefficients;
+            if piece.center == 0.0 && c.len() > 2 && c[1] != 0.0 {
+                let knee = |(k, c_k): (usize, &f64)| {
+                    pow((c[1] / c_k).abs(), 1.0 / f64::from(u16::try_from(k - 1).unwrap_or(1)))
+                };
+                found.extend(c.iter().enumerate().skip(2).filter(|(_, c)| **c != 0.0).map(knee));
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,127 @@
+//! The gaps between the right turning points at which the return map changes, and the fate of the motions in
+//! each gap.
+
+use crate::flow::{Fate, Flow, LostMotion};
+use crate::model::Model;
+use crate::portrait::return_map::landmarks::Landmarks;
+use crate::portrait::return_map::machine_return::MachineReturn;
+use crate::portrait::return_map::zeros::NOTHING;
+
+/// A gap between right turning points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gap {
+    /// Its upper end.
+    pub to: f64,
+    pub fate: Fate<LostMotion>,
+    /// Fate of a motion that turns exactly at the upper end.
+    pub end: Fate<LostMotion>,
+}
+
+/// A right turning point at which the return map changes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Divide {
+    Cycle(usize),
+    Jump,
+    /// The last one from which the guide catches the mass; motions from beyond grow.
+    Capture,
+}
+
+/// Jumps of the return map: where a touch becomes a ride, and where the mirror band ends.
+pub(crate) fn jumps(model: &Model, landmarks: Option<&Landmarks>) -> Vec<f64> {
+    let Some(marks) = landmarks else { return Vec::new() };
+    let mut found: Vec<f64> = marks.grazing.right.into_iter().collect();
+    if marks.lines.release > marks.lines.fold {
+        found.extend(marks.beyond.filter(|beyond| Some(*beyond) != marks.grazing.right));
+    }
+    found.retain(|x| *x > model.guide_static);
+    found
+}
+
+/// The direction of motions in a gap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Tendency {
+    Outward,
+    Inward,
+    /// They are periodic.
+    Nowhere,
+    /// They leave the known range.
+    Lost(LostMotion),
+}
+
+/// The direction of motions in each gap.
+pub(crate) fn ways(
+    flow: &mut Flow,
+    marks: &[(f64, Divide)],
+    end: f64,
+) -> Result<Vec<Tendency>, LostMotion> {
+    let mut ways = Vec::with_capacity(marks.len() + 1);
+    let held = flow.model.guide_static;
+    let mut low = held;
+    for mark in marks.iter().map(Some).chain([None]) {
+        if let Some((x, Divide::Capture)) = mark {
+            ways.push(Tendency::Inward);
+            low = *x;
+            continue;
+        }
+        let high = mark.map(|(x, _)| *x);
+        let high = high.unwrap_or(if end > low { end } else { 2.0 * low });
+        let x = low + 0.5 * (high - low);
+        ways.push(match flow.returned(x) {
+            Ok(MachineReturn::Turns(image)) => way(image.x, x),
+            Ok(MachineReturn::Rests(_)) | Err(LostMotion::Settled) => Tendency::Inward,
+            Err(LostMotion::Escaped) => Tendency::Outward,
+            Err(stop @ LostMotion::OutsideLaw { .. }) => Tendency::Lost(stop),
+            Err(LostMotion::Steps) => return Err(LostMotion::Steps),
+        });
+        low = high;
+    }
+    Ok(ways)
+}
+
+fn way(image: f64, x: f64) -> Tendency {
+    let change = (image - x) / x;
+    if change.abs() < NOTHING {
+        Tendency::Nowhere
+    } else if change > 0.0 {
+        Tendency::Outward
+    } else {
+        Tendency::Inward
+    }
+}
+
+/// The fate of each gap.
+pub(crate) fn gaps(
+    marks: &[(f64, Divide)],
+    ways: &[Tendency],
+    stop: Option<LostMotion>,
+) -> Vec<Gap> {
+    let fate = |gap: usize| {
+        let mut here = gap;
+        loop {
+            let (mark, next) = match ways[here] {
+                Tendency::Lost(stop) => return Fate::Unknown(stop),
+                Tendency::Nowhere => return Fate::Neutral,
+                Tendency::Outward => (marks.get(here), here + 1),
+                Tendency::Inward if here == 0 => return Fate::Rest,
+                Tendency::Inward => (marks.get(here - 1), here - 1),
+            };
+            match mark {
+                None => return stop.map_or(Fate::Escapes, Fate::Unknown),
+                Some((_, Divide::Cycle(index))) => return Fate::Cycle(*index),
+                // Motions continue across a jump: the map rises there and never sends them back.
+                Some((_, Divide::Jump | Divide::Capture)) => here = next,
+            }
+        }
+    };
+    let gap = |(gap, mark): (usize, Option<&(f64, Divide)>)| {
+        let (to, mark) = mark.map_or((f64::INFINITY, Divide::Capture), |(x, mark)| (*x, *mark));
+        let end = match mark {
+            Divide::Cycle(index) => Fate::Cycle(index),
+            // An orbit that touches the belt sticks to it.
+            Divide::Jump => fate(gap + 1),
+            Divide::Capture => fate(gap),
+        };
+        Gap { to, fate: fate(gap), end }
+    };
+    marks.iter().map(Some).chain([None]).enumerate().map(gap).collect()
+}

@@ -1,0 +1,339 @@
+//! A scan: the same measures at every point of a line or grid of parameters.
+//!
+//! A [`Scan`] is a list of numbered points, and a [`ScanRow`] is what was measured at one of them. Rows do
+//! not depend on each other: any of them can be computed anywhere, at any time, and is the same to the
+//! last bit. So a scan can be shared between cores and machines, stopped, and resumed.
+
+use super::measure::{
+    Conditions, MachinePoint, Measure, MeasureNeed, OF_THE_PAPER, Value, measure, needs_of,
+};
+use super::sweep::Sweep;
+use crate::flow::method::Dial;
+use crate::flow::{Cost, Limits, Problem, Reason};
+use crate::model::belt::FrictionLaw;
+use crate::model::{Group, Interval, Knob, MachineProblem, ParameterBox, Parameters, State};
+use crate::portrait::basin::Window;
+use crate::portrait::kicks::RandomKick;
+
+/// Most points of a scan.
+pub const MOST_POINTS: usize = 1_000_000_000;
+
+/// What is scanned: a motion of the oscillator of the paper, or of a machine by its whole model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ScanSource {
+    /// A dimensionless motion.
+    Oscillator(Problem),
+    /// A motion in SI units.
+    Machine(Box<MachineProblem>),
+}
+
+impl From<Problem> for ScanSource {
+    fn from(problem: Problem) -> Self {
+        ScanSource::Oscillator(problem)
+    }
+}
+
+impl ScanSource {
+    /// What can be scanned over.
+    pub fn groups(&self) -> &'static [Group] {
+        match self {
+            ScanSource::Oscillator(_) => &[Group::Motion],
+            ScanSource::Machine(_) => MachineProblem::GROUPS,
+        }
+    }
+
+    /// Gives a number a value. Fails with one line if there is no such number.
+    fn set(&mut self, knob: Knob, value: f64) -> Result<(), String> {
+        match self {
+            ScanSource::Oscillator(Problem { parameters, initial, .. }) => {
+                knob.set(parameters, initial, value);
+                Ok(())
+            }
+            ScanSource::Machine(problem) => problem.set(knob, value),
+        }
+    }
+}
+
+/// What is scanned, and what is measured at each point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scan {
+    /// The motion whose numbers the sweeps replace.
+    base: ScanSource,
+    over: Vec<Sweep>,
+    measures: Vec<Measure>,
+    conditions: Conditions,
+}
+
+/// What was measured at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScanRow {
+    /// The cells, one for each column of [`Scan::measured`].
+    pub values: Vec<Value>,
+    /// What could not be computed, and why.
+    pub reason: Option<String>,
+    pub cost: Cost,
+}
+
+impl Scan {
+    /// A scan that makes sense: each sweep moves something that is measured. Fails with one line that says what is
+    /// wrong and what is allowed.
+    pub fn new(
+        base: impl Into<ScanSource>,
+        over: Vec<Sweep>,
+        measures: Vec<Measure>,
+        conditions: impl Into<Conditions>,
+    ) -> Result<Self, String> {
+        let (base, conditions) = (base.into(), conditions.into());
+        if over.is_empty() || measures.is_empty() {
+            return Err("a scan goes over at least one parameter and measures something".to_owned());
+        }
+        let needs = needs_of(&measures);
+        for (index, Sweep { symbol, from, .. }) in over.iter().enumerate() {
+            base.clone().set(*symbol, *from)?;
+            if over[..index].iter().any(|other| other.symbol == *symbol) {
+                return Err(format!("{symbol} is scanned over twice"));
+            }
+            if !needs.iter().any(|need| need.depends_on(*symbol)) {
+                let names: Vec<_> = measures.iter().map(|measure| measure.spec().name).collect();
+                return Err(format!("{} does not depend on {symbol}", names.join(", ")));
+            }
+        }
+        for (index, measure) in measures.iter().enumerate() {
+            if measures[..index].contains(measure) {
+                return Err(format!("{} is measured twice", measure.spec().name));
+            }
+            if matches!(base, ScanSource::Machine(_)) && OF_THE_PAPER.contains(measure) {
+                return Err(format!("{} is not measured of a machine", measure.spec().name));
+            }
+            if *measure == Measure::Design && conditions.wanted.is_none() {
+                return Err("design needs the margin that is wanted".to_owned());
+            }
+        }
+        let points = over.iter().try_fold(1_usize, |points, sweep| points.checked_mul(sweep.count));
+        if points.is_none_or(|points| points > MOST_POINTS) {
+            return Err(format!("too many points; allowed: {MOST_POINTS}"));
+        }
+        Ok(Scan { base, over, measures, conditions })
+    }
+
+    /// The parameters that are scanned over; the last one varies fastest.
+    pub fn over(&self) -> &[Sweep] {
+        &self.over
+    }
+
+    pub fn measures(&self) -> &[Measure] {
+        &self.measures
+    }
+
+    /// How many points there are.
+    pub fn points(&self) -> usize {
+        self.over.iter().map(|sweep| sweep.count).product()
+    }
+
+    /// Which value of each sweep point number `index` has.
+    pub fn place(&self, index: usize) -> Vec<usize> {
+        let mut place = vec![0; self.over.len()];
+        let mut rest = index;
+        for (which, sweep) in place.iter_mut().zip(&self.over).rev() {
+            *which = rest % sweep.count;
+            rest /= sweep.count;
+        }
+        place
+    }
+
+    /// The motion at point number `index`.
+    pub fn source(&self, index: usize) -> ScanSource {
+        let mut source = self.base.clone();
+        for (sweep, which) in self.over.iter().zip(self.place(index)) {
+            let set = source.set(sweep.symbol, sweep.value(which));
+            debug_assert!(set.is_ok(), "a scan goes over numbers that there are: {set:?}");
+        }
+        source
+    }
+
+    /// The same if it is one of the oscillator of the paper.
+    pub fn problem(&self, index: usize) -> Option<Problem> {
+        match self.source(index) {
+            ScanSource::Oscillator(problem) => Some(problem),
+            ScanSource::Machine(_) => None,
+        }
+    }
+
+    /// Measures point number `index`. Fails with [`Reason::Interrupted`], and no other.
+    pub fn row(&self, index: usize, limits: &Limits) -> Result<ScanRow, Reason> {
+        let (measures, conditions) = (&self.measures, &self.conditions);
+        let (values, reasons, cost) = match self.source(index) {
+            ScanSource::Oscillator(problem) => {
+                let (values, point) = measure(&problem, measures, conditions, limits)?;
+                (values, point.reasons(), point.cost)
+            }
+            ScanSource::Machine(problem) => {
+                let point = MachinePoint::of(&problem, measures, conditions, limits)?;
+                (point.values(measures, conditions), point.reasons, point.cost)
+            }
+        };
+        let reason = (!reasons.is_empty()).then(|| reasons.join("; "));
+        Ok(ScanRow { values, reason, cost })
+    }
+
+    /// A row that could not be measured at all.
+    pub fn failed(&self, reason: String) -> ScanRow {
+        let values = vec![Value::Nothing; self.measured().len()];
+        ScanRow { values, reason: Some(reason), cost: Cost::default() }
+    }
+
+    /// The columns that are measured, in their order.
+    pub fn measured(&self) -> Vec<&'static str> {
+        self.measures.iter().flat_map(|measure| measure.spec().columns).copied().collect()
+    }
+
+    /// All that the row of point number `index` depends on, by name.
+    ///
+    /// With it every row says for itself what it is: rows of different scans can stand in one file.
+    pub fn inputs(&self, index: usize) -> Vec<(String, Value)> {
+        let mut inputs = match self.source(index) {
+            ScanSource::Oscillator(problem) => self.inputs_of_motion(&problem),
+            ScanSource::Machine(problem) => self.inputs_of_machine(&problem),
+        };
+        let Conditions { window, elongation, kicks, wanted, .. } = self.conditions;
+        if self.measures.iter().any(|measure| measure.is_over_window()) {
+            let Window { q, v } = window;
+            inputs.extend(named([("q_from", q.0), ("q_to", q.1), ("v_from", v.0), ("v_to", v.1)]));
+            if elongation {
+                inputs.push(("q_of".to_owned(), Value::Word("elongation")));
+            }
+        }
+        if self.measures.iter().any(|measure| measure.is_of_kicks()) {
+            let RandomKick { law, q, v } = kicks;
+            inputs.push(("kick_law".to_owned(), Value::Word(law.name())));
+            inputs.extend(named([("kick_q", q.0), ("kick_q_spread", q.1)]));
+            inputs.extend(named([("kick_v", v.0), ("kick_v_spread", v.1)]));
+        }
+        if let Some((kick, size)) = wanted.filter(|_| self.measures.contains(&Measure::Design)) {
+            inputs.push((format!("wanted_{}", kick.name()), size.into()));
+        }
+        inputs
+    }
+
+    fn inputs_of_motion(&self, problem: &Problem) -> Vec<(String, Value)> {
+        let Problem { parameters, initial, until, method, tolerance, step, epsilon } = *problem;
+        let Parameters { d, d2, d3, r } = parameters;
+        let mut inputs: Vec<_> = named([("D", d), ("D2", d2), ("D3", d3), ("r", r)]).collect();
+        let needs = needs_of(&self.measures);
+        if needs.contains(&MeasureNeed::Motion) {
+            let State { q, v } = initial;
+            inputs.extend(named([("q0", q), ("v0", v)]));
+        }
+        if needs.contains(&MeasureNeed::Motion) || needs.contains(&MeasureNeed::Settling) {
+            inputs.extend(named([("until", until)]));
+            inputs.push(("method".to_owned(), Value::Word(method.spec().name)));
+            inputs.extend(match method.spec().dial {
+                Dial::Nothing => None,
+                Dial::Tolerance => Some(("tolerance".to_owned(), tolerance.into())),
+                Dial::Step => Some(("step".to_owned(), step.into())),
+                Dial::Epsilon => Some(("epsilon".to_owned(), epsilon.into())),
+            });
+        }
+        if self.measures.contains(&Measure::Guaranteed) {
+            let ParameterBox { d, d2, d3, r } = self.conditions.around(&parameters);
+            inputs.extend(named([("w", self.conditions.disturbance)]));
+            inputs.extend(Knob::PARAMETERS.into_iter().zip([d, d2, d3, r]).flat_map(ends));
+        }
+        inputs
+    }
+
+    fn inputs_of_machine(&self, problem: &MachineProblem) -> Vec<(String, Value)> {
+        let MachineProblem { subject, tolerances, start, until } = problem;
+        let value = |(knob, value): (Knob, f64)| (knob.to_string(), value.into());
+        let mut inputs: Vec<_> = subject.numbers().map(value).collect();
+        let belt = subject.of_belt();
+        if let Some(FrictionLaw::Table(table)) = belt.map(|belt| &belt.law) {
+            let which = Value::Count(table.fingerprint() as usize);
+            inputs.push(("friction_table".to_owned(), which));
+        }
+        if let Some(tolerance) = subject.tolerance {
+            inputs.extend(named([("tolerance", tolerance)]));
+        }
+        let needs = needs_of(&self.measures);
+        if needs.contains(&MeasureNeed::Motion) {
+            inputs.extend(named([("x", start.0), ("v", start.1), ("until", *until)]));
+        }
+        let certain = needs.contains(&MeasureNeed::Guarantee)
+            || (needs.contains(&MeasureNeed::Design) && !tolerances.is_none());
+        if let Some(belt) = belt.filter(|_| certain) {
+            inputs.extend(named([("w", tolerances.disturbance)]));
+            inputs.extend(tolerances.intervals(belt).into_iter().flat_map(ends));
+        }
+        inputs
+    }
+}
+
+/// Inputs that are numbers.
+fn named<const N: usize>(
+    numbers: [(&str, f64); N],
+) -> impl Iterator<Item = (String, Value)> + use<N> {
+    numbers.map(|(name, value)| (name.to_owned(), value.into())).into_iter()
+}
+
+/// The ends of the interval of a number, as inputs.
+fn ends((knob, interval): (Knob, Interval)) -> [(String, Value); 2] {
+    let end = |name: &str, value: f64| (format!("{knob}_{name}"), value.into());
+    [end("from", interval.lower()), end("to", interval.upper())]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scan(over: &[&str], measures: &[Measure]) -> Result<Scan, String> {
+        let sweep = |text: &&str| Sweep::read(text, &[Group::Motion]);
+        let over = over.iter().map(sweep).collect::<Result<_, _>>()?;
+        let window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
+        Scan::new(Problem::default(), over, measures.to_vec(), window)
+    }
+
+    #[test]
+    fn a_scan_measures_what_its_sweeps_move() {
+        let margin = [Measure::Margin];
+        assert!(scan(&["D=-1:0:3"], &margin).is_ok());
+        for (over, measures, expected) in [
+            (&["q0=-1:0:3"][..], &margin[..], "margin does not depend on q0"),
+            (&["D=-1:0:3", "D=-2:0:3"], &margin, "D is scanned over twice"),
+            (&["D=-1:0:3"], &[Measure::Fold], "fold does not depend on D"),
+            (&["D=-1:0:3"], &[Measure::Margin, Measure::Margin], "margin is measured twice"),
+            (&[], &margin, "at least one"),
+            (&["D=-1:0:1000000", "r=0:1:100000"], &margin, "too many points"),
+        ] {
+            let refused = scan(over, measures).unwrap_err();
+            assert!(refused.contains(expected), "{refused}");
+        }
+    }
+
+    #[test]
+    fn points_are_numbered_with_the_last_sweep_fastest() {
+        let grid = scan(&["r=0.1:0.3:3", "D=-0.5:-0.1:2"], &[Measure::Area]).unwrap();
+        assert_eq!(grid.points(), 6);
+        let at = |index| {
+            let parameters = grid.problem(index).unwrap().parameters;
+            (parameters.r, parameters.d)
+        };
+        assert_eq!(
+            [at(0), at(1), at(2), at(5)],
+            [(0.1, -0.5), (0.1, -0.1), (0.2, -0.5), (0.3, -0.1)]
+        );
+        assert_eq!(grid.place(5), [2, 1]);
+    }
+
+    #[test]
+    fn a_row_names_exactly_its_inputs() {
+        let names = |measures: &[Measure]| -> Vec<String> {
+            let scan = scan(&["D=-0.5:-0.1:2"], measures).unwrap();
+            scan.inputs(0).into_iter().map(|(name, _)| name).collect()
+        };
+        assert_eq!(names(&[Measure::Margin]), ["D", "D2", "D3", "r"]);
+        let motion = ["D", "D2", "D3", "r", "q0", "v0", "until", "method", "tolerance"];
+        assert_eq!(names(&[Measure::Rest]), motion);
+        let window = ["D", "D2", "D3", "r", "q_from", "q_to", "v_from", "v_to"];
+        assert_eq!(names(&[Measure::Stability]), window);
+    }
+}

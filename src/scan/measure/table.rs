@@ -1,0 +1,376 @@
+//! The table of measures, the computations that they need, and the cells that they fill.
+
+use std::collections::BTreeSet;
+
+use crate::model::Knob;
+use crate::numerics::count::real;
+
+/// A property of the oscillator, or of one motion of it, at given parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Measure {
+    /// How the motion ends.
+    Outcome,
+    /// Where and when the motion comes to rest.
+    Rest,
+    /// Amplitudes of the limit cycles.
+    Cycles,
+    /// Periods and Floquet multipliers of the limit cycles.
+    Multipliers,
+    /// The kicks that the sticking set survives.
+    Margin,
+    /// The kicks that are survived wherever the mass rests.
+    FromRest,
+    /// The fraction of a window that is captured.
+    Stability,
+    /// The area of the basin.
+    Area,
+    /// The fold of limit cycles in D.
+    Fold,
+    /// The escape point in D.
+    Escape,
+    /// The kicks that are survived for certain.
+    Guaranteed,
+    /// The fraction of random kicks that is lost.
+    Lost,
+    /// How round the basin is.
+    Integrity,
+    /// How long the starts of a window take to come to rest.
+    Settling,
+    /// The fraction of a window that is at rest in time.
+    FiniteTime,
+    /// How many kicks in a row are survived.
+    Repeated,
+    /// Whether the number of cycles is proved, and bounds of their amplitudes.
+    Proved,
+    /// What borders the basin.
+    Border,
+    /// The friction that a margin needs.
+    Design,
+}
+
+/// A computation on which measures rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum MeasureNeed {
+    /// The motion from (q0, v0).
+    Motion,
+    /// All limit cycles.
+    Cycles,
+    /// The edge of the basin of the sticking set: its innermost cycle, or the separatrix.
+    Edge,
+    /// The fold `D_F`.
+    Fold,
+    /// The escape point `D_c`.
+    Escape,
+    /// The guaranteed margin.
+    Guarantee,
+    /// The motions from all over the window.
+    Settling,
+    /// The Markov chain of repeated kicks.
+    Chain,
+    /// A proof of the number of cycles.
+    Proof,
+    /// The friction that a margin needs.
+    Design,
+}
+
+impl MeasureNeed {
+    /// The name in the reason of a row.
+    pub fn name(self) -> &'static str {
+        match self {
+            MeasureNeed::Motion => "motion",
+            MeasureNeed::Cycles => "cycles",
+            MeasureNeed::Edge => "edge",
+            MeasureNeed::Fold => "fold",
+            MeasureNeed::Escape => "escape",
+            MeasureNeed::Guarantee => "guarantee",
+            MeasureNeed::Settling => "settling",
+            MeasureNeed::Chain => "repeated kicks",
+            MeasureNeed::Proof => "proof",
+            MeasureNeed::Design => "design",
+        }
+    }
+
+    /// Whether the computation depends on a number.
+    pub fn depends_on(self, knob: Knob) -> bool {
+        match knob {
+            Knob::Q0 | Knob::V0 | Knob::X | Knob::V | Knob::Duration => self == MeasureNeed::Motion,
+            Knob::DisturbingForce => {
+                matches!(self, MeasureNeed::Guarantee | MeasureNeed::Design)
+            }
+            Knob::D => !matches!(self, MeasureNeed::Fold | MeasureNeed::Escape),
+            Knob::R | Knob::Friction => self != MeasureNeed::Design,
+            _ => true,
+        }
+    }
+}
+
+/// One row of [`MEASURES`].
+#[derive(Clone, Copy, Debug)]
+pub struct MeasureSpec {
+    /// Which measure.
+    pub measure: Measure,
+    /// Its name on the command line and on the screen.
+    pub name: &'static str,
+    /// What it means, in a few words.
+    pub meaning: &'static str,
+    /// The columns that it fills.
+    pub columns: &'static [&'static str],
+    /// The computation that it needs.
+    pub needs: MeasureNeed,
+}
+
+/// Cycles that have columns of their own; no parameters with more are known, and `cycles` counts all.
+pub(crate) const CYCLES: usize = 2;
+
+/// Measures of the oscillator of the paper alone; all others are measured of machines, too.
+pub const OF_THE_PAPER: [Measure; 7] = [
+    Measure::Area,
+    Measure::Fold,
+    Measure::Escape,
+    Measure::Integrity,
+    Measure::Settling,
+    Measure::FiniteTime,
+    Measure::Proved,
+];
+
+/// Every measure, in the order in which they are listed.
+pub const MEASURES: [MeasureSpec; 19] = [
+    MeasureSpec {
+        measure: Measure::Outcome,
+        name: "outcome",
+        meaning: "how the motion from (q0, v0) ends, when, after how many half swings",
+        columns: &["outcome", "outcome_tau", "half_swings"],
+        needs: MeasureNeed::Motion,
+    },
+    MeasureSpec {
+        measure: Measure::Rest,
+        name: "rest",
+        meaning: "where and when the motion from (q0, v0) comes to rest",
+        columns: &["rest_q", "rest_tau"],
+        needs: MeasureNeed::Motion,
+    },
+    MeasureSpec {
+        measure: Measure::Cycles,
+        name: "cycles",
+        meaning: "how many limit cycles there are, and their extremes, smallest cycle first",
+        columns: &[
+            "cycles", "q_min_1", "q_max_1", "v_min_1", "v_max_1", "q_min_2", "q_max_2", "v_min_2",
+            "v_max_2",
+        ],
+        needs: MeasureNeed::Cycles,
+    },
+    MeasureSpec {
+        measure: Measure::Multipliers,
+        name: "multipliers",
+        meaning: "period, Floquet multiplier and its logarithm of each limit cycle",
+        columns: &[
+            "period_1",
+            "multiplier_1",
+            "log_multiplier_1",
+            "period_2",
+            "multiplier_2",
+            "log_multiplier_2",
+        ],
+        needs: MeasureNeed::Cycles,
+    },
+    MeasureSpec {
+        measure: Measure::Margin,
+        name: "margin",
+        meaning: "smallest displacement at rest, and smallest impulse at q = 0, not captured",
+        columns: &["displacement", "impulse"],
+        needs: MeasureNeed::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::FromRest,
+        name: "from-rest",
+        meaning: "smallest change of position, and smallest impulse, not captured, from the worst rest position",
+        columns: &["from_rest_displacement", "from_rest_impulse"],
+        needs: MeasureNeed::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Stability,
+        name: "stability",
+        meaning: "basin stability: the fraction of the window that is captured, and its error",
+        columns: &["captured_part", "captured_error"],
+        needs: MeasureNeed::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Area,
+        name: "area",
+        meaning: "area of the basin, where it is finite",
+        columns: &["area"],
+        needs: MeasureNeed::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Fold,
+        name: "fold",
+        meaning: "the fold D_F (or grazing, below D = -1), above which no cycle is left, and the amplitude there",
+        columns: &["D_F", "D_F_q_max"],
+        needs: MeasureNeed::Fold,
+    },
+    MeasureSpec {
+        measure: Measure::Escape,
+        name: "escape",
+        meaning: "the escape point D_c, where the cycle goes to infinity",
+        columns: &["D_c"],
+        needs: MeasureNeed::Escape,
+    },
+    MeasureSpec {
+        measure: Measure::Guaranteed,
+        name: "guaranteed",
+        meaning: "margin that holds for every disturbance and all parameters within their half widths",
+        columns: &["guaranteed_displacement", "guaranteed_impulse"],
+        needs: MeasureNeed::Guarantee,
+    },
+    MeasureSpec {
+        measure: Measure::Lost,
+        name: "lost",
+        meaning: "the fraction of random kicks that is not captured, and its error",
+        columns: &["lost_part", "lost_error"],
+        needs: MeasureNeed::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Integrity,
+        name: "integrity",
+        meaning: "radius of the largest circle about the origin within the basin, and the part of the basin \
+                  that it fills (integrity factor)",
+        columns: &["circle_radius", "integrity"],
+        needs: MeasureNeed::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Settling,
+        name: "settling",
+        meaning: "largest and mean time to rest of 32 x 32 starts of the window, if all are at rest in the end",
+        columns: &["settling_max", "settling_mean"],
+        needs: MeasureNeed::Settling,
+    },
+    MeasureSpec {
+        measure: Measure::FiniteTime,
+        name: "finite-time",
+        meaning: "finite-time basin stability: the fraction of 32 x 32 starts of the window at rest in the end, and \
+                  its error as a fraction of the window",
+        columns: &["rested_part", "rested_error"],
+        needs: MeasureNeed::Settling,
+    },
+    MeasureSpec {
+        measure: Measure::Repeated,
+        name: "repeated",
+        meaning: "mean number of random kicks, each from where the last one came to rest, until one is lost; the \
+                  part that is lost after many; the relative error of both",
+        columns: &["kicks_mean", "kicks_lost", "kicks_error"],
+        needs: MeasureNeed::Chain,
+    },
+    MeasureSpec {
+        measure: Measure::Proved,
+        name: "proved",
+        meaning: "whether it is proved that there are these cycles and no others, and bounds of their amplitudes",
+        columns: &["proved", "q_max_1_lower", "q_max_1_upper", "q_max_2_lower", "q_max_2_upper"],
+        needs: MeasureNeed::Proof,
+    },
+    MeasureSpec {
+        measure: Measure::Border,
+        name: "border",
+        meaning: "what borders the basin: cycle, separatrix or none; of a machine also grazing or no-basin",
+        columns: &["border"],
+        needs: MeasureNeed::Edge,
+    },
+    MeasureSpec {
+        measure: Measure::Design,
+        name: "design",
+        meaning: "the least friction, r or R, that keeps the margin of --design; 0 if any does",
+        columns: &["friction_needed"],
+        needs: MeasureNeed::Design,
+    },
+];
+
+impl Measure {
+    /// The row of [`MEASURES`] that describes this measure.
+    pub fn spec(self) -> &'static MeasureSpec {
+        &MEASURES[self as usize]
+    }
+
+    /// Whether it is measured over a window of starts.
+    pub fn is_over_window(self) -> bool {
+        matches!(self, Measure::Stability | Measure::Settling | Measure::FiniteTime)
+    }
+
+    /// Whether it is measured of random kicks.
+    pub fn is_of_kicks(self) -> bool {
+        matches!(self, Measure::Lost | Measure::Repeated)
+    }
+
+    /// The measure with this name. Fails with one line that says which there are.
+    pub fn named(name: &str) -> Result<Self, String> {
+        MEASURES.iter().find(|row| row.name == name).map(|row| row.measure).ok_or_else(|| {
+            let names = MEASURES.map(|row| row.name).join(", ");
+            format!("there is no measure {name:?}; there are {names}")
+        })
+    }
+}
+
+/// What these measures need computed.
+pub fn needs_of(measures: &[Measure]) -> BTreeSet<MeasureNeed> {
+    measures.iter().map(|measure| measure.spec().needs).collect()
+}
+
+/// A cell of a row: never a number that does not exist.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// There is none here.
+    Nothing,
+    /// A finite number.
+    Number(f64),
+    /// How many.
+    Count(usize),
+    /// A word of a small vocabulary.
+    Word(&'static str),
+}
+
+impl From<f64> for Value {
+    fn from(value: f64) -> Self {
+        if value.is_finite() { Value::Number(value) } else { Value::Nothing }
+    }
+}
+
+impl<T: Into<Value>> From<Option<T>> for Value {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Value::Nothing, Into::into)
+    }
+}
+
+impl Value {
+    /// The value as a number to be plotted; words and nothing have none.
+    pub fn number(self) -> Option<f64> {
+        match self {
+            Value::Number(value) => Some(value),
+            Value::Count(count) => Some(real(count)),
+            Value::Nothing | Value::Word(_) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_measure_stands_at_its_own_row_and_no_two_columns_share_a_name() {
+        let mut columns = BTreeSet::new();
+        for row in &MEASURES {
+            assert_eq!(row.measure.spec().name, row.name);
+            assert_eq!(Measure::named(row.name), Ok(row.measure));
+            for column in row.columns {
+                assert!(columns.insert(column), "{column} twice");
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_that_do_not_exist_are_nothing() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(Value::from(value), Value::Nothing);
+            assert_eq!(Value::from(Some(value)), Value::Nothing);
+        }
+        assert_eq!(Value::from(-0.5), Value::Number(-0.5));
+    }
+}
