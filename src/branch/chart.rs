@@ -6,10 +6,9 @@
 //! line is sought at which the fold comes to the given D. Between two boundaries one regime holds
 //! ([`Regime::of`]): nothing is scanned.
 
-mod line;
 mod trace;
 
-pub use line::{Band, ChartLine};
+pub use trace::{Band, ChartLine};
 use trace::{HALVINGS, Tracer, values};
 
 use super::regime::Regime;

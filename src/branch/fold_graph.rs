@@ -4,7 +4,7 @@
 //! much weaker than D2, so that the graph is flat, and beyond critical negative damping.
 
 use super::continuation::{CurvePoint, CycleCurve, Tangent};
-use super::fold_point::FoldPoint;
+use super::special::FoldPoint;
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters, Side};

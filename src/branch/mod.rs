@@ -13,10 +13,6 @@ pub(crate) mod extended;
 pub mod fold;
 #[doc(hidden)]
 pub mod fold_graph;
-pub(crate) mod fold_point;
-pub(crate) mod grazing;
-#[doc(hidden)]
-pub mod jumps;
 #[doc(hidden)]
 pub mod machine;
 #[doc(hidden)]

@@ -18,8 +18,8 @@ use crate::flow::{Limits, Method};
 use crate::model::unit::WithTolerance;
 use crate::model::{Belt, Knob, MachineProblem, Subject, Tolerances};
 use crate::portrait::basin::Window;
-use crate::portrait::design::machine::friction_for;
-use crate::portrait::design::oscillator::Kick;
+use crate::portrait::design::Kick;
+use crate::portrait::design::friction_of_guide;
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::{Course, CubicExpansion, Portrait, Trouble};
 use crate::report::belt;
@@ -167,7 +167,7 @@ impl Arguments {
         known: &Tolerances,
     ) -> Result<Option<DesignAnswer>, Trouble> {
         let Some((kick, wanted)) = self.design else { return Ok(None) };
-        let needed = friction_for(subject, known, kick, wanted)?;
+        let needed = friction_of_guide(subject, known, kick, wanted)?;
         let at = subject.of_belt().map(|belt| belt.belt_speed);
         let has = subject.friction();
         Ok(needed.map(|needed| DesignAnswer { kick, wanted, needed, at, has }))

@@ -116,7 +116,7 @@ impl Arguments {
 
 /// The answer of the command.
 struct CyclesAnswer {
-    found: crate::portrait::basin::limit_cycle::Cycles,
+    found: crate::portrait::basin::cycle::Cycles,
     proof: Proof,
     rungs: Option<Vec<HarmonicBalance>>,
 }

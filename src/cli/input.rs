@@ -9,7 +9,7 @@ use crate::figure::FileForm;
 use crate::flow::{METHODS, Method};
 use crate::model::{Group, Interval, Knob};
 use crate::portrait::basin::Window;
-use crate::portrait::design::oscillator::Kick;
+use crate::portrait::design::Kick;
 use crate::scan::sweep::ends;
 
 /// Reads the text of an option whose numbers depend on what the command is about.

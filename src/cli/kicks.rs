@@ -10,8 +10,8 @@ use super::output::{Format, Output};
 use super::source::SourceOptions;
 use crate::flow::Limits;
 use crate::portrait::kicks::RandomKick;
-use crate::portrait::kicks::machine;
 use crate::portrait::kicks::repeated::repeated;
+use crate::portrait::kicks::repeated::repeated_by;
 use crate::report::kicks;
 
 /// Finds the share of random kicks that is lost, and how many in a row are survived
@@ -53,7 +53,7 @@ impl Arguments {
     fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
         let law = read("--kicks", &self.law, of_machine::kicks)?;
         let (portrait, before) = case.portrait(&self.output)?;
-        let follow = || machine::repeated(&portrait, &law);
+        let follow = || repeated_by(&portrait, &law);
         let (found, seconds) = self.output.timed(FAILED, follow)?;
         let (head, held) = (case.head(), portrait.model.guide_static);
         let answer = (&law, &found, held);

@@ -8,7 +8,7 @@ use super::limits::{Limits, Reason};
 use super::motion::{Cost, Problem};
 use super::step::{LONGEST, StepPoint};
 use super::swing::time_to_blow_up;
-use crate::model::sticking::rests;
+use crate::model::parameters::rests;
 use crate::model::{HalfPlane, Side};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, ln};

@@ -8,7 +8,7 @@ use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory
 use super::step::{Field, Powers, Step, StepPoint, Stepper};
 use super::stop::ComingToRest;
 use super::swing::{Failed, Swing, SwingEnd, glide, swing};
-use crate::model::energy::energy;
+use crate::model::parameters::energy;
 use crate::model::{HalfPlane, Ledger, Side, State};
 use crate::numerics::count::real;
 use crate::numerics::scaling::times_power;

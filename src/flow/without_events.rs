@@ -5,7 +5,7 @@ use super::motion::{Crossing, Outcome, Problem, Sample, Trajectory};
 use super::run::{MotionRun, sample};
 use super::step::{Field, Step, StepPoint, Stepper};
 use super::swing::time_to_blow_up;
-use crate::model::sticking::rests;
+use crate::model::parameters::rests;
 use crate::model::{HalfPlane, Side, State};
 
 impl MotionRun {

@@ -27,35 +27,30 @@
 //! ```
 
 pub(crate) mod force;
-pub(crate) mod law;
 #[warn(clippy::missing_errors_doc)]
 #[expect(clippy::module_inception, reason = "the model itself, beside what belongs to it")]
 pub(crate) mod model;
-pub(crate) mod problem;
 pub(crate) mod reach;
 pub(crate) mod subject;
-pub(crate) mod tolerance;
 
 pub mod belt;
-pub(crate) mod energy;
 pub(crate) mod half_plane;
 pub(crate) mod interval;
 pub(crate) mod knob;
 pub(crate) mod modal;
 pub(crate) mod parameters;
-pub(crate) mod sticking;
 #[doc(hidden)]
 pub mod unit;
 
 pub use belt::Belt;
-pub use energy::Ledger;
 pub use half_plane::{HalfPlane, Side};
 pub use interval::{Interval, ParameterBox};
 pub(crate) use knob::unknown;
 pub use knob::{Group, KNOBS, Knob, KnobSpec, OutOfRange};
 pub use modal::Modal;
 pub use model::{Lines, Model, NoModel, Phase};
+pub use parameters::Ledger;
 pub use parameters::{Parameters, State};
-pub use problem::MachineProblem;
+pub use subject::MachineProblem;
+pub use subject::Tolerances;
 pub use subject::{Body, Subject};
-pub use tolerance::Tolerances;

@@ -13,7 +13,7 @@
 use std::fmt;
 
 use super::force::{ForceBranch, ForcePiece};
-use super::law::{ScaledLaw, faster, slower};
+use super::force::{ScaledLaw, faster, slower};
 use super::reach::first_below_zero;
 use crate::model::{Belt, Parameters};
 use crate::numerics::elementary::powi;

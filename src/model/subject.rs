@@ -1,7 +1,11 @@
 //! The subject of a question: a mass on a belt or a vibration mode, whose numbers are set and varied alike.
 
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
 use super::model::{Model, NoModel};
-use crate::model::{Belt, KNOBS, Knob, Modal};
+use crate::model::{Belt, Group, Interval, KNOBS, Knob, Modal};
 
 /// A mass on a belt, or a vibration mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,5 +110,119 @@ impl Subject {
         };
         model.tolerance = self.tolerance.unwrap_or(model.tolerance);
         Ok(model)
+    }
+}
+
+// A machine whose numbers are known to tolerances only, on a floor that shakes.
+
+/// By how much the numbers of a machine may differ from their values, and the force that disturbs it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tolerances {
+    /// Half widths in SI units, by the name of the number.
+    pub half_widths: BTreeMap<String, f64>,
+    /// Bound on a force that varies in any way, in N.
+    pub disturbance: f64,
+}
+
+impl Tolerances {
+    /// Whether everything is known exactly and nothing disturbs.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self.disturbance == 0.0 && self.half_widths.values().all(|half| *half == 0.0)
+    }
+
+    /// Where a number lies; `None` where the machine has no such number.
+    #[must_use]
+    pub fn interval(&self, varied: Knob, belt: &Belt) -> Option<Interval> {
+        let half = self.half_widths.get(varied.spec().name).copied().unwrap_or(0.0);
+        Some(Interval::around(varied.of_belt(belt)?, half))
+    }
+
+    /// The numbers that are not known exactly, with their ends.
+    #[must_use]
+    pub fn intervals(&self, belt: &Belt) -> Vec<(Knob, Interval)> {
+        let known = |varied: Knob| Some((varied, self.interval(varied, belt)?));
+        let all = KNOBS.iter().filter_map(|row| known(row.knob));
+        all.filter(|(_, interval)| !interval.is_point()).collect()
+    }
+
+    /// The machine with the largest friction and damping; `None` where other numbers are uncertain, of which
+    /// no end is the best at every velocity.
+    #[must_use]
+    pub fn best(&self, belt: &Belt) -> Option<Belt> {
+        let mut best = belt.clone();
+        for (varied, interval) in self.intervals(belt) {
+            if !MONOTONE.contains(&varied) {
+                return None;
+            }
+            set(&mut best, varied, interval.upper());
+        }
+        if self.disturbance > 0.0 {
+            let stronger = |force: f64| (force + self.disturbance).next_up();
+            best.static_guide = best.static_guide.map(stronger);
+            best.friction = stronger(best.friction);
+        }
+        best.static_guide = best.static_guide.map(|at_rest| at_rest.max(best.friction));
+        Some(best)
+    }
+
+    /// Checks that every number has its tolerance within its range.
+    ///
+    /// # Errors
+    /// One line that says what is allowed.
+    pub fn check(&self, belt: &Belt) -> Result<(), String> {
+        for (name, half) in &self.half_widths {
+            let knob = Knob::named(name, Group::SOURCE)?;
+            for end in knob.of_belt(belt).into_iter().flat_map(|value| [value - half, value + half])
+            {
+                knob.check(end).map_err(|refused| refused.to_string())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Numbers of which the smallest value is the worst at every velocity: friction and damping.
+pub const MONOTONE: [Knob; 4] =
+    [Knob::Friction, Knob::Damping, Knob::CubicDamping, Knob::StaticGuide];
+
+/// Gives a machine the value of a number that it has.
+pub fn set(belt: &mut Belt, varied: Knob, value: f64) {
+    let set = varied.set_in_belt(belt, value);
+    debug_assert!(set.is_ok(), "only numbers of the machine have intervals: {set:?}");
+}
+
+// One motion of a machine or a mode, and how exactly its numbers are known.
+
+/// One motion of a machine or a mode, and how exactly its numbers are known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MachineProblem {
+    /// What moves.
+    pub subject: Subject,
+    /// How exactly its numbers are known, and what disturbs it.
+    pub tolerances: Tolerances,
+    /// Displacement (m) and velocity (m/s) at the start.
+    pub start: (f64, f64),
+    /// How long the motion is followed, in s.
+    pub until: f64,
+}
+
+impl MachineProblem {
+    /// What can be set: the machine or the mode, and its motion.
+    pub const GROUPS: &[Group] = &[Group::Machine, Group::Law, Group::Mode, Group::Course];
+
+    /// Gives a number a value in SI units.
+    ///
+    /// # Errors
+    /// One line, if there is no such number.
+    pub fn set(&mut self, knob: Knob, value: f64) -> Result<(), String> {
+        *match knob {
+            Knob::X => &mut self.start.0,
+            Knob::V => &mut self.start.1,
+            Knob::Duration => &mut self.until,
+            Knob::DisturbingForce => &mut self.tolerances.disturbance,
+            _ => return self.subject.set(knob, value),
+        } = value;
+        Ok(())
     }
 }

@@ -10,7 +10,7 @@ use super::measure::{
 };
 use super::{Claim, Finding};
 use crate::branch::fold::fold;
-use crate::branch::fold_point::FoldPoint;
+use crate::branch::special::FoldPoint;
 use crate::closed_form::harmonic::{self, Harmonic, amplitudes};
 use crate::flow::{Limits, Reason};
 use crate::model::Parameters;

@@ -6,7 +6,7 @@ use super::items::{LineStyle, Picture};
 use super::phase_plane::AT_REST;
 use super::reading::reading;
 use super::role::{Dash, Role};
-use crate::branch::jumps::Jump;
+use crate::branch::machine_special::Jump;
 use crate::branch::machine_special::{MachineSpecial, MachineSpecialKind};
 use crate::portrait::Cycle;
 use crate::question::speeds::SpeedPoint;

@@ -12,7 +12,7 @@ use super::units::{self, said};
 use crate::fit::Signal;
 use crate::flow::{Outcome, Sample, Trajectory};
 use crate::model::State;
-use crate::model::energy::energy;
+use crate::model::parameters::energy;
 use crate::scene::{Layer, Point};
 use crate::session::Session;
 use crate::session::motion::friction_force;

@@ -49,7 +49,7 @@ mod margin;
 mod portrait;
 mod without_belt;
 
-pub use basin::limit_cycle::{BasinPicture, Cycles};
+pub use basin::cycle::{BasinPicture, Cycles};
 pub use border::Border;
 pub use closing::return_map::{Return, ReturnMap};
 pub use cycle::{Cycle, CycleErrors, Ride};

@@ -15,7 +15,7 @@ use crate::flow::{Fate, Flow, LostMotion};
 use crate::model::{Model, Phase};
 use crate::numerics::root::bisect;
 use crate::portrait::basin::{Basin, Counts, Window, between};
-use crate::portrait::return_map::landmarks::Landmarks;
+use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::return_map::machine_return::MachineReturn;
 
 /// The border of the basin of rest, as it was traced.
@@ -211,7 +211,7 @@ impl Portrait {
     /// The margin if the mass, of this size, may rest up to a `farthest` place on either side, in m.
     ///
     /// Above `v = 0` the border has no minimum of its speed between its ends, below it likewise
-    /// ([`crate::portrait::basin::margin`]), so over the places of rest it is lowest at one of the ends.
+    /// ([`crate::portrait::basin`]), so over the places of rest it is lowest at one of the ends.
     #[must_use]
     pub fn margin_within(&self, farthest: f64, mass: f64) -> Margin {
         let Some(reach) = self.reach else { return Margin::ENDLESS };

@@ -1,8 +1,8 @@
 //! The view of the cycles over the belt speed: every kind of cycle has its own look, and jumps up and down are
 //! where the motions of the machine leave the end of a stable state.
 
-use hopfscope::branch::jumps::Jump;
 use hopfscope::branch::machine::branch;
+use hopfscope::branch::machine_special::Jump;
 use hopfscope::branch::machine_special::{MachineSpecial, MachineSpecialKind};
 use hopfscope::flow::{Fate, Limits};
 use hopfscope::model::Belt;

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Method, Outcome, Problem, Trajectory};
-use crate::model::energy::energy;
+use crate::model::parameters::energy;
 use crate::model::{Parameters, State};
 use crate::numerics::scaling::times_power;
 

@@ -4,7 +4,7 @@ use crate::cli::input::{Over, named, over_of, sides};
 use crate::model::unit::{Dimension, WithTolerance, measured, quantity};
 use crate::model::{Group, Knob, MachineProblem};
 use crate::portrait::basin::Window;
-use crate::portrait::design::oscillator::Kick;
+use crate::portrait::design::Kick;
 use crate::portrait::kicks::RandomKick;
 
 /// The start of a motion; what is not given is left as it is.

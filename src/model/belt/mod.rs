@@ -11,12 +11,11 @@
 //! are in SI units.
 
 pub mod friction;
-pub mod mass;
 pub mod reduce;
 pub mod taylor;
 
+pub use friction::Belt;
 pub use friction::{Derivatives, FrictionLaw};
-pub use mass::Belt;
 pub use reduce::{BeltError, ReducedBelt, Units};
 pub use taylor::TaylorError;
 

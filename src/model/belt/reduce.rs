@@ -4,8 +4,8 @@ use std::fmt;
 
 use serde::Serialize;
 
+use super::friction::Belt;
 use super::friction::Derivatives;
-use super::mass::Belt;
 use crate::model::knob::{Knob, OutOfRange};
 use crate::model::parameters::{Parameters, State};
 

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
+use super::friction::Belt;
 use super::friction::Derivatives;
-use super::mass::Belt;
 use crate::numerics::root::maximum;
 
 /// The largest difference between friction and its cubic Taylor polynomial over the velocities that a

@@ -7,7 +7,7 @@ use std::fmt;
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 use serde::{Serialize, Serializer};
 
-use super::belt::mass::Belt;
+use super::belt::friction::Belt;
 use super::modal::Modal;
 use super::parameters::{Parameters, State};
 use super::unit::{Measured, WithTolerance, measured, toleranced};

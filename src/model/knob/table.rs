@@ -4,8 +4,8 @@
 //! stands. The pane, the command line, the files of scenes, machines and sessions, scans, charts and all that is said
 //! about a wrong value read it.
 
+use crate::model::belt::friction::Belt;
 use crate::model::belt::friction::FrictionLaw;
-use crate::model::belt::mass::Belt;
 use crate::model::modal::Modal;
 use crate::model::parameters::{Parameters, State};
 

@@ -16,16 +16,15 @@
 //! ```
 
 use super::Basin;
-pub use super::limit_cycle::{BasinPicture, Cycles};
-use super::works::works as works_over;
-use crate::closed_form::harmonic::amplitudes;
-use crate::flow::{Limits, Reason};
-use crate::model::{Parameters, Side, State};
+use super::orbit::works as works_over;
+use crate::closed_form::harmonic::{Harmonic, amplitudes};
+use crate::flow::{Cost, Limits, Reason};
+use crate::model::{Ledger, Parameters, Side, State};
 use crate::numerics::elementary::exp;
 use crate::portrait::closing::all::{STEP, all_closings};
 use crate::portrait::closing::equation::Equation;
 use crate::portrait::closing::pair::{Closing, share};
-use crate::portrait::{Border, Cycle, CycleErrors};
+use crate::portrait::{Border, Cycle, CycleErrors, Margin};
 
 /// Points drawn on each integration step of a curve.
 const CURVE_POINTS: u16 = 12;
@@ -156,4 +155,41 @@ impl Closing {
             log_clearance: right.1,
         })
     }
+}
+
+// Limit cycles as data: one, and all of them with a picture of the basin.
+
+/// What a picture of the basin shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BasinPicture {
+    /// The closed curve of each cycle.
+    pub curves: Vec<Vec<State>>,
+    /// What each source does over one turn of each cycle.
+    pub works: Vec<Ledger>,
+    /// The border of the basin: a closed curve, or the separatrix as far as it was followed; else empty.
+    pub border: Vec<State>,
+    /// The kicks that are survived.
+    pub margin: Margin,
+    /// Area of the basin, where it is finite.
+    pub area: Option<f64>,
+    /// Radius of Lyapunov's disk (24) as a fraction of the margin; above 1 it promises too much, because it
+    /// leaves out D2 and D3.
+    pub lyapunov_share: Option<f64>,
+}
+
+/// All limit cycles, by amplitude, and what they imply for the basin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cycles {
+    /// The parameters.
+    pub parameters: Parameters,
+    /// The cycles, smallest first.
+    pub cycles: Vec<Cycle>,
+    /// The first-order harmonic answer, for comparison.
+    pub harmonic: Vec<Harmonic>,
+    /// What borders the basin of the sticking set.
+    pub border: Border,
+    /// Curves and margins, if asked for.
+    pub picture: Option<BasinPicture>,
+    /// What it cost.
+    pub cost: Cost,
 }

@@ -16,7 +16,6 @@ pub(crate) mod pair;
 pub mod polish;
 pub(crate) mod precise;
 pub(crate) mod return_map;
-pub(crate) mod rim;
 pub(crate) mod roundoff;
 pub(crate) mod search;
 pub(crate) mod weak;

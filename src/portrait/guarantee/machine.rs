@@ -11,13 +11,11 @@
 
 use std::fmt;
 
-use super::corners::{Corners, MOST, TooMany};
-use crate::model::Belt;
-use crate::model::Tolerances;
+use crate::model::subject::{MONOTONE, set};
+use crate::model::{Belt, Knob, Model, Phase, Tolerances};
 use crate::numerics::root::try_bisect;
-use crate::portrait::Margin;
-use crate::portrait::Portrait;
 use crate::portrait::survey::{Trouble, portrait};
+use crate::portrait::{Margin, Portrait};
 
 /// Why no kick is survived for certain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,4 +170,171 @@ impl Corners {
         })?;
         Ok(best)
     }
+}
+
+// The machines that all others within the tolerances lie between.
+
+/// Maximum number of other numbers that may be uncertain together.
+pub const MOST: usize = 5;
+
+/// The machines that all others lie between, each with the smallest damping and friction: three values of
+/// each further number that is uncertain.
+#[derive(Debug)]
+pub struct Corners {
+    /// The machines; those next to each other in number k are `3^k` apart.
+    pub belts: Vec<Belt>,
+    /// Their models.
+    pub models: Vec<Model>,
+    /// How many numbers vary.
+    pub numbers: u32,
+    /// What the disturbance leaves of the guide's smallest friction, in N.
+    pub friction: f64,
+    /// The same at rest.
+    pub at_rest: f64,
+    /// The largest stiffness, in N/m.
+    pub stiffest: f64,
+    /// How far out one of the machines may rest before a kick, in m: pushed there by the disturbance, and held by
+    /// the largest static friction; by the smallest if it is that of the moving mass, because the gap to the border
+    /// only grows with friction.
+    pub farthest_rest: f64,
+}
+
+/// More numbers than can be uncertain together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooMany;
+
+impl Corners {
+    /// The corners of a machine's tolerances, unless there are [`TooMany`].
+    ///
+    /// # Errors
+    /// [`Trouble`] where one of them has no model.
+    pub fn new(belt: &Belt, known: &Tolerances) -> Result<Result<Self, TooMany>, Trouble> {
+        let mut worst = belt.clone();
+        let (monotone, others): (Vec<_>, Vec<_>) =
+            known.intervals(belt).into_iter().partition(|(varied, _)| MONOTONE.contains(varied));
+        for (varied, interval) in monotone {
+            set(&mut worst, varied, interval.lower());
+        }
+        if others.len() > MOST {
+            return Ok(Err(TooMany));
+        }
+        let mut belts = vec![worst];
+        for (varied, interval) in &others {
+            let with = |value: f64| {
+                belts.iter().cloned().map(move |mut belt| {
+                    set(&mut belt, *varied, value);
+                    belt
+                })
+            };
+            belts = [interval.lower(), interval.middle(), interval.upper()]
+                .into_iter()
+                .flat_map(with)
+                .collect();
+        }
+        let stiffest = belts.iter().map(|belt| belt.stiffness).fold(0.0, f64::max);
+        let left = |force: f64| {
+            let left = force - known.disturbance;
+            if known.disturbance > 0.0 { left.next_down() } else { left }
+        };
+        let (moving, at_rest) = (belts[0].friction, belts[0].static_guide);
+        let models: Vec<Model> = belts.iter().map(Model::new).collect::<Result<_, _>>()?;
+        let held = models.iter().map(|model| model.guide_static).fold(0.0, f64::max);
+        let holds = known.interval(Knob::StaticGuide, belt);
+        let more = holds.map_or(0.0, |holds| holds.upper() - holds.lower()) + known.disturbance;
+        let softest = belts.iter().map(|belt| belt.stiffness).fold(f64::INFINITY, f64::min);
+        let farthest_rest = if more > 0.0 { (held + more / softest).next_up() } else { held };
+        Ok(Ok(Corners {
+            models,
+            belts,
+            numbers: u32::try_from(others.len()).unwrap_or(u32::MAX),
+            friction: left(moving),
+            at_rest: left(at_rest.unwrap_or(moving)),
+            stiffest,
+            farthest_rest,
+        }))
+    }
+
+    /// The machine at a corner with the least friction of all, and less by `less` (a length).
+    #[must_use]
+    pub fn worst(&self, corner: usize, less: f64) -> Belt {
+        let belt = &self.belts[corner];
+        let scale = belt.stiffness / self.stiffest;
+        let friction = self.friction * scale - less * belt.stiffness;
+        let at_rest = (self.at_rest * scale).max(friction);
+        Belt { friction, static_guide: Some(at_rest), ..belt.clone() }
+    }
+
+    /// The speed of the slowest belt.
+    #[must_use]
+    pub fn slowest(&self) -> f64 {
+        self.models.iter().map(|model| model.speed).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The smallest `m omega_0`: an impulse less than this times a velocity starts no machine faster.
+    #[must_use]
+    pub fn lightest(&self) -> f64 {
+        let inertia = |model: &Model| model.mass * model.omega_0;
+        self.models.iter().map(inertia).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The corner whose forces need the smallest addition to drive the mass harder than those of any machine
+    /// at velocities in `low .. high`, and that addition, as a length.
+    ///
+    /// Between the corners and between the velocities forces are taken to bend by no more than twice what
+    /// their second differences say.
+    #[must_use]
+    pub fn bound(&self, low: f64, high: f64) -> (usize, f64) {
+        const VELOCITIES: u32 = 200;
+        let sides = [(Phase::Below, low), (Phase::Between, high)];
+        // For each corner the forces along the motion, at velocities of both signs.
+        let forces: Vec<Vec<f64>> = self
+            .models
+            .iter()
+            .map(|model| {
+                let along = |(phase, end): &(Phase, f64)| {
+                    let (phase, end) = (*phase, *end);
+                    (0..=VELOCITIES).map(move |step| {
+                        let y = end * f64::from(step) / f64::from(VELOCITIES);
+                        phase.sign() * model.force(phase, y).0
+                    })
+                };
+                sides.iter().flat_map(along).collect()
+            })
+            .collect();
+        let places = forces[0].len();
+        let most: Vec<f64> = (0..places)
+            .map(|place| {
+                let highest = forces.iter().map(|row| row[place]).fold(f64::NEG_INFINITY, f64::max);
+                highest + self.bend(|corner| forces[corner][place])
+            })
+            .collect();
+        let needed = |row: &Vec<f64>| {
+            let excess: Vec<f64> = most.iter().zip(row).map(|(most, own)| most - own).collect();
+            let halves = excess.chunks(places / 2);
+            let bend = halves.flat_map(|half| half.windows(3)).map(bent).fold(0.0, f64::max);
+            excess.iter().copied().fold(0.0, f64::max) + 0.25 * bend
+        };
+        let needed = forces.iter().map(needed).enumerate();
+        needed.min_by(|one, other| one.1.total_cmp(&other.1)).unwrap_or((0, 0.0))
+    }
+
+    /// A bound on how far a smooth function rises between corners above its values there.
+    fn bend(&self, at: impl Fn(usize) -> f64) -> f64 {
+        (0..self.numbers)
+            .map(|number| {
+                let apart = 3_usize.pow(number);
+                let first = (0..self.models.len()).filter(|corner| corner / apart % 3 == 0);
+                let bends = first.map(|low| bent(&[at(low), at(low + apart), at(low + 2 * apart)]));
+                0.25 * bends.fold(0.0, f64::max)
+            })
+            .sum()
+    }
+}
+
+/// The second difference of three numbers; zero where it is rounding.
+fn bent(three: &[f64]) -> f64 {
+    const ROUNDING: f64 = 16.0 * f64::EPSILON;
+    let bend = (three[0] - 2.0 * three[1] + three[2]).abs();
+    let size = three.iter().map(|value| value.abs()).fold(0.0, f64::max);
+    if bend <= ROUNDING * size { 0.0 } else { bend }
 }

@@ -1,6 +1,5 @@
 //! Kicks that are survived for certain, whatever is not known exactly and whatever disturbs.
 
-pub(crate) mod corners;
 #[doc(hidden)]
 pub mod machine;
 #[warn(clippy::missing_errors_doc)]

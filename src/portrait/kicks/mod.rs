@@ -4,7 +4,6 @@
 //! and normal or uniform. What is lost is an integral of their density over the exact basin, whose border is a
 //! graph over the displacement ([`super::basin::arc`]): no start is drawn or followed.
 
-pub mod machine;
 pub(crate) mod repeated;
 
 use std::f64::consts::{PI, SQRT_2};

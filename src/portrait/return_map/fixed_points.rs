@@ -1,6 +1,6 @@
 //! The limit cycles of a machine: the fixed points of the return map, each found and described.
 
-use super::landmarks::Landmarks;
+use super::machine_return::Landmarks;
 use super::machine_return::{Image, MachineReturn};
 use super::zeros::{GrowthSample, NOTHING, zeros};
 use crate::flow::machine::arc::{SeriesStep, Watch};

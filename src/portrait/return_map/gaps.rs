@@ -3,7 +3,7 @@
 
 use crate::flow::{Fate, Flow, LostMotion};
 use crate::model::Model;
-use crate::portrait::return_map::landmarks::Landmarks;
+use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::return_map::machine_return::MachineReturn;
 use crate::portrait::return_map::zeros::NOTHING;
 

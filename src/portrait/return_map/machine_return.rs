@@ -4,10 +4,12 @@
 //! motions that come to ride on the belt leave it at the same place. So at most one cycle sticks to the belt, and its
 //! multiplier is exactly 0; the fixed points order everything else.
 
-use crate::flow::machine::arc::{SeriesStep, Watch};
+use crate::flow::machine::arc::{ArcEnd, SeriesStep, Watch};
+use crate::flow::machine::curve::{CurvePiece, MachineCurve};
 use crate::flow::machine::turn::{ContactState, Turn};
 use crate::flow::{Flow, LostMotion};
-use crate::model::{Model, Phase};
+use crate::model::{Lines, Model, Phase};
+use crate::numerics::elementary::ln;
 use crate::numerics::quadrature::gauss;
 
 /// The integral of the divergence of the field along a motion.
@@ -121,6 +123,160 @@ impl Flow<'_> {
         match self.arc(Phase::Between, (x, y), true, watch) {
             Ok(end) => Ok(end.x),
             Err(LostMotion::Settled) => Ok(-self.model.guide),
+            Err(stop) => Err(stop),
+        }
+    }
+}
+
+// The special motions at the belt's line: those that touch it, are released by it, or overtake it.
+
+/// The orbit that touches the belt's line, as if it continued to slip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grazing {
+    /// Left turning point before the contact.
+    pub left: f64,
+    /// Right turning point before that; `None` if no motion comes from one.
+    pub right: Option<f64>,
+    /// Right turning point after the contact.
+    pub image: f64,
+    /// Logarithm of the derivative of the return map there, from below.
+    pub log_slope: f64,
+}
+
+/// The places at which the return map changes its form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Landmarks {
+    /// The places on the belt's line.
+    pub lines: Lines,
+    /// The orbit that touches the line.
+    pub grazing: Grazing,
+    /// Right turning point after a release from the belt; `None` if the mass then comes to rest at once.
+    pub released: Option<f64>,
+    /// Left turning point from which the lower end of the stick band is reached.
+    pub low_left: f64,
+    /// Right turning point beyond which motions overtake the belt instead of ending on the band; `None` if all
+    /// end on it.
+    pub beyond: Option<f64>,
+}
+
+impl Flow<'_> {
+    /// The landmarks; `None` without a belt, or without a law for small slips. Fails with [`LostMotion`] if the
+    /// friction law ends before they are reached.
+    pub fn landmarks(&mut self) -> Result<Option<Landmarks>, LostMotion> {
+        let model = self.model;
+        let Some(lines) = model.lines else { return Ok(None) };
+        let grazing = self.grazing(&lines)?;
+        let released = match self.turn(ContactState::Sticks, (lines.release, model.speed), &mut ())
+        {
+            Ok(turn) => (!turn.rests).then_some(turn.x),
+            Err(LostMotion::Settled) => None,
+            Err(stop) => return Err(stop),
+        };
+        let low_left = self.left_before(lines.low, model.speed, &mut ())?;
+        let beyond = self.beyond(&lines, low_left)?;
+        Ok(Some(Landmarks { lines, grazing, released, low_left, beyond }))
+    }
+
+    fn grazing(&mut self, lines: &Lines) -> Result<Grazing, LostMotion> {
+        let (guide, speed) = (self.model.guide, self.model.speed);
+        let mut divergence = Divergence::default();
+        let left = self.left_before(lines.fold, speed, &mut divergence)?;
+        // If overdamped, it comes to rest without another turn.
+        let after = match self.arc(Phase::Between, (lines.fold, speed), false, &mut divergence) {
+            Ok(end) => end.x,
+            Err(LostMotion::Settled) => -guide,
+            Err(stop) => return Err(stop),
+        };
+        let left = left.min(-self.model.guide_static);
+        let before = match self.right_before(left, &mut divergence) {
+            Err(LostMotion::OutsideLaw { .. }) => None,
+            before => before?,
+        };
+        let (right, ratio) = before.map_or((None, 0.0), |(right, ratio)| (Some(right), ratio));
+        let between = (left + guide) / (after + guide);
+        let log_slope = if after > -guide {
+            divergence.0 - ratio + ln(between.abs())
+        } else {
+            f64::NEG_INFINITY
+        };
+        Ok(Grazing { left, right, image: after, log_slope })
+    }
+
+    /// The right turning point beyond which motions overtake the belt instead of riding on it.
+    fn beyond(&mut self, lines: &Lines, low_left: f64) -> Result<Option<f64>, LostMotion> {
+        let speed = self.model.speed;
+        // The last motion that comes down on the band is followed back to where it rose above the line.
+        let back = |stop| match stop {
+            LostMotion::Escaped | LostMotion::Settled | LostMotion::OutsideLaw { .. } => Ok(None),
+            LostMotion::Steps => Err(LostMotion::Steps),
+        };
+        let rose = match self.arc(Phase::Above, (lines.release, speed), true, &mut ()) {
+            Ok(end) => end.x,
+            Err(stop) => return back(stop),
+        };
+        let left =
+            if rose >= lines.low { low_left } else { self.left_before(rose, speed, &mut ())? };
+        let found = self.right_before(left, &mut ()).or_else(|stop| back(stop).map(|_| None))?;
+        Ok(found.map(|(right, _)| right))
+    }
+}
+
+// The border of the basin of rest where it is not a cycle: followed backward in time from where the return map
+// jumps.
+
+impl Flow<'_> {
+    /// The closed border through a jump of the return map at the right turning point `x`, backward in time
+    /// from the belt's line to the line again, and the piece of line between.
+    pub(crate) fn jump_border(
+        &mut self,
+        x: f64,
+        landmarks: Option<&Landmarks>,
+        curve: &mut MachineCurve,
+    ) -> Result<f64, LostMotion> {
+        let speed = self.model.speed;
+        let Some(marks) = landmarks else { return Err(LostMotion::Steps) };
+        // Where static friction holds what the orbit comes from, its way to the line is not on the border.
+        match self.arc(Phase::Between, (x, 0.0), true, &mut ()) {
+            Ok(ArcEnd { on_belt: true, .. }) => {}
+            Ok(_) | Err(LostMotion::Settled) => return self.capture_border(x, landmarks, curve),
+            Err(stop) => return Err(stop),
+        }
+        let corner =
+            if Some(x) == marks.grazing.right { marks.lines.fold } else { marks.lines.low };
+        let left = self.left_before(corner, speed, curve)?;
+        let left = left.min(-self.model.guide_static);
+        self.arc(Phase::Below, (left, 0.0), true, curve)?;
+        let mut end = self.arc(Phase::Between, (x, 0.0), true, curve)?;
+        if end.on_belt && end.x > marks.lines.release {
+            end = self.arc(Phase::Above, (end.x, speed), true, curve)?;
+        }
+        curve.pieces.push(CurvePiece::Line { from: corner, to: end.x });
+        Ok(left)
+    }
+
+    /// The border through the right turning point `x` up to which the guide catches the mass: the motion
+    /// that comes there, backward in time, and below it the one that comes to the left end of what is caught.
+    pub(crate) fn capture_border(
+        &mut self,
+        x: f64,
+        landmarks: Option<&Landmarks>,
+        curve: &mut MachineCurve,
+    ) -> Result<f64, LostMotion> {
+        let (guide, speed) = (self.model.guide, self.model.speed);
+        let mut left = match self.arc(Phase::Between, (x, 0.0), true, curve) {
+            Err(LostMotion::Settled) => -guide,
+            end => {
+                let end = end?;
+                let lines = landmarks.map(|marks| marks.lines).filter(|_| end.on_belt);
+                lines.map_or(Ok(end.x), |lines| {
+                    curve.pieces.push(CurvePiece::Line { from: lines.fold, to: end.x });
+                    self.left_before(lines.fold, speed, curve)
+                })?
+            }
+        };
+        left = left.min(-self.model.guide_static);
+        match self.arc(Phase::Below, (left, 0.0), true, curve) {
+            Ok(_) | Err(LostMotion::Settled) => Ok(left),
             Err(stop) => Err(stop),
         }
     }

@@ -1,11 +1,9 @@
 //! The return map of a machine on its belt, which never decreases: it orders all cycles, and what a start ends as is
 //! read off the next turning point.
 
-pub(crate) mod border;
 #[warn(clippy::missing_errors_doc)]
 pub(crate) mod fixed_points;
 pub(crate) mod gaps;
-pub(crate) mod landmarks;
 #[doc(hidden)]
 pub mod machine_return;
 pub(crate) mod zeros;

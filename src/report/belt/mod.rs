@@ -14,7 +14,7 @@ pub(super) use table::{border, gaps};
 pub use table::{csv, table};
 
 use crate::model::{Belt, Body, Group, Interval, Knob, Modal, Tolerances};
-use crate::portrait::design::oscillator::{FrictionNeeded, Kick};
+use crate::portrait::design::{FrictionNeeded, Kick};
 use crate::portrait::guarantee::machine::MachineUncertain;
 use crate::portrait::{Course, CubicExpansion, Margin};
 use crate::words::number::significant;

@@ -2,18 +2,18 @@
 
 use std::collections::BTreeSet;
 
-use super::conditions::Conditions;
 use super::point::{Portrayed, chain, part};
+use super::table::Conditions;
 use super::table::{Measure, MeasureNeed, Value, needs_of};
 use crate::flow::machine::motion::turns;
 use crate::flow::{Cost, Fate, Limits, MachineMotion, Reason};
 use crate::model::MachineProblem;
 use crate::portrait::basin::Window;
-use crate::portrait::design::machine::friction_for;
-use crate::portrait::design::oscillator::FrictionNeeded;
+use crate::portrait::design::FrictionNeeded;
+use crate::portrait::design::friction_of_guide;
 use crate::portrait::guarantee::machine::guaranteed;
-use crate::portrait::kicks::machine::{lost, repeated};
 use crate::portrait::kicks::repeated::Repeated;
+use crate::portrait::kicks::repeated::{part_lost, repeated_by};
 use crate::portrait::{Margin, Portrait, Trouble};
 
 /// What was computed at a point of a machine; `None` for what no measure needed.
@@ -79,7 +79,7 @@ impl MachinePoint {
             }
             MeasureNeed::Design => {
                 let Some((kick, wanted)) = conditions.wanted else { return Ok(()) };
-                self.needed = friction_for(subject, tolerances, kick, wanted)?;
+                self.needed = friction_of_guide(subject, tolerances, kick, wanted)?;
                 if self.needed.is_none() {
                     self.reasons.push("design: no friction was found to suffice".to_owned());
                 }
@@ -88,7 +88,7 @@ impl MachinePoint {
                 let Some(portrait) = &self.portrait else { return Ok(()) };
                 // Without friction there is no set of places to rest.
                 if portrait.model.guide_static > 0.0 {
-                    match repeated(portrait, &conditions.kicks) {
+                    match repeated_by(portrait, &conditions.kicks) {
                         Ok(found) => self.repeated = Some(found),
                         Err(reason) => self.reasons.push(format!("{}: {reason}", need.name())),
                     }
@@ -138,7 +138,7 @@ impl MachinePoint {
                 vec![share.into(), Value::Nothing]
             }
             Measure::Lost => {
-                let share = portrait.and_then(|it| lost(it, &conditions.kicks).ok());
+                let share = portrait.and_then(|it| part_lost(it, &conditions.kicks).ok());
                 part(share)
             }
             Measure::Repeated => chain(self.repeated.as_ref()),

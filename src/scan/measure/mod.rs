@@ -4,13 +4,11 @@
 //! which computations it [`MeasureNeed`]s. [`ScanPoint`], and [`MachinePoint`] by the whole model of a machine, does each of
 //! these at most once for a point, however many measures ask for it.
 
-mod conditions;
 mod machine;
 mod point;
-mod settling;
 mod table;
 
-pub use conditions::Conditions;
 pub use machine::MachinePoint;
 pub use point::{ScanPoint, measure};
+pub use table::Conditions;
 pub use table::{MEASURES, Measure, MeasureNeed, MeasureSpec, OF_THE_PAPER, Value, needs_of};

@@ -6,7 +6,7 @@ use crate::fit::Signal;
 use crate::fit::curves::Extent;
 use crate::fit::dropped::Dropped;
 use crate::flow::{Outcome, Trajectory};
-use crate::model::energy::energy;
+use crate::model::parameters::energy;
 use crate::model::{Knob, State};
 use crate::numerics::count::{real, truncated};
 use crate::numerics::elementary::hypot;

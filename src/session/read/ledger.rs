@@ -7,7 +7,7 @@ use crate::flow::MachineLedger;
 use crate::model::{Ledger, Parameters, State};
 use crate::numerics::count::real;
 use crate::portrait::Cycle;
-use crate::portrait::basin::works::works_until;
+use crate::portrait::basin::orbit::works_until;
 use crate::scene::Layer;
 use crate::session::state::Session;
 
