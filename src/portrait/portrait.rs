@@ -14,6 +14,7 @@ use crate::flow::machine::turn::ContactState;
 use crate::flow::{Fate, Flow, LostMotion};
 use crate::model::{Model, Phase};
 use crate::numerics::root::bisect;
+use crate::portrait::basin::orbit::{POINTS, filled, inner_radius};
 use crate::portrait::basin::{Basin, Counts, Window, between};
 use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::return_map::machine_return::MachineReturn;
@@ -334,6 +335,41 @@ impl Portrait {
         }
         let gap = self.gaps.iter().find(|gap| x <= gap.to).or(self.gaps.last());
         gap.map_or(Fate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
+    }
+
+    /// The area of the basin of rest, in m^2/s; `None` where it is infinite, or where there is no basin.
+    #[must_use]
+    pub fn area(&self) -> Option<f64> {
+        let area = match &self.traced {
+            Traced::Nothing => None,
+            Traced::Basin(basin) => basin.area(),
+            Traced::Curve(curve) => Some(curve.area(self.model.speed).abs()),
+        };
+        area.map(|area| area * self.model.omega_0)
+    }
+
+    /// The radius, in m, of the largest circle about the origin that lies within the basin of rest, velocities being
+    /// divided by the natural frequency; `None` where nothing borders it.
+    #[must_use]
+    pub fn inner_radius(&self) -> Option<f64> {
+        let speed = self.model.speed;
+        match &self.traced {
+            Traced::Nothing => None,
+            Traced::Basin(basin) => basin.inner_radius(),
+            Traced::Curve(curve) => {
+                let span = |x: f64| {
+                    let (up, down) = curve.velocities_at(x, speed);
+                    up.or(down).map(|_| (down.unwrap_or(0.0), up.unwrap_or(0.0)))
+                };
+                inner_radius(&curve.points(POINTS, speed), &span)
+            }
+        }
+    }
+
+    /// The fraction of the area of the basin that this circle fills; `None` where the area is infinite.
+    #[must_use]
+    pub fn integrity(&self) -> Option<f64> {
+        Some(filled(self.inner_radius()?, self.area()? / self.model.omega_0))
     }
 
     /// A window, in m and m/s, half as large again as the largest cycle, or as the margin where there is none.

@@ -256,7 +256,10 @@ impl Scan {
         }
         let needs = needs_of(&self.measures);
         if needs.contains(&MeasureNeed::Motion) {
-            inputs.extend(named([("x", start.0), ("v", start.1), ("until", *until)]));
+            inputs.extend(named([("x", start.0), ("v", start.1)]));
+        }
+        if needs.contains(&MeasureNeed::Motion) || needs.contains(&MeasureNeed::Settling) {
+            inputs.extend(named([("until", *until)]));
         }
         let certain = needs.contains(&MeasureNeed::Guarantee)
             || (needs.contains(&MeasureNeed::Design) && !tolerances.is_none());

@@ -2,7 +2,7 @@
 
 use super::arc::{SeriesStep, Watch};
 use super::series::Terms;
-use crate::model::{Model, Phase};
+use crate::model::{Model, Phase, State};
 use crate::numerics::elementary::powi;
 use crate::numerics::polynomial::{value, value_and_slope};
 use crate::numerics::quadrature::gauss;
@@ -178,6 +178,25 @@ impl MachineCurve {
             }
         }
         found
+    }
+
+    /// The area within a closed curve.
+    pub fn area(&self, speed: f64) -> f64 {
+        let all = (f64::NEG_INFINITY, f64::INFINITY);
+        self.area_within(&Rectangle { x: all, y: all }, speed)
+    }
+
+    /// Its points, `between` + 1 on each piece that slips; velocities divided by the natural frequency.
+    pub fn points(&self, between: u16, speed: f64) -> Vec<State> {
+        let on = |piece: &CurvePiece| match piece {
+            CurvePiece::Slip(slip) => {
+                let part = |point: u16| f64::from(point) / f64::from(between.max(1));
+                let at = |point: u16| slip.at(slip.duration * part(point));
+                (0..=between).map(at).map(|(q, v)| State { q, v }).collect()
+            }
+            CurvePiece::Line { from, to } => [*from, *to].map(|q| State { q, v: speed }).to_vec(),
+        };
+        self.pieces.iter().flat_map(on).collect()
     }
 
     /// The area that a closed curve has in common with a window: the integral of `y dx` along it, with y

@@ -25,7 +25,7 @@ pub(crate) mod orbit;
 pub(crate) mod stability;
 
 use arc::Arc;
-use orbit::Orbit;
+use orbit::{Orbit, POINTS, filled, inner_radius};
 use serde::Serialize;
 
 use super::closing::all::{STEP, all_closings};
@@ -36,8 +36,6 @@ use crate::closed_form::lyapunov;
 use crate::flow::{Cost, Fate, Limits, Reason};
 use crate::model::parameters::rests;
 use crate::model::{Parameters, State};
-use crate::numerics::elementary::hypot;
-use crate::numerics::root::maximum;
 use crate::portrait::{Border, Margin, RestMargin};
 
 /// The borders of the plane, innermost first, and the fates of the regions between them.
@@ -304,23 +302,23 @@ pub(crate) fn between(range: (f64, f64), index: usize, count: usize) -> f64 {
 // of the edge above an end of the set: the upper half of the edge is a graph `v(q)` with slope `a/v`, and where it is
 // level (`a = 0`) its second derivative is `-1/v`, because the spring's force falls with q. So it has no minimum
 // between its ends, and over a segment it is lowest at an end; the lower half likewise.
-//
-// ```
-// use hopfscope::flow::Limits;
-// use hopfscope::model::Parameters;
-// use hopfscope::portrait::basin::basin;
-//
-// // A_q = r coth(x/2) with x = -pi D/sqrt(1 - D^2), for D2 = D3 = 0.
-// let (d, r): (f64, f64) = (-0.4, 0.1);
-// let found = basin(&Parameters { d, d2: 0.0, d3: 0.0, r }, 3.0, &Limits::PATIENT)?;
-// let x = -std::f64::consts::PI * d / (1.0 - d * d).sqrt();
-// let displacement = found.margin().displacement.unwrap();
-// assert!((displacement - r / (0.5 * x).tanh()).abs() < 1e-12);
-// # Ok::<(), hopfscope::flow::Reason>(())
-// ```
 
 impl Basin {
     /// The margins.
+    ///
+    /// ```
+    /// use hopfscope::flow::Limits;
+    /// use hopfscope::model::Parameters;
+    /// use hopfscope::portrait::basin::basin;
+    ///
+    /// // A_q = r coth(x/2) with x = -pi D/sqrt(1 - D^2), for D2 = D3 = 0.
+    /// let (d, r): (f64, f64) = (-0.4, 0.1);
+    /// let found = basin(&Parameters { d, d2: 0.0, d3: 0.0, r }, 3.0, &Limits::PATIENT)?;
+    /// let x = -std::f64::consts::PI * d / (1.0 - d * d).sqrt();
+    /// let displacement = found.margin().displacement.unwrap();
+    /// assert!((displacement - r / (0.5 * x).tanh()).abs() < 1e-12);
+    /// # Ok::<(), hopfscope::flow::Reason>(())
+    /// ```
     #[must_use]
     pub fn margin(&self) -> Margin {
         self.margin_within(self.parameters.r)
@@ -366,35 +364,17 @@ impl Basin {
     /// The least distance of the border, refined between the points of its curve.
     #[must_use]
     pub fn inner_radius(&self) -> Option<f64> {
-        /// Points on each integration step, and the part of the way between the neighbours of the nearest in which
-        /// the distance is flat.
-        const POINTS: u16 = 24;
-        const FLAT: f64 = 1e-9;
         if self.border == Border::None {
             return None;
         }
         let edge = self.borders.first()?;
-        let curve = edge.curve(POINTS);
-        let far = |state: &State| hypot(state.q, state.v);
-        let nearest = (0..curve.len())
-            .min_by(|one, other| far(&curve[*one]).total_cmp(&far(&curve[*other])))?;
-        let State { v, .. } = curve[nearest];
-        let distance = |q: f64| {
-            let span = edge.span_at(q);
-            span.map_or(f64::INFINITY, |(low, high)| hypot(q, if v < 0.0 { low } else { high }))
-        };
-        let ends = [nearest.saturating_sub(1), (nearest + 1).min(curve.len() - 1)];
-        let [one, other] = ends.map(|index| curve[index].q);
-        let (low, high) = (one.min(other), one.max(other));
-        let (low, high) = maximum(low, high, FLAT * (high - low), |q| -distance(q));
-        Some(distance(f64::midpoint(low, high)).min(far(&curve[nearest])))
+        inner_radius(&edge.curve(POINTS), &|q| edge.span_at(q))
     }
 
     /// The fraction of the basin's area that this circle fills; `None` where the area is infinite.
     #[must_use]
     pub fn integrity(&self) -> Option<f64> {
-        let radius = self.inner_radius()?;
-        Some(std::f64::consts::PI * radius * radius / self.area()?)
+        Some(filled(self.inner_radius()?, self.area()?))
     }
 
     /// Area of the basin in the phase plane: the integral of `v^2` over one turn of its edge; `None`

@@ -8,6 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::Serialize;
 
+use super::orbit::Span;
 use super::{Basin, Window};
 use crate::flow::Fate;
 use crate::numerics::elementary::{asin, cos, powi, sin};
@@ -79,9 +80,6 @@ pub(crate) fn over_scales(density: impl Fn(f64) -> f64, left: f64, right: f64) -
     }
     sum
 }
-
-/// The velocities between which the starts at a displacement lie inside a border; `None` where none does.
-pub type Span<'a> = &'a dyn Fn(f64) -> Option<(f64, f64)>;
 
 /// The displacements of a range at which some start lies inside the border: around the sticking set.
 pub(crate) fn support(span: Span, (from, to): (f64, f64)) -> Option<(f64, f64)> {

@@ -13,7 +13,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use super::basin::Basin;
-use super::basin::stability::{Share, Span, over_scales, support};
+use super::basin::orbit::Span;
+use super::basin::stability::{Share, over_scales, support};
 use crate::flow::Fate;
 use crate::model::unit::quantity;
 use crate::numerics::elementary::exp;

@@ -2,18 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use super::point::{Portrayed, chain, part};
-use super::table::Conditions;
-use super::table::{Measure, MeasureNeed, Value, needs_of};
+use super::point::{Portrayed, Settling, chain, part};
+use super::table::{Conditions, Measure, MeasureNeed, Value, needs_of};
 use crate::flow::machine::motion::turns;
 use crate::flow::{Cost, Fate, Limits, MachineMotion, Reason};
-use crate::model::MachineProblem;
+use crate::model::{MachineProblem, State};
 use crate::portrait::basin::Window;
-use crate::portrait::design::FrictionNeeded;
-use crate::portrait::design::friction_of_guide;
+use crate::portrait::design::{FrictionNeeded, friction_of_guide};
 use crate::portrait::guarantee::machine::guaranteed;
-use crate::portrait::kicks::repeated::Repeated;
-use crate::portrait::kicks::repeated::{part_lost, repeated_by};
+use crate::portrait::kicks::repeated::{Repeated, part_lost, repeated_by};
 use crate::portrait::{Margin, Portrait, Trouble};
 
 /// What was computed at a point of a machine; `None` for what no measure needed.
@@ -24,6 +21,7 @@ pub struct MachinePoint {
     guaranteed: Option<Margin>,
     needed: Option<FrictionNeeded>,
     repeated: Option<Repeated>,
+    settling: Option<Settling>,
     pub cost: Cost,
     /// Why cells are empty, a sentence for each computation.
     pub reasons: Vec<String>,
@@ -84,6 +82,20 @@ impl MachinePoint {
                     self.reasons.push("design: no friction was found to suffice".to_owned());
                 }
             }
+            MeasureNeed::Settling => {
+                let model = subject.model()?;
+                let cost = &mut self.cost;
+                let found = Settling::of(&conditions.about(&model), |State { q, v }| {
+                    let motion = MachineMotion::new(&model, q, v, *until);
+                    cost.steps += motion.curve.pieces.len() as u64;
+                    match motion.outcome {
+                        Fate::Rest => Ok(Some(motion.end.t)),
+                        Fate::Unknown(stop) => Err(stop),
+                        _ => Ok(None),
+                    }
+                });
+                self.settling = Some(found?);
+            }
             MeasureNeed::Chain => {
                 let Some(portrait) = &self.portrait else { return Ok(()) };
                 // Without friction there is no set of places to rest.
@@ -120,6 +132,7 @@ impl MachinePoint {
             border: portrait.map(|portrait| portrait.border),
             guaranteed: self.guaranteed,
             needed: self.needed,
+            settling: self.settling.as_ref(),
         };
         match measure {
             Measure::Outcome => self.outcome().to_vec(),
@@ -130,16 +143,20 @@ impl MachinePoint {
                 _ => vec![Value::Nothing; 2],
             },
             Measure::Stability => {
-                let Window { q: (from, to), v } = conditions.window;
                 let share = portrait.and_then(|portrait| {
-                    let steady = if conditions.elongation { portrait.model.pull } else { 0.0 };
-                    portrait.rest_share((from - steady, to - steady), v)
+                    let Window { q, v } = conditions.about(&portrait.model);
+                    portrait.rest_share(q, v)
                 });
                 vec![share.into(), Value::Nothing]
             }
             Measure::Lost => {
                 let share = portrait.and_then(|it| part_lost(it, &conditions.kicks).ok());
                 part(share)
+            }
+            Measure::Area => vec![portrait.and_then(Portrait::area).into()],
+            Measure::Integrity => {
+                let radius = portrait.and_then(Portrait::inner_radius);
+                vec![radius.into(), portrait.and_then(Portrait::integrity).into()]
             }
             Measure::Repeated => chain(self.repeated.as_ref()),
             _ => portrayed.columns(measure),

@@ -123,9 +123,18 @@ impl ScanPoint {
                 self.uncertain = found.reason;
             }
             MeasureNeed::Settling => {
-                let (found, cost) = Settling::of(problem, &conditions.window, limits)?;
-                self.cost += cost;
-                self.settling = Some(found);
+                let cost = &mut self.cost;
+                let found = Settling::of(&conditions.window, |initial| {
+                    let problem = Problem { initial, ..*problem };
+                    let motion = trajectory(&problem, Detail::default(), limits);
+                    *cost += motion.cost;
+                    match motion.outcome {
+                        Outcome::Captured { tau, .. } => Ok(Some(tau)),
+                        Outcome::GaveUp { reason, .. } => Err(reason),
+                        Outcome::Moving { .. } | Outcome::Escaped { .. } => Ok(None),
+                    }
+                });
+                self.settling = Some(found?);
             }
             MeasureNeed::Proof => {
                 if self.cycles.is_none() {
@@ -168,6 +177,7 @@ impl ScanPoint {
             border: self.edge.as_ref().map(|basin| basin.border),
             guaranteed: self.guaranteed,
             needed: self.needed,
+            settling: self.settling.as_ref(),
         };
         match measure {
             Measure::Outcome => self.outcome().to_vec(),
@@ -184,15 +194,7 @@ impl ScanPoint {
                 let integrity = self.edge.as_ref().and_then(Basin::integrity);
                 vec![radius.into(), integrity.into()]
             }
-            Measure::Settling => {
-                let times = self.settling.as_ref().and_then(Settling::times);
-                [0, 1].map(|index| times.map(|times| times[index]).into()).to_vec()
-            }
             Measure::Repeated => chain(self.repeated.as_ref()),
-            Measure::FiniteTime => {
-                let rested = self.settling.as_ref().map(Settling::rested);
-                [0, 1].map(|index| rested.map(|rested| rested[index]).into()).to_vec()
-            }
             Measure::Area => vec![self.edge.as_ref().and_then(Basin::area).into()],
             Measure::Fold => {
                 let fold = self.fold;
@@ -234,6 +236,7 @@ pub(crate) struct Portrayed<'a> {
     pub border: Option<Border>,
     pub guaranteed: Option<Margin>,
     pub needed: Option<FrictionNeeded>,
+    pub settling: Option<&'a Settling>,
 }
 
 impl Portrayed<'_> {
@@ -263,6 +266,14 @@ impl Portrayed<'_> {
                 vec![self.border.map_or(Value::Nothing, |border| Value::Word(border.name()))]
             }
             Measure::Design => vec![self.needed.map(FrictionNeeded::least).into()],
+            Measure::Settling => {
+                let times = self.settling.and_then(Settling::times);
+                [0, 1].map(|index| times.map(|times| times[index]).into()).to_vec()
+            }
+            Measure::FiniteTime => {
+                let rested = self.settling.map(Settling::rested);
+                [0, 1].map(|index| rested.map(|rested| rested[index]).into()).to_vec()
+            }
             _ => vec![Value::Nothing; measure.spec().columns.len()],
         }
     }
@@ -299,26 +310,19 @@ pub struct Settling {
 }
 
 impl Settling {
-    /// Follows every start until the end time of the motion. Fails with the [`Reason`] why one of them was given
-    /// up.
-    pub fn of(problem: &Problem, window: &Window, limits: &Limits) -> Result<(Self, Cost), Reason> {
-        let mut cost = Cost::default();
+    /// Asks when the motion from each start is at rest, if it is in the end. Fails with why one of them was given up.
+    pub fn of<Why>(
+        window: &Window,
+        mut rests: impl FnMut(State) -> Result<Option<f64>, Why>,
+    ) -> Result<Self, Why> {
         let cell = |(from, to): (f64, f64), index: u16| {
             from + (to - from) * (f64::from(index) + 0.5) / f64::from(SIDE)
         };
         let starts = (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (row, column)));
         let times = starts.map(|(row, column)| {
-            let initial = State { q: cell(window.q, column), v: cell(window.v, row) };
-            let motion = trajectory(&Problem { initial, ..*problem }, Detail::default(), limits);
-            cost += motion.cost;
-            match motion.outcome {
-                Outcome::Captured { tau, .. } => Ok(Some(tau)),
-                Outcome::GaveUp { reason, .. } => Err(reason),
-                Outcome::Moving { .. } | Outcome::Escaped { .. } => Ok(None),
-            }
+            rests(State { q: cell(window.q, column), v: cell(window.v, row) })
         });
-        let times = times.collect::<Result<Vec<_>, _>>()?;
-        Ok((Settling { times }, cost))
+        Ok(Settling { times: times.collect::<Result<_, _>>()? })
     }
 
     /// Largest and mean time to rest; `None` where a start is not at rest in the end.

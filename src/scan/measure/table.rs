@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::model::{Knob, ParameterBox, Parameters};
+use crate::model::{Knob, Model, ParameterBox, Parameters};
 use crate::numerics::count::real;
 use crate::portrait::basin::Window;
 use crate::portrait::design::Kick;
@@ -96,7 +96,8 @@ impl MeasureNeed {
     /// Whether the computation depends on a number.
     pub fn depends_on(self, knob: Knob) -> bool {
         match knob {
-            Knob::Q0 | Knob::V0 | Knob::X | Knob::V | Knob::Duration => self == MeasureNeed::Motion,
+            Knob::Q0 | Knob::V0 | Knob::X | Knob::V => self == MeasureNeed::Motion,
+            Knob::Duration => matches!(self, MeasureNeed::Motion | MeasureNeed::Settling),
             Knob::DisturbingForce => {
                 matches!(self, MeasureNeed::Guarantee | MeasureNeed::Design)
             }
@@ -125,16 +126,9 @@ pub struct MeasureSpec {
 /// Cycles that have columns of their own; no parameters with more are known, and `cycles` counts all.
 pub(crate) const CYCLES: usize = 2;
 
-/// Measures of the oscillator of the paper alone; all others are measured of machines, too.
-pub const OF_THE_PAPER: [Measure; 7] = [
-    Measure::Area,
-    Measure::Fold,
-    Measure::Escape,
-    Measure::Integrity,
-    Measure::Settling,
-    Measure::FiniteTime,
-    Measure::Proved,
-];
+/// Measures of the oscillator of the paper alone: of its damping D, and of its proofs. All others are measured of machines,
+/// too.
+pub const OF_THE_PAPER: [Measure; 3] = [Measure::Fold, Measure::Escape, Measure::Proved];
 
 /// Every measure, in the order in which they are listed.
 pub const MEASURES: [MeasureSpec; 19] = [
@@ -393,6 +387,13 @@ impl Conditions {
             known.widen(symbol, half_width);
         }
         known
+    }
+
+    /// The window of a machine, from its steady position.
+    pub fn about(&self, model: &Model) -> Window {
+        let steady = if self.elongation { model.pull } else { 0.0 };
+        let Window { q: (from, to), v } = self.window;
+        Window { q: (from - steady, to - steady), v }
     }
 
     /// How far the edge of the basin matters.
