@@ -14,7 +14,10 @@ use hopfscope::flow::machine::turn::ContactState;
 use hopfscope::flow::{Fate, Flow, MachineMotion};
 use hopfscope::model::belt::FrictionLaw;
 use hopfscope::model::{Belt, Group, Knob, Model, NoModel};
-use hopfscope::numerics::elementary::{asin, atan, atan2, exp, exp_m1, hypot, ln, powi, tanh};
+use hopfscope::numerics::elementary::{
+    asin, atan, atan2, cos, exp, exp_m1, hypot, ln, powi, sin, tanh,
+};
+use hopfscope::portrait::basin::Window;
 use hopfscope::portrait::return_map::machine_return::MachineReturn;
 use hopfscope::portrait::{Border, Portrait};
 use serde_json::{Value, json};
@@ -143,6 +146,27 @@ fn the_share_counts_every_piece_of_the_border() {
 }
 
 /// A machine with constant kinetic friction and a higher static one.
+#[test]
+fn the_area_of_a_basin_is_its_share_of_a_window_and_its_largest_circle_comes_to_rest() {
+    let mut seen = 0;
+    for name in data()["machines"].as_object().unwrap().keys() {
+        let found = portrait(&machine(name));
+        let (Some(area), Some(radius)) = (found.area(), found.inner_radius()) else { continue };
+        let Window { q, v } = found.surroundings();
+        let share = found.rest_share(q, v).unwrap();
+        assert!(close(share * (q.1 - q.0) * (v.1 - v.0), area, 1e-12), "{name}: {share} {area}");
+        let omega_0 = found.model.omega_0;
+        let rests = |radius: f64, degrees: u32| {
+            let angle = PI * f64::from(degrees) / 180.0;
+            found.fate(radius * cos(angle), radius * omega_0 * sin(angle)) == Ok(Fate::Rest)
+        };
+        assert!((0..360).all(|degrees| rests(0.999 * radius, degrees)), "{name}");
+        assert!(!(0..360).all(|degrees| rests(1.001 * radius, degrees)), "{name}");
+        seen += 1;
+    }
+    assert!(seen > 3, "{seen}");
+}
+
 fn coulomb(guide: f64, speed: f64) -> Belt {
     Belt { friction: guide, belt_speed: speed, ..machine("coulomb-guide") }
 }

@@ -51,8 +51,17 @@ fn the_oscillator_of_the_paper_and_a_machine_without_a_belt_have_the_same_cycles
             compared[0] += 1;
         }
         assert_eq!(found.border, portrait.border, "{parameters:?}");
-        let margin = basin(&parameters, 10.0, &Limits::PATIENT).unwrap().margin();
+        let basin = basin(&parameters, 10.0, &Limits::PATIENT).unwrap();
+        let margin = basin.margin();
         assert_eq!(margins(&margin), margins(&closed.margin), "{parameters:?}");
+        assert_eq!((basin.area(), basin.integrity()), (closed.area(), closed.integrity()));
+        let roundness =
+            [(basin.area(), portrait.area()), (basin.inner_radius(), portrait.inner_radius())];
+        for (one, other) in roundness {
+            assert_eq!(one.is_some(), other.is_some(), "{parameters:?}");
+            let apart = one.zip(other).map_or(0.0, |(one, other)| (one / other - 1.0).abs());
+            assert!(apart < 1e-9, "{parameters:?}: {one:?} {other:?}");
+        }
         for (one, other) in margins(&margin).into_iter().zip(margins(&portrait.margin)) {
             assert_eq!(one.is_some(), other.is_some(), "{parameters:?}");
             compared[1 + usize::from(one.is_none())] += 1;
