@@ -4,10 +4,9 @@
 //! of ten thousand samples and of a short record; and a step of a held number until all others have followed.
 
 use divan::{Bencher, black_box};
-use hopfscope::fit::levenberg_marquardt::Runs;
-use hopfscope::fit::observation::{Data, Observation, R, StartKind, Unknowns};
-use hopfscope::fit::refit::refitted;
-use hopfscope::fit::{Question, Record, Signal, estimate};
+use hopfscope::fit::{
+    Data, Observation, Question, R, Record, Runs, Signal, StartKind, Unknowns, estimate, refitted,
+};
 use hopfscope::numerics::random::Random;
 
 fn main() {
@@ -20,30 +19,31 @@ const DECAY: (Unknowns, StartKind, f64) =
 const RINGING: (Unknowns, StartKind, f64) =
     ([31.4, 0.0, 0.0008, 0.0, 2e-5, 0.001, 6.0, 0.5, 0.0, 0.0], StartKind::Moving, 30.0);
 
-fn observation((_, start, seconds): (Unknowns, StartKind, f64), samples: u32) -> Observation {
+/// A record of zeros.
+fn zeros((_, _, seconds): (Unknowns, StartKind, f64), samples: u32) -> Data {
     let at = |index: u32| seconds * f64::from(index) / f64::from(samples);
     let t: Vec<f64> = (0..samples).map(at).collect();
     let x = vec![0.0; t.len()];
-    Observation {
-        data: Data::Samples { t, x, signal: Signal::Displacement },
-        start,
-        linear: false,
-        reach: 1e9,
-    }
+    Data::Samples { t, x, signal: Signal::Displacement }
+}
+
+fn observation(data: &Data, (_, start, _): (Unknowns, StartKind, f64)) -> Observation<'_> {
+    Observation { data, start, reach: 1e9 }
 }
 
 fn record(motion: (Unknowns, StartKind, f64), samples: u32) -> Record {
-    let observation = observation(motion, samples);
-    let Data::Samples { t, .. } = observation.data.clone() else { return Record::default() };
+    let data = zeros(motion, samples);
+    let observation = observation(&data, motion);
     let mut chance = Random::new(1);
     let seen = observation.compare(&motion.0, false).expect("the motion stays");
     let x = seen.residuals.iter().map(|it| 0.01 * chance.normal() - it.value).collect();
-    Record { t: Some(t), x, ..Record::default() }
+    Record { t: Some(data.times().to_vec()), x, ..Record::default() }
 }
 
 #[divan::bench(args = [("decay", DECAY), ("ringing", RINGING)])]
 fn gradient_by_sensitivities(bencher: Bencher, (_, motion): &(&str, (Unknowns, StartKind, f64))) {
-    let observation = observation(*motion, 10_000);
+    let data = zeros(*motion, 10_000);
+    let observation = observation(&data, *motion);
     bencher.bench(|| observation.compare(black_box(&motion.0), true));
 }
 
@@ -52,7 +52,8 @@ fn gradient_by_forward_differences(
     bencher: Bencher,
     (_, motion): &(&str, (Unknowns, StartKind, f64)),
 ) {
-    let observation = observation(*motion, 10_000);
+    let data = zeros(*motion, 10_000);
+    let observation = observation(&data, *motion);
     bencher.bench(|| {
         let mut moved = motion.0;
         let base = observation.compare(black_box(&moved), false);

@@ -12,15 +12,10 @@ use super::output::{Format, Output, write};
 use super::progress::{Outlet, StatusLine};
 use super::timing::timed;
 use crate::figure::{self, Figure, FileForm};
-use crate::fit::contour::{RISES, contour};
-use crate::fit::curves::Curves;
-use crate::fit::levenberg_marquardt::Runs;
-use crate::fit::names::{Choice, NameSpec, assigned, listed};
-use crate::fit::observation::{D, R};
-use crate::fit::signal::quantity;
 use crate::fit::{
-    Column, DRAWS, Estimate, Fitted, Inertia, LENGTHS, LossName, MarginQuestion, Question, Reading,
-    Record, Signal, Unfit, estimate, length_in_metres, margins, parse,
+    Choice, Column, Curves, D, DRAWS, Estimate, Fitted, Inertia, LENGTHS, LossName, MarginQuestion,
+    NameSpec, Question, R, RISES, Reading, Record, Runs, Signal, Unfit, assigned, contour,
+    estimate, length_in_metres, listed, margins, parse, quantity,
 };
 use crate::flow::Limits;
 use crate::model::Knob;

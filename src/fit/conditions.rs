@@ -2,19 +2,10 @@
 
 use serde::Serialize;
 
-use super::dropped::{Dropped, dropped_of_fitted};
-use super::estimate::{Estimate, Rival};
-use super::levenberg_marquardt::Runs;
-use super::margin::Margins;
-use super::names::NameSpec;
-use super::noise::IMPOSSIBLE;
-use super::observation::{Data, R, Unknowns};
-use super::peaks::peaks;
-use super::posterior::FEWEST;
-use super::problem::{HIDDEN, RUN, longest_run};
-use super::question::{Question, Unfit};
-use super::record::Record;
-use super::samples::samples;
+use super::{
+    Data, Dropped, Estimate, FEWEST, HIDDEN, IMPOSSIBLE, Margins, NameSpec, Question, R, RUN,
+    Record, Rival, Runs, Unfit, Unknowns, interrupted, longest_run, peaks, samples,
+};
 use crate::numerics::count::real;
 use crate::numerics::random::Random;
 
@@ -56,8 +47,7 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
         _ => "correlated as filtered noise is",
     };
     let ratio = estimate.covariance.deviation / estimate.noise.deviation;
-    let is_outlier = |index| dropped_of_fitted(estimate, index) == Some(Dropped::Outlier);
-    let run = longest_run((0..estimate.used.len()).map(is_outlier));
+    let run = longest_run(estimate.dropped_data().map(|why| why == Some(Dropped::Outlier)));
     let freedom = estimate
         .wanted()
         .map(|row| estimate.covariance.independent(row.place))
@@ -75,7 +65,7 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
         state(
             "outliers",
             run < RUN,
-            format!("{} left out, at most {run} in a row", estimate.outliers()),
+            format!("{} left out, at most {run} in a row", estimate.count(Dropped::Outlier)),
         ),
         state("rivals", other.is_none(), others),
         state("freedom", freedom >= FREEDOM, format!("{freedom:.1} degrees of freedom")),
@@ -126,12 +116,8 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
 pub fn repeated(estimate: &Estimate, question: &Question, runs: &mut Runs) -> Result<f64, Unfit> {
     let record = simulated(estimate);
     let fit = if question.peaks { peaks } else { samples };
-    let again = match fit(&record, question, runs) {
-        Ok(again) => again,
-        Err(Unfit::Interrupted) => return Err(Unfit::Interrupted),
-        Err(_) => return Ok(f64::INFINITY),
-    };
-    Ok(furthest(estimate, &again.p))
+    let again = interrupted(fit(&record, question, runs))?;
+    Ok(again.map_or(f64::INFINITY, |again| furthest(estimate, &again.p)))
 }
 
 /// The largest distance of another point from an estimate, in standard errors by the intervals.

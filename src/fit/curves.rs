@@ -1,15 +1,11 @@
-//! The curves in the pictures of a fit. They are computed once, with the answer; drawing them computes nothing.
+//! The curves in the pictures of a fit, and the plotted points of its record. They are computed once, with the answer; drawing them computes nothing.
 
 use std::f64::consts::TAU;
 
-use super::decrements::averaged;
-use super::estimate::Estimate;
-use super::margin::Margins;
-use super::motion::{Way, follow};
-use super::observation::{Data, OFFSET, OMEGA0, parameters};
-use super::residuals::autocorrelations;
-use super::sampled::Sampled;
-use super::signal::Signal;
+use super::{
+    Data, Dropped, Estimate, Margins, OFFSET, OMEGA0, Q0, Way, autocorrelations, averaged, follow,
+    parameters,
+};
 use crate::model::{Parameters, State};
 use crate::numerics::count::{real, truncated};
 
@@ -95,8 +91,7 @@ fn pair(q: &[f64]) -> Option<PlotPoint> {
 
 /// The exact damping, computed from a motion released at a displacement in the same way as from a record.
 fn exact(parameters: &Parameters, from: f64) -> Option<PlotPoint> {
-    let signal = Signal::Displacement;
-    let way = Way { linear: false, with_derivatives: false, reach: 1e3 * from, turns: 3, signal };
+    let way = Way { reach: 1e3 * from, turns: 3, ..Way::default() };
     let found = follow(parameters, State { q: from, v: 0.0 }, &[40.0], way, |_, _| {}).ok()?;
     let turns: Vec<f64> =
         std::iter::once(from).chain(found.turns.iter().map(|turn| turn.q)).collect();
@@ -191,7 +186,7 @@ fn spread(estimate: &Estimate, margins: &Margins) -> (Vec<PlotPoint>, Extent) {
         steps.extend([[x, share(index)], [x, share(index + 1)]]);
     }
     // Margins far beyond the record are not known well enough for their tail to be shown.
-    let shift = margins.from_rest.displacement;
+    let shift = margins.kicks.from_rest.displacement;
     let typical = shift.upper.or(shift.median);
     let far = typical.or(finite.last().copied()).unwrap_or(largest).min(FAR * largest);
     let to = far.max(largest) + 0.1 * (far.max(largest) - far.min(largest)).max(0.02 * largest);
@@ -200,4 +195,77 @@ fn spread(estimate: &Estimate, margins: &Margins) -> (Vec<PlotPoint>, Extent) {
     let near = shift.lower.unwrap_or(0.0).min(largest);
     let from = if near > 0.7 * to { near - 0.3 * (to - near) } else { 0.0 };
     (steps, [from, to, 0.0, 1.0])
+}
+
+/// Maximum number of points plotted of a record. Of longer records every second, third, .. sample is plotted.
+const POINTS: usize = 4000;
+
+/// The plotted points of a sampled record, without outliers and jumps.
+#[derive(Clone, Debug, Default)]
+pub struct Sampled {
+    /// Times in s; NaN in a gap.
+    pub t: Vec<f64>,
+    /// The signal.
+    pub x: Vec<f64>,
+    /// Differences from the fitted motion.
+    pub residual: Vec<f64>,
+    /// The fitted motion: time, displacement from the offset, velocity over omega0.
+    pub motion: Vec<[f64; 3]>,
+    /// The signal of the fitted motion at these times, with its offset.
+    pub fitted: Vec<f64>,
+}
+
+impl Sampled {
+    /// The plotted points of a fitted record; `None` for a record of peaks.
+    pub fn of(estimate: &Estimate) -> Option<Self> {
+        /// A step longer than the average one by this factor is a gap.
+        const GAP: f64 = 6.0;
+        let Data::Samples { t, x, .. } = &estimate.data else { return None };
+        let every = t.len().div_ceil(POINTS);
+        let (motion, fitted) = motion(estimate, t);
+        let mut seen = Sampled { motion, fitted, ..Sampled::default() };
+        let step = (t[t.len() - 1] - t[0]) * real(every) / real(t.len());
+        for (index, why) in estimate.dropped_data().enumerate().step_by(every) {
+            if seen.t.last().is_some_and(|last| t[index] - last > GAP * step) {
+                seen.push([f64::NAN; 3]);
+            }
+            if !matches!(why, Some(Dropped::Outlier | Dropped::Jump)) {
+                seen.push([t[index], x[index], estimate.residuals[index]]);
+            }
+        }
+        Some(seen)
+    }
+
+    fn push(&mut self, [t, x, residual]: [f64; 3]) {
+        self.t.push(t);
+        self.x.push(x);
+        self.residual.push(residual);
+    }
+}
+
+/// The fitted motion at closely spaced times, and its signal.
+fn motion(estimate: &Estimate, t: &[f64]) -> (Vec<[f64; 3]>, Vec<f64>) {
+    /// Number of points for each half swing.
+    const FINE: usize = 40;
+    let p = &estimate.p;
+    let (first, last) = (t[0], t[t.len() - 1]);
+    let (origin, start) = estimate.start.beginning(p, t);
+    let count = (FINE * (estimate.half_swings + 2)).min(4 * POINTS);
+    let at = |index: usize| origin + (last - origin) * real(index) / real(count);
+    let taus: Vec<f64> = (0..=count).map(|index| p[OMEGA0] * (at(index) - origin)).collect();
+    let signal = estimate.data.signal();
+    let scale = (0..signal.order()).fold(1.0, |scale, _| scale * p[OMEGA0]);
+    let (mut points, mut seen) = (Vec::new(), Vec::new());
+    if first < origin {
+        points.push([first, p[Q0], 0.0]);
+        let held = if signal.is_displacement() { p[Q0] } else { 0.0 };
+        seen.push(estimate.data.zero(p, first) + held);
+    }
+    let way = Way { signal, ..Way::default() };
+    // Cannot be lost: the fit has already followed this motion through the record.
+    let _ = follow(&parameters(p), start, &taus, way, |index, point| {
+        points.push([at(index), point.q, point.v]);
+        seen.push(estimate.data.zero(p, at(index)) + scale * point.signal);
+    });
+    (points, seen)
 }

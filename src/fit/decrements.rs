@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::turning_points::Extreme;
+use super::{Extreme, robust_deviation};
 use crate::numerics::elementary::powi;
 
 /// Damping and offset by averaging.
@@ -138,7 +138,7 @@ pub fn robust(rows: &[(Vec<f64>, f64)]) -> Option<DVector<f64>> {
                 value - row.iter().zip(found.iter()).map(|(a, b)| a * b).sum::<f64>()
             })
             .collect();
-        let scale = 2.385 * super::noise::robust_deviation(left.iter().copied());
+        let scale = 2.385 * robust_deviation(left.iter().copied());
         solution = Some(found);
         if scale <= 0.0 {
             break;

@@ -1,14 +1,12 @@
-//! A drift of the zero beside the motion, along a line or a parabola over the record.
+//! A drift of the zero beside the motion, along a line or a parabola over the record, and fits with one where the record
+//! shows it.
 
 use serde::Serialize;
 
-use super::decrements::robust;
-use super::levenberg_marquardt::{Optimum, Task};
-use super::names::NAMES;
-use super::observation::{BEND, SLOPE, UNKNOWNS, Unknowns, drift};
-use super::residuals::autocorrelations;
-use super::turning_points::Extreme;
-use super::uncertainty::Covariance;
+use super::{
+    BEND, Beginning, Covariance, Extreme, NAMES, Optimum, Runs, SLOPE, Task, UNKNOWNS, Unfit,
+    Unknowns, autocorrelations, drift, interrupted, moved, robust, scattered,
+};
 use crate::numerics::count::real;
 use crate::numerics::elementary::powi;
 
@@ -49,26 +47,21 @@ impl LeftDrift {
 
     /// The drift by the linear model about a minimum, with the step of all unknowns to it; none for peaks.
     pub fn with_step(task: &Task, optimum: &Optimum) -> Option<(Self, Unknowns)> {
-        let mut columns = task.columns();
-        if task.observation.data.has_peaks() || columns.contains(&SLOPE) {
+        if task.observation.data.has_peaks() || task.free[SLOPE] {
             return None;
         }
-        let free = columns.len();
-        columns.extend([SLOPE, BEND]);
-        let width = columns.len();
-        let factor = task.factor(&optimum.seen, &columns);
+        let wider = task.with_drift();
+        let factor = wider.factor(&optimum.seen);
+        let width = factor.ncols() - 1;
         let upper = factor.view((0, 0), (width, width));
-        let right = factor.view((0, width), (width, 1)).into_owned();
-        let solution = upper.solve_upper_triangular(&right)?;
-        let mut step = [0.0; UNKNOWNS];
-        for (&column, value) in columns.iter().zip(solution.iter()) {
-            step[column] = *value;
-        }
-        let used = task.used_residuals(&optimum.seen);
+        let right = factor.view((0, width), (width, 1)).column(0).into_owned();
+        let step = scattered(&wider.columns(), &upper.solve_upper_triangular(&right)?);
         let told = |by: &Unknowns| by.iter().zip(&step).map(|(by, step)| by * step).sum::<f64>();
-        let left: Vec<f64> = used.iter().map(|it| it.value - told(&it.by)).collect();
+        let used = task.used_residuals(&optimum.seen);
+        let left: Vec<f64> = used.map(|it| it.value - told(&it.by)).collect();
         let variance = powi(factor[(width, width)], 2) / (real(left.len()) - real(width)).max(1.0);
-        let fall = powi(factor[(free, width)], 2) + powi(factor[(free + 1, width)], 2);
+        // Those of the slope and of the bend come last.
+        let fall = right.rows(width - 2, 2).norm_squared();
         let evidence = fall / variance * independent(&left);
         Some((LeftDrift { evidence, change: step[SLOPE], moved: 0.0 }, step))
     }
@@ -85,13 +78,13 @@ impl LeftDrift {
 }
 
 /// The share of residuals that are independent, by the memory between neighbours.
-pub fn independent(residuals: &[f64]) -> f64 {
+fn independent(residuals: &[f64]) -> f64 {
     let memory = autocorrelations(residuals, &[1])[0].clamp(0.0, 0.99);
     (1.0 - memory) / (1.0 + memory)
 }
 
 /// The slope and the bend of the middles of the swings; zero for fewer than three.
-pub fn of_swings(t: &[f64], extremes: &[Extreme]) -> [f64; 2] {
+pub fn drift_of_swings(t: &[f64], extremes: &[Extreme]) -> [f64; 2] {
     /// Fewest middles that show a parabola.
     const FEWEST: usize = 6;
     let rows: Vec<(Vec<f64>, f64)> = extremes
@@ -109,10 +102,74 @@ pub fn of_swings(t: &[f64], extremes: &[Extreme]) -> [f64; 2] {
 }
 
 /// Takes a drift off a record.
-pub fn without(t: &[f64], x: &[f64], [slope, bend]: [f64; 2]) -> Vec<f64> {
+pub fn without_drift(t: &[f64], x: &[f64], [slope, bend]: [f64; 2]) -> Vec<f64> {
     let at = |time: f64| {
         let [by_slope, by_bend] = drift(t, time);
         slope * by_slope + bend * by_bend
     };
     t.iter().zip(x).map(|(&t, x)| x - at(t)).collect()
+}
+
+impl Task<'_> {
+    /// The minima with a drift of the zero, and which unknowns are then free, if it is real; `guessed` makes first
+    /// guesses with a drift.
+    ///
+    /// Asked are records that may show a drift or are not explained without one. With it they must be explained, and
+    /// chi-squared must fall by more than chance allows. Fails with [`Unfit::Interrupted`].
+    pub fn drifting(
+        &self,
+        found: &[Optimum],
+        guessed: impl FnOnce() -> Vec<Beginning>,
+        runs: &mut Runs,
+    ) -> Result<Option<(Vec<Optimum>, [bool; UNKNOWNS])>, Unfit> {
+        /// Fall of chi-squared below which a line does as well as a parabola.
+        const NOTHING: f64 = 4.0;
+        /// Evidence by the linear model, which chance exceeds once in ten records, from which a drift is tried: motions
+        /// with it may lie in other regions, where the linear model does not lead.
+        const ASKED: f64 = 4.6;
+        /// Fall of chi-squared from which it is fitted. Chance exceeds it seven times in a thousand, and then two
+        /// unknowns too many only widen the intervals.
+        const FITTED: f64 = 10.0;
+        /// By this factor a descent comes much closer.
+        const MUCH: f64 = 4.0;
+        let best = &found[0];
+        let Some((drift, step)) = LeftDrift::with_step(&self.starting(best.start), best) else {
+            return Ok(None);
+        };
+        if drift.evidence < ASKED && self.explains(best) {
+            return Ok(None);
+        }
+        let mut beginnings = guessed();
+        let guesses = vec![moved(&best.p, 1.0, &step), best.p];
+        match beginnings.iter_mut().find(|beginning| beginning.start == best.start) {
+            Some(beginning) => beginning.guesses.extend(guesses),
+            None => beginnings.push(Beginning { start: best.start, certain: true, guesses }),
+        }
+        let mut wider = self.with_drift();
+        // Only where a first descent comes much closer, or explains the record, is it worth the search.
+        let mut helps = false;
+        for (start, guess, _) in wider.ranked(&beginnings, runs)? {
+            let tried = interrupted(wider.starting(start).solve(guess, runs))?;
+            helps |= tried.is_some_and(|it| MUCH * it.cost < best.cost || wider.explains(&it));
+        }
+        if !helps {
+            return Ok(None);
+        }
+        let Some(mut drifting) = interrupted(wider.search(&beginnings, runs))? else {
+            return Ok(None);
+        };
+        let least = &drifting[0];
+        let values = wider.values(&least.seen);
+        let unit = least.cost / real(values.len()) / independent(&values);
+        if best.cost - least.cost <= FITTED * unit || !wider.explains(least) {
+            return Ok(None);
+        }
+        let bend = Covariance::white(&wider, least).map_or(0.0, |it| it.of(BEND, BEND));
+        if powi(least.p[BEND], 2) <= NOTHING * bend / independent(&values) {
+            wider.free[BEND] = false;
+            drifting.iter_mut().for_each(|minimum| minimum.p[BEND] = 0.0);
+            wider.polish(&mut drifting, runs)?;
+        }
+        Ok(Some((drifting, wider.free)))
+    }
 }

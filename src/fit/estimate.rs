@@ -2,21 +2,37 @@
 
 use serde::Serialize;
 
-use super::drift::{FittedDrift, LeftDrift};
-use super::levenberg_marquardt::{Optimum, Runs, Task};
-use super::names::{Choice, NAMES, NameSpec};
-use super::noise::Noise;
-use super::observation::{BEND, Data, OMEGA0, R, SLOPE, StartKind, UNKNOWNS, Unknowns};
-use super::problem::{HIDDEN, LeastSquares};
-use super::profile::{Left, Profile, ProfileInterval};
-use super::question::Unfit;
-use super::residuals::{Whiteness, whiteness};
-use super::search::Minima;
-use super::signal::Signal;
-use super::turning_points::Extreme;
-use super::uncertainty::{Covariance, left_over};
+use super::{
+    BEND, Choice, Covariance, Data, Extreme, FittedDrift, HIDDEN, Left, LeftDrift, NAMES, NameSpec,
+    Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Runs, SLOPE, Signal, StartKind, Task,
+    UNKNOWNS, Unfit, Unknowns, Whiteness, left_over, whiteness,
+};
 use crate::model::State;
 use crate::numerics::count::real;
+
+/// Why a sample does not count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dropped {
+    /// It cannot belong to the motion.
+    Outlier,
+    /// It is flattened at full scale, or next to such samples.
+    Saturated,
+    /// The mass had not yet been struck.
+    Before,
+    /// The mass had been excited again.
+    After,
+    /// It lies next to a jump of an acceleration.
+    Jump,
+    /// At rest, it only repeats the rounding error of others.
+    Alike,
+}
+
+impl Dropped {
+    /// Whether it is no part of what was fitted.
+    pub fn is_outside(self) -> bool {
+        matches!(self, Dropped::Saturated | Dropped::Before | Dropped::After)
+    }
+}
 
 /// A minimum that competes with the best one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -63,16 +79,8 @@ pub struct Estimate {
     pub extremes: Vec<Extreme>,
     /// The noise estimated without a model.
     pub noise: Noise,
-    /// Number of samples flattened at full scale, left out.
-    pub saturated: usize,
-    /// Number of samples at rest before the mass was struck, left out.
-    pub before: usize,
-    /// Number of samples after the mass was excited again, left out.
-    pub after: usize,
-    /// Number of samples at rest that repeat the rounding error of others, left out.
-    pub alike: usize,
-    /// Indices of the samples next to the jumps of an acceleration, left out.
-    pub jumps: Vec<usize>,
+    /// For each sample or peak of the record why it does not count; `None` if it does.
+    pub dropped: Vec<Option<Dropped>>,
     /// Number of motions computed with and without derivatives.
     pub motions: (u64, u64),
     /// Displacement beyond which a motion counts as escaped.
@@ -84,11 +92,16 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Number of samples left out because they do not belong to the motion.
+    /// Number of samples of the record that do not count for this reason.
     #[must_use]
-    pub fn outliers(&self) -> usize {
-        let left_out = self.used.iter().filter(|used| !**used).count();
-        left_out.saturating_sub(self.alike + self.jumps.len())
+    pub fn count(&self, why: Dropped) -> usize {
+        self.dropped.iter().filter(|it| **it == Some(why)).count()
+    }
+
+    /// For each sample or peak of the data why it does not count; the data are the record without what lies outside the
+    /// motion or the scale.
+    pub fn dropped_data(&self) -> impl Iterator<Item = Option<Dropped>> + '_ {
+        self.dropped.iter().copied().filter(|why| !why.is_some_and(Dropped::is_outside))
     }
 
     /// The residuals that count.
@@ -144,58 +157,48 @@ impl Estimate {
 ///
 /// # Errors
 /// [`Unfit::Blind`] if an unknown has no influence; [`Unfit::Interrupted`].
-pub fn judged(
-    problem: &LeastSquares,
-    used: &[bool],
-    found: &Minima,
-    runs: &mut Runs,
-) -> Result<Estimate, Unfit> {
+pub fn judged(task: &Task, found: &[Optimum], runs: &mut Runs) -> Result<Estimate, Unfit> {
     /// Number of times that a profile may come upon a lower minimum.
     const LOWER: usize = 4;
-    let problem = &LeastSquares { used, ..*problem };
-    let mut found = found.clone();
+    let task = task.starting(found[0].start);
+    let mut found = found.to_vec();
     for _ in 0..LOWER {
-        match assessed(problem, used, &found, runs)? {
+        match assessed(&task, &found, runs)? {
             (estimate, None) => return Ok(estimate),
             (_, Some(lower)) => {
-                let observation = problem.observation(found.start);
-                let task = problem.task(&observation);
-                let mut optima = vec![*lower];
-                optima.extend(found.valleys.into_iter().map(|valley| valley.optimum));
-                found.valleys = problem.valleys(&task, optima, runs)?;
+                found.insert(0, *lower);
+                found = task.valleys(found, runs)?;
             }
         }
     }
-    Ok(assessed(problem, used, &found, runs)?.0)
+    Ok(assessed(&task, &found, runs)?.0)
 }
 
 /// The estimate, and a lower minimum if a profile comes upon one; its interval is then open.
 fn assessed(
-    problem: &LeastSquares,
-    used: &[bool],
-    found: &Minima,
+    task: &Task,
+    found: &[Optimum],
     runs: &mut Runs,
 ) -> Result<(Estimate, Option<Box<Optimum>>), Unfit> {
-    let observation = problem.observation(found.start);
-    let task = problem.task(&observation);
-    let best = &found.valleys[0].optimum;
+    let (data, best) = (task.observation.data, &found[0]);
     let p = best.p;
-    let kept: Vec<f64> = task.used_residuals(&best.seen).iter().map(|it| it.value).collect();
-    let samples_per_period = match problem.data {
+    let kept = task.values(&best.seen);
+    let samples_per_period = match data {
         Data::Samples { t, .. } => {
             real(t.len()) / (t[t.len() - 1] - t[0]) * std::f64::consts::TAU / p[OMEGA0]
         }
         Data::Peaks { .. } => 2.0,
     };
     let mut whiteness = whiteness(&kept, samples_per_period);
-    if problem.data.has_peaks() {
+    if data.has_peaks() {
         // With a few peaks, or two kinds of residuals, correlation cannot be estimated.
         (whiteness.white, whiteness.autocorrelation) = (true, Vec::new());
     }
-    let left_over = |noise: &[f64], lags: usize| left_over(&task, best, noise, lags);
+    let directions = task.directions(&best.seen);
+    let left_over = |noise: &[f64], lags: usize| left_over(&directions, noise, lags);
     let restored = whiteness.clone().restored(&kept, samples_per_period, left_over);
     let covariance = |of: &Whiteness| {
-        Covariance::at(&task, best, &of.autocorrelation).filter(Covariance::is_possible)
+        Covariance::at(task, best, &of.autocorrelation).filter(Covariance::is_possible)
     };
     let (mut whiteness, covariance) = if let Some(covariance) = covariance(&restored) {
         (restored, covariance)
@@ -205,44 +208,36 @@ fn assessed(
         let covariance = covariance(&whiteness).ok_or(Unfit::Blind)?;
         (whiteness, covariance)
     };
-    whiteness.systematic |= problem.noise > 0.0 && covariance.deviation > HIDDEN * problem.noise;
+    whiteness.systematic |= task.noise > 0.0 && covariance.deviation > HIDDEN * task.noise;
     whiteness.white &= !whiteness.systematic;
     // With correlated noise, larger differences of the loss occur by chance.
     let unit = covariance.variance * covariance.inflation(R);
-    let rivals: Vec<Rival> = found
-        .valleys
-        .iter()
-        .map(|valley| Rival {
-            half_swings: valley.half_swings,
-            delta_chi2: (valley.optimum.cost - best.cost) / unit,
-            p: valley.optimum.p,
-        })
-        .collect();
-    let (intervals, lower) = intervals(&task, found, covariance.variance, &whiteness, runs)?;
-    let left_drift = LeftDrift::of(&task, best, &covariance);
+    let rival = |other: &Optimum| Rival {
+        half_swings: other.half_swings(),
+        delta_chi2: (other.cost - best.cost) / unit,
+        p: other.p,
+    };
+    let (intervals, lower) = intervals(task, found, covariance.variance, &whiteness, runs)?;
+    let left_drift = LeftDrift::of(task, best, &covariance);
     let estimate = Estimate {
         choice: Choice::default(),
-        data: problem.data.clone(),
-        start: found.start,
+        data: data.clone(),
+        start: best.start,
         p,
-        free: problem.free,
+        free: task.free,
         covariance,
         intervals,
         residuals: best.seen.residuals.iter().map(|it| it.value).collect(),
-        used: used.to_vec(),
-        half_swings: best.seen.turns.len(),
+        used: task.used.to_vec(),
+        half_swings: best.half_swings(),
         rests: best.seen.rests,
-        rivals,
+        rivals: found.iter().map(rival).collect(),
         whiteness,
         extremes: Vec::new(),
         noise: Noise::default(),
-        saturated: 0,
-        after: 0,
-        before: 0,
-        alike: 0,
-        jumps: Vec::new(),
+        dropped: vec![None; data.values().len()],
         motions: (runs.with_derivatives, runs.plain),
-        reach: problem.reach,
+        reach: task.observation.reach,
         left_drift,
         repeated: None,
     };
@@ -252,7 +247,7 @@ fn assessed(
 /// The intervals of all unknowns, the union of those of all regions; and a lower minimum if a profile comes upon one.
 fn intervals(
     task: &Task,
-    found: &Minima,
+    found: &[Optimum],
     variance: f64,
     whiteness: &Whiteness,
     runs: &mut Runs,
@@ -262,16 +257,15 @@ fn intervals(
     const CHOSEN: f64 = 0.43;
     let mut intervals = [ProfileInterval::default(); UNKNOWNS];
     let mut lower = None;
-    for (number, valley) in found.valleys.iter().enumerate() {
-        let optimum = &valley.optimum;
+    for (number, optimum) in found.iter().enumerate() {
         let memory = &whiteness.autocorrelation;
         let Some(covariance) = Covariance::at(task, optimum, memory) else { continue };
-        let task = Task { within: Some(optimum.seen.region), ..*task };
+        let task = task.around(&optimum.seen);
         let profile = Profile {
             task: &task,
             optimum,
             covariance: &covariance,
-            least: optimum.cost - CHOSEN * (optimum.cost - found.valleys[0].optimum.cost),
+            least: optimum.cost - CHOSEN * (optimum.cost - found[0].cost),
             variance,
         };
         for place in task.columns() {
@@ -283,7 +277,7 @@ fn intervals(
             };
             let one = match one {
                 Ok(one) => one,
-                Err(Left::Interrupted) => return Err(Unfit::Interrupted),
+                Err(Left::Interrupted(reason)) => return Err(reason),
                 Err(Left::Lower(optimum)) => {
                     lower = Some(optimum);
                     Some(ProfileInterval::default())

@@ -1,14 +1,14 @@
-//! The whole result of a fit, with what the record itself does not contain: its unit, and a mass or stiffness.
+//! The whole result of a fit, with what the record itself does not contain, its unit and a mass or stiffness; and the
+//! forces and damping constants that follow from these.
 
-use super::curves::Curves;
-use super::estimate::Estimate;
-use super::inertia::Inertia;
-use super::margin::Margins;
-use super::names::NameSpec;
-use super::observation::{OFFSET, OMEGA0};
-use super::record::Record;
-use super::signal::length_in_metres;
+use serde::Serialize;
+
+use super::{
+    Curves, D, D2, D3, Estimate, Inertia, Margins, NameSpec, OFFSET, OMEGA0, R, Record,
+    length_in_metres,
+};
 use crate::model::belt::Units;
+use crate::numerics::elementary::powi;
 
 /// The whole result of a fit.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ pub struct Fitted {
     /// The curves in its pictures.
     pub curves: Curves,
     /// For the pictures: the contours in the plane of D and r along which chi-squared has risen by each of
-    /// [`RISES`](super::contour::RISES).
+    /// [`RISES`](super::RISES).
     pub contours: Vec<Vec<[f64; 2]>>,
     /// Mass or stiffness, if known, and the unit of the displacements in m.
     pub inertia: Option<(Inertia, f64)>,
@@ -71,4 +71,65 @@ impl Fitted {
         let length = row.unit(self.unit());
         if row.place == OFFSET { self.record.signal.unit(&length) } else { length }
     }
+}
+
+/// An estimated number in SI units.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EstimatedNumber {
+    /// Its symbol.
+    #[serde(skip)]
+    pub name: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+    /// Its unit.
+    pub unit: &'static str,
+}
+
+/// A quantity as the mass times a factor, powers of `omega0` and of the unit of length, and one of the unknowns.
+struct Law {
+    name: &'static str,
+    unit: &'static str,
+    factor: f64,
+    unknown: Option<usize>,
+    omega0: i32,
+    length: i32,
+}
+
+/// With `x = offset + q` and `tau = omega0 t`, the model multiplied by the stiffness is
+/// `m x'' + d1 x' + d2 x'^2 + d3 x'^3 + c (x - offset) = friction within -R .. R`.
+const LAWS: [Law; 6] = [
+    Law { name: "m", unit: "kg", factor: 1.0, unknown: None, omega0: 0, length: 0 },
+    Law { name: "c", unit: "N/m", factor: 1.0, unknown: None, omega0: 2, length: 0 },
+    Law { name: "d1", unit: "N s/m", factor: 2.0, unknown: Some(D), omega0: 1, length: 0 },
+    Law { name: "d2", unit: "N s^2/m^2", factor: 1.0, unknown: Some(D2), omega0: 0, length: -1 },
+    Law { name: "d3", unit: "N s^3/m^3", factor: 1.0, unknown: Some(D3), omega0: -1, length: -2 },
+    Law { name: "R", unit: "N", factor: 1.0, unknown: Some(R), omega0: 2, length: 1 },
+];
+
+/// The physical numbers with standard errors from the covariance of the fit; none if neither mass nor stiffness is
+/// known.
+pub fn rows(fitted: &Fitted) -> Vec<EstimatedNumber> {
+    let Some((inertia, metres)) = fitted.inertia else { return Vec::new() };
+    LAWS.iter().map(|law| row(fitted, law, inertia, metres)).collect()
+}
+
+fn row(fitted: &Fitted, law: &Law, inertia: Inertia, metres: f64) -> EstimatedNumber {
+    let estimate = &fitted.estimate;
+    let omega0 = estimate.p[OMEGA0];
+    let scale = law.factor * powi(metres, law.length);
+    let constant = scale * inertia.times(omega0, law.omega0);
+    let number = law.unknown.map_or(1.0, |unknown| estimate.p[unknown]);
+    let power = f64::from(law.omega0 - inertia.power());
+    let mut gradient = vec![(OMEGA0, constant * number * power / omega0)];
+    gradient.extend(law.unknown.map(|unknown| (unknown, constant)));
+    let standard_error = estimate.covariance.error_of(&gradient);
+    EstimatedNumber { name: law.name, value: constant * number, standard_error, unit: law.unit }
+}
+
+/// Factors that convert a displacement of the record to metres, and a velocity over `omega0` to an impulse.
+pub fn kicks(fitted: &Fitted) -> Option<(f64, f64)> {
+    let (inertia, metres) = fitted.inertia?;
+    Some((metres, metres * inertia.times(fitted.estimate.p[OMEGA0], 1)))
 }

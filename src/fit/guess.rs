@@ -2,15 +2,13 @@
 
 use std::f64::consts::PI;
 
-use super::decrements::{AveragedDamping, regressions};
-use super::noise::{Noise, median, robust_deviation};
-use super::observation::{D, D2, D3, LAST, OFFSET, OMEGA0, Q0, R, StartKind, UNKNOWNS, Unknowns};
-use super::search::Beginning;
-use super::signal::Signal;
-use super::spectrum::dominant_frequency;
-use super::turning_points::{Extreme, smoothed, turning_points, without_jumps};
+use super::{
+    AveragedDamping, Beginning, D, D2, D3, Extreme, LAST, Noise, OFFSET, OMEGA0, Q0, R, Signal,
+    StartKind, UNKNOWNS, Unknowns, dominant_frequency, least_squares, median, range, regressions,
+    robust_deviation, smoothed, turning_points, without_jumps,
+};
 use crate::numerics::count::real;
-use crate::numerics::elementary::{ln, powi, sin_cos};
+use crate::numerics::elementary::{ln, sin_cos};
 
 /// First guesses, and the turning points from which they were made.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,9 +33,7 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
     /// Periods by which the release may be earlier or later.
     const PERIODS: [f64; 7] = [0.0, -0.2, 0.2, -1.0, 1.0, -2.0, 2.0];
     let cleaned = if noise.has_outliers { without_jumps(x) } else { x.to_vec() };
-    let (low, high) = cleaned
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)));
+    let (low, high) = range(&cleaned);
     let mut period = 1.0 / dominant_frequency(t, &cleaned)?;
     let mut extremes = Vec::new();
     // Two rounds, since the extremes give a better period.
@@ -165,18 +161,13 @@ pub fn period_of(extremes: &[Extreme]) -> Option<f64> {
         return None;
     }
     let half = median(gaps.clone());
-    let (mut number, mut rows) = (0.0, vec![(0.0, extremes[0].t)]);
+    let (mut number, mut rows) = (0.0, vec![([1.0, 0.0], extremes[0].t)]);
     for (gap, extreme) in gaps.iter().zip(&extremes[1..]) {
         number += (gap / half).round().max(1.0);
-        rows.push((number, extreme.t));
+        rows.push(([1.0, number], extreme.t));
     }
-    let count = real(rows.len());
-    let (n, t) = rows.iter().fold((0.0, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
-    let (n, t) = (n / count, t / count);
-    let (up, down) = rows.iter().fold((0.0, 0.0), |sum, row| {
-        (sum.0 + (row.0 - n) * (row.1 - t), sum.1 + powi(row.0 - n, 2))
-    });
-    Some(2.0 * up / down)
+    let [_, slope] = least_squares(rows.into_iter())?;
+    Some(2.0 * slope)
 }
 
 /// The level of a flat end of the record, as a last extreme; `None` if the record does not end flat.
@@ -274,14 +265,10 @@ fn excited_again(t: &[f64], x: &[f64], extremes: &[Extreme]) -> Option<usize> {
 /// period.
 fn first_state(t: &[f64], x: &[f64], p: &Unknowns, period: f64) -> Option<(f64, f64)> {
     let to = t.partition_point(|&time| time <= t[0] + period / 3.0).max(3).min(t.len());
-    let mut normal = nalgebra::Matrix2::zeros();
-    let mut right = nalgebra::Vector2::zeros();
-    for (time, x) in t[..to].iter().zip(x) {
+    let row = |(time, x): (&f64, &f64)| {
         let (sine, cosine) = sin_cos(p[OMEGA0] * (time - t[0]));
-        let row = nalgebra::Vector2::new(cosine, sine);
-        normal += row * row.transpose();
-        right += row * (x - p[OFFSET]);
-    }
-    let found = normal.cholesky()?.solve(&right);
-    Some((found[0], found[1]))
+        ([cosine, sine], x - p[OFFSET])
+    };
+    let [q, v] = least_squares(t[..to].iter().zip(x).map(row))?;
+    Some((q, v))
 }

@@ -1,6 +1,6 @@
 //! The header lines above the numbers: names of columns and their units.
 
-use super::signal::{Quantity, Signal, quantity};
+use super::{Quantity, Signal, quantity};
 
 /// Units of time and their values in seconds.
 pub const TIME_UNITS: [(&str, f64); 7] = [
@@ -52,7 +52,7 @@ struct ColumnHeader {
 }
 
 /// The value of a unit of time in seconds; `None` if it is unknown.
-pub fn seconds(unit: &str) -> Option<f64> {
+pub fn seconds_in(unit: &str) -> Option<f64> {
     let plain = unit.to_lowercase().replace(['\u{b5}', '\u{3bc}'], "u");
     TIME_UNITS.iter().find(|(name, _)| *name == plain).map(|(_, seconds)| *seconds)
 }
@@ -72,7 +72,7 @@ impl ColumnHeader {
         let splits = signs.iter().flat_map(|sign| cell.match_indices(sign));
         let known = splits.filter_map(|(at, sign)| {
             let unit = cell[at + sign.len()..].trim();
-            (seconds(unit).is_some() || quantity(unit).is_some()).then_some((at, unit))
+            (seconds_in(unit).is_some() || quantity(unit).is_some()).then_some((at, unit))
         });
         if let Some((at, unit)) = known.min_by_key(|(at, _)| *at) {
             return ColumnHeader {
@@ -82,7 +82,7 @@ impl ColumnHeader {
         }
         for sign in ["/", " in ", ", ", "_"] {
             if let Some((name, unit)) = cell.rsplit_once(sign)
-                && (sign != "_" || seconds(unit).is_some())
+                && (sign != "_" || seconds_in(unit).is_some())
             {
                 return ColumnHeader {
                     name: name.trim().to_owned(),

@@ -1,10 +1,8 @@
-//! Where in a record the samples lie that do not count in its fit.
+//! Which samples of a record do not count in its fit, and why.
 
 use serde::Serialize;
 
-use super::dropped::dropped;
-use super::estimate::Estimate;
-use super::record::Record;
+use super::{Estimate, Record};
 
 /// Samples that do not count, with at most one between two of them that does.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -23,7 +21,7 @@ pub fn left_out(record: &Record, estimate: &Estimate) -> Vec<LeftOut> {
     if estimate.data.has_peaks() {
         return Vec::new();
     }
-    let counts = dropped(record, estimate).into_iter().map(|why| why.is_none());
+    let counts = estimate.dropped.iter().map(Option::is_none);
     stretches(record.t.iter().flatten().copied().zip(counts))
 }
 

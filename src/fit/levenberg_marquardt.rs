@@ -8,78 +8,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::loss::Loss;
-use super::observation::{Bound, Observation, R, Region, Residual, Seen, UNKNOWNS, Unknowns};
-use super::triangle::triangle;
+use super::{
+    Bound, Optimum, R, Runs, Seen, Task, UNKNOWNS, Unfit, Unknowns, interrupted, moved, scattered,
+};
 use crate::numerics::count::real;
 use crate::numerics::elementary::powi;
-
-/// Counters of the computation, and the check for an interruption.
-pub struct Runs<'a> {
-    /// Number of motions computed with derivatives.
-    pub with_derivatives: u64,
-    /// Number of motions computed without derivatives.
-    pub plain: u64,
-    /// Called before each motion; `true` ends the computation.
-    pub interrupted: &'a dyn Fn() -> bool,
-    /// The smallest root mean square of residuals that a descent has reached.
-    pub closest: f64,
-}
-
-impl<'a> Runs<'a> {
-    /// Counters at zero.
-    pub fn new(interrupted: &'a dyn Fn() -> bool) -> Self {
-        Runs { with_derivatives: 0, plain: 0, interrupted, closest: f64::INFINITY }
-    }
-}
-
-/// Why there is no fit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoFit {
-    /// The motion of the first guess escapes.
-    Lost,
-    /// The computation was interrupted.
-    Interrupted,
-}
-
-/// Turns an interruption into an error; passes on every other result.
-///
-/// # Errors
-/// [`NoFit::Interrupted`].
-pub fn interrupted<T>(result: Result<T, NoFit>) -> Result<Result<T, NoFit>, NoFit> {
-    match result {
-        Err(NoFit::Interrupted) => Err(NoFit::Interrupted),
-        other => Ok(other),
-    }
-}
-
-/// The point at which the iteration ended.
-#[derive(Clone, Debug)]
-pub struct Optimum {
-    /// The unknowns.
-    pub p: Unknowns,
-    /// The loss, in squared units of the residuals.
-    pub cost: f64,
-    /// The model compared with the record, with derivatives.
-    pub seen: Seen,
-}
-
-/// What is estimated, and how residuals are weighted.
-#[derive(Clone, Copy, Debug)]
-pub struct Task<'a> {
-    /// Record and model.
-    pub observation: &'a Observation,
-    /// Which unknowns are free.
-    pub free: [bool; UNKNOWNS],
-    /// How residuals are weighted.
-    pub loss: Loss,
-    /// Which residuals count; all of them if empty.
-    pub used: &'a [bool],
-    /// Only this many residuals, from the first on, count.
-    pub horizon: usize,
-    /// The region that a descent must not leave, if it is confined to one.
-    pub within: Option<Region>,
-}
 
 /// Maximum number of iterations.
 const MOST: usize = 50;
@@ -91,58 +24,6 @@ const FEW: usize = 12;
 const SETTLED: f64 = 1e-10;
 
 impl Task<'_> {
-    fn counts(&self, index: usize) -> bool {
-        index < self.horizon && self.used.get(index).copied().unwrap_or(true)
-    }
-
-    /// The loss at a point.
-    pub fn cost(&self, seen: &Seen) -> f64 {
-        let used = seen.residuals.iter().enumerate().filter(|(index, _)| self.counts(*index));
-        used.map(|(_, residual)| self.loss.of(residual.value)).sum()
-    }
-
-    /// The residuals that count.
-    pub fn used_residuals<'a>(&self, seen: &'a Seen) -> Vec<&'a Residual> {
-        let used = seen.residuals.iter().enumerate().filter(|(index, _)| self.counts(*index));
-        used.map(|(_, residual)| residual).collect()
-    }
-
-    /// Compares the model with the record, and counts the motion.
-    ///
-    /// # Errors
-    /// [`NoFit`] if the motion of the model escapes, or when interrupted.
-    pub fn evaluated(
-        &self,
-        p: &Unknowns,
-        derivatives: bool,
-        runs: &mut Runs,
-    ) -> Result<Seen, NoFit> {
-        if (runs.interrupted)() {
-            return Err(NoFit::Interrupted);
-        }
-        *(if derivatives { &mut runs.with_derivatives } else { &mut runs.plain }) += 1;
-        self.observation.compare(p, derivatives).map_err(|_| NoFit::Lost)
-    }
-
-    /// The places of the free unknowns.
-    pub fn columns(&self) -> Vec<usize> {
-        (0..UNKNOWNS).filter(|&column| self.free[column]).collect()
-    }
-
-    /// The triangular factor of the weighted gradients of these unknowns, with the residuals as a last column.
-    pub fn factor(&self, seen: &Seen, columns: &[usize]) -> DMatrix<f64> {
-        let width = columns.len() + 1;
-        triangle(width, seen.residuals.len(), |index, row| {
-            let residual = &seen.residuals[index];
-            let weight =
-                if self.counts(index) { self.loss.weight(residual.value).sqrt() } else { 0.0 };
-            for (cell, &column) in row.iter_mut().zip(columns) {
-                *cell = weight * residual.by[column];
-            }
-            row[width - 1] = weight * residual.value;
-        })
-    }
-
     /// Whether a descent may come here.
     fn permits(&self, seen: &Seen) -> bool {
         self.within.is_none_or(|region| region == seen.region)
@@ -167,14 +48,12 @@ impl Task<'_> {
 
     /// The point that the linear model predicts after one of the unknowns has moved by an amount: the others follow
     /// so that the loss remains as small as possible, and all remain within bounds.
-    pub fn moved(&self, from: &Optimum, unknown: usize, by: f64) -> Option<Unknowns> {
-        let columns = self.columns();
-        let factor = self.factor(&from.seen, &columns);
-        let norms: Vec<f64> =
-            (0..columns.len()).map(|column| factor.column(column).norm()).collect();
+    pub fn followed(&self, from: &Optimum, unknown: usize, by: f64) -> Option<Unknowns> {
+        let (columns, factor) = (self.columns(), self.factor(&from.seen));
+        let norms = norms(&factor);
         let step = Step { factor: &factor, norms: &norms, damping: 1e-12, columns: &columns };
         let (step, _) = step.within(&self.bounds(&from.p, &from.seen), Some((unknown, by)))?;
-        let mut p: Unknowns = std::array::from_fn(|place| from.p[place] + step[place]);
+        let mut p = moved(&from.p, 1.0, &step);
         p[unknown] = from.p[unknown] + by;
         p[R] = p[R].max(0.0);
         Some(p)
@@ -183,8 +62,8 @@ impl Task<'_> {
     /// Iterates from a first guess.
     ///
     /// # Errors
-    /// [`NoFit`] if even the guess cannot be compared with the record.
-    pub fn solve(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, NoFit> {
+    /// [`Unfit`] if even the guess cannot be compared with the record.
+    pub fn solve(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, Unfit> {
         self.solve_within(SETTLED, MOST, guess, runs)
     }
 
@@ -192,9 +71,8 @@ impl Task<'_> {
     ///
     /// # Errors
     /// As [`Task::solve`].
-    pub fn solve_roughly(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, NoFit> {
-        let count = real(self.observation.data.residuals().max(1));
-        self.solve_within(0.01 / count, FEW, guess, runs)
+    pub fn solve_roughly(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, Unfit> {
+        self.solve_within(0.01 / real(self.observation.data.residuals().max(1)), FEW, guess, runs)
     }
 
     fn solve_within(
@@ -203,35 +81,31 @@ impl Task<'_> {
         most: usize,
         guess: Unknowns,
         runs: &mut Runs,
-    ) -> Result<Optimum, NoFit> {
+    ) -> Result<Optimum, Unfit> {
         let mut p = guess;
         let mut seen = self.evaluated(&p, true, runs)?;
         if !self.permits(&seen) {
-            return Err(NoFit::Lost);
+            return Err(Unfit::NoMotion);
         }
         let mut cost = self.cost(&seen);
         let columns = self.columns();
-        let mut norms = vec![0.0_f64; columns.len()];
+        let mut largest = vec![0.0_f64; columns.len()];
         let (mut damping, mut grow) = (1e-4, 2.0);
         for _ in 0..if columns.is_empty() { 0 } else { most } {
-            let factor = self.factor(&seen, &columns);
-            for (column, norm) in norms.iter_mut().enumerate() {
-                *norm = norm.max(factor.column(column).norm());
+            let factor = self.factor(&seen);
+            for (largest, norm) in largest.iter_mut().zip(norms(&factor)) {
+                *largest = largest.max(norm);
             }
             let taken = loop {
                 let bounds = self.bounds(&p, &seen);
-                let step = Step { factor: &factor, norms: &norms, damping, columns: &columns };
+                let step = Step { factor: &factor, norms: &largest, damping, columns: &columns };
                 let Some((step, predicted)) = step.within(&bounds, None) else { break None };
                 if predicted <= enough * cost {
                     break None;
                 }
-                let trial: Unknowns = std::array::from_fn(|place| p[place] + step[place]);
-                let found = match self.evaluated(&trial, false, runs) {
-                    Err(NoFit::Interrupted) => return Err(NoFit::Interrupted),
-                    other => {
-                        other.ok().filter(|seen| self.permits(seen)).map(|seen| self.cost(&seen))
-                    }
-                };
+                let trial = moved(&p, 1.0, &step);
+                let found = interrupted(self.evaluated(&trial, false, runs))?;
+                let found = found.filter(|seen| self.permits(seen)).map(|seen| self.cost(&seen));
                 let gain = found.map_or(-1.0, |found| (cost - found) / predicted);
                 if let Some(found) = found.filter(|found| *found < cost) {
                     let bend = 1.0 - powi(2.0 * gain - 1.0, 3);
@@ -253,8 +127,13 @@ impl Task<'_> {
                 break;
             }
         }
-        Ok(Optimum { p, cost, seen })
+        Ok(Optimum { start: self.observation.start, p, cost, seen })
     }
+}
+
+/// The scales of the unknowns.
+fn norms(factor: &DMatrix<f64>) -> Vec<f64> {
+    (0..factor.ncols() - 1).map(|column| factor.column(column).norm()).collect()
 }
 
 /// A damped step from a point.
@@ -331,10 +210,7 @@ impl Step<'_> {
         }
         let qr = system.qr();
         let solution = qr.r().solve_upper_triangular(&(qr.q().transpose() * target))?;
-        let mut step = [0.0; UNKNOWNS];
-        for (&column, value) in self.columns.iter().zip(solution.iter()) {
-            step[column] = *value;
-        }
+        let mut step = scattered(self.columns, &solution);
         // Friction that is set to zero is exactly zero.
         for (value, _) in fixed.iter().filter(|(_, by)| is_friction(by)) {
             step[R] = -value;

@@ -10,12 +10,9 @@
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
-use super::estimate::Estimate;
-use super::inertia::Inertia;
-use super::names::NAMES;
-use super::observation::{D2, D3, OMEGA0, R, Unknowns, parameters};
-use super::posterior::{Drawn, drawn};
-use super::refit::following;
+use super::{
+    D2, D3, Drawn, Estimate, Inertia, NAMES, OMEGA0, R, Unknowns, drawn, following, parameters,
+};
 use crate::branch::fold::fold;
 use crate::flow::{Limits, Reason};
 use crate::model::{Interval, ParameterBox, Parameters};
@@ -124,8 +121,8 @@ pub struct RestSpreads {
 }
 
 impl KickSpreads {
-    fn of(margins: &[Margin]) -> Self {
-        let of = |pick: fn(&Margin) -> Option<f64>| spread(&sorted(margins.iter().map(pick)));
+    fn of<'a>(margins: impl Iterator<Item = &'a Margin> + Clone) -> Self {
+        let of = |pick: fn(&Margin) -> Option<f64>| spread(&sorted(margins.clone().map(pick)));
         KickSpreads {
             displacement: of(|it| it.displacement),
             impulse: of(|it| it.impulse),
@@ -156,12 +153,9 @@ pub struct Margins {
     /// At the best parameters.
     #[serde(skip)]
     pub best: Option<Margin>,
-    /// The smallest displacement that is not captured.
-    pub displacement: Spread,
-    /// The smallest impulse from the middle of the sticking set that is not captured, as `velocity/omega0`.
-    pub impulse: Spread,
-    /// Both from the worst rest position.
-    pub from_rest: RestSpreads,
+    /// The smallest kicks that are not survived.
+    #[serde(flatten)]
+    pub kicks: KickSpreads,
     /// All of these whatever a disturbance and tolerances do, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub guaranteed: Option<KickSpreads>,
@@ -207,13 +201,6 @@ fn number<S: Serializer>(draws: &[Parameters], out: S) -> Result<S::Ok, S::Error
 pub const DRAWS: usize = 400;
 
 impl Margins {
-    /// The smallest kicks that are not survived.
-    #[must_use]
-    pub fn kicks(&self) -> KickSpreads {
-        let Margins { displacement, impulse, from_rest, .. } = *self;
-        KickSpreads { displacement, impulse, from_rest }
-    }
-
     /// The lower one-sided quantile, at the confidence asked for, of what `of` makes of `omega0` and the guaranteed
     /// margin; `None` if it does not exist there.
     #[must_use]
@@ -233,32 +220,28 @@ pub fn margins(
     limits: &Limits,
 ) -> Result<Margins, Reason> {
     let (smallest, largest) = estimate.amplitudes();
-    let ask = |parameters: &Parameters| answer(parameters, largest, limits);
+    let ask = |p: &Unknowns| answer(&parameters(p), largest, limits);
     let draws = question.draws.max(question.needed());
     let Drawn { draws: drawn, effective, motions } = drawn(estimate, draws, limits)?;
     let compute = |p: &Unknowns| -> Result<(MarginOfDraw, Margin), Reason> {
-        let found = ask(&parameters(p))?;
+        let found = ask(p)?;
         let sure = question.guaranteed(p, &found.margin, limits)?;
         Ok((found, sure))
     };
-    let computed: Vec<Result<(MarginOfDraw, Margin), Reason>> =
-        drawn.par_iter().map(compute).collect();
+    let computed: Vec<_> = drawn.par_iter().map(|p| compute(p).ok()).collect();
     if (limits.interrupted)() {
         return Err(Reason::Interrupted);
     }
-    let each = |(p, found): (&Unknowns, &Result<(MarginOfDraw, Margin), Reason>)| {
-        (p[OMEGA0], found.as_ref().map_or(Margin::ZERO, |(_, sure)| *sure))
-    };
-    let each: Vec<(f64, Margin)> = drawn.iter().zip(&computed).map(each).collect();
-    let known: Vec<MarginOfDraw> = computed.into_iter().filter_map(|it| Some(it.ok()?.0)).collect();
-    let kicks = KickSpreads::of(&known.iter().map(|it| it.margin).collect::<Vec<_>>());
-    let sure = || KickSpreads::of(&each.iter().map(|(_, margin)| *margin).collect::<Vec<_>>());
+    let sure = computed.iter().map(|it| it.as_ref().map_or(Margin::ZERO, |(_, sure)| *sure));
+    let each: Vec<(f64, Margin)> = drawn.iter().map(|p| p[OMEGA0]).zip(sure).collect();
+    let known: Vec<MarginOfDraw> = computed.into_iter().flatten().map(|(found, _)| found).collect();
+    let kicks = KickSpreads::of(known.iter().map(|it| &it.margin));
     Ok(Margins {
-        best: ask(&parameters(&estimate.p)).ok().map(|answer| answer.margin),
-        displacement: kicks.displacement,
-        impulse: kicks.impulse,
-        from_rest: kicks.from_rest,
-        guaranteed: question.is_disturbed().then(sure),
+        best: ask(&estimate.p).ok().map(|answer| answer.margin),
+        kicks,
+        guaranteed: question
+            .is_disturbed()
+            .then(|| KickSpreads::of(each.iter().map(|(_, margin)| margin))),
         question: *question,
         cycle: spread(&sorted(known.iter().map(|it| it.cycle))),
         fold: spread(&sorted(known.iter().map(|it| it.fold))),
@@ -276,7 +259,7 @@ pub fn margins(
 /// What D2 and D3 that the record does not exclude would allow.
 fn allowed(
     estimate: &Estimate,
-    ask: impl Fn(&Parameters) -> Result<MarginOfDraw, Reason>,
+    ask: impl Fn(&Unknowns) -> Result<MarginOfDraw, Reason>,
 ) -> Option<(&'static str, f64, f64)> {
     let rows = NAMES.iter().filter(|row| [D2, D3].contains(&row.place));
     let ends = rows.flat_map(|row| {
@@ -286,7 +269,7 @@ fn allowed(
     let lost = ends.filter_map(|(row, end)| {
         let mut p = following(estimate, &[(row.place, end)]);
         p[R] = p[R].max(0.0);
-        Some((row.name, end, ask(&parameters(&p)).ok()?.margin.displacement?))
+        Some((row.name, end, ask(&p).ok()?.margin.displacement?))
     });
     lost.min_by(|one, other| one.2.total_cmp(&other.2))
 }

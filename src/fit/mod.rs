@@ -1,13 +1,13 @@
 //! Fitting the oscillator to a recorded motion: estimates of all its numbers, with honest errors.
 //!
-//! [`record`] reads the files of instruments. [`guess`] makes a first guess from the turning points, by the
+//! [`record`] reads the files of instruments. [`mod@guess`] makes a first guess from the turning points, by the
 //! decrements of averaging ([`decrements`]). [`motion`] follows a motion with its exact derivatives, half swing by
-//! half swing ([`half_swing`]); [`observation`] compares it with the record. [`levenberg_marquardt`] minimizes the
-//! loss, and [`search`] finds the right [`valley`] for it. [`samples`] and [`peaks`] combine these steps.
-//! [`mod@estimate`] assesses the result: covariance, also for correlated noise ([`uncertainty`], [`residuals`]);
+//! half swing ([`half_swing`]); [`observation`] compares it with the record. [`task`] says what is estimated,
+//! [`levenberg_marquardt`] minimizes the loss, and [`search`] finds the right [`valley`] for it. [`mod@samples`] and
+//! [`mod@peaks`] combine these steps. [`mod@estimate`] assesses the result: covariance, also for correlated noise ([`uncertainty`], [`residuals`]);
 //! intervals where the loss is not quadratic ([`profile`]); numbers of which only combinations are known
 //! ([`separable`]); and the resulting uncertainty of the margin ([`margin`]). What all of this rests on is tested by the
-//! record itself ([`conditions`]).
+//! record itself ([`mod@conditions`]).
 //!
 //! Nothing here reads or writes files: text goes in, estimates come out.
 //!
@@ -33,71 +33,107 @@
 //! assert!(found.rests && found.half_swings > 5);
 //! ```
 
-pub(crate) mod cells;
-pub(crate) mod clock;
-#[doc(hidden)]
-pub mod conditions;
-pub(crate) mod contour;
-pub(crate) mod curves;
-pub(crate) mod decrements;
-#[doc(hidden)]
-pub mod drift;
-pub(crate) mod drifting;
-#[doc(hidden)]
-pub mod dropped;
-#[doc(hidden)]
-pub mod estimate;
-pub(crate) mod fitted;
-pub(crate) mod guess;
-pub(crate) mod half_swing;
-pub(crate) mod header;
-pub(crate) mod inertia;
-pub(crate) mod jumps;
-pub(crate) mod left_out;
-#[doc(hidden)]
-pub mod levenberg_marquardt;
-pub(crate) mod loss;
-pub(crate) mod margin;
-pub(crate) mod motion;
-#[doc(hidden)]
-pub mod names;
-pub(crate) mod noise;
-#[doc(hidden)]
-pub mod observation;
-pub(crate) mod peaks;
-pub(crate) mod physical;
-pub(crate) mod posterior;
-pub(crate) mod problem;
-pub(crate) mod profile;
-pub(crate) mod question;
-pub(crate) mod record;
-#[doc(hidden)]
-pub mod refit;
-pub(crate) mod release;
-pub(crate) mod residuals;
-pub(crate) mod sampled;
-pub(crate) mod samples;
-pub(crate) mod search;
-pub(crate) mod separable;
-pub(crate) mod signal;
-pub(crate) mod spectrum;
-pub(crate) mod triangle;
-pub(crate) mod turning_points;
-pub(crate) mod uncertainty;
-pub(crate) mod valley;
+mod cells;
+mod conditions;
+mod curves;
+mod decrements;
+mod drift;
+mod estimate;
+mod fitted;
+mod guess;
+mod half_swing;
+mod header;
+mod left_out;
+mod levenberg_marquardt;
+mod margin;
+mod motion;
+mod noise;
+mod observation;
+mod peaks;
+mod posterior;
+mod profile;
+mod quantiles;
+mod question;
+mod record;
+mod refit;
+mod release;
+mod residuals;
+mod samples;
+mod search;
+mod separable;
+mod signal;
+mod spectrum;
+mod task;
+mod turning_points;
+mod uncertainty;
+mod valley;
 
 pub use estimate::Estimate;
 pub use fitted::Fitted;
-pub use inertia::Inertia;
 pub use margin::{DRAWS, MarginQuestion, Margins, margins};
 pub use observation::parameters;
-pub use question::{LOSSES, LossName, Question, Unfit};
+pub use question::{Inertia, LOSSES, LossName, Question, Unfit};
 pub use record::{BadRecord, Column, Reading, Record, parse};
 pub use signal::{LENGTHS, Signal, length_in_metres};
 
-use std::cell::Cell;
+#[doc(hidden)]
+pub use {
+    conditions::{Condition, conditions},
+    estimate::{Dropped, Rival},
+    observation::{
+        BEND, D, D2, D3, Data, LAST, OFFSET, OMEGA0, Observation, Q0, R, Residual, SLOPE,
+        StartKind, UNKNOWNS, Unknowns,
+    },
+    question::{Choice, NAMES, NameSpec, named},
+    refit::refitted,
+    task::{Runs, Task},
+};
 
-use levenberg_marquardt::Runs;
+pub(crate) use {
+    curves::{Curves, Extent, PlotPoint, memory},
+    drift::FittedDrift,
+    fitted::{EstimatedNumber, kicks, rows},
+    left_out::{LeftOut, left_out},
+    margin::{KickSpreads, Spread},
+    question::{assigned, listed},
+    record::decoded,
+    refit::{RISES, contour, held},
+    separable::{Combination, combinations},
+    signal::quantity,
+};
+
+// What the files of this ring use of each other.
+pub(crate) use {
+    cells::{Cell, NumberedLine, Separator, clock_seconds, lines, read},
+    conditions::repeated,
+    decrements::{AveragedDamping, averaged, regressions, robust},
+    drift::{LeftDrift, drift_of_swings, without_drift},
+    estimate::judged,
+    guess::{Guess, guess, period_of},
+    half_swing::{Jet, Stretch},
+    header::{Header, TIME_UNITS, seconds_in},
+    motion::{FittedTurn, Gradient, MotionLost, Way, follow},
+    noise::{IMPOSSIBLE, Noise, least_squares, median, range, robust_deviation, within_scale},
+    observation::{Bound, Region, Seen, drift},
+    peaks::peaks,
+    posterior::{Drawn, FEWEST, drawn},
+    profile::{Left, Profile, ProfileInterval},
+    quantiles::{chi_squared, deviation_of_95_percent, normal_at},
+    question::{Loss, placed, reach},
+    refit::following,
+    release::released_before,
+    residuals::{Whiteness, autocorrelations, whiteness},
+    samples::samples,
+    search::Beginning,
+    signal::{Measure, Quantity, measure},
+    spectrum::dominant_frequency,
+    task::{
+        HIDDEN, Optimum, RUN, Verdict, interrupted, longest_run, mean_square, moved, scattered,
+    },
+    turning_points::{Extreme, smoothed, turning_points, without_jumps},
+    uncertainty::{Covariance, left_over, ratio_of_kinds},
+    valley::{WIDE, by_cost, through_the_valley},
+};
 
 /// Number of motions after which a fit gives up. A record of this oscillator takes about a hundred, one with a
 /// drift about a thousand.
@@ -112,18 +148,18 @@ pub fn estimate(
     question: &Question,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<Estimate, Unfit> {
-    let motions = Cell::new(0);
+    let motions = std::cell::Cell::new(0);
     let stops = || {
         motions.set(motions.get() + 1);
         motions.get() > MOST_MOTIONS || interrupted()
     };
     let mut runs = Runs::new(&stops);
-    let fit = if question.peaks { peaks::peaks } else { samples::samples };
+    let fit = if question.peaks { peaks } else { samples };
     match fit(record, question, &mut runs) {
         // What is known to be wrong need not be tested again.
         Ok(found) if !found.whiteness.systematic && motions.get() <= MOST_MOTIONS => {
             let mut runs = Runs::new(interrupted);
-            let repeated = Some(conditions::repeated(&found, question, &mut runs)?);
+            let repeated = Some(repeated(&found, question, &mut runs)?);
             Ok(Estimate { repeated, ..found })
         }
         Err(Unfit::Interrupted) if motions.get() > MOST_MOTIONS => {

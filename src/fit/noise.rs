@@ -3,6 +3,8 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::{SMatrix, SVector};
+
 use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, powi};
 
@@ -18,6 +20,27 @@ pub fn median(mut values: Vec<f64>) -> f64 {
     }
     let (_, found, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
     *found
+}
+
+/// The smallest and the largest of values.
+pub fn range(values: &[f64]) -> (f64, f64) {
+    let ends = (f64::INFINITY, f64::NEG_INFINITY);
+    values.iter().fold(ends, |(low, high), x| (low.min(*x), high.max(*x)))
+}
+
+/// The coefficients of a linear combination of functions, of which each row has the values, that comes closest to the
+/// values measured.
+pub fn least_squares<const N: usize>(
+    rows: impl Iterator<Item = ([f64; N], f64)>,
+) -> Option<[f64; N]> {
+    let mut normal = SMatrix::<f64, N, N>::zeros();
+    let mut right = SVector::<f64, N>::zeros();
+    for (row, value) in rows {
+        let row = SVector::from(row);
+        normal += row * row.transpose();
+        right += row * value;
+    }
+    Some(normal.cholesky()?.solve(&right).into())
 }
 
 /// A robust standard deviation: the median magnitude over 0.6745, which is that of a standard normal variable.
@@ -106,14 +129,7 @@ fn alternates(x: &[f64]) -> bool {
 
 /// The constant and the weights of the two preceding samples in the best linear prediction of a sample.
 fn told_by_two(x: &[f64]) -> Option<[f64; 3]> {
-    let mut normal = nalgebra::Matrix3::zeros();
-    let mut right = nalgebra::Vector3::zeros();
-    for three in x.windows(3) {
-        let row = nalgebra::Vector3::new(1.0, three[1], three[0]);
-        normal += row * row.transpose();
-        right += row * three[2];
-    }
-    Some(normal.cholesky()?.solve(&right).into())
+    least_squares(x.windows(3).map(|three| ([1.0, three[1], three[0]], three[2])))
 }
 
 /// Which samples lie within full scale. A converter that saturates repeats its largest or smallest value far more
@@ -129,12 +145,10 @@ pub fn within_scale(x: &[f64], noise: &Noise) -> Vec<bool> {
     /// Distance of the mean of so many samples on each side within which chance may reach the limit.
     const CLOSE: f64 = 3.0;
     const AROUND: usize = 2;
-    let (low, high) = x
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)));
+    let (low, high) = range(x);
     let mut within = vec![true; x.len()];
     for limit in [low, high] {
-        if is_saturated(x, limit, high - low, noise) {
+        if is_saturated(x, limit, noise) {
             let clear = CLEAR * noise.deviation;
             // Where the motion turns just before the limit, chance decides whether a sample reaches it.
             for (within, around) in within[AROUND..].iter_mut().zip(x.windows(2 * AROUND + 1)) {
@@ -155,7 +169,7 @@ pub fn within_scale(x: &[f64], noise: &Noise) -> Vec<bool> {
     within
 }
 
-fn is_saturated(x: &[f64], limit: f64, range: f64, noise: &Noise) -> bool {
+fn is_saturated(x: &[f64], limit: f64, noise: &Noise) -> bool {
     /// Width of the band of neighbouring values counted for comparison, as a fraction of the range.
     const BAND: f64 = 0.01;
     /// Fewest repetitions, and how much more frequent they must be.
@@ -169,8 +183,8 @@ fn is_saturated(x: &[f64], limit: f64, range: f64, noise: &Noise) -> bool {
     let inner = if noise.is_audible { x } else { &x[from..to] };
     // A converter much finer than the noise hardly ever reads the same twice in a row, except at full scale.
     let is_flat = inner.windows(2).any(|two| two[0] == two[1] && two[0] == limit);
-    let (low, high) =
-        inner.iter().fold((limit, limit), |(low, high), x| (low.min(*x), high.max(*x)));
+    let (lowest, highest) = range(inner);
+    let (low, high) = (lowest.min(limit), highest.max(limit));
     let is_inner = |x: f64| x != low && x != high;
     let is_fine = !inner.windows(2).any(|two| two[0] == two[1] && is_inner(two[0]));
     if is_fine && is_flat {
@@ -179,7 +193,8 @@ fn is_saturated(x: &[f64], limit: f64, range: f64, noise: &Noise) -> bool {
     let at = inner.iter().filter(|x| **x == limit).count();
     let steps = inner.iter().map(|x| (x - limit).abs()).filter(|step| *step > 0.0);
     let step = steps.fold(f64::INFINITY, f64::min);
-    let band = (BAND * range).max(1.5 * step);
+    let (lowest, highest) = range(x);
+    let band = (BAND * (highest - lowest)).max(1.5 * step);
     let near = inner.iter().filter(|x| **x != limit && (*x - limit).abs() <= band).count();
     at >= FEWEST && at > TIMES * near
 }

@@ -6,8 +6,7 @@
 //! offset is that of the signal. It may drift along a parabola, whose two numbers are held at zero unless the
 //! record shows a drift. Turning points, with or without times, are the same motion observed only where `v = 0`.
 
-use super::motion::{FittedTurn, Gradient, MotionLost, Way, follow};
-use super::signal::Signal;
+use super::{FittedTurn, Gradient, MotionLost, Signal, Way, follow};
 use crate::model::{Parameters, State};
 use crate::numerics::count::real;
 
@@ -46,6 +45,18 @@ pub enum StartKind {
     Release,
     /// In motion at the first sample.
     Moving,
+}
+
+impl StartKind {
+    /// When a motion begins that is observed at these times, and its first state.
+    pub fn beginning(self, p: &Unknowns, t: &[f64]) -> (f64, State) {
+        match self {
+            StartKind::Release => (p[LAST], State { q: p[Q0], v: 0.0 }),
+            StartKind::Moving => {
+                (t.first().copied().unwrap_or(0.0), State { q: p[Q0], v: p[LAST] })
+            }
+        }
+    }
 }
 
 /// What was measured.
@@ -92,6 +103,15 @@ impl Data {
     pub fn values(&self) -> &[f64] {
         match self {
             Data::Samples { x, .. } | Data::Peaks { x, .. } => x,
+        }
+    }
+
+    /// The times in s; empty for peaks without times.
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        match self {
+            Data::Samples { t, .. } => t,
+            Data::Peaks { t, .. } => t.as_deref().unwrap_or_default(),
         }
     }
 
@@ -158,7 +178,7 @@ pub type Bound = (f64, Unknowns);
 
 impl Seen {
     /// The distances of the last turning points from the rims that bound the region.
-    pub fn clearances(&self, p: &Unknowns, of: &Observation) -> Vec<Bound> {
+    pub fn clearances(&self, p: &Unknowns, of: Observation) -> Vec<Bound> {
         // What follows the last of a list of peaks is not seen, so that it may lie on either side of the rim.
         let unseen = usize::from(self.region.is_none() && of.data.has_peaks());
         let last = self.turns.iter().rev().skip(unseen);
@@ -184,19 +204,17 @@ pub fn parameters(p: &Unknowns) -> Parameters {
 }
 
 /// A record and the model of its start.
-#[derive(Clone, Debug)]
-pub struct Observation {
+#[derive(Clone, Copy, Debug)]
+pub struct Observation<'a> {
     /// What was measured.
-    pub data: Data,
+    pub data: &'a Data,
     /// How the motion begins.
     pub start: StartKind,
-    /// Whether D2 and D3 are held at zero.
-    pub linear: bool,
     /// Displacement beyond which a motion counts as escaped.
     pub reach: f64,
 }
 
-impl Observation {
+impl Observation<'_> {
     /// Compares the record with the model.
     ///
     /// # Errors
@@ -205,41 +223,27 @@ impl Observation {
         if !(p[OMEGA0] > 0.0 && p.iter().all(|value| value.is_finite())) {
             return Err(MotionLost);
         }
-        let way = Way {
-            linear: self.linear && p[D2] == 0.0 && p[D3] == 0.0,
-            with_derivatives,
-            reach: self.reach,
-            turns: usize::MAX,
-            signal: self.data.signal(),
-        };
-        match &self.data {
+        let signal = self.data.signal();
+        let way = Way { with_derivatives, reach: self.reach, signal, ..Way::default() };
+        match self.data {
             Data::Samples { t, x, .. } => self.samples(p, t, x, way),
             Data::Peaks { t, x, ratio } => peaks(p, t.as_deref(), x, *ratio, way),
         }
     }
 
-    /// The number of samples before the motion, the time of its beginning, and its first state.
-    fn begun(&self, p: &Unknowns, t: &[f64]) -> (usize, f64, State) {
-        let (held, origin, v) = match self.start {
-            StartKind::Release => (t.partition_point(|&t| t < p[LAST]), p[LAST], 0.0),
-            StartKind::Moving => (0, t.first().copied().unwrap_or(0.0), p[LAST]),
-        };
-        (held, origin, State { q: p[Q0], v })
+    /// The number of samples before the motion, its first state, and the dimensionless times of the others since then.
+    fn begun(&self, p: &Unknowns, t: &[f64]) -> (usize, State, Vec<f64>) {
+        let (origin, start) = self.start.beginning(p, t);
+        let held = t.partition_point(|&t| t < origin);
+        (held, start, t[held..].iter().map(|t| p[OMEGA0] * (t - origin)).collect())
     }
 
     /// Displacement and velocity over `omega0` at each sample; none for peaks, or if the motion escapes.
     pub fn states(&self, p: &Unknowns) -> Vec<State> {
-        let Data::Samples { t, .. } = &self.data else { return Vec::new() };
-        let (held, origin, start) = self.begun(p, t);
+        let Data::Samples { t, .. } = self.data else { return Vec::new() };
+        let (held, start, times) = self.begun(p, t);
         let mut states = vec![State { q: p[Q0], v: 0.0 }; held];
-        let times: Vec<f64> = t[held..].iter().map(|t| p[OMEGA0] * (t - origin)).collect();
-        let way = Way {
-            linear: false,
-            with_derivatives: false,
-            reach: self.reach,
-            turns: usize::MAX,
-            signal: Signal::Displacement,
-        };
+        let way = Way { reach: self.reach, ..Way::default() };
         let followed = follow(&parameters(p), start, &times, way, |_, point| {
             states.push(State { q: point.q, v: point.v });
         });
@@ -247,7 +251,7 @@ impl Observation {
     }
 
     fn samples(&self, p: &Unknowns, t: &[f64], x: &[f64], way: Way) -> Result<Seen, MotionLost> {
-        let (held, origin, start) = self.begun(p, t);
+        let (held, start, times) = self.begun(p, t);
         let order = way.signal.order();
         let scale = (0..order).fold(1.0, |scale, _| scale * p[OMEGA0]);
         let mut residuals = Vec::with_capacity(x.len());
@@ -262,11 +266,10 @@ impl Observation {
             by[Q0] = still;
             push(index, by, still * p[Q0]);
         }
-        let times: Vec<f64> = t[held..].iter().map(|t| p[OMEGA0] * (t - origin)).collect();
         let moving = self.start == StartKind::Moving;
         let followed = follow(&parameters(p), start, &times, way, |index, point| {
             let mut by = unknowns(&point.by).map(|by| scale * by);
-            let passed = t[held + index] - origin;
+            let passed = times[index] / p[OMEGA0];
             by[OMEGA0] = scale * (point.rate * passed + real(order) * point.signal / p[OMEGA0]);
             by[LAST] = scale * if moving { point.by[5] } else { -p[OMEGA0] * point.rate };
             push(held + index, by, scale * point.signal);

@@ -1,18 +1,10 @@
 //! Fits a list of turning points.
 
-use super::decrements::regressions;
-use super::estimate::{Estimate, judged};
-use super::guess::period_of;
-use super::levenberg_marquardt::{Optimum, Runs, Task};
-use super::loss::Loss;
-use super::observation::{
-    D, D2, D3, Data, LAST, OFFSET, OMEGA0, Q0, R, StartKind, UNKNOWNS, Unknowns,
+use super::{
+    Beginning, D, D2, D3, Data, Estimate, Extreme, LAST, OFFSET, OMEGA0, Q0, Question, R, Record,
+    Runs, StartKind, Task, UNKNOWNS, Unfit, Unknowns, judged, period_of, placed, ratio_of_kinds,
+    reach, regressions,
 };
-use super::problem::LeastSquares;
-use super::question::{Question, Unfit, placed, reach};
-use super::record::Record;
-use super::search::Beginning;
-use super::turning_points::Extreme;
 
 /// Fits a list of peaks. The relative weight of displacements and times follows from their residuals.
 /// Fails with [`Unfit`].
@@ -60,48 +52,22 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
         return Err(Unfit::TooFew { measured, unknowns });
     }
     let of = |ratio: f64| Data::Peaks { t: t.clone(), x: x.clone(), ratio };
+    let reach = reach(x);
     let mut data = of(ratio);
-    let mut found = asked(&data, free).search(&starts, runs)?;
+    let mut found = Task::new(&data, StartKind::Release, free, reach).search(&starts, runs)?;
     for _ in 0..ROUNDS {
-        let problem = asked(&data, free);
-        let observation = problem.observation(found.start);
-        let task = problem.task(&observation);
-        let next = ratio * spread_ratio(&task, &found.valleys[0].optimum, x.len());
+        let task = Task::new(&data, StartKind::Release, free, reach);
+        let next = ratio * ratio_of_kinds(&task, &found[0], x.len());
         if t.is_none() || !next.is_finite() || (next / ratio - 1.0).abs() < 0.01 {
             break;
         }
         ratio = next;
         data = of(ratio);
-        asked(&data, free).polish(&mut found, runs)?;
+        Task::new(&data, StartKind::Release, free, reach).polish(&mut found, runs)?;
     }
-    let problem = asked(&data, free);
+    let task = Task::new(&data, StartKind::Release, free, reach);
     let used = vec![true; data.residuals()];
-    let mut estimate = judged(&problem, &used, &found, runs)?;
+    let mut estimate = judged(&Task { used: &used, ..task }, &found, runs)?;
     (estimate.choice, estimate.extremes) = (question.choice.clone(), extremes);
     Ok(estimate)
-}
-
-/// The least-squares problem with all residuals; the noise is not known beforehand.
-fn asked(data: &Data, free: [bool; UNKNOWNS]) -> LeastSquares<'_> {
-    let reach = reach(data.values());
-    LeastSquares { data, free, loss: Loss::Linear, used: &[], noise: 0.0, reach }
-}
-
-/// The ratio of the errors of the times to those of the displacements, relative to the present ratio. Each
-/// error is estimated from its residuals and their degrees of freedom, with one minus its leverage for each
-/// residual.
-fn spread_ratio(task: &Task, optimum: &Optimum, peaks: usize) -> f64 {
-    let columns = task.columns();
-    let width = columns.len();
-    let factor = task.factor(&optimum.seen, &columns);
-    let upper = factor.view((0, 0), (width, width)).transpose();
-    let mut sums = [(0.0, 0.0); 2];
-    for (index, residual) in optimum.seen.residuals.iter().enumerate() {
-        let row = nalgebra::DVector::from_iterator(width, columns.iter().map(|&c| residual.by[c]));
-        let leverage = upper.solve_lower_triangular(&row).map_or(1.0, |it| it.norm_squared());
-        let sum = &mut sums[usize::from(index >= peaks)];
-        *sum = (sum.0 + residual.value * residual.value, sum.1 + 1.0 - leverage);
-    }
-    let [x, t] = sums.map(|(squares, freedom)| (squares / freedom.max(0.5)).sqrt());
-    t / x
 }

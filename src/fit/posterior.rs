@@ -9,11 +9,10 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::estimate::Estimate;
-use super::levenberg_marquardt::{NoFit, Runs, Task};
-use super::observation::{D, D2, D3, R, Seen, Unknowns};
-use super::refit::Refit;
-use super::uncertainty::chi_squared;
+use super::{
+    D, D2, D3, Estimate, R, Runs, Seen, Task, Unfit, Unknowns, chi_squared, moved, normal_at,
+    scattered,
+};
 use crate::flow::{Limits, Reason};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{exp, ln, pow};
@@ -41,9 +40,8 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
     let free = |place: &usize| estimate.free[*place];
     let quadratic =
         [D, D2, D3, R].iter().filter(|it| free(it)).all(|&it| estimate.intervals[it].quadratic);
-    let refit = Refit::without(estimate, &[]);
     let interrupted = || Err(Reason::Interrupted);
-    let Ok(frame) = Frame::of(&refit, &mut Runs::new(limits.interrupted)) else {
+    let Ok(frame) = Frame::of(estimate, &mut Runs::new(limits.interrupted)) else {
         return interrupted();
     };
     if quadratic || estimate.whiteness.systematic {
@@ -127,34 +125,18 @@ struct Frame<'a> {
 }
 
 impl<'a> Frame<'a> {
-    fn of(refit: &'a Refit<'a>, runs: &mut Runs) -> Result<Self, NoFit> {
-        let estimate = refit.estimate;
-        let task = refit.task();
+    fn of(estimate: &'a Estimate, runs: &mut Runs) -> Result<Self, Unfit> {
+        let task = estimate.task(&[]);
         let columns = estimate.covariance.columns.clone();
-        let width = columns.len();
         let seen = task.evaluated(&estimate.p, true, runs)?;
-        let upper = task.factor(&seen, &columns).view((0, 0), (width, width)).into_owned();
-        let lower = upper.transpose();
-        let row = |by: &Unknowns| {
-            let row = DVector::from_iterator(width, columns.iter().map(|&column| by[column]));
-            lower.solve_lower_triangular(&row).unwrap_or_else(|| DVector::zeros(width))
-        };
-        let along = task.used_residuals(&seen).iter().map(|it| row(&it.by)).collect();
+        let (upper, along) = (task.upper(&seen), task.directions(&seen));
         // The covariance of the estimate is U^-1 C U^-T for errors with the covariance C along the directions.
-        let errors = &upper * &estimate.covariance.matrix * &lower;
+        let errors = &upper * &estimate.covariance.matrix * upper.transpose();
         let root = errors.cholesky().map(|it| it.l());
-        let unit = refit.unit(runs)?;
+        let (width, unit) = (columns.len(), estimate.unit(runs)?);
         let root = root.unwrap_or_else(|| unit.sqrt() * DMatrix::identity(width, width));
-        let mut frame = Frame {
-            task,
-            estimate,
-            columns,
-            along,
-            upper,
-            root,
-            center: DVector::zeros(width),
-            unit,
-        };
+        let center = DVector::zeros(width);
+        let mut frame = Frame { task, estimate, columns, along, upper, root, center, unit };
         frame.center = frame.seen_along(&seen).0;
         Ok(frame)
     }
@@ -177,11 +159,7 @@ impl<'a> Frame<'a> {
     }
 
     fn stepped(&self, p: &Unknowns, step: &DVector<f64>) -> Unknowns {
-        let mut p = *p;
-        for (&column, step) in self.columns.iter().zip(step.iter()) {
-            p[column] += step;
-        }
-        p
+        moved(p, 1.0, &scattered(&self.columns, step))
     }
 
     /// The residuals along the directions, and the derivatives of the motion along them.
@@ -286,16 +264,6 @@ fn evenly(index: usize, dimensions: usize) -> Vec<f64> {
         .take(dimensions)
         .map(|part| (0.5 + number * part).fract())
         .collect()
-}
-
-/// The quantile of the standard normal distribution, to 4.5e-4 (Abramowitz and Stegun, 26.2.23).
-fn normal_at(probability: f64) -> f64 {
-    let tail = probability.min(1.0 - probability).max(f64::MIN_POSITIVE);
-    let t = (-2.0 * ln(tail)).sqrt();
-    let above = 2.515_517 + t * (0.802_853 + t * 0.010_328);
-    let below = 1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308));
-    let value = t - above / below;
-    if probability < 0.5 { -value } else { value }
 }
 
 #[cfg(test)]

@@ -4,9 +4,9 @@
 //! explains. If the loss is quadratic, the ends lie at a multiple of the standard error from the minimum, which is
 //! checked by one motion on each side. Otherwise the ends are found by refitting all other unknowns.
 
-use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task};
-use super::observation::{R, Unknowns};
-use super::uncertainty::{Covariance, deviation_of_95_percent};
+use super::{
+    Covariance, Optimum, R, Runs, Task, Unfit, deviation_of_95_percent, interrupted, moved,
+};
 
 /// A 95 % interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,9 +60,15 @@ pub struct Profile<'a> {
 #[derive(Debug)]
 pub enum Left {
     /// The computation was interrupted.
-    Interrupted,
+    Interrupted(Unfit),
     /// A refit came to a lower loss than the minimum, which was none.
     Lower(Box<Optimum>),
+}
+
+impl From<Unfit> for Left {
+    fn from(reason: Unfit) -> Self {
+        Left::Interrupted(reason)
+    }
 }
 
 /// The best point for a value of the unknown.
@@ -124,21 +130,18 @@ impl Profile<'_> {
 
     /// Whether the loss rises as a quadratic one would, if the unknown is moved and all others follow freely.
     fn rises_by(&self, unknown: usize, by: f64, rise: f64, runs: &mut Runs) -> Result<bool, Left> {
-        let along = self.covariance.along(unknown);
-        let p: Unknowns = std::array::from_fn(|place| self.optimum.p[place] + by * along[place]);
+        let along = self.covariance.following(&[(unknown, 1.0)]);
+        let p = moved(&self.optimum.p, by, &along);
         // Friction cannot be negative: r ends at 0, and unknowns that depend on r have a kink there.
         if p[R] < 0.0 && self.task.free[R] {
             return Ok(false);
         }
-        match self.task.evaluated(&p, false, runs) {
-            Ok(seen) => {
-                let risen = self.task.cost(&seen) - self.optimum.cost;
-                let same = seen.region == self.optimum.seen.region;
-                Ok(same && (risen / rise - 1.0).abs() <= QUADRATIC)
-            }
-            Err(NoFit::Interrupted) => Err(Left::Interrupted),
-            Err(NoFit::Lost) => Ok(false),
-        }
+        let seen = interrupted(self.task.evaluated(&p, false, runs))?;
+        Ok(seen.is_some_and(|seen| {
+            let risen = self.task.cost(&seen) - self.optimum.cost;
+            let same = seen.region == self.optimum.seen.region;
+            same && (risen / rise - 1.0).abs() <= QUADRATIC
+        }))
     }
 
     /// The end on one side, by refits that start from each other: further out until the loss has risen enough,
@@ -203,20 +206,14 @@ impl Profile<'_> {
         /// Fall of the loss, as a fraction of the rise at the end, that shows that the minimum was none.
         const LOWER: f64 = 0.02;
         let by = value - from.optimum.p[unknown];
-        let Some(guess) = self.task.moved(&from.optimum, unknown, by) else { return Ok(None) };
-        let mut held = *self.task;
-        held.free[unknown] = false;
-        match held.solve_roughly(guess, runs) {
-            Ok(optimum) if optimum.cost < self.optimum.cost - LOWER * rise => {
-                Err(Left::Lower(Box::new(optimum)))
-            }
-            Ok(optimum) => {
-                let risen = (optimum.cost - self.least).max(0.0) / rise;
-                Ok(Some(ProfilePoint { step: 0.0, risen, optimum }))
-            }
-            Err(NoFit::Interrupted) => Err(Left::Interrupted),
-            Err(NoFit::Lost) => Ok(None),
+        let Some(guess) = self.task.followed(&from.optimum, unknown, by) else { return Ok(None) };
+        let found = interrupted(self.task.holding(unknown).solve_roughly(guess, runs))?;
+        let Some(optimum) = found else { return Ok(None) };
+        if optimum.cost < self.optimum.cost - LOWER * rise {
+            return Err(Left::Lower(Box::new(optimum)));
         }
+        let risen = (optimum.cost - self.least).max(0.0) / rise;
+        Ok(Some(ProfilePoint { step: 0.0, risen, optimum }))
     }
 }
 

@@ -1,12 +1,13 @@
-//! The question that a fit answers, and the reasons why there may be no answer.
+//! The question that a fit answers: which numbers are estimated, how residuals count, and what the record does not contain;
+//! and the reasons why there may be no answer.
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
-use super::levenberg_marquardt::NoFit;
-use super::names::Choice;
-use super::observation::{UNKNOWNS, Unknowns};
+use super::{BEND, D, D2, D3, OFFSET, OMEGA0, R, SLOPE, UNKNOWNS, Unknowns, range};
+use crate::model::{KNOBS, Knob, unknown};
+use crate::numerics::elementary::{ln_1p, powi};
 
 /// How residuals count, as the user says it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -18,9 +19,9 @@ pub enum LossName {
     Auto,
     /// Squared, every one of them.
     Linear,
-    /// Large ones by their size.
+    /// `2 s^2 (sqrt(1 + (e/s)^2) - 1)`: large ones by their size.
     SoftL1,
-    /// Large ones hardly at all.
+    /// `s^2 ln(1 + (e/s)^2)`: large ones hardly more than moderate ones.
     Cauchy,
 }
 
@@ -32,6 +33,180 @@ pub const LOSSES: [(&str, LossName); 4] = [
     ("cauchy", LossName::Cauchy),
 ];
 
+/// A loss function: the square of a residual, or less if the residual is large.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Loss {
+    /// Its name; [`LossName::Auto`] counts as linear.
+    pub name: LossName,
+    /// The size beyond which a residual is large.
+    pub scale: f64,
+}
+
+impl Loss {
+    /// The square.
+    pub const LINEAR: Self = Loss { name: LossName::Linear, scale: f64::INFINITY };
+
+    /// Whether large residuals count less than their square.
+    pub fn is_robust(self) -> bool {
+        !matches!(self.name, LossName::Auto | LossName::Linear)
+    }
+
+    /// The loss of a residual.
+    pub fn of(self, residual: f64) -> f64 {
+        let Loss { name, scale } = self;
+        let part = powi(residual / scale, 2);
+        match name {
+            LossName::Auto | LossName::Linear => residual * residual,
+            // sqrt(1 + z) - 1 without cancellation.
+            LossName::SoftL1 => 2.0 * scale * scale * part / (1.0 + (1.0 + part).sqrt()),
+            LossName::Cauchy => scale * scale * ln_1p(part),
+        }
+    }
+
+    /// The weight of a residual in the equivalent weighted least-squares problem: the derivative of the loss with
+    /// respect to `e^2`.
+    pub fn weight(self, residual: f64) -> f64 {
+        let part = powi(residual / self.scale, 2);
+        match self.name {
+            LossName::Auto | LossName::Linear => 1.0,
+            LossName::SoftL1 => 1.0 / (1.0 + part).sqrt(),
+            LossName::Cauchy => 1.0 / (1.0 + part),
+        }
+    }
+}
+
+/// One row of [`NAMES`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NameSpec {
+    /// The number.
+    pub knob: Knob,
+    /// The name on the command line and in documents.
+    pub name: &'static str,
+    /// Its place among the unknowns.
+    pub place: usize,
+    /// Power of the unit of length in its unit.
+    pub length: i32,
+    /// Power of the second in its unit.
+    pub time: i32,
+}
+
+impl NameSpec {
+    /// Its unit: powers of the record's unit of length and of the second.
+    pub fn unit(&self, length: &str) -> String {
+        let length = if length.is_empty() { "unit" } else { length };
+        let power = |name: &str, power: i32| match power {
+            0 => String::new(),
+            1 => name.to_owned(),
+            -1 => format!("1/{name}"),
+            _ => format!("1/{name}^{}", -power),
+        };
+        power(length, self.length) + &power("s", self.time)
+    }
+}
+
+const fn row(knob: Knob, place: usize, length: i32, time: i32) -> NameSpec {
+    NameSpec { knob, name: KNOBS[knob as usize].name, place, length, time }
+}
+
+/// The numbers that are estimated from a record, except those of its start.
+pub const NAMES: [NameSpec; 6] = [
+    row(Knob::Omega0, OMEGA0, 0, -1),
+    row(Knob::Offset, OFFSET, 1, 0),
+    row(Knob::D, D, 0, 0),
+    row(Knob::D2, D2, -1, 0),
+    row(Knob::D3, D3, -2, 0),
+    row(Knob::R, R, 1, 0),
+];
+
+/// The row with this name.
+pub fn named(name: &str) -> Option<&'static NameSpec> {
+    NAMES.iter().find(|row| row.name == name)
+}
+
+/// The rows with these names, separated by commas.
+///
+/// # Errors
+/// One line that lists the known names.
+pub fn listed(text: &str) -> Result<Vec<&'static NameSpec>, String> {
+    text.split(',').map(known).collect()
+}
+
+fn known(text: &str) -> Result<&'static NameSpec, String> {
+    named(text.trim()).ok_or_else(|| unknown(text, &NAMES.map(|row| row.name)))
+}
+
+/// A number to be held and its value, from `NAME=VALUE`.
+///
+/// # Errors
+/// One line that says what is allowed.
+pub fn assigned(text: &str) -> Result<(&'static NameSpec, f64), String> {
+    let (key, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as D3=0")?;
+    let row = known(key)?;
+    Ok((row, row.knob.parse(value)?))
+}
+
+/// Which numbers a fit estimates, and which it holds.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "SavedChoice")]
+pub struct Choice {
+    /// Numbers to estimate; `None` for all that are not held.
+    pub free: Option<Vec<&'static NameSpec>>,
+    /// Numbers to hold, with their values.
+    pub held: Vec<(&'static NameSpec, f64)>,
+}
+
+/// A [`Choice`] by names, as it is saved.
+#[derive(Deserialize)]
+struct SavedChoice {
+    free: Option<Vec<String>>,
+    held: Vec<(String, f64)>,
+}
+
+impl Serialize for NameSpec {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        out.serialize_str(self.name)
+    }
+}
+
+impl TryFrom<SavedChoice> for Choice {
+    type Error = String;
+
+    fn try_from(SavedChoice { free, held }: SavedChoice) -> Result<Self, String> {
+        let free = free.map(|names| names.iter().map(|name| known(name)).collect()).transpose()?;
+        let held = held.iter().map(|(name, value)| assigned(&format!("{name}={value}")));
+        Ok(Choice { free, held: held.collect::<Result<_, _>>()? })
+    }
+}
+
+impl Choice {
+    /// The value at which a number is held; `None` if it is free. Damping and friction that are neither free
+    /// nor set are held at zero. `omega0` and the offset are free unless set, since every record depends on
+    /// them.
+    pub fn held(&self, row: &NameSpec) -> Option<f64> {
+        if let Some((_, value)) = self.held.iter().find(|(held, _)| *held == row) {
+            return Some(*value);
+        }
+        let needed = row.place < D;
+        (!needed && !self.is_wanted(row)).then_some(0.0)
+    }
+
+    /// Whether an estimate of this number is asked for.
+    pub fn is_wanted(&self, row: &NameSpec) -> bool {
+        let held = self.held.iter().any(|(held, _)| *held == row);
+        !held && self.free.as_ref().is_none_or(|free| free.contains(&row))
+    }
+
+    /// The values at which unknowns are held; `None` for the free ones.
+    pub fn unknowns(&self) -> [Option<f64>; UNKNOWNS] {
+        let mut held = [None; UNKNOWNS];
+        (held[SLOPE], held[BEND]) = (Some(0.0), Some(0.0));
+        for row in &NAMES {
+            held[row.place] = self.held(row);
+        }
+        held
+    }
+}
+
 /// The question that a fit answers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Question {
@@ -41,6 +216,33 @@ pub struct Question {
     pub loss: LossName,
     /// Whether the record is a list of peaks.
     pub peaks: bool,
+}
+
+/// The mass or stiffness, which a record does not contain.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Inertia {
+    /// Mass in kg.
+    Mass(f64),
+    /// Stiffness in N/m.
+    Stiffness(f64),
+}
+
+impl Inertia {
+    /// The power of `omega0` that it is the mass times.
+    pub fn power(self) -> i32 {
+        match self {
+            Inertia::Mass(_) => 0,
+            Inertia::Stiffness(_) => 2,
+        }
+    }
+
+    /// The mass times a power of `omega0`.
+    #[must_use]
+    pub fn times(self, omega0: f64, power: i32) -> f64 {
+        let (Inertia::Mass(size) | Inertia::Stiffness(size)) = self;
+        size * powi(omega0, power - self.power())
+    }
 }
 
 /// Why there is no estimate.
@@ -60,7 +262,7 @@ pub enum Unfit {
         /// Number of the first such peak, counted from 1.
         peak: usize,
     },
-    /// No motion of the model comes near the record.
+    /// No motion of the model comes near the record; that of a guess escapes.
     NoMotion,
     /// An unknown has no influence on the record.
     Blind,
@@ -115,15 +317,6 @@ impl fmt::Display for Unfit {
 
 impl std::error::Error for Unfit {}
 
-impl From<NoFit> for Unfit {
-    fn from(reason: NoFit) -> Self {
-        match reason {
-            NoFit::Lost => Unfit::NoMotion,
-            NoFit::Interrupted => Unfit::Interrupted,
-        }
-    }
-}
-
 /// A guess in which held unknowns have their values.
 #[must_use]
 pub fn placed(held: &[Option<f64>; UNKNOWNS], guess: Unknowns) -> Unknowns {
@@ -135,8 +328,6 @@ pub fn placed(held: &[Option<f64>; UNKNOWNS], guess: Unknowns) -> Unknowns {
 pub fn reach(x: &[f64]) -> f64 {
     /// In multiples of the range of the record.
     const FAR: f64 = 30.0;
-    let (low, high) = x
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)));
+    let (low, high) = range(x);
     FAR * (high - low)
 }

@@ -7,10 +7,10 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::cells::{Cell, NumberedLine, Separator, lines, read};
-use super::clock;
-use super::header::{self, Header};
-use super::signal::{Measure, Signal, measure};
+use super::{
+    Cell, Header, Measure, NumberedLine, Separator, Signal, TIME_UNITS, clock_seconds, lines,
+    measure, read, seconds_in,
+};
 
 /// A column of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -137,17 +137,17 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
     let chosen = columns(reading, &header, &cells[first..=last], width, decimal)
         .map_err(|problem| BadRecord { line: lines[first].number, column: 0, problem })?;
     let stamps = chosen.time.is_some_and(|time| {
-        cells[first].get(time).is_some_and(|cell| clock::seconds(cell).is_some())
+        cells[first].get(time).is_some_and(|cell| clock_seconds(cell).is_some())
     });
     let unit_of_time = chosen.time.filter(|_| !stamps);
     let seconds = match unit_of_time.and_then(|time| header.unit(time).map(|unit| (time, unit))) {
         None => 1.0,
-        Some((time, unit)) => header::seconds(&unit).ok_or_else(|| BadRecord {
+        Some((time, unit)) => seconds_in(&unit).ok_or_else(|| BadRecord {
             line: lines[first.saturating_sub(1)].number,
             column: time + 1,
             problem: format!(
                 "times in {unit:?}; allowed are {}",
-                header::TIME_UNITS.map(|(name, _)| name).join(", ")
+                TIME_UNITS.map(|(name, _)| name).join(", ")
             ),
         })?,
     };

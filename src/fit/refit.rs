@@ -1,77 +1,47 @@
-//! Refits of an estimate with some numbers held at new values.
+//! Refits of an estimate with some numbers held at new values, and the contours along which the loss has then risen.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Matrix2, Vector2};
 
-use super::estimate::{Estimate, Rival};
-use super::levenberg_marquardt::{NoFit, Optimum, Runs, Task};
-use super::loss::Loss;
-use super::observation::{D2, D3, Observation, R, UNKNOWNS, Unknowns};
-use super::profile::ProfileInterval;
-use super::question::Unfit;
-use super::uncertainty::Covariance;
+use super::{
+    Covariance, Estimate, Optimum, ProfileInterval, R, Rival, Runs, Task, UNKNOWNS, Unfit,
+    Unknowns, interrupted, moved,
+};
+use crate::numerics::elementary::{cos, sin};
 
-/// An estimate with some unknowns held. The loss is that of the samples that count.
-pub struct Refit<'a> {
-    /// The original estimate.
-    pub estimate: &'a Estimate,
-    observation: Observation,
-    free: [bool; UNKNOWNS],
-}
-
-impl<'a> Refit<'a> {
-    /// The estimate with these unknowns held, at values to be given later.
-    pub fn without(estimate: &'a Estimate, places: &[usize]) -> Self {
-        let mut free = estimate.free;
-        for place in places {
-            free[*place] = false;
-        }
-        let observation = Observation {
-            data: estimate.data.clone(),
-            start: estimate.start,
-            linear: !free[D2] && !free[D3],
-            reach: estimate.reach,
-        };
-        Refit { estimate, observation, free }
-    }
-
-    /// The least-squares task.
-    pub fn task(&self) -> Task<'_> {
-        Task {
-            observation: &self.observation,
-            free: self.free,
-            loss: Loss::Linear,
-            used: &self.estimate.used,
-            horizon: usize::MAX,
-            within: None,
-        }
-    }
-
-    /// The best motion near a guess, with the held unknowns as in the guess.
-    ///
-    /// # Errors
-    /// [`NoFit`] if the motion of the guess escapes, or when interrupted.
-    pub fn at(&self, mut guess: Unknowns, runs: &mut Runs) -> Result<Optimum, NoFit> {
-        guess[R] = guess[R].max(0.0);
-        self.task().solve_roughly(guess, runs)
-    }
-
-    /// The loss at a point.
-    ///
-    /// # Errors
-    /// [`NoFit`] if the motion escapes, or when interrupted.
-    pub fn cost(&self, p: &Unknowns, runs: &mut Runs) -> Result<f64, NoFit> {
-        let task = self.task();
-        Ok(task.cost(&task.evaluated(p, false, runs)?))
+impl Estimate {
+    /// What was estimated, with these unknowns held. The loss is that of the samples that count.
+    pub fn task(&self, held: &[usize]) -> Task<'_> {
+        let task = Task::new(&self.data, self.start, self.free, self.reach);
+        held.iter().fold(Task { used: &self.used, ..task }, |task, place| task.holding(*place))
     }
 
     /// The loss that corresponds to one unit of chi-squared. It is larger for correlated noise, with which larger
     /// differences occur by chance.
     ///
     /// # Errors
-    /// [`NoFit`] when interrupted.
-    pub fn unit(&self, runs: &mut Runs) -> Result<f64, NoFit> {
-        let covariance = &self.estimate.covariance;
-        Ok(self.cost(&self.estimate.p, runs)? / covariance.freedom * covariance.inflation(R))
+    /// [`Unfit`] when interrupted.
+    pub fn unit(&self, runs: &mut Runs) -> Result<f64, Unfit> {
+        let cost = self.task(&[]).cost_at(&self.p, runs)?;
+        Ok(cost / self.covariance.freedom * self.covariance.inflation(R))
+    }
+}
+
+impl Task<'_> {
+    /// The best motion near a guess, with the held unknowns as in the guess.
+    ///
+    /// # Errors
+    /// [`Unfit`] if the motion of the guess escapes, or when interrupted.
+    fn refitted(&self, mut guess: Unknowns, runs: &mut Runs) -> Result<Optimum, Unfit> {
+        guess[R] = guess[R].max(0.0);
+        self.solve_roughly(guess, runs)
+    }
+
+    /// The loss at a point.
+    ///
+    /// # Errors
+    /// [`Unfit`] if the motion escapes, or when interrupted.
+    pub fn cost_at(&self, p: &Unknowns, runs: &mut Runs) -> Result<f64, Unfit> {
+        Ok(self.cost(&self.evaluated(p, false, runs)?))
     }
 }
 
@@ -85,15 +55,14 @@ pub fn held(
     runs: &mut Runs,
 ) -> Result<Estimate, Unfit> {
     let places: Vec<usize> = numbers.iter().map(|(place, _)| *place).collect();
-    let refit = Refit::without(estimate, &places);
-    let optimum = refit.at(following(estimate, numbers), runs)?;
-    let task = refit.task();
+    let task = estimate.task(&places);
+    let optimum = task.refitted(following(estimate, numbers), runs)?;
     let autocorrelation = &estimate.whiteness.autocorrelation;
     let covariance = Covariance::at(&task, &optimum, autocorrelation).ok_or(Unfit::Blind)?;
-    let half_swings = optimum.seen.turns.len();
+    let half_swings = optimum.half_swings();
     Ok(Estimate {
         p: optimum.p,
-        free: refit.free,
+        free: task.free,
         covariance,
         // The ends are not computed; it is assumed that the likelihood is quadratic where it was before.
         intervals: estimate.intervals.map(|it| ProfileInterval { lower: None, upper: None, ..it }),
@@ -107,21 +76,9 @@ pub fn held(
 
 /// All unknowns as predicted by the linear model, after some have been set to new values.
 pub fn following(estimate: &Estimate, numbers: &[(usize, f64)]) -> Unknowns {
-    let Covariance { columns, white, .. } = &estimate.covariance;
-    let at = |place: usize| columns.iter().position(|column| *column == place);
-    let white = |one, other| at(one).zip(at(other)).map_or(0.0, |place| white[place]);
-    let moved: Vec<&(usize, f64)> =
-        numbers.iter().filter(|(place, _)| estimate.free[*place]).collect();
-    let among = DMatrix::from_fn(moved.len(), moved.len(), |row, column| {
-        white(moved[row].0, moved[column].0)
-    });
-    let steps = DVector::from_fn(moved.len(), |row, _| moved[row].1 - estimate.p[moved[row].0]);
-    let weights = among.lu().solve(&steps).unwrap_or_else(|| DVector::zeros(moved.len()));
-    let mut guess: Unknowns = std::array::from_fn(|place| {
-        let follows = moved.iter().zip(weights.iter());
-        let step: f64 = follows.map(|(held, weight)| white(place, held.0) * weight).sum();
-        estimate.p[place] + step
-    });
+    let change = |(place, value): &(usize, f64)| (*place, value - estimate.p[*place]);
+    let changes: Vec<(usize, f64)> = numbers.iter().map(change).collect();
+    let mut guess = moved(&estimate.p, 1.0, &estimate.covariance.following(&changes));
     for (place, value) in numbers {
         guess[*place] = *value;
     }
@@ -131,14 +88,72 @@ pub fn following(estimate: &Estimate, numbers: &[(usize, f64)]) -> Unknowns {
 /// The best motion with one of the unknowns held at a value.
 ///
 /// # Errors
-/// [`NoFit`] if the motion with that value escapes, or when interrupted.
+/// [`Unfit`] if the motion with that value escapes, or when interrupted.
 pub fn refitted(
     estimate: &Estimate,
     place: usize,
     value: f64,
     runs: &mut Runs,
-) -> Result<Optimum, NoFit> {
+) -> Result<Optimum, Unfit> {
     // The descent starts from the prediction of the linear model.
-    let guess = following(estimate, &[(place, value)]);
-    Refit::without(estimate, &[place]).at(guess, runs)
+    estimate.task(&[place]).refitted(following(estimate, &[(place, value)]), runs)
+}
+
+/// Rises of chi-squared whose contours contain two unknowns with a probability of 68 and 95 %.
+pub const RISES: [f64; 2] = [2.3, 6.0];
+
+/// The contour around the estimate along which chi-squared has risen by `rise`, in the plane of two free unknowns.
+/// It is cut off at r = 0. Fails with [`Unfit::Interrupted`].
+pub fn contour(
+    estimate: &Estimate,
+    places: [usize; 2],
+    rise: f64,
+    runs: &mut Runs,
+) -> Result<Vec<[f64; 2]>, Unfit> {
+    /// Number of directions in which the contour is located.
+    const DIRECTIONS: u32 = 24;
+    let of = |one: usize, other: usize| estimate.covariance.of(one, other);
+    let [one, other] = places;
+    let plane = Matrix2::new(of(one, one), of(one, other), of(other, one), of(other, other));
+    let Some(root) = plane.cholesky() else { return Ok(Vec::new()) };
+    let task = estimate.task(&places);
+    let (cost, unit) = (task.cost_at(&estimate.p, runs)?, estimate.unit(runs)?);
+    let mut points = Vec::new();
+    for index in 0..DIRECTIONS {
+        let angle = std::f64::consts::TAU * f64::from(index) / f64::from(DIRECTIONS);
+        let step = rise.sqrt() * root.l() * Vector2::new(cos(angle), sin(angle));
+        // The linear model predicts the other unknowns.
+        let along = estimate.covariance.following(&[(one, step[0]), (other, step[1])]);
+        if let Some(at) = risen(&task, &estimate.p, along, (cost, rise * unit), runs)? {
+            points.push([estimate.p[one] + at * step[0], estimate.p[other] + at * step[1]]);
+        }
+    }
+    points.extend(points.first().copied());
+    Ok(points)
+}
+
+/// The distance from a point along a direction at which the loss, `cost` at the point, has risen by `rise`; `None` if
+/// the motion escapes before.
+fn risen(
+    task: &Task,
+    p: &Unknowns,
+    along: [f64; UNKNOWNS],
+    (cost, rise): (f64, f64),
+    runs: &mut Runs,
+) -> Result<Option<f64>, Unfit> {
+    /// Number of refits. Each corrects the distance by the rise found before, as for a quadratic loss; if
+    /// the loss is quadratic, the first distance is right.
+    const ROUNDS: usize = 3;
+    let farthest = if along[R] < 0.0 { -p[R] / along[R] } else { f64::INFINITY };
+    let mut at = f64::min(1.0, farthest);
+    for _ in 0..ROUNDS {
+        let found = interrupted(task.refitted(moved(p, at, &along), runs))?;
+        let Some(found) = found else { return Ok(None) };
+        let part = ((found.cost - cost).max(0.0) / rise).sqrt();
+        if (part - 1.0).abs() < 0.03 || part < 1.0 && at >= farthest {
+            break;
+        }
+        at = (at / part.clamp(0.4, 2.5)).min(farthest);
+    }
+    Ok(Some(at))
 }

@@ -1,37 +1,30 @@
 //! The release of a record whose first swings say little about the motion, such as those of a growth from near an unstable
 //! cycle: the motion is fitted without them, and then followed from the hold.
 
-use super::guess::{Guess, guess};
-use super::levenberg_marquardt::{NoFit, Runs, interrupted};
-use super::motion::{Way, follow};
-use super::noise::Noise;
-use super::observation::{
-    Data, LAST, OFFSET, OMEGA0, Q0, StartKind, UNKNOWNS, Unknowns, parameters,
+use super::{
+    Beginning, Data, Extreme, Guess, LAST, Noise, OFFSET, OMEGA0, Observation, Optimum, Q0, Runs,
+    Signal, StartKind, Task, UNKNOWNS, Unfit, Unknowns, Way, follow, guess, interrupted,
+    parameters, placed,
 };
-use super::problem::LeastSquares;
-use super::question::placed;
-use super::search::{Beginning, Minima};
-use super::signal::Signal;
-use super::turning_points::Extreme;
 use crate::model::State;
 
 /// The minima from guesses that release the held mass so that it comes into the motion after its first swings.
 /// `extremes` are the hold and the turning points. `None` if there is no such motion, or if the
-/// signal does not show where the mass was held; fails with [`NoFit::Interrupted`].
+/// signal does not show where the mass was held; fails with [`Unfit::Interrupted`].
 pub fn released_before(
-    problem: &LeastSquares,
+    task: &Task,
     held: &[Option<f64>; UNKNOWNS],
     noise: &Noise,
     extremes: &[Extreme],
     runs: &mut Runs,
-) -> Result<Option<Minima>, NoFit> {
+) -> Result<Option<Vec<Optimum>>, Unfit> {
     /// Number of turning points left out, at most, and the part of all.
     const FIRST: usize = 4;
     const PART: usize = 4;
     /// Number of swings between the release and the fitted motion, at most.
     const SWINGS: usize = 60;
     let signal = Signal::Displacement;
-    let Data::Samples { t, x, signal: Signal::Displacement } = problem.data else {
+    let Data::Samples { t, x, signal: Signal::Displacement } = task.observation.data else {
         return Ok(None);
     };
     let first = extremes[FIRST.min(extremes.len() / PART)];
@@ -45,16 +38,15 @@ pub fn released_before(
         *guess = placed(held, *guess);
     }
     let data = Data::Samples { t: times.to_vec(), x: later.to_vec(), signal };
-    let part = LeastSquares { data: &data, ..*problem };
-    let Ok(found) = interrupted(part.search(&beginnings, runs))? else { return Ok(None) };
-    let optimum = &found.valleys[0].optimum;
+    let part = Task { observation: Observation { data: &data, ..task.observation }, ..*task };
+    let Some(found) = interrupted(part.search(&beginnings, runs))? else { return Ok(None) };
+    let optimum = &found[0];
     let Some(turn) = optimum.seen.turns.first().filter(|_| part.explains(optimum)) else {
         return Ok(None);
     };
     let p = &optimum.p;
     let begin = State { q: extremes[0].x - p[OFFSET], v: 0.0 };
-    let way =
-        Way { linear: false, with_derivatives: false, reach: problem.reach, turns: SWINGS, signal };
+    let way = Way { reach: task.observation.reach, turns: SWINGS, ..Way::default() };
     let Ok(motion) = follow(&parameters(p), begin, &[f64::MAX], way, |_, _| {}) else {
         return Ok(None);
     };
@@ -67,5 +59,5 @@ pub fn released_before(
     let guesses = same.map(|it| placed(held, released(it.tau))).filter(|it| it[LAST] > t[0]);
     let guesses: Vec<Unknowns> = guesses.collect();
     let beginning = Beginning { start: StartKind::Release, certain: true, guesses };
-    Ok(interrupted(problem.search(&[beginning], runs))?.ok())
+    interrupted(task.search(&[beginning], runs))
 }

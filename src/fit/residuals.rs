@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::uncertainty::chi_squared;
+use super::chi_squared;
 use crate::numerics::count::{real, truncated};
 use crate::numerics::elementary::ln;
 

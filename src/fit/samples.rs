@@ -1,22 +1,19 @@
 //! Fits a sampled motion.
+//!
+//! Friction turns round with the velocity, so an acceleration jumps at every turning point, at the release and at the
+//! rest. On which side of a jump a sample lies depends on the unknowns, and no derivative tells of it; and no
+//! sensor follows a jump. So the samples next to the jumps of an acceleration are left out.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
-use super::drift;
-use super::estimate::{Estimate, judged};
-use super::guess::{Guess, guess};
-use super::levenberg_marquardt::{NoFit, Runs};
-use super::loss::Loss;
-use super::noise::{IMPOSSIBLE, Noise, robust_deviation, within_scale};
-use super::observation::{BEND, Data, LAST, OFFSET, OMEGA0, SLOPE, StartKind};
-use super::problem::LeastSquares;
-use super::question::{LossName, Question, Unfit, placed, reach};
-use super::record::Record;
-use super::release::released_before;
-use super::search::Minima;
-use super::spectrum::dominant_frequency;
+use super::{
+    BEND, Data, Dropped, Estimate, Guess, IMPOSSIBLE, Loss, LossName, Noise, OFFSET, OMEGA0,
+    Optimum, Question, Record, Runs, SLOPE, Signal, StartKind, Task, Unfit, dominant_frequency,
+    drift_of_swings, guess, judged, mean_square, placed, reach, released_before, robust_deviation,
+    within_scale, without_drift,
+};
 use crate::numerics::count::{real, truncated};
-use crate::numerics::elementary::powi;
 
 /// Fits a record of samples. Fails with [`Unfit`].
 pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
@@ -47,7 +44,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
         ..noise
     };
     let guessed = |[slope, bend]: [f64; 2]| {
-        let level = drift::without(&t, &swinging, [factor * slope, factor * bend]);
+        let level = without_drift(&t, &swinging, [factor * slope, factor * bend]);
         let mut guess = guess(&t, &level, &quiet, signal)?;
         for p in guess.beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
             p[OFFSET] /= factor;
@@ -58,61 +55,66 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     };
     let Guess { beginnings, mut extremes, struck, again } =
         guessed([0.0; 2]).ok_or(Unfit::NoSwings)?;
-    let saturated = all.len() - x.len();
-    let part = |t: &[f64], x: &[f64], runs: &mut Runs| {
-        let part = Record { t: Some(t.to_vec()), x: x.to_vec(), signal, ..Record::default() };
-        samples(&part, question, runs).ok().filter(|found| !found.whiteness.systematic)
+    let part = |range: Range<usize>, runs: &mut Runs| {
+        let (t, x) = (t[range.clone()].to_vec(), x[range.clone()].to_vec());
+        let part = Record { t: Some(t), x, signal, ..Record::default() };
+        let found = samples(&part, question, runs).ok();
+        found.filter(|it| !it.whiteness.systematic).map(|it| of_part(it, range, &within))
     };
     if let Some(until) = again
-        && let Some(found) = part(&t[..until], &x[..until], runs)
+        && let Some(found) = part(0..until, runs)
     {
-        return Ok(Estimate { after: x.len() - until, saturated, ..found });
+        return Ok(found);
     }
-    if let Some(from) = struck.filter(|_| signal.is_displacement())
-        && let Some(found) = part(&t[from..], &x[from..], runs)
+    let struck = struck.map(|from| from..x.len());
+    if let Some(range) = struck.clone().filter(|_| signal.is_displacement())
+        && let Some(found) = part(range, runs)
     {
-        return Ok(Estimate { before: from, saturated, ..found });
+        return Ok(found);
     }
     let loss = loss_of(question.loss, &noise);
     let reach = reach(&swinging);
     let data = Data::Samples { t: t.clone(), x: x.clone(), signal };
-    let mut problem =
-        LeastSquares { data: &data, free, loss, used: &[], noise: noise.deviation, reach };
-    let mut found = problem.search(&beginnings, runs)?;
-    let swings = drift::of_swings(&t, &extremes).map(|drift| drift / factor);
+    let task = Task::new(&data, beginnings[0].start, free, reach);
+    let mut task = Task { loss, noise: noise.deviation, ..task };
+    let mut found = task.search(&beginnings, runs)?;
+    let swings = drift_of_swings(&t, &extremes).map(|drift| drift / factor);
     let drifting = || guessed(swings).map(|guess| guess.beginnings).unwrap_or_default();
-    if let Some((minima, free)) = problem.drifting(&found, drifting, runs)? {
-        (found, problem.free) = (minima, free);
-        let p = &found.valleys[0].optimum.p;
+    if let Some((minima, free)) = task.drifting(&found, drifting, runs)? {
+        (found, task.free) = (minima, free);
+        let p = &found[0].p;
         extremes = guessed([p[SLOPE], p[BEND]]).map_or(extremes, |guess| guess.extremes);
     }
-    if beginnings[0].start == StartKind::Release && !problem.explains(&found.valleys[0].optimum) {
-        let other = released_before(&problem, &held, &noise, &extremes, runs)?;
-        let cost = |of: &Minima| of.valleys[0].optimum.cost;
-        found = other.filter(|other| cost(other) < cost(&found)).unwrap_or(found);
+    if beginnings[0].start == StartKind::Release && !task.explains(&found[0]) {
+        let other = released_before(&task, &held, &noise, &extremes, runs)?;
+        found = other.filter(|other| other[0].cost < found[0].cost).unwrap_or(found);
     }
-    if let Some(from) = struck.filter(|_| !signal.is_displacement())
-        && !problem.explains(&found.valleys[0].optimum)
-        && let Some(found) = part(&t[from..], &x[from..], runs)
+    if let Some(range) = struck.filter(|_| !signal.is_displacement())
+        && !task.explains(&found[0])
+        && let Some(found) = part(range, runs)
     {
-        return Ok(Estimate { before: from, saturated, ..found });
+        return Ok(found);
     }
-    let smooth = problem.smooth(&mut found, runs)?;
+    let smooth = smooth(&task, &mut found, runs)?;
     let mut used = smooth.clone();
-    let mut alike = vec![true; data.residuals()];
+    let mut alike = vec![false; x.len()];
     if question.loss == LossName::Auto {
-        problem.loss = Loss::Linear;
-        used = refined(&problem, &smooth, loss.is_robust(), &mut found, runs)?;
+        task.loss = Loss::LINEAR;
+        used = refined(&task, &smooth, loss.is_robust(), &mut found, runs)?;
         // If no motion fits, it is not known where the mass rests.
-        if (LeastSquares { used: &used, ..problem }).comes_near(&found.valleys[0].optimum) {
-            alike = telling(&problem, &noise, &mut used, &mut found, runs)?;
+        if (Task { used: &used, ..task }).comes_near(&found[0]) {
+            alike = alike_at_rest(&task, &noise, &mut used, &mut found, runs)?;
         }
     }
-    let count = |flags: &[bool]| flags.iter().filter(|flag| !**flag).count();
-    let mut estimate = judged(&problem, &used, &found, runs)?;
-    let both: Vec<bool> = alike.iter().zip(&smooth).map(|(one, other)| *one && *other).collect();
-    (estimate.alike, estimate.saturated) = (count(&both) - count(&smooth), count(&within));
-    estimate.jumps = (0..smooth.len()).filter(|index| !smooth[*index]).collect();
+    let mut estimate = judged(&Task { used: &used, ..task }, &found, runs)?;
+    let why = |index: usize| match (smooth[index], alike[index], used[index]) {
+        (false, ..) => Some(Dropped::Jump),
+        (_, true, _) => Some(Dropped::Alike),
+        (.., false) => Some(Dropped::Outlier),
+        _ => None,
+    };
+    estimate.dropped = (0..x.len()).map(why).collect();
+    estimate = of_part(estimate, 0..x.len(), &within);
     let scale = (signal.as_displacement(estimate.p[OMEGA0]) / factor).abs();
     for extreme in &mut extremes {
         extreme.x *= scale;
@@ -122,88 +124,123 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     Ok(estimate)
 }
 
-/// The loss with this name; by itself it is robust where there are outliers.
+/// The answer for a range of the samples within the scale as one for the whole record.
+fn of_part(found: Estimate, range: Range<usize>, within: &[bool]) -> Estimate {
+    let mut inner = found.dropped.into_iter();
+    let mut number = 0..;
+    let mut why = |within: &bool| match within.then(|| number.next()).flatten() {
+        None => Some(Dropped::Saturated),
+        Some(index) if index < range.start => Some(Dropped::Before),
+        Some(index) if index >= range.end => Some(Dropped::After),
+        Some(_) => inner.next().flatten(),
+    };
+    Estimate { dropped: within.iter().map(&mut why).collect(), ..found }
+}
+
+/// The loss that is asked for; by itself it is robust where there are outliers.
 fn loss_of(name: LossName, noise: &Noise) -> Loss {
-    let scale = 3.0 * noise.deviation;
-    match name {
-        LossName::Auto if noise.has_outliers => Loss::SoftL1 { scale },
-        LossName::Auto | LossName::Linear => Loss::Linear,
-        LossName::SoftL1 => Loss::SoftL1 { scale },
-        LossName::Cauchy => Loss::Cauchy { scale },
+    let is_robust = name == LossName::Auto && noise.has_outliers;
+    let name = if is_robust { LossName::SoftL1 } else { name };
+    Loss { name, scale: 3.0 * noise.deviation }
+}
+
+/// Which samples are far from every jump of the signal: all, unless it is an acceleration. The minima are then
+/// sought again with these samples. Fails with [`Unfit`] when interrupted, or if the motion is lost.
+fn smooth(task: &Task, found: &mut Vec<Optimum>, runs: &mut Runs) -> Result<Vec<bool>, Unfit> {
+    /// The jumps move as the fit improves.
+    const ROUNDS: usize = 2;
+    let mut smooth = vec![true; task.observation.data.residuals()];
+    let Data::Samples { t, signal: Signal::Acceleration, .. } = task.observation.data else {
+        return Ok(smooth);
+    };
+    for _ in 0..ROUNDS {
+        smooth = away_from(&jumps(&found[0], t), t, found[0].p[OMEGA0]);
+        Task { used: &smooth, ..*task }.renew(found, runs)?;
     }
+    Ok(smooth)
+}
+
+/// The times of the jumps of a motion.
+fn jumps(best: &Optimum, t: &[f64]) -> Vec<f64> {
+    let (origin, _) = best.start.beginning(&best.p, t);
+    let release = Some(origin).filter(|_| best.start == StartKind::Release);
+    let turns = best.seen.turns.iter().map(|turn| origin + turn.tau / best.p[OMEGA0]);
+    release.into_iter().chain(turns).collect()
+}
+
+/// Whether each sample is further from the jumps than half a step, and than the phase of a record is uncertain by.
+fn away_from(jumps: &[f64], t: &[f64], omega0: f64) -> Vec<bool> {
+    /// In radians of the phase.
+    const UNCERTAIN: f64 = 0.03;
+    let step = (t[t.len() - 1] - t[0]) / real(t.len());
+    let near = f64::max(0.5 * step, UNCERTAIN / omega0);
+    let mut away = vec![true; t.len()];
+    for jump in jumps {
+        let range = [jump - near, jump + near].map(|end| t.partition_point(|t| *t <= end));
+        away[range[0]..range[1]].fill(false);
+    }
+    away
 }
 
 /// Leaves out readings of a mass at rest that only repeat the rounding error of others, and fits again. Returns
-/// the readings that are kept.
-fn telling(
-    problem: &LeastSquares,
+/// which these are.
+fn alike_at_rest(
+    task: &Task,
     noise: &Noise,
     used: &mut [bool],
-    found: &mut Minima,
+    found: &mut Vec<Optimum>,
     runs: &mut Runs,
-) -> Result<Vec<bool>, NoFit> {
+) -> Result<Vec<bool>, Unfit> {
     /// Two rounds, since the first fit, biased by the common error at rest, overestimates the noise.
     const ROUNDS: usize = 2;
     let possible = used.to_vec();
-    let mut telling = vec![true; used.len()];
+    let mut alike = vec![false; used.len()];
     for _ in 0..ROUNDS {
-        let best = &found.valleys[0].optimum;
-        let values = best.seen.residuals.iter().zip(&*used).filter(|(_, used)| **used);
-        let (sum, count) =
-            values.fold((0.0, 0.0), |(sum, count), (it, _)| (sum + powi(it.value, 2), count + 1.0));
-        let enough = noise.readings_at_rest(sum / count);
-        let now = some_at_rest(problem, found, enough);
-        if now == telling {
+        let values = Task { used, ..*task }.values(&found[0].seen);
+        let now = all_but_some(task, &found[0], noise.readings_at_rest(mean_square(&values)));
+        if now == alike {
             break;
         }
-        telling = now;
-        for ((used, possible), telling) in used.iter_mut().zip(&possible).zip(&telling) {
-            *used = *possible && *telling;
+        alike = now;
+        for ((used, possible), alike) in used.iter_mut().zip(&possible).zip(&alike) {
+            *used = *possible && !alike;
         }
-        let problem = LeastSquares { used, ..*problem };
-        let observation = problem.observation(found.start);
-        let task = problem.task(&observation);
-        let optimum = task.solve(best.p, runs)?;
-        found.valleys = problem.valleys(&task, vec![optimum], runs)?;
+        Task { used, ..*task }.renew(found, runs)?;
     }
-    Ok(telling)
+    Ok(alike)
 }
 
-/// Selects all samples in motion, and `enough` (at least two) of those held and of those at rest, evenly spread.
-fn some_at_rest(problem: &LeastSquares, found: &Minima, enough: f64) -> Vec<bool> {
+/// Selects the samples held and those at rest except for `enough` (at least two) of each, evenly spread.
+fn all_but_some(task: &Task, best: &Optimum, enough: f64) -> Vec<bool> {
     const FEWEST: usize = 2;
-    let Data::Samples { t, .. } = problem.data else { return vec![true; problem.data.residuals()] };
-    let best = &found.valleys[0].optimum;
-    let release = match found.start {
-        StartKind::Release => best.p[LAST],
-        StartKind::Moving => t[0],
-    };
+    let t = task.observation.data.times();
+    let (release, _) = best.start.beginning(&best.p, t);
     let held = t.partition_point(|&t| t < release);
     let end = best.seen.turns.last().filter(|_| best.seen.rests);
     let rest =
         end.map_or(t.len(), |turn| t.partition_point(|&t| t < release + turn.tau / best.p[OMEGA0]));
-    let mut some = vec![true; t.len()];
+    let mut selected = vec![false; t.len()];
     for stretch in [0..held, rest..t.len()] {
         let kept = (truncated(enough.ceil().min(1e9))).max(FEWEST);
         let length = stretch.len();
         if length > kept {
-            some[stretch.clone()].fill(false);
+            selected[stretch.clone()].fill(true);
             for number in 0..kept {
-                some[stretch.start + (2 * number + 1) * length / (2 * kept)] = true;
+                selected[stretch.start + (2 * number + 1) * length / (2 * kept)] = false;
             }
         }
     }
-    some
+    selected
 }
 
 /// Leaves out samples that cannot belong to the motion and fits again, until nothing changes.
 fn refined(
-    problem: &LeastSquares,
+    task: &Task,
     smooth: &[bool],
     robust: bool,
-    found: &mut Minima,
+    found: &mut [Optimum],
     runs: &mut Runs,
-) -> Result<Vec<bool>, NoFit> {
+) -> Result<Vec<bool>, Unfit> {
     /// A model that leaves out more than this fraction of the record does not describe it.
     const MOST: f64 = 0.15;
     const ROUNDS: usize = 4;
@@ -211,11 +248,11 @@ fn refined(
     // If the search used a robust loss, even an unchanged selection is fitted again.
     let mut settled = !robust;
     for _ in 0..ROUNDS {
-        let seen = &found.valleys[0].optimum.seen;
-        let values = seen.residuals.iter().map(|residual| residual.value);
-        let limit = limit_of(&values.clone().collect::<Vec<_>>());
-        let possible: Vec<bool> =
-            values.zip(smooth).map(|(value, smooth)| *smooth && value.abs() <= limit).collect();
+        let values: Vec<f64> = found[0].seen.residuals.iter().map(|it| it.value).collect();
+        let limit = limit_of(&values);
+        let possible =
+            values.iter().zip(smooth).map(|(value, smooth)| *smooth && value.abs() <= limit);
+        let possible: Vec<bool> = possible.collect();
         let left_out = possible.iter().zip(smooth).filter(|(used, smooth)| **smooth && !**used);
         let share = real(left_out.count()) / real(used.len());
         let now = if share > MOST { smooth.to_vec() } else { possible };
@@ -223,7 +260,7 @@ fn refined(
             break;
         }
         (used, settled) = (now, true);
-        LeastSquares { used: &used, ..*problem }.polish(found, runs)?;
+        Task { used: &used, ..*task }.polish(found, runs)?;
     }
     Ok(used)
 }
@@ -234,10 +271,8 @@ fn limit_of(residuals: &[f64]) -> f64 {
     const ROUNDS: usize = 5;
     let mut limit = IMPOSSIBLE * robust_deviation(residuals.iter().copied());
     for _ in 0..ROUNDS {
-        let within = residuals.iter().filter(|value| value.abs() <= limit);
-        let (sum, count) =
-            within.fold((0.0, 0.0), |(sum, count), value| (sum + value * value, count + 1.0));
-        limit = IMPOSSIBLE * (sum / count).sqrt();
+        let within = residuals.iter().copied().filter(|value| value.abs() <= limit);
+        limit = IMPOSSIBLE * mean_square(&within.collect::<Vec<_>>()).sqrt();
     }
     if limit > 0.0 { limit } else { f64::INFINITY }
 }

@@ -8,10 +8,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::decrements::averaged;
-use super::estimate::Estimate;
-use super::names::{NAMES, NameSpec};
-use super::observation::{D, D3, R};
+use super::{D, D3, Estimate, NAMES, NameSpec, R, averaged};
 
 /// A combination of numbers that are not known separately.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,10 +74,6 @@ fn best_known(estimate: &Estimate, unknown: &[(&'static NameSpec, f64)]) -> Opti
         .map(|((row, _), weight)| (*row, weight / weights[0]))
         .collect();
     let value = terms.iter().map(|(row, weight)| weight * estimate.p[row.place]).sum();
-    let variance: f64 = terms
-        .iter()
-        .flat_map(|one| terms.iter().map(move |other| (one, other)))
-        .map(|(one, other)| one.1 * other.1 * estimate.covariance.of(one.0.place, other.0.place))
-        .sum();
-    Some(Combination { terms, value, standard_error: variance.max(0.0).sqrt() })
+    let weighted: Vec<_> = terms.iter().map(|(row, weight)| (row.place, *weight)).collect();
+    Some(Combination { value, standard_error: estimate.covariance.error_of(&weighted), terms })
 }

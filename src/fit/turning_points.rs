@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::noise::median;
+use super::{least_squares, median};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{atan2, hypot, sin_cos};
 
@@ -131,12 +131,6 @@ fn fitted(
     if to - from < 5 {
         return None;
     }
-    let mut normal = nalgebra::Matrix3::zeros();
-    let mut right = nalgebra::Vector3::zeros();
-    for (t, x) in t[from..to].iter().zip(&x[from..to]) {
-        let row = nalgebra::Vector3::from(functions((t - middle) / reach));
-        normal += row * row.transpose();
-        right += row * *x;
-    }
-    Some(normal.cholesky()?.solve(&right).into())
+    let samples = t[from..to].iter().zip(&x[from..to]);
+    least_squares(samples.map(|(t, x)| (functions((t - middle) / reach), *x)))
 }

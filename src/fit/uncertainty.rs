@@ -2,11 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::levenberg_marquardt::{Optimum, Task};
-use super::noise::IMPOSSIBLE;
-use super::observation::{Data, Residual, UNKNOWNS, Unknowns};
+use super::{Data, IMPOSSIBLE, Optimum, Task, Unknowns, mean_square, scattered};
 use crate::numerics::count::real;
-use crate::numerics::elementary::{cos, pow, powi, sin};
+use crate::numerics::elementary::powi;
 
 /// The covariance of the free unknowns about a minimum.
 #[derive(Clone, Debug)]
@@ -30,6 +28,11 @@ pub struct Covariance {
 }
 
 impl Covariance {
+    /// The covariance at a minimum for white noise; `None` if an unknown has no influence at all.
+    pub fn white(task: &Task, optimum: &Optimum) -> Option<Self> {
+        Covariance::at(task, optimum, &[])
+    }
+
     /// The covariance at a minimum, for noise with these autocorrelations (none: white).
     ///
     /// With correlated noise `cov(J'e) = s^2 sum_l rho_l J_t' J_(t+l)`, which is multiplied by the inverse of
@@ -37,41 +40,30 @@ impl Covariance {
     pub fn at(task: &Task, optimum: &Optimum, autocorrelation: &[f64]) -> Option<Self> {
         let columns = task.columns();
         let width = columns.len();
-        let factor = task.factor(&optimum.seen, &columns);
-        let upper = factor.view((0, 0), (width, width)).into_owned();
+        let upper = task.upper(&optimum.seen);
         let inverse = upper.solve_upper_triangular(&DMatrix::identity(width, width))?;
         let bread = &inverse * inverse.transpose();
-        let used = task.used_residuals(&optimum.seen);
-        let rows: Vec<Vec<f64>> = used
-            .iter()
-            .map(|it| {
-                let root = task.loss.weight(it.value).sqrt();
-                columns.iter().map(|&column| root * it.by[column]).collect()
-            })
-            .collect();
-        let spread = if autocorrelation.is_empty() {
-            bread.clone()
-        } else {
-            &bread * correlated(&rows, autocorrelation, width) * &bread
-        };
+        let directions = || task.directions(&optimum.seen);
         // Each unknown absorbs the noise along its gradient, which for white noise is that of one residual.
-        let absorbed = if autocorrelation.is_empty() {
-            real(width)
+        let (spread, absorbed) = if autocorrelation.is_empty() {
+            (bread.clone(), real(width))
         } else {
-            (&upper * &spread * upper.transpose()).trace()
+            let along = correlated(&directions(), autocorrelation, width);
+            (&inverse * &along * inverse.transpose(), along.trace())
         };
-        let freedom = real(used.len()) - absorbed;
+        let values = task.values(&optimum.seen);
+        let freedom = real(values.len()) - absorbed;
         if freedom < 1.0 || !spread.iter().all(|value| value.is_finite()) {
             return None;
         }
         // For a robust loss the influence of a residual is its weight times its value.
-        let weighted = used.iter().map(|it| (task.loss.weight(it.value), it.value));
+        let weighted = values.iter().map(|&value| (task.loss.weight(value), value));
         let (sum, influence) = weighted.fold((0.0, 0.0), |(sum, influence), (weight, value)| {
             (sum + weight * value * value, influence + powi(weight * value, 2))
         });
         let variance = influence / freedom * powi(widening(task, optimum, influence / freedom), 2);
-        let freedoms = match &task.observation.data {
-            Data::Peaks { t: Some(_), x, .. } => of_two_kinds(&rows, x.len(), &bread),
+        let freedoms = match task.observation.data {
+            Data::Peaks { t: Some(_), x, .. } => of_two_kinds(&directions(), x.len(), &inverse),
             _ => vec![freedom; width],
         };
         Some(Covariance {
@@ -106,7 +98,15 @@ impl Covariance {
 
     /// Standard error of an unknown; 0 if it is held.
     pub fn error(&self, unknown: usize) -> f64 {
-        self.of(unknown, unknown).max(0.0).sqrt()
+        self.error_of(&[(unknown, 1.0)])
+    }
+
+    /// Standard error of a weighted sum of unknowns.
+    pub fn error_of(&self, terms: &[(usize, f64)]) -> f64 {
+        let pairs = terms.iter().flat_map(|one| terms.iter().map(move |other| (one, other)));
+        let variance: f64 =
+            pairs.map(|(one, other)| one.1 * other.1 * self.of(one.0, other.0)).sum();
+        variance.max(0.0).sqrt()
     }
 
     /// Correlation of two free unknowns.
@@ -131,15 +131,18 @@ impl Covariance {
         self.place(unknown).map_or(self.freedom, |at| self.freedoms[at]) / repeated
     }
 
-    /// The changes of all unknowns for a unit change of one of them, with the loss kept as small as possible.
-    pub fn along(&self, unknown: usize) -> Unknowns {
-        let mut along = [0.0; UNKNOWNS];
-        if let Some(at) = self.place(unknown) {
-            for (place, &column) in self.columns.iter().enumerate() {
-                along[column] = self.white[(place, at)] / self.white[(at, at)];
-            }
+    /// The changes of all unknowns after changes of some of them, with the loss kept as small as possible.
+    pub fn following(&self, changes: &[(usize, f64)]) -> Unknowns {
+        let free = changes.iter().filter_map(|(place, by)| Some((self.place(*place)?, *by)));
+        let (places, by): (Vec<usize>, Vec<f64>) = free.unzip();
+        let among = self.white.select_rows(&places).select_columns(&places);
+        let weights = among.lu().solve(&DVector::from_vec(by));
+        let weights = weights.unwrap_or_else(|| DVector::zeros(places.len()));
+        let mut all = scattered(&self.columns, &(self.white.select_columns(&places) * weights));
+        for (place, by) in changes {
+            all[*place] = *by;
         }
-        along
+        all
     }
 }
 
@@ -161,50 +164,58 @@ fn widening(task: &Task, optimum: &Optimum, variance: f64) -> f64 {
 
 /// The degrees of freedom of each unknown's variance if the first `count` residuals and the others are of two kinds,
 /// displacements and times of peaks, the errors of which are estimated separately (Welch and Satterthwaite).
-fn of_two_kinds(rows: &[Vec<f64>], count: usize, bread: &DMatrix<f64>) -> Vec<f64> {
-    let width = bread.nrows();
+fn of_two_kinds(directions: &[DVector<f64>], count: usize, inverse: &DMatrix<f64>) -> Vec<f64> {
+    let width = inverse.nrows();
     // For each kind: its degrees of freedom, and the variance of each unknown that is due to it.
-    let mut kinds = [(0.0, vec![0.0; width]), (0.0, vec![0.0; width])];
-    for (index, row) in rows.iter().enumerate() {
-        let (freedom, variances) = &mut kinds[usize::from(index >= count)];
-        let row = DVector::from_column_slice(row);
-        let influence = bread * &row;
-        *freedom += 1.0 - influence.dot(&row);
-        for (variance, influence) in variances.iter_mut().zip(influence.iter()) {
-            *variance += influence * influence;
-        }
-    }
+    let kinds = [&directions[..count], &directions[count..]].map(|kind| {
+        let freedom = kind.iter().map(|row| 1.0 - row.norm_squared()).sum::<f64>();
+        let influences = kind.iter().map(|row| inverse * row);
+        let variances = influences.fold(DVector::zeros(width), |sum: DVector<f64>, influence| {
+            sum + influence.component_mul(&influence)
+        });
+        (freedom.max(f64::MIN_POSITIVE), variances)
+    });
     let of = |unknown: usize| {
         let parts = kinds.iter().map(|(freedom, variances)| (freedom, variances[unknown]));
         let (sum, spread) = parts.fold((0.0, 0.0), |(sum, spread), (freedom, variance)| {
-            (sum + variance, spread + variance * variance / freedom.max(f64::MIN_POSITIVE))
+            (sum + variance, spread + variance * variance / freedom)
         });
         sum * sum / spread
     };
     (0..width).map(of).collect()
 }
 
+/// The ratio of the errors of the second kind of residuals, those from `count` on, to those of the first kind. Each is
+/// estimated from its residuals and their degrees of freedom, with one minus its leverage for each residual.
+pub fn ratio_of_kinds(task: &Task, optimum: &Optimum, count: usize) -> f64 {
+    let directions = task.directions(&optimum.seen);
+    let values = task.values(&optimum.seen);
+    let [x, t] = [0..count, count..values.len()].map(|kind| {
+        let freedom: f64 =
+            directions[kind.clone()].iter().map(|row| 1.0 - row.norm_squared()).sum();
+        mean_square(&values[kind.clone()]) * real(kind.len()) / freedom.max(0.5)
+    });
+    (t / x).sqrt()
+}
+
 /// The sum of the outer products of all pairs of rows, weighted by their correlation.
-fn correlated(rows: &[Vec<f64>], autocorrelation: &[f64], width: usize) -> DMatrix<f64> {
+fn correlated(rows: &[DVector<f64>], autocorrelation: &[f64], width: usize) -> DMatrix<f64> {
     let mut meat = DMatrix::<f64>::zeros(width, width);
     for (row, ahead) in rows.iter().zip(blurred(rows, autocorrelation)) {
-        for (i, one) in row.iter().enumerate() {
-            for (j, other) in ahead.iter().enumerate() {
-                meat[(i, j)] += one * other;
-            }
-        }
+        meat.ger(1.0, row, &ahead, 1.0);
     }
     &meat + meat.transpose()
 }
 
 /// For each row, half of it plus all later rows, weighted by their correlation with it.
-fn blurred(rows: &[Vec<f64>], autocorrelation: &[f64]) -> impl Iterator<Item = Vec<f64>> {
-    rows.iter().enumerate().map(|(index, row)| {
-        let mut ahead: Vec<f64> = row.iter().map(|value| 0.5 * value).collect();
+fn blurred(
+    rows: &[DVector<f64>],
+    autocorrelation: &[f64],
+) -> impl DoubleEndedIterator<Item = DVector<f64>> {
+    (0..rows.len()).map(|index| {
+        let mut ahead = 0.5 * &rows[index];
         for (rho, later) in autocorrelation.iter().zip(&rows[index + 1..]) {
-            for (ahead, value) in ahead.iter_mut().zip(later) {
-                *ahead += rho * value;
-            }
+            ahead.axpy(*rho, later, 1.0);
         }
         ahead
     })
@@ -213,112 +224,25 @@ fn blurred(rows: &[Vec<f64>], autocorrelation: &[f64]) -> impl Iterator<Item = V
 /// The mean autocorrelations at lags 1, 2, .. of the residuals of a fit to noise with these autocorrelations.
 /// The unknowns absorb the projection `H = Q Q'` of the noise, so the residuals have the covariance
 /// `(1 - H) S (1 - H)`.
-pub fn left_over(task: &Task, optimum: &Optimum, noise: &[f64], lags: usize) -> Vec<f64> {
-    let columns = task.columns();
-    let width = columns.len();
-    let factor = task.factor(&optimum.seen, &columns);
-    let upper = factor.view((0, 0), (width, width)).transpose();
-    let used = task.used_residuals(&optimum.seen);
-    let row = |it: &&Residual| {
-        let root = task.loss.weight(it.value).sqrt();
-        let row = DVector::from_iterator(width, columns.iter().map(|&c| root * it.by[c]));
-        upper.solve_lower_triangular(&row).map(|row| row.data.into())
-    };
-    let Some(q) = used.iter().map(row).collect::<Option<Vec<Vec<f64>>>>() else {
-        return vec![0.0; lags];
-    };
-    let forward: Vec<Vec<f64>> = blurred(&q, noise).collect();
-    let backward: Vec<Vec<f64>> = {
-        let reversed: Vec<Vec<f64>> = q.iter().rev().cloned().collect();
-        let mut blurred: Vec<Vec<f64>> = blurred(&reversed, noise).collect();
-        blurred.reverse();
-        blurred
-    };
+pub fn left_over(q: &[DVector<f64>], noise: &[f64], lags: usize) -> Vec<f64> {
+    let width = q.first().map_or(0, DVector::len);
+    let reversed: Vec<DVector<f64>> = q.iter().rev().cloned().collect();
     // S Q and Q' S Q.
-    let add = |(one, other): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
-        one.iter().zip(other).map(|(one, other)| one + other).collect()
-    };
-    let sq: Vec<Vec<f64>> = forward.iter().zip(&backward).map(add).collect();
+    let both = blurred(q, noise).zip(blurred(&reversed, noise).rev());
+    let sq: Vec<DVector<f64>> = both.map(|(ahead, behind)| ahead + behind).collect();
     let mut qsq = DMatrix::<f64>::zeros(width, width);
     for (one, other) in q.iter().zip(&sq) {
-        for i in 0..width {
-            for j in 0..width {
-                qsq[(i, j)] += one[i] * other[j];
-            }
-        }
+        qsq.ger(1.0, one, other, 1.0);
     }
-    let dot = |one: &[f64], other: &[f64]| -> f64 {
-        one.iter().zip(other).map(|(one, other)| one * other).sum()
-    };
+    let twice: Vec<DVector<f64>> = q.iter().map(|row| qsq.tr_mul(row)).collect();
     let at = |lag: usize| -> f64 {
         let rho = if lag == 0 { 1.0 } else { noise.get(lag - 1).copied().unwrap_or(0.0) };
         let mut sum = rho * real(q.len() - lag);
         for (t, later) in q.iter().skip(lag).enumerate() {
-            let both: f64 =
-                (0..width).map(|j| later[j] * dot(&q[t], qsq.column(j).as_slice())).sum();
-            sum += both - dot(&sq[t], later) - dot(&q[t], &sq[t + lag]);
+            sum += twice[t].dot(later) - sq[t].dot(later) - q[t].dot(&sq[t + lag]);
         }
         sum
     };
     let power = at(0);
     (1..=lags).map(|lag| at(lag) / power).collect()
-}
-
-/// The value that a chi-squared variable exceeds with the same probability as a normal one exceeds `z` (Wilson and
-/// Hilferty).
-pub fn chi_squared(freedom: f64, z: f64) -> f64 {
-    let part = 2.0 / (9.0 * freedom);
-    freedom * powi(1.0 - part + z * part.sqrt(), 3)
-}
-
-/// The deviation within which a variable with Student's distribution lies with a probability of 95 %: for few degrees
-/// of freedom `n` by the integral of `cos^(n-1)` over the angle whose tangent is the deviation over `sqrt(n)`, else by
-/// the expansion about the normal distribution in `1/n` (error below 1e-5).
-pub fn deviation_of_95_percent(freedom: f64) -> f64 {
-    const FEW: f64 = 12.0;
-    const PANELS: u32 = 4000;
-    let n = freedom.max(1.0);
-    if n < FEW {
-        let width = std::f64::consts::FRAC_PI_2 / f64::from(PANELS);
-        let angle = |panel: u32| width * (f64::from(panel) + 0.5);
-        let density: Vec<f64> = (0..PANELS).map(|panel| pow(cos(angle(panel)), n - 1.0)).collect();
-        let mut left = 0.95 * density.iter().sum::<f64>();
-        let mut reached = 0.0;
-        for part in density {
-            reached += width * (left / part).min(1.0);
-            left -= part;
-            if left <= 0.0 {
-                break;
-            }
-        }
-        return n.sqrt() * sin(reached) / cos(reached);
-    }
-    let z: f64 = 1.959_963_984_540_054;
-    let (z3, z5, z7) = (powi(z, 3), powi(z, 5), powi(z, 7));
-    z + (z3 + z) / (4.0 * n)
-        + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * n * n)
-        + (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * n * n * n)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn students_quantiles_are_those_of_tables() {
-        for (freedom, value) in [
-            (1.0, 12.706),
-            (2.0, 4.303),
-            (3.0, 3.182),
-            (5.0, 2.571),
-            (10.0, 2.228),
-            (11.9, 2.181),
-            (12.0, 2.179),
-            (30.0, 2.042),
-            (1e9, 1.960),
-        ] {
-            let found = deviation_of_95_percent(freedom);
-            assert!((found / value - 1.0).abs() < 1e-3, "{freedom}: {found}");
-        }
-    }
 }

@@ -6,15 +6,10 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::resources::Resources;
-use crate::fit::curves::Curves;
-use crate::fit::dropped::{Dropped, dropped};
-use crate::fit::levenberg_marquardt::Runs;
-use crate::fit::names::Choice;
-use crate::fit::observation::{D, D2, D3, Data, LAST, OMEGA0, Observation, Q0, R, StartKind};
-use crate::fit::{self, refit};
 use crate::fit::{
-    Estimate, Inertia, LossName, MarginQuestion, Margins, Question, Record, Signal, Unfit,
-    estimate, length_in_metres, margins, parameters,
+    self, Choice, Curves, D, D2, D3, Dropped, Estimate, Inertia, LAST, LossName, MarginQuestion,
+    Margins, OMEGA0, Q0, Question, R, Record, Runs, Signal, StartKind, Unfit, estimate,
+    length_in_metres, margins, parameters,
 };
 use crate::flow::{Limits, Problem, Reason};
 use crate::model::{Knob, State};
@@ -195,7 +190,7 @@ impl Fit {
         let estimate = if numbers.is_empty() {
             Ok(fit.estimate.clone())
         } else {
-            refit::held(&fit.estimate, &numbers, &mut runs)
+            fit::held(&fit.estimate, &numbers, &mut runs)
         };
         let estimate = match estimate {
             Ok(estimate) => estimate,
@@ -248,26 +243,12 @@ fn metric(recording: &Recording) -> Option<(Inertia, f64)> {
 /// The measured points, relative to the fitted motion.
 fn points(record: &Record, estimate: &Estimate) -> Vec<Measured> {
     let p = &estimate.p;
-    let t = match &estimate.data {
-        Data::Samples { t, .. } => Some(t),
-        Data::Peaks { t, .. } => t.as_ref(),
-    };
-    let origin = match estimate.start {
-        StartKind::Release => p[LAST],
-        StartKind::Moving => t.and_then(|t| t.first()).copied().unwrap_or(0.0),
-    };
-    let observation = Observation {
-        data: estimate.data.clone(),
-        start: estimate.start,
-        linear: false,
-        reach: estimate.reach,
-    };
-    let mut states = observation.states(p).into_iter();
-    let all = record.t.iter().flatten().zip(&record.x).zip(dropped(record, estimate));
-    all.map(|((&t, &x), dropped)| {
-        // These are no part of what was fitted.
-        let outside = [Dropped::Saturated, Dropped::Before, Dropped::After].map(Some);
-        let fitted = if outside.contains(&dropped) { None } else { states.next() };
+    let (origin, _) = estimate.start.beginning(p, estimate.data.times());
+    let mut states = estimate.task(&[]).observation.states(p).into_iter();
+    let all = record.t.iter().flatten().zip(&record.x).zip(&estimate.dropped);
+    all.map(|((&t, &x), &dropped)| {
+        let is_outside = dropped.is_some_and(Dropped::is_outside);
+        let fitted = if is_outside { None } else { states.next() };
         let unseen = State { q: f64::NAN, v: f64::NAN };
         let fitted = fitted.unwrap_or(State { q: 0.0, v: 0.0 });
         let State { q, v } = estimate.measured(t, x, fitted).unwrap_or(unseen);
@@ -292,12 +273,11 @@ impl Fitted {
     /// The fitted motion; the method and whatever else the fit does not determine are those of `before`.
     pub fn problem(&self, before: Problem) -> Problem {
         let p = &self.fit.estimate.p;
-        let v = if self.fit.estimate.start == StartKind::Moving { p[LAST] } else { 0.0 };
         let last = self.points.iter().rfind(|point| point.dropped.is_none());
         let last = last.map_or(before.until, |point| point.tau);
         Problem {
             parameters: parameters(p),
-            initial: State { q: p[Q0], v },
+            initial: self.fit.estimate.start.beginning(p, &[]).1,
             until: if last > 0.0 { last } else { before.until },
             ..before
         }

@@ -7,7 +7,7 @@ use crossterm::clipboard::CopyToClipboard;
 
 use super::bounded;
 use super::new_file::{self, Readers};
-use crate::fit::record::decoded;
+use crate::fit::decoded;
 use crate::session::Notice;
 
 /// The destination of copies besides the clipboard: terminals do not report whether they accept a copy.

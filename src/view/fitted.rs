@@ -2,9 +2,7 @@
 
 use super::look::Look;
 use super::pane;
-use crate::fit::names::named;
-use crate::fit::observation::OMEGA0;
-use crate::fit::physical::rows;
+use crate::fit::{OMEGA0, named, rows};
 use crate::model::Knob;
 use crate::scene::Fitted;
 use crate::session::{Row, Session};
@@ -83,7 +81,7 @@ pub fn spread(session: &Session, width: usize, look: &Look) -> Vec<String> {
     let frequency = with_unit(hertz(estimate.p[OMEGA0]), 4, "Hz");
     let frequency =
         format!("f0 {frequency} {}{}", look.symbols().plus_minus, with_unit(error, 2, "Hz"));
-    let spread = fit.margins.from_rest.displacement;
+    let spread = fit.margins.kicks.from_rest.displacement;
     let scale = fit.units().map(|units| units.displacement);
     let end = |end: Option<f64>| match (end, scale) {
         (None, _) => "any".to_owned(),

@@ -1,11 +1,8 @@
 //! Remarks on a fit, in sentences: what was left out, what cannot be determined, whether the model holds.
 
-use crate::fit::Fitted;
-use crate::fit::conditions::conditions;
-use crate::fit::drift::FittedDrift;
-use crate::fit::names::NAMES;
-use crate::fit::observation::R;
-use crate::fit::separable::{Combination, combinations};
+use crate::fit::{
+    Combination, Dropped, Fitted, FittedDrift, NAMES, NameSpec, R, combinations, conditions,
+};
 use crate::words::counted;
 use crate::words::number::{resolved, significant};
 use crate::words::statement::signed;
@@ -44,24 +41,25 @@ fn listed(names: &[&str]) -> String {
 
 /// What was left out of a record, and why, a sentence each.
 pub fn left_out(fitted: &Fitted) -> Vec<String> {
+    let dropped = |why| fitted.estimate.count(why);
     let counts = [
         (fitted.record.missing, "row", "without a number"),
         (fitted.record.repeated, "row", "repeating another one"),
-        (fitted.estimate.before, "sample", "at rest before the mass was struck"),
+        (dropped(Dropped::Before), "sample", "at rest before the mass was struck"),
         (
-            fitted.estimate.after,
+            dropped(Dropped::After),
             "sample",
             "after the mass was excited again: fit them as a file of their own",
         ),
-        (fitted.estimate.saturated, "sample", "flattened at full scale"),
+        (dropped(Dropped::Saturated), "sample", "flattened at full scale"),
         (
-            fitted.estimate.jumps.len(),
+            dropped(Dropped::Jump),
             "sample",
             "next to the turning points, where an acceleration jumps",
         ),
-        (fitted.estimate.alike, "sample", "at rest that the steps of the converter round alike"),
+        (dropped(Dropped::Alike), "sample", "at rest that the steps of the converter round alike"),
         (
-            fitted.estimate.outliers(),
+            dropped(Dropped::Outlier),
             "sample",
             "impossible for this motion and noise (4.5 deviations)",
         ),
@@ -91,7 +89,7 @@ fn drift(fitted: &Fitted) -> Option<String> {
 
 /// `D + 0.069 r`.
 fn formula(combination: &Combination) -> String {
-    let term = |(index, (row, weight)): (usize, &(&crate::fit::names::NameSpec, f64))| {
+    let term = |(index, (row, weight)): (usize, &(&NameSpec, f64))| {
         let sign = match (index, *weight < 0.0) {
             (0, _) => "",
             (_, true) => " - ",

@@ -5,11 +5,9 @@ use serde::Serialize;
 
 use super::number::{rounded_down, significant};
 use super::quantity::with_unit;
-use crate::fit::conditions::{Condition, conditions};
-use crate::fit::estimate::Rival;
-use crate::fit::names::NAMES;
-use crate::fit::observation::{D, Data, StartKind};
-use crate::fit::{Fitted, MarginQuestion, Margins};
+use crate::fit::{
+    Condition, D, Data, Fitted, MarginQuestion, Margins, NAMES, Rival, StartKind, conditions,
+};
 use crate::numerics::count::real;
 use crate::portrait::Margin;
 

@@ -1,7 +1,6 @@
 //! Records of many kinds with known truth: what a fit says without a warning must be right.
 
-use hopfscope::fit::conditions::conditions;
-use hopfscope::fit::{DRAWS, MarginQuestion, Margins, margins};
+use hopfscope::fit::{DRAWS, Dropped, MarginQuestion, Margins, conditions, margins};
 use hopfscope::flow::Limits;
 use hopfscope::model::Parameters;
 use hopfscope::portrait::basin::Basin;
@@ -46,7 +45,8 @@ fn outcome(kind: &'static str, seed: u64, draws: usize) -> Option<Outcome> {
         (row.name, off <= 1.96, off)
     });
     let true_margin = true_margin(&truth, amplitude);
-    let too_large = true_margin.map(|at| margins.displacement.lower.is_none_or(|lower| lower > at));
+    let too_large =
+        true_margin.map(|at| margins.kicks.displacement.lower.is_none_or(|lower| lower > at));
     Some(Outcome { kind, seed, numbers: numbers.collect(), warns, too_large })
 }
 
@@ -128,7 +128,11 @@ fn a_growth_from_near_an_unstable_cycle_is_released_when_it_was() {
     for seed in [15, 27, 34, 62] {
         let Simulation { truth, record, .. } = simulated("growth", seed);
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
-        assert_eq!((found.start, found.outliers()), (StartKind::Release, 0), "growth {seed}");
+        assert_eq!(
+            (found.start, found.count(Dropped::Outlier)),
+            (StartKind::Release, 0),
+            "growth {seed}"
+        );
         for (row, is) in NAMES.iter().zip(truth) {
             let off = (found.p[row.place] - is) / found.covariance.error(row.place);
             assert!(off.abs() < 4.5, "growth {seed}: {} is {off} errors off", row.name);
@@ -200,7 +204,7 @@ fn a_curved_valley_is_followed_by_the_draws_of_the_margin() {
     let found = estimate(&record, &Question::default(), &|| false).unwrap();
     let margins = margins(&found, &MarginQuestion::default(), &Limits::PATIENT).unwrap();
     let [lower, upper] =
-        [margins.displacement.lower, margins.displacement.upper].map(Option::unwrap);
+        [margins.kicks.displacement.lower, margins.kicks.displacement.upper].map(Option::unwrap);
     let is = truth["margin"]["displacement"].as_f64().unwrap();
     assert!(margins.effective >= 400.0, "{}", margins.effective);
     // A long Markov chain gives .131 .. .479.

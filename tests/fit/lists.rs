@@ -1,8 +1,6 @@
 //! Lists of few peaks: what little they tell must be told right.
 
-use hopfscope::fit::levenberg_marquardt::Runs;
-use hopfscope::fit::names::NameSpec;
-use hopfscope::fit::refit::{Refit, refitted};
+use hopfscope::fit::{NameSpec, Runs, refitted};
 
 use super::simulator::simulated;
 use super::*;
@@ -70,7 +68,7 @@ fn a_list_that_ends_at_rest_is_fitted_to_its_minimum() {
         assert!(found.rests, "{seed}");
         let never = || false;
         let mut runs = Runs::new(&never);
-        let least = Refit::without(&found, &[]).cost(&found.p, &mut runs).unwrap();
+        let least = found.task(&[]).cost_at(&found.p, &mut runs).unwrap();
         for row in found.wanted() {
             for side in [-1.0, 1.0] {
                 let value = found.p[row.place] + side * found.covariance.error(row.place);

@@ -13,9 +13,10 @@ mod strange;
 
 use std::fs;
 
-use hopfscope::fit::names::{Choice, NAMES, NameSpec, named};
-use hopfscope::fit::observation::{Data, Observation, StartKind, UNKNOWNS};
-use hopfscope::fit::{Estimate, Question, Record, Signal, estimate};
+use hopfscope::fit::{
+    Choice, Data, Estimate, NAMES, NameSpec, Observation, Question, Record, Residual, Signal,
+    StartKind, UNKNOWNS, estimate, named,
+};
 use hopfscope::numerics::elementary::powi;
 use hopfscope::numerics::random::Random;
 use program::{json, run};
@@ -140,12 +141,12 @@ impl Simulated {
     fn record(&self, seed: u64) -> Record {
         let t = self.times();
         let data = Data::Samples { x: vec![0.0; t.len()], t: t.clone(), signal: self.signal };
-        let observation = Observation { data, start: self.start, linear: false, reach: 1e9 };
+        let observation = Observation { data: &data, start: self.start, reach: 1e9 };
         let motion = observation.compare(&without_drift(&self.p), false).unwrap().residuals;
         let mut chance = Random::new(seed);
         let mut error = chance.normal();
         let fresh = (1.0 - self.memory * self.memory).sqrt();
-        let noisy = |seen: &hopfscope::fit::observation::Residual| {
+        let noisy = |seen: &Residual| {
             error = self.memory * error + fresh * chance.normal();
             self.noise * error - seen.value
         };

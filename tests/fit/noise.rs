@@ -1,6 +1,12 @@
 //! Intervals, noise and left-out samples for records made from a known truth.
 
+use hopfscope::fit::Dropped;
+
 use super::*;
+
+fn outliers(found: &Estimate) -> usize {
+    found.count(Dropped::Outlier)
+}
 
 /// The number of estimates whose 95 % intervals contain the truth, for each number.
 fn covered(estimates: &[Estimate], p: &Unknowns) -> Vec<usize> {
@@ -58,7 +64,7 @@ fn outliers_are_left_out_and_do_not_change_the_fit() {
     let question = Question::default();
     let clean = estimate(&clean, &question, &|| false).unwrap();
     let dirty = estimate(&dirty, &question, &|| false).unwrap();
-    assert_eq!((clean.outliers(), dirty.outliers()), (0, spoiled));
+    assert_eq!((outliers(&clean), outliers(&dirty)), (0, spoiled));
     for row in &NAMES {
         let (one, other) = (clean.p[row.place], dirty.p[row.place]);
         let error = clean.covariance.error(row.place);
@@ -82,7 +88,8 @@ fn readings_at_rest_of_a_coarse_converter_do_not_count_as_independent() {
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
         let interval = found.intervals[r];
         covered += usize::from(interval.lower.unwrap() <= p[r] && p[r] <= interval.upper.unwrap());
-        assert!(found.alike > 500 && found.outliers() == 0, "{} {}", found.alike, found.outliers());
+        let alike = found.count(Dropped::Alike);
+        assert!(alike > 500 && outliers(&found) == 0, "{alike} {}", outliers(&found));
         // With one common error of the rest and one of the hold, the bound is 1.7 times that for independent errors.
         let error = found.covariance.error(r);
         assert!((3e-4..7e-4).contains(&error), "{error}");

@@ -1,9 +1,6 @@
 //! Records of velocities and accelerations, and records whose zero drifts.
 
-use hopfscope::fit::conditions::conditions;
-use hopfscope::fit::dropped::{Dropped, dropped};
-use hopfscope::fit::observation::{LAST, OFFSET, OMEGA0, SLOPE};
-use hopfscope::fit::{Margins, Reading, parse};
+use hopfscope::fit::{Dropped, LAST, Margins, OFFSET, OMEGA0, Reading, SLOPE, conditions, parse};
 use hopfscope::model::{ParameterBox, Parameters};
 use hopfscope::numerics::elementary::sin;
 
@@ -119,7 +116,7 @@ fn the_gradient_of_every_signal_is_that_of_differences() {
             (p[LAST], p[SLOPE], p[SLOPE + 1]) = (0.3, 0.7, -0.4);
             let t: Vec<f64> = (0..200_u8).map(|i| 0.013 + 0.02 * f64::from(i)).collect();
             let data = Data::Samples { x: vec![0.0; t.len()], t, signal };
-            let observation = Observation { data, start, linear: false, reach: 1e9 };
+            let observation = Observation { data: &data, start, reach: 1e9 };
             let exact = observation.compare(&p, true).unwrap().residuals;
             for place in 0..UNKNOWNS {
                 let step = 1e-6 * p[place].abs().max(1e-2);
@@ -161,7 +158,8 @@ fn a_blow_on_a_mass_at_rest_is_cut_off_where_nothing_else_explains_the_record() 
             (0..u32::try_from(x.len()).unwrap()).map(|index| 0.005 * f64::from(index)).collect();
         let record = Record { t: Some(t), x, signal, ..Record::default() };
         let found = estimate(&record, &Question::default(), &|| false).unwrap();
-        assert!(found.before >= 100 && found.start == StartKind::Moving, "{}", found.before);
+        let before = found.count(Dropped::Before);
+        assert!(before >= 100 && found.start == StartKind::Moving, "{before}");
         assert!(!found.whiteness.systematic, "{signal}");
         let damping = NAMES.iter().filter(|row| row.place != OFFSET);
         assert_near(&found, &struck.p, 4.0, damping);
@@ -239,13 +237,12 @@ fn the_sentence_that_may_be_signed_says_the_same_of_every_signal_and_of_a_fitted
 fn the_jumps_of_an_acceleration_do_not_count_and_are_told_apart() {
     let record = Simulated { signal: Signal::Acceleration, noise: 5.0, ..RELEASED }.record(3);
     let found = estimate(&record, &Question::default(), &|| false).unwrap();
-    let why = dropped(&record, &found);
-    let at_jumps = why.iter().filter(|why| **why == Some(Dropped::Jump)).count();
-    assert!(at_jumps == found.jumps.len() && at_jumps >= found.half_swings, "{at_jumps}");
+    let at_jumps = found.count(Dropped::Jump);
+    assert!(at_jumps >= found.half_swings, "{at_jumps}");
     let (told, _) = answered("t [s],a [mm/s^2]", &record, 1.0, &[]);
     let places = told["left_out"].as_array().unwrap().iter();
     let listed: u64 = places.map(|place| place["samples"].as_u64().unwrap()).sum();
-    assert_eq!(listed, why.iter().flatten().count() as u64);
+    assert_eq!(listed, found.dropped.iter().flatten().count() as u64);
 }
 
 #[test]

@@ -1,8 +1,6 @@
 //! What may be signed after a fit: the sentence, one-sided, and its conditions.
 
-use hopfscope::fit::Inertia;
-use hopfscope::fit::conditions::conditions;
-use hopfscope::fit::{MarginQuestion, Margins, margins};
+use hopfscope::fit::{Inertia, MarginQuestion, Margins, conditions, margins};
 use hopfscope::flow::Limits;
 use hopfscope::model::{Interval, ParameterBox, Parameters};
 use hopfscope::portrait::RestMargin;

@@ -3,8 +3,7 @@
 use std::f64::consts::PI;
 
 use super::pieces::{curve, picture, points, window, with_unit};
-use crate::fit::Fitted;
-use crate::fit::observation::{D, D3, R};
+use crate::fit::{D, D3, Fitted, R};
 use crate::picture::items::{Item, LineStyle, Marks, Picture};
 use crate::picture::role::{CycleStyle, Dash, Mark, Role, cycle_style};
 use crate::scene::Point;

@@ -1,6 +1,6 @@
 //! The samples of a record, those that do not count marked by what they are.
 
-use crate::fit::dropped::Dropped;
+use crate::fit::Dropped;
 use crate::picture::items::{Item, Marks, Picture};
 use crate::picture::role::{Mark, Role};
 use crate::scene::Point;

@@ -4,10 +4,7 @@
 use super::damping::damping;
 use super::dropped::mark;
 use super::pieces::{StyledPoints, at, curve, picture, points, window, with_unit};
-use crate::fit::curves::memory as memory_of;
-use crate::fit::dropped::{Dropped, dropped, dropped_of_fitted};
-use crate::fit::observation::{D, Data, Q0, R};
-use crate::fit::{Fitted, Signal, parameters};
+use crate::fit::{D, Dropped, Fitted, Q0, R, Signal, memory as memory_of, parameters};
 use crate::flow::Limits;
 use crate::model::{Parameters, State};
 use crate::numerics::count::real;
@@ -43,8 +40,8 @@ fn record(fitted: &Fitted) -> Option<Picture<'static>> {
     if let Some(times) = Span::covering(record.t.iter().flatten().copied()) {
         picture.window.x = times.scaled(times.center(), 1.06);
     }
-    let all = record.t.iter().flatten().zip(&record.x).zip(dropped(record, &fitted.estimate));
-    mark(&mut picture, all.filter_map(|((t, x), why)| Some((at(*t, *x), why?))));
+    let all = record.t.iter().flatten().zip(&record.x).zip(&fitted.estimate.dropped);
+    mark(&mut picture, all.filter_map(|((t, x), why)| Some((at(*t, *x), (*why)?))));
     Some(picture)
 }
 
@@ -61,14 +58,12 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
     ];
     let names = ("t [s]".to_owned(), with_unit("measured - fitted", &fitted.signal_unit()));
     let mut picture = picture("residuals", names, curves, None)?;
-    if let Data::Samples { t, .. } = &fitted.estimate.data {
-        let all = t.iter().zip(&fitted.estimate.residuals).enumerate();
-        let apart = all.filter_map(|(index, (t, e))| {
-            let why = dropped_of_fitted(&fitted.estimate, index)?;
-            matches!(why, Dropped::Outlier | Dropped::Jump).then(|| (at(*t, *e), why))
-        });
-        mark(&mut picture, apart);
-    }
+    let all = fitted.estimate.data.times().iter().zip(&fitted.estimate.residuals);
+    let apart = all.zip(fitted.estimate.dropped_data()).filter_map(|((t, e), why)| {
+        let why = why.filter(|it| matches!(it, Dropped::Outlier | Dropped::Jump))?;
+        Some((at(*t, *e), why))
+    });
+    mark(&mut picture, apart);
     Some(picture)
 }
 

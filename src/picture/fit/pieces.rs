@@ -1,6 +1,6 @@
 //! Pieces of the pictures of a fit.
 
-use crate::fit::curves::{Extent, PlotPoint};
+use crate::fit::{Extent, PlotPoint};
 use crate::picture::items::{LineStyle, Picture};
 use crate::picture::role::{Dash, Role};
 use crate::scene::{Point, Span, Window};

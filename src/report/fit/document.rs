@@ -2,13 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::fit::Fitted;
-use crate::fit::left_out::left_out;
-use crate::fit::margin::{KickSpreads, Spread};
-use crate::fit::names::{NAMES, NameSpec};
-use crate::fit::observation::{LAST, Q0, StartKind};
-use crate::fit::physical::{kicks, rows};
-use crate::fit::separable::{Combination, combinations};
+use crate::fit::{
+    Combination, Dropped, Fitted, KickSpreads, LAST, NAMES, NameSpec, Q0, Spread, StartKind,
+    combinations, kicks, left_out, rows,
+};
 use crate::report::columns::Columns;
 use crate::report::json::Document;
 use crate::words::fit::sentences;
@@ -46,9 +43,9 @@ pub fn json(fitted: &Fitted) -> String {
         .with("rests", estimate.rests)
         .with("separable", combinations(estimate).iter().map(separable).collect::<Vec<_>>())
         .with("valleys", &estimate.rivals)
-        .with("outliers", estimate.outliers())
-        .with("saturated", estimate.saturated)
-        .with("excited_again", estimate.after)
+        .with("outliers", estimate.count(Dropped::Outlier))
+        .with("saturated", estimate.count(Dropped::Saturated))
+        .with("excited_again", estimate.count(Dropped::After))
         .with("missing", record.missing)
         .with("repeated", record.repeated)
         .with("left_out", left_out(record, estimate))
@@ -74,10 +71,11 @@ fn start(fitted: &Fitted) -> Document {
         StartKind::Release => ("release", "t0"),
         StartKind::Moving => ("moving", "v0"),
     };
+    let struck_after = Some(estimate.count(Dropped::Before)).filter(|before| *before > 0);
     Document::default()
         .with("kind", kind)
         .with("q0", value(Q0))
-        .with_any("struck_after", Some(estimate.before).filter(|before| *before > 0))
+        .with_any("struck_after", struck_after)
         .with_any(last, estimate.free[LAST].then(|| value(LAST)))
 }
 
@@ -101,7 +99,7 @@ fn physical(fitted: &Fitted) -> Option<Document> {
         rows(fitted).into_iter().map(|number| (number.name, number)).collect();
     let guaranteed = fitted.margins.guaranteed.as_ref().map(scaled);
     let document = Document::default().with("numbers", numbers);
-    Some(document.and(&scaled(&fitted.margins.kicks())).with_any("guaranteed", guaranteed))
+    Some(document.and(&scaled(&fitted.margins.kicks)).with_any("guaranteed", guaranteed))
 }
 
 /// An estimated number or a margin.
@@ -163,7 +161,7 @@ fn number_columns<'a>() -> Columns<'a, EstimateRow> {
 /// One row for each estimated number, then the margins.
 pub fn csv(fitted: &Fitted) -> String {
     let numbers = fitted.estimate.wanted().map(|row| EstimateRow::of_number(fitted, row));
-    let margins = EstimateRow::of_kicks("margin", &fitted.margins.kicks());
+    let margins = EstimateRow::of_kicks("margin", &fitted.margins.kicks);
     let guaranteed = fitted.margins.guaranteed.as_ref();
     let guaranteed = guaranteed.map(|kicks| EstimateRow::of_kicks("guaranteed", kicks));
     let rows = numbers.chain(margins).chain(guaranteed.into_iter().flatten());

@@ -1,9 +1,7 @@
 //! A fit as a page that can be signed.
 
 use super::table::{NUMBERS, correlations, draws, forces, margins, numbers, start, subject};
-use crate::fit::Fitted;
-use crate::fit::conditions::Condition;
-use crate::fit::left_out::{LeftOut, left_out};
+use crate::fit::{Condition, Fitted, LeftOut, left_out};
 use crate::report::columns::Columns;
 use crate::report::page::{Page, Part, Section, Source, origin};
 use crate::report::table::Table;

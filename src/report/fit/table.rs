@@ -1,11 +1,9 @@
 //! A fit as readable text.
 
-use crate::fit::Fitted;
-use crate::fit::conditions::Condition;
-use crate::fit::margin::{KickSpreads, Spread};
-use crate::fit::names::{NAMES, NameSpec};
-use crate::fit::observation::{Data, LAST, Q0, StartKind};
-use crate::fit::physical::{EstimatedNumber, kicks, rows};
+use crate::fit::{
+    Condition, Data, Dropped, EstimatedNumber, Fitted, KickSpreads, LAST, NAMES, NameSpec, Q0,
+    Spread, StartKind, kicks, rows,
+};
 use crate::report::columns::Columns;
 use crate::report::table::Table;
 use crate::words::fit::{broken, sentences};
@@ -68,7 +66,9 @@ pub(super) fn subject(fitted: &Fitted) -> String {
             let span = t.last().zip(t.first()).map_or(0.0, |(last, first)| last - first);
             let begin = match estimate.start {
                 StartKind::Release => "released within it",
-                StartKind::Moving if estimate.before > 0 => "since the mass was struck",
+                StartKind::Moving if estimate.count(Dropped::Before) > 0 => {
+                    "since the mass was struck"
+                }
                 StartKind::Moving => "in motion from its beginning",
             };
             let signal = fitted.record.signal;
@@ -170,7 +170,7 @@ pub(super) fn margins(fitted: &Fitted) -> Table {
     let shown = |value: Option<f64>, row: &SpreadRow| {
         value.map_or("none".to_owned(), |value| significant(value * row.scale, 4))
     };
-    let mut all = Vec::from(kicks("smallest", &margins.kicks()));
+    let mut all = Vec::from(kicks("smallest", &margins.kicks));
     all.extend(margins.guaranteed.iter().flat_map(|it| kicks("guaranteed, smallest", it)));
     all.push(row("stable cycle, right turning point", margins.cycle, 1.0, length));
     all.push(row("D of the fold, above which all is survived", margins.fold, 1.0, ""));

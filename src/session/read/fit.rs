@@ -2,9 +2,7 @@
 
 use crate::accuracy::trade::TradePoint;
 use crate::closed_form::lyapunov;
-use crate::fit::Signal;
-use crate::fit::curves::Extent;
-use crate::fit::dropped::Dropped;
+use crate::fit::{Dropped, Extent, Signal};
 use crate::flow::{Outcome, Trajectory};
 use crate::model::parameters::energy;
 use crate::model::{Knob, State};

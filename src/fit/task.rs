@@ -1,0 +1,304 @@
+//! What is estimated from a record, and how well a motion explains it.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{
+    BEND, Data, IMPOSSIBLE, Loss, OMEGA0, Observation, Region, Residual, SLOPE, Seen, StartKind,
+    UNKNOWNS, Unfit, Unknowns, robust_deviation, whiteness,
+};
+use crate::numerics::count::real;
+
+/// Counters of the computation, and the check for an interruption.
+pub struct Runs<'a> {
+    /// Number of motions computed with derivatives.
+    pub with_derivatives: u64,
+    /// Number of motions computed without derivatives.
+    pub plain: u64,
+    /// Called before each motion; `true` ends the computation.
+    pub interrupted: &'a dyn Fn() -> bool,
+    /// The smallest root mean square of residuals that a descent has reached.
+    pub closest: f64,
+}
+
+impl<'a> Runs<'a> {
+    /// Counters at zero.
+    pub fn new(interrupted: &'a dyn Fn() -> bool) -> Self {
+        Runs { with_derivatives: 0, plain: 0, interrupted, closest: f64::INFINITY }
+    }
+}
+
+/// Turns an interruption into an error; passes on every other result.
+///
+/// # Errors
+/// [`Unfit::Interrupted`].
+pub fn interrupted<T>(result: Result<T, Unfit>) -> Result<Option<T>, Unfit> {
+    match result {
+        Err(Unfit::Interrupted) => Err(Unfit::Interrupted),
+        other => Ok(other.ok()),
+    }
+}
+
+/// The point at which a descent ended.
+#[derive(Clone, Debug)]
+pub struct Optimum {
+    /// How the motion begins.
+    pub start: StartKind,
+    /// The unknowns.
+    pub p: Unknowns,
+    /// The loss, in squared units of the residuals.
+    pub cost: f64,
+    /// The model compared with the record, with derivatives.
+    pub seen: Seen,
+}
+
+impl Optimum {
+    /// Number of half swings within the record.
+    pub fn half_swings(&self) -> usize {
+        self.seen.turns.len()
+    }
+
+    /// The lower of two minima with the same start.
+    pub fn or_lower(self, other: Option<Optimum>) -> Self {
+        other.filter(|other| other.cost < self.cost).unwrap_or(self)
+    }
+}
+
+/// What is estimated from a record, and how residuals are weighted.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'a> {
+    /// Record and model.
+    pub observation: Observation<'a>,
+    /// Which unknowns are free.
+    pub free: [bool; UNKNOWNS],
+    /// How residuals are weighted.
+    pub loss: Loss,
+    /// Which residuals count; all of them if empty.
+    pub used: &'a [bool],
+    /// Standard deviation of the noise, if it is known beforehand; else 0.
+    pub noise: f64,
+    /// Only this many residuals, from the first on, count.
+    pub horizon: usize,
+    /// The region that a descent must not leave, if it is confined to one.
+    pub within: Option<Region>,
+}
+
+/// What the residuals of a minimum may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// White and small.
+    Noise,
+    /// Small, with short-range correlation: filtered noise, or a minimum next to the right one.
+    Correlated,
+    /// Too large, or oscillating with the motion.
+    Unexplained,
+}
+
+/// Residuals up to this many times the noise of neighbouring differences may still be noise, since these underestimate
+/// filtered noise.
+pub const HIDDEN: f64 = 3.0;
+
+/// So many samples in a row that do not belong to the motion are no outliers: then the motion is wrong.
+pub const RUN: usize = 5;
+
+/// The length of the longest run of `true`.
+pub fn longest_run(flags: impl Iterator<Item = bool>) -> usize {
+    let (longest, _) = flags.fold((0, 0), |(longest, run), flag| {
+        let run = if flag { run + 1 } else { 0 };
+        (longest.max(run), run)
+    });
+    longest
+}
+
+/// Values of some unknowns, with zero for all others.
+pub fn scattered(columns: &[usize], values: &DVector<f64>) -> Unknowns {
+    let mut all = [0.0; UNKNOWNS];
+    for (&column, value) in columns.iter().zip(values.iter()) {
+        all[column] = *value;
+    }
+    all
+}
+
+/// A point moved by a part of a step.
+pub fn moved(p: &Unknowns, part: f64, step: &Unknowns) -> Unknowns {
+    std::array::from_fn(|place| p[place] + part * step[place])
+}
+
+impl<'a> Task<'a> {
+    /// All unknowns and residuals of a record, of which nothing else is known.
+    pub fn new(data: &'a Data, start: StartKind, free: [bool; UNKNOWNS], reach: f64) -> Self {
+        let observation = Observation { data, start, reach };
+        let (loss, used, noise) = (Loss::LINEAR, &[][..], 0.0);
+        Task { observation, free, loss, used, noise, horizon: usize::MAX, within: None }
+    }
+
+    /// The same for a motion that begins in this way.
+    pub fn starting(self, start: StartKind) -> Self {
+        Task { observation: Observation { start, ..self.observation }, ..self }
+    }
+
+    /// The same within the region of a motion.
+    pub fn around(self, seen: &Seen) -> Self {
+        Task { within: Some(seen.region), ..self }
+    }
+
+    /// The same with one of the unknowns held.
+    pub fn holding(mut self, place: usize) -> Self {
+        self.free[place] = false;
+        self
+    }
+
+    /// The same with a drift of the zero.
+    pub fn with_drift(mut self) -> Self {
+        (self.free[SLOPE], self.free[BEND]) = (true, true);
+        self
+    }
+
+    fn counts(&self, index: usize) -> bool {
+        index < self.horizon && self.used.get(index).copied().unwrap_or(true)
+    }
+
+    /// The residuals that count.
+    pub fn used_residuals<'s>(&self, seen: &'s Seen) -> impl Iterator<Item = &'s Residual> {
+        let used = seen.residuals.iter().enumerate().filter(|(index, _)| self.counts(*index));
+        used.map(|(_, residual)| residual)
+    }
+
+    /// The values of the residuals that count.
+    pub fn values(&self, seen: &Seen) -> Vec<f64> {
+        self.used_residuals(seen).map(|residual| residual.value).collect()
+    }
+
+    /// The loss of a motion.
+    pub fn cost(&self, seen: &Seen) -> f64 {
+        self.used_residuals(seen).map(|residual| self.loss.of(residual.value)).sum()
+    }
+
+    /// The loss of one residual of many.
+    pub fn unit(&self, cost: f64) -> f64 {
+        cost / real(self.observation.data.residuals().max(1))
+    }
+
+    /// Compares the model with the record, and counts the motion.
+    ///
+    /// # Errors
+    /// [`Unfit`] if the motion of the model escapes, or when interrupted.
+    pub fn evaluated(
+        &self,
+        p: &Unknowns,
+        derivatives: bool,
+        runs: &mut Runs,
+    ) -> Result<Seen, Unfit> {
+        if (runs.interrupted)() {
+            return Err(Unfit::Interrupted);
+        }
+        *(if derivatives { &mut runs.with_derivatives } else { &mut runs.plain }) += 1;
+        self.observation.compare(p, derivatives).map_err(|_| Unfit::NoMotion)
+    }
+
+    /// The places of the free unknowns.
+    pub fn columns(&self) -> Vec<usize> {
+        (0..UNKNOWNS).filter(|&column| self.free[column]).collect()
+    }
+
+    /// The triangular factor of the weighted gradients of the free unknowns, with the residuals as a last column.
+    pub fn factor(&self, seen: &Seen) -> DMatrix<f64> {
+        let columns = self.columns();
+        let width = columns.len() + 1;
+        triangle(width, seen.residuals.len(), |index, row| {
+            let residual = &seen.residuals[index];
+            let weight =
+                if self.counts(index) { self.loss.weight(residual.value).sqrt() } else { 0.0 };
+            for (cell, &column) in row.iter_mut().zip(&columns) {
+                *cell = weight * residual.by[column];
+            }
+            row[width - 1] = weight * residual.value;
+        })
+    }
+
+    /// The triangular factor of the weighted gradients alone.
+    pub fn upper(&self, seen: &Seen) -> DMatrix<f64> {
+        let factor = self.factor(seen);
+        let width = factor.ncols() - 1;
+        factor.view((0, 0), (width, width)).into_owned()
+    }
+
+    /// The rows of Q if the weighted gradients of the residuals that count are `Q U`, with an orthogonal Q and a
+    /// triangular U.
+    pub fn directions(&self, seen: &Seen) -> Vec<DVector<f64>> {
+        let (columns, lower) = (self.columns(), self.upper(seen).transpose());
+        let row = |it: &Residual| {
+            let root = self.loss.weight(it.value).sqrt();
+            let row = columns.iter().map(|&column| root * it.by[column]);
+            let row = DVector::from_iterator(columns.len(), row);
+            lower.solve_lower_triangular(&row).unwrap_or_else(|| DVector::zeros(columns.len()))
+        };
+        self.used_residuals(seen).map(row).collect()
+    }
+
+    /// Whether the residuals look like noise.
+    pub fn verdict(&self, optimum: &Optimum) -> Verdict {
+        let Data::Samples { t, .. } = self.observation.data else { return Verdict::Unexplained };
+        let residuals = self.values(&optimum.seen);
+        let deviation = robust_deviation(residuals.iter().copied());
+        // Outliers that a robust loss tolerates must not look like an oscillation.
+        let within = residuals.iter().map(|value| value.clamp(-4.0 * deviation, 4.0 * deviation));
+        let rate = real(t.len()) / (t[t.len() - 1] - t[0]);
+        let period = rate * std::f64::consts::TAU / optimum.p[OMEGA0];
+        let found = whiteness(&within.collect::<Vec<_>>(), period);
+        let is_far = |value: &f64| value.abs() > IMPOSSIBLE * deviation;
+        let runs_off = longest_run(residuals.iter().map(is_far)) >= RUN;
+        if found.systematic || runs_off || !self.is_small(deviation) {
+            Verdict::Unexplained
+        } else if found.white {
+            Verdict::Noise
+        } else {
+            Verdict::Correlated
+        }
+    }
+
+    fn is_small(&self, deviation: f64) -> bool {
+        deviation <= HIDDEN * self.noise
+    }
+
+    /// Whether the residuals are no larger than noise may be. Their correlation does not matter, since those of
+    /// a coarse converter are all equal while the mass rests.
+    pub fn comes_near(&self, optimum: &Optimum) -> bool {
+        self.is_small(mean_square(&self.values(&optimum.seen)).sqrt())
+    }
+
+    /// Whether the residuals may be noise.
+    pub fn explains(&self, optimum: &Optimum) -> bool {
+        self.verdict(optimum) != Verdict::Unexplained
+    }
+}
+
+/// The mean of the squares of values.
+pub fn mean_square(values: &[f64]) -> f64 {
+    values.iter().map(|it| it * it).sum::<f64>() / real(values.len())
+}
+
+/// The triangular factor of a matrix with `count` rows and `width` columns, computed by blocks of rows.
+///
+/// `fill(index, row)` writes row `index`. The orthogonal factor is never formed: a vector to which it would be
+/// applied is appended as another column.
+fn triangle(width: usize, count: usize, mut fill: impl FnMut(usize, &mut [f64])) -> DMatrix<f64> {
+    /// Number of rows that are factored together, few enough to stay in the cache.
+    const BLOCK: usize = 128;
+    let mut factor = DMatrix::zeros(width, width);
+    let mut row = vec![0.0; width];
+    let mut begin = 0;
+    while begin < count {
+        let end = (begin + BLOCK).min(count);
+        let mut block = DMatrix::zeros(width + end - begin, width);
+        block.rows_mut(0, width).copy_from(&factor);
+        for index in begin..end {
+            fill(index, &mut row);
+            for (column, value) in row.iter().enumerate() {
+                block[(width + index - begin, column)] = *value;
+            }
+        }
+        factor = block.qr().r().rows(0, width).into_owned();
+        begin = end;
+    }
+    factor
+}
