@@ -44,50 +44,27 @@ pub fn lines(text: &str) -> Vec<NumberedLine<'_>> {
     found
 }
 
-/// What separates the cells of a line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Separator {
-    /// This character.
-    Sign(char),
-    /// One or more blanks.
-    Blanks,
+/// The sign that separates the cells in the last rows, which are data in every file; `None` for blanks.
+pub fn separator(lines: &[NumberedLine]) -> Option<char> {
+    /// Number of rows that decide.
+    const ROWS: usize = 20;
+    let last = &lines[lines.len().saturating_sub(ROWS)..];
+    let most = |sign: &dyn Fn(&str) -> bool| {
+        2 * last.iter().filter(|line| sign(line.text)).count() > last.len()
+    };
+    let blank = |text: &str| {
+        let cells: Vec<&str> = text.split_whitespace().collect();
+        cells.len() > 1 && cells.iter().all(|cell| matches!(read(cell, true), Cell::Number(_)))
+    };
+    let is_comma = || most(&|text| text.contains(',')) && !most(&blank);
+    let sign = [';', '\t'].into_iter().find(|&sign| most(&|text| text.contains(sign)));
+    sign.or_else(|| is_comma().then_some(','))
 }
 
-impl Separator {
-    /// The separator found in the last rows, which are data in every file.
-    pub fn of(lines: &[NumberedLine]) -> Self {
-        /// Number of rows that decide.
-        const ROWS: usize = 20;
-        let last = &lines[lines.len().saturating_sub(ROWS)..];
-        let most = |sign: &dyn Fn(&str) -> bool| {
-            2 * last.iter().filter(|line| sign(line.text)).count() > last.len()
-        };
-        if let Some(sign) = [';', '\t'].into_iter().find(|&sign| most(&|text| text.contains(sign)))
-        {
-            return Separator::Sign(sign);
-        }
-        let blank = |text: &str| {
-            let cells: Vec<&str> = text.split_whitespace().collect();
-            cells.len() > 1 && cells.iter().all(|cell| matches!(read(cell, true), Cell::Number(_)))
-        };
-        if most(&|text| text.contains(',')) && !most(&blank) {
-            return Separator::Sign(',');
-        }
-        Separator::Blanks
-    }
-
-    /// The cells of a line.
-    pub fn cells(self, text: &str) -> Vec<&str> {
-        match self {
-            Separator::Sign(sign) => split(text, sign).into_iter().map(unquoted).collect(),
-            Separator::Blanks => words(text).into_iter().map(unquoted).collect(),
-        }
-    }
-
-    /// Whether a comma may be part of a number.
-    pub fn comma_is_decimal(self) -> bool {
-        self != Separator::Sign(',')
-    }
+/// The cells of a line.
+pub fn cells(text: &str, separator: Option<char>) -> Vec<&str> {
+    let cells = separator.map_or_else(|| words(text), |sign| split(text, sign));
+    cells.into_iter().map(|cell| cell.trim().trim_matches('"').trim()).collect()
 }
 
 /// The parts between separators outside quotation marks. Quotation marks that do not pair have no special meaning.
@@ -117,10 +94,6 @@ fn words(text: &str) -> Vec<&str> {
         }
     }
     found
-}
-
-fn unquoted(cell: &str) -> &str {
-    cell.trim().trim_matches('"').trim()
 }
 
 /// The value of a cell.

@@ -76,21 +76,23 @@ pub fn conditions(estimate: &Estimate, margins: &Margins) -> Vec<Condition> {
         ),
     ];
     let left = estimate.left_drift;
-    if left.is_seen() {
-        let detail = format!("the zero drifts by {:.2e} over the record", left.change);
-        all.push(state("zero", false, detail));
-    } else if let Some(drift) = estimate.drift() {
+    let fitted = estimate.drift().filter(|_| !left.is_seen());
+    let is_hidden = fitted.is_none() && !left.is_seen() && left.moved > IMPOSSIBLE;
+    let (holds, detail) = if left.is_seen() {
+        (false, format!("the zero drifts by {:.2e} over the record", left.change))
+    } else if let Some(drift) = fitted {
         let detail = format!("it drifts by {:.2e} over the record, which is fitted", drift.change);
-        all.push(state("zero", !whiteness.systematic, detail));
-    } else if left.moved > IMPOSSIBLE {
+        (!whiteness.systematic, detail)
+    } else if is_hidden {
         let detail = format!(
             "a drift by {:.2e}, too small to be seen, would move a number by {:.1} standard errors",
             left.change, left.moved
         );
-        all.push(Condition { essential: false, ..state("zero", false, detail) });
+        (false, detail)
     } else {
-        all.push(state("zero", true, "no drift is seen".to_owned()));
-    }
+        (true, "no drift is seen".to_owned())
+    };
+    all.push(Condition { essential: !is_hidden, ..state("zero", holds, detail) });
     if estimate.noise.deviation > 0.0 {
         let detail = format!("{ratio:.2} times the noise of neighbouring differences");
         all.insert(1, state("noise", ratio <= HIDDEN, detail));

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{
     Data, Dropped, Estimate, Margins, OFFSET, OMEGA0, Q0, Way, autocorrelations, averaged, follow,
-    parameters,
+    parameters, rate,
 };
 use crate::model::{Parameters, State};
 use crate::numerics::count::{real, truncated};
@@ -47,9 +47,9 @@ impl Curves {
     /// The window in which the residuals are shown.
     pub fn residual_extent(&self, deviation: f64) -> Option<Extent> {
         let seen = self.sampled.as_ref()?;
-        let sizes = seen.residual.iter().filter(|it| it.is_finite()).map(|it| it.abs());
+        let sizes = seen.points.iter().map(|[.., residual]| residual.abs());
         let far = 1.06 * sizes.fold(2.0 * deviation, f64::max);
-        Some([*seen.t.first()?, *seen.t.last()?, -far, far])
+        Some([seen.points.first()?[0], seen.points.last()?[0], -far, far])
     }
 
     /// Computes all curves.
@@ -57,7 +57,7 @@ impl Curves {
         let (spread, spread_extent) = spread(estimate, margins);
         let sampled = Sampled::of(estimate);
         let farthest = match (&sampled, &estimate.data) {
-            (Some(seen), _) => seen.motion.iter().map(|[_, q, _]| q.abs()).fold(0.0, f64::max),
+            (Some(seen), _) => seen.motion.iter().map(|[_, q, ..]| q.abs()).fold(0.0, f64::max),
             // What was measured at a peak less its residual is how far the fitted motion goes.
             (None, data) => data
                 .values()
@@ -74,7 +74,7 @@ impl Curves {
 pub fn memory(estimate: &Estimate) -> Vec<PlotPoint> {
     const LAGS: usize = 400;
     let Data::Samples { t, .. } = &estimate.data else { return Vec::new() };
-    let step = (t[t.len() - 1] - t[0]) / real(t.len());
+    let step = 1.0 / rate(t);
     let kept: Vec<f64> = estimate.kept_residuals().collect();
     let periods = 2.0 * TAU / estimate.p[OMEGA0];
     let most = (truncated(periods / step)).clamp(4, (kept.len() / 2).max(4));
@@ -113,7 +113,7 @@ fn damping(estimate: &Estimate, margins: &Margins, farthest: f64) -> Damping {
         .map(|[a, delta]| [a, delta, error_of_decrement(estimate, a)])
         .collect();
     let exact: Vec<PlotPoint> = amplitudes.iter().filter_map(|&a| exact(&parameters, a)).collect();
-    let own = |a: f64| averaged(parameters.d, parameters.d3, parameters.r, a);
+    let own = |a: f64| averaged(&parameters, a);
     let computed = exact.iter().filter(|it| it[0] >= smallest).map(|it| it[1]);
     let [low, high] =
         covering(&computed.collect::<Vec<_>>(), measured.iter().map(|it| it[1]).collect());
@@ -148,10 +148,7 @@ fn covering(computed: &[f64], mut measured: Vec<f64>) -> [f64; 2] {
 /// each of which is read from the samples of about a sixth of a period.
 fn error_of_decrement(estimate: &Estimate, a: f64) -> f64 {
     let read = match &estimate.data {
-        Data::Samples { t, .. } => {
-            let rate = real(t.len()) / (t[t.len() - 1] - t[0]);
-            (rate * TAU / estimate.p[OMEGA0] / 6.0).max(1.0)
-        }
+        Data::Samples { t, .. } => (rate(t) * TAU / estimate.p[OMEGA0] / 6.0).max(1.0),
         Data::Peaks { .. } => 1.0,
     };
     estimate.covariance.deviation / read.sqrt() / (TAU * a)
@@ -161,8 +158,7 @@ fn error_of_decrement(estimate: &Estimate, a: f64) -> f64 {
 fn band(margins: &Margins, amplitudes: &[f64]) -> Vec<PlotPoint> {
     let (mut below, mut above) = (Vec::new(), Vec::new());
     for &a in amplitudes {
-        let mut values: Vec<f64> =
-            margins.draws.iter().map(|draw| averaged(draw.d, draw.d3, draw.r, a)).collect();
+        let mut values: Vec<f64> = margins.draws.iter().map(|draw| averaged(draw, a)).collect();
         values.sort_by(f64::total_cmp);
         let Some(last) = values.len().checked_sub(1) else { continue };
         below.push([a, values[(values.len() / 20).min(last)]]);
@@ -201,18 +197,12 @@ fn spread(estimate: &Estimate, margins: &Margins) -> (Vec<PlotPoint>, Extent) {
 const POINTS: usize = 4000;
 
 /// The plotted points of a sampled record, without outliers and jumps.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Sampled {
-    /// Times in s; NaN in a gap.
-    pub t: Vec<f64>,
-    /// The signal.
-    pub x: Vec<f64>,
-    /// Differences from the fitted motion.
-    pub residual: Vec<f64>,
-    /// The fitted motion: time, displacement from the offset, velocity over omega0.
-    pub motion: Vec<[f64; 3]>,
-    /// The signal of the fitted motion at these times, with its offset.
-    pub fitted: Vec<f64>,
+    /// Time in s, the signal, and its difference from the fitted motion; NaN in a gap.
+    pub points: Vec<[f64; 3]>,
+    /// The fitted motion: time, displacement from the offset, velocity over omega0, and the signal with its offset.
+    pub motion: Vec<[f64; 4]>,
 }
 
 impl Sampled {
@@ -222,29 +212,22 @@ impl Sampled {
         const GAP: f64 = 6.0;
         let Data::Samples { t, x, .. } = &estimate.data else { return None };
         let every = t.len().div_ceil(POINTS);
-        let (motion, fitted) = motion(estimate, t);
-        let mut seen = Sampled { motion, fitted, ..Sampled::default() };
-        let step = (t[t.len() - 1] - t[0]) * real(every) / real(t.len());
+        let mut points: Vec<[f64; 3]> = Vec::new();
         for (index, why) in estimate.dropped_data().enumerate().step_by(every) {
-            if seen.t.last().is_some_and(|last| t[index] - last > GAP * step) {
-                seen.push([f64::NAN; 3]);
+            let gap = GAP * real(every) / rate(t);
+            if points.last().is_some_and(|[last, ..]| t[index] - last > gap) {
+                points.push([f64::NAN; 3]);
             }
             if !matches!(why, Some(Dropped::Outlier | Dropped::Jump)) {
-                seen.push([t[index], x[index], estimate.residuals[index]]);
+                points.push([t[index], x[index], estimate.residuals[index]]);
             }
         }
-        Some(seen)
-    }
-
-    fn push(&mut self, [t, x, residual]: [f64; 3]) {
-        self.t.push(t);
-        self.x.push(x);
-        self.residual.push(residual);
+        Some(Sampled { points, motion: motion(estimate, t) })
     }
 }
 
 /// The fitted motion at closely spaced times, and its signal.
-fn motion(estimate: &Estimate, t: &[f64]) -> (Vec<[f64; 3]>, Vec<f64>) {
+fn motion(estimate: &Estimate, t: &[f64]) -> Vec<[f64; 4]> {
     /// Number of points for each half swing.
     const FINE: usize = 40;
     let p = &estimate.p;
@@ -254,18 +237,17 @@ fn motion(estimate: &Estimate, t: &[f64]) -> (Vec<[f64; 3]>, Vec<f64>) {
     let at = |index: usize| origin + (last - origin) * real(index) / real(count);
     let taus: Vec<f64> = (0..=count).map(|index| p[OMEGA0] * (at(index) - origin)).collect();
     let signal = estimate.data.signal();
-    let scale = (0..signal.order()).fold(1.0, |scale, _| scale * p[OMEGA0]);
-    let (mut points, mut seen) = (Vec::new(), Vec::new());
+    let scale = signal.scale(p[OMEGA0]);
+    let mut points = Vec::new();
     if first < origin {
-        points.push([first, p[Q0], 0.0]);
         let held = if signal.is_displacement() { p[Q0] } else { 0.0 };
-        seen.push(estimate.data.zero(p, first) + held);
+        points.push([first, p[Q0], 0.0, estimate.data.zero(p, first) + held]);
     }
     let way = Way { signal, ..Way::default() };
     // Cannot be lost: the fit has already followed this motion through the record.
     let _ = follow(&parameters(p), start, &taus, way, |index, point| {
-        points.push([at(index), point.q, point.v]);
-        seen.push(estimate.data.zero(p, at(index)) + scale * point.signal);
+        let seen = estimate.data.zero(p, at(index)) + scale * point.signal;
+        points.push([at(index), point.q, point.v, seen]);
     });
-    (points, seen)
+    points
 }

@@ -12,26 +12,13 @@ use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Extreme, robust_deviation};
+use super::{D, D2, D3, Extreme, OFFSET, R, UNKNOWNS, Unknowns, robust_deviation};
+use crate::model::Parameters;
 use crate::numerics::elementary::powi;
 
-/// Damping and offset by averaging.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AveragedDamping {
-    /// Linear damping.
-    pub d: f64,
-    /// Asymmetric damping.
-    pub d2: f64,
-    /// Cubic damping.
-    pub d3: f64,
-    /// Friction.
-    pub r: f64,
-    /// Displacement about which the motion is centred.
-    pub offset: f64,
-}
-
 /// The relative loss of amplitude per unit of time by averaging.
-pub fn averaged(d: f64, d3: f64, r: f64, amplitude: f64) -> f64 {
+pub fn averaged(parameters: &Parameters, amplitude: f64) -> f64 {
+    let Parameters { d, d3, r, .. } = *parameters;
     d + 2.0 * r / (PI * amplitude) + 0.375 * d3 * amplitude * amplitude
 }
 
@@ -39,9 +26,9 @@ pub fn averaged(d: f64, d3: f64, r: f64, amplitude: f64) -> f64 {
 /// wrong if the motion hardly decays.
 const TERMS: [&[usize]; 4] = [&[0, 1, 2], &[0, 1], &[1, 2], &[1]];
 
-/// Damping and offset from the turning points, one result for each of `TERMS` that can be fitted; of a single swing
-/// one for each of several intensities of friction. Empty for fewer than two turning points.
-pub fn regressions(extremes: &[Extreme]) -> Vec<AveragedDamping> {
+/// The unknowns with damping, friction and offset from the turning points, one result for each of `TERMS` that can be
+/// fitted; of a single swing one for each of several intensities of friction. Empty for fewer than two turning points.
+pub fn regressions(extremes: &[Extreme]) -> Vec<Unknowns> {
     let largest =
         extremes.windows(2).map(|two| 0.5 * (two[1].x - two[0].x).abs()).fold(0.0, f64::max);
     if largest <= 0.0 || extremes.len() < 2 {
@@ -57,27 +44,25 @@ pub fn regressions(extremes: &[Extreme]) -> Vec<AveragedDamping> {
     for terms in TERMS {
         let Some([r, d, d3]) = damping(&unit, terms) else { continue };
         let Some((offset, d2)) = middle(&unit, d) else { continue };
-        found.push(AveragedDamping {
-            d,
-            d2: d2 / largest,
-            d3: d3 / (largest * largest),
-            r: r * largest,
-            offset: extremes[0].x + offset * largest,
-        });
+        let mut p = [0.0; UNKNOWNS];
+        (p[D], p[D2], p[D3]) = (d, d2 / largest, d3 / (largest * largest));
+        (p[R], p[OFFSET]) = (r * largest, extremes[0].x + offset * largest);
+        found.push(p);
     }
     found
 }
 
 /// A single swing tells offset and friction only together: `x_0 + x_1 = 2 (offset + r)` if it begins on the right.
-fn of_one_swing(begin: f64, end: f64) -> Vec<AveragedDamping> {
+fn of_one_swing(begin: f64, end: f64) -> Vec<Unknowns> {
     /// Intensities of friction as parts of the amplitude.
     const PARTS: [f64; 6] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3];
     /// Moderate damping.
-    const D: f64 = 0.02;
+    const DAMPING: f64 = 0.02;
     let of = |part: f64| {
         let right = 0.5 * part * (begin - end);
-        let offset = 0.5 * (begin + end) - right;
-        AveragedDamping { d: D, r: right.abs(), offset, ..AveragedDamping::default() }
+        let mut p = [0.0; UNKNOWNS];
+        (p[D], p[R], p[OFFSET]) = (DAMPING, right.abs(), 0.5 * (begin + end) - right);
+        p
     };
     PARTS.map(of).to_vec()
 }
@@ -171,9 +156,9 @@ mod tests {
                 extreme.x *= unit;
             }
             let found = regressions(&extremes)[0];
-            assert!((found.r / (0.125 * unit) - 1.0).abs() < 1e-9, "{found:?}");
-            assert!(found.d.abs() < 1e-9 && (found.d3 * unit * unit).abs() < 1e-9, "{found:?}");
-            assert!((found.offset / (0.5 * unit) - 1.0).abs() < 1e-9, "{found:?}");
+            assert!((found[R] / (0.125 * unit) - 1.0).abs() < 1e-9, "{found:?}");
+            assert!(found[D].abs() < 1e-9 && (found[D3] * unit * unit).abs() < 1e-9, "{found:?}");
+            assert!((found[OFFSET] / (0.5 * unit) - 1.0).abs() < 1e-9, "{found:?}");
         }
     }
 
@@ -182,7 +167,7 @@ mod tests {
         let mut extremes = coulomb(0.125, 0.5);
         extremes[5].x += 2.0;
         let found = regressions(&extremes)[0];
-        assert!((found.r - 0.125).abs() < 0.01, "{found:?}");
+        assert!((found[R] - 0.125).abs() < 0.01, "{found:?}");
     }
 
     #[test]
@@ -192,7 +177,9 @@ mod tests {
             let side = (two[0].x - two[1].x).signum();
             assert!(found.len() > 2);
             assert!(
-                found.iter().all(|it| (it.offset + side * it.r - 0.5 - side * 0.125).abs() < 1e-12)
+                found
+                    .iter()
+                    .all(|it| (it[OFFSET] + side * it[R] - 0.5 - side * 0.125).abs() < 1e-12)
             );
         }
         assert!(regressions(&coulomb(0.1, 0.0)[..1]).is_empty());

@@ -3,12 +3,23 @@
 use std::f64::consts::PI;
 
 use super::{
-    AveragedDamping, Beginning, D, D2, D3, Extreme, LAST, Noise, OFFSET, OMEGA0, Q0, R, Signal,
-    StartKind, UNKNOWNS, Unknowns, dominant_frequency, least_squares, median, range, regressions,
-    robust_deviation, smoothed, turning_points, without_jumps,
+    D, D2, Extreme, LAST, Noise, OFFSET, OMEGA0, Q0, R, Signal, StartKind, Unknowns,
+    dominant_frequency, least_squares, median, range, rate, regressions, robust_deviation,
+    smoothed, turning_points, without_jumps,
 };
 use crate::numerics::count::real;
 use crate::numerics::elementary::{ln, sin_cos};
+
+/// A way in which a record may begin, with guesses of the unknowns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beginning {
+    /// How the motion begins.
+    pub start: StartKind,
+    /// Whether the record leaves no doubt about this.
+    pub certain: bool,
+    /// Guesses of the unknowns.
+    pub guesses: Vec<Unknowns>,
+}
 
 /// First guesses, and the turning points from which they were made.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,13 +62,14 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
     let is_displacement = signal.is_displacement();
     // From the release to the first extreme.
     let lead = 0.5 - 0.25 * real(signal.order());
-    let begins = begins(t, &cleaned, noise, first, (period, lead));
+    let (start, is_clear) = begins(t, &cleaned, noise, first, (period, lead));
+    let is_held = start == StartKind::Release;
+    let certain = is_clear && (is_held || is_displacement);
     let begin = first.t - lead * period;
     let level_before =
         |begin: f64| median(cleaned[..t.partition_point(|&t| t < begin).max(1)].to_vec());
     let hold = level_before(begin);
-    let struck = Some(hold).filter(|_| begins == Begins::Held);
-    let struck = struck.and_then(|hold| {
+    let struck = is_held.then_some(hold).and_then(|hold| {
         if is_displacement {
             struck_at(t, &cleaned, noise, hold, &extremes)
         } else {
@@ -70,17 +82,15 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
     if is_displacement {
         with_rest.extend(rest(t, &cleaned, &extremes, period, tail));
     }
-    let unknowns = |averaged: &AveragedDamping, q0: f64, last: f64| {
-        let mut p: Unknowns = [0.0; UNKNOWNS];
-        (p[OMEGA0], p[OFFSET]) = (2.0 * PI / period, averaged.offset);
+    let unknowns = |averaged: &Unknowns, q0: f64, last: f64| {
+        let mut p = *averaged;
         // The middles of the swings of a velocity are not shifted.
-        let d2 = if is_displacement { averaged.d2 } else { 0.0 };
-        (p[D], p[D2], p[D3], p[R]) = (averaged.d, d2, averaged.d3, averaged.r);
-        (p[Q0], p[LAST]) = (q0, last);
+        p[D2] = if is_displacement { averaged[D2] } else { 0.0 };
+        (p[OMEGA0], p[Q0], p[LAST]) = (2.0 * PI / period, q0, last);
         p
     };
     let moving = || {
-        let guess = |averaged: &AveragedDamping| {
+        let guess = |averaged: &Unknowns| {
             let (cosine, sine) = first_state(t, &cleaned, &unknowns(averaged, 0.0, 0.0), period)?;
             let is_velocity = signal == Signal::Velocity;
             let (q0, v0) = if is_velocity { (-sine, cosine) } else { (cosine, sine) };
@@ -107,26 +117,13 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
         };
         guesses.flat_map(at).collect()
     };
-    let beginning = |start: StartKind, certain: bool, guesses: Vec<Unknowns>| Beginning {
-        start,
-        certain,
-        guesses,
+    let beginning = |(start, certain): (StartKind, bool)| {
+        let guesses = if start == StartKind::Release { released() } else { moving() };
+        Beginning { start, certain, guesses }
     };
-    let beginnings = match begins {
-        Begins::Held => vec![
-            beginning(StartKind::Release, true, released()),
-            beginning(StartKind::Moving, false, moving()),
-        ],
-        Begins::Unclear => vec![
-            beginning(StartKind::Moving, false, moving()),
-            beginning(StartKind::Release, false, released()),
-        ],
-        Begins::Moving => vec![
-            beginning(StartKind::Moving, is_displacement, moving()),
-            beginning(StartKind::Release, false, released()),
-        ],
-    };
-    if begins == Begins::Held && is_displacement {
+    let other = if is_held { StartKind::Moving } else { StartKind::Release };
+    let beginnings = vec![beginning((start, certain)), beginning((other, false))];
+    if is_held && is_displacement {
         with_rest.insert(0, Extreme { t: begin, x: hold });
     }
     let extremes = with_rest;
@@ -136,21 +133,20 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
 
 /// Where the mass was held, from the offset. In other signals than the displacement, of which the hold is the first
 /// extreme, it is not seen: it follows from the next swing and what was lost since.
-fn held_at(swings: &[Extreme], averaged: &AveragedDamping, signal: Signal) -> f64 {
-    let first = swings[0].x - averaged.offset;
+fn held_at(swings: &[Extreme], averaged: &Unknowns, signal: Signal) -> f64 {
+    let first = swings[0].x - averaged[OFFSET];
     let half_swings = match signal {
         Signal::Displacement => return first,
         Signal::Velocity => 0.5,
         Signal::Acceleration => 1.0,
     };
-    let lost = half_swings * (2.0 * averaged.r + PI * averaged.d * first.abs());
+    let lost = half_swings * (2.0 * averaged[R] + PI * averaged[D] * first.abs());
     -first - first.signum() * lost
 }
 
 /// Average number of samples in a stretch of time, at least one.
 fn samples_within(t: &[f64], stretch: f64) -> f64 {
-    let rate = real(t.len()) / (t[t.len() - 1] - t[0]);
-    (rate * stretch).max(1.0)
+    (rate(t) * stretch).max(1.0)
 }
 
 /// The period: twice the slope of the times of the extremes over their number. A gap in which extremes were missed
@@ -183,14 +179,8 @@ fn rest(t: &[f64], x: &[f64], extremes: &[Extreme], period: f64, tail: f64) -> O
     flat.then_some(Extreme { t: last.t + 0.5 * period, x: level })
 }
 
-/// How a record begins, judged by its first turning point.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Begins {
-    Held,
-    Unclear,
-    Moving,
-}
-
+/// How a record begins, judged by its first turning point, and whether that leaves no doubt.
+///
 /// A moving mass turns within half a period. If the first turn comes later and the record before it scatters no
 /// more than the noise, the mass was held. The scatter is checked because a growing motion begins small and looks
 /// like a hold. The first extreme of a held mass comes `lead` periods after its release.
@@ -200,7 +190,7 @@ fn begins(
     noise: &Noise,
     first: Extreme,
     (period, lead): (f64, f64),
-) -> Begins {
+) -> (StartKind, bool) {
     /// Fewest samples that show a hold.
     const FEWEST: usize = 5;
     let natural = (first.t - t[0]) / period;
@@ -208,9 +198,11 @@ fn begins(
     let level = median(begin.to_vec());
     let spread = robust_deviation(begin.iter().map(|x| x - level));
     match natural {
-        0.6.. if spread <= 2.0 * noise.deviation && begin.len() >= FEWEST => Begins::Held,
-        0.4.. => Begins::Unclear,
-        _ => Begins::Moving,
+        0.6.. if spread <= 2.0 * noise.deviation && begin.len() >= FEWEST => {
+            (StartKind::Release, true)
+        }
+        0.4.. => (StartKind::Moving, false),
+        _ => (StartKind::Moving, true),
     }
 }
 

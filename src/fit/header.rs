@@ -60,37 +60,25 @@ pub fn seconds_in(unit: &str) -> Option<f64> {
 impl ColumnHeader {
     /// `name [unit]`, `name (unit)`, `name / unit`, `name, unit` or `name_unit` for times.
     fn read(cell: &str) -> Self {
-        for (open, close) in [('[', ']'), ('(', ')')] {
-            if let Some((name, rest)) = cell.split_once(open) {
-                let unit = rest.split(close).next().unwrap_or_default().trim();
-                let unit = (!unit.is_empty() && unit != "-").then(|| unit.to_owned());
-                return ColumnHeader { name: name.trim().to_owned(), unit };
-            }
-        }
-        // The longest unit that is known: after the first sign of `v/mm/s`.
-        let signs = ["/", " in ", ", "];
-        let splits = signs.iter().flat_map(|sign| cell.match_indices(sign));
-        let known = splits.filter_map(|(at, sign)| {
-            let unit = cell[at + sign.len()..].trim();
-            (seconds_in(unit).is_some() || quantity(unit).is_some()).then_some((at, unit))
+        let bracketed = [('[', ']'), ('(', ')')].iter().find_map(|(open, close)| {
+            let (name, rest) = cell.split_once(*open)?;
+            Some((name, rest.split(*close).next().unwrap_or_default()))
         });
-        if let Some((at, unit)) = known.min_by_key(|(at, _)| *at) {
-            return ColumnHeader {
-                name: cell[..at].trim().to_owned(),
-                unit: Some(unit.to_owned()),
-            };
-        }
-        for sign in ["/", " in ", ", ", "_"] {
-            if let Some((name, unit)) = cell.rsplit_once(sign)
-                && (sign != "_" || seconds_in(unit).is_some())
-            {
-                return ColumnHeader {
-                    name: name.trim().to_owned(),
-                    unit: Some(unit.trim().to_owned()),
-                };
-            }
-        }
-        ColumnHeader { name: cell.trim().to_owned(), unit: None }
+        // The longest unit that is known: after the first sign of `v/mm/s`.
+        let is_known = |unit: &str| seconds_in(unit).is_some() || quantity(unit).is_some();
+        let known = || {
+            let signs = ["/", " in ", ", "];
+            let splits = signs.iter().flat_map(|sign| cell.match_indices(sign));
+            let splits = splits.map(|(at, sign)| (&cell[..at], &cell[at + sign.len()..]));
+            splits.filter(|(_, unit)| is_known(unit.trim())).min_by_key(|(name, _)| name.len())
+        };
+        let last = |sign: &str| {
+            cell.rsplit_once(sign).filter(|(_, unit)| sign != "_" || seconds_in(unit).is_some())
+        };
+        let unknown = || ["/", " in ", ", ", "_"].into_iter().find_map(last);
+        let (name, unit) = bracketed.or_else(known).or_else(unknown).unwrap_or((cell, ""));
+        let unit = Some(unit.trim()).filter(|unit| !unit.is_empty() && *unit != "-");
+        ColumnHeader { name: name.trim().to_owned(), unit: unit.map(str::to_owned) }
     }
 }
 

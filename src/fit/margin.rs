@@ -15,7 +15,7 @@ use super::{
 };
 use crate::branch::fold::fold;
 use crate::flow::{Limits, Reason};
-use crate::model::{Interval, ParameterBox, Parameters};
+use crate::model::{Knob, ParameterBox, Parameters};
 use crate::numerics::count::{real, truncated};
 use crate::portrait::Margin;
 use crate::portrait::basin::Basin;
@@ -64,14 +64,10 @@ impl MarginQuestion {
             return Ok(*plain);
         }
         let scale = self.inertia.map_or(1.0, |(it, metres)| metres * it.times(p[OMEGA0], 2));
-        let Parameters { d, d2, d3, r } = parameters(p);
-        let [wide, wide2, wide3, wider] = self.half_widths;
-        let known = ParameterBox {
-            d: Interval::around(d, wide),
-            d2: Interval::around(d2, wide2),
-            d3: Interval::around(d3, wide3),
-            r: Interval::new((r - wider).max(0.0), r + wider),
-        };
+        let mut known = ParameterBox::from(&parameters(p));
+        for (knob, half_width) in Knob::PARAMETERS.into_iter().zip(self.half_widths) {
+            known.widen(knob, half_width);
+        }
         let (found, _) = guaranteed(&known, self.disturbance / scale, limits)?;
         Ok(if found.reason.is_none() { found.margin } else { Margin::ZERO })
     }
@@ -91,6 +87,14 @@ pub struct Spread {
 }
 
 impl Spread {
+    fn of(values: impl Iterator<Item = Option<f64>>) -> Self {
+        let sorted = sorted(values);
+        let at = |part: f64| quantile(&sorted, part);
+        let none = sorted.iter().filter(|it| it.is_infinite()).count();
+        let share = real(none) / real(sorted.len().max(1));
+        Spread { median: at(0.5), lower: at(0.025), upper: at(0.975), none: share }
+    }
+
     /// The same in another unit.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {
@@ -122,7 +126,7 @@ pub struct RestSpreads {
 
 impl KickSpreads {
     fn of<'a>(margins: impl Iterator<Item = &'a Margin> + Clone) -> Self {
-        let of = |pick: fn(&Margin) -> Option<f64>| spread(&sorted(margins.clone().map(pick)));
+        let of = |pick: fn(&Margin) -> Option<f64>| Spread::of(margins.clone().map(pick));
         KickSpreads {
             displacement: of(|it| it.displacement),
             impulse: of(|it| it.impulse),
@@ -150,9 +154,6 @@ impl KickSpreads {
 /// The distribution of the margins.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Margins {
-    /// At the best parameters.
-    #[serde(skip)]
-    pub best: Option<Margin>,
     /// The smallest kicks that are not survived.
     #[serde(flatten)]
     pub kicks: KickSpreads,
@@ -237,14 +238,13 @@ pub fn margins(
     let known: Vec<MarginOfDraw> = computed.into_iter().flatten().map(|(found, _)| found).collect();
     let kicks = KickSpreads::of(known.iter().map(|it| &it.margin));
     Ok(Margins {
-        best: ask(&estimate.p).ok().map(|answer| answer.margin),
         kicks,
         guaranteed: question
             .is_disturbed()
             .then(|| KickSpreads::of(each.iter().map(|(_, margin)| margin))),
         question: *question,
-        cycle: spread(&sorted(known.iter().map(|it| it.cycle))),
-        fold: spread(&sorted(known.iter().map(|it| it.fold))),
+        cycle: Spread::of(known.iter().map(|it| it.cycle)),
+        fold: Spread::of(known.iter().map(|it| it.fold)),
         extrapolated: kicks.displacement.median.is_none_or(|at| at > largest || at < smallest),
         allowed: allowed(estimate, ask),
         failed: draws - known.len(),
@@ -307,21 +307,13 @@ fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
     sorted.get(index.min(sorted.len().saturating_sub(1))).copied().filter(|it| it.is_finite())
 }
 
-fn spread(sorted: &[f64]) -> Spread {
-    let at = |part: f64| quantile(sorted, part);
-    let none = sorted.iter().filter(|it| it.is_infinite()).count();
-    let share = real(none) / real(sorted.len().max(1));
-    Spread { median: at(0.5), lower: at(0.025), upper: at(0.975), none: share }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn quantiles_of_margins_that_may_be_infinite() {
-        let sorted: Vec<f64> = (1..=60).map(f64::from).chain([f64::INFINITY; 40]).collect();
-        let found = spread(&sorted);
+        let found = Spread::of((1..=60).map(|it| Some(f64::from(it))).chain([None; 40]));
         assert_eq!((found.lower, found.median, found.upper), (Some(3.0), Some(51.0), None));
         assert_eq!(found.none, 0.4);
     }

@@ -43,7 +43,6 @@ mod fitted;
 mod guess;
 mod half_swing;
 mod header;
-mod left_out;
 mod levenberg_marquardt;
 mod margin;
 mod motion;
@@ -56,13 +55,11 @@ mod quantiles;
 mod question;
 mod record;
 mod refit;
-mod release;
 mod residuals;
 mod samples;
 mod search;
 mod separable;
 mod signal;
-mod spectrum;
 mod task;
 mod turning_points;
 mod uncertainty;
@@ -92,8 +89,8 @@ pub use {
 pub(crate) use {
     curves::{Curves, Extent, PlotPoint, memory},
     drift::FittedDrift,
+    estimate::{LeftOut, left_out},
     fitted::{EstimatedNumber, kicks, rows},
-    left_out::{LeftOut, left_out},
     margin::{KickSpreads, Spread},
     question::{assigned, listed},
     record::decoded,
@@ -104,16 +101,18 @@ pub(crate) use {
 
 // What the files of this ring use of each other.
 pub(crate) use {
-    cells::{Cell, NumberedLine, Separator, clock_seconds, lines, read},
+    cells::{Cell, NumberedLine, cells, clock_seconds, lines, read, separator},
     conditions::repeated,
-    decrements::{AveragedDamping, averaged, regressions, robust},
+    decrements::{averaged, regressions, robust},
     drift::{LeftDrift, drift_of_swings, without_drift},
     estimate::judged,
-    guess::{Guess, guess, period_of},
+    guess::{Beginning, Guess, guess, period_of},
     half_swing::{Jet, Stretch},
     header::{Header, TIME_UNITS, seconds_in},
     motion::{FittedTurn, Gradient, MotionLost, Way, follow},
-    noise::{IMPOSSIBLE, Noise, least_squares, median, range, robust_deviation, within_scale},
+    noise::{
+        IMPOSSIBLE, Noise, least_squares, median, range, rate, robust_deviation, within_scale,
+    },
     observation::{Bound, Region, Seen, drift},
     peaks::peaks,
     posterior::{Drawn, FEWEST, drawn},
@@ -121,16 +120,14 @@ pub(crate) use {
     quantiles::{chi_squared, deviation_of_95_percent, normal_at},
     question::{Loss, placed, reach},
     refit::following,
-    release::released_before,
     residuals::{Whiteness, autocorrelations, whiteness},
     samples::samples,
-    search::Beginning,
+    search::released_before,
     signal::{Measure, Quantity, measure},
-    spectrum::dominant_frequency,
     task::{
         HIDDEN, Optimum, RUN, Verdict, interrupted, longest_run, mean_square, moved, scattered,
     },
-    turning_points::{Extreme, smoothed, turning_points, without_jumps},
+    turning_points::{Extreme, dominant_frequency, smoothed, turning_points, without_jumps},
     uncertainty::{Covariance, left_over, ratio_of_kinds},
     valley::{WIDE, by_cost, through_the_valley},
 };

@@ -28,6 +28,11 @@ pub fn range(values: &[f64]) -> (f64, f64) {
     values.iter().fold(ends, |(low, high), x| (low.min(*x), high.max(*x)))
 }
 
+/// Average number of samples in a unit of time.
+pub fn rate(t: &[f64]) -> f64 {
+    real(t.len()) / (t[t.len() - 1] - t[0])
+}
+
 /// The coefficients of a linear combination of functions, of which each row has the values, that comes closest to the
 /// values measured.
 pub fn least_squares<const N: usize>(

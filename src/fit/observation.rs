@@ -253,7 +253,7 @@ impl Observation<'_> {
     fn samples(&self, p: &Unknowns, t: &[f64], x: &[f64], way: Way) -> Result<Seen, MotionLost> {
         let (held, start, times) = self.begun(p, t);
         let order = way.signal.order();
-        let scale = (0..order).fold(1.0, |scale, _| scale * p[OMEGA0]);
+        let scale = way.signal.scale(p[OMEGA0]);
         let mut residuals = Vec::with_capacity(x.len());
         let mut push = |index: usize, mut by: Unknowns, motion: f64| {
             let drift = drift(t, t[index]);

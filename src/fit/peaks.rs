@@ -1,9 +1,8 @@
 //! Fits a list of turning points.
 
 use super::{
-    Beginning, D, D2, D3, Data, Estimate, Extreme, LAST, OFFSET, OMEGA0, Q0, Question, R, Record,
-    Runs, StartKind, Task, UNKNOWNS, Unfit, Unknowns, judged, period_of, placed, ratio_of_kinds,
-    reach, regressions,
+    Beginning, Data, Estimate, Extreme, LAST, OFFSET, OMEGA0, Q0, Question, R, Record, Runs,
+    StartKind, Task, Unfit, judged, period_of, placed, ratio_of_kinds, reach, regressions,
 };
 
 /// Fits a list of peaks. The relative weight of displacements and times follows from their residuals.
@@ -35,13 +34,11 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
     let omega0 = period_of(&extremes).map_or(1.0, |period| std::f64::consts::TAU / period);
     let mut guesses = Vec::new();
     for averaged in regressions(&extremes) {
-        let mut p: Unknowns = [0.0; UNKNOWNS];
-        (p[OMEGA0], p[OFFSET], p[LAST]) = (omega0, averaged.offset, time(0));
-        (p[D], p[D2], p[D3]) = (averaged.d, averaged.d2, averaged.d3);
-        p[Q0] = x[0] - averaged.offset;
+        let mut p = averaged;
+        (p[OMEGA0], p[Q0], p[LAST]) = (omega0, x[0] - averaged[OFFSET], time(0));
         // A guess that comes to rest before the last peak is useless; with less friction the mass keeps moving.
         for part in [1.0, 0.9, 0.7, 0.4, 0.0] {
-            p[R] = part * averaged.r;
+            p[R] = part * averaged[R];
             guesses.push(placed(&held, p));
         }
     }

@@ -8,8 +8,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Cell, Header, Measure, NumberedLine, Separator, Signal, TIME_UNITS, clock_seconds, lines,
-    measure, read, seconds_in,
+    Cell, Header, Measure, NumberedLine, Signal, TIME_UNITS, cells, clock_seconds, lines, measure,
+    read, seconds_in, separator,
 };
 
 /// A column of a file.
@@ -111,12 +111,12 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
             "the file holds no rows; expected a column of times and one of displacements",
         ));
     }
-    let separator = Separator::of(&lines);
-    let decimal = separator.comma_is_decimal();
-    let cells: Vec<Vec<&str>> = lines.iter().map(|line| separator.cells(line.text)).collect();
-    let kinds = |row: &Vec<&str>| row.iter().map(|cell| read(cell, decimal)).collect::<Vec<_>>();
+    let separator = separator(&lines);
+    // Where it separates cells, a comma is no part of a number.
+    let decimal = separator != Some(',');
+    let cells: Vec<Vec<&str>> = lines.iter().map(|line| cells(line.text, separator)).collect();
     let numeric = |row: &Vec<&str>| {
-        let kinds = kinds(row);
+        let kinds: Vec<Cell> = row.iter().map(|cell| read(cell, decimal)).collect();
         kinds.iter().any(|cell| matches!(cell, Cell::Number(_)))
             && kinds.iter().filter(|cell| **cell == Cell::Text).count() * 2 < kinds.len()
     };
@@ -132,40 +132,33 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
     let width = cells[first].len();
     // Blanks cannot separate names that consist of several words.
     let header = Some(Header::of(&cells[..first]));
-    let header = header.filter(|it| separator != Separator::Blanks || it.names().len() <= width);
+    let header = header.filter(|it| separator.is_some() || it.names().len() <= width);
     let header = header.unwrap_or_default();
-    let chosen = columns(reading, &header, &cells[first..=last], width, decimal)
+    let (time, displacement) = columns(reading, &header, &cells[first..=last], width, decimal)
         .map_err(|problem| BadRecord { line: lines[first].number, column: 0, problem })?;
-    let stamps = chosen.time.is_some_and(|time| {
-        cells[first].get(time).is_some_and(|cell| clock_seconds(cell).is_some())
-    });
-    let unit_of_time = chosen.time.filter(|_| !stamps);
+    let bad = |column: usize, problem: String| {
+        let line = lines[first.saturating_sub(1)].number;
+        BadRecord { line, column: column + 1, problem }
+    };
+    let first_time = time.and_then(|time| cells[first].get(time));
+    let stamps = first_time.is_some_and(|cell| clock_seconds(cell).is_some());
+    let unit_of_time = time.filter(|_| !stamps);
     let seconds = match unit_of_time.and_then(|time| header.unit(time).map(|unit| (time, unit))) {
         None => 1.0,
-        Some((time, unit)) => seconds_in(&unit).ok_or_else(|| BadRecord {
-            line: lines[first.saturating_sub(1)].number,
-            column: time + 1,
-            problem: format!(
-                "times in {unit:?}; allowed are {}",
-                TIME_UNITS.map(|(name, _)| name).join(", ")
-            ),
+        Some((time, unit)) => seconds_in(&unit).ok_or_else(|| {
+            let allowed = TIME_UNITS.map(|(name, _)| name).join(", ");
+            bad(time, format!("times in {unit:?}; allowed are {allowed}"))
         })?,
     };
-    let column = chosen.displacement;
-    let bad = |problem: String| BadRecord {
-        line: lines[first.saturating_sub(1)].number,
-        column: column + 1,
-        problem,
-    };
-    let written = header.unit(column);
-    let suggested = header.suggested(column);
+    let written = header.unit(displacement);
+    let suggested = header.suggested(displacement);
     let Measure { signal, length, scale } =
         measure(written.as_deref(), reading.unit.as_deref(), reading.signal, suggested)
-            .map_err(bad)?;
+            .map_err(|problem| bad(displacement, problem))?;
     if reading.peaks && !signal.is_displacement() {
-        return Err(bad(format!(
-            "peaks are turning points, those of a displacement, not of a {signal}"
-        )));
+        let problem =
+            format!("peaks are turning points, those of a displacement, not of a {signal}");
+        return Err(bad(displacement, problem));
     }
     let mut record = Record { unit: length, signal, ..Record::default() };
     let mut rows: Vec<(f64, f64)> = Vec::new();
@@ -188,14 +181,12 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
                 cell => Ok(cell),
             }
         };
-        let t = chosen.time.map_or(Ok(Cell::Number(0.0)), &cell)?;
-        let x = cell(chosen.displacement)?;
-        match (t, x) {
+        match (time.map_or(Ok(Cell::Number(0.0)), &cell)?, cell(displacement)?) {
             (Cell::Number(t), Cell::Number(x)) => rows.push((seconds * t, scale * x)),
             _ => record.missing += 1,
         }
     }
-    if chosen.time.is_some() {
+    if time.is_some() {
         rows.sort_by(|one, other| one.0.total_cmp(&other.0));
         let before = rows.len();
         rows.dedup();
@@ -207,19 +198,14 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
     Ok(record)
 }
 
-/// The columns that are read, counted from 0.
-struct Chosen {
-    time: Option<usize>,
-    displacement: usize,
-}
-
+/// The columns of times and displacements that are read, counted from 0.
 fn columns(
     reading: &Reading,
     header: &Header,
     rows: &[Vec<&str>],
     width: usize,
     decimal: bool,
-) -> Result<Chosen, String> {
+) -> Result<(Option<usize>, usize), String> {
     let place = |column: &Column| match column {
         Column::Number(number) if (1..=width).contains(number) => Ok(number - 1),
         Column::Number(number) => Err(format!("there is no column {number}; there are {width}")),
@@ -252,7 +238,7 @@ fn columns(
         (Some(time), Some(displacement)) if time == displacement => {
             Err(format!("column {} cannot hold both times and displacements", time + 1))
         }
-        (time, Some(displacement)) => Ok(Chosen { time, displacement }),
+        (time, Some(displacement)) => Ok((time, displacement)),
         (_, None) => Err("one column only; expected times and displacements".into()),
     }
 }

@@ -10,8 +10,8 @@ use std::ops::Range;
 use super::{
     BEND, Data, Dropped, Estimate, Guess, IMPOSSIBLE, Loss, LossName, Noise, OFFSET, OMEGA0,
     Optimum, Question, Record, Runs, SLOPE, Signal, StartKind, Task, Unfit, dominant_frequency,
-    drift_of_swings, guess, judged, mean_square, placed, reach, released_before, robust_deviation,
-    within_scale, without_drift,
+    drift_of_swings, guess, judged, mean_square, placed, rate, reach, released_before,
+    robust_deviation, within_scale, without_drift,
 };
 use crate::numerics::count::{real, truncated};
 
@@ -19,9 +19,7 @@ use crate::numerics::count::{real, truncated};
 pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<Estimate, Unfit> {
     let all = record.t.as_deref().unwrap_or_default();
     let frequency = dominant_frequency(all, &record.x);
-    let per_period = frequency.map_or(f64::INFINITY, |frequency| {
-        real(all.len()) / ((all[all.len() - 1] - all[0]) * frequency)
-    });
+    let per_period = frequency.map_or(f64::INFINITY, |frequency| rate(all) / frequency);
     let within = within_scale(&record.x, &Noise::of(&record.x, per_period));
     let keep = |values: &[f64]| -> Vec<f64> {
         values.iter().zip(&within).filter(|(_, within)| **within).map(|(value, _)| *value).collect()
@@ -172,8 +170,7 @@ fn jumps(best: &Optimum, t: &[f64]) -> Vec<f64> {
 fn away_from(jumps: &[f64], t: &[f64], omega0: f64) -> Vec<bool> {
     /// In radians of the phase.
     const UNCERTAIN: f64 = 0.03;
-    let step = (t[t.len() - 1] - t[0]) / real(t.len());
-    let near = f64::max(0.5 * step, UNCERTAIN / omega0);
+    let near = f64::max(0.5 / rate(t), UNCERTAIN / omega0);
     let mut away = vec![true; t.len()];
     for jump in jumps {
         let range = [jump - near, jump + near].map(|end| t.partition_point(|t| *t <= end));

@@ -1,22 +1,13 @@
 //! The search for the best minimum from first guesses, with several starts and growing horizons.
 
 use super::{
-    D2, D3, Data, LAST, Loss, LossName, OMEGA0, Optimum, Q0, R, Runs, StartKind, Task, Unfit,
-    Unknowns, WIDE, by_cost, interrupted, through_the_valley,
+    Beginning, D2, D3, Data, Extreme, Guess, LAST, Loss, LossName, Noise, OFFSET, OMEGA0,
+    Observation, Optimum, Q0, R, Runs, Signal, StartKind, Task, UNKNOWNS, Unfit, Unknowns, WIDE,
+    Way, by_cost, follow, guess, interrupted, parameters, placed, through_the_valley,
 };
+use crate::model::State;
 use crate::numerics::count::real;
 use crate::numerics::elementary::pow;
-
-/// A way in which a record may begin, with guesses of the unknowns.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Beginning {
-    /// How the motion begins.
-    pub start: StartKind,
-    /// Whether the record leaves no doubt about this.
-    pub certain: bool,
-    /// Guesses of the unknowns.
-    pub guesses: Vec<Unknowns>,
-}
 
 /// The fractions of a record to which the horizon grows.
 const HORIZONS: [f64; 4] = [0.2, 0.35, 0.6, 0.85];
@@ -220,3 +211,60 @@ const WAYS: [Descent; 4] = [
     |task, guess, runs| task.growing(task.without(guess, &[D2, D3]), runs),
     |task, guess, runs| task.growing(task.without(guess, &[R]), runs),
 ];
+
+/// The minima from guesses that release the held mass so that it comes into the motion after its first swings. Such as
+/// those of a growth from near an unstable cycle, these say little about the motion: it is fitted without them, and then
+/// followed from the hold.
+///
+/// `extremes` are the hold and the turning points. `None` if there is no such motion, or if the
+/// signal does not show where the mass was held; fails with [`Unfit::Interrupted`].
+pub fn released_before(
+    task: &Task,
+    held: &[Option<f64>; UNKNOWNS],
+    noise: &Noise,
+    extremes: &[Extreme],
+    runs: &mut Runs,
+) -> Result<Option<Vec<Optimum>>, Unfit> {
+    /// Number of turning points left out, at most, and the part of all.
+    const FIRST: usize = 4;
+    const PART: usize = 4;
+    /// Number of swings between the release and the fitted motion, at most.
+    const SWINGS: usize = 60;
+    let signal = Signal::Displacement;
+    let Data::Samples { t, x, signal: Signal::Displacement } = task.observation.data else {
+        return Ok(None);
+    };
+    let first = extremes[FIRST.min(extremes.len() / PART)];
+    let from = t.partition_point(|&t| t < first.t);
+    let (later, times) = (&x[from..], &t[from..]);
+    let Some(Guess { mut beginnings, .. }) = guess(times, later, noise, signal) else {
+        return Ok(None);
+    };
+    beginnings.retain(|beginning| beginning.start == StartKind::Moving);
+    for guess in beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
+        *guess = placed(held, *guess);
+    }
+    let data = Data::Samples { t: times.to_vec(), x: later.to_vec(), signal };
+    let part = Task { observation: Observation { data: &data, ..task.observation }, ..*task };
+    let Some(found) = interrupted(part.search(&beginnings, runs))? else { return Ok(None) };
+    let optimum = &found[0];
+    let Some(turn) = optimum.seen.turns.first().filter(|_| part.explains(optimum)) else {
+        return Ok(None);
+    };
+    let p = &optimum.p;
+    let begin = State { q: extremes[0].x - p[OFFSET], v: 0.0 };
+    let way = Way { reach: task.observation.reach, turns: SWINGS, ..Way::default() };
+    let Ok(motion) = follow(&parameters(p), begin, &[f64::MAX], way, |_, _| {}) else {
+        return Ok(None);
+    };
+    let released = |tau: f64| {
+        let mut guess: Unknowns = *p;
+        (guess[Q0], guess[LAST]) = (begin.q, times[0] + (turn.tau - tau) / p[OMEGA0]);
+        guess
+    };
+    let same = motion.turns.iter().filter(|it| it.q * turn.q > 0.0);
+    let guesses = same.map(|it| placed(held, released(it.tau))).filter(|it| it[LAST] > t[0]);
+    let guesses: Vec<Unknowns> = guesses.collect();
+    let beginning = Beginning { start: StartKind::Release, certain: true, guesses };
+    interrupted(task.search(&[beginning], runs))
+}

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{D, D3, Estimate, NAMES, NameSpec, R, averaged};
+use super::{D, D3, Estimate, NAMES, NameSpec, R, averaged, parameters};
 
 /// A combination of numbers that are not known separately.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +40,7 @@ pub fn combinations(estimate: &Estimate) -> Vec<Combination> {
         _ => None,
     };
     let p = &estimate.p;
-    let damping = |a: f64| averaged(p[D], p[D3], p[R], a).abs();
+    let damping = |a: f64| averaged(&parameters(p), a).abs();
     let largest = [low, middle, high].map(damping).into_iter().fold(0.0, f64::max);
     let unknown: Vec<(&NameSpec, f64)> = NAMES
         .iter()

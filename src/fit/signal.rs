@@ -64,6 +64,12 @@ impl Signal {
         }
     }
 
+    /// What its dimensionless value is multiplied by for a motion with this frequency.
+    #[must_use]
+    pub fn scale(self, omega0: f64) -> f64 {
+        (0..self.order()).fold(1.0, |scale, _| scale * omega0)
+    }
+
     /// The signal with this name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {

@@ -5,6 +5,7 @@
 //! their derivatives are not. A single descent is therefore never enough.
 
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 
 use nalgebra::DVector;
 
@@ -166,7 +167,7 @@ fn along_the_valley(
             closest.see(seen.turns.len(), task.cost(&seen), p);
         }
     }
-    closest.0.retain(|(_, cost, _)| cost - optimum.cost <= FAR * task.unit(optimum.cost));
+    closest.0.retain(|_, (cost, _)| *cost - optimum.cost <= FAR * task.unit(optimum.cost));
     Ok(closest.beside(known))
 }
 
@@ -201,26 +202,26 @@ pub fn through_the_valley(
 
 /// For each number of half swings, the point that is closest to the record.
 #[derive(Default)]
-struct Closest(Vec<(usize, f64, Unknowns)>);
+struct Closest(BTreeMap<usize, (f64, Unknowns)>);
 
 impl Closest {
     fn see(&mut self, half_swings: usize, cost: f64, p: Unknowns) {
-        match self.0.iter_mut().find(|other| other.0 == half_swings) {
-            Some(other) if other.1 <= cost => {}
-            Some(other) => *other = (half_swings, cost, p),
-            None => self.0.push((half_swings, cost, p)),
+        let known = self.0.entry(half_swings).or_insert((cost, p));
+        if cost < known.0 {
+            *known = (cost, p);
         }
     }
 
     /// A few of the closest points that are lower than the minimum known for their number of half swings.
-    fn beside(mut self, known: &[Optimum]) -> Vec<Unknowns> {
+    fn beside(self, known: &[Optimum]) -> Vec<Unknowns> {
         /// Maximum number of points from which to descend.
         const MOST: usize = 3;
-        self.0.retain(|(half_swings, cost, _)| {
+        let is_lower = |(half_swings, (cost, _)): &(usize, (f64, Unknowns))| {
             let same = known.iter().find(|valley| valley.half_swings() == *half_swings);
             same.is_none_or(|valley| *cost < valley.cost)
-        });
-        self.0.sort_by(|one, other| one.1.total_cmp(&other.1));
-        self.0.into_iter().take(MOST).map(|(_, _, p)| p).collect()
+        };
+        let mut points: Vec<_> = self.0.into_iter().filter(is_lower).map(|it| it.1).collect();
+        points.sort_by(|one, other| one.0.total_cmp(&other.0));
+        points.into_iter().take(MOST).map(|(_, p)| p).collect()
     }
 }

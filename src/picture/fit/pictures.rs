@@ -26,8 +26,8 @@ pub fn pictures(fitted: &Fitted) -> Vec<Picture<'static>> {
 
 fn record(fitted: &Fitted) -> Option<Picture<'static>> {
     let seen = fitted.curves.sampled.as_ref()?;
-    let measured = seen.t.iter().zip(&seen.x).map(|(t, x)| at(*t, *x)).collect();
-    let fit = seen.motion.iter().zip(&seen.fitted).map(|([t, ..], x)| at(*t, *x)).collect();
+    let measured = seen.points.iter().map(|[t, x, _]| at(*t, *x)).collect();
+    let fit = seen.motion.iter().map(|[t, .., x]| at(*t, *x)).collect();
     let curves = vec![
         curve("record", Role::Ghost, Dash::Solid, measured),
         curve("fitted motion", Role::Trajectory, Dash::Solid, fit),
@@ -48,8 +48,8 @@ fn record(fitted: &Fitted) -> Option<Picture<'static>> {
 pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
     let seen = fitted.curves.sampled.as_ref()?;
     let deviation = fitted.estimate.covariance.deviation;
-    let points = seen.t.iter().zip(&seen.residual).map(|(t, e)| at(*t, *e)).collect();
-    let (first, last) = (*seen.t.first()?, *seen.t.last()?);
+    let points = seen.points.iter().map(|[t, _, e]| at(*t, *e)).collect();
+    let (first, last) = (seen.points.first()?[0], seen.points.last()?[0]);
     let level = |height: f64| vec![at(first, height), at(last, height)];
     let curves = vec![
         curve("residuals", Role::Ghost, Dash::Solid, points),
@@ -111,13 +111,13 @@ fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
     if let Some(seen) = &fitted.curves.sampled {
         let mut motion = seen.motion.iter().peekable();
         let mut data = Vec::new();
-        for (t, x) in seen.t.iter().zip(&seen.x) {
+        for [t, x, _] in &seen.points {
             while motion.next_if(|point| point[0] < *t).is_some() {}
-            if let Some([_, q, v]) = motion.peek() {
+            if let Some([_, q, v, _]) = motion.peek() {
                 data.extend(estimate.measured(*t, *x, State { q: *q, v: *v }).map(Point::from));
             }
         }
-        let fit = seen.motion.iter().map(|[_, q, v]| at(*q, *v)).collect();
+        let fit = seen.motion.iter().map(|[_, q, v, _]| at(*q, *v)).collect();
         let name = match estimate.data.signal() {
             Signal::Displacement => "record (velocity by the fit)",
             _ => "record (displacement by the fit)",
