@@ -9,13 +9,12 @@ use hopfscope::numerics::Interval;
 use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::portrait::closing::all::STEP;
 use hopfscope::portrait::closing::half_map::{HalfMap, Length};
-use hopfscope::proof::derivatives::derivatives;
+use hopfscope::proof::bifurcation::enclose_fold;
 use hopfscope::proof::enclose::enclose;
-use hopfscope::proof::field::Field;
-use hopfscope::proof::fold::enclose_fold;
+use hopfscope::proof::field::FieldBox;
 use hopfscope::proof::map::ProvedMap;
-use hopfscope::proof::swing::{StartBox, swing};
-use hopfscope::proof::{ParameterBox, prove};
+use hopfscope::proof::swing::swing;
+use hopfscope::proof::{ParameterBox, StartBox, prove};
 
 fn main() {
     println!("{RECORDED}");
@@ -52,7 +51,7 @@ fn half_swing_plain(bencher: Bencher, case: usize) {
 #[divan::bench(args = [0, 1, 2, 3])]
 fn half_swing_certified(bencher: Bencher, case: usize) {
     let [a, b, c, z] = SWINGS[case].map(Interval::point);
-    let field = Field { a: a.twice(), b, c };
+    let field = FieldBox { a: a.twice(), b, c };
     bencher.bench_local(|| swing(&field, &StartBox::at_rest(black_box(z)), false));
 }
 
@@ -74,13 +73,6 @@ fn fold_enclosed(bencher: Bencher) {
     let parameters = ParameterBox::from(&CASES[0]);
     let near = -0.172_784_103_072;
     bencher.bench_local(|| enclose_fold(&parameters, Knob::D, black_box(near), 0.415_541_875));
-}
-
-/// The return map with its derivatives with respect to the clearance and all parameters.
-#[divan::bench(args = [0, 1])]
-fn map_with_derivatives(bencher: Bencher, case: usize) {
-    let parameters = ParameterBox::from(&CASES[case]);
-    bencher.bench_local(|| derivatives(&parameters, Interval::point(black_box(0.6))));
 }
 
 /// All cycles at all amplitudes, enclosed, without hints.

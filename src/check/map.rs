@@ -4,14 +4,14 @@
 //! increases, and so does its inverse. `-inf` stands for a motion that has come to rest, `+inf` for one that
 //! never turns.
 
-use super::motion::{Field, Swing};
+use super::motion::{FencedField, SwingBounds};
 use crate::numerics::Interval;
 
 /// G or its inverse, for given parameters.
 pub struct Map {
     /// The fields of the two half swings. G begins below `v = 0`, on the way from the right turning point to
     /// the left one.
-    fields: [Field; 2],
+    fields: [FencedField; 2],
     /// A half swing from the clearance z starts at the distance z plus this from its centre.
     before: Interval,
     /// It ends at the distance of the next clearance plus this from its centre.
@@ -25,7 +25,8 @@ impl Map {
         // A motion in reversed time, in the frame `y = -x`, obeys the same equation with all coefficients negated.
         let [a, c] = if inverse { [-d.twice(), -d3] } else { [d.twice(), d3] };
         let [before, after] = if inverse { [gap, none] } else { [none, gap] };
-        let fields = [Field::new([a, -d2, c], fences[0]), Field::new([a, d2, c], fences[1])];
+        let fields =
+            [FencedField::new([a, -d2, c], fences[0]), FencedField::new([a, d2, c], fences[1])];
         Map { fields, before, after }
     }
 
@@ -43,7 +44,7 @@ impl Map {
     }
 
     /// Bounds of the clearance after one half swing: only a lower bound for z = 0, only an upper one for infinite z.
-    fn half(&self, field: &Field, z: f64) -> Interval {
+    fn half(&self, field: &FencedField, z: f64) -> Interval {
         let start = self.before + z;
         let end = if z == f64::INFINITY {
             field.greatest()
@@ -64,7 +65,7 @@ impl Map {
         let (mut at, mut slope) = (over, Interval::point(1.0));
         for field in &self.fields {
             let start = at + self.before;
-            let Swing { end, damping, .. } = field.swing(start, 0.0);
+            let SwingBounds { end, damping, .. } = field.swing(start, 0.0);
             if !end.is_finite() {
                 return None;
             }

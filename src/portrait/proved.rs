@@ -9,7 +9,7 @@ use super::basin::SurveyedBasin;
 use super::basin::cycle::Cycles;
 use crate::numerics::Interval;
 use crate::portrait::{Border, Cycle};
-use crate::proof::cycles::{Open, ProvedCycle};
+use crate::proof::cycles::{OpenGap, ProvedCycle};
 use crate::proof::kicks::{ProvedEdge, ProvedKicks};
 use crate::proof::{ParameterBox, Proof, prove};
 
@@ -46,7 +46,8 @@ pub fn proved(found: &Cycles) -> Result<Proof, Contradiction> {
 pub fn compare(found: &[Cycle], proof: &Proof) -> Result<(), Contradiction> {
     let contradiction = |what| Err(Contradiction { what });
     for cycle in found {
-        let is_open = |open: &Open| is_near(Interval::new(open.lower, open.upper), cycle.clearance);
+        let is_open =
+            |open: &OpenGap| is_near(Interval::new(open.lower, open.upper), cycle.clearance);
         if matching(proof, cycle).is_none() && !proof.open.iter().any(is_open) {
             return contradiction(format!("there is no cycle with q_max = {:?}", cycle.q_max));
         }

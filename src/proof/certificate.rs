@@ -3,9 +3,8 @@
 //! A proof gives the number of cycles and their approximate places. From this the steps are computed again with
 //! the map of the checker: a walk from the sticking set outwards, each step up to the image of its start.
 
-use super::cycles::{Proof, ProvedCycle};
-use super::map::{Direction, ProvedMap};
-use super::theorems::Theorem;
+use super::cycles::{Proof, ProvedCycle, Theorem};
+use super::map::{MapDirection, ProvedMap};
 use crate::check::map::Map;
 use crate::check::{Bounds, Certificate, CertificateStep, StepKind};
 use crate::numerics::Interval;
@@ -83,8 +82,8 @@ impl Walk {
     /// repelling node.
     fn begin(&mut self, proof: &Proof) -> Result<(), String> {
         let mut map = ProvedMap::new(&proof.parameters);
-        let second = map.half(1, Direction::Backward, Interval::point(0.0)).lower();
-        let first = map.half(0, Direction::Backward, Interval::point(second)).lower();
+        let second = map.half(1, MapDirection::Backward, Interval::point(0.0)).lower();
+        let first = map.half(0, MapDirection::Backward, Interval::point(second)).lower();
         let known = first > 0.0 && first < f64::INFINITY;
         let mut to = if known { 0.95 * first } else { map.gap.upper() };
         for _ in 0..40 {

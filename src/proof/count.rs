@@ -8,7 +8,7 @@
 //! diagonal in the middle. Otherwise the gap is halved.
 
 use super::ends::{Sign, sign_at};
-use super::map::{Bound, Direction, ProvedMap};
+use super::map::{Bound, MapDirection, ProvedMap};
 use crate::numerics::Interval;
 use crate::numerics::elementary::pow;
 
@@ -81,7 +81,7 @@ impl Count {
     fn settle(&mut self, map: &mut ProvedMap, gap: Interval, low: Sign, high: Sign) -> bool {
         // Near a repelling cycle the inverse contracts, and is known where the map itself is not.
         let repels = low == Sign::Below && high == Sign::Above;
-        let directions = [Direction::Forward, Direction::Backward];
+        let directions = [MapDirection::Forward, MapDirection::Backward];
         let order = if repels { [directions[1], directions[0]] } else { directions };
         order.into_iter().any(|direction| self.settle_along(map, direction, gap, low, high))
     }
@@ -89,7 +89,7 @@ impl Count {
     fn settle_along(
         &mut self,
         map: &mut ProvedMap,
-        direction: Direction,
+        direction: MapDirection,
         gap: Interval,
         low: Sign,
         high: Sign,
@@ -116,8 +116,8 @@ impl Count {
 /// The new lower edge of a gap.
 fn from_below(map: &mut ProvedMap, (at, sign): GapEnd) -> f64 {
     let direction = match sign {
-        Sign::Above => Direction::Forward,
-        Sign::Below => Direction::Backward,
+        Sign::Above => MapDirection::Forward,
+        Sign::Below => MapDirection::Backward,
     };
     map.image_bound(direction, at, Bound::Lower).max(at)
 }
@@ -125,8 +125,8 @@ fn from_below(map: &mut ProvedMap, (at, sign): GapEnd) -> f64 {
 /// The new upper edge of a gap.
 fn from_above(map: &mut ProvedMap, (at, sign): GapEnd) -> f64 {
     let direction = match sign {
-        Sign::Above => Direction::Backward,
-        Sign::Below => Direction::Forward,
+        Sign::Above => MapDirection::Backward,
+        Sign::Below => MapDirection::Forward,
     };
     map.image_bound(direction, at, Bound::Upper).min(at)
 }
@@ -161,7 +161,7 @@ mod tests {
         // Between them the derivative passes through 1. At both it differs from 1 by only 0.0022, so it decides
         // nothing.
         let both = Interval::new(0.415_06, 0.416_03);
-        for direction in [Direction::Forward, Direction::Backward] {
+        for direction in [MapDirection::Forward, MapDirection::Backward] {
             let mut settled = Count::default();
             assert!(!settled.settle_along(&mut map, direction, both, Sign::Below, Sign::Below));
         }

@@ -1,10 +1,11 @@
 //! Enclosure of a limit cycle: existence and uniqueness near a guess by the interval Newton method, then all
-//! its characteristics.
+//! its characteristics; or all of them from a closed form.
 
 use super::field::{ParameterBox, scaled};
-use super::map::{Direction, ProvedMap};
-use super::swing::Swing;
+use super::map::{MapDirection, ProvedMap};
+use super::swing::ProvedSwing;
 use crate::numerics::Interval;
+use crate::numerics::interval::PI;
 use serde::Serialize;
 
 /// Bounds of the characteristics of one limit cycle.
@@ -69,7 +70,7 @@ pub fn enclose(
     /// rounding level.
     const STEPS: usize = 8;
     const SMALL: f64 = 1e-8;
-    let direction = if stable { Direction::Forward } else { Direction::Backward };
+    let direction = if stable { MapDirection::Forward } else { MapDirection::Backward };
     let mut near = guess;
     for _ in 0..STEPS {
         let next = polished(map, near, direction);
@@ -105,7 +106,7 @@ pub fn enclose(
 
 /// One step of the interval Newton method. All fixed points in `over` lie in the result; if the result lies in
 /// the interior of `over`, there is exactly one.
-fn newton(map: &mut ProvedMap, over: Interval, direction: Direction) -> Option<Interval> {
+fn newton(map: &mut ProvedMap, over: Interval, direction: MapDirection) -> Option<Interval> {
     let middle = Interval::point(over.middle());
     let off = map.image(direction, middle) - middle;
     let slope = map.slope(direction, over)? - Interval::point(1.0);
@@ -114,7 +115,7 @@ fn newton(map: &mut ProvedMap, over: Interval, direction: Direction) -> Option<I
 }
 
 /// A step of Newton's method in plain numbers.
-fn polished(map: &mut ProvedMap, near: f64, direction: Direction) -> f64 {
+fn polished(map: &mut ProvedMap, near: f64, direction: MapDirection) -> f64 {
     let Some((image, slope)) = map.image_and_slope(direction, Interval::point(near)) else {
         return near;
     };
@@ -123,24 +124,28 @@ fn polished(map: &mut ProvedMap, near: f64, direction: Direction) -> f64 {
 }
 
 /// All characteristics of the cycle with this clearance.
-fn describe(map: &mut ProvedMap, clearance: Interval, direction: Direction) -> Option<Enclosure> {
+fn describe(
+    map: &mut ProvedMap,
+    clearance: Interval,
+    direction: MapDirection,
+) -> Option<Enclosure> {
     let ParameterBox { r, .. } = map.parameters;
     let gap = r.twice();
     // The clearance of the left turning point, then the swings below and above.
-    let index = usize::from(direction == Direction::Backward);
+    let index = usize::from(direction == MapDirection::Backward);
     let left = map.half(index, direction, clearance);
     if !(left.lower() > 0.0 && left.is_finite()) {
         return None;
     }
     let starts = match direction {
-        Direction::Forward => [clearance, left],
-        Direction::Backward => [left + gap, clearance + gap],
+        MapDirection::Forward => [clearance, left],
+        MapDirection::Backward => [left + gap, clearance + gap],
     };
     let [below, above] = [0, 1].map(|index| map.whole_swing(index, direction, starts[index]));
     // The contribution of D2 to the divergence vanishes around a closed curve.
-    let cubic = |swing: &Swing| {
+    let cubic = |swing: &ProvedSwing| {
         let c = scaled(scaled(map.parameters.d3, swing.unit), swing.unit);
-        c * swing.square * Interval::point(3.0)
+        c * swing.square * 3.0
     };
     let positive = Interval::new(0.0, f64::INFINITY);
     let (period, multiplier) = match (&below, &above) {
@@ -154,7 +159,7 @@ fn describe(map: &mut ProvedMap, clearance: Interval, direction: Direction) -> O
     };
     let mut multiplier = multiplier.intersection(positive)?;
     // For a stiff cycle it is known more accurately from the map, which contracts.
-    let stable = direction == Direction::Forward;
+    let stable = direction == MapDirection::Forward;
     if !(multiplier.upper() < 1.0 || multiplier.lower() > 1.0)
         && let Some(slope) = map.slope(direction, clearance)
     {
@@ -163,7 +168,7 @@ fn describe(map: &mut ProvedMap, clearance: Interval, direction: Direction) -> O
         let forward = if stable { slope } else { repelling };
         multiplier = multiplier.intersection(forward)?;
     }
-    let fastest = |swing: Option<Swing>| swing.and_then(|it| it.fastest).unwrap_or(positive);
+    let fastest = |swing: Option<ProvedSwing>| swing.and_then(|it| it.fastest).unwrap_or(positive);
     Some(Enclosure {
         q_max: clearance + r,
         q_min: -(left + r),
@@ -175,10 +180,40 @@ fn describe(map: &mut ProvedMap, clearance: Interval, direction: Direction) -> O
     })
 }
 
+/// The only cycle for `D2 = D3 = 0`, `-1 < D < 0`, `r > 0`, from its closed form (lemma 15).
+///
+/// With `x = pi abs(D)/omega` a half swing ends at the mirror image of its start at the clearance
+/// `2 r/(exp(x) - 1)`. Clearance and velocity are written with `exp(-x)`, which does not overflow.
+pub fn affine_cycle(parameters: &ParameterBox) -> Option<Enclosure> {
+    let ParameterBox { d, r, .. } = *parameters;
+    let one = Interval::point(1.0);
+    let omega = ((one + d) * (one - d)).sqrt();
+    let steepness = -d / omega;
+    let x = PI * steepness;
+    let rest = -((-x).exp_m1());
+    let clearance = r.twice() * (-x).exp() / rest;
+    let clearance = clearance.intersection(Interval::new(0.0, f64::INFINITY))?;
+    let q_max = clearance + r;
+    // The velocity is largest at the angle pi/2 + atan(abs(D)/omega) of the spiral.
+    let angle = PI / 2.0 + steepness.atan();
+    let v_max = r.twice() * (steepness * angle - x).exp() / rest;
+    let period = PI.twice() / omega;
+    let multiplier = x.twice().exp();
+    let known = [q_max, v_max, period].iter().all(|it| it.is_finite());
+    known.then(|| Enclosure {
+        q_max,
+        q_min: -q_max,
+        v_max,
+        v_min: -v_max,
+        period,
+        multiplier,
+        clearance,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::interval::PI;
 
     fn map(parameters: [f64; 4]) -> ProvedMap {
         let [d, d2, d3, r] = parameters.map(Interval::point);
@@ -197,7 +232,7 @@ mod tests {
             let (at, mut map) = (exact.middle(), map([d, 0.0, 0.0, r]));
             // For an affine map one step of Newton's method leads there from anywhere.
             let aside = Interval::new(1.02 * at, 1.03 * at);
-            for direction in [Direction::Forward, Direction::Backward] {
+            for direction in [MapDirection::Forward, MapDirection::Backward] {
                 let found = newton(&mut map, aside, direction).unwrap();
                 assert!(found.intersection(exact).is_some(), "{d} {r}: {found} {exact}");
             }

@@ -1,7 +1,10 @@
 //! The two ends of the search for cycles: clearances below and above which there is no cycle.
 
-use super::barrier::least_end;
-use super::map::{Direction, ProvedMap};
+use super::ball::StartBox;
+use super::field::FieldBox;
+use super::funnel::Funnel;
+use super::map::{MapDirection, ProvedMap};
+use super::swing::swing_below;
 use crate::numerics::Interval;
 
 /// The side of the diagonal on which the return map lies.
@@ -29,25 +32,25 @@ pub fn inner_end(map: &mut ProvedMap) -> SearchEnd {
     /// Halvings of the trial clearance where the inverse is not known.
     const HALVINGS: i32 = 40;
     // The largest clearances from which the second swing, and both swings, end in the sticking set.
-    let second = map.half(1, Direction::Backward, Interval::point(0.0));
+    let second = map.half(1, MapDirection::Backward, Interval::point(0.0));
     if second.lower() == f64::INFINITY {
         return SearchEnd::Empty;
     }
-    let first = map.half(0, Direction::Backward, Interval::point(second.lower()));
+    let first = map.half(0, MapDirection::Backward, Interval::point(second.lower()));
     if first.lower() == f64::INFINITY {
         return SearchEnd::Empty;
     }
     if first.lower() > 0.0 {
         return SearchEnd::At(first.lower(), Sign::Below);
     }
-    let (gap, fields) = (map.gap, map.halves.map(|half| *half.field(Direction::Forward)));
-    if fields[0].a.upper() <= -2.0 {
-        let funnels = [0, 1].map(|index| map.funnel(index, Direction::Forward));
+    let gap = map.gap;
+    if map.field(0, MapDirection::Forward).a.upper() <= -2.0 {
         let least = [0, 1].map(|index| {
-            let end = least_end(&fields[index], funnels[index].as_ref());
+            let funnel = map.funnel(index, MapDirection::Forward);
+            let end = least_end(&map.field(index, MapDirection::Forward), funnel.as_ref());
             (Interval::point(end) - gap).lower()
         });
-        let passed = map.half(1, Direction::Forward, Interval::point(least[0])).lower();
+        let passed = map.half(1, MapDirection::Forward, Interval::point(least[0])).lower();
         let bound = passed.max(least[1]);
         if bound > 0.0 && bound < f64::INFINITY {
             // No image is smaller, provided that every motion returns.
@@ -61,7 +64,8 @@ pub fn inner_end(map: &mut ProvedMap) -> SearchEnd {
     }
     let mut clearance = gap.lower();
     for _ in 0..HALVINGS {
-        if map.image(Direction::Forward, Interval::point(clearance)).upper() == f64::NEG_INFINITY {
+        if map.image(MapDirection::Forward, Interval::point(clearance)).upper() == f64::NEG_INFINITY
+        {
             return SearchEnd::At(clearance, Sign::Below);
         }
         clearance *= 0.5;
@@ -69,10 +73,34 @@ pub fn inner_end(map: &mut ProvedMap) -> SearchEnd {
     SearchEnd::Open
 }
 
+/// Lower bound of the ends of swings that start next to the centre, for `a <= -2`. The centre is then a
+/// repelling node, and every swing, however small, leaves its neighbourhood along the steep direction (lemma 10).
+///
+/// With `k = 2 abs(b) + 1` motions cross the parabola `v = x - k x^2` upwards as long as
+/// `x (2 k^2 + abs(c)) <= k - abs(b)`, and those from next to the centre start above it.
+fn least_end(field: &FieldBox, funnel: Option<&Funnel>) -> f64 {
+    /// Fraction of the largest admissible point at which the motion is started, so that its exact start does
+    /// not matter.
+    const NEAR: f64 = 1e-3;
+    let [b, c] = [field.b, field.c].map(|it| Interval::point(it.magnitude()));
+    let k = Interval::point(2.0 * b.upper() + 1.0);
+    let bound = (k - b) / (k.square() * 2.0 + c);
+    let at = Interval::point(NEAR * bound.lower());
+    let v = at - k * at.square();
+    if !(at.lower() > 0.0 && v.lower() > 0.0) {
+        return 0.0;
+    }
+    let start = StartBox { x: at, v: Interval::point(v.lower()) };
+    let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
+    let field = field.strongest();
+    let passage = swing_below(&field, &start, ceiling);
+    Funnel::least_after(funnel, &field, &passage).max(0.0)
+}
+
 /// The outer end of the search; `inner` is the clearance at the inner one.
 pub fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
     let [first, second] = [0, 1].map(|index| {
-        let greatest = map.greatest(index, Direction::Forward);
+        let greatest = map.greatest(index, MapDirection::Forward);
         if greatest < f64::INFINITY {
             (Interval::point(greatest) - map.gap).upper()
         } else {
@@ -83,7 +111,7 @@ pub fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
         return SearchEnd::Empty;
     }
     let through = if first < f64::INFINITY {
-        map.half(1, Direction::Forward, Interval::point(first)).upper()
+        map.half(1, MapDirection::Forward, Interval::point(first)).upper()
     } else {
         f64::INFINITY
     };
@@ -98,9 +126,9 @@ pub fn outer_end(map: &mut ProvedMap, inner: f64) -> SearchEnd {
         return sign.map_or(SearchEnd::Open, |sign| SearchEnd::At(bound, sign));
     }
     // The same for the inverse, all of whose images are below its greatest one.
-    let back = map.greatest(1, Direction::Backward);
-    let whole = map.greatest(0, Direction::Backward);
-    let through = map.half(0, Direction::Backward, Interval::point(back)).upper();
+    let back = map.greatest(1, MapDirection::Backward);
+    let whole = map.greatest(0, MapDirection::Backward);
+    let through = map.half(0, MapDirection::Backward, Interval::point(back)).upper();
     let bound = through.min(whole);
     if bound < f64::INFINITY && bound > inner {
         return SearchEnd::At(bound, Sign::Above);
@@ -116,7 +144,7 @@ fn escape(map: &mut ProvedMap, inner: f64) -> SearchEnd {
         if !clearance.is_finite() {
             break;
         }
-        if map.image(Direction::Forward, Interval::point(clearance)).lower() == f64::INFINITY {
+        if map.image(MapDirection::Forward, Interval::point(clearance)).lower() == f64::INFINITY {
             return SearchEnd::At(clearance, Sign::Above);
         }
     }
@@ -125,12 +153,34 @@ fn escape(map: &mut ProvedMap, inner: f64) -> SearchEnd {
 
 /// The side of the diagonal on which the map certainly lies at a clearance.
 pub fn sign_at(map: &mut ProvedMap, clearance: f64) -> Option<Sign> {
-    let image = map.image(Direction::Forward, Interval::point(clearance));
+    let image = map.image(MapDirection::Forward, Interval::point(clearance));
     if image.lower() > clearance {
         Some(Sign::Above)
     } else if image.upper() < clearance {
         Some(Sign::Below)
     } else {
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::proof::swing::swing;
+
+    /// However near to the centre a swing starts, it ends beyond the common bound.
+    #[test]
+    fn swings_from_next_to_a_node_end_beyond_their_bound() {
+        for coefficients in [[-2.0, 0.5, 1.0], [-2.2, -0.5, 1.0], [-2.5, 0.0, 3.0]] {
+            let [a, b, c] = coefficients.map(Interval::point);
+            let node = FieldBox { a, b, c };
+            let least = least_end(&node, None);
+            assert!(least > 0.0, "{coefficients:?}");
+            for z in [1e-9, 1e-5, 1e-3, 0.1] {
+                let start = StartBox::at_rest(Interval::point(z));
+                let end = swing(&node, &start, false).arrived().unwrap().end;
+                assert!(end.upper() >= least, "{coefficients:?} {z}: {end} {least}");
+            }
+        }
     }
 }

@@ -37,7 +37,7 @@ impl ParameterBox {
 /// `v' = -x - v (a + b v + c v^2)`, `x' = v`: the smooth field of one half plane in its own frame, in
 /// which the motion runs from `(-z, 0)` through `v > 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Field {
+pub struct FieldBox {
     /// `2 D`.
     pub a: Interval,
     /// `D2` above `v = 0`, `-D2` below.
@@ -46,38 +46,38 @@ pub struct Field {
     pub c: Interval,
 }
 
-impl Field {
+impl FieldBox {
     /// The field on one side of the switching line.
     #[must_use]
     pub fn new(parameters: &ParameterBox, side: Side) -> Self {
         let b = if side == Side::Upper { parameters.d2 } else { -parameters.d2 };
-        Field { a: parameters.d.twice(), b, c: parameters.d3 }
+        FieldBox { a: parameters.d.twice(), b, c: parameters.d3 }
     }
 
     /// The field of motions run backward, in the frame `y = -x`.
     #[must_use]
     pub fn reversed(&self) -> Self {
-        Field { a: -self.a, b: -self.b, c: -self.c }
+        FieldBox { a: -self.a, b: -self.b, c: -self.c }
     }
 
     /// The same field for motions in units of `2^k`.
     #[must_use]
     pub fn in_units_of(&self, k: i32) -> Self {
-        Field { a: self.a, b: scaled(self.b, k), c: scaled(scaled(self.c, k), k) }
+        FieldBox { a: self.a, b: scaled(self.b, k), c: scaled(scaled(self.c, k), k) }
     }
 
     /// The member with the least damping: of all fields here its motion from a given start is the highest.
     #[must_use]
     pub fn weakest(&self) -> Self {
         let least = |it: Interval| Interval::point(it.lower());
-        Field { a: least(self.a), b: least(self.b), c: least(self.c) }
+        FieldBox { a: least(self.a), b: least(self.b), c: least(self.c) }
     }
 
     /// The member with the most damping.
     #[must_use]
     pub fn strongest(&self) -> Self {
         let most = |it: Interval| Interval::point(it.upper());
-        Field { a: most(self.a), b: most(self.b), c: most(self.c) }
+        FieldBox { a: most(self.a), b: most(self.b), c: most(self.c) }
     }
 
     /// Whether it is a single field.

@@ -6,11 +6,11 @@
 //! impulse is captured if the half swing that it starts ends nearer than this. A push is weakest where the edge is
 //! lowest, which over the rest positions is at an end of the sticking set.
 
-use super::cycles::{Proof, ProvedCycle};
+use super::ball::StartBox;
+use super::cycles::{Proof, ProvedCycle, Theorem};
 use super::field::ParameterBox;
-use super::map::{Direction, ProvedMap};
-use super::swing::{Passage, StartBox, swing};
-use super::theorems::Theorem;
+use super::map::{MapDirection, ProvedMap};
+use super::swing::{Passage, swing};
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
 
@@ -88,7 +88,7 @@ pub fn kicks(proof: &Proof, hints: [Option<f64>; 3]) -> ProvedKicks {
         one.zip(other).map(|(one, other)| smaller(one, other))
     };
     let impulse = at(r, hints[1]);
-    // Over the rest positions the edge is lowest at an end (lemma 23).
+    // Over the rest positions the edge is lowest at an end (lemma 22).
     let ends = [Interval::point(0.0), r + r].map(|x| at(x, hints[2]));
     let rest_impulse = ends[0].zip(ends[1]).map(|(one, other)| smaller(one, other));
     ProvedKicks {
@@ -145,7 +145,7 @@ fn is_bounded(map: &mut ProvedMap, proof: &Proof) -> bool {
     let energy = proof.theorem == Some(Theorem::OneWay) && d2 == Interval::point(0.0);
     let barred = [0, 1]
         .iter()
-        .all(|&half| d3.lower() > 0.0 && map.greatest(half, Direction::Forward) < f64::INFINITY);
+        .all(|&half| d3.lower() > 0.0 && map.greatest(half, MapDirection::Forward) < f64::INFINITY);
     energy || barred
 }
 
@@ -158,7 +158,7 @@ fn at_rest(map: &mut ProvedMap, half: usize, from: f64, known: &mut Interval) ->
         let before = at;
         for index in [half, 1 - half] {
             map.steps = 0;
-            at = map.half(index, Direction::Forward, at);
+            at = map.half(index, MapDirection::Forward, at);
         }
         // A motion that has not come nearer in one turn never will.
         if at.lower() >= from.min(known.upper()) {
@@ -186,7 +186,7 @@ fn pushed(
     speed: f64,
     edge: [Interval; 2],
 ) -> Option<bool> {
-    let field = *map.halves[half].field(Direction::Forward);
+    let field = map.field(half, MapDirection::Forward);
     let start = StartBox { x, v: Interval::point(speed) };
     let passage = swing(&field, &start, false);
     let Passage::Arrives(swing) = passage else {

@@ -7,18 +7,12 @@
 
 use std::cell::OnceCell;
 
-use super::field::{Field, ParameterBox};
+use super::ball::{MOST_STEPS, StartBox};
+use super::field::{FieldBox, ParameterBox, scaled};
 use super::funnel::Funnel;
-use super::swing::{MOST_STEPS, Passage, StartBox, Swing, swing, swing_below, swing_past_peak};
+use super::swing::{Passage, ProvedSwing, swing, swing_below, swing_past_peak};
 use crate::model::Side;
 use crate::numerics::Interval;
-
-/// The half map of one side, in both directions.
-#[derive(Clone, Copy, Debug)]
-pub struct Half {
-    forward: Field,
-    backward: Field,
-}
 
 /// The map from one right turning point to the next.
 ///
@@ -27,8 +21,8 @@ pub struct Half {
 pub struct ProvedMap {
     /// The parameters.
     pub parameters: ParameterBox,
-    /// The two half maps, in the order of the forward map.
-    pub halves: [Half; 2],
+    /// The fields of the two half maps, in the order of the forward map.
+    fields: [FieldBox; 2],
     /// The funnel of each half and direction, once it has been computed.
     funnels: [[OnceCell<Option<Funnel>>; 2]; 2],
     /// `2 r`.
@@ -41,7 +35,7 @@ pub struct ProvedMap {
 
 /// The direction in which a map is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direction {
+pub enum MapDirection {
     /// Forward in time.
     Forward,
     /// Backward in time: the inverse.
@@ -69,27 +63,12 @@ pub enum Bound {
     Upper,
 }
 
-impl Half {
-    /// The field for a direction.
-    pub fn field(&self, direction: Direction) -> &Field {
-        match direction {
-            Direction::Forward => &self.forward,
-            Direction::Backward => &self.backward,
-        }
-    }
-}
-
 impl ProvedMap {
     /// The map for these parameters.
     pub fn new(parameters: &ParameterBox) -> Self {
-        let half = |side| {
-            let forward = Field::new(parameters, side);
-            Half { forward, backward: forward.reversed() }
-        };
-        let halves = [half(Side::Lower), half(Side::Upper)];
         ProvedMap {
             parameters: *parameters,
-            halves,
+            fields: [Side::Lower, Side::Upper].map(|side| FieldBox::new(parameters, side)),
             funnels: Default::default(),
             gap: parameters.r.twice(),
             swings: 0,
@@ -97,13 +76,21 @@ impl ProvedMap {
         }
     }
 
+    /// The field of a half in a direction.
+    pub fn field(&self, index: usize, direction: MapDirection) -> FieldBox {
+        match direction {
+            MapDirection::Forward => self.fields[index],
+            MapDirection::Backward => self.fields[index].reversed(),
+        }
+    }
+
     /// Runs one field from rest.
-    pub fn run(&mut self, field: &Field, start: Interval) -> Passage {
+    pub fn run(&mut self, field: &FieldBox, start: Interval) -> Passage {
         self.run_below(field, start, f64::INFINITY)
     }
 
     /// As [`Self::run`], but stops as soon as every motion is faster than the ceiling.
-    fn run_below(&mut self, field: &Field, start: Interval, ceiling: f64) -> Passage {
+    fn run_below(&mut self, field: &FieldBox, start: Interval, ceiling: f64) -> Passage {
         if self.steps > MOST_WORK {
             return Passage::Unknown;
         }
@@ -121,10 +108,10 @@ impl ProvedMap {
     pub fn whole_swing(
         &mut self,
         index: usize,
-        direction: Direction,
+        direction: MapDirection,
         start: Interval,
-    ) -> Option<Swing> {
-        let field = *self.halves[index].field(direction);
+    ) -> Option<ProvedSwing> {
+        let field = self.field(index, direction);
         self.swings += 1;
         if let Some(swing) = swing(&field, &StartBox::at_rest(start), true).arrived() {
             return Some(swing);
@@ -136,34 +123,33 @@ impl ProvedMap {
     }
 
     /// The funnel of a half, if it has one.
-    pub fn funnel(&mut self, index: usize, direction: Direction) -> Option<Funnel> {
-        let place = &self.funnels[index][usize::from(direction == Direction::Backward)];
-        let field = self.halves[index].field(direction);
+    pub fn funnel(&mut self, index: usize, direction: MapDirection) -> Option<Funnel> {
+        let place = &self.funnels[index][usize::from(direction == MapDirection::Backward)];
         let mut swings = 0;
-        let funnel = *place.get_or_init(|| Funnel::new(field, &mut swings));
+        let funnel = *place.get_or_init(|| Funnel::new(&self.field(index, direction), &mut swings));
         self.swings += swings;
         funnel
     }
 
     /// Upper bound of the ends of all swings of a half, however far out they start.
-    pub fn greatest(&mut self, index: usize, direction: Direction) -> f64 {
+    pub fn greatest(&mut self, index: usize, direction: MapDirection) -> f64 {
         self.greatest_from(index, direction, f64::INFINITY)
     }
 
     /// Upper bound of the ends of swings that start up to this far out.
-    fn greatest_from(&mut self, index: usize, direction: Direction, from: f64) -> f64 {
+    fn greatest_from(&mut self, index: usize, direction: MapDirection, from: f64) -> f64 {
         let funnel = self.funnel(index, direction);
         funnel.filter(|it| from <= it.reach).map_or(f64::INFINITY, |it| it.greatest())
     }
 
     /// Lower bound of the end of a swing. Where none can be computed, the bound for a start further in is used:
     /// that swing ends below.
-    fn least(&mut self, index: usize, direction: Direction, start: f64) -> f64 {
+    fn least(&mut self, index: usize, direction: MapDirection, start: f64) -> f64 {
         /// Times that a start is quartered in search of one that is not stiff.
         const SHORTENINGS: i32 = 6;
         let funnel = self.funnel(index, direction);
         let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
-        let field = self.halves[index].field(direction).strongest();
+        let field = self.field(index, direction).strongest();
         if let Some(far) = funnel
             && far.climb_from(&field, Interval::point(start)).is_some()
         {
@@ -180,9 +166,9 @@ impl ProvedMap {
     }
 
     /// Upper bound of the end of a swing.
-    fn most(&mut self, index: usize, direction: Direction, start: f64) -> f64 {
+    fn most(&mut self, index: usize, direction: MapDirection, start: f64) -> f64 {
         let funnel = self.funnel(index, direction);
-        let field = self.halves[index].field(direction).weakest();
+        let field = self.field(index, direction).weakest();
         let far = funnel.and_then(|it| it.climb_from(&field, Interval::point(start)));
         if start < f64::INFINITY && far.is_none() {
             let ceiling = funnel.map_or(f64::INFINITY, |it| it.ceiling);
@@ -195,12 +181,12 @@ impl ProvedMap {
     }
 
     /// One half of the map: from the clearances before a swing to those after it.
-    pub fn half(&mut self, index: usize, direction: Direction, from: Interval) -> Interval {
+    pub fn half(&mut self, index: usize, direction: MapDirection, from: Interval) -> Interval {
         let start = match direction {
-            Direction::Forward => from,
-            Direction::Backward => from + self.gap,
+            MapDirection::Forward => from,
+            MapDirection::Backward => from + self.gap,
         };
-        let field = *self.halves[index].field(direction);
+        let field = self.field(index, direction);
         if field.is_point()
             && from.lower() > 0.0
             && from.radius() <= ROUNDED * from.lower()
@@ -214,20 +200,20 @@ impl ProvedMap {
     }
 
     /// A bound of one half of the map at a clearance.
-    fn bound(&mut self, index: usize, direction: Direction, from: f64, which: Bound) -> f64 {
-        if from == f64::INFINITY || (direction == Direction::Forward && from <= 0.0) {
+    fn bound(&mut self, index: usize, direction: MapDirection, from: f64, which: Bound) -> f64 {
+        if from == f64::INFINITY || (direction == MapDirection::Forward && from <= 0.0) {
             return if from > 0.0 { from } else { f64::NEG_INFINITY };
         }
         let start = match direction {
-            Direction::Forward => Interval::point(from),
-            Direction::Backward => Interval::point(from) + self.gap,
+            MapDirection::Forward => Interval::point(from),
+            MapDirection::Backward => Interval::point(from) + self.gap,
         };
         let end = match which {
             Bound::Lower => self.least(index, direction, start.lower()),
             Bound::Upper => self.most(index, direction, start.upper()),
         };
         if end.is_infinite() {
-            return if direction == Direction::Backward { end.max(0.0) } else { end };
+            return if direction == MapDirection::Backward { end.max(0.0) } else { end };
         }
         let after = self.after(direction, Interval::point(end));
         match which {
@@ -237,57 +223,57 @@ impl ProvedMap {
     }
 
     /// The clearances after swings that end at these positions; `-inf` where they end in the sticking set.
-    fn after(&self, direction: Direction, end: Interval) -> Interval {
+    fn after(&self, direction: MapDirection, end: Interval) -> Interval {
         match direction {
-            Direction::Forward => {
+            MapDirection::Forward => {
                 let rest = |bound: f64| if bound > 0.0 { bound } else { f64::NEG_INFINITY };
                 let after = end - self.gap;
                 Interval::new(rest(after.lower()), rest(after.upper()))
             }
-            Direction::Backward => Interval::new(end.lower().max(0.0), end.upper()),
+            MapDirection::Backward => Interval::new(end.lower().max(0.0), end.upper()),
         }
     }
 
     /// The order of the halves in a direction.
-    fn order(direction: Direction) -> [usize; 2] {
+    fn order(direction: MapDirection) -> [usize; 2] {
         match direction {
-            Direction::Forward => [0, 1],
-            Direction::Backward => [1, 0],
+            MapDirection::Forward => [0, 1],
+            MapDirection::Backward => [1, 0],
         }
     }
 
     /// A bound of the whole map at a clearance.
-    pub fn image_bound(&mut self, direction: Direction, from: f64, which: Bound) -> f64 {
+    pub fn image_bound(&mut self, direction: MapDirection, from: f64, which: Bound) -> f64 {
         let [first, second] = Self::order(direction);
         let between = self.bound(first, direction, from, which);
         self.bound(second, direction, between, which)
     }
 
     /// The whole map.
-    pub fn image(&mut self, direction: Direction, from: Interval) -> Interval {
+    pub fn image(&mut self, direction: MapDirection, from: Interval) -> Interval {
         let [first, second] = Self::order(direction);
         let between = self.half(first, direction, from);
         self.half(second, direction, between)
     }
 
     /// The derivative of the map over an interval of clearances; `None` where a swing is not certain.
-    pub fn slope(&mut self, direction: Direction, over: Interval) -> Option<Interval> {
+    pub fn slope(&mut self, direction: MapDirection, over: Interval) -> Option<Interval> {
         self.image_and_slope(direction, over).map(|(_, slope)| slope)
     }
 
     /// The images of an interval of clearances, and the derivative over it.
     pub fn image_and_slope(
         &mut self,
-        direction: Direction,
+        direction: MapDirection,
         over: Interval,
     ) -> Option<(Interval, Interval)> {
         let mut product = Interval::point(1.0);
         let mut from = over;
         for index in Self::order(direction) {
-            let start = if direction == Direction::Backward { from + self.gap } else { from };
+            let start = if direction == MapDirection::Backward { from + self.gap } else { from };
             let (end, slope) = self.half_slope(index, direction, start)?;
             product = product * slope;
-            from = if direction == Direction::Forward { end - self.gap } else { end };
+            from = if direction == MapDirection::Forward { end - self.gap } else { end };
             if !(from.lower() > 0.0) {
                 return None;
             }
@@ -299,10 +285,10 @@ impl ProvedMap {
     fn half_slope(
         &mut self,
         index: usize,
-        direction: Direction,
+        direction: MapDirection,
         start: Interval,
     ) -> Option<(Interval, Interval)> {
-        let field = *self.halves[index].field(direction);
+        let field = self.field(index, direction);
         let funnel = self.funnel(index, direction);
         let stiff = |climb| funnel.and_then(|it| it.contraction(&field, start, climb));
         let far = funnel.and_then(|it| it.climb_from(&field, start)).and_then(stiff);
@@ -335,10 +321,10 @@ impl ProvedMap {
     /// intervals they are taken from two motions, and only the duration from the ball.
     fn swing_over(
         &mut self,
-        field: &Field,
+        field: &FieldBox,
         start: Interval,
-        mut whole: Swing,
-    ) -> Option<(Swing, Interval)> {
+        mut whole: ProvedSwing,
+    ) -> Option<(ProvedSwing, Interval)> {
         if !(field.is_point() && start.radius() <= NARROW * start.lower()) {
             let low = self.run(&field.strongest(), Interval::point(start.lower())).arrived()?;
             let high = self.run(&field.weakest(), Interval::point(start.upper())).arrived()?;
@@ -346,10 +332,9 @@ impl ProvedMap {
             let least = low.square_in(whole.unit).lower();
             let most = high.square_in(whole.unit).upper();
             whole.square = Interval::new(least, most).intersection(whole.square)?;
-            let Field { a, b, c } = field.in_units_of(whole.unit);
-            let path = super::field::scaled(whole.end + start, -whole.unit);
-            let cubic = c * whole.square * Interval::point(3.0);
-            whole.divergence = -(a * whole.duration + (b * path).twice() + cubic);
+            let FieldBox { a, b, c } = field.in_units_of(whole.unit);
+            let path = scaled(whole.end + start, -whole.unit);
+            whole.divergence = -(a * whole.duration + (b * path).twice() + c * whole.square * 3.0);
         }
         let slope = start / whole.end * whole.divergence.exp();
         slope.is_finite().then_some((whole, slope))

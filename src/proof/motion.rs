@@ -1,10 +1,11 @@
 //! Enclosure of a motion, half swing by half swing, until it comes to rest, reaches the end time, or escapes.
 
-use super::field::{Field, ParameterBox};
-use super::map::{Direction, ProvedMap};
-use super::ride::{blow_up, state_at};
-use super::swing::{Passage, StartBox, Swing, swing};
+use super::ball::{Ball, MOST_STEPS, StartBox, never_returns};
+use super::field::{FieldBox, ParameterBox, scaled};
+use super::map::{MapDirection, ProvedMap};
+use super::swing::{Passage, ProvedSwing, swing};
 use crate::numerics::Interval;
+use crate::numerics::elementary::cbrt;
 
 /// An arrival at `v = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,7 +90,7 @@ pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> P
         if index == 1 { StartBox { x: q + r, v } } else { StartBox { x: r - q, v: -v } };
     let mut map = ProvedMap::new(parameters);
     let fate = loop {
-        let field = *map.halves[index].field(Direction::Forward);
+        let field = map.field(index, MapDirection::Forward);
         let time = Interval::point(until) - tau;
         let state = || {
             let (x, v) =
@@ -137,15 +138,127 @@ pub fn follow(parameters: &ParameterBox, [q, v]: [Interval; 2], until: f64) -> P
 }
 
 /// End of a swing; for a wide interval of starts at rest, from the motions of its two ends (lemma 8).
-fn end(map: &mut ProvedMap, field: &Field, start: &StartBox, whole: &Swing) -> Interval {
+fn end(map: &mut ProvedMap, field: &FieldBox, start: &StartBox, whole: &ProvedSwing) -> Interval {
     let point = start.x.is_point() && field.is_point();
     if point || start.v != Interval::point(0.0) {
         return whole.end;
     }
     map.steps = 0;
-    let mut bound = |field: &Field, x: f64| map.run(field, Interval::point(-x)).arrived();
+    let mut bound = |field: &FieldBox, x: f64| map.run(field, Interval::point(-x)).arrived();
     let low = bound(&field.strongest(), start.x.upper());
     let high = bound(&field.weakest(), start.x.lower());
     let ends = low.zip(high).map(|(low, high)| Interval::new(low.end.lower(), high.end.upper()));
     ends.and_then(|ends| ends.intersection(whole.end)).unwrap_or(whole.end)
+}
+
+/// A ball of motions on its way, and the time since the start.
+struct Ride {
+    ball: Ball,
+    elapsed: Interval,
+}
+
+impl Ride {
+    fn new(field: &FieldBox, start: &StartBox) -> Option<Self> {
+        Some(Ride { ball: Ball::new(field, start)?, elapsed: Interval::point(0.0) })
+    }
+
+    /// One step, at most `most` long. The velocity vanishes neither during the step nor at its end (lemma 5).
+    fn step(&mut self, most: f64) -> Option<()> {
+        let ahead = self.ball.prepare(most)?;
+        let (h, reached) = self.ball.reach(ahead)?;
+        self.ball.advance(&reached);
+        self.elapsed = self.elapsed + h;
+        (self.ball.state().1.lower() > 0.0).then_some(())
+    }
+
+    /// Upper bound of the time until the velocity is infinite; `None` where that is not certain.
+    ///
+    /// Above the line `v = x + m` the velocity grows at least at the rate `k0 + k1 u + k2 u^2 + k3 u^3`, where
+    /// u is its gain (lemma 7). For every U, the constant term bounds the time until `u = U` by `U/k0`, and
+    /// `k u^n` bounds the time from there on by `1/((n - 1) k U^(n - 1))`.
+    fn remaining(&self) -> Option<f64> {
+        let (x, v) = self.ball.state();
+        let (x, v) = (x.upper(), v.lower());
+        if !never_returns(&self.ball.local.field, x, v) {
+            return None;
+        }
+        let FieldBox { a, b, c } = self.ball.local.field;
+        let [a, b, c] = [a, b, c].map(|it| Interval::point(it.upper()));
+        let at = Interval::point(v);
+        let k0 = -Interval::point(x) - at * (a + at * (b + at * c));
+        let k1 = -(a + 1.0 + at * (b * 2.0 + at * c * 3.0));
+        let k2 = -(b + at * c * 3.0);
+        let k3 = -c;
+        if !(k0.lower() > 0.0 && [k1, k2, k3].iter().all(|it| it.lower() >= 0.0)) {
+            return None;
+        }
+        let up_to = |u: f64| Interval::point(u) / k0;
+        let square = (k0.lower() / k2.lower()).sqrt();
+        let cube = cbrt(k0.lower() / k3.lower());
+        let one = Interval::point(1.0);
+        let by_square = up_to(square) + one / (k2 * square);
+        let by_cube = up_to(cube) + one / (k3 * 2.0 * Interval::point(cube).square());
+        let least = by_square.upper().min(by_cube.upper());
+        least.is_finite().then_some(least)
+    }
+}
+
+/// Position and velocity at a time after the start, for all motions of a box of starts and fields.
+///
+/// `None` where they are not known, or where the velocity may have reached 0 before.
+pub fn state_at(
+    field: &FieldBox,
+    start: &StartBox,
+    time: Interval,
+) -> Option<(Interval, Interval)> {
+    let mut ride = Ride::new(field, start)?;
+    let target = time.middle();
+    for _ in 0..MOST_STEPS {
+        let left = target - ride.elapsed.middle();
+        if !(left > 4.0 * f64::EPSILON * target) {
+            let off = (time - ride.elapsed).magnitude();
+            let (x, v) = about(&ride.ball.local.field, ride.ball.state(), off)?;
+            let (x, v) = (scaled(x, ride.ball.unit), scaled(v, ride.ball.unit));
+            return (v.lower() >= 0.0).then_some((x, v));
+        }
+        ride.step(left)?;
+    }
+    None
+}
+
+/// A larger box that motions do not leave within the time `off` before and after they are in a box.
+fn about(field: &FieldBox, (x, v): (Interval, Interval), off: f64) -> Option<(Interval, Interval)> {
+    let time = Interval::new(-off, off);
+    let (mut wide_x, mut wide_v) = (x, v);
+    for _ in 0..6 {
+        let next_x = x + time * wide_v;
+        let next_v = v + time * field.acceleration(wide_x, wide_v);
+        if next_x.is_within(wide_x) && next_v.is_within(wide_v) {
+            return Some((next_x, next_v));
+        }
+        let wider = |it: Interval| Interval::around(it.middle(), 1.1 * it.radius());
+        (wide_x, wide_v) = (wider(wide_x.hull(next_x)), wider(wide_v.hull(next_v)));
+    }
+    None
+}
+
+/// The time at which the velocity of motions that never turn becomes infinite; `None` where it has no bound.
+pub fn blow_up(field: &FieldBox, start: &StartBox) -> Option<Interval> {
+    /// Relative uncertainty of the time at which the bound is good enough.
+    const GOOD: f64 = 1e-12;
+    let mut ride = Ride::new(field, start)?;
+    let mut best: Option<Interval> = None;
+    for _ in 0..2 * MOST_STEPS {
+        if let Some(remaining) = ride.remaining() {
+            let over = ride.elapsed + Interval::new(0.0, remaining);
+            best = Some(best.and_then(|best| best.intersection(over)).unwrap_or(over));
+            if remaining < GOOD * over.upper() {
+                break;
+            }
+        }
+        if ride.step(f64::INFINITY).is_none() {
+            break;
+        }
+    }
+    best
 }

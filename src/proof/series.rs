@@ -22,7 +22,7 @@ pub(super) const INVERSE: [f64; LENGTH + 1] = reciprocals();
 
 /// The Taylor polynomials at a point.
 #[derive(Clone, Debug)]
-pub struct Series<T = f64> {
+pub struct MotionSeries<T = f64> {
     /// Coefficients of x.
     pub x: [T; LENGTH],
     /// Coefficients of v.
@@ -79,10 +79,10 @@ fn inner<T: Scalar>(both: [&[T; LENGTH]; 2], other: &[T; 2 * LENGTH], k: usize) 
     lanes.map(|lanes| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
 }
 
-impl<T: Scalar> Series<T> {
+impl<T: Scalar> MotionSeries<T> {
     /// An empty series to be filled.
-    pub const EMPTY: Series<T> =
-        Series { x: [T::ZERO; LENGTH], v: [T::ZERO; LENGTH], square: [T::ZERO; LENGTH] };
+    pub const EMPTY: MotionSeries<T> =
+        MotionSeries { x: [T::ZERO; LENGTH], v: [T::ZERO; LENGTH], square: [T::ZERO; LENGTH] };
 
     /// Fills the coefficients at `(x, v)` of the field `a, b, c`.
     ///
@@ -152,7 +152,7 @@ impl<T: Scalar> Series<T> {
     }
 }
 
-impl Series {
+impl MotionSeries {
     /// A step length for which the last two terms are about `tolerance` of the state.
     #[must_use]
     pub fn step(&self, tolerance: f64) -> f64 {

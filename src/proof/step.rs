@@ -13,48 +13,33 @@
 //!
 //! `docs/proofs.md` has the lemmas and the count of every rounding.
 
-use super::field::Field;
-use super::norm::Norm;
-use super::rounding::{INFLATE, UNDERFLOW, UNIT};
-use super::series::{INVERSE, LENGTH, ORDER, Series};
+use super::field::FieldBox;
+use super::norm::{INFLATE, Norm, UNDERFLOW, UNIT};
+use super::series::{INVERSE, LENGTH, MotionSeries, ORDER};
 use crate::numerics::Interval;
 use crate::numerics::elementary::ln;
 
 /// A field prepared for stepping: middles, radii and largest magnitudes of its coefficients.
 #[derive(Clone, Copy, Debug)]
 pub struct StepField {
-    a: f64,
-    b: f64,
-    c: f64,
+    /// The middles of a, b, c, used to compute the coefficients.
+    pub middles: [f64; 3],
     /// Radii of a, b, c.
     spread: [f64; 3],
     /// Upper bounds of the magnitudes of a, b, c.
     most: [f64; 3],
     /// All values of a, b, c.
-    field: Field,
+    pub field: FieldBox,
 }
 
 impl StepField {
     /// Prepares a field.
     #[must_use]
-    pub fn new(field: &Field) -> Self {
-        let Field { a, b, c } = *field;
+    pub fn new(field: &FieldBox) -> Self {
+        let FieldBox { a, b, c } = *field;
         let spread = [a, b, c].map(Interval::radius);
         let most = [a, b, c].map(Interval::magnitude);
-        let [a, b, c] = [a, b, c].map(Interval::middle);
-        StepField { a, b, c, spread, most, field: *field }
-    }
-
-    /// The middles of a, b, c, used to compute the coefficients.
-    #[must_use]
-    pub fn middles(&self) -> [f64; 3] {
-        [self.a, self.b, self.c]
-    }
-
-    /// The field.
-    #[must_use]
-    pub fn field(&self) -> &Field {
-        &self.field
+        StepField { middles: [a, b, c].map(Interval::middle), spread, most, field: *field }
     }
 
     /// The norm chosen for the next step, and the radius of a ball in it, given its norm and radius before.
@@ -73,7 +58,8 @@ impl StepField {
         const WHILE: f64 = 0.6;
         /// A change with a smaller gain, in the logarithm of the radius, is not made.
         const WORTH: f64 = 0.25;
-        let slope = |v: f64| self.a + v * (2.0 * self.b + v * 3.0 * self.c);
+        let [a, b, c] = self.middles;
+        let slope = |v: f64| a + v * (2.0 * b + v * 3.0 * c);
         let (start, end) = (slope(now), slope(next));
         let (low, high) = (start.min(end), start.max(end));
         let time = h.max(WHILE);
@@ -85,7 +71,7 @@ impl StepField {
         let cost = |norm: Norm| ln(before.into(norm)) + norm.rate(low, high) * time;
         let candidates = [
             before,
-            Norm::fitting(self.a),
+            Norm::fitting(a),
             Norm::new(0.0),
             Norm::fitting(0.5 * (low + high)),
             Norm::fitting(low),
@@ -106,8 +92,6 @@ pub struct StepEnd {
     pub v: f64,
     /// Norm of the distance between `(x, v)` and the motion.
     pub radius: f64,
-    /// Largest distance of any component of the motion from the polynomial over the step.
-    pub off: f64,
     /// Integral of `v^2` of the polynomial over the step.
     pub square: f64,
     /// Largest difference from the integral along the motion.
@@ -212,7 +196,7 @@ fn powers(h: f64) -> [f64; LENGTH] {
 }
 
 impl Sums {
-    fn of(series: &Series, h: f64) -> Self {
+    fn of(series: &MotionSeries, h: f64) -> Self {
         let powers = powers(h);
         let terms: [f64; LENGTH] = std::array::from_fn(|k| series.v[k].abs() * powers[k]);
         let squares: [f64; LENGTH] = std::array::from_fn(|k| series.square[k] * powers[k]);
@@ -271,14 +255,14 @@ const NEXT: [f64; LENGTH] = {
 };
 
 impl StepField {
-    /// Carries a ball around the start of a series over a step of length h to its `end` by [`Series::at`];
+    /// Carries a ball around the start of a series over a step of length h to its `end` by [`MotionSeries::at`];
     /// `None` where nothing can be stated, because the ball grows too much or the motion might cross `v = 0`
     /// and return unseen.
     #[must_use]
     pub fn carry(
         &self,
         norm: Norm,
-        series: &Series,
+        series: &MotionSeries,
         (h, end): (f64, (f64, f64)),
         radius: f64,
     ) -> Option<StepEnd> {
@@ -299,7 +283,9 @@ impl StepField {
         let speeds = velocities(&sums, series.v[0], end.1, off);
         let growth = self.growth(norm, speeds);
         let factor = exponential(growth * h * if growth > 0.0 { INFLATE } else { 1.0 / INFLATE })?;
-        let carried = (factor.max_inside * pushed) * INFLATE;
+        // The maximum over all parts of the step bounds the growth of a force that acts for a moment.
+        let inside = factor.max(1.0);
+        let carried = (inside * pushed) * INFLATE;
         // Lemma 5: v stays positive, or less than half a turn is made, so it cannot have become negative and
         // positive again.
         let speed = (v + norm.stretch * tube) * INFLATE;
@@ -309,7 +295,7 @@ impl StepField {
         }
         let [once, each] = HORNER;
         let evaluation = UNIT * (once * (x + v) + each * (x_degree + v_degree)) + UNDERFLOW;
-        let at_end = factor.at_end * radius + factor.max_inside * (h * defect);
+        let at_end = factor * radius + inside * (h * defect);
         let off = norm.stretch * carried;
         // v^2 along the motion minus v^2 of the polynomial, the tail, and the roundings of coefficients and sum.
         let square_error =
@@ -318,7 +304,6 @@ impl StepField {
             x: end.0,
             v: end.1,
             radius: (at_end + evaluation) * INFLATE,
-            off: off * INFLATE,
             square: sums.integral * h,
             square_error: square_error * INFLATE,
         })
@@ -332,18 +317,18 @@ impl StepField {
     fn growth(&self, norm: Norm, v: Interval) -> f64 {
         /// Relative upper bound on the roundings of the sums below.
         const ROUNDED: f64 = 1e-15;
-        let [spread_a, spread_b, spread_c] = self.spread;
+        let ([a, b, c], [spread_a, spread_b, spread_c]) = (self.middles, self.spread);
         let (speed, s, k) = (v.magnitude(), norm.skew, norm.stretch);
-        let linear = [v.lower(), v.upper()].map(|v| 2.0 * self.b * v);
+        let linear = [v.lower(), v.upper()].map(|v| 2.0 * b * v);
         // v^2 + v w + w^2 for v and w in one interval: between 0 (or 3/4 of the larger square) and 3 times that
         // square.
         let least = if v.contains(0.0) { 0.0 } else { v.lower().abs().min(v.upper().abs()) };
-        let cubic = [least, speed].map(|v| 3.0 * self.c * (v * v));
+        let cubic = [least, speed].map(|v| 3.0 * c * (v * v));
         let blur = spread_a
             + speed * (2.0 * spread_b + 3.0 * spread_c * speed)
             + ROUNDED * (self.most[0] + speed * (2.0 * self.most[1] + 3.0 * self.most[2] * speed));
-        let low = self.a + linear[0].min(linear[1]) + cubic[0].min(cubic[1]) - blur;
-        let high = self.a + linear[0].max(linear[1]) + cubic[0].max(cubic[1]) + blur;
+        let low = a + linear[0].min(linear[1]) + cubic[0].min(cubic[1]) - blur;
+        let high = a + linear[0].max(linear[1]) + cubic[0].max(cubic[1]) + blur;
         // NaN has no minimum or maximum.
         if !(low <= high && blur < f64::INFINITY) {
             return f64::INFINITY;
@@ -366,16 +351,8 @@ fn velocities(sums: &Sums, v0: f64, v1: f64, off: f64) -> Interval {
     away.intersection(chord).unwrap_or(away)
 }
 
-/// Bounds of `exp(rate h)` over a step.
-struct Growth {
-    /// At the end of the step.
-    at_end: f64,
-    /// The maximum over all parts of the step, a bound on the growth of a force that acts for a moment.
-    max_inside: f64,
-}
-
-/// Upper bounds of `exp(z)`; `None` for z above 0.9 or NaN.
-fn exponential(z: f64) -> Option<Growth> {
+/// Upper bound of `exp(z)`; `None` for z above 0.9 or NaN.
+fn exponential(z: f64) -> Option<f64> {
     const LARGEST: f64 = 0.9;
     if !(z <= LARGEST) {
         return None;
@@ -385,8 +362,7 @@ fn exponential(z: f64) -> Option<Growth> {
     let z = z.max(-LARGEST);
     let rest = if z > 0.0 { 0.01 * z } else { 0.0 };
     let sum = 1.0 + z * (1.0 + z * (0.5 + z * (1.0 / 6.0 + z * (1.0 / 24.0 + rest))));
-    let at_end = sum * INFLATE;
-    Some(Growth { at_end, max_inside: at_end.max(1.0) })
+    Some(sum * INFLATE)
 }
 
 #[cfg(test)]

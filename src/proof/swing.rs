@@ -2,36 +2,17 @@
 
 use std::convert::Infallible;
 
-use super::field::{Field, scaled};
-use super::norm::Norm;
-use super::rounding::{INFLATE, UNIT};
-use super::sensitivity::WeightedIntegrals;
-use super::series::Series;
-use super::step::{StepEnd, StepField};
+use super::ball::{Ahead, Ball, MOST_STEPS, StartBox, never_returns};
+use super::field::{FieldBox, scaled};
+use super::norm::{INFLATE, UNIT};
+use super::step::StepEnd;
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
 use crate::numerics::root::{Bracket, PlaceTolerance, illinois, newton};
-use crate::numerics::scaling::exponent;
-
-/// The start of a half swing: any point of a box. On `v = 0` it starts left of the centre, `x < 0`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StartBox {
-    /// Position in the frame of the half plane.
-    pub x: Interval,
-    /// Velocity in that frame, not negative.
-    pub v: Interval,
-}
-
-impl StartBox {
-    /// A start at rest with this clearance from the sticking set.
-    pub fn at_rest(clearance: Interval) -> Self {
-        StartBox { x: -clearance, v: Interval::point(0.0) }
-    }
-}
 
 /// A half swing that arrives at `v = 0`; each interval holds the values of all starts and fields.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Swing {
+pub struct ProvedSwing {
     /// Position of the arrival.
     pub end: Interval,
     /// Velocity at the arrival: 0, unless the swing was stopped early.
@@ -46,8 +27,6 @@ pub struct Swing {
     pub unit: i32,
     /// Largest velocity, if requested.
     pub fastest: Option<Interval>,
-    /// Derivatives of `end` with respect to the coefficients a, b and c of the field, if requested.
-    pub derivatives: Option<[Interval; 3]>,
     /// Steps taken.
     pub steps: u32,
 }
@@ -56,16 +35,16 @@ pub struct Swing {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Passage {
     /// Every motion arrives at `v = 0`.
-    Arrives(Swing),
+    Arrives(ProvedSwing),
     /// No motion arrives: the velocity never falls again.
     Never,
     /// Every motion becomes faster than the ceiling; the swing ends where that is certain.
-    Exceeds(Swing),
+    Exceeds(ProvedSwing),
     /// Nothing is certain.
     Unknown,
 }
 
-impl Swing {
+impl ProvedSwing {
     /// The integral of `v^2` in units of `2^(2 unit)`.
     pub fn square_in(&self, unit: i32) -> Interval {
         let k = self.unit - unit;
@@ -75,99 +54,65 @@ impl Swing {
     /// The same swing with lengths multiplied by `2^k`.
     pub fn times_power(self, k: i32) -> Self {
         let fastest = self.fastest.map(|it| scaled(it, k));
-        let derivatives = self.derivatives.map(|it| by_units(it, k));
         let [end, speed] = [self.end, self.speed].map(|it| scaled(it, k));
-        Swing { end, speed, unit: self.unit + k, fastest, derivatives, ..self }
+        ProvedSwing { end, speed, unit: self.unit + k, fastest, ..self }
     }
 }
 
 impl Passage {
     /// The swing, if it certainly arrives.
-    pub fn arrived(self) -> Option<Swing> {
+    pub fn arrived(self) -> Option<ProvedSwing> {
         if let Passage::Arrives(swing) = self { Some(swing) } else { None }
     }
 }
-
-/// Size of the last term of a step, relative to the state: below rounding.
-const TOLERANCE: f64 = 2e-17;
-
-/// Steps after which a swing is abandoned: a smooth one takes ten, a stiff one any number.
-pub const MOST_STEPS: u32 = 250;
-
-/// Attempts with successively shorter steps before giving up.
-const ATTEMPTS: usize = 12;
 
 /// Computes a half swing of every field in `field` from every point of `start`.
 ///
 /// Guarantee: the bounds hold for the exact motions, whatever the rounding. The result is `Unknown` where there
 /// are no bounds: for a stiff or a wide motion, or one that arrives within its own error of the centre.
-pub fn swing(field: &Field, start: &StartBox, wants_fastest: bool) -> Passage {
-    run(field, start, f64::INFINITY, wants_fastest, None)
+pub fn swing(field: &FieldBox, start: &StartBox, wants_fastest: bool) -> Passage {
+    run(field, start, f64::INFINITY, wants_fastest)
 }
 
 /// As [`swing`], but stops as soon as every motion is certainly faster than `ceiling`.
-pub fn swing_below(field: &Field, start: &StartBox, ceiling: f64) -> Passage {
-    run(field, start, ceiling, false, None)
+pub fn swing_below(field: &FieldBox, start: &StartBox, ceiling: f64) -> Passage {
+    run(field, start, ceiling, false)
 }
 
 /// As [`swing_below`] with the largest velocity; it stops only after that was reached.
-pub fn swing_past_peak(field: &Field, start: &StartBox, ceiling: f64) -> Passage {
-    run(field, start, ceiling, true, None)
+pub fn swing_past_peak(field: &FieldBox, start: &StartBox, ceiling: f64) -> Passage {
+    run(field, start, ceiling, true)
 }
 
-/// As [`swing`] with the derivatives by the coefficients of the field (lemma 21), at four times the cost.
-pub fn swing_with_derivatives(field: &Field, start: &StartBox) -> Passage {
-    run(field, start, f64::INFINITY, false, Some(WeightedIntegrals::default()))
-}
-
-fn run(
-    field: &Field,
-    start: &StartBox,
-    ceiling: f64,
-    wants_fastest: bool,
-    weighted: Option<WeightedIntegrals>,
-) -> Passage {
-    let size = start.x.magnitude().max(start.v.magnitude());
-    if !(size > 0.0 && size.is_finite() && start.v.lower() >= 0.0) {
-        return Passage::Unknown;
-    }
+fn run(field: &FieldBox, start: &StartBox, ceiling: f64, wants_fastest: bool) -> Passage {
     if start.v.lower() == 0.0 && (start.v.upper() > 0.0 || start.x.upper() >= 0.0) {
         return Passage::Unknown;
     }
-    let unit = exponent(size);
-    let local = StepField::new(&field.in_units_of(unit));
-    let start = StartBox { x: scaled(start.x, -unit), v: scaled(start.v, -unit) };
-    let (x, v) = (start.x.middle(), start.v.middle());
-    // The norm of a vector is at most the sum of the magnitudes of its components.
-    let radius = (start.x.radius() + start.v.radius()) * INFLATE;
-    if never_returns(local.field(), start.x.upper(), start.v.lower()) {
+    let Some(ball) = Ball::new(field, start) else { return Passage::Unknown };
+    let [x, v, ceiling] =
+        [start.x, start.v, Interval::point(ceiling)].map(|it| scaled(it, -ball.unit));
+    if never_returns(&ball.local.field, x.upper(), v.lower()) {
         return Passage::Never;
     }
-    let norm = Norm::fitting(local.field().a.middle());
     let mut run = SwingRun {
-        local,
-        norm,
-        x,
-        v,
-        radius,
+        ball,
         time: 0.0,
         time_error: 0.0,
         square: 0.0,
         square_error: 0.0,
+        wants_fastest,
         fastest: None,
-        weighted,
-        ceiling: scaled(Interval::point(ceiling), -unit).upper(),
+        ceiling: ceiling.upper(),
     };
-    let mut series = Series::EMPTY;
     for steps in 1..=MOST_STEPS {
-        match run.advance(&mut series, wants_fastest) {
+        match run.advance() {
             Some(Arrival::Later) => {}
             Some(Arrival::Now { end, lag }) => {
-                let swing = run.finish(&start, (end, Interval::point(0.0)), lag, unit, steps);
+                let swing = run.finish(x, (end, Interval::point(0.0)), lag, steps);
                 return swing.map_or(Passage::Unknown, Passage::Arrives);
             }
             Some(Arrival::Above(end, speed)) => {
-                let swing = run.finish(&start, (end, speed), 0.0, unit, steps);
+                let swing = run.finish(x, (end, speed), 0.0, steps);
                 return swing.map_or(Passage::Unknown, Passage::Exceeds);
             }
             Some(Arrival::Never) => return Passage::Never,
@@ -177,78 +122,18 @@ fn run(
     Passage::Unknown
 }
 
-/// The derivatives of a length by a, b and c, in units `2^k` times as large.
-fn by_units([a, b, c]: [Interval; 3], k: i32) -> [Interval; 3] {
-    let two = |it| scaled(scaled(it, k), k);
-    [scaled(a, k), two(b), scaled(two(c), k)]
-}
-
-/// Whether no motion from positions up to `x` and velocities from `v` on ever returns to `v = 0` (lemma 7).
-///
-/// Motions cross the line `v = x + m` to the left where `P(v) = m - (a + 2) v - b v^2 - c v^3 >= 0`, and above
-/// it the acceleration is at least `P(v) + v`. So if P is not negative from v on, motions above the line and
-/// faster than v stay so.
-pub fn never_returns(field: &Field, x: f64, v: f64) -> bool {
-    let m = Interval::point(v) - Interval::point(x);
-    if !(field.c.upper() <= 0.0 && m.lower() > 0.0 && v >= 0.0) {
-        return false;
-    }
-    let [a, b, c] = [field.a, field.b, field.c].map(|it| Interval::point(it.upper()));
-    let (at, two, three) = (Interval::point(v), Interval::point(2.0), Interval::point(3.0));
-    let linear = a + two;
-    // Coefficients of P in powers of the velocity in excess of v.
-    let p0 = m - at * (linear + at * (b + at * c));
-    let p1 = -(linear + at * (b * two + at * c * three));
-    let p2 = -(b + at * c * three);
-    let p3 = -c;
-    let holds = |it: Interval| it.lower() >= 0.0;
-    if holds(p1) && holds(p2) {
-        return holds(p0);
-    }
-    if p2.lower() > 0.0 && holds(Interval::point(4.0) * p0 * p2 - p1.square()) {
-        return true;
-    }
-    if !(p3.lower() > 0.0) {
-        return false;
-    }
-    // Half of the cubic term compensates the square by u^3 >= 2 t u^2 - t^2 u, the other half the remaining
-    // linear term by u^3 >= 3 t^2 u - 2 t^3; both hold for all u, t >= 0.
-    let half = p3 / two;
-    let linear = if holds(p2) { p1 } else { p1 - p2.square() / (p3 * two) };
-    if holds(linear) {
-        return holds(p0);
-    }
-    let t = Interval::point((-linear / (half * three)).sqrt().upper());
-    holds(p0 - half * two * t * t * t) && holds(linear + half * three * t * t)
-}
-
-/// A half swing in progress, in units in which its start is near 1.
+/// A half swing in progress.
 struct SwingRun {
-    local: StepField,
-    norm: Norm,
-    x: f64,
-    v: f64,
-    /// Norm of the distance to the motion.
-    radius: f64,
+    ball: Ball,
     time: f64,
     time_error: f64,
     square: f64,
     square_error: f64,
+    /// Whether the largest velocity is requested, and that velocity once it was reached.
+    wants_fastest: bool,
     fastest: Option<Interval>,
-    /// Weighted integrals for the derivatives by the coefficients, if requested.
-    weighted: Option<WeightedIntegrals>,
     /// Velocity above which the computation stops.
     ceiling: f64,
-}
-
-/// What a step tells about the largest velocity.
-enum Speed {
-    /// It is reached later.
-    StillRising,
-    /// It was reached.
-    Largest(Interval),
-    /// It was reached, but its bounds are not certain enough.
-    Uncertain,
 }
 
 enum Arrival {
@@ -265,58 +150,36 @@ enum Arrival {
 }
 
 impl SwingRun {
-    fn advance(&mut self, series: &mut Series, wants_fastest: bool) -> Option<Arrival> {
-        series.expand(self.local.middles(), self.x, self.v);
-        let mut h = series.step(TOLERANCE);
-        if !(h > 0.0) {
-            return None;
+    fn advance(&mut self) -> Option<Arrival> {
+        let ball = &mut self.ball;
+        let (mut ahead, mut last) = (ball.prepare(f64::INFINITY)?, false);
+        if !(ahead.1.1 > 4.0 * ball.norm.stretch * ball.radius) {
+            (ahead, last) = arrival(ball, ahead)?;
         }
-        let mut end = series.at(h);
-        let mut last = false;
-        (self.norm, self.radius) = self.local.ball((self.norm, self.radius), [self.v, end.1], h);
-        if !(end.1 > 4.0 * self.norm.stretch * self.radius) {
-            (h, last) = arrival(series, h, end.1)?;
-            end = series.at(h);
-        }
-        let mut reached = None;
-        for _ in 0..ATTEMPTS {
-            reached = self.local.carry(self.norm, series, (h, end), self.radius);
-            if reached.is_some() {
-                break;
-            }
-            (h, last) = (0.75 * h, false);
-            end = series.at(h);
-        }
-        let reached = reached?;
-        if wants_fastest && self.fastest.is_none() {
-            match self.turn_of_speed(series, h, &reached) {
-                Speed::StillRising => {}
-                Speed::Largest(fastest) => self.fastest = Some(fastest),
-                Speed::Uncertain => return None,
-            }
-        }
-        if let Some(weighted) = self.weighted {
-            self.weighted = Some(weighted.after(self.local.field(), series, h, reached.off)?);
+        let (h, reached) = ball.reach(ahead)?;
+        let last = last && h == ahead.0;
+        if self.wants_fastest && self.fastest.is_none() {
+            self.fastest = self.turn_of_speed(h, &reached)?;
         }
         self.time += h;
         self.time_error += UNIT * self.time;
         self.square += reached.square;
         self.square_error += reached.square_error + UNIT * self.square;
-        (self.x, self.v, self.radius) = (reached.x, reached.v, reached.radius);
-        let off = self.norm.stretch * self.radius * INFLATE;
+        self.ball.advance(&reached);
+        let ball = &self.ball;
+        let (off, field) = (ball.off(), ball.local.field);
         if last {
             return self.arrive(off);
         }
         // The sign of v at the end of a step must be certain.
-        if !(self.v > off) {
+        if !(ball.v > off) {
             return None;
         }
-        if self.v - off > self.ceiling && (!wants_fastest || self.fastest.is_some()) {
-            let [x, v] = [self.x, self.v].map(|it| Interval::around(it, off));
+        if ball.v - off > self.ceiling && (!self.wants_fastest || self.fastest.is_some()) {
+            let (x, v) = ball.state();
             return Some(Arrival::Above(x, v));
         }
-        let escapes =
-            never_returns(self.local.field(), (self.x + off).next_up(), (self.v - off).next_down());
+        let escapes = never_returns(&field, (ball.x + off).next_up(), (ball.v - off).next_down());
         Some(if escapes { Arrival::Never } else { Arrival::Later })
     }
 
@@ -326,9 +189,9 @@ impl SwingRun {
     /// `x - most (abs(a) + ..)`. The time of arrival is therefore within `most/rate`, and the position within
     /// `most` times that.
     fn arrive(&self, off: f64) -> Option<Arrival> {
-        let most = (self.v.abs() + off) * INFLATE;
-        let x = Interval::around(self.x, off);
-        let field = self.local.field();
+        let most = (self.ball.v.abs() + off) * INFLATE;
+        let x = Interval::around(self.ball.x, off);
+        let field = self.ball.local.field;
         let speed = Interval::new(-most, most);
         let damping = speed * (field.a + speed * (field.b + speed * field.c));
         // Whether the motion continues or is followed back, x only grows.
@@ -344,71 +207,63 @@ impl SwingRun {
         Some(Arrival::Now { end, lag })
     }
 
-    /// The largest velocity, if it is reached within this step.
+    /// The largest velocity, if it is reached within this step; `None` where its bounds are not certain enough.
     ///
     /// Where the acceleration vanishes its derivative is `-v < 0`, so there is one such moment in a half swing.
     /// Near it, with acceleration at most `d` in magnitude at velocity v, the remaining rise is at most
     /// `d^2/(v - d f)`, where f bounds the slope of the damping.
-    fn turn_of_speed(&self, series: &Series, h: f64, end: &StepEnd) -> Speed {
+    fn turn_of_speed(&self, h: f64, end: &StepEnd) -> Option<Option<Interval>> {
         /// An error in the moment costs only its square.
         const NEAR: f64 = 1e-10;
-        let field = self.local.field();
+        let (ball, field) = (&self.ball, self.ball.local.field);
         let rough =
             |x: f64, v: f64| field.acceleration(Interval::point(x), Interval::point(v)).middle();
         if rough(end.x, end.v) > 0.0 {
-            return Speed::StillRising;
+            return Some(None);
         }
-        let ends = [0.0, h].map(|at| (at, series.velocity(at).1));
+        let acceleration = |at: f64| ball.series.velocity(at).1;
+        let ends = [0.0, h].map(|at| (at, acceleration(at)));
         let Ok([near, _]) = illinois(ends, 0.0, PlaceTolerance::Absolute(NEAR * h), |at| {
-            Ok::<_, Infallible>(series.velocity(at).1)
+            Ok::<_, Infallible>(acceleration(at))
         });
-        let near = (near.0, series.at(near.0));
-        let Some(near) = self.local.carry(self.norm, series, near, self.radius) else {
-            return Speed::Uncertain;
-        };
-        let off = self.norm.stretch * near.radius * INFLATE;
-        let (x, v) = (Interval::around(near.x, off), Interval::around(near.v, off));
+        let near = ball.carried((near.0, ball.series.at(near.0)))?;
+        let (x, v) = ball.around(near.x, near.v, near.radius);
         let unbalanced = Interval::point(field.acceleration(x, v).magnitude());
         let cap = v.upper() * 1.01;
         let slope = field.slope(Interval::new(v.lower(), cap)).magnitude();
-        let bend = Interval::point(v.lower()) - unbalanced * Interval::point(slope);
+        let bend = Interval::point(v.lower()) - unbalanced * slope;
         if !(bend.lower() > 0.0) {
-            return Speed::Uncertain;
+            return None;
         }
         let rise = (unbalanced.square() / bend).upper();
-        let top = (Interval::point(v.upper()) + Interval::point(rise)).upper();
-        if top <= cap { Speed::Largest(Interval::new(v.lower(), top)) } else { Speed::Uncertain }
+        let top = (Interval::point(v.upper()) + rise).upper();
+        (top <= cap).then_some(Some(Interval::new(v.lower(), top)))
     }
 
+    /// The swing from the position `start` to its end, in the units of the question.
     fn finish(
         &self,
-        start: &StartBox,
+        start: Interval,
         (end, velocity): (Interval, Interval),
         lag: f64,
-        unit: i32,
         steps: u32,
-    ) -> Option<Swing> {
-        let Field { a, b, c } = *self.local.field();
+    ) -> Option<ProvedSwing> {
+        let (ball, FieldBox { a, b, c }) = (&self.ball, self.ball.local.field);
         let duration = Interval::around(self.time, (self.time_error + lag) * INFLATE);
         // Beyond the end of the step v stays below its bound there, whose square times the lag bounds the integral.
-        let speed = self.v.abs() + self.norm.stretch * self.radius * INFLATE;
-        let beyond = lag * powi(speed, 2);
+        let beyond = lag * powi(ball.v.abs() + ball.off(), 2);
         let square = Interval::around(self.square, (self.square_error + beyond) * INFLATE);
-        let divergence =
-            -(a * duration + (b * (end - start.x)).twice() + c * square * Interval::point(3.0));
+        let divergence = -(a * duration + (b * (end - start)).twice() + c * square * 3.0);
         let known = duration.is_finite() && divergence.is_finite() && duration.lower() > 0.0;
-        known.then(|| Swing {
-            end: scaled(end, unit),
-            speed: scaled(velocity, unit),
+        let length = |it| scaled(it, ball.unit);
+        known.then(|| ProvedSwing {
+            end: length(end),
+            speed: length(velocity),
             duration,
             divergence,
             square,
-            unit,
-            fastest: self.fastest.map(|fastest| scaled(fastest, unit)),
-            derivatives: self.weighted.map(|weighted| {
-                let arrived = weighted.within(self.local.field(), lag, speed * INFLATE);
-                by_units(arrived.derivatives(end), unit)
-            }),
+            unit: ball.unit,
+            fastest: self.fastest.map(length),
             steps,
         })
     }
@@ -416,19 +271,18 @@ impl SwingRun {
 
 /// Where the polynomial of v vanishes at or just beyond `h`, by Newton's method inside a bracket; otherwise a
 /// shorter step. The flag tells which. No bound depends on the accuracy of the root.
-fn arrival(series: &Series, h: f64, ahead: f64) -> Option<(f64, bool)> {
+fn arrival(ball: &Ball, (h, (_, ahead)): Ahead) -> Option<(Ahead, bool)> {
     /// How far beyond the step its polynomial is used, as a multiple of the step.
     const BEYOND: f64 = 1.02;
+    let series = &ball.series;
     let bracket = Bracket::falling(0.0, if ahead > 0.0 { BEYOND * h } else { h });
     let at = newton(bracket, h, PlaceTolerance::Relative(1e-9), |at| series.velocity(at)).at;
+    let to = |h: f64| (h, series.at(h));
     if at > 0.0 && at < BEYOND * h * (1.0 - 1e-9) {
-        Some((at, true))
+        Some((to(at), true))
     } else if ahead > 0.0 {
-        Some((0.8 * h, false))
+        Some((to(0.8 * h), false))
     } else {
         None
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -7,7 +7,7 @@ use crate::numerics::Interval;
 use crate::numerics::elementary::log10;
 use crate::portrait::Cycle;
 use crate::portrait::proved::matching;
-use crate::proof::cycles::Open;
+use crate::proof::cycles::OpenGap;
 use crate::proof::{Enclosure, Proof};
 use crate::words::cycles;
 use crate::words::number::significant;
@@ -16,7 +16,7 @@ use crate::words::number::significant;
 #[derive(Clone, Copy)]
 pub(super) enum CycleBounds<'a> {
     Cycle(Option<Enclosure>),
-    Open(&'a Open),
+    Open(&'a OpenGap),
 }
 
 /// The columns of what is proved, one for each bound.

@@ -1,6 +1,6 @@
 //! Certificates of limit cycles: those written by the program are accepted, and no others.
 
-use hopfscope::check::motion::Field;
+use hopfscope::check::motion::FencedField;
 use hopfscope::check::{Certificate, CertificateStep, StepKind, check};
 use hopfscope::model::Parameters;
 use hopfscope::numerics::Interval;
@@ -175,7 +175,7 @@ fn swings_hold_their_closed_form() {
         let lost = damping.twice() * time;
         for z in [1e-3, 0.7, 31.0] {
             let found =
-                Field::new([damping.twice(), zero, zero], 0.0).swing(Interval::point(z), 0.0);
+                FencedField::new([damping.twice(), zero, zero], 0.0).swing(Interval::point(z), 0.0);
             let end = (-lost / 2.0).exp() * z;
             for (what, found, exact) in [
                 ("end", found.end, end),
@@ -193,7 +193,7 @@ fn swings_hold_their_closed_form() {
 #[test]
 fn a_swing_from_an_interval_holds_all_of_them() {
     for coefficients in [[-0.8, 0.3, 0.2], [0.3, -0.5, 0.4], [-0.5, -0.3, 0.3], [0.2, 0.6, -0.1]] {
-        let field = Field::new(coefficients.map(Interval::point), 0.0);
+        let field = FencedField::new(coefficients.map(Interval::point), 0.0);
         let all = field.swing(Interval::new(0.99, 1.01), 0.0);
         assert!(all.end.is_finite() && all.end.width() < 0.2, "{coefficients:?}: {}", all.end);
         for start in [0.99, 0.994, 1.0, 1.004, 1.01] {
@@ -248,7 +248,8 @@ fn what_is_nearly_true_is_refused() {
 #[test]
 fn fences_hold_the_motions_that_pass_them() {
     let coefficients = [-0.5, 12.0, 0.5].map(Interval::point);
-    let (plain, fenced) = (Field::new(coefficients, 0.0), Field::new(coefficients, 0.4));
+    let (plain, fenced) =
+        (FencedField::new(coefficients, 0.0), FencedField::new(coefficients, 0.4));
     let greatest = fenced.greatest();
     assert!(greatest.upper() < f64::INFINITY && plain.greatest() == Interval::ALL);
     for z in [3.0, 6.0, 10.0] {
@@ -265,7 +266,7 @@ fn fences_hold_the_motions_that_pass_them() {
         );
     }
     // Where `4 (a - 3 c v^2) <= f'^3` fails there is no fence: at a slope of 1.9 for a = 1.9.
-    let flat = |e: f64| Field::new([1.9, 1.0, 0.0].map(Interval::point), e).greatest();
+    let flat = |e: f64| FencedField::new([1.9, 1.0, 0.0].map(Interval::point), e).greatest();
     assert!(flat(1e-3) == Interval::ALL && flat(0.5).is_finite());
 }
 
@@ -273,7 +274,7 @@ fn fences_hold_the_motions_that_pass_them() {
 /// converge.
 #[test]
 fn swings_from_far_out_end_together() {
-    let field = Field::new([0.2, 25.0, 0.03].map(Interval::point), 0.16);
+    let field = FencedField::new([0.2, 25.0, 0.03].map(Interval::point), 0.16);
     let all = field.swing(Interval::new(2e6, 2.1e6), 0.0);
     let one = field.swing(Interval::point(2.05e6), 0.0);
     assert!(

@@ -3,7 +3,6 @@
 
 mod agreement;
 mod certificates;
-mod derivatives;
 mod hostile;
 mod motions;
 
@@ -21,13 +20,11 @@ use hopfscope::numerics::elementary::{exp, pow, powi};
 use hopfscope::numerics::random::Random;
 use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::portrait::proved::proved;
-use hopfscope::proof::derivatives::{cycle_derivatives, derivatives};
-use hopfscope::proof::escape::enclose_escape;
-use hopfscope::proof::field::Field;
-use hopfscope::proof::fold::enclose_fold;
-use hopfscope::proof::map::{Direction, ProvedMap};
-use hopfscope::proof::swing::{Passage, StartBox, swing, swing_with_derivatives};
-use hopfscope::proof::{ParameterBox, Proof, prove};
+use hopfscope::proof::bifurcation::{enclose_escape, enclose_fold};
+use hopfscope::proof::field::FieldBox;
+use hopfscope::proof::map::{MapDirection, ProvedMap};
+use hopfscope::proof::swing::{Passage, swing};
+use hopfscope::proof::{ParameterBox, Proof, StartBox, prove};
 
 /// A number in twice the precision of a double, as a sum of two doubles.
 type Long = (f64, f64);
@@ -116,7 +113,7 @@ fn check_half_swings(count: usize) {
         let (d2, d3) = (chance.even() - 0.5, 1.2 * chance.even() - 0.4);
         let x = 1e-3 * pow(5e3, chance.even());
         let point = Interval::point;
-        let field = Field { a: point(2.0 * d), b: point(d2), c: point(d3) };
+        let field = FieldBox { a: point(2.0 * d), b: point(d2), c: point(d3) };
         let start = StartBox::at_rest(point(x));
         let found = match swing(&field, &start, false) {
             Passage::Arrives(found) => found,
@@ -163,7 +160,7 @@ fn half_swings_scale_to_the_last_bit() {
     let point = Interval::point;
     let run = |unit: i32| {
         let by = |power: i32| powi(2.0, power);
-        let field = Field {
+        let field = FieldBox {
             a: point(-0.4),
             b: point(0.3 * by(-unit)),
             c: point(0.5 * by(-unit) * by(-unit)),
@@ -181,7 +178,7 @@ fn half_swings_scale_to_the_last_bit() {
         assert_eq!(run(unit), run(0), "2^{unit}");
     }
     // So small that only linear damping matters.
-    let tiny = Field { a: point(-0.4), b: point(0.3), c: point(0.5) };
+    let tiny = FieldBox { a: point(-0.4), b: point(0.3), c: point(0.5) };
     let swing = swing(&tiny, &StartBox::at_rest(point(1e-300)), false).arrived().unwrap();
     let growth = exp(std::f64::consts::PI * 0.2 / 0.96_f64.sqrt());
     assert!((swing.end.lower() / 1e-300 / growth - 1.0).abs() < 1e-12, "{swing:?}");
@@ -370,12 +367,12 @@ fn stiff_half_swings_arrive_where_an_implicit_method_says() {
     ] {
         // The second half of the map runs above v = 0, where b is D2.
         let mut map = ProvedMap::new(&exactly(d, d2, d3, 0.0));
-        let found = map.half(1, Direction::Forward, Interval::point(start));
+        let found = map.half(1, MapDirection::Forward, Interval::point(start));
         let slack = 1e-9 * end;
         assert!(found.lower() <= end + slack && end - slack <= found.upper(), "{found} {end}");
         assert!(found.width() <= within * end, "{d} {d2} {d3} {start}: {found}");
         let one = Interval::new(start, start * (1.0 + 1e-6));
-        let slope = map.slope(Direction::Forward, one);
+        let slope = map.slope(MapDirection::Forward, one);
         assert!(
             d2 < 0.0 || d3 <= 0.0 || slope.is_some_and(|slope| slope.upper() < 1e-6),
             "{slope:?}"
