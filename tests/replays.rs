@@ -1,9 +1,10 @@
-//! Every keystroke file of the project plays to its end, on a small and on a large screen.
+//! Keystroke files: how they are read, written and played; and every one of the project plays to its end, on a small
+//! and on a large screen.
 
 use hopfscope::runtime::replay;
 use hopfscope::scene::plain;
-use hopfscope::session::replay::parse;
-use hopfscope::session::{Session, Size};
+use hopfscope::session::replay::{Action, Player, Recorder, parse, text};
+use hopfscope::session::{Instruction, Msg, Session, Size};
 use hopfscope::terminal::Environment;
 use ratatui::layout;
 
@@ -79,4 +80,179 @@ fn a_newcomer_reads_a_verdict_on_every_screen_of_every_size() {
             }
         }
     }
+}
+
+/// The steps of a keystroke file.
+fn steps(text: &str) -> Vec<Instruction> {
+    let script = parse(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+    script.steps.into_iter().map(|located| located.step).collect()
+}
+
+/// A key that is pressed this many times.
+fn key(text: &str, count: u32) -> Instruction {
+    Instruction::Key { key: text.parse().unwrap(), count }
+}
+
+#[test]
+fn every_instruction_of_the_contract_is_read() {
+    let text = "# a comment\n<right*5> <wait>\n[ ] j k   one # and a comment\n<space><lt>\
+                <C-r><S-tab> <f1> <pgup>\n<resize 80x24><expect \"captured\">\n\
+                <screen after-five-steps>\n<async>";
+    let mut wanted = vec![key("<right>", 5), Instruction::Wait];
+    wanted.extend("[]jkone".chars().map(|char| key(&char.to_string(), 1)));
+    for name in ["<space>", "<lt>", "<C-r>", "<S-tab>", "<f1>", "<pgup>"] {
+        wanted.push(key(name, 1));
+    }
+    wanted.push(Instruction::Resize { width: 80, height: 24 });
+    wanted.push(Instruction::Expect("captured".to_owned()));
+    wanted.push(Instruction::Screen("after-five-steps".to_owned()));
+    wanted.push(Instruction::Async);
+    assert_eq!(steps(text), wanted);
+}
+
+#[test]
+fn brackets_and_quotes_may_be_keys_and_text() {
+    assert_eq!(steps(">"), [key(">", 1)]);
+    assert_eq!(steps("<gt*2>x"), [key(">", 2), key("x", 1)]);
+    assert_eq!(steps("<\">"), [key("\"", 1)]);
+    assert_eq!(steps("<**3>"), [key("*", 3)]);
+    assert_eq!(steps("a>>b"), [key("a", 1), key(">", 1), key(">", 1), key("b", 1)]);
+    assert_eq!(steps("<esc>>"), [key("<esc>", 1), key(">", 1)]);
+    let text = r#"<expect "a > b \"c\" # \\ d">x"#;
+    assert_eq!(steps(text), [Instruction::Expect("a > b \"c\" # \\ d".to_owned()), key("x", 1)]);
+}
+
+#[test]
+fn places_are_lines_and_columns_in_characters() {
+    let script = parse("# é\n éé <wait>\r\n  x").unwrap();
+    let places: Vec<_> = script.steps.iter().map(|step| (step.line, step.column)).collect();
+    assert_eq!(places, [(2, 2), (2, 3), (2, 5), (3, 3)]);
+}
+
+#[test]
+fn mistakes_are_named_with_their_place_before_anything_runs() {
+    for (text, line) in [
+        ("j k\n  <rigth*5>", "line 2, column 3: unknown key <rigth>; did you mean <right>?"),
+        ("<right", "line 1, column 1: \"<\" without \">\""),
+        ("a <right*0>", "line 1, column 3: a key is pressed 1 to 100000 times, not 0"),
+        ("<right*99999999999>", "line 1, column 1: a key is pressed 1 to"),
+        ("<resize 80>", "line 1, column 1: <resize 80> needs columns and rows"),
+        ("<resize 0x24>", "line 1, column 1: <resize 0x24> needs columns and rows"),
+        ("<expect captured>", "line 1, column 1: <expect> needs text in quotes"),
+        ("<expect \"a>", "line 1, column 1: <expect> needs text in quotes"),
+        ("<expect \"\\q\">", "line 1, column 1: unknown escape \\q"),
+        ("<screen ../x>", "line 1, column 1: <screen ../x> needs a name of letters"),
+        ("<screen>", "line 1, column 1: <screen > needs a name"),
+        ("<wait 3>", "line 1, column 1: <wait> stands alone"),
+        (
+            "<excpect \"a\">",
+            "line 1, column 1: unknown key <excpect \"a\">; did you mean <expect>?",
+        ),
+    ] {
+        let said = parse(text).unwrap_err().to_string();
+        assert!(said.starts_with(line), "{text}: {said}");
+    }
+}
+
+/// The actions of the player, on a screen that shows `screen`; the session is idle whenever the player
+/// waits.
+fn play(text: &str, screen: &str) -> Vec<String> {
+    let mut player = Player::new(parse(text).unwrap());
+    let (mut acts, mut idle) = (Vec::new(), true);
+    loop {
+        let act = player.next(idle, || screen.to_owned());
+        idle = matches!(act, Ok(Action::Wait));
+        match act {
+            Ok(Action::Give(Msg::Key(key))) => acts.push(key.to_string()),
+            Ok(Action::Give(message)) => acts.push(format!("{message:?}")),
+            Ok(Action::Keep(name)) => acts.push(format!("keep {name}")),
+            Ok(Action::Wait) => acts.push("wait".to_owned()),
+            Ok(Action::Done) => break,
+            Err(unmet) => {
+                acts.push(unmet.to_string());
+                break;
+            }
+        }
+    }
+    acts
+}
+
+#[test]
+fn it_waits_after_each_key_unless_told_otherwise() {
+    assert_eq!(play("<right*2>x", ""), ["<right>", "wait", "<right>", "wait", "x", "wait"]);
+    assert_eq!(play("<async><right*2>x", ""), ["<right>", "<right>", "x", "wait"]);
+    assert_eq!(play("<async>x<wait>y", ""), ["x", "wait", "y", "wait"]);
+}
+
+#[test]
+fn the_first_unmet_expectation_ends_it_with_its_place() {
+    assert_eq!(
+        play("<expect \"here\">\n  <screen a> <expect \"there\"> x", "I am\nhere"),
+        ["keep a", "wait", "line 2, column 14: the screen does not show \"there\""]
+    );
+}
+
+#[test]
+fn another_file_is_played_in_between() {
+    let mut player = Player::new(parse("a b").unwrap());
+    let next = |player: &mut Player| match player.next(true, String::new).unwrap() {
+        Action::Give(Msg::Key(key)) => key.to_string(),
+        other => format!("{other:?}"),
+    };
+    let mut keys = vec![next(&mut player)];
+    player.interject(parse("x<y*2>").unwrap()).unwrap();
+    keys.extend((0..5).map(|_| next(&mut player)));
+    assert_eq!(keys, ["a", "x", "y", "y", "b", "Done"]);
+}
+
+#[test]
+fn a_recording_is_short_and_readable() {
+    let mut recorder = Recorder::default();
+    for _ in 0..5 {
+        recorder.note(&Msg::Key("<right>".parse().unwrap()));
+    }
+    recorder.note(&Msg::Idle);
+    recorder.note(&Msg::Key("#".parse().unwrap_or("<hash>".parse().unwrap())));
+    recorder.note(&Msg::Resize { width: 10, height: 10 });
+    recorder.note(&Msg::Resize { width: 80, height: 24 });
+    recorder.note(&Msg::Paste("a\n\"b\"".to_owned()));
+    let text = recorder.text("hopfscope basin");
+    assert_eq!(
+        text,
+        "# A recording of hopfscope; `hopfscope replay FILE` plays it.\n# hopfscope basin\n\
+         <right*5> <hash> <resize 80x24> <paste \"a\\n\\\"b\\\"\">\n"
+    );
+}
+
+#[test]
+fn the_last_presses_can_be_forgotten() {
+    let mut recorder = Recorder::default();
+    let key = |recorder: &mut Recorder, name: &str| recorder.note(&Msg::Key(name.parse().unwrap()));
+    for name in ["<right>", "<right>", "<right>", "@", "a"] {
+        key(&mut recorder, name);
+    }
+    recorder.note(&Msg::Resize { width: 80, height: 24 });
+    recorder.embed("a.keys", "x", 2);
+    recorder.embed("a.keys", "x", 2);
+    let steps = |recorder: &Recorder| text("", recorder.steps());
+    assert_eq!(steps(&recorder), "<right*3> <file \"a.keys\" \"x\"> @ a <resize 80x24>\n");
+    recorder.forget(3);
+    assert_eq!(steps(&recorder), "<right*2> <resize 80x24>\n", "only presses are forgotten");
+    recorder.forget(9);
+    assert_eq!(steps(&recorder), "<resize 80x24>\n");
+}
+
+#[test]
+fn it_knows_how_much_of_it_is_as_it_was() {
+    let mut recorder = Recorder::default();
+    let key = |recorder: &mut Recorder, name: &str| recorder.note(&Msg::Key(name.parse().unwrap()));
+    for name in ["<right>", "u", "u"] {
+        key(&mut recorder, name);
+    }
+    assert_eq!(recorder.unchanged(), 0);
+    assert_eq!(recorder.unchanged(), 2);
+    key(&mut recorder, "u");
+    assert_eq!(recorder.unchanged(), 1, "the last step has a count more");
+    recorder.embed("a", "", 2);
+    assert!(recorder.unchanged() <= 1);
 }

@@ -19,8 +19,7 @@ use crate::portrait::{Border, Cycle, Cycles, Ride};
 use crate::question::Fitted;
 use crate::question::zones::Extent;
 use crate::scene::{Answer, Layer, Point, Topic};
-use crate::session::starts::MOST_MOTIONS;
-use crate::session::{Session, ShownMotion};
+use crate::session::{MOST_MOTIONS, Session, ShownMotion};
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     picture.axes("q", "v");

@@ -9,7 +9,7 @@ use super::columns::Columns;
 use super::json::{self, Document};
 use crate::flow::Cost;
 use crate::scene::{Scene, Topic};
-use crate::session::requirement::named;
+use crate::session::wants::named;
 use crate::words::number::{count, duration};
 
 /// A question that was answered, and what it cost.

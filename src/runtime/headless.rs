@@ -19,7 +19,7 @@ use super::workers::Workers;
 use super::{picture, scan_file};
 use crate::flow::{Limits, Reason};
 use crate::scene::{Answer, Request};
-use crate::session::replay::{Action, Player, Script, Unmet};
+use crate::session::replay::{Action, Player, Script, ScriptError};
 use crate::session::{Effect, Msg, Notice};
 use crate::view;
 
@@ -33,7 +33,7 @@ pub struct ReplayResult<M> {
     /// The pictures that the file asks for by name, in its order.
     pub kept: Vec<(String, Buffer)>,
     /// The first expectation that was not met; playing ended there.
-    pub unmet: Option<Unmet>,
+    pub unmet: Option<ScriptError>,
     /// Why the first file that was to be written was not.
     pub unwritten: Option<String>,
 }
@@ -98,7 +98,7 @@ struct Replay<M> {
     application: M,
     player: Player,
     may_write: bool,
-    unmet: Option<Unmet>,
+    unmet: Option<ScriptError>,
     unwritten: Option<String>,
 }
 

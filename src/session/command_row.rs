@@ -1,27 +1,21 @@
-//! A row of the table of commands: a command and how it is run.
+//! A row of the tables of commands: a command and how it is run.
 
 use crate::scene::Layer;
-use crate::session::effect::Done;
-use crate::session::message::key::Key;
-use crate::session::state::{Command, Context, NextCommand, Session};
-
-/// The function of a command; its key is the one that was pressed.
-pub(super) type Act = fn(&mut Session, Key);
-
-/// The function of a command that chooses another one.
-pub(super) type Choose = fn(&mut Session) -> Result<Option<NextCommand>, String>;
+use crate::session::{Command, Context, Done, Key, NextCommand, Session, WordKind};
 
 /// How a command is run.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum CommandAction {
-    /// It changes the session.
-    Act(Act),
+    /// It changes the session; the key is the one that was pressed.
+    Act(fn(&mut Session, Key)),
     /// It changes the session, unless it fails with one line that says why not.
     Try(fn(&mut Session) -> Done),
     /// It switches a layer.
     Toggle(Layer),
     /// It chooses another command to run.
-    Choose(Choose),
+    Choose(fn(&mut Session) -> Result<Option<NextCommand>, String>),
+    /// It takes the words after its name, and fails with one line that says why it cannot.
+    Line(fn(&mut Session, &str) -> Done),
 }
 
 #[derive(Debug)]
@@ -30,35 +24,25 @@ pub(super) struct CommandRow {
     pub(super) run: CommandAction,
 }
 
-/// A row of the table.
+/// A row for a command of keys.
 pub(super) const fn row(
     name: &'static str,
     keys: &'static [(Context, &'static [&'static str])],
     hint: &'static str,
     doc: &'static str,
-    act: Act,
+    run: CommandAction,
 ) -> CommandRow {
-    CommandRow { command: Command { name, keys, hint, doc }, run: CommandAction::Act(act) }
+    CommandRow { command: Command { name, keys, hint, doc, arguments: "", words: None }, run }
 }
 
-/// A row of the table for a command that may be refused.
-pub(super) const fn tries(
+/// A row for a command that takes words.
+pub(super) const fn line(
     name: &'static str,
-    keys: &'static [(Context, &'static [&'static str])],
-    hint: &'static str,
+    arguments: &'static str,
     doc: &'static str,
-    act: fn(&mut Session) -> Done,
+    words: WordKind,
+    run: fn(&mut Session, &str) -> Done,
 ) -> CommandRow {
-    CommandRow { command: Command { name, keys, hint, doc }, run: CommandAction::Try(act) }
-}
-
-/// A row of the table for a command that chooses another one.
-pub(super) const fn chooses(
-    name: &'static str,
-    keys: &'static [(Context, &'static [&'static str])],
-    hint: &'static str,
-    doc: &'static str,
-    choose: Choose,
-) -> CommandRow {
-    CommandRow { command: Command { name, keys, hint, doc }, run: CommandAction::Choose(choose) }
+    let command = Command { name, keys: &[], hint: "", doc, arguments, words: Some(words) };
+    CommandRow { command, run: CommandAction::Line(run) }
 }

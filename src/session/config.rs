@@ -18,11 +18,10 @@ use crate::numerics::similar::most_similar;
 use crate::scene::library::names;
 use crate::scene::misread::Complaint;
 use crate::scene::{Misread, misread};
-use crate::session::message::key::Key;
-use crate::session::state::command::full_name;
+use crate::session::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, named};
 use crate::session::state::context::contexts;
-use crate::session::state::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, named};
-use crate::session::state::{Command, Context, Keymap};
+use crate::session::state::keymap::full_name;
+use crate::session::{Command, Context, Key, Keymap};
 
 /// The content of a settings file; whatever is missing keeps its default.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -141,9 +140,8 @@ fn keymap(read: &BTreeMap<Spanned<String>, Keys>) -> Result<Keymap, Complaint> {
     for (context, command, keys) in given {
         for text in keys.get_ref() {
             let complain = |message: String| Complaint { at: text.span(), message };
-            let key: Key =
-                text.get_ref().parse().map_err(|no_key| complain(format!("{no_key}")))?;
-            keymap.bind(context, command, key).map_err(|clash| complain(clash.to_string()))?;
+            let key: Key = text.get_ref().parse().map_err(complain)?;
+            keymap.bind(context, command, key).map_err(complain)?;
         }
         if INDISPENSABLE.contains(&command.name)
             && keymap.keys_in(context, command).next().is_none()

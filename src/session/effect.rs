@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::session::message::Purpose;
-use crate::session::replay::script::Script;
+use crate::session::{Purpose, Script};
 
 /// Nothing, or one line that says why a command was refused.
 pub type Done = Result<(), String>;

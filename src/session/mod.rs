@@ -16,10 +16,10 @@ mod command_row;
 pub mod commands;
 pub mod config;
 pub mod effect;
+pub mod key;
 pub mod lines;
 pub mod message;
 pub mod opening;
-mod press;
 pub mod read;
 pub mod replay;
 pub mod save;
@@ -29,18 +29,28 @@ pub(crate) mod tests;
 pub mod update;
 
 pub use commands::commands;
-pub use effect::Effect;
+pub use effect::{Done, Effect};
+pub use key::{Code, Key};
 pub use lines::lines;
-pub use message::key::{self, Code, Key};
-pub use message::pointer::{Gesture, Pointed, PointerTarget};
-pub use message::{Msg, Notice, Purpose};
-pub use press::run_line;
-pub use read::contexts::Hint;
-pub use read::variants::ShownMotion;
-pub use read::{fate, ledger, motion, requirement};
-pub use state::{
-    AnswerState, BranchStop, Command, Context, Entry, Framing, Input, Kept, Keymap, LineCommand,
-    List, Listed, Overlay, Pane, Pending, Plot, Price, Prompt, Row, ScanOnShow, Session, Setup,
-    Size, StepSizes, Uncertainty, Waiting, keymap, overlay, scan, settings, starts,
+pub use message::{Gesture, Msg, Notice, Pointed, PointerTarget, Purpose};
+pub use read::answers::NoErrorReason;
+pub use read::contexts::{Hint, PaletteRow};
+pub use read::plots::ShownMotion;
+pub use read::{fate, ledger, motion, wants};
+pub use replay::script::{Instruction, Script, ScriptStep};
+pub use state::answers::{AnswerState, Answers};
+pub use state::context::Context;
+pub use state::history::{Before, Bookmark, Bookmarks, History, ScreenSetup, Snapshot};
+pub use state::keymap::{Command, Keymap, NextCommand, WordKind};
+pub use state::overlay::{
+    Completion, Entry, Input, List, Listed, Overlay, Prompt, ScanForm, SessionCaption,
 };
-pub use update::{settle, update};
+pub use state::plot::{Framing, Pane, Plot};
+pub use state::rows::{Row, StepSize, StepSizes};
+pub use state::scan::{ScanOnShow, ScanProgress};
+pub use state::session::{
+    BranchStop, Kept, Letter, Pace, Pending, Playback, Price, Recomputation, Session, Size, Waiting,
+};
+pub use state::setup::{MOST_MOTIONS, Setup, Uncertainty};
+pub use state::{overlay, scan, settings};
+pub use update::{run_line, settle, update};

@@ -8,10 +8,8 @@ use crate::flow::{METHODS, Problem};
 use crate::model::Knob;
 use crate::numerics::decimal::shortest;
 use crate::scene::{Scene, find};
-use crate::session::replay::script::Instruction;
-use crate::session::save;
-use crate::session::state::Session;
-use crate::session::state::settings::{COLORS, DisplaySettings, GLYPHS, THEMES};
+use crate::session::settings::{COLORS, DisplaySettings, GLYPHS, THEMES};
+use crate::session::{Instruction, Session, save};
 
 /// The name under which a file embeds a session.
 const CARRIED: &str = "start.toml";
@@ -37,26 +35,20 @@ pub fn opening(session: &Session) -> Result<Vec<Instruction>, String> {
 
 /// The steps that set the user's wishes for the screen, where they differ from the defaults.
 fn display_lines(display: DisplaySettings) -> Vec<Instruction> {
-    fn line<T: Copy + PartialEq + Default>(
-        name: &str,
-        table: &[(T, &str)],
-        value: T,
-    ) -> Option<Instruction> {
+    fn line<T: PartialEq + Default>(name: &str, table: &[(T, &str)], value: T) -> Option<String> {
         let row = table.iter().find(|row| row.0 == value && value != T::default());
-        row.map(|row| Instruction::Run(format!("{name} {}", row.1)))
+        row.map(|row| format!("{name} {}", row.1))
     }
-    let mouse = display.mouse.then(|| Instruction::Run("mouse".to_owned()));
-    let equal = display.stretched.then(|| Instruction::Run("equal off".to_owned()));
-    let units = display.dimensionless.then(|| Instruction::Run("units off".to_owned()));
+    let switched = |on: bool, line: &str| on.then(|| line.to_owned());
     let lines = [
         line("glyphs", &GLYPHS, display.glyphs),
         line("color", &COLORS, display.colors),
         line("theme", &THEMES, display.theme),
-        equal,
-        units,
-        mouse,
+        switched(display.stretched, "equal off"),
+        switched(display.dimensionless, "units off"),
+        switched(display.mouse, "mouse"),
     ];
-    lines.into_iter().flatten().collect()
+    lines.into_iter().flatten().map(Instruction::Run).collect()
 }
 
 /// The lines that open a built-in scene with other numbers, and the parameters that were added to its terms;

@@ -4,7 +4,7 @@ use super::content::ListContent;
 use super::look::Look;
 use crate::picture::role::Role;
 use crate::scene::{Answered, Layer, Topic};
-use crate::session::requirement::{CostRow, Requirement, named};
+use crate::session::wants::{CostRow, Requirement, named};
 use crate::session::{AnswerState, List, Session};
 use crate::words::number::{count, duration};
 

@@ -17,7 +17,7 @@ use crate::picture::role::Role;
 use crate::scene::library::SceneGroup;
 use crate::scene::said::said_by;
 use crate::scene::{Layer, letters};
-use crate::session::read::palette::PaletteRow;
+use crate::session::PaletteRow;
 use crate::session::{List, Listed, Overlay, Session};
 
 const WIDTH: u16 = 90;

@@ -9,8 +9,7 @@ use super::look::Look;
 use super::pane;
 use crate::picture::role::Role;
 use crate::scan::measure::MEASURES;
-use crate::session::state::ScanForm;
-use crate::session::state::scan_form::{FIELDS, FormField};
+use crate::session::overlay::{FIELDS, FormField, ScanForm};
 use crate::session::{Overlay, Session};
 
 const WIDTH: u16 = 74;

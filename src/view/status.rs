@@ -18,7 +18,7 @@ use crate::picture::units;
 use crate::scene::{Answer, Layer, Topic};
 use crate::session::Session;
 use crate::session::fate::{End, MotionVerdict, SideOfBorder};
-use crate::session::requirement::named;
+use crate::session::wants::named;
 use crate::words::motion::{Writing, sentence, swings};
 use crate::words::number::{count, duration, significant};
 

@@ -2,6 +2,8 @@
 
 mod commands;
 mod explorer;
+#[path = "../explorer/mod.rs"]
+mod explorer_session;
 mod guarantee;
 #[path = "../program/mod.rs"]
 mod program;

@@ -1,6 +1,9 @@
 //! Fits of records with known truth, made by an independent simulator or from the program's own motions with
 //! noise of fixed seeds.
 
+mod explorer;
+#[path = "../explorer/mod.rs"]
+mod explorer_session;
 mod kinds;
 mod lists;
 mod noise;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::Machine;
+use super::{Machine, ScaledMachine};
 use crate::model::{Group, Knob, Model, OutOfRange};
 
 /// The speed of a belt and the other numbers of a machine that were changed, in SI units.
@@ -89,7 +89,7 @@ impl Setting {
 
     /// A machine with these numbers. The static friction of its guide, where it is not set, is raised to the sliding
     /// friction where it would be less. Fails with one line if the machine lacks a number, or is none with it.
-    pub fn on(&self, machine: &Machine) -> Result<Machine, String> {
+    pub fn on(&self, machine: &Machine) -> Result<ScaledMachine, String> {
         let mut set = machine.clone();
         for knob in Knob::of_machines() {
             if let Some(value) = self.get(knob) {
@@ -101,7 +101,7 @@ impl Setting {
             set.belt.static_guide = set.belt.static_guide.map(|at_rest| at_rest.max(moving));
         }
         Model::new(&set.belt).map_err(|refused| refused.to_string())?;
-        Ok(set)
+        ScaledMachine::new(set).map_err(|refused| refused.to_string())
     }
 }
 

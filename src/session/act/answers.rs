@@ -6,16 +6,17 @@ use crate::fit::Unfit;
 use crate::flow::{Problem, Reason};
 use crate::model::Knob;
 use crate::question::{NoAnswer, Rows};
-use crate::scene::{Answer, Answered, Fit, Topic, View};
-use crate::session::act::notice::{inform, refuse};
-use crate::session::read::fit::{fitted, is_pending};
-use crate::session::state::scan::SCANNING;
-use crate::session::state::{Framing, Recomputation, ScanProgress, Session, StepSizes};
+use crate::scene::{Answer, Answered, Fit, Topic};
+use crate::session::act::scan::refit;
+use crate::session::act::{inform, refuse};
+use crate::session::read::windows::{fitted, is_pending};
+use crate::session::scan::SCANNING;
+use crate::session::{Framing, Recomputation, ScanProgress, Session, StepSizes};
 use crate::words::fit::sentences;
 
 impl Session {
     /// Takes an answer in; returns whether its question is asked at present.
-    pub(in crate::session) fn take(&mut self, answered: Answered) -> bool {
+    pub(crate) fn take(&mut self, answered: Answered) -> bool {
         let topic = answered.request.topic();
         if topic == Topic::Scan {
             return self.take_rows(&answered);
@@ -73,7 +74,7 @@ impl Session {
     }
 
     /// Takes rows of the scan in; returns whether they were asked for.
-    pub(in crate::session) fn take_rows(&mut self, answered: &Answered) -> bool {
+    pub(crate) fn take_rows(&mut self, answered: &Answered) -> bool {
         if self.scan_request().as_ref() != Some(&answered.request) {
             return false;
         }
@@ -94,15 +95,13 @@ impl Session {
                 notice.text = format!("scanned: {} rows", scanned.rows.len());
             }
         }
-        for plot in self.plots.iter_mut().filter(|plot| plot.view == View::Scan) {
-            plot.window = scanned.window();
-        }
+        refit(self);
         true
     }
 }
 
 /// Sets the numbers that are not held to their values in the fit.
-pub(in crate::session) fn follow_fit(session: &mut Session) {
+pub(crate) fn follow_fit(session: &mut Session) {
     if session.scene.recording.is_none() {
         return;
     }
@@ -118,7 +117,7 @@ pub(in crate::session) fn follow_fit(session: &mut Session) {
 }
 
 /// Fits the plots on show that wait for it, once their answers are there.
-pub(in crate::session) fn resolve(session: &mut Session) {
+pub(crate) fn resolve(session: &mut Session) {
     for index in session.on_show() {
         let waits = session.plots[index].framing == Framing::Fitting;
         if !waits || is_pending(session, index) {

@@ -7,17 +7,11 @@ use crate::model::Knob;
 use crate::numerics::decimal::shortest;
 use crate::scan::measure::Value;
 use crate::scene::{Axes, View};
-use crate::session::effect::{Done, Effect};
-use crate::session::read::numbers::plain_value;
-use crate::session::state::Session;
+use crate::session::read::completion::plain_value;
+use crate::session::{Done, Effect, Session};
 
 /// Number of points of a copied branch: as many as a wide plot has columns.
 const BRANCH_POINTS: usize = 200;
-
-/// Copies the shell command that prints the numbers of the pane in focus.
-pub fn command(session: &mut Session) {
-    session.effects.push(Effect::Copy(command_line(session)));
-}
 
 /// Copies the number or the point under consideration.
 pub fn number(session: &mut Session) -> Done {

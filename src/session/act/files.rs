@@ -1,40 +1,45 @@
-//! Files: saving and opening sessions, recording and playing keys. The outer rings access the disk; this module
-//! makes the content that is written and interprets the content that was read.
+//! Files: saving and opening sessions, recorded motions and machines, recording and playing keys. The outer rings
+//! access the disk; this module makes the content that is written and interprets the content that was read.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::scene::machine::file::parse;
+use crate::fit::names::{Choice, NAMES, assigned, listed, named};
+use crate::fit::{
+    Column, Inertia, LENGTHS, LOSSES, LossName, Reading, Signal, length_in_metres, parse,
+};
+use crate::model::Knob;
+use crate::question::Opened;
+use crate::scene::machine::file;
 use crate::scene::machine::mode::{NO_BELT, is_mode};
 use crate::scene::{Recording, ScaledMachine};
-use crate::session::act::notice::{inform, warn_of_units, with_keys};
-use crate::session::act::{history, lists, measurement, prompt};
-use crate::session::effect::{Done, Effect};
-use crate::session::message::Purpose;
-use crate::session::replay::script::Script;
-use crate::session::state::{Listed, Overlay, Session};
-use crate::session::{replay, save};
+use crate::session::act::{history, inform, lists, prompt, warn_of_units, with_keys};
+use crate::session::replay;
+use crate::session::save;
+use crate::session::{Done, Effect, Listed, Overlay, Purpose, Script, Session};
 
 /// The built-in tour.
 const TOUR: &str = include_str!("../../../assets/replays/tour.keys");
 
-pub(in crate::session) fn write(session: &mut Session, path: &str, replace: bool) -> Done {
+/// Saves the session.
+pub(crate) fn write(session: &mut Session, path: &str, replace: bool) -> Done {
     let text = save::text(session)?;
-    session.effects.push(Effect::Write { path: PathBuf::from(path), text, replace });
+    session.effects.push(Effect::Write { path: path.into(), text, replace });
     Ok(())
 }
 
 /// Writes the recording since the start, without the presses that asked for that.
 #[expect(clippy::unnecessary_wraps, reason = "as the functions of all lines")]
-pub(in crate::session) fn record(session: &mut Session, path: &str, replace: bool) -> Done {
-    let forget = session.chord;
-    session.effects.push(Effect::Record { path: PathBuf::from(path), forget, replace });
+pub(crate) fn record(session: &mut Session, path: &str, replace: bool) -> Done {
+    let (path, forget) = (path.into(), session.chord);
+    session.effects.push(Effect::Record { path, forget, replace });
     Ok(())
 }
 
+/// Asks for a file.
 #[expect(clippy::unnecessary_wraps, reason = "as the functions of all lines")]
-pub(in crate::session) fn ask(session: &mut Session, path: &str, purpose: Purpose) -> Done {
-    session.effects.push(Effect::Read { path: PathBuf::from(path), purpose });
+pub(crate) fn ask(session: &mut Session, path: &str, purpose: Purpose) -> Done {
+    session.effects.push(Effect::Read { path: path.into(), purpose });
     Ok(())
 }
 
@@ -45,7 +50,7 @@ const NONE_INTERRUPTED: &str = "no session was interrupted";
 const FIGURES: [&str; 4] = ["svg", "png", "csv", "json"];
 
 /// Writes a figure of one plot, or of all.
-pub(in crate::session) fn figure(
+pub(crate) fn figure(
     session: &mut Session,
     path: &str,
     plot: Option<usize>,
@@ -53,29 +58,28 @@ pub(in crate::session) fn figure(
 ) -> Done {
     let path = PathBuf::from(path);
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    if FIGURES.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
-        if let Some(other) = &session.writing {
-            let stops = with_keys(session, "{drop-cursor} stops that");
-            return Err(format!("{} is still being written; {stops}", other.display()));
-        }
-        session.writing = Some(path.clone());
-        session.effects.push(Effect::Figure { path, plot, replace });
-        Ok(())
-    } else {
+    if !FIGURES.iter().any(|known| known.eq_ignore_ascii_case(ending)) {
         let given = path.display().to_string();
-        Err(format!("a figure ends in .svg, .png, .csv or .json, not {given:?}"))
+        return Err(format!("a figure ends in .svg, .png, .csv or .json, not {given:?}"));
     }
+    if let Some(other) = &session.writing {
+        let stops = with_keys(session, "{drop-cursor} stops that");
+        return Err(format!("{} is still being written; {stops}", other.display()));
+    }
+    session.writing = Some(path.clone());
+    session.effects.push(Effect::Figure { path, plot, replace });
+    Ok(())
 }
 
 /// Offers to write the plot in use: opens the line with a command and a file name, to be edited or accepted.
 pub fn offer_figure(session: &mut Session) {
     let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
     let scene: String = session.scene.name.chars().map(plain).collect();
-    prompt::open_with(session, format!("figure-pane {scene}-{}.svg", session.plot + 1));
+    prompt::open(session, format!("figure-pane {scene}-{}.svg", session.plot + 1));
 }
 
 /// Takes a file in, or says what is wrong with it and changes nothing.
-pub(in crate::session) fn read(
+pub(crate) fn read(
     session: &mut Session,
     path: &Path,
     purpose: Purpose,
@@ -102,7 +106,7 @@ pub(in crate::session) fn read(
             session.effects.push(Effect::PutAside(path.to_owned()));
         }
         Purpose::Fit(words) => {
-            let opened = measurement::opened(path, &words, &text).map_err(of_file)?;
+            let opened = opened(path, &words, &text).map_err(of_file)?;
             history::open_scene(session, Arc::new(Recording::from(opened).scene()));
         }
         Purpose::Machine => return open_machine(session, path, text, None),
@@ -129,7 +133,7 @@ fn open_machine(
         return Err(format!("{file}: {NO_BELT}"));
     }
     let mut wanted = None;
-    let found = parse(&title, &file, &text, |name| {
+    let found = file::parse(&title, &file, &text, |name| {
         table.unwrap_or_else(|| {
             wanted = Some(path.with_file_name(name));
             Err(String::new())
@@ -158,7 +162,7 @@ pub fn restore(session: &mut Session) -> Done {
 }
 
 /// Continues the selected interrupted session.
-pub(in crate::session) fn restore_selected(session: &mut Session) {
+pub(crate) fn restore_selected(session: &mut Session) {
     if let Some(number) = selected(session) {
         restore_number(session, number);
     }
@@ -213,4 +217,106 @@ pub fn tour_script() -> Result<Script, String> {
 pub fn tour(session: &mut Session) -> Done {
     session.effects.push(Effect::Play(tour_script()?));
     Ok(())
+}
+
+/// Words that may follow the name of the file.
+const WORDS: [&str; 8] =
+    ["mass", "stiffness", "unit", "signal", "columns", "peaks", "loss", "free"];
+
+/// Details that the file does not contain.
+#[derive(Debug, Default)]
+struct Said {
+    inertia: Option<Inertia>,
+    reading: Reading,
+    choice: Choice,
+    loss: LossName,
+}
+
+/// Asks for the record that a line names: `FILE mass=2 kg columns=1,3 peaks`.
+pub fn fit(session: &mut Session, rest: &str) -> Done {
+    let begins = |word: &str| {
+        let name = word.split_once('=').map_or(word, |(name, _)| name);
+        let known = WORDS.contains(&name) || named(name).is_some();
+        known && (word.contains('=') || name == "peaks")
+    };
+    let mut blanks = rest.match_indices(' ').map(|(at, _)| at);
+    let end = blanks.find(|at| begins(rest[at + 1..].split(' ').next().unwrap_or_default()));
+    let (file, words) = rest.split_at(end.unwrap_or(rest.len()));
+    said(words)?;
+    ask(session, file.trim(), Purpose::Fit(words.trim().to_owned()))
+}
+
+fn said(words: &str) -> Result<Said, String> {
+    let mut given: Vec<(&str, String)> = Vec::new();
+    for word in words.split_whitespace() {
+        match (word.split_once('='), given.last_mut()) {
+            (Some((name, value)), _) => given.push((name, value.to_owned())),
+            (None, _) if word == "peaks" => given.push((word, String::new())),
+            (None, Some((_, value))) => *value = format!("{value} {word}"),
+            (None, None) => return Err(unknown(word)),
+        }
+    }
+    let mut said = Said::default();
+    for (name, value) in given {
+        match name {
+            "mass" => said.inertia = Some(Inertia::Mass(Knob::Mass.parse(&value)?)),
+            "stiffness" => {
+                said.inertia = Some(Inertia::Stiffness(Knob::Stiffness.parse(&value)?));
+            }
+            "unit" => said.reading.unit = Some(value),
+            "signal" => said.reading.signal = Some(signal(&value)?),
+            "columns" => (said.reading.time, said.reading.displacement) = columns(&value)?,
+            "peaks" => said.reading.peaks = true,
+            "loss" => said.loss = loss(&value)?,
+            "free" => said.choice.free = Some(listed(&value)?),
+            _ if named(name).is_some() => {
+                said.choice.held.push(assigned(&format!("{name}={value}"))?);
+            }
+            _ => return Err(unknown(name)),
+        }
+    }
+    Ok(said)
+}
+
+fn unknown(word: &str) -> String {
+    let numbers = NAMES.map(|row| row.name).join(", ");
+    format!(
+        "after the file name stands {}, or a value of {numbers}, not {word:?}",
+        WORDS.join(", ")
+    )
+}
+
+fn loss(text: &str) -> Result<LossName, String> {
+    let found = LOSSES.iter().find(|(name, _)| *name == text).map(|(_, loss)| *loss);
+    let names = LOSSES.map(|(name, _)| name).join(", ");
+    found.ok_or_else(|| format!("loss={text}; allowed are {names}"))
+}
+
+fn signal(text: &str) -> Result<Signal, String> {
+    Signal::named(text).ok_or_else(|| format!("signal={text}; allowed are {}", Signal::names()))
+}
+
+/// The columns of times and displacements, by number from 1 or by name.
+fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
+    let (time, displacement) =
+        text.split_once(',').ok_or_else(|| format!("{text:?} is not columns=1,3"))?;
+    let column = |name: &str| match name.trim().parse() {
+        Ok(0) => Err("columns are counted from 1".to_owned()),
+        Ok(number) => Ok(Some(Column::Number(number))),
+        Err(_) => Ok(Some(Column::Name(name.trim().to_owned()))),
+    };
+    Ok((column(time)?, column(displacement)?))
+}
+
+/// Reads the record. Fails with one line that says what is wrong, where, and what is allowed.
+pub(crate) fn opened(path: &Path, words: &str, text: &str) -> Result<Opened, String> {
+    let Said { inertia, reading, choice, loss } = said(words)?;
+    let record = parse(text.as_bytes(), &reading).map_err(|error| error.to_string())?;
+    let known = record.unit.as_deref().is_some_and(|unit| length_in_metres(unit).is_some());
+    if inertia.is_some() && !known {
+        let lengths = LENGTHS.map(|it| it.0).join(", ");
+        return Err(format!("the file names no known unit of length; unit= one of {lengths}"));
+    }
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    Ok(Opened { name, record, inertia, peaks: reading.peaks, choice, loss })
 }

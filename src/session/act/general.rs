@@ -1,12 +1,11 @@
-//! Commands that belong to no pane: layers, harmonics, the scene's caption, appearance, retry, quitting.
+//! Commands that belong to no pane: layers, harmonics, appearance, retry, counts, quitting.
 
 use crate::accuracy::harmonic_error::ladder;
 use crate::scene::Layer;
-use crate::session::act::notice::{inform, with_keys};
-use crate::session::effect::{Done, Effect};
-use crate::session::state::session::MOST_HARMONICS;
-use crate::session::state::settings::{DisplaySettings, GLYPHS, THEMES, next_of};
-use crate::session::state::{Overlay, Session, SessionCaption};
+use crate::session::act::{inform, inform_of_keys};
+use crate::session::settings::{DisplaySettings, next_of};
+use crate::session::state::session::{LARGEST_COUNT, MOST_HARMONICS};
+use crate::session::{Done, Effect, Key, Overlay, Pending, Session};
 
 /// Shows or hides a layer.
 pub fn toggle(session: &mut Session, layer: Layer) {
@@ -20,16 +19,12 @@ pub fn toggle(session: &mut Session, layer: Layer) {
     let text = match session.not_drawn(layer) {
         Some(why) if on => format!("{}: {why}", spec.name),
         _ if on && absent => {
-            format!(
-                "{}: no plot shows the {}; {{views}} picks one",
-                spec.name,
-                spec.view.spec().title
-            )
+            let title = spec.view.spec().title;
+            format!("{}: no plot shows the {title}; {{views}} picks one", spec.name)
         }
         _ => format!("{} {state}: {}", spec.name, spec.meaning),
     };
-    let text = with_keys(session, &text);
-    inform(session, text);
+    inform_of_keys(session, &text);
 }
 
 /// Shows the cycles with the next number of harmonics on a ladder of numbers.
@@ -43,36 +38,33 @@ pub fn harmonics(session: &mut Session, more: bool) -> Done {
     };
     session.layers.insert(Layer::Balance);
     let way = if more { "more" } else { "fewer" };
-    session.harmonics = *next.ok_or_else(|| format!("{now} harmonics: there are no {way}"))?;
-    inform(session, format!("harmonic balance with N = {}", session.harmonics));
+    let next = *next.ok_or_else(|| format!("{now} harmonics: there are no {way}"))?;
+    balance(session, next);
     Ok(())
 }
 
-/// Shows or hides the caption of the scene: what there is to see, and what to press.
-pub fn explain(session: &mut Session) {
-    session.caption = if session.caption == SessionCaption::Scene {
-        SessionCaption::Nothing
-    } else {
-        SessionCaption::Scene
-    };
+/// Shows the cycles by this number of harmonics.
+pub(crate) fn balance(session: &mut Session, harmonics: usize) {
+    session.harmonics = harmonics;
+    session.layers.insert(Layer::Balance);
+    inform(session, format!("harmonic balance with N = {harmonics}"));
 }
 
-/// Draws with the next set of characters.
-pub fn glyphs(session: &mut Session) {
-    let (glyphs, name) = next_of(&GLYPHS, session.display.glyphs);
-    session.display.glyphs = glyphs;
-    inform(session, format!("glyphs: {name}"));
-}
-
-/// Uses the next theme.
-pub fn theme(session: &mut Session) {
-    let (theme, name) = next_of(&THEMES, session.display.theme);
-    session.display.theme = theme;
-    inform(session, format!("theme: {name}"));
+/// Takes the next value of a table for a setting of the screen.
+pub(crate) fn turn<T: Copy + PartialEq>(
+    session: &mut Session,
+    what: &str,
+    table: &[(T, &'static str)],
+    setting: fn(&mut DisplaySettings) -> &mut T,
+) {
+    let place = setting(&mut session.display);
+    let (next, name) = next_of(table, *place);
+    *place = next;
+    inform(session, format!("{what}: {name}"));
 }
 
 /// Switches a setting of the screen on or off, and says what it is then.
-pub(in crate::session) fn flip(
+pub(crate) fn flip(
     session: &mut Session,
     setting: fn(&mut DisplaySettings) -> &mut bool,
     [on, off]: [&str; 2],
@@ -95,11 +87,6 @@ pub fn units(session: &mut Session) {
     flip(session, |it| &mut it.dimensionless, said);
 }
 
-/// Closes the overlay.
-pub fn back(session: &mut Session) {
-    session.overlay = None;
-}
-
 /// Asks questions that have no answer again.
 pub fn retry(session: &mut Session) {
     if !session.answers.forget_failures() {
@@ -118,4 +105,21 @@ pub fn accept_offer(session: &mut Session) {
 pub fn quit(session: &mut Session) {
     session.quit = true;
     session.effects.push(Effect::Quit);
+}
+
+/// Adds the digit of this key to a count, and waits for more.
+pub fn count(session: &mut Session, key: Key) {
+    let before = match session.pending {
+        Some(Pending::Count(before)) => before,
+        _ => 0,
+    };
+    let digit = key.typed().and_then(|char| char.to_digit(10)).unwrap_or(0);
+    session.pending = Some(Pending::Count((10 * before + digit).min(LARGEST_COUNT)));
+}
+
+/// Deletes the last digit of a count.
+pub fn delete_digit(session: &mut Session) {
+    if let Some(Pending::Count(count)) = &mut session.pending {
+        *count /= 10;
+    }
 }

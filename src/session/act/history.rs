@@ -1,24 +1,38 @@
-//! Undo and redo, and opening scenes, which can be undone, too.
+//! Undo and redo, opening scenes, which can be undone, too, and marks.
+//!
+//! Coming back to a mark recomputes nothing, because answers are stored by their questions. The point that was left is
+//! drawn dimmed behind the other one.
 
 use std::sync::Arc;
 
 use crate::fit::Unfit;
 use crate::model::Knob;
-use crate::scene::{Answer, Answered, Scene, Topic};
-use crate::session::act::notice::inform;
+use crate::scene::{Answer, Answered, Layer, Scene, Topic};
+use crate::session::act::inform;
+use crate::session::act::parameters::put;
 use crate::session::act::screen_setup::set_up;
-use crate::session::effect::Done;
-use crate::session::read::numbers::difference;
-use crate::session::state::{
-    Before, Pane, Playback, Row, ScreenSetup, Session, Setup, Snapshot, StepSizes,
+use crate::session::read::completion::difference;
+use crate::session::read::wants::COMPARED;
+use crate::session::{
+    Before, Bookmark, Done, Pane, Playback, Row, ScreenSetup, Session, Setup, Snapshot, StepSizes,
 };
 
 /// Undoes the last change.
 pub fn undo(session: &mut Session) -> Done {
-    let mut history = std::mem::take(&mut session.history);
-    let found = history.undo(|before| present(session, before));
-    session.history = history;
-    bring_back(session, found, "undo")
+    bring_back(session, "undo", |session| {
+        let before = session.history.past.pop()?;
+        session.history.future.push(present(session, &before));
+        Some(before)
+    })
+}
+
+/// Redoes the change that was undone last.
+pub fn redo(session: &mut Session) -> Done {
+    bring_back(session, "redo", |session| {
+        let after = session.history.future.pop()?;
+        session.history.past.push(present(session, &after));
+        Some(after)
+    })
 }
 
 /// Stops fitting the record on show: restores the state before.
@@ -37,14 +51,6 @@ pub fn stop_fitting(session: &mut Session) {
     inform(session, "the fit was stopped");
 }
 
-/// Redoes the change that was undone last.
-pub fn redo(session: &mut Session) -> Done {
-    let mut history = std::mem::take(&mut session.history);
-    let found = history.redo(|after| present(session, after));
-    session.history = history;
-    bring_back(session, found, "redo")
-}
-
 /// The present state, to the extent of `other`.
 fn present(session: &Session, other: &Before) -> Before {
     match other {
@@ -55,7 +61,7 @@ fn present(session: &Session, other: &Before) -> Before {
 }
 
 /// Everything that a scene determines, as it is now.
-fn snapshot(session: &Session) -> Snapshot {
+pub(crate) fn snapshot(session: &Session) -> Snapshot {
     Snapshot {
         scene: Arc::clone(&session.scene),
         setup: session.setup(),
@@ -76,11 +82,16 @@ fn opening(scene: Arc<Scene>) -> Snapshot {
     }
 }
 
-fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Done {
-    match found.ok_or_else(|| format!("nothing to {name}"))? {
+/// Brings a state back that `find` returns, and says what differs.
+fn bring_back(
+    session: &mut Session,
+    name: &str,
+    find: impl FnOnce(&mut Session) -> Option<Before>,
+) -> Done {
+    match find(session).ok_or_else(|| format!("nothing to {name}"))? {
         Before::Setup(setup) => {
             inform(session, format!("{name}: {}", difference(&session.setup(), &setup)));
-            session.set_setup(&setup);
+            session.set_setup(*setup);
         }
         Before::ScreenSetup(screen_setup) => {
             let titles: Vec<_> =
@@ -96,9 +107,10 @@ fn bring_back(session: &mut Session, found: Option<Before>, name: &str) -> Done 
     Ok(())
 }
 
-fn restore(session: &mut Session, snapshot: Snapshot) {
+/// Makes this the present state.
+pub(crate) fn restore(session: &mut Session, snapshot: Snapshot) {
     session.scene = snapshot.scene;
-    session.set_setup(&snapshot.setup);
+    session.set_setup(snapshot.setup);
     session.steps = snapshot.steps;
     session.layers = snapshot.layers;
     set_up(session, &snapshot.screen_setup);
@@ -107,7 +119,7 @@ fn restore(session: &mut Session, snapshot: Snapshot) {
 }
 
 /// Opens a scene, as one change that can be undone.
-pub(in crate::session) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
+pub(crate) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
     let before = snapshot(session);
     let opened = opening(scene);
     if before != opened {
@@ -122,7 +134,7 @@ pub(in crate::session) fn open_scene(session: &mut Session, scene: Arc<Scene>) {
 
 /// Makes the present state the start of a session: its scene opens like this, with these parameters added to
 /// its own, and the history is empty.
-pub(in crate::session) fn begin(session: &mut Session, names: Vec<Knob>) {
+pub(crate) fn begin(session: &mut Session, names: Vec<Knob>) {
     let mut scene = Arc::clone(&session.scene);
     let opens = Arc::make_mut(&mut scene);
     opens.problem = session.problem;
@@ -140,4 +152,45 @@ pub fn reset_scene(session: &mut Session) {
     let scene = Arc::clone(&session.scene);
     inform(session, format!("scene {} as it was opened", scene.name));
     open_scene(session, scene);
+}
+
+/// Marks the present point.
+pub(crate) fn set_mark(session: &mut Session, name: char) {
+    session.marks.places.insert(name, bookmark(session));
+    let key = session.keymap.key_of("go-to-mark");
+    let back = key.map(|key| format!("; {key}{name} comes back")).unwrap_or_default();
+    inform(session, format!("mark {name} is here{back}"));
+}
+
+/// Goes to a mark.
+pub(crate) fn go_to_mark(session: &mut Session, name: char) -> Done {
+    let mark = session.marks.places.get(&name).cloned();
+    go(session, mark.ok_or_else(|| format!("there is no mark {name}"))?);
+    Ok(())
+}
+
+/// Goes to the point that was left last.
+pub(crate) fn go_back(session: &mut Session) -> Done {
+    let mark = session.marks.left.clone();
+    go(session, mark.ok_or("no mark has been visited yet")?);
+    Ok(())
+}
+
+/// Goes to a point, as a change that can be undone, and keeps the point that is left for comparison.
+fn go(session: &mut Session, mark: Bookmark) {
+    let here = bookmark(session);
+    if mark.setup == here.setup {
+        return inform(session, "here already");
+    }
+    let moved = difference(&here.setup, &mark.setup);
+    put(session, mark.setup);
+    session.marks.left = Some(here);
+    session.layers.insert(Layer::Ghost);
+    inform(session, moved);
+}
+
+/// The present point, and what is drawn of it once it is left.
+fn bookmark(session: &Session) -> Bookmark {
+    let asked = COMPARED.into_iter().filter_map(|topic| session.request(topic, session.plot));
+    Bookmark { setup: session.setup(), asked: asked.collect() }
 }

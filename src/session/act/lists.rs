@@ -1,16 +1,9 @@
-//! Lists over the panes: moving, searching, and choosing rows.
+//! Lists over the panes: opening, moving and searching.
 
-use std::sync::Arc;
-
-use crate::paper::Claim;
-use crate::scene::{find, letters};
+use crate::scene::letters;
 use crate::session::act::general::toggle;
-use crate::session::act::history::open_scene;
-use crate::session::act::notice::{inform, refuse};
-use crate::session::act::screen_setup::show_from_list;
-use crate::session::effect::Done;
-use crate::session::message::key::Key;
-use crate::session::state::{List, Listed, Overlay, Session};
+use crate::session::act::refuse;
+use crate::session::{Key, List, Listed, Overlay, Session};
 
 /// Number of rows that the page keys move by.
 pub const PAGE: isize = 10;
@@ -18,9 +11,11 @@ pub const PAGE: isize = 10;
 /// Opens a list, with the present scene or the view of the plot in use selected.
 pub fn open(session: &mut Session, listed: Listed) {
     let list = List::default();
-    let rows = |list: &List| session.scene_rows(list).into_iter();
     let selected = match listed {
-        Listed::Scenes => rows(&list).position(|scene| scene.name == session.scene.name),
+        Listed::Scenes => {
+            let mut scenes = session.scene_rows(&list).into_iter();
+            scenes.position(|scene| scene.name == session.scene.name)
+        }
         Listed::Views => Some(session.view_in_use() as usize),
         _ => None,
     };
@@ -44,17 +39,6 @@ pub fn toggle_letter(session: &mut Session, key: Key) {
     toggle(session, layer);
 }
 
-/// Opens the scene that shows a claim.
-pub fn show_claim(session: &mut Session, claim: &Claim) -> Done {
-    session.overlay = None;
-    let scene = claim.scene.and_then(|name| find(name).ok());
-    let scene =
-        scene.ok_or_else(|| format!("no scene shows {}: it is a formula alone", claim.equation))?;
-    open_scene(session, scene);
-    inform(session, format!("{}: {}", claim.equation, claim.statement));
-    Ok(())
-}
-
 /// Moves the selection of the open list, within its rows.
 pub fn move_by(session: &mut Session, by: isize) {
     let last = session.list_length().saturating_sub(1);
@@ -67,17 +51,6 @@ pub fn move_by(session: &mut Session, by: isize) {
 pub fn search(session: &mut Session) {
     if let Some(list) = session.list_mut() {
         list.searching = true;
-    }
-}
-
-/// Ends the search and keeps the rows found; in a picker, picks the selected one at once.
-pub fn search_done(session: &mut Session) -> Done {
-    if let Some(list) = session.list_mut() {
-        list.searching = false;
-    }
-    match session.overlay {
-        Some(Overlay::List(Listed::Scenes | Listed::Views, _)) => choose(session),
-        _ => Ok(()),
     }
 }
 
@@ -94,34 +67,4 @@ pub fn search_with(session: &mut Session, change: impl FnOnce(&mut String)) {
         change(&mut list.search);
         list.selected = 0;
     }
-}
-
-/// Opens the selected scene, switches the selected layer, or shows the selected view.
-pub fn choose(session: &mut Session) -> Done {
-    match &session.overlay {
-        Some(Overlay::List(Listed::Scenes, list)) => {
-            if let Some(scene) = session.scene_rows(list).get(list.selected) {
-                session.overlay = None;
-                open_scene(session, Arc::clone(scene));
-            }
-        }
-        Some(Overlay::List(Listed::Layers, list)) => {
-            if let Some(row) = session.layer_rows(list).get(list.selected) {
-                toggle(session, row.layer);
-            }
-        }
-        Some(Overlay::List(Listed::Views, list)) => {
-            if let Some(row) = session.view_rows(list).get(list.selected) {
-                session.overlay = None;
-                return show_from_list(session, row.view);
-            }
-        }
-        Some(Overlay::List(Listed::Paper, list)) => {
-            if let Some((claim, _)) = session.claim_rows(list).get(list.selected) {
-                return show_claim(session, claim);
-            }
-        }
-        _ => {}
-    }
-    Ok(())
 }

@@ -1,34 +1,36 @@
 //! Notices to the user.
 
-use crate::session::effect::Done;
-use crate::session::message::Notice;
-use crate::session::message::key::Key;
-use crate::session::state::Session;
+use crate::session::{Done, Key, Notice, Session};
 
 /// Shows a notice that reports no refusal.
-pub(in crate::session) fn inform(session: &mut Session, text: impl Into<String>) {
+pub(crate) fn inform(session: &mut Session, text: impl Into<String>) {
     session.notice = Some(Notice { error: false, text: text.into() });
 }
 
 /// A sentence in which each `{command}` is replaced by the key of that command.
-pub(in crate::session) fn with_keys(session: &Session, sentence: &str) -> String {
+pub(crate) fn with_keys(session: &Session, sentence: &str) -> String {
     session.keymap.fill(sentence, Key::said)
 }
 
+/// Shows such a sentence.
+pub(crate) fn inform_of_keys(session: &mut Session, sentence: &str) {
+    inform(session, with_keys(session, sentence));
+}
+
 /// Shows a notice that says what was refused.
-pub(in crate::session) fn refuse(session: &mut Session, text: impl Into<String>) {
+pub(crate) fn refuse(session: &mut Session, text: impl Into<String>) {
     session.notice = Some(Notice { error: true, text: text.into() });
 }
 
 /// Does something, or says why it was refused.
-pub(in crate::session) fn attempt(session: &mut Session, act: impl FnOnce(&mut Session) -> Done) {
+pub(crate) fn attempt(session: &mut Session, act: impl FnOnce(&mut Session) -> Done) {
     if let Err(why) = act(session) {
         refuse(session, why);
     }
 }
 
 /// Shows what is unlikely about the numbers of the machine that was just read or typed.
-pub(in crate::session) fn warn_of_units(session: &mut Session) {
+pub(crate) fn warn_of_units(session: &mut Session) {
     if let Some(line) = session.unlikely_number() {
         inform(session, line);
     }

@@ -1,50 +1,45 @@
-//! Commands of the parameter pane: select, step, reset.
-
-use std::sync::Arc;
+//! Commands of the parameter pane: select, step, reset, and typing a value.
 
 use crate::flow::machine::stepped::SteppedMethod;
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
+use crate::model::unit::measured;
 use crate::model::{Knob, KnobSpec};
 use crate::numerics::decimal::shortest;
 use crate::numerics::elementary::log10;
-use crate::scene::{Running, Setting, View};
-use crate::session::act::notice::inform;
-use crate::session::effect::Done;
-use crate::session::state::{Before, Framing, Plot, Row, Session, Setup, StepSizes};
+use crate::scene::{Setting, View};
+use crate::session::act::{inform, warn_of_units};
+use crate::session::read::completion::typed;
+use crate::session::state::setup::symbol_of;
+use crate::session::{Before, Done, Entry, Framing, Key, Overlay, Row, Session, Setup, StepSizes};
+use crate::words::one_of;
 
 /// Changes the motion on show, as one change that can be undone; the belt keeps its speed. Returns whether
 /// anything differs.
-pub(in crate::session) fn change(session: &mut Session, problem: Problem) -> bool {
-    put(session, &Setup { problem, ..session.setup() })
+pub(crate) fn change(session: &mut Session, problem: Problem) -> bool {
+    put(session, Setup { problem, ..session.setup() })
 }
 
 /// Changes the setup, as one change that can be undone. Returns whether anything differs.
-pub(in crate::session) fn put(session: &mut Session, setup: &Setup) -> bool {
+///
+/// Of a fitted record, the numbers that a change by hand has moved are held; the fit of all others follows.
+pub(crate) fn put(session: &mut Session, mut setup: Setup) -> bool {
     let before = session.setup();
-    let setup = holding(session, &before, *setup);
-    let differs = setup != before;
-    if differs {
-        let was_on = session.is_on_the_belt() == Some(true);
-        session.history.record(Before::Setup(Box::new(before)));
-        session.set_setup(&setup);
-        if was_on && session.is_on_the_belt() == Some(false) {
-            inform(session, "off the belt: no speed has these numbers; the row belt leads back");
-        }
-    }
-    differs
-}
-
-/// Marks as held the numbers of a fitted record that a change by hand has moved; the fit of all others follows.
-fn holding(session: &Session, before: &Setup, mut setup: Setup) -> Setup {
     // A mark determines what is held.
     if session.scene.recording.is_some() && setup.doubt.held == before.doubt.held {
         for knob in Knob::MOTION {
-            if setup.problem.get(knob) != before.problem.get(knob) {
-                setup.doubt.held[knob as usize] = true;
-            }
+            setup.doubt.held[knob as usize] |= setup.problem.get(knob) != before.problem.get(knob);
         }
     }
-    setup
+    if setup == before {
+        return false;
+    }
+    let was_on = session.is_on_the_belt() == Some(true);
+    session.history.record(Before::Setup(Box::new(before)));
+    session.set_setup(setup);
+    if was_on && session.is_on_the_belt() == Some(false) {
+        inform(session, "off the belt: no speed has these numbers; the row belt leads back");
+    }
+    true
 }
 
 /// Moves the selection among the rows that the pane shows.
@@ -74,7 +69,7 @@ fn step_number(session: &mut Session, knob: Knob, count: i32) -> Done {
     let wanted = session.steps.of(knob).from(value, count);
     let within = if knob.is_of_machine() { wanted } else { wanted.clamp(min, max) };
     let stepped = session.with(&session.setup(), knob, within)?;
-    if put(session, &stepped) {
+    if put(session, stepped) {
         Ok(())
     } else if (min..=max).contains(&wanted) {
         Err(format!("the step is too small to change {symbol} = {}", knob.print(value)))
@@ -89,7 +84,7 @@ pub fn half_width(session: &mut Session, count: i32) -> Done {
     let knob = session.selected.knob_in(&session.problem);
     let half = session.steps.of(knob).from(present.doubt.half_width(knob), count).max(0.0);
     let doubt = present.doubt.with_half_width(knob, half)?;
-    let differs = put(session, &Setup { doubt, ..present });
+    let differs = put(session, Setup { doubt, ..present });
     if differs { Ok(()) } else { Err(format!("{knob} has no half width")) }
 }
 
@@ -110,35 +105,25 @@ pub fn reset_row(session: &mut Session) {
     if let (Some(size), Some(wanted)) = (session.steps.of_row_mut(row), steps.of_row(row)) {
         *size = wanted;
     }
-    let Setup { mut problem, mut doubt, .. } = present;
-    let reset = match row {
-        Row::Method => {
-            problem.method = of_scene.problem.method;
-            Setup { problem, ..present }
-        }
-        Row::Tolerance => {
-            Setup { problem: problem.with_setting(of_scene.problem.setting()), ..present }
-        }
-        Row::Number(knob) if session.scene.recording.is_some() && Knob::MOTION.contains(&knob) => {
-            doubt = doubt.with_half_width(knob, 0.0).unwrap_or(doubt);
-            doubt.held[knob as usize] = false;
-            Setup { doubt, ..present }
-        }
+    let mut reset = present;
+    match row {
+        Row::Method => reset.problem.method = of_scene.problem.method,
+        Row::Tolerance => reset.problem = reset.problem.with_setting(of_scene.problem.setting()),
         Row::Number(knob) => {
-            let half = of_scene.doubt.half_width(knob);
-            doubt = doubt.with_half_width(knob, half).unwrap_or(doubt);
-            let value = session.value_in(&of_scene, knob);
-            session.with(&Setup { doubt, ..present }, knob, value).unwrap_or(present)
+            let follows = session.scene.recording.is_some() && Knob::MOTION.contains(&knob);
+            let half = if follows { 0.0 } else { of_scene.doubt.half_width(knob) };
+            reset.doubt = reset.doubt.with_half_width(knob, half).unwrap_or(reset.doubt);
+            if follows {
+                reset.doubt.held[knob as usize] = false;
+            } else {
+                let value = session.value_in(&of_scene, knob);
+                reset = session.with(&reset, knob, value).unwrap_or(reset);
+            }
         }
-    };
-    if !put(session, &reset) {
+    }
+    if !put(session, reset) {
         inform(session, format!("{} has the scene's value", row.name_in(&session.problem)));
     }
-}
-
-/// Shows or hides the parameters that the scene does not declare.
-pub fn unfold(session: &mut Session) {
-    session.unfolded = !session.unfolded;
 }
 
 /// Changes the accuracy to its next stop: draft, normal, fine, reference.
@@ -206,27 +191,104 @@ impl Session {
         if up.setup() == self.setup() { self.stepped(row, -1) } else { up }
     }
 
-    /// Makes this setup the present one. There is a setting of the machine if and only if there is a machine.
-    pub(in crate::session) fn set_setup(&mut self, setup: &Setup) {
-        let Setup { problem, others, setting, doubt } = *setup;
-        self.doubt = doubt;
-        let scaled = self.scene.machine.as_ref();
-        let can_run = |setting: &Setting| {
-            let set = scaled.and_then(|scaled| setting.on(&scaled.machine).ok());
-            set.is_some_and(|machine| Running::at(&machine, setting.speed).is_ok())
+    /// Makes this setup the present one. There is a setting of the machine if and only if there is a machine; one with
+    /// which there is no machine gives way to the present one.
+    pub(crate) fn set_setup(&mut self, setup: Setup) {
+        let Setup { problem, others, setting, doubt } = setup;
+        let scaled = self.scene.machine.clone();
+        let built = |setting: Setting| {
+            Some((setting, Box::new(setting.on(&scaled.as_ref()?.machine).ok()?)))
         };
-        let own = scaled.map(|scaled| Setting::of_speed(scaled.machine.belt.belt_speed));
-        let present = self.setting.filter(can_run);
-        self.setting = setting.filter(can_run).or(present).or(own);
-        let rebuilt = scaled.zip(self.setting).filter(|(_, setting)| setting.differs());
-        self.rebuilt =
-            rebuilt.and_then(|(scaled, setting)| setting.on(&scaled.machine).ok()).map(Arc::new);
+        let set = setting.and_then(built).or_else(|| self.setting.and_then(built));
+        let own = || {
+            let scaled = scaled.clone()?;
+            Some((Setting::of_speed(scaled.machine.belt.belt_speed), scaled))
+        };
+        (self.setting, self.scaled) = set.or_else(own).unzip();
         // The energy ledger has lines for each motion.
-        if self.others.all().len() != others.all().len() {
-            let ledgers =
-                |plot: &&mut Plot| plot.view == View::EnergyLedger && plot.framing != Framing::User;
-            self.plots.iter_mut().filter(ledgers).for_each(|plot| plot.framing = Framing::Fitting);
+        if self.others.len() != others.len() {
+            for plot in &mut self.plots {
+                if plot.view == View::EnergyLedger && plot.framing != Framing::User {
+                    plot.framing = Framing::Fitting;
+                }
+            }
         }
-        (self.problem, self.others) = (problem, others);
+        (self.problem, self.others, self.doubt) = (problem, others, doubt);
     }
+}
+
+/// Opens the line with the value of the selected row.
+pub fn edit(session: &mut Session) {
+    let row = session.selected;
+    let knob = row.knob_in(&session.problem);
+    let text = typed(&session.setup(), row).unwrap_or_else(|| knob.print(session.value(knob)));
+    session.overlay = Some(Overlay::Entry(Entry::new(row, text)));
+}
+
+/// Opens the line with the character that was typed.
+pub fn begin(session: &mut Session, key: Key) {
+    let text = key.typed().map(String::from).unwrap_or_default();
+    session.overlay = Some(Overlay::Entry(Entry::new(session.selected, text)));
+}
+
+/// Accepts the typed value, or says in the line why it is refused.
+pub fn accept(session: &mut Session) {
+    let Some(Overlay::Entry(entry)) = &session.overlay else { return };
+    match read(session, &session.setup(), entry.row, entry.input.text()) {
+        Ok(setup) => {
+            session.overlay = None;
+            put(session, setup);
+            warn_of_units(session);
+        }
+        Err(why) => {
+            if let Some(Overlay::Entry(entry)) = &mut session.overlay {
+                entry.refused = Some(why);
+            }
+        }
+    }
+}
+
+/// The setup with the typed value in a row. Fails with one line that says what is allowed.
+pub(crate) fn read(
+    session: &Session,
+    setup: &Setup,
+    row: Row,
+    text: &str,
+) -> Result<Setup, String> {
+    let text = text.trim();
+    let problem = match row {
+        Row::Number(Knob::Disturbance) => {
+            return session.with(setup, Knob::Disturbance, disturbance(session, setup, text)?);
+        }
+        Row::Number(knob) => return number(session, setup, knob, text),
+        Row::Method => {
+            let method = one_of("method", text, METHODS.iter().map(|row| (row.name, row.method)))?;
+            Problem { method, ..setup.problem }
+        }
+        Row::Tolerance => match QUALITIES.iter().find(|quality| quality.name == text) {
+            Some(quality) => setup.problem.at(quality),
+            None => setup.problem.with_setting(row.knob_in(&setup.problem).parse(text)?),
+        },
+    };
+    Ok(Setup { problem, ..setup.clone() })
+}
+
+/// The setup with the typed number. A parameter, and a number of the machine to which one corresponds, may have
+/// a tolerance; without one, it is known exactly.
+fn number(session: &Session, setup: &Setup, knob: Knob, text: &str) -> Result<Setup, String> {
+    let read = knob.parse_toleranced(text)?;
+    let changed = session.with(setup, knob, read.middle.value)?;
+    if read.half_width == 0.0 && !knob.is_parameter() && symbol_of(knob).is_none() {
+        return Ok(changed);
+    }
+    let doubt = session.with_tolerance(&changed, knob, read.half_width)?;
+    Ok(Setup { doubt, ..changed })
+}
+
+/// The typed bound on the disturbance, in the unit of r or with a unit of force.
+fn disturbance(session: &Session, setup: &Setup, text: &str) -> Result<f64, String> {
+    if measured(text).is_ok_and(|read| read.dimension.is_some()) {
+        return Ok(Knob::DisturbingForce.parse(text)? / session.unit_of_force(setup)?);
+    }
+    Knob::Disturbance.parse(text)
 }

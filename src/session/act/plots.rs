@@ -1,15 +1,19 @@
-//! Commands of the plots: cursor, zoom, pan, and using the point under the cursor.
+//! Commands of the plots: cursor, zoom, pan, axes, and using the point under the cursor; and the mouse, for those who
+//! want it.
 
 use crate::flow::Problem;
-use crate::model::Knob;
-use crate::model::State;
+use crate::model::{Knob, State};
 use crate::numerics::decimal::shortest;
-use crate::scene::{PlotSetup, Point, Span, View, Window};
-use crate::session::act::notice::{inform, refuse, with_keys};
+use crate::scene::ordinate::usual_values;
+use crate::scene::{Axes, ORDINATES, PlotSetup, Point, Span, Unit, View, Window};
+use crate::session::act::general::flip;
+use crate::session::act::motions::start;
 use crate::session::act::parameters::{change, put};
-use crate::session::act::starts::start;
-use crate::session::effect::{Done, Effect};
-use crate::session::state::{Framing, Plot, Session, StepSize};
+use crate::session::act::screen_setup::focus_on;
+use crate::session::act::{history, inform, lists, refuse, scan, with_keys};
+use crate::session::{
+    Done, Effect, Framing, Gesture, Pane, Plot, Pointed, PointerTarget, Session, StepSize,
+};
 
 /// Number of cursor steps in a far move.
 pub const FAR: i32 = 8;
@@ -27,24 +31,21 @@ const PAN: f64 = 0.125;
 
 /// The position where the cursor of a plot first appears: the start of the motion, or the present value.
 fn cursor_origin(session: &Session, plot: &Plot) -> Point {
-    let window = plot.window;
-    window.clamp(match plot.view {
-        View::Phase => Point { x: session.problem.initial.q, y: session.problem.initial.v },
-        View::Belt => Point { x: session.problem.initial.q, y: window.center().y },
-        View::Diagram => Point { x: session.value(plot.axes.abscissa), y: window.center().y },
-        View::TimeSeries => Point { x: 0.0, y: session.problem.initial.q },
-        View::EnergyLedger => Point { x: 0.0, y: 0.0 },
-        View::EnergyRate => Point { x: session.problem.initial.v, y: 0.0 },
-        View::Speeds => Point {
-            x: session.setting.map_or(window.center().x, |it| it.speed),
-            y: window.center().y,
-        },
-        View::ReturnMap => Point { x: session.problem.initial.q, y: session.problem.initial.q },
-        View::Regimes => {
-            Point { x: session.value(plot.axes.abscissa), y: session.value(plot.axes.against) }
-        }
-        _ => window.center(),
-    })
+    let State { q, v } = session.problem.initial;
+    let center = plot.window.center();
+    let (x, y) = match plot.view {
+        View::Phase => (q, v),
+        View::Belt => (q, center.y),
+        View::Diagram => (session.value(plot.axes.abscissa), center.y),
+        View::TimeSeries => (0.0, q),
+        View::EnergyLedger => (0.0, 0.0),
+        View::EnergyRate => (v, 0.0),
+        View::Speeds => (session.setting.map_or(center.x, |it| it.speed), center.y),
+        View::ReturnMap => (q, q),
+        View::Regimes => (session.value(plot.axes.abscissa), session.value(plot.axes.against)),
+        _ => (center.x, center.y),
+    };
+    plot.window.clamp(Point { x, y })
 }
 
 /// Moves the cursor of the plot in focus; the first move shows it.
@@ -87,9 +88,9 @@ pub fn drop_cursor(session: &mut Session) {
     if session.writing.is_some() {
         session.effects.push(Effect::StopWriting);
     } else if session.is_fitting() {
-        super::history::stop_fitting(session);
+        history::stop_fitting(session);
     } else if session.focuses_scan() {
-        super::scan::stop(session);
+        scan::stop(session);
     } else if let Some(plot) = session.focused_mut() {
         plot.cursor = None;
     }
@@ -171,7 +172,7 @@ pub fn use_method(session: &mut Session) -> Done {
 pub fn take_speed(session: &mut Session) -> Done {
     let Point { x, .. } = cursor(session)?;
     let setup = session.with(&session.setup(), Knob::BeltSpeed, x)?;
-    put(session, &setup);
+    put(session, setup);
     Ok(())
 }
 
@@ -204,10 +205,141 @@ pub fn jump_here(session: &mut Session) -> Done {
     let cursor = cursor(session)?;
     let Plot { view, axes, .. } = session.plots[session.plot];
     let upwards = (view == View::Regimes).then_some((axes.against, cursor.y));
-    let mut problem = session.problem;
+    let mut setup = session.setup();
     for (symbol, value) in [(axes.abscissa, cursor.x)].into_iter().chain(upwards) {
-        symbol.set(&mut problem.parameters, &mut problem.initial, symbol.check(value)?);
+        setup = session.with(&setup, symbol, value)?;
     }
-    change(session, problem);
+    put(session, setup);
+    Ok(())
+}
+
+/// Factor for room beside the present value if it lies outside of the first range.
+const ROOM: f64 = 1.25;
+
+/// The parameter that many places later in the table, cycling.
+fn after(parameter: Knob, places: usize) -> Knob {
+    Knob::PARAMETERS[(parameter.place() + places) % Knob::PARAMETERS.len()]
+}
+
+/// Draws the diagram in focus over the next parameter, cycling; this needs another branch.
+pub fn next_abscissa(session: &mut Session) {
+    let Some(plot) = session.focused() else { return };
+    let axes = plot.axes;
+    let symbol = after(axes.abscissa, 1);
+    set_axes(session, Axes { abscissa: symbol, ..axes });
+    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
+}
+
+/// Draws the chart in focus over the next parameter to the right or upwards; both axes always differ.
+pub fn next_of_chart(session: &mut Session, upwards: bool) {
+    let Some(plot) = session.focused_mut() else { return };
+    let Axes { abscissa, against, .. } = plot.axes;
+    let (present, other) = if upwards { (against, abscissa) } else { (abscissa, against) };
+    let next = after(present, 1);
+    let symbol = if next == other { after(present, 2) } else { next };
+    let axis = if upwards { &mut plot.axes.against } else { &mut plot.axes.abscissa };
+    *axis = symbol;
+    // No scene sets a window for these axes: starts from the usual one, which is then fitted to include the
+    // present point.
+    let Plot { view, axes, family, .. } = *plot;
+    plot.fit_from(PlotSetup { view, axes, window: None, family }.opening());
+    inform(session, format!("over {}: {}", symbol.spec().name, symbol.spec().meaning));
+}
+
+/// Gives the diagram in focus these axes.
+pub fn set_axes(session: &mut Session, axes: Axes) {
+    let Some(plot) = session.focused() else { return };
+    let symbol = axes.abscissa;
+    if symbol == plot.axes.abscissa {
+        let x = plot.window.x;
+        reframe(session, axes, x);
+        return;
+    }
+    let usual = usual_values(symbol);
+    let reach = ROOM * session.value(symbol);
+    let around = Span::covering([usual.from(), usual.to(), reach]).unwrap_or(usual);
+    let of_scene = of_scene(session).filter(|plot_setup| plot_setup.axes.abscissa == symbol);
+    let x = of_scene.map_or(around, |plot_setup| plot_setup.opening().x);
+    reframe(session, axes, x);
+}
+
+/// Shows the next property of the cycles, cycling; the branch stays.
+pub fn next_ordinate(session: &mut Session) {
+    let Some(plot) = session.focused() else { return };
+    let row = &ORDINATES[(plot.axes.ordinate as usize + 1) % ORDINATES.len()];
+    let axes = Axes { ordinate: row.ordinate, ..plot.axes };
+    set_axes(session, axes);
+    inform(session, format!("{}: {}", axes.label(), row.meaning));
+}
+
+/// Switches lengths of the cycles between units of r and those of the equation; the branch stays.
+pub fn next_unit(session: &mut Session) -> Done {
+    let plot = &session.plots[session.plot];
+    let (spec, unit) = (plot.axes.ordinate.spec(), plot.axes.unit);
+    if spec.ratio.is_none() {
+        return Err(format!("{} is not a length and has no unit", spec.label));
+    }
+    let unit = if unit == Unit::One { Unit::Friction } else { Unit::One };
+    let axes = Axes { unit, ..plot.axes };
+    set_axes(session, axes);
+    let units = if unit == Unit::One { "" } else { ", in units of r" };
+    inform(session, format!("{}: {}{units}", axes.label(), spec.meaning));
+    Ok(())
+}
+
+/// The scene's setup for the diagram in focus.
+fn of_scene(session: &Session) -> Option<PlotSetup> {
+    session.plot_of_scene(session.plot, View::Diagram)
+}
+
+/// Applies the scene's window if the axes are the scene's, otherwise fits the window to the branch.
+fn reframe(session: &mut Session, axes: Axes, x: Span) {
+    let of_scene = of_scene(session).filter(|plot_setup| plot_setup.axes == axes);
+    let Some(plot) = session.focused_mut() else { return };
+    if let Some(plot_setup) = of_scene.filter(|plot_setup| plot_setup.opening().x == x) {
+        *plot = Plot::opened(&plot_setup);
+    } else {
+        plot.axes = axes;
+        plot.fit_from(Window { x, y: plot.window.y });
+    }
+}
+
+/// Number of rows by which a notch of the wheel moves a list.
+const NOTCH: isize = 3;
+
+/// Turns the mouse on or off.
+pub fn toggle_mouse(session: &mut Session) {
+    let on = "mouse on: click to start or point, turn the wheel to zoom, hold shift to select text";
+    flip(session, |it| &mut it.mouse, [on, "mouse off: the terminal selects text"]);
+    session.effects.push(Effect::Mouse(session.display.mouse));
+}
+
+/// Handles an action of the mouse. Over an overlay, the wheel moves its list and clicks are ignored.
+pub fn pointed(session: &mut Session, Pointed { gesture, place }: Pointed) -> Done {
+    if session.overlay.is_some() {
+        match gesture {
+            Gesture::Click => {}
+            Gesture::Nearer => lists::move_by(session, -NOTCH),
+            Gesture::Farther => lists::move_by(session, NOTCH),
+        }
+        return Ok(());
+    }
+    match place {
+        PointerTarget::Row(index) => {
+            if let (Gesture::Click, Some(row)) = (gesture, session.rows().get(index)) {
+                session.selected = *row;
+                session.focus = Pane::Parameters;
+            }
+        }
+        PointerTarget::Plot(index, _) if !session.on_show().contains(&index) => {}
+        PointerTarget::Plot(index, point) => {
+            focus_on(session, Pane::Plot(index));
+            match gesture {
+                Gesture::Click => return point_at(session, point),
+                Gesture::Nearer => zoom_about(session, |_| point, true),
+                Gesture::Farther => zoom_about(session, |_| point, false),
+            }
+        }
+    }
     Ok(())
 }

@@ -1,21 +1,27 @@
-//! The command line: opening, completing, remembering and running.
+//! Typing into the open line; the command line, and the palette, where everything that has a name is run.
 
+use std::sync::Arc;
+
+use crate::paper::Claim;
+use crate::scene::find;
+use crate::session::act::general::toggle;
+use crate::session::act::history::open_scene;
+use crate::session::act::inform;
+use crate::session::act::lists::search_with;
+use crate::session::act::screen_setup::show_from_list;
+use crate::session::act::values::belt;
 use crate::session::read::completion::completion;
-use crate::session::state::command::full_name;
-use crate::session::state::{
-    Completion, Input, List, Listed, NextCommand, Overlay, Prompt, Session,
+use crate::session::state::keymap::full_name;
+use crate::session::{
+    Completion, Done, Input, List, Listed, NextCommand, Overlay, PaletteRow, Prompt, Session,
 };
+use crate::words::printable::is_printable;
 
 /// Maximum number of remembered lines.
 const REMEMBERED: usize = 200;
 
-/// Opens an empty line.
-pub fn open(session: &mut Session) {
-    open_with(session, String::new());
-}
-
 /// Opens the line with an initial text.
-pub fn open_with(session: &mut Session, text: String) {
+pub fn open(session: &mut Session, text: impl Into<String>) {
     session.overlay = Some(Overlay::Prompt(Prompt::new(text)));
 }
 
@@ -89,18 +95,82 @@ pub fn complete(session: &mut Session, by: isize) {
         prompt.refused = Some("nothing to complete here".to_owned());
         return;
     };
-    let after = prompt.input.halves().1.to_owned();
     let Completion { stem, words, at } = &completion;
     let mut text = format!("{stem}{}", words[*at]);
     // A blank follows the only candidate, unless something must follow it directly.
     let only = words.len() == 1;
-    if only && !text.ends_with('=') && !after.starts_with(' ') {
+    if only && !text.ends_with('=') && !prompt.input.halves().1.starts_with(' ') {
         text.push(' ');
     }
-    prompt.input = Input::new(text);
-    for char in after.chars() {
-        prompt.input.insert(char);
-    }
-    prompt.input.move_caret(-isize::try_from(after.chars().count()).unwrap_or(0));
+    prompt.input.replace_before(&text);
     (prompt.refused, prompt.completion) = (None, (!only).then_some(completion));
+}
+
+/// Applies an edit to the open line, and drops what was said about its old text.
+pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) {
+    match &mut session.overlay {
+        Some(Overlay::Entry(entry)) => {
+            entry.refused = None;
+            act(&mut entry.input);
+        }
+        Some(Overlay::Prompt(prompt)) => {
+            (prompt.refused, prompt.completion) = (None, None);
+            act(&mut prompt.input);
+        }
+        Some(Overlay::Scan(form)) => {
+            form.refused = None;
+            act(form.input_mut());
+        }
+        _ => {}
+    }
+}
+
+/// Types a text into the open line, if there is one; what is not printable is dropped.
+pub fn insert(session: &mut Session, text: &str) {
+    let visible = text.chars().filter(|char| is_printable(*char));
+    search_with(session, |search| search.extend(visible.clone()));
+    with(session, |input| visible.for_each(|char| input.insert(char)));
+}
+
+/// Ends the search and keeps the rows found; in a picker, picks the selected one at once.
+pub fn search_done(session: &mut Session) -> Result<Option<NextCommand>, String> {
+    if let Some(list) = session.list_mut() {
+        list.searching = false;
+    }
+    match session.overlay {
+        Some(Overlay::List(Listed::Scenes | Listed::Views, _)) => choose(session),
+        _ => Ok(None),
+    }
+}
+
+/// Runs the selected row of the open list, or returns the command to be run. The list closes, except that of the
+/// layers. A command that takes words opens the line for typing them. In the list of costs, nothing can be run.
+pub fn choose(session: &mut Session) -> Result<Option<NextCommand>, String> {
+    let Some(Overlay::List(listed, list)) = &session.overlay else { return Ok(None) };
+    let (listed, row) = (*listed, session.selected_row(*listed, list));
+    let closes = row.is_some() || listed == Listed::Cost;
+    if closes && listed != Listed::Layers {
+        session.overlay = None;
+    }
+    match row {
+        Some(PaletteRow::Command(command)) => return Ok(Some(NextCommand::Command(command))),
+        Some(PaletteRow::Line(line)) => open(session, format!("{} ", line.name)),
+        Some(PaletteRow::Scene(scene)) => open_scene(session, Arc::clone(scene)),
+        Some(PaletteRow::View(row)) => show_from_list(session, row.view)?,
+        Some(PaletteRow::Layer(layer)) => toggle(session, layer.layer),
+        Some(PaletteRow::Machine(machine)) => belt(session, &machine.name)?,
+        Some(PaletteRow::Claim(claim)) => show_claim(session, claim)?,
+        None => {}
+    }
+    Ok(None)
+}
+
+/// Opens the scene that shows a claim.
+fn show_claim(session: &mut Session, claim: &Claim) -> Done {
+    let scene = claim.scene.and_then(|name| find(name).ok());
+    let scene =
+        scene.ok_or_else(|| format!("no scene shows {}: it is a formula alone", claim.equation))?;
+    open_scene(session, scene);
+    inform(session, format!("{}: {}", claim.equation, claim.statement));
+    Ok(())
 }

@@ -2,17 +2,18 @@
 
 use crate::model::{Group, Knob};
 use crate::numerics::decimal::shortest;
+use crate::portrait::basin;
 use crate::scan::grid::Scan;
+use crate::scan::measure::Measure;
 use crate::scan::sweep::Sweep;
-use crate::scene::View;
-use crate::session::act::focus::focus_on;
-use crate::session::act::notice::{inform, with_keys};
+use crate::scene::{Request, Span, View};
 use crate::session::act::parameters::change;
-use crate::session::act::screen_setup::{add, show};
-use crate::session::effect::{Done, Effect};
-use crate::session::read::scan::{scan_of, typed};
-use crate::session::state::scan::SCANNING;
-use crate::session::state::{Input, Overlay, Pane, ScanForm, ScanOnShow, ScanProgress, Session};
+use crate::session::act::screen_setup::{add, focus_on, show};
+use crate::session::act::{inform, inform_of_keys};
+use crate::session::scan::SCANNING;
+use crate::session::{
+    Done, Effect, Input, Overlay, Pane, Plot, ScanForm, ScanOnShow, ScanProgress, Session,
+};
 
 /// The file in which a key saves the rows; the command line takes any name.
 pub const FILE: &str = "scan.csv";
@@ -28,8 +29,7 @@ pub fn open(session: &mut Session) {
 
 /// A new form, over the parameter of a diagram on show, otherwise over the selected parameter around its value.
 fn fresh(session: &Session) -> ScanForm {
-    let diagrams = session.plots.iter().filter(|plot| plot.view == View::Diagram);
-    if let Some(diagram) = diagrams.into_iter().next() {
+    if let Some(diagram) = session.plots.iter().find(|plot| plot.view == View::Diagram) {
         let symbol = diagram.axes.abscissa;
         let (spec, x) = (symbol.spec(), diagram.window.x);
         if let Some(span) = x.within(spec.min, spec.max) {
@@ -113,12 +113,11 @@ pub fn start(session: &mut Session, scan: Scan) {
 /// Shows the scan beside the phase plane to which its points are applied: in the plot in use, in another one,
 /// or in a new one.
 fn beside(session: &mut Session) {
-    let is_plane = |session: &Session, index: usize| session.plots[index].view == View::Phase;
+    let is_plane = |plot: &Plot| plot.view == View::Phase;
     session.enlarged = false;
-    let others = (0..session.plots.len()).filter(|index| *index != session.plot);
-    let planes = others.clone().filter(|index| is_plane(session, *index)).count();
-    if is_plane(session, session.plot) && planes == 0 {
-        match others.clone().find(|index| !is_plane(session, *index)) {
+    let planes = session.plots.iter().filter(|plot| is_plane(plot)).count();
+    if is_plane(&session.plots[session.plot]) && planes == 1 {
+        match session.plots.iter().position(|plot| !is_plane(plot)) {
             Some(index) => focus_on(session, Pane::Plot(index)),
             None => drop(add(session)),
         }
@@ -133,8 +132,7 @@ pub fn stop(session: &mut Session) {
         scanned.progress = ScanProgress::Stopped;
         let (rows, points) = (scanned.rows.len(), scanned.scan.points());
         let text = format!("stopped: {rows} of {points} rows; {{scan-pause}} continues");
-        let text = with_keys(session, &text);
-        inform(session, text);
+        inform_of_keys(session, &text);
     }
 }
 
@@ -173,7 +171,8 @@ pub fn table(session: &mut Session) -> Done {
     Ok(())
 }
 
-fn refit(session: &mut Session) {
+/// Shows all points so far.
+pub(crate) fn refit(session: &mut Session) {
     let Some(scanned) = &session.scanned else { return };
     let window = scanned.window();
     for plot in session.plots.iter_mut().filter(|plot| plot.view == View::Scan) {
@@ -234,4 +233,48 @@ pub fn scan(session: &mut Session, rest: &str) -> Done {
     let scan = scan_of(session, over, &measures)?;
     start(session, scan);
     Ok(())
+}
+
+/// The scan of the motion on show that the form describes. Fails with one line that says what is wrong and what
+/// is allowed.
+fn typed(form: &ScanForm, session: &Session) -> Result<Scan, String> {
+    let texts = form.inputs.each_ref().map(|input| input.text().trim().replace('\u{2212}', "-"));
+    let [name, from, to, count, second, from2, to2, count2, measures] = &texts;
+    let sweep = |name: &str, from: &str, to: &str, count: &str| {
+        for (what, text) in [("from", from), ("to", to), ("count", count)] {
+            if text.is_empty() {
+                return Err(format!("{what} of {name} is empty"));
+            }
+        }
+        Sweep::read(&format!("{name}={from}:{to}:{count}"), &[Group::Motion])
+    };
+    let mut over = vec![sweep(name, from, to, count)?];
+    if !second.is_empty() {
+        over.push(sweep(second, from2, to2, count2)?);
+    }
+    scan_of(session, over, measures)
+}
+
+/// A scan of the motion on show; the window for `stability` is that of a phase plane on show. Fails with one
+/// line that says what is wrong and what is allowed.
+fn scan_of(session: &Session, over: Vec<Sweep>, measures: &str) -> Result<Scan, String> {
+    let measures = measures.split(',').map(|name| Measure::named(name.trim()));
+    let measures = measures.collect::<Result<Vec<_>, _>>()?;
+    let plane = session.plots.iter().find(|plot| plot.view == View::Phase);
+    let window = plane.map_or(View::Phase.spec().window, |plot| plot.window);
+    let ends = |span: Span| (span.from(), span.to());
+    let window = basin::Window { q: ends(window.x), v: ends(window.y) };
+    Scan::new(session.problem, over, measures, window)
+}
+
+impl Session {
+    /// The request of the scan while it is running.
+    pub fn scan_request(&self) -> Option<Request> {
+        self.scanned.as_ref()?.request()
+    }
+
+    /// Whether a plot with a scan has the focus.
+    pub fn focuses_scan(&self) -> bool {
+        self.focused().is_some_and(|plot| plot.view == View::Scan)
+    }
 }

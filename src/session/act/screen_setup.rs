@@ -1,22 +1,15 @@
-//! Commands that change what is on show: the view of a plot, the number of plots, and how they share the
-//! screen. Each change can be undone.
+//! Commands that change what is on show: the view of a plot, the number of plots, how they share the screen, and
+//! which pane has the focus. Each change but that of the focus can be undone.
 
 use crate::scene::{ARRANGEMENTS, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
-use crate::session::act::focus::focus_on;
-use crate::session::act::notice::{inform, with_keys};
-use crate::session::effect::Done;
-use crate::session::state::{Before, Pane, Plot, ScreenSetup, Session};
+use crate::session::act::{inform, with_keys};
+use crate::session::settings::next_of;
+use crate::session::{Before, Done, Pane, Plot, ScreenSetup, Session};
 
 /// Replaces the plots and their arrangement.
-pub(in crate::session) fn set_up(session: &mut Session, screen_setup: &ScreenSetup) {
+pub(crate) fn set_up(session: &mut Session, screen_setup: &ScreenSetup) {
     session.arrangement = screen_setup.arrangement;
-    session.plots.truncate(screen_setup.plots.len());
-    for (index, plot_setup) in screen_setup.plots.iter().enumerate() {
-        match session.plots.get_mut(index) {
-            Some(plot) => *plot = Plot::opened(plot_setup),
-            None => session.plots.push(Plot::opened(plot_setup)),
-        }
-    }
+    session.plots = screen_setup.plots.iter().map(Plot::opened).collect();
     let last = session.plots.len().saturating_sub(1);
     session.plot = session.plot.min(last);
     if let Pane::Plot(index) = session.focus {
@@ -147,7 +140,26 @@ pub fn move_on(session: &mut Session) -> Done {
 /// Selects the next arrangement of the plots.
 pub fn arrange(session: &mut Session) {
     record(session);
-    let (arrangement, name) = crate::session::settings::next_of(&ARRANGEMENTS, session.arrangement);
+    let (arrangement, name) = next_of(&ARRANGEMENTS, session.arrangement);
     session.arrangement = arrangement;
     inform(session, format!("arrangement: {name}"));
+}
+
+/// Gives the focus to another pane.
+pub fn focus(session: &mut Session, by: isize) {
+    // If a plot is enlarged, the next plot takes its space.
+    let panes = session.plots.len() + 1;
+    let at = match session.focus {
+        Pane::Parameters => 0,
+        Pane::Plot(index) => index + 1,
+    };
+    let next = at.checked_add_signed(by).unwrap_or(panes - 1) % panes;
+    focus_on(session, next.checked_sub(1).map_or(Pane::Parameters, Pane::Plot));
+}
+
+pub(crate) fn focus_on(session: &mut Session, pane: Pane) {
+    session.focus = pane;
+    if let Pane::Plot(index) = pane {
+        session.plot = index;
+    }
 }

@@ -5,23 +5,14 @@ use std::sync::Arc;
 use crate::model::{Knob, unknown};
 use crate::portrait::kicks::RandomKick;
 use crate::scene::machine::library::machines;
-use crate::scene::{
-    Axes, LAYERS, Layer, ORDINATES, Ordinate, ScaledMachine, Span, Unit, VIEWS, View, Window, find,
-};
-use crate::session::act::notice::{inform, warn_of_units};
+use crate::scene::{Axes, LAYERS, Layer, ScaledMachine, Span, VIEWS, View, Window, find};
 use crate::session::act::{
-    axes as axis, entry, focus, general, history, marks, parameters, screen_setup,
+    general, history, inform, parameters, plots, screen_setup, warn_of_units,
 };
-use crate::session::effect::Done;
 use crate::session::read::completion::{properties, rows};
 use crate::session::state::session::MOST_HARMONICS;
-use crate::session::state::{Framing, Pane, Row, Session};
+use crate::session::{Done, Framing, Pane, Row, Session};
 use crate::words::one_of;
-
-/// A list of names, for a line that says what is allowed.
-fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
-    names.into_iter().collect::<Vec<_>>().join(", ")
-}
 
 /// The row of the parameter pane with this name.
 fn row_named(session: &Session, name: &str) -> Result<Row, String> {
@@ -49,26 +40,27 @@ pub fn set(session: &mut Session, rest: &str) -> Done {
             (None, _) => return Err(format!("{word:?} is not NAME=VALUE, such as D=-0.3")),
         }
     }
+    assign(session, given)
+}
+
+/// Sets the value of one row.
+pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
+    assign(session, vec![(row, value.to_owned())])
+}
+
+fn assign(session: &mut Session, given: Vec<(&str, String)>) -> Done {
     let mut setup = session.setup();
     for (name, value) in given {
-        setup = entry::read(session, &setup, row_named(session, name)?, &value)?;
+        setup = parameters::read(session, &setup, row_named(session, name)?, &value)?;
     }
-    parameters::put(session, &setup);
+    parameters::put(session, setup);
     warn_of_units(session);
     Ok(())
 }
 
-pub fn set_row(session: &mut Session, row: &str, value: &str) -> Done {
-    let row = row_named(session, row)?;
-    let setup = entry::read(session, &session.setup(), row, value)?;
-    parameters::put(session, &setup);
-    warn_of_units(session);
-    Ok(())
-}
-
+/// Opens a scene.
 pub fn scene(session: &mut Session, name: &str) -> Done {
-    let scene = find(name)?;
-    history::open_scene(session, Arc::clone(&scene));
+    history::open_scene(session, find(name)?);
     Ok(())
 }
 
@@ -91,9 +83,8 @@ pub fn view(session: &mut Session, name: &str) -> Done {
 /// Switches a layer on or off, or toggles it.
 pub fn layer(session: &mut Session, rest: &str) -> Done {
     let (name, state) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
-    let layer = Layer::named(name).ok_or_else(|| {
-        format!("no layer {name:?}; there are {}", listed(LAYERS.iter().map(|row| row.name)))
-    })?;
+    let rows = LAYERS.iter().map(|row| (row.name, row.layer));
+    let layer = Layer::named(name).map_or_else(|| one_of("layer", name, rows), Ok)?;
     let was_on = session.layers.contains(&layer);
     let wanted = if state.trim().is_empty() { !was_on } else { is_on(name, state.trim())? };
     if wanted != was_on {
@@ -112,8 +103,7 @@ pub fn window(session: &mut Session, rest: &str) -> Done {
         Span::new(number(from)?, number(to)?)
     };
     let window = Window { x: span(x)?, y: span(y)? };
-    let index = session.plot;
-    let plot = &mut session.plots[index];
+    let plot = &mut session.plots[session.plot];
     (plot.window, plot.framing) = (window, Framing::User);
     Ok(())
 }
@@ -127,23 +117,14 @@ pub fn axes(session: &mut Session, rest: &str) -> Done {
     let axes = session.plots[index].axes;
     let (ordinate, unit) = match property.trim() {
         "" => (axes.ordinate, axes.unit),
-        name => property_named(name)?,
+        name => {
+            let rows: Vec<_> = properties().collect();
+            one_of("property", name, rows.iter().map(|(name, row)| (name.as_str(), *row)))?
+        }
     };
-    focus::focus_on(session, Pane::Plot(index));
-    axis::set(session, Axes { abscissa, ordinate, unit, ..axes });
+    screen_setup::focus_on(session, Pane::Plot(index));
+    plots::set_axes(session, Axes { abscissa, ordinate, unit, ..axes });
     Ok(())
-}
-
-/// The property with this name, and its unit.
-fn property_named(name: &str) -> Result<(Ordinate, Unit), String> {
-    let (base, unit) =
-        name.strip_suffix("/r").map_or((name, Unit::One), |base| (base, Unit::Friction));
-    let row = ORDINATES.iter().find(|row| row.name == base);
-    let row = row.filter(|row| unit == Unit::One || row.ratio.is_some());
-    row.map(|row| (row.ordinate, unit)).ok_or_else(|| {
-        let names: Vec<String> = properties().collect();
-        format!("no property {name:?}; there are {}", names.join(", "))
-    })
 }
 
 /// The plot in use if it is a diagram, otherwise the first diagram on show.
@@ -156,10 +137,8 @@ fn diagram(session: &Session) -> Option<usize> {
 pub fn harmonics(session: &mut Session, rest: &str) -> Done {
     let most = MOST_HARMONICS;
     let count = rest.parse().ok().filter(|count| (1..=most).contains(count));
-    session.harmonics =
-        count.ok_or_else(|| format!("{rest:?} is not a number of harmonics from 1 to {most}"))?;
-    session.layers.insert(crate::scene::Layer::Balance);
-    inform(session, format!("harmonic balance with N = {rest}"));
+    let refused = || format!("{rest:?} is not a number of harmonics from 1 to {most}");
+    general::balance(session, count.ok_or_else(refused)?);
     Ok(())
 }
 
@@ -172,7 +151,7 @@ pub fn kicks(session: &mut Session, rest: &str) -> Done {
         );
     }
     session.kicks = kicks;
-    session.layers.insert(crate::scene::Layer::Kicks);
+    session.layers.insert(Layer::Kicks);
     inform(session, format!("{} kicks {kicks}, in q and v", kicks.law.name()));
     Ok(())
 }
@@ -186,26 +165,13 @@ pub fn letter(text: &str) -> Result<char, String> {
     }
 }
 
-pub fn mark(session: &mut Session, rest: &str) -> Done {
-    marks::set(session, letter(rest)?);
-    Ok(())
-}
-
-/// Goes to a mark.
-pub fn go_to(session: &mut Session, rest: &str) -> Done {
-    marks::go_to(session, letter(rest)?)
-}
-
-/// A choice in a table such as [`crate::session::state::settings::THEMES`]. Fails with a line that names all.
-pub(in crate::session) fn choice<T: Copy>(
-    table: &[(T, &'static str)],
-    name: &str,
-) -> Result<T, String> {
+/// A choice in a table such as [`crate::session::settings::THEMES`]. Fails with a line that names all.
+pub(crate) fn choice<T: Copy>(table: &[(T, &'static str)], name: &str) -> Result<T, String> {
     one_of("", name, table.iter().map(|row| (row.1, row.0)))
 }
 
 /// Whether a setting is to be on. Fails with a line if that is not said.
-pub(in crate::session) fn is_on(what: &str, state: &str) -> Result<bool, String> {
+pub(crate) fn is_on(what: &str, state: &str) -> Result<bool, String> {
     match state {
         "on" => Ok(true),
         "off" => Ok(false),

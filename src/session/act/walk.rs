@@ -4,11 +4,10 @@ use crate::model::State;
 use crate::numerics::decimal::shortest;
 use crate::numerics::elementary::hypot;
 use crate::scene::{Axes, Layer, Topic};
-use crate::session::act::notice::{inform, with_keys};
 use crate::session::act::parameters::change;
-use crate::session::effect::Done;
+use crate::session::act::{inform, inform_of_keys, with_keys};
 use crate::session::read::walk::BranchPath;
-use crate::session::state::{BranchStop, Pane, Plot, Session};
+use crate::session::{BranchStop, Done, Pane, Plot, Session};
 
 /// Number of points in a far move.
 pub const FAR: isize = 10;
@@ -55,7 +54,7 @@ pub fn go(session: &mut Session, count: isize) {
     let further = |way: &BranchPath, held: &BranchStop| way.further(held, count);
     if !moved(session, further) {
         let text = "the branch ends here; {walk-to-next} leads to the next special point or end";
-        inform(session, with_keys(session, text));
+        inform_of_keys(session, text);
     }
 }
 
@@ -97,13 +96,8 @@ pub fn take(session: &mut Session) -> Done {
     Ok(())
 }
 
-/// Ends the walk.
-pub fn let_go(session: &mut Session) {
-    session.held = None;
-}
-
 /// Keeps the held point when the branch is computed again, and ends the walk when there is no branch any more.
-pub(in crate::session) fn keep_hold(session: &mut Session) {
+pub(crate) fn keep_hold(session: &mut Session) {
     let Some(held) = session.held else { return };
     let index = session.plot;
     let on_show = session.focus == Pane::Plot(index) && session.shows_in(Layer::Branch, index);

@@ -1,15 +1,13 @@
-//! Completion of the words of a line.
+//! Completion of the words of a line, and the rows of the parameter pane as text.
 
 use crate::flow::METHODS;
-use crate::model::Knob;
+use crate::model::{Group, Knob};
 use crate::numerics::decimal::shortest;
 use crate::scan::measure::MEASURES;
 use crate::scene::machine::library::machines;
-use crate::scene::ordinate::OrdinateSpec;
-use crate::scene::{LAYERS, ORDINATES, VIEWS, Window, library};
-use crate::session::read::numbers::plain_value;
-use crate::session::state::settings::{COLORS, GLYPHS, THEMES};
-use crate::session::state::{Command, Completion, Keymap, Row, Session, WordKind};
+use crate::scene::{LAYERS, ORDINATES, Ordinate, Unit, VIEWS, Window, library};
+use crate::session::settings::{COLORS, GLYPHS, THEMES};
+use crate::session::{Command, Completion, Keymap, Row, Session, Setup, WordKind};
 
 /// Candidates for the last of these words, which are all words after the name of the command.
 fn complete(session: &Session, kind: WordKind, given: &[&str]) -> Vec<String> {
@@ -25,7 +23,7 @@ fn complete(session: &Session, kind: WordKind, given: &[&str]) -> Vec<String> {
         WordKind::Layers if given.len() == 2 => owned(&["on", "off"]),
         WordKind::Switch if first => owned(&["on", "off"]),
         WordKind::Axes if first => owned(&Knob::PARAMETERS.map(|knob| knob.spec().name)),
-        WordKind::Axes if given.len() == 2 => properties().collect(),
+        WordKind::Axes if given.len() == 2 => properties().map(|row| row.0).collect(),
         WordKind::Window => windows(session),
         WordKind::Scan => scan(given),
         WordKind::Marks => session.marks.places.keys().map(char::to_string).collect(),
@@ -41,10 +39,12 @@ pub fn rows(session: &Session) -> impl Iterator<Item = Row> {
     Row::all().filter(|row| session.has(*row))
 }
 
-/// The names of the properties; those that are lengths also in units of r.
-pub fn properties() -> impl Iterator<Item = String> {
-    let ratio = |row: &OrdinateSpec| row.ratio.map(|_| format!("{}/r", row.name));
-    ORDINATES.iter().flat_map(move |row| std::iter::once(row.name.to_owned()).chain(ratio(row)))
+/// The properties of the cycles by their names; those that are lengths also in units of r.
+pub fn properties() -> impl Iterator<Item = (String, (Ordinate, Unit))> {
+    ORDINATES.iter().flat_map(|row| {
+        let ratio = row.ratio.map(|_| (format!("{}/r", row.name), (row.ordinate, Unit::Friction)));
+        std::iter::once((row.name.to_owned(), (row.ordinate, Unit::One))).chain(ratio)
+    })
 }
 
 /// Candidates for an assignment: names with `=`, or after a name its present value.
@@ -97,7 +97,7 @@ pub fn completion(session: &Session, text: &str) -> Option<Completion> {
         None => names(&session.keymap).map(str::to_owned).collect(),
         Some(name) => {
             let given: Vec<&str> = stem.split_whitespace().skip(1).chain([word]).collect();
-            complete(session, session.keymap.line(name)?.words, &given)
+            complete(session, session.keymap.line(name)?.words?, &given)
         }
     };
     let fits = |candidate: &String| candidate.starts_with(word) && candidate != word;
@@ -108,6 +108,45 @@ pub fn completion(session: &Session, text: &str) -> Option<Completion> {
 /// The syntax and the explanation of the command with which a line begins.
 pub fn described(keymap: &Keymap, text: &str) -> Option<(&'static str, &'static str)> {
     let name = text.split_whitespace().next()?;
-    let of_line = keymap.line(name).map(|line| (line.arguments, line.doc));
-    of_line.or(keymap.named(name).map(|command| ("", command.doc)))
+    let found = keymap.line(name).or(keymap.named(name))?;
+    Some((found.arguments, found.doc))
+}
+
+/// The value of a row in a form that can be typed, with its unit and its half width; `None` for a number of a
+/// machine that is as in its file.
+pub(crate) fn typed(setup: &Setup, row: Row) -> Option<String> {
+    if row == Row::Method {
+        return Some(setup.problem.method.to_string());
+    }
+    let knob = row.knob_in(&setup.problem);
+    let value = knob.print(setup.get(knob)?);
+    let half_width = setup.doubt.half_width(knob);
+    Some(if half_width > 0.0 { format!("{value}+-{}", shortest(half_width)) } else { value })
+}
+
+/// The present value of a row in a single word: a number in SI units without its unit.
+pub(crate) fn plain_value(session: &Session, row: Row) -> String {
+    match row {
+        Row::Method => session.problem.method.to_string(),
+        row => shortest(session.value(row.knob_in(&session.problem))),
+    }
+}
+
+/// The differences of `new` from `old`, as `name = value`. If a number of the machine differs, only that: the
+/// parameters follow from it.
+pub(crate) fn difference(old: &Setup, new: &Setup) -> String {
+    let belt = new.setting.is_some() && old.setting != new.setting;
+    let follows = |row: &Row| row.knob_in(&new.problem).spec().group == Group::Motion;
+    let rows = Row::all().filter(|row| !(belt && follows(row)));
+    let changed = rows.filter(|row| typed(old, *row) != typed(new, *row));
+    let said = changed.map(|row| {
+        let value = typed(new, row).unwrap_or_else(|| "as in its file".to_owned());
+        format!("{} = {value}", row.name_in(&new.problem))
+    });
+    let count = |setup: &Setup| setup.others.len() + 1;
+    let motions = (count(old) != count(new)).then(|| match count(new) {
+        1 => "1 motion".to_owned(),
+        count => format!("{count} motions"),
+    });
+    said.chain(motions).collect::<Vec<_>>().join(", ")
 }

@@ -11,7 +11,7 @@ use crate::portrait::{Border, Cycle, Cycles};
 use crate::question::whole::Course;
 use crate::scene::said;
 use crate::scene::said::TextCondition;
-use crate::session::state::{Session, Setup};
+use crate::session::{Session, Setup};
 
 /// The fate of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +57,12 @@ pub struct MotionVerdict {
     pub place: SideOfBorder,
 }
 
+impl End {
+    fn at(self, place: SideOfBorder) -> MotionVerdict {
+        MotionVerdict { end: self, place }
+    }
+}
+
 /// Relative distance from a cycle below which rounding decides: of a start at a turning point, and of a
 /// computed turning point, which carries the error of the motion up to there.
 const NEAR: [f64; 2] = [1e-12, 1e-8];
@@ -69,14 +75,12 @@ pub fn fate(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
     match found.border {
         border if border.parts_without_cycle() => beside_separatrix(found, motion),
         _ if !found.cycles.is_empty() => among(found, motion),
-        Border::None if found.parameters.r > 0.0 => {
-            Some(MotionVerdict { end: End::Rests, place: SideOfBorder::Anywhere })
-        }
+        Border::None if found.parameters.r > 0.0 => Some(End::Rests.at(SideOfBorder::Anywhere)),
         // Without friction, D2 and cycles, damping decides.
         _ => {
             let decays = found.parameters.d > 0.0 && found.parameters.d3 >= 0.0;
             let alone = found.parameters.d2 == 0.0 && decays;
-            alone.then_some(MotionVerdict { end: End::Decays, place: SideOfBorder::Anywhere })
+            alone.then_some(End::Decays.at(SideOfBorder::Anywhere))
         }
     }
 }
@@ -87,7 +91,7 @@ fn linear(motion: &Trajectory) -> Option<MotionVerdict> {
     let moves = start.q != 0.0 || start.v != 0.0;
     let end = if d > 0.0 { End::Decays } else { End::Grows };
     let alone = [d2, d3, r] == [0.0; 3] && d != 0.0 && moves;
-    alone.then_some(MotionVerdict { end, place: SideOfBorder::Anywhere })
+    alone.then_some(end.at(SideOfBorder::Anywhere))
 }
 
 /// The first turning point of a motion, and whether it is the start. Where turning points were not located,
@@ -105,7 +109,7 @@ fn among(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
     let r = found.parameters.r;
     let unstable = found.cycles.iter().any(|cycle| !cycle.stable);
     let inside = if unstable { SideOfBorder::InsideCycle } else { SideOfBorder::Anywhere };
-    let rests = MotionVerdict { end: End::Rests, place: inside };
+    let rests = End::Rests.at(inside);
     let Some((q, exact)) = turning(motion, r) else {
         return matches!(motion.outcome, Outcome::Captured { .. }).then_some(rests);
     };
@@ -124,21 +128,18 @@ fn among(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdict> {
         } else {
             End::OnTheEdge { distance: distance(cycle) }
         };
-        return Some(MotionVerdict { end, place: SideOfBorder::OutsideCycle });
+        return Some(end.at(SideOfBorder::OutsideCycle));
     }
     let outer = found.cycles.iter().find(|cycle| clearance(cycle) > own);
     let inner = found.cycles.iter().rfind(|cycle| clearance(cycle) < own);
     let outside = if unstable { SideOfBorder::OutsideCycle } else { SideOfBorder::Anywhere };
-    let onto = |cycle: &Cycle, grows| MotionVerdict {
-        end: End::Onto { q_max: cycle.q_max, grows },
-        place: outside,
-    };
+    let onto = |cycle: &Cycle, grows| End::Onto { q_max: cycle.q_max, grows }.at(outside);
     Some(match (inner, outer) {
         (_, Some(outer)) if outer.stable => onto(outer, true),
         (Some(inner), _) if inner.stable => onto(inner, false),
         (None, Some(_)) if r > 0.0 => rests,
-        (None, Some(_)) => MotionVerdict { end: End::Decays, place: inside },
-        (Some(_), None) => MotionVerdict { end: End::Grows, place: outside },
+        (None, Some(_)) => End::Decays.at(inside),
+        (Some(_), None) => End::Grows.at(outside),
         _ => return None,
     })
 }
@@ -150,14 +151,9 @@ fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdic
     let within = |q: f64| margin.is_some_and(|margin| q.abs() < margin);
     let turned = || turning(motion, found.parameters.r).is_some_and(|(q, _)| within(q));
     match motion.outcome {
-        Outcome::Captured { .. } => {
-            Some(MotionVerdict { end: End::Rests, place: SideOfBorder::InsideSeparatrix })
-        }
-        Outcome::Escaped { .. } => {
-            Some(MotionVerdict { end: End::Grows, place: SideOfBorder::OutsideSeparatrix })
-        }
-        _ => turned()
-            .then_some(MotionVerdict { end: End::Rests, place: SideOfBorder::InsideSeparatrix }),
+        Outcome::Captured { .. } => Some(End::Rests.at(SideOfBorder::InsideSeparatrix)),
+        Outcome::Escaped { .. } => Some(End::Grows.at(SideOfBorder::OutsideSeparatrix)),
+        _ => turned().then_some(End::Rests.at(SideOfBorder::InsideSeparatrix)),
     }
 }
 
@@ -180,7 +176,7 @@ fn of_course(course: &Course, motion: &Trajectory) -> Option<MotionVerdict> {
         (Border::Cycle, _) => SideOfBorder::OutsideCycle,
         _ => SideOfBorder::Anywhere,
     };
-    Some(MotionVerdict { end, place })
+    Some(end.at(place))
 }
 
 impl Session {

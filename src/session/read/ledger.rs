@@ -9,7 +9,7 @@ use crate::numerics::count::real;
 use crate::portrait::Cycle;
 use crate::portrait::basin::orbit::works_until;
 use crate::scene::Layer;
-use crate::session::state::Session;
+use crate::session::Session;
 
 /// The owner of a part of the ledger.
 #[derive(Clone, Copy, Debug, PartialEq)]

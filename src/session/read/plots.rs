@@ -1,7 +1,18 @@
-//! The content of the plots, and which of them are on show.
+//! The content of the plots, and which of them are on show. A plot may show several variants of the present problem,
+//! drawn over each other: a variant holds some values; the others follow the keys.
 
-use crate::scene::{Layer, Needs, PlotSetup, View};
-use crate::session::state::{Framing, Pane, Plot, ScreenSetup, Session};
+use std::collections::BTreeMap;
+
+use crate::accuracy::trade::TradePoint;
+use crate::branch::Branch;
+use crate::flow::Problem;
+use crate::model::Knob;
+use crate::numerics::elementary::hypot;
+use crate::question;
+use crate::scene::{
+    Answer, Height, Layer, Needs, PlotSetup, Point, Request, Topic, Variant, View, Window,
+};
+use crate::session::{AnswerState, Framing, Pane, Plot, ScreenSetup, Session};
 
 impl Session {
     /// Whether a plot draws circles round.
@@ -20,18 +31,14 @@ impl Session {
     }
 
     pub fn focused(&self) -> Option<&Plot> {
-        match self.focus {
-            Pane::Parameters => None,
-            Pane::Plot(index) => self.plots.get(index),
-        }
+        let Pane::Plot(index) = self.focus else { return None };
+        self.plots.get(index)
     }
 
     /// The plot in focus, mutable.
     pub fn focused_mut(&mut self) -> Option<&mut Plot> {
-        match self.focus {
-            Pane::Parameters => None,
-            Pane::Plot(index) => self.plots.get_mut(index),
-        }
+        let Pane::Plot(index) = self.focus else { return None };
+        self.plots.get_mut(index)
     }
 
     /// Whether a layer is on and a plot on show has its view.
@@ -118,8 +125,136 @@ impl Session {
     }
 
     /// The present setup of all plots.
-    pub(in crate::session) fn screen_setup(&self) -> ScreenSetup {
+    pub(crate) fn screen_setup(&self) -> ScreenSetup {
         let plot_setups = (0..self.plots.len()).filter_map(|index| self.plot_setup(index));
         ScreenSetup { plots: plot_setups.collect(), arrangement: self.arrangement }
+    }
+}
+
+/// A motion that a plot shows, and what distinguishes it from the others there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShownMotion {
+    /// The held values that distinguish it; empty if the plot shows only the present motion.
+    pub label: String,
+    pub problem: Problem,
+    /// Whether nothing is held, so that it is the present motion.
+    pub present: bool,
+}
+
+impl Session {
+    /// The variants that a plot shows in place of the present problem, if any.
+    pub fn variants(&self, plot: usize) -> Option<&[Variant]> {
+        let family = self.plots.get(plot)?.family?;
+        self.scene.families.get(family).map(Vec::as_slice)
+    }
+
+    /// The problems that a plot shows: the present one, or its variants.
+    pub fn shown(&self, plot: usize) -> Vec<ShownMotion> {
+        let Some(all) = self.variants(plot) else {
+            return vec![ShownMotion {
+                label: String::new(),
+                problem: self.problem,
+                present: true,
+            }];
+        };
+        let shown = |(variant, label): (&Variant, String)| ShownMotion {
+            label,
+            problem: variant.of(self.problem),
+            present: variant.held.is_empty(),
+        };
+        all.iter().zip(labels(all, &self.problem, false)).map(shown).collect()
+    }
+
+    /// The parameters that all variants of a plot hold at the same values, as text that needs to be given only
+    /// once.
+    pub fn held_alike(&self, plot: usize) -> String {
+        let Some(all) = self.variants(plot) else { return String::new() };
+        let held = all.iter().take(1).flat_map(|variant| &variant.held);
+        text(held.filter(|(symbol, value)| symbol.is_parameter() && alike(all, **symbol, **value)))
+    }
+
+    /// The answers on this topic for the problems that a plot shows, stale or not, each with its index among
+    /// these and its held values.
+    pub fn found(&self, topic: Topic, plot: usize) -> Vec<(usize, String, &Answer)> {
+        let starts = topic == Topic::Trajectory;
+        let labels = self.variants(plot).map(|all| labels(all, &self.problem, starts));
+        let label = |index: usize| labels.as_ref()?.get(index).cloned();
+        let found = self.answers_for_each(topic, plot);
+        found.map(|(index, answer)| (index, label(index).unwrap_or_default(), answer)).collect()
+    }
+
+    /// The answers without the held values.
+    fn answers_for_each(
+        &self,
+        topic: Topic,
+        plot: usize,
+    ) -> impl Iterator<Item = (usize, &Answer)> {
+        let asked = self.requests(topic, plot).into_iter();
+        asked.filter_map(|(index, asked)| Some((index, self.answers.standing(&asked).answer()?)))
+    }
+
+    /// The branches computed last over the parameter of a diagram, stale or not, each with its index among the
+    /// problems that the plot shows.
+    pub fn branches(&self, plot: usize) -> Vec<(usize, &Branch)> {
+        let over = self.plots.get(plot).map(|plot| plot.axes.abscissa);
+        self.answers_for_each(Topic::Branch, plot)
+            .filter_map(|(index, answer)| match answer {
+                Answer::Branch(found) if Some(found.parameter) == over => Some((index, found)),
+                _ => None,
+            })
+            .collect()
+    }
+
+    /// The measure of heights for the cycles of a variant in a diagram, at the friction of the branch on show,
+    /// stale or not.
+    pub fn height(&self, plot: usize, variant: usize) -> Height {
+        let mut asked = self.requests(Topic::Branch, plot).into_iter();
+        let asked = asked.find(|(index, _)| *index == variant);
+        let standing = asked.map(|(_, request)| self.answers.standing(&request));
+        let answered = standing.and_then(AnswerState::answered);
+        let friction = match answered.map(|found| &found.request) {
+            Some(Request::Branch(question::branch::Inputs { parameters, .. })) => parameters.r,
+            _ => self.problem.parameters.r,
+        };
+        self.plots.get(plot).map(|plot| plot.axes).unwrap_or_default().height(friction)
+    }
+}
+
+/// Labels that distinguish variants: the parameters that they do not all hold at the same values and, if
+/// `starts`, also the starts of the motions. A variant that holds nothing has the present values.
+fn labels(all: &[Variant], present: &Problem, starts: bool) -> Vec<String> {
+    let tells =
+        |symbol: Knob, value: f64| (starts || symbol.is_parameter()) && !alike(all, symbol, value);
+    let held = all.iter().flat_map(|variant| variant.held.keys());
+    let now: BTreeMap<Knob, f64> = held.map(|symbol| (*symbol, present.get(*symbol))).collect();
+    let label = |variant: &Variant| {
+        let values = if variant.held.is_empty() { &now } else { &variant.held };
+        text(values.iter().filter(|(symbol, value)| tells(**symbol, **value)))
+    };
+    all.iter().map(label).collect()
+}
+
+/// Whether all of these variants hold this value.
+fn alike(all: &[Variant], symbol: Knob, value: f64) -> bool {
+    all.iter().all(|variant| variant.held.get(&symbol) == Some(&value))
+}
+
+fn text<'a>(held: impl Iterator<Item = (&'a Knob, &'a f64)>) -> String {
+    held.map(|(symbol, value)| format!("{symbol} = {value}")).collect::<Vec<_>>().join(", ")
+}
+
+impl Session {
+    /// The row that is nearest to the cursor of a plot on the screen.
+    pub fn row_under_cursor(&self, plot: usize) -> Option<&TradePoint> {
+        let plot = self.plots.get(plot).filter(|plot| plot.view == View::Trade)?;
+        let Point { x, y } = plot.cursor?;
+        let Window { x: across, y: up } = plot.window;
+        let distance = |row: &&TradePoint| {
+            row.place().map_or(f64::INFINITY, |(right, high)| {
+                hypot((right - x) / across.width(), (high - y) / up.width())
+            })
+        };
+        let rows = self.trade()?.rows.iter().filter(|row| row.place().is_some());
+        rows.min_by(|one, other| distance(one).total_cmp(&distance(other)))
     }
 }

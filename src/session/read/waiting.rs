@@ -6,13 +6,13 @@
 //! same and reports that.
 
 use crate::scene::{Request, Topic, View};
-use crate::session::message::Msg;
-use crate::session::message::key::{Code, Key};
-use crate::session::message::pointer::{Pointed, PointerTarget};
-use crate::session::read::fit;
-use crate::session::read::palette::{PaletteRow, elsewhere, place};
+use crate::session::read::contexts::{elsewhere, place};
 use crate::session::read::wants::COMPARED;
-use crate::session::state::{Command, Context, Letter, Listed, Overlay, Pane, Pending, Session};
+use crate::session::read::windows;
+use crate::session::{
+    Code, Command, Key, Letter, Listed, Msg, Overlay, PaletteRow, Pane, Pending, Pointed,
+    PointerTarget, Session,
+};
 
 /// The need of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,31 +60,24 @@ impl Session {
     }
 
     /// The question that must be answered before this message can be taken in.
-    pub(in crate::session) fn awaited(&self, message: &Msg) -> Option<Request> {
+    pub(crate) fn awaited(&self, message: &Msg) -> Option<Request> {
         match message {
             Msg::Key(key) => self.awaited_by_key(*key),
             Msg::Run(line) => self.awaited_by_line(line),
             Msg::Pointed(Pointed { place: PointerTarget::Plot(index, _), .. }) => {
-                fit::awaited(self, *index)
+                windows::awaited(self, *index)
             }
             _ => None,
         }
     }
 
     fn awaited_by_key(&self, key: Key) -> Option<Request> {
-        let context = match self.pending {
-            None => None,
-            Some(Pending::Count(_)) => Some(Context::Count),
-            Some(Pending::Letter(_)) => Some(Context::Letter),
-        };
-        if context.is_some_and(|context| self.keymap.command(&[context], key).is_some()) {
-            return None;
-        }
-        match self.pending {
-            Some(Pending::Letter(Letter::GoTo)) => {
-                return self.awaited_by("goto", None);
-            }
-            Some(Pending::Letter(_)) => return None,
+        let pending = self.pending;
+        let own = pending.and_then(|it| self.keymap.command(&[it.context()], key));
+        match pending {
+            _ if own.is_some() => return None,
+            Some(Pending::Letter(Letter::GoTo)) => return self.awaited_by("goto", None),
+            Some(Pending::Letter(Letter::Mark)) => return None,
             Some(Pending::Count(_)) | None => {}
         }
         let Some(command) = self.keymap.command(self.contexts_at_rest(), key) else {
@@ -139,7 +132,7 @@ impl Session {
                 let over_time = self.plots.get(plot)?.view == View::TimeSeries;
                 over_time.then(|| open(Topic::Trajectory)).flatten()
             }
-            Need::Window => fit::awaited(self, plot),
+            Need::Window => windows::awaited(self, plot),
             // Of the point that is left, only answers that layers ask for are drawn.
             Need::Comparison => {
                 let asks = self.asks();

@@ -5,7 +5,7 @@
 
 use crate::branch::{Branch, SpecialKind};
 use crate::numerics::elementary::{hypot, ln};
-use crate::session::state::BranchStop;
+use crate::session::BranchStop;
 
 /// The connected pieces of branches, each a list of stops.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,4 +1,4 @@
-//! The questions of a session, and the state of their answers.
+//! The questions of a session: those that its layers ask, and which of them must be asked again after a step.
 //!
 //! A plot shows a list of problems, usually only the present one. Each layer asks a separate question about
 //! each problem, which is a pure function of the state. Answers are stored by their questions
@@ -7,38 +7,23 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::accuracy::reference::{Deviation, NoComparison, Reference};
-use crate::branch::chart::{Chart, Plane};
+use crate::branch::chart::Plane;
 use crate::flow::Problem;
-use crate::model::{Belt, Knob, Parameters};
+use crate::model::{Belt, Knob, Parameters, State};
 use crate::numerics::elementary::{exp2, hypot, log2};
-use crate::paper::ClaimResult;
-use crate::proof::Proof;
-use crate::question;
-use crate::question::{Motion, NoAnswer};
+use crate::question::{self, Motion};
 use crate::scene::{Answer, Axes, Layer, Request, Span, TOPICS, Topic, View, Window};
-use crate::session::state::{AnswerState, Framing, Listed, Overlay, Pane, Row, Session};
+use crate::session::{AnswerState, Framing, List, Listed, Overlay, Pane, Row, Session};
 
 /// Number of evaluations above which answers on a topic may take longer than a quarter of a frame: further
 /// questions on it are first answered by drafts.
 const LONG: u64 = 100_000;
 
 /// The topics that are drawn of the point that was left for a mark.
-pub(in crate::session) const COMPARED: [Topic; 2] = [Topic::Trajectory, Topic::Cycles];
+pub(crate) const COMPARED: [Topic; 2] = [Topic::Trajectory, Topic::Cycles];
 
 /// Maximum number of bands of capture that are drawn: more would fill the plane.
 const MOST_BANDS: usize = 24;
-
-/// Why a motion has no measured error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoErrorReason {
-    /// Its reference takes too long.
-    TighterGaveUp,
-    /// The motion itself was not computed to its end.
-    GaveUp,
-    /// Only one of the motion and its reference escapes.
-    OtherFate,
-}
 
 impl Session {
     /// The questions for what is on show, the most urgent first; none for a layer that is off, and none twice.
@@ -97,7 +82,7 @@ impl Session {
     }
 
     /// The questions whose answers are drawn for the point that was left.
-    pub(in crate::session) fn compared(&self) -> impl Iterator<Item = &Request> {
+    pub(crate) fn compared(&self) -> impl Iterator<Item = &Request> {
         let left = self.marks.left.iter().filter(|_| self.shows(Layer::Ghost));
         left.flat_map(|left| &left.asked)
     }
@@ -148,13 +133,13 @@ impl Session {
     }
 
     /// The question for another motion than the present one.
-    pub(in crate::session) fn request_for(
+    pub(crate) fn request_for(
         &self,
         topic: Topic,
         plot: usize,
         problem: Problem,
     ) -> Option<Request> {
-        let Problem { parameters, tolerance, initial, .. } = problem;
+        let Problem { parameters, tolerance, .. } = problem;
         let own = |view: View| self.plots.get(plot).filter(|plot| plot.view == view);
         let motion = || {
             let Problem { initial, until, .. } = self.problem;
@@ -207,27 +192,17 @@ impl Session {
             Topic::Branch => {
                 let plot = own(View::Diagram)?;
                 let parameter = plot.axes.abscissa;
-                let spec = parameter.spec();
-                let range = plot.window.x.within(spec.min, spec.max)?;
-                let mut others = parameters;
-                parameter.set(&mut others, &mut { initial }, 0.0);
                 Request::Branch(question::branch::Inputs {
-                    parameters: others,
+                    parameters: without(parameters, &[parameter]),
                     parameter,
-                    range: (range.from(), range.to()),
+                    range: within(parameter, plot.window.x)?,
                     tolerance,
                 })
             }
             Topic::Speeds => {
-                let plot = own(View::Speeds)?;
-                let spec = Knob::BeltSpeed.spec();
-                let range = plot.window.x.within(spec.min, spec.max)?;
+                let range = within(Knob::BeltSpeed, own(View::Speeds)?.window.x)?;
                 let belt = Arc::new(Belt { belt_speed: 1.0, ..self.machine()? });
-                Request::Speeds(question::speeds::Inputs {
-                    belt,
-                    range: (range.from(), range.to()),
-                    rough: false,
-                })
+                Request::Speeds(question::speeds::Inputs { belt, range, rough: false })
             }
             Topic::ReturnMap => {
                 // Until the window is known, there is nothing to ask.
@@ -238,129 +213,33 @@ impl Session {
                     range: (range.from(), range.to()),
                 })
             }
-            Topic::Regimes => self.regimes_request(plot, parameters)?,
+            Topic::Regimes => {
+                let plot = own(View::Regimes)?;
+                let Axes { abscissa, against, .. } = plot.axes;
+                let plane = Plane {
+                    right: abscissa,
+                    up: against,
+                    right_range: within(abscissa, plot.window.x)?,
+                    up_range: within(against, plot.window.y)?,
+                };
+                let parameters = without(parameters, &[abscissa, against]);
+                Request::Regimes(question::regimes::Inputs { parameters, plane, rough: false })
+            }
         })
     }
+}
 
-    fn regimes_request(&self, plot: usize, parameters: Parameters) -> Option<Request> {
-        let plot = self.plots.get(plot).filter(|plot| plot.view == View::Regimes)?;
-        let Axes { abscissa, against, .. } = plot.axes;
-        let within = |symbol: Knob, span: Span| {
-            let spec = symbol.spec();
-            span.within(spec.min, spec.max).map(|span| (span.from(), span.to()))
-        };
-        let plane = Plane {
-            right: abscissa,
-            up: against,
-            right_range: within(abscissa, plot.window.x)?,
-            up_range: within(against, plot.window.y)?,
-        };
-        let mut others = parameters;
-        for symbol in [abscissa, against] {
-            symbol.set(&mut others, &mut { self.problem.initial }, 0.0);
-        }
-        Some(Request::Regimes(question::regimes::Inputs {
-            parameters: others,
-            plane,
-            rough: false,
-        }))
-    }
+/// The part of a span within the range of a number, by its ends.
+fn within(knob: Knob, span: Span) -> Option<(f64, f64)> {
+    let spec = knob.spec();
+    span.within(spec.min, spec.max).map(|span| (span.from(), span.to()))
+}
 
-    /// The state of the answer on this topic for the present problem, as a plot asks it.
-    pub fn standing(&self, topic: Topic, plot: usize) -> AnswerState<'_> {
-        let request = self.request(topic, plot);
-        request.map_or(AnswerState::None, |request| self.answers.standing(&request))
-    }
-
-    /// The answer on this topic for the present problem, as a plot asks it, stale or not.
-    pub fn answer(&self, topic: Topic, plot: usize) -> Option<&Answer> {
-        self.standing(topic, plot).answer()
-    }
-
-    /// Whether the answer on this topic is missing for the present problem.
-    pub fn is_stale(&self, topic: Topic, plot: usize) -> bool {
-        !self.standing(topic, plot).is_fresh()
-    }
-
-    /// Whether there are answers on this topic for all problems that a plot shows.
-    pub fn is_fresh(&self, topic: Topic, plot: usize) -> bool {
-        let mut asked = self.requests(topic, plot).into_iter();
-        asked.all(|(_, request)| self.answers.standing(&request).is_fresh())
-    }
-
-    /// Whether the answer to the draft of this question is there to be shown meanwhile.
-    pub fn is_refinement(&self, request: &Request) -> bool {
-        matches!(self.answers.standing(request), AnswerState::Draft(_))
-    }
-
-    /// Whether a question has neither an answer nor a failure.
-    pub fn is_open(&self, request: &Request) -> bool {
-        if request.topic() == Topic::Scan {
-            return self.scan_request().as_ref() == Some(request);
-        }
-        self.answers.is_open(request)
-    }
-
-    /// Whether something on show has yet to be computed.
-    pub fn is_busy(&self) -> bool {
-        self.wants().iter().any(|request| self.is_open(request))
-    }
-
-    /// Why there is no answer on this topic for the present problem.
-    pub fn failure(&self, topic: Topic, plot: usize) -> Option<&NoAnswer> {
-        self.answers.failure(&self.request(topic, plot)?)
-    }
-
-    /// The error of the motion on show, and its reference.
-    ///
-    /// `None` until both are computed, and if there is no error: [`Session::unmeasured`] then says why.
-    pub fn measured(&self) -> Option<(Deviation, &Reference)> {
-        self.comparison()?.ok()
-    }
-
-    /// Why the motion on show has no measured error; `None` while it may still get one.
-    pub fn unmeasured(&self) -> Option<NoErrorReason> {
-        self.comparison()?.err()
-    }
-
-    /// The comparison of the motion on show with its reference; `None` until both are computed.
-    fn comparison(&self) -> Option<Result<(Deviation, &Reference), NoErrorReason>> {
-        let stale = |topic| self.is_stale(topic, self.plot);
-        if !self.measures() || stale(Topic::Reference) {
-            return None;
-        }
-        let Answer::Reference(reference) = self.answer(Topic::Reference, self.plot)? else {
-            return None;
-        };
-        let Ok(reference) = reference else { return Some(Err(NoErrorReason::TighterGaveUp)) };
-        let motion = self.trajectory().filter(|_| !stale(Topic::Trajectory))?;
-        Some(match reference.compare(motion) {
-            Ok(deviation) => Ok((deviation, reference)),
-            Err(NoComparison::GaveUp(_)) => Err(NoErrorReason::GaveUp),
-            Err(NoComparison::OtherFate) => Err(NoErrorReason::OtherFate),
-        })
-    }
-
-    /// The proof about the cycles at the present parameters; `None` until it is there.
-    pub fn proof(&self) -> Option<&Proof> {
-        let Answer::Proof(found) = self.answer(Topic::Proof, self.plot)? else { return None };
-        Some(found).filter(|_| !self.is_stale(Topic::Proof, self.plot))
-    }
-
-    /// The examined claims of the paper; empty until they are there.
-    pub fn examined(&self) -> &[ClaimResult] {
-        match self.answer(Topic::Claims, self.plot) {
-            Some(Answer::Claims(examined)) => examined,
-            _ => &[],
-        }
-    }
-
-    /// The chart computed last over the two parameters of a plot, stale or not.
-    pub fn chart(&self, plot: usize) -> Option<&Chart> {
-        let Axes { abscissa, against, .. } = self.plots.get(plot)?.axes;
-        let Answer::Regimes(found) = self.answer(Topic::Regimes, plot)? else { return None };
-        Some(found).filter(|found| (found.plane.right, found.plane.up) == (abscissa, against))
-    }
+/// These parameters with zero in place of those over which an answer goes.
+fn without(mut parameters: Parameters, over: &[Knob]) -> Parameters {
+    let mut start = State { q: 0.0, v: 0.0 };
+    over.iter().for_each(|symbol| symbol.set(&mut parameters, &mut start, 0.0));
+    parameters
 }
 
 /// The distance up to which bands of capture are visible, rounded up to a power of two, so that small changes
@@ -368,4 +247,94 @@ impl Session {
 fn reach(Window { x, y }: Window) -> f64 {
     let farthest = |span: Span| span.from().abs().max(span.to().abs());
     exp2(log2(hypot(farthest(x), farthest(y))).ceil())
+}
+
+/// A question and the layers for which it is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Requirement {
+    pub request: Request,
+    /// The layers that draw its answer.
+    pub layers: Vec<Layer>,
+}
+
+/// A row of the list of costs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CostRow {
+    /// A question that is asked at present.
+    Asked(Requirement),
+    /// Layers that are drawn by formulas.
+    Formulas(Vec<Layer>),
+    /// A step of this row: the topics of the questions that stay the same, and of those that are asked again.
+    Step(Row, Vec<Topic>, Vec<Topic>),
+}
+
+impl Session {
+    pub fn cost_rows(&self, list: &List) -> Vec<CostRow> {
+        let topics = |requests: Vec<Request>| requests.iter().map(Request::topic).collect();
+        let asked = self.requirements().into_iter().map(CostRow::Asked);
+        let formulas = Some(self.drawn_by_formulas()).filter(|layers| !layers.is_empty());
+        let steps = self.rows().into_iter().map(|row| {
+            let (reused, recomputed) = self.after_a_step(row);
+            CostRow::Step(row, topics(reused), topics(recomputed))
+        });
+        let name = |row: &CostRow| match row {
+            CostRow::Asked(requirement) => requirement.request.topic().name(),
+            CostRow::Formulas(_) => "formulas",
+            CostRow::Step(row, ..) => row.name(),
+        };
+        let rows = asked.chain(formulas.map(CostRow::Formulas)).chain(steps);
+        rows.filter(|row| list.matches(&[name(row)])).collect()
+    }
+
+    /// The questions for what is on show, each once, with the layers that need it.
+    pub fn requirements(&self) -> Vec<Requirement> {
+        let mut found: Vec<Requirement> = Vec::new();
+        for plot in self.on_show() {
+            let layers = self.layers.iter().filter(|layer| self.shows_in(**layer, plot));
+            for layer in layers {
+                let topic = layer.spec().needs;
+                let each = topic.map(|topic| self.requests(topic, plot)).unwrap_or_default();
+                for (_, request) in each {
+                    match found.iter_mut().find(|requirement| requirement.request == request) {
+                        Some(known) if known.layers.contains(layer) => {}
+                        Some(known) => known.layers.push(*layer),
+                        None => found.push(Requirement { request, layers: vec![*layer] }),
+                    }
+                }
+            }
+        }
+        found.sort_by_key(|requirement| requirement.request.topic());
+        found
+    }
+
+    /// The layers on show that are drawn by formulas and need no answer.
+    pub fn drawn_by_formulas(&self) -> Vec<Layer> {
+        let shown = self.layers.iter().filter(|layer| self.shows(**layer));
+        shown.filter(|layer| layer.spec().needs.is_none()).copied().collect()
+    }
+
+    /// The questions after a step of this row: first those that are asked at present, too, then the new ones.
+    pub fn after_a_step(&self, row: Row) -> (Vec<Request>, Vec<Request>) {
+        let asked = |session: &Session| -> Vec<Request> {
+            session.requirements().into_iter().map(|requirement| requirement.request).collect()
+        };
+        let present = asked(self);
+        asked(&self.stepped_once(row)).into_iter().partition(|request| present.contains(request))
+    }
+}
+
+/// The names of topics as they first occur, with a count for those that occur several times.
+pub fn named(topics: &[Topic], between: &str) -> String {
+    let mut counted: Vec<(Topic, usize)> = Vec::new();
+    for topic in topics {
+        match counted.iter_mut().find(|(known, _)| known == topic) {
+            Some((_, count)) => *count += 1,
+            None => counted.push((*topic, 1)),
+        }
+    }
+    let named = counted.into_iter().map(|(topic, count)| match count {
+        1 => topic.name().to_owned(),
+        _ => format!("{} x{count}", topic.name()),
+    });
+    named.collect::<Vec<_>>().join(between)
 }

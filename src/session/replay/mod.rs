@@ -2,16 +2,14 @@
 //!
 //! `parse` reads a whole file before anything runs. A `Player` decides on the next action, whether the keys go
 //! to a session without a terminal or into the running explorer. A [`Recorder`] writes the file of a live
-//! session. The notation of keys is that of [`super::message::key`].
+//! session. The notation of keys is that of [`super::key`].
 
-mod mouse;
 pub mod parse;
 pub mod player;
 pub mod recorder;
 pub mod script;
-mod write;
 
-pub use parse::{BadScript, parse};
-pub use player::{Action, Player, Unmet};
+pub use parse::parse;
+pub use player::{Action, Player};
 pub use recorder::{HEADER, Recorder, comment, heading, lines, text};
-pub use script::{Instruction, LONGEST, Script, ScriptStep};
+pub use script::{Instruction, LONGEST, Script, ScriptError, ScriptStep};

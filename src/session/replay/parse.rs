@@ -1,49 +1,14 @@
 //! Reading keystroke files.
 
-use std::fmt;
-
-use super::mouse;
 use crate::model::{Group, Knob};
 use crate::numerics::similar::most_similar;
-use crate::session::message::key::{self, Code, Key};
-use crate::session::message::pointer::Gesture;
-use crate::session::replay::script::{self, Instruction, LONGEST, Script, ScriptStep, too_long};
-use crate::words::printable;
-
-/// Why a text is not a keystroke file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BadScript {
-    /// Line, from 1.
-    pub line: usize,
-    /// Column in characters, from 1.
-    pub column: usize,
-    /// What is wrong and what is allowed, in one line.
-    pub message: String,
-}
-
-impl fmt::Display for BadScript {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            out,
-            "line {}, column {}: {}",
-            self.line,
-            self.column,
-            printable::line(&self.message)
-        )
-    }
-}
-
-impl std::error::Error for BadScript {}
-
-/// Maximum number of presses of one key in one step.
-pub(super) const MOST: u32 = 100_000;
+use crate::scene::Point;
+use crate::session::key;
+use crate::session::replay::script::{ESCAPES, GESTURES, LONGEST, MOST, ScriptError, too_long};
+use crate::session::{Code, Instruction, Key, Pointed, PointerTarget, Script, ScriptStep};
 
 /// Largest width and height that a file may ask for.
 const LARGEST: u16 = 1000;
-
-/// Characters that are escaped by a backslash in quoted text, and the letters after it.
-pub(super) const ESCAPES: [(char, char); 5] =
-    [('"', '"'), ('\\', '\\'), ('\n', 'n'), ('\r', 'r'), ('\t', 't')];
 
 /// Reads the rest of a directive as a step, or says why it cannot.
 type Reading = fn(&str) -> Result<Instruction, String>;
@@ -61,13 +26,13 @@ const DIRECTIVES: [(&str, Reading); 14] = [
     ("screen", screen),
     ("start", start),
     ("file", file),
-    ("click", |rest| mouse::read(Gesture::Click, rest)),
-    ("nearer", |rest| mouse::read(Gesture::Nearer, rest)),
-    ("farther", |rest| mouse::read(Gesture::Farther, rest)),
+    ("click", |rest| pointed("click", rest)),
+    ("nearer", |rest| pointed("nearer", rest)),
+    ("farther", |rest| pointed("farther", rest)),
 ];
 
-/// Reads a whole keystroke file. Fails with [`BadScript`], which has the place of the first mistake.
-pub fn parse(text: &str) -> Result<Script, BadScript> {
+/// Reads a whole keystroke file. Fails with [`ScriptError`], which has the place of the first mistake.
+pub fn parse(text: &str) -> Result<Script, ScriptError> {
     let (mut steps, mut presses) = (Vec::new(), 0);
     for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         let mut rest = line;
@@ -84,10 +49,10 @@ pub fn parse(text: &str) -> Result<Script, BadScript> {
                 continue;
             }
             let line = index + 1;
-            let step = step(token).map_err(|message| BadScript { line, column, message })?;
+            let step = step(token).map_err(|why| ScriptError { line, column, why })?;
             presses += step.length();
-            if presses > script::MOST {
-                return Err(BadScript { line, column, message: too_long() });
+            if presses > u64::from(MOST) {
+                return Err(ScriptError { line, column, why: too_long() });
             }
             steps.push(ScriptStep { line, column, step });
         }
@@ -148,7 +113,7 @@ fn keys(name: &str) -> Result<Instruction, String> {
     };
     match Key::named(key) {
         Ok(key) => Ok(Instruction::Key { key, count }),
-        Err(unknown) => Err(nearest_directive(key).unwrap_or_else(|| unknown.to_string())),
+        Err(unknown) => Err(nearest_directive(key).unwrap_or(unknown)),
     }
 }
 
@@ -167,6 +132,26 @@ fn alone(rest: &str, word: &str, step: Instruction) -> Result<Instruction, Strin
     } else {
         Err(format!("<{word}> stands alone, not with {rest:?}"))
     }
+}
+
+/// The place that the mouse points at.
+fn pointed(word: &str, rest: &str) -> Result<Instruction, String> {
+    let words: Vec<&str> = rest.split_whitespace().collect();
+    let finite = |word: &str| word.parse().ok().filter(|number: &f64| number.is_finite());
+    let place = match words[..] {
+        ["row", row] => row.parse().ok().map(PointerTarget::Row),
+        [number, x, y] => {
+            let index = number.parse().ok().and_then(|number: usize| number.checked_sub(1));
+            let point = finite(x).zip(finite(y)).map(|(x, y)| Point { x, y });
+            index.zip(point).map(|(index, point)| PointerTarget::Plot(index, point))
+        }
+        _ => None,
+    };
+    let gesture = GESTURES.iter().find(|row| row.1 == word).map(|row| row.0);
+    let pointed = gesture.zip(place).map(|(gesture, place)| Pointed { gesture, place });
+    pointed.map(Instruction::Pointed).ok_or_else(|| {
+        format!("a place of the mouse is \"N X Y\" on plot N, from 1, or \"row N\", not {rest:?}")
+    })
 }
 
 fn resize(rest: &str) -> Result<Instruction, String> {
@@ -250,78 +235,10 @@ mod tests {
         script.steps.into_iter().map(|located| located.step).collect()
     }
 
-    fn key(text: &str, count: u32) -> Instruction {
-        Instruction::Key { key: text.parse().unwrap(), count }
-    }
-
-    #[test]
-    fn every_instruction_of_the_contract_is_read() {
-        let text = "# a comment\n<right*5> <wait>\n[ ] j k   one # and a comment\n<space><lt>\
-                    <C-r><S-tab> <f1> <pgup>\n<resize 80x24><expect \"captured\">\n\
-                    <screen after-five-steps>\n<async>";
-        let mut wanted = vec![key("<right>", 5), Instruction::Wait];
-        wanted.extend("[]jkone".chars().map(|char| key(&char.to_string(), 1)));
-        for name in ["<space>", "<lt>", "<C-r>", "<S-tab>", "<f1>", "<pgup>"] {
-            wanted.push(key(name, 1));
-        }
-        wanted.push(Instruction::Resize { width: 80, height: 24 });
-        wanted.push(Instruction::Expect("captured".to_owned()));
-        wanted.push(Instruction::Screen("after-five-steps".to_owned()));
-        wanted.push(Instruction::Async);
-        assert_eq!(steps(text), wanted);
-    }
-
-    #[test]
-    fn brackets_and_quotes_may_be_keys_and_text() {
-        assert_eq!(steps(">"), [key(">", 1)]);
-        assert_eq!(steps("<gt*2>x"), [key(">", 2), key("x", 1)]);
-        assert_eq!(steps("<\">"), [key("\"", 1)]);
-        assert_eq!(steps("<**3>"), [key("*", 3)]);
-        assert_eq!(steps("a>>b"), [key("a", 1), key(">", 1), key(">", 1), key("b", 1)]);
-        assert_eq!(steps("<esc>>"), [key("<esc>", 1), key(">", 1)]);
-        let text = r#"<expect "a > b \"c\" # \\ d">x"#;
-        assert_eq!(
-            steps(text),
-            [Instruction::Expect("a > b \"c\" # \\ d".to_owned()), key("x", 1)]
-        );
-    }
-
-    #[test]
-    fn places_are_lines_and_columns_in_characters() {
-        let script = parse("# é\n éé <wait>\r\n  x").unwrap();
-        let places: Vec<_> = script.steps.iter().map(|step| (step.line, step.column)).collect();
-        assert_eq!(places, [(2, 2), (2, 3), (2, 5), (3, 3)]);
-    }
-
-    #[test]
-    fn mistakes_are_named_with_their_place_before_anything_runs() {
-        for (text, line) in [
-            ("j k\n  <rigth*5>", "line 2, column 3: unknown key <rigth>; did you mean <right>?"),
-            ("<right", "line 1, column 1: \"<\" without \">\""),
-            ("a <right*0>", "line 1, column 3: a key is pressed 1 to 100000 times, not 0"),
-            ("<right*99999999999>", "line 1, column 1: a key is pressed 1 to"),
-            ("<resize 80>", "line 1, column 1: <resize 80> needs columns and rows"),
-            ("<resize 0x24>", "line 1, column 1: <resize 0x24> needs columns and rows"),
-            ("<expect captured>", "line 1, column 1: <expect> needs text in quotes"),
-            ("<expect \"a>", "line 1, column 1: <expect> needs text in quotes"),
-            ("<expect \"\\q\">", "line 1, column 1: unknown escape \\q"),
-            ("<screen ../x>", "line 1, column 1: <screen ../x> needs a name of letters"),
-            ("<screen>", "line 1, column 1: <screen > needs a name"),
-            ("<wait 3>", "line 1, column 1: <wait> stands alone"),
-            (
-                "<excpect \"a\">",
-                "line 1, column 1: unknown key <excpect \"a\">; did you mean <expect>?",
-            ),
-        ] {
-            let said = parse(text).unwrap_err().to_string();
-            assert!(said.starts_with(line), "{text}: {said}");
-        }
-    }
-
     proptest! {
         #[test]
         fn what_is_printed_is_read_back(
-            key in crate::session::message::key::tests::any_key(),
+            key in crate::session::key::tests::any_key(),
             count in 1..=MOST,
             quoted in any::<String>(),
         ) {

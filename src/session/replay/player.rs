@@ -1,11 +1,10 @@
 //! Playing a keystroke file, action by action.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::session::message::Msg;
-use crate::session::replay::script::{Instruction, MOST, Script, ScriptStep, too_long};
+use crate::session::replay::script::{MOST, ScriptError, too_long};
+use crate::session::{Instruction, Msg, Script, ScriptStep};
 
 /// The next action.
 #[derive(Clone, Debug)]
@@ -18,26 +17,6 @@ pub enum Action {
     /// The file has ended and the session is idle.
     Done,
 }
-
-/// The place where a replay ends early, and why: the screen does not show an expected text, or there are too many
-/// keys.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unmet {
-    /// Line of the step, from 1; of keys from another file, that of the step that plays them.
-    pub line: usize,
-    /// Column, from 1.
-    pub column: usize,
-    pub why: String,
-}
-
-impl fmt::Display for Unmet {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { line, column, why } = self;
-        write!(out, "line {line}, column {column}: {why}")
-    }
-}
-
-impl std::error::Error for Unmet {}
 
 /// A keystroke file being played.
 ///
@@ -77,13 +56,13 @@ impl Player {
         Player { steps, place: (1, 1), length, asynchronous, pictures: 0, files, captions }
     }
 
-    /// Inserts another file before the rest of this one. Fails with [`Unmet`] if both together have more steps
+    /// Inserts another file before the rest of this one. Fails with [`ScriptError`] if both together have more steps
     /// than [`MOST`], as those of a file that plays itself.
-    pub fn interject(&mut self, script: Script) -> Result<(), Unmet> {
+    pub fn interject(&mut self, script: Script) -> Result<(), ScriptError> {
         self.length += script.length();
-        if self.length > MOST {
+        if self.length > u64::from(MOST) {
             let (line, column) = self.place;
-            return Err(Unmet { line, column, why: too_long() });
+            return Err(ScriptError { line, column, why: too_long() });
         }
         self.captions.1 += captions(&script);
         for step in script.steps.into_iter().rev() {
@@ -103,9 +82,9 @@ impl Player {
     }
 
     /// The next action, given whether the session is idle. `screen` is called only if needed; it returns the
-    /// rows of the screen, separated by newlines. Fails with [`Unmet`] if the screen does not show an expected
+    /// rows of the screen, separated by newlines. Fails with [`ScriptError`] if the screen does not show an expected
     /// text; the player is then after that step.
-    pub fn next(&mut self, idle: bool, screen: impl Fn() -> String) -> Result<Action, Unmet> {
+    pub fn next(&mut self, idle: bool, screen: impl Fn() -> String) -> Result<Action, ScriptError> {
         loop {
             let Some((ScriptStep { line, column, step }, inserted)) = self.steps.front().cloned()
             else {
@@ -127,11 +106,11 @@ impl Player {
                 }
                 Instruction::Screen(_) => {
                     let why = format!("more than {PICTURES} screens, the most that are kept");
-                    return Err(Unmet { line, column, why });
+                    return Err(ScriptError { line, column, why });
                 }
                 Instruction::Expect(text) if !screen().contains(&text) => {
                     let why = format!("the screen does not show {text:?}");
-                    return Err(Unmet { line, column, why });
+                    return Err(ScriptError { line, column, why });
                 }
                 Instruction::Say(text) => {
                     self.captions.0 += 1;
@@ -164,57 +143,6 @@ mod tests {
     use super::*;
     use crate::session::replay::parse;
 
-    /// The actions of the player, on a screen that shows `screen`; the session is idle whenever the player
-    /// waits.
-    fn play(text: &str, screen: &str) -> Vec<String> {
-        let mut player = Player::new(parse(text).unwrap());
-        let (mut acts, mut idle) = (Vec::new(), true);
-        loop {
-            let act = player.next(idle, || screen.to_owned());
-            idle = matches!(act, Ok(Action::Wait));
-            match act {
-                Ok(Action::Give(Msg::Key(key))) => acts.push(key.to_string()),
-                Ok(Action::Give(message)) => acts.push(format!("{message:?}")),
-                Ok(Action::Keep(name)) => acts.push(format!("keep {name}")),
-                Ok(Action::Wait) => acts.push("wait".to_owned()),
-                Ok(Action::Done) => break,
-                Err(unmet) => {
-                    acts.push(unmet.to_string());
-                    break;
-                }
-            }
-        }
-        acts
-    }
-
-    #[test]
-    fn it_waits_after_each_key_unless_told_otherwise() {
-        assert_eq!(play("<right*2>x", ""), ["<right>", "wait", "<right>", "wait", "x", "wait"]);
-        assert_eq!(play("<async><right*2>x", ""), ["<right>", "<right>", "x", "wait"]);
-        assert_eq!(play("<async>x<wait>y", ""), ["x", "wait", "y", "wait"]);
-    }
-
-    #[test]
-    fn the_first_unmet_expectation_ends_it_with_its_place() {
-        assert_eq!(
-            play("<expect \"here\">\n  <screen a> <expect \"there\"> x", "I am\nhere"),
-            ["keep a", "wait", "line 2, column 14: the screen does not show \"there\""]
-        );
-    }
-
-    #[test]
-    fn another_file_is_played_in_between() {
-        let mut player = Player::new(parse("a b").unwrap());
-        let next = |player: &mut Player| match player.next(true, String::new).unwrap() {
-            Action::Give(Msg::Key(key)) => key.to_string(),
-            other => format!("{other:?}"),
-        };
-        let mut keys = vec![next(&mut player)];
-        player.interject(parse("x<y*2>").unwrap()).unwrap();
-        keys.extend((0..5).map(|_| next(&mut player)));
-        assert_eq!(keys, ["a", "x", "y", "y", "b", "Done"]);
-    }
-
     #[test]
     fn a_file_that_plays_itself_comes_to_an_end_at_its_own_step() {
         for (file, itself) in
@@ -235,7 +163,7 @@ mod tests {
                 }
             };
             assert_eq!((unmet.line, unmet.column, unmet.why), (2, 4, too_long()));
-            assert!(given <= MOST && player.steps.len() as u64 <= MOST, "{given}");
+            assert!(given <= MOST && player.steps.len() <= MOST as usize, "{given}");
         }
     }
 }

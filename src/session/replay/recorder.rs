@@ -1,7 +1,7 @@
 //! Records a live session as a keystroke file.
 
-use crate::session::message::Msg;
-use crate::session::replay::script::{Instruction, LONGEST};
+use crate::session::replay::script::{LONGEST, MOST};
+use crate::session::{Instruction, Msg};
 
 /// Longest line of a recorded file, in characters, unless one step is longer.
 const LINE: usize = 72;
@@ -38,7 +38,7 @@ impl Recorder {
             (
                 Some(Instruction::Key { key, count }),
                 Instruction::Key { key: pressed, count: 1 },
-            ) if *key == pressed && *count < super::parse::MOST => {
+            ) if *key == pressed && *count < MOST => {
                 *count += 1;
             }
             (Some(Instruction::Elapse(passed)), Instruction::Elapse(seconds))
@@ -173,64 +173,10 @@ mod tests {
         given
     }
 
-    #[test]
-    fn a_recording_is_short_and_readable() {
-        let mut recorder = Recorder::default();
-        for _ in 0..5 {
-            recorder.note(&Msg::Key("<right>".parse().unwrap()));
-        }
-        recorder.note(&Msg::Idle);
-        recorder.note(&Msg::Key("#".parse().unwrap_or("<hash>".parse().unwrap())));
-        recorder.note(&Msg::Resize { width: 10, height: 10 });
-        recorder.note(&Msg::Resize { width: 80, height: 24 });
-        recorder.note(&Msg::Paste("a\n\"b\"".to_owned()));
-        let text = recorder.text("hopfscope basin");
-        assert_eq!(
-            text,
-            "# A recording of hopfscope; `hopfscope replay FILE` plays it.\n# hopfscope basin\n\
-             <right*5> <hash> <resize 80x24> <paste \"a\\n\\\"b\\\"\">\n"
-        );
-    }
-
-    #[test]
-    fn the_last_presses_can_be_forgotten() {
-        let mut recorder = Recorder::default();
-        let key =
-            |recorder: &mut Recorder, name: &str| recorder.note(&Msg::Key(name.parse().unwrap()));
-        for name in ["<right>", "<right>", "<right>", "@", "a"] {
-            key(&mut recorder, name);
-        }
-        recorder.note(&Msg::Resize { width: 80, height: 24 });
-        recorder.embed("a.keys", "x", 2);
-        recorder.embed("a.keys", "x", 2);
-        let steps = |recorder: &Recorder| text("", recorder.steps());
-        assert_eq!(steps(&recorder), "<right*3> <file \"a.keys\" \"x\"> @ a <resize 80x24>\n");
-        recorder.forget(3);
-        assert_eq!(steps(&recorder), "<right*2> <resize 80x24>\n", "only presses are forgotten");
-        recorder.forget(9);
-        assert_eq!(steps(&recorder), "<resize 80x24>\n");
-    }
-
-    #[test]
-    fn it_knows_how_much_of_it_is_as_it_was() {
-        let mut recorder = Recorder::default();
-        let key =
-            |recorder: &mut Recorder, name: &str| recorder.note(&Msg::Key(name.parse().unwrap()));
-        for name in ["<right>", "u", "u"] {
-            key(&mut recorder, name);
-        }
-        assert_eq!(recorder.unchanged(), 0);
-        assert_eq!(recorder.unchanged(), 2);
-        key(&mut recorder, "u");
-        assert_eq!(recorder.unchanged(), 1, "the last step has a count more");
-        recorder.embed("a", "", 2);
-        assert!(recorder.unchanged() <= 1);
-    }
-
     proptest! {
         #[test]
         fn a_recording_plays_what_was_recorded(
-            keys in prop::collection::vec((crate::session::message::key::tests::any_key(), 1..4), 0..60)
+            keys in prop::collection::vec((crate::session::key::tests::any_key(), 1..4), 0..60)
         ) {
             let mut recorder = Recorder::default();
             let mut wanted = Vec::new();

@@ -1,16 +1,48 @@
-//! Keystroke files as data: their steps, and the messages that these give to a session.
+//! Keystroke files as data: their steps, the messages that these give to a session, and how they are written.
+
+use std::fmt;
 
 use crate::model::Knob;
-use crate::session::message::Msg;
-use crate::session::message::key::Key;
-use crate::session::message::pointer::Pointed;
+use crate::scene::Point;
+use crate::session::{Gesture, Key, Msg, Pointed, PointerTarget};
+use crate::words::printable;
 
 /// Longest time in a single step, in s.
 pub const LONGEST: f64 = 3600.0;
 
 /// Maximum number of steps that are run, presses of a key one by one: those of a file, and those of the files that
 /// it plays. The quickest take a tenth of a millisecond each.
-pub const MOST: u64 = 100_000;
+pub const MOST: u32 = 100_000;
+
+/// Characters that are escaped by a backslash in quoted text, and the letters after it.
+pub(super) const ESCAPES: [(char, char); 5] =
+    [('"', '"'), ('\\', '\\'), ('\n', 'n'), ('\r', 'r'), ('\t', 't')];
+
+/// What the mouse does, by the words for it. Positions refer to the plots, not to the screen, so that a file has the
+/// same effect at every size.
+pub(super) const GESTURES: [(Gesture, &str); 3] =
+    [(Gesture::Click, "click"), (Gesture::Nearer, "nearer"), (Gesture::Farther, "farther")];
+
+/// Why a text is no keystroke file, or why its replay ends early: the screen does not show an expected text, or there
+/// are too many keys.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScriptError {
+    /// Line, from 1; of keys from another file, that of the step that plays them.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// What is wrong and what is allowed, in one line.
+    pub why: String,
+}
+
+impl fmt::Display for ScriptError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { line, column, why } = self;
+        write!(out, "line {line}, column {column}: {}", printable::line(why))
+    }
+}
+
+impl std::error::Error for ScriptError {}
 
 /// Why a file with more steps is not run.
 pub(super) fn too_long() -> String {
@@ -140,4 +172,57 @@ impl Script {
         };
         self.steps.iter().map(presses).sum()
     }
+}
+
+/// Text that the parser can read back.
+impl fmt::Display for Instruction {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Instruction::Key { key, count: 1 } => write!(out, "{key}"),
+            Instruction::Key { key, count } => {
+                let key = key.to_string();
+                let name = key.strip_prefix('<').and_then(|name| name.strip_suffix('>'));
+                write!(out, "<{}*{count}>", name.unwrap_or(&key))
+            }
+            Instruction::Pointed(Pointed { gesture, place }) => {
+                let gesture = GESTURES.iter().find(|row| row.0 == *gesture).map_or("", |row| row.1);
+                match place {
+                    PointerTarget::Row(row) => write!(out, "<{gesture} row {row}>"),
+                    PointerTarget::Plot(index, Point { x, y }) => {
+                        write!(out, "<{gesture} {} {x:?} {y:?}>", index + 1)
+                    }
+                }
+            }
+            Instruction::Paste(text) => write!(out, "<paste {}>", quoted(text)),
+            Instruction::Elapse(seconds) => write!(out, "<elapse {seconds}>"),
+            Instruction::Wait => write!(out, "<wait>"),
+            Instruction::Async => write!(out, "<async>"),
+            Instruction::Resize { width, height } => write!(out, "<resize {width}x{height}>"),
+            Instruction::Expect(text) => write!(out, "<expect {}>", quoted(text)),
+            Instruction::Run(line) => write!(out, "<run {}>", quoted(line)),
+            Instruction::Say(text) => write!(out, "<say {}>", quoted(text)),
+            Instruction::Screen(name) => write!(out, "<screen {name}>"),
+            Instruction::Start(names) => {
+                write!(out, "<start")?;
+                names.iter().try_for_each(|symbol| write!(out, " {}", symbol.spec().name))?;
+                write!(out, ">")
+            }
+            Instruction::File { name, text } => {
+                write!(out, "<file {} {}>", quoted(name), quoted(text))
+            }
+        }
+    }
+}
+
+/// Text in quotes on one line, with exactly the escapes that the parser knows.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for char in text.chars() {
+        match ESCAPES.iter().find(|(plain, _)| *plain == char) {
+            Some((_, letter)) => quoted.extend(['\\', *letter]),
+            None => quoted.push(char),
+        }
+    }
+    quoted.push('"');
+    quoted
 }

@@ -1,11 +1,13 @@
-//! Undo and redo of all changes of parameters and plots, and of opening or resetting a scene.
+//! Undo and redo of all changes of parameters and plots, and of opening or resetting a scene; and marks, points of
+//! the parameters to come back to.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::scene::{Arrangement, Layer, PlotSetup, Scene};
-use crate::session::state::rows::StepSizes;
-use crate::session::state::setup::Setup;
+use serde::{Deserialize, Serialize};
+
+use crate::scene::{Arrangement, Layer, PlotSetup, Request, Scene};
+use crate::session::{Setup, StepSizes};
 
 /// The state before a change, limited to what the change affects.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,18 +33,18 @@ pub struct Snapshot {
 }
 
 /// The plots, and how they share the screen.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScreenSetup {
-    pub plots: Vec<PlotSetup>,
     /// How they share the screen.
     pub arrangement: Arrangement,
+    pub plots: Vec<PlotSetup>,
 }
 
-/// The past and, after an undo, the future.
+/// The past and, after an undo, the future; the most recent change last in each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
-    past: Vec<Before>,
-    future: Vec<Before>,
+    pub past: Vec<Before>,
+    pub future: Vec<Before>,
 }
 
 impl History {
@@ -73,32 +75,25 @@ impl History {
         }
     }
 
-    /// The state before the last change. For redo, `present` returns the present state to the same extent.
-    pub fn undo(&mut self, present: impl FnOnce(&Before) -> Before) -> Option<Before> {
-        let before = self.past.pop()?;
-        self.future.push(present(&before));
-        Some(before)
-    }
-
-    /// The state that was undone last. For undo, `present` returns the present state to the same extent.
-    pub fn redo(&mut self, present: impl FnOnce(&Before) -> Before) -> Option<Before> {
-        let after = self.future.pop()?;
-        self.past.push(present(&after));
-        Some(after)
-    }
-
-    /// A history from its past and its future, the most recent change last in each.
-    pub fn of(past: Vec<Before>, future: Vec<Before>) -> Self {
-        History { past, future }
-    }
-
-    /// The past and the future, the most recent change last in each.
-    pub fn parts(&self) -> (&[Before], &[Before]) {
-        (&self.past, &self.future)
-    }
-
     /// Number of changes that can be undone, and that can be redone.
     pub fn depth(&self) -> (usize, usize) {
         (self.past.len(), self.future.len())
     }
+}
+
+/// Points of the parameters to come back to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bookmarks {
+    pub places: BTreeMap<char, Bookmark>,
+    /// The point that was left last, for comparison.
+    pub left: Option<Bookmark>,
+}
+
+/// A point of the parameters, and what is drawn of it beside the present one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bookmark {
+    /// The motion and the speed of its belt.
+    pub setup: Setup,
+    /// The questions for its motion and its cycles; empty until the point was on show.
+    pub asked: Vec<Request>,
 }

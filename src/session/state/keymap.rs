@@ -1,13 +1,97 @@
-//! The bindings of keys to commands, by context.
+//! Everything that can be run by name, commands of keys and commands that take words, and the bindings of keys to
+//! commands, by context.
 //!
-//! A [`Keymap`] is built from the default keys of all commands. Several contexts hold at once (a plot, the
-//! phase plane, everywhere); no key may have two meanings in contexts that can hold together.
+//! This file describes commands; their functions are in the tables of `session::commands` and `session::lines`. A
+//! [`Keymap`] is built from the default keys of all commands. Several contexts hold at once (a plot, the phase plane,
+//! everywhere); no key may have two meanings in contexts that can hold together.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::session::message::key::Key;
-use crate::session::state::command::{Command, LineCommand};
-use crate::session::state::context::{Context, chains};
+use crate::session::state::context::chains;
+use crate::session::{Context, Key};
+
+/// Something that a key can do, or a line with words.
+#[derive(Clone, Copy, Debug)]
+pub struct Command {
+    /// Its name, for settings and the palette.
+    pub name: &'static str,
+    /// The contexts where it applies, with its default keys there; the first one is shown in the footer. A command
+    /// that takes words has none.
+    pub keys: &'static [(Context, &'static [&'static str])],
+    /// A word for the footer; empty if the footer has no room for it. Commands with the same word share one
+    /// entry.
+    pub hint: &'static str,
+    /// Explanation in one line, for the help.
+    pub doc: &'static str,
+    /// Syntax of the words after the name, for the help.
+    pub arguments: &'static str,
+    /// The kind of its words, for completion; `None` if it takes none.
+    pub words: Option<WordKind>,
+}
+
+impl PartialEq for Command {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+/// Other names of commands and the names that they stand for: short ones from other programs, and former ones.
+///
+/// Quitting keeps the session, so `wq` has nothing else to write.
+const OTHER_NAMES: [(&str, &str); 9] = [
+    ("q", "quit"),
+    ("q!", "quit"),
+    ("wq", "quit"),
+    ("x", "quit"),
+    ("w", "write"),
+    ("w!", "write!"),
+    ("e", "open"),
+    ("toggle-borders", "toggle-boundaries"),
+    ("toggle-harmonic-border", "toggle-harmonic-fold"),
+];
+
+/// The name of the command that a word stands for; the word itself unless it is an alternative name.
+pub fn full_name(word: &str) -> &str {
+    OTHER_NAMES.iter().find(|(other, _)| *other == word).map_or(word, |(_, name)| name)
+}
+
+/// Kinds of words that a command takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WordKind {
+    /// Words that cannot be completed, such as a number or the name of a file.
+    Unknown,
+    /// Names of values, each with `=` and a value.
+    Assignments,
+    Methods,
+    Scenes,
+    /// A built-in machine.
+    Machines,
+    Views,
+    /// A layer, then on or off.
+    Layers,
+    Switch,
+    Window,
+    /// A parameter, then a property of the cycles.
+    Axes,
+    /// Parameters with their values, then measures.
+    Scan,
+    /// The letter of a mark.
+    Marks,
+    Themes,
+    /// A set of characters.
+    Glyphs,
+    /// A depth of colour.
+    Colors,
+}
+
+/// The result of a command that chooses another one.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NextCommand {
+    /// A command of the palette.
+    Command(&'static Command),
+    /// The text of the command line.
+    Line(String),
+}
 
 /// The command of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,43 +105,12 @@ struct Binding {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Keymap {
     commands: Vec<&'static Command>,
-    lines: Vec<&'static LineCommand>,
     bindings: BTreeMap<(Context, Key), Binding>,
 }
 
-/// Why a key cannot be bound to a command.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Unbindable {
-    /// The key would have two meanings in contexts that hold together.
-    Clash { key: Key, command: &'static str, context: Context },
-    /// A key that types a character cannot be bound where text is typed.
-    Types(Key),
-}
-
-impl std::fmt::Display for Unbindable {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Unbindable::Clash { key, command, context } => {
-                let context = context.name();
-                write!(
-                    out,
-                    "{key} already means {command}; give that other keys in [keys.{context}] first"
-                )
-            }
-            Unbindable::Types(key) => {
-                write!(out, "{key} types a character here; use a key that types none, as <f6>")
-            }
-        }
-    }
-}
-
 impl Keymap {
-    /// A keymap of commands with their default keys, and of commands that take words, each in the order of the
-    /// help.
-    pub fn new(
-        commands: impl Iterator<Item = &'static Command>,
-        lines: impl Iterator<Item = &'static LineCommand>,
-    ) -> Self {
+    /// A keymap of commands with their default keys, in the order of the help.
+    pub fn new(commands: impl Iterator<Item = &'static Command>) -> Self {
         let commands: Vec<_> = commands.collect();
         let mut bindings = BTreeMap::new();
         for command in &commands {
@@ -67,25 +120,26 @@ impl Keymap {
                     .extend(keys.map(|(rank, key)| ((*context, key), Binding { command, rank })));
             }
         }
-        Keymap { commands, lines: lines.collect(), bindings }
+        Keymap { commands, bindings }
     }
 
-    /// All commands, in the order in which the help lists them.
+    /// All commands of keys, in the order in which the help lists them.
     pub fn commands(&self) -> impl Iterator<Item = &'static Command> {
-        self.commands.iter().copied()
+        self.commands.iter().copied().filter(|command| command.words.is_none())
     }
 
     /// All commands that take words, in the order in which the help lists them.
-    pub fn lines(&self) -> impl Iterator<Item = &'static LineCommand> {
-        self.lines.iter().copied()
+    pub fn lines(&self) -> impl Iterator<Item = &'static Command> {
+        self.commands.iter().copied().filter(|command| command.words.is_some())
     }
 
+    /// The command of keys with this name.
     pub fn named(&self, name: &str) -> Option<&'static Command> {
         self.commands().find(|command| command.name == name)
     }
 
     /// The command that takes words with this name.
-    pub fn line(&self, name: &str) -> Option<&'static LineCommand> {
+    pub fn line(&self, name: &str) -> Option<&'static Command> {
         self.lines().find(|line| line.name == name)
     }
 
@@ -94,23 +148,28 @@ impl Keymap {
         self.bindings.retain(|(at, _), bound| *at != context || bound.command != command);
     }
 
-    /// Binds a key to a command in a context. Fails with [`Unbindable`] if the key means something else where
-    /// this context holds, or types a character there.
+    /// Binds a key to a command in a context. Fails with one line if the key means something else where this
+    /// context holds, or types a character there.
     pub fn bind(
         &mut self,
         context: Context,
         command: &'static Command,
         key: Key,
-    ) -> Result<(), Unbindable> {
+    ) -> Result<(), String> {
         let together = chains().iter().filter(|chain| chain.contains(&context));
         let contexts: BTreeSet<Context> =
             together.flat_map(|chain| chain.iter()).copied().collect();
         if key.typed().is_some() && contexts.iter().any(|context| context.takes_text()) {
-            return Err(Unbindable::Types(key));
+            return Err(format!(
+                "{key} types a character here; use a key that types none, as <f6>"
+            ));
         }
         let taken = contexts.iter().find_map(|at| Some((*at, *self.bindings.get(&(*at, key))?)));
         if let Some((context, bound)) = taken.filter(|(_, bound)| bound.command != command) {
-            return Err(Unbindable::Clash { key, command: bound.command.name, context });
+            let (bound, context) = (bound.command.name, context.name());
+            return Err(format!(
+                "{key} already means {bound}; give that other keys in [keys.{context}] first"
+            ));
         }
         let rank = self.keys_in(context, command).count();
         self.bindings.entry((context, key)).or_insert(Binding { command, rank });

@@ -1,48 +1,13 @@
 //! The state of a session: plain data.
 
 pub mod answers;
-pub mod command;
 pub mod context;
 pub mod history;
-pub mod input;
-pub mod kept;
 pub mod keymap;
-pub mod marks;
 pub mod overlay;
-pub mod pending;
-pub mod playback;
 pub mod plot;
 pub mod rows;
 pub mod scan;
-pub mod scan_form;
 pub mod session;
 pub mod settings;
 pub mod setup;
-pub mod starts;
-pub mod step_size;
-pub mod stop;
-pub mod uncertainty;
-pub mod waiting;
-
-pub use answers::{AnswerState, Answers};
-pub use command::{Command, LineCommand, NextCommand, WordKind};
-pub use context::Context;
-pub use history::{Before, History, ScreenSetup, Snapshot};
-pub use input::Input;
-pub use kept::Kept;
-pub use keymap::Keymap;
-pub use marks::{Bookmark, Bookmarks};
-pub use overlay::{Completion, Entry, List, Listed, Overlay, Prompt, SessionCaption};
-pub use pending::{Letter, Pending};
-pub use playback::{Pace, Playback};
-pub use plot::{Framing, Pane, Plot};
-pub use rows::{Row, StepSizes};
-pub use scan::{ScanOnShow, ScanProgress};
-pub use scan_form::ScanForm;
-pub use session::{Price, Recomputation, Session, Size};
-pub use setup::Setup;
-pub use starts::Starts;
-pub use step_size::StepSize;
-pub use stop::BranchStop;
-pub use uncertainty::Uncertainty;
-pub use waiting::Waiting;

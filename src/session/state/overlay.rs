@@ -1,9 +1,9 @@
-//! Overlays: what covers the panes and gets the keys while it is open.
+//! Overlays: what covers the panes and gets the keys while it is open, such as a list, a line of text being typed, and
+//! the form for typing a scan.
 
-use crate::session::replay::script::Script;
-use crate::session::state::input::Input;
-use crate::session::state::rows::Row;
-use crate::session::state::scan_form::ScanForm;
+use crate::model::Knob;
+use crate::scan::measure::MEASURES;
+use crate::session::{Row, Script};
 
 /// An overlay over the panes.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,6 +66,16 @@ pub enum SessionCaption {
     Scene,
     /// A caption of a tour; if known, its number and the number of all captions.
     Tour(String, Option<(usize, usize)>),
+}
+
+impl SessionCaption {
+    /// Shows the caption of the scene, or hides it.
+    pub fn explain(&mut self) {
+        *self = match self {
+            SessionCaption::Scene => SessionCaption::Nothing,
+            _ => SessionCaption::Scene,
+        };
+    }
 }
 
 /// A list with a selected row and a search.
@@ -138,5 +148,190 @@ impl Prompt {
     /// A line with this text and the caret at its end.
     pub fn new(text: impl Into<String>) -> Self {
         Prompt { input: Input::new(text), ..Prompt::default() }
+    }
+}
+
+/// A line of text being typed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Input {
+    text: String,
+    caret: usize,
+}
+
+impl Input {
+    /// A line with this text and the caret at its end.
+    pub fn new(text: impl Into<String>) -> Self {
+        let text = text.into();
+        Input { caret: text.chars().count(), text }
+    }
+
+    /// The text typed so far.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Byte offset of a character.
+    fn byte(&self, index: usize) -> usize {
+        self.text.char_indices().nth(index).map_or(self.text.len(), |(byte, _)| byte)
+    }
+
+    /// The text before the caret and the text after it.
+    pub fn halves(&self) -> (&str, &str) {
+        self.text.split_at(self.byte(self.caret))
+    }
+
+    /// Types a character at the caret.
+    pub fn insert(&mut self, char: char) {
+        let at = self.byte(self.caret);
+        self.text.insert(at, char);
+        self.caret += 1;
+    }
+
+    /// Deletes the character before the caret.
+    pub fn delete_before(&mut self) {
+        if self.caret > 0 {
+            self.caret -= 1;
+            self.delete_after();
+        }
+    }
+
+    /// Deletes the character after the caret.
+    pub fn delete_after(&mut self) {
+        let at = self.byte(self.caret);
+        if at < self.text.len() {
+            self.text.remove(at);
+        }
+    }
+
+    /// Deletes the word before the caret.
+    pub fn delete_word(&mut self) {
+        let word = |char: char| !char.is_whitespace();
+        let kept = self.halves().0.trim_end().trim_end_matches(word).to_owned();
+        self.replace_before(&kept);
+    }
+
+    /// Replaces the text before the caret.
+    pub fn replace_before(&mut self, text: &str) {
+        let after = self.halves().1.to_owned();
+        *self = Input::new(text);
+        self.text += &after;
+    }
+
+    pub fn clear(&mut self) {
+        *self = Input::default();
+    }
+
+    /// Moves the caret by `by` characters, within the text.
+    pub fn move_caret(&mut self, by: isize) {
+        let last = self.text.chars().count();
+        self.caret = self.caret.saturating_add_signed(by).min(last);
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FormField {
+    /// The name of a parameter.
+    Parameter,
+    From,
+    To,
+    Count,
+    Measure,
+}
+
+/// One row of [`FIELDS`].
+#[derive(Clone, Copy, Debug)]
+pub struct FieldSpec {
+    pub field: FormField,
+    /// Its name on the screen.
+    pub name: &'static str,
+    /// Explanation of what may be typed.
+    pub help: &'static str,
+}
+
+const fn field(field: FormField, name: &'static str, help: &'static str) -> FieldSpec {
+    FieldSpec { field, name, help }
+}
+
+const FROM: FieldSpec =
+    field(FormField::From, "from", "first value; log: before it for equal ratios");
+const TO: FieldSpec = field(FormField::To, "to", "last value");
+const COUNT: FieldSpec = field(FormField::Count, "count", "how many values");
+
+/// All fields of the form, in their order on the screen.
+pub const FIELDS: [FieldSpec; 9] = [
+    field(FormField::Parameter, "over", "D, D2, D3, r, q0 or v0"),
+    FROM,
+    TO,
+    COUNT,
+    field(FormField::Parameter, "and over", "a second parameter, or nothing"),
+    FROM,
+    TO,
+    COUNT,
+    field(FormField::Measure, "measure", "one or more, with commas between"),
+];
+
+/// The form of a scan being typed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScanForm {
+    /// The typed texts, one for each of [`FIELDS`].
+    pub inputs: [Input; 9],
+    /// Index of the field with the caret.
+    pub at: usize,
+    /// Why the form was refused, until it is changed.
+    pub refused: Option<String>,
+}
+
+impl ScanForm {
+    /// Index of the field for the second parameter.
+    pub const SECOND: usize = 4;
+
+    /// The form as it opens the first time: for a sweep of this parameter over this range.
+    pub fn new(symbol: Knob, (from, to): (f64, f64)) -> Self {
+        let (name, from, to) = (symbol.spec().name, format!("{from:?}"), format!("{to:?}"));
+        let texts = [name, &from, &to, "100", "", "", "", "20", "from-rest"];
+        ScanForm { inputs: texts.map(Input::new), at: 0, refused: None }
+    }
+
+    /// The line of the field with the caret.
+    pub fn input_mut(&mut self) -> &mut Input {
+        &mut self.inputs[self.at]
+    }
+
+    /// The values that a field offers for selection.
+    pub fn choices(at: usize) -> Vec<&'static str> {
+        match FIELDS[at].field {
+            FormField::Parameter => {
+                let none = (at > 0).then_some("");
+                none.into_iter().chain(Knob::MOTION.map(|knob| knob.spec().name)).collect()
+            }
+            FormField::Measure => MEASURES.map(|row| row.name).to_vec(),
+            FormField::From | FormField::To | FormField::Count => Vec::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_deleted_up_to_the_one_before() {
+        for (text, left, kept) in [
+            ("set D=1 r=2", 0, "set D=1 "),
+            ("set D=1 r=2", 3, "set D=1 r=2"),
+            ("set D=1  ", 0, "set "),
+            ("é", 0, ""),
+            ("", 0, ""),
+        ] {
+            let mut input = Input::new(text);
+            input.move_caret(-left);
+            let after = input.halves().1.to_owned();
+            input.delete_word();
+            assert!(kept.starts_with(input.halves().0), "{text}: {input:?}");
+            assert_eq!(input.halves().1, after);
+            if left == 0 {
+                assert_eq!(input.text(), kept);
+            }
+        }
     }
 }

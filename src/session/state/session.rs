@@ -1,4 +1,4 @@
-//! The whole state of a session, in one struct.
+//! The whole state of a session, in one struct, and the small parts of it that have no file of their own.
 //!
 //! Nothing here computes or draws a motion. [`Session::wants`] returns, as a pure function of the state, the
 //! questions whose answers are needed for what is on show; the outer rings ask them (see
@@ -8,31 +8,17 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use crate::branch::{BranchPoint, Special, SpecialKind};
 use crate::flow::{Cost, Problem};
-use crate::model::Knob;
+use crate::model::{Knob, State};
+use crate::portrait::Cycle;
 use crate::portrait::kicks::RandomKick;
-use crate::scene::{Arrangement, Layer, Machine, Scene, Setting, Topic};
-use crate::session::effect::Effect;
-use crate::session::message::Notice;
-use crate::session::message::key::Key;
-use crate::session::state::answers::Answers;
-use crate::session::state::history::History;
-use crate::session::state::kept::Kept;
-use crate::session::state::keymap::Keymap;
-use crate::session::state::marks::Bookmarks;
-use crate::session::state::overlay::{Overlay, SessionCaption};
-use crate::session::state::pending::Pending;
-use crate::session::state::playback::Playback;
-use crate::session::state::plot::{Pane, Plot};
-use crate::session::state::rows::{Row, StepSizes};
-use crate::session::state::scan::ScanOnShow;
-use crate::session::state::scan_form::ScanForm;
-use crate::session::state::settings::DisplaySettings;
-use crate::session::state::setup::Setup;
-use crate::session::state::starts::Starts;
-use crate::session::state::stop::BranchStop;
-use crate::session::state::uncertainty::Uncertainty;
-use crate::session::state::waiting::Waiting;
+use crate::scene::{Arrangement, Layer, Request, ScaledMachine, Scene, Setting, Topic};
+use crate::session::settings::DisplaySettings;
+use crate::session::{
+    Answers, Bookmarks, Context, Effect, History, Instruction, Key, Keymap, Notice, Overlay, Pane,
+    Plot, Row, ScanForm, ScanOnShow, SessionCaption, Setup, StepSizes, Uncertainty,
+};
 
 /// Maximum number of harmonics: more would cost more than the picture can show.
 pub const MOST_HARMONICS: usize = 63;
@@ -98,12 +84,12 @@ pub struct Session {
     pub scene: Arc<Scene>,
     /// The present motion: parameters, start, end time, method and tolerance.
     pub problem: Problem,
-    /// Starts of the other motions on show.
-    pub others: Starts,
+    /// Starts of the other motions on show, the oldest first.
+    pub others: Vec<State>,
     /// The setting of the machine; `None` if the scene has no machine.
     pub setting: Option<Setting>,
-    /// The machine with these numbers, if numbers other than the speed of its belt may differ from its file.
-    pub rebuilt: Option<Arc<Machine>>,
+    /// The machine of the scene with that setting.
+    pub scaled: Option<Box<ScaledMachine>>,
     /// Half widths of the parameters, held numbers, and the disturbance.
     pub doubt: Uncertainty,
     /// Step sizes of the parameter pane.
@@ -180,12 +166,13 @@ pub struct Session {
 impl Session {
     /// A session that has just opened a scene, with this keymap.
     pub fn opened(scene: Arc<Scene>, size: Size, keymap: Arc<Keymap>) -> Self {
+        let Setup { problem, others, setting, doubt } = Setup::of_scene(&scene);
         Session {
-            problem: scene.problem,
-            others: Starts::default(),
-            setting: Setup::of_scene(&scene).setting,
-            rebuilt: None,
-            doubt: Setup::of_scene(&scene).doubt,
+            problem,
+            others,
+            setting,
+            scaled: scene.machine.clone(),
+            doubt,
             steps: StepSizes::of_scene(&scene),
             selected: Row::FIRST,
             unfolded: false,
@@ -234,16 +221,16 @@ impl Session {
     /// The value of a number in a setup, 0 if there is none. One of the machine that is not set is that of its file;
     /// or, where others determine it, that of the present machine.
     pub fn value_in(&self, setup: &Setup, knob: Knob) -> f64 {
-        let present = self.rebuilt.as_deref().filter(|_| setup.setting == self.setting);
-        let machine = || present.or_else(|| Some(&self.scene.machine.as_ref()?.machine));
-        let of_machine = || knob.of_belt(&machine()?.belt);
+        let present = setup.setting == self.setting;
+        let scaled = if present { &self.scaled } else { &self.scene.machine };
+        let of_machine = || knob.of_belt(&scaled.as_ref()?.machine.belt);
         setup.get(knob).or_else(of_machine).unwrap_or(0.0)
     }
 
     /// The present setup: the motions on show, the setting of the machine, and what is not known exactly.
     pub fn setup(&self) -> Setup {
-        let Session { problem, others, setting, doubt, .. } = *self;
-        Setup { problem, others, setting, doubt }
+        let Session { problem, setting, doubt, .. } = *self;
+        Setup { problem, others: self.others.clone(), setting, doubt }
     }
 
     /// Whether there is such a number: one of a machine or its friction law is that of the scene's machine.
@@ -271,5 +258,116 @@ impl Session {
             Row::Method | Row::Tolerance => true,
         };
         Row::all().filter(stands).collect()
+    }
+}
+
+/// Largest count before a key.
+pub const LARGEST_COUNT: u32 = 9999;
+
+/// Input that the next key completes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pending {
+    /// The next key is another digit, or the key to press this many times. Zero means no digit yet.
+    Count(u32),
+    /// The letter of a mark.
+    Letter(Letter),
+}
+
+impl Pending {
+    /// The context of the next key.
+    pub fn context(self) -> Context {
+        match self {
+            Pending::Count(_) => Context::Count,
+            Pending::Letter(_) => Context::Letter,
+        }
+    }
+}
+
+/// The purpose of a letter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Letter {
+    /// The mark to set.
+    Mark,
+    /// The mark to go to.
+    GoTo,
+}
+
+impl Letter {
+    /// The question for the footer.
+    pub fn question(self) -> &'static str {
+        match self {
+            Letter::Mark => "mark this point by which letter? a to z",
+            Letter::GoTo => "go to which mark? a to z; the same key: the point left last",
+        }
+    }
+}
+
+/// The pace at which the motion is played.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// Seconds per period of the free oscillation.
+    Period(f64),
+    /// The real pace of the machine; only a scene of a machine has it.
+    Real,
+}
+
+/// All paces other than that of a machine.
+pub(crate) const PACES: [Pace; 4] =
+    [Pace::Period(8.0), Pace::Period(4.0), Pace::Period(2.0), Pace::Period(1.0)];
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Playback {
+    /// Dimensionless time of the head; `None` before the first playback.
+    pub at: Option<f64>,
+    /// Whether the head advances as time passes.
+    pub playing: bool,
+    pub pace: Pace,
+}
+
+impl Default for Playback {
+    fn default() -> Self {
+        Playback { at: None, playing: false, pace: PACES[1] }
+    }
+}
+
+/// A session that was interrupted.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Kept {
+    pub path: PathBuf,
+    /// How long ago it ended, in words.
+    pub when: String,
+    /// A summary of the session in one line.
+    pub what: String,
+}
+
+/// A press that waits, and the request whose answer it needs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Waiting {
+    pub step: Instruction,
+    /// The request that must be answered first.
+    pub request: Request,
+}
+
+/// A point of a branch where a walk can stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BranchStop {
+    /// Index of the variant whose branch this is, if a diagram shows several.
+    pub variant: usize,
+    /// Value of the branch's parameter.
+    pub value: f64,
+    /// The cycle there; `None` where its amplitude is infinite.
+    pub cycle: Option<Cycle>,
+    /// The kind of special point, if it is one.
+    pub special: Option<SpecialKind>,
+}
+
+impl BranchStop {
+    pub fn on(variant: usize, point: &BranchPoint) -> Self {
+        BranchStop { variant, value: point.value, cycle: Some(point.cycle), special: None }
+    }
+
+    /// A special point of the branch of a variant.
+    pub fn at(variant: usize, point: &Special) -> Self {
+        BranchStop { variant, value: point.value, cycle: point.cycle, special: Some(point.kind) }
     }
 }

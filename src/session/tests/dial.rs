@@ -5,7 +5,7 @@ use crate::accuracy::reference::Reference;
 use crate::flow::{Limits, Method, Reason};
 use crate::question::{NoAnswer, answer};
 use crate::scene::{Answer, Request, TOPICS, Topic, find};
-use crate::session::read::wants::NoErrorReason;
+use crate::session::NoErrorReason;
 use crate::session::{AnswerState, Msg, update};
 
 #[test]

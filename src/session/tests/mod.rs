@@ -6,9 +6,7 @@ mod belt;
 mod dependence;
 mod dial;
 mod screen_setup;
-mod uncertainty;
 
-mod drafts;
 mod entries;
 mod facts;
 pub(crate) mod fitting;

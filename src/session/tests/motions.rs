@@ -38,14 +38,14 @@ fn enter_in_the_phase_plane_adds_a_motion_and_of_too_many_the_oldest_gives_way()
     let mut trial = Trial::open("supercritical");
     let first = trial.session.problem.initial;
     trial.press("<tab><up><enter>");
-    assert_eq!(trial.session.others.all(), [first]);
+    assert_eq!(trial.session.others, [first]);
     trial.press("<right><enter> <right><enter> <right><enter> <right><enter> <right><enter>");
     trial.press("<right><enter>");
     assert_eq!((trial.session.problems().len(), trial.notice()), (8, ""));
     trial.press("<right><enter>");
     assert_eq!(trial.notice(), "8 motions at most: the oldest gave way");
     assert_eq!(trial.session.problems().len(), 8);
-    assert!(!trial.session.others.all().contains(&first));
+    assert!(!trial.session.others.contains(&first));
     trial.press("c");
     assert_eq!((trial.session.problems().len(), trial.session.number(0)), (1, None));
     trial.press("d");
@@ -72,7 +72,7 @@ fn a_saved_session_keeps_motions_their_marks_and_their_history() {
     let mut opened = reopened(&trial.session);
     let text = save::text(&opened).unwrap();
     assert_eq!(opened.problems().len(), 2);
-    assert_eq!(opened.marks.places[&'a'].setup.others.all().len(), 2);
+    assert_eq!(opened.marks.places[&'a'].setup.others.len(), 2);
 
     let one = Trial::open("supercritical");
     assert!(!save::text(&one.session).unwrap().contains("beside"), "as files were before");

@@ -222,7 +222,7 @@ fn a_picker_lists_first_what_is_called_so() {
 #[test]
 fn every_other_word_is_of_something_that_is_listed() {
     let all: Vec<&str> = found("").into_iter().map(|(_, name)| name).collect();
-    for (name, _) in crate::session::read::search::ALIASES {
+    for (name, _) in crate::session::read::lists::ALIASES {
         assert!(all.contains(name), "{name}");
     }
 }

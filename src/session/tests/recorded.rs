@@ -11,10 +11,10 @@ use crate::model::Knob;
 use crate::numerics::elementary::powi;
 use crate::scene::machine::library::machines;
 use crate::scene::{ScaledMachine, Scene, library};
+use crate::session::Answers;
 use crate::session::opening::opening;
 use crate::session::replay::{Recorder, text};
 use crate::session::settings::{COLORS, DisplaySettings, GLYPHS, THEMES};
-use crate::session::state::Answers;
 use crate::session::{Effect, Msg, Notice, Session, Size, save};
 
 /// A session as options of the command line start it, with its recording.

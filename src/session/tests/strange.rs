@@ -116,16 +116,4 @@ proptest! {
         there.session.size = here.session.size;
         prop_assert!(here.session == there.session);
     }
-
-    #[test]
-    fn any_text_can_be_pasted(text in any::<String>(), keys in prop::collection::vec(any_key(), 0..5)) {
-        let mut trial = Trial::open("plain");
-        for key in keys {
-            trial.give(Msg::Key(key));
-        }
-        let before = trial.session.problem;
-        trial.give(Msg::Paste(text));
-        check(&trial.session);
-        prop_assert_eq!(trial.session.problem, before);
-    }
 }

@@ -2,8 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::scene::LAYERS;
-use crate::session::keymap::Keymap;
 use crate::session::state::context::chains;
 use crate::session::{Command, Context, Key, commands};
 
@@ -40,22 +38,6 @@ fn every_command_has_a_name_of_its_own_a_key_and_one_line_of_explanation() {
         assert!(of_layer || keys.iter().any(|(_, keys)| !keys.is_empty()), "{name} has no key");
         assert!(doc.len() > 4 && doc.len() <= 72, "{name}: {doc}");
         assert!(doc.starts_with(char::is_uppercase) && !doc.ends_with('.'), "{name}: {doc}");
-    }
-}
-
-#[test]
-fn every_default_key_does_in_the_keymap_what_its_row_says() {
-    let keymap = Keymap::default();
-    for (context, key, name) in bindings() {
-        assert_eq!(keymap.command(&[context], key).map(|command| command.name), Some(name));
-    }
-}
-
-#[test]
-fn every_layer_has_a_command() {
-    for layer in &LAYERS {
-        let name = format!("toggle-{}", layer.name);
-        assert!(commands().any(|command| command.name == name), "{name}");
     }
 }
 

@@ -1,32 +1,32 @@
 //! The machine on show: the speed of its belt, its other numbers, and whether the parameters on show are its
-//! own.
+//! own; and the questions about certainty, for all parameters within their half widths and all bounded disturbances.
 //!
 //! A speed of the belt determines all of D, D2, D3 and r. Changing one of these by hand leaves the belt: the
 //! parameters then belong to no belt speed until a speed is set again.
 
+use std::sync::Arc;
+
 use crate::flow::Problem;
 use crate::model::{Belt, Body, Knob, Parameters, State};
+use crate::question;
 use crate::question::Whole;
 use crate::question::whole::{Course, WholeCycles};
 use crate::scene::machine::unlikely::unlikely;
-use crate::scene::{Answer, Layer, Machine, Running, Setting, Topic};
-use crate::session::state::uncertainty::{ON_A_MACHINE, symbol_of};
-use crate::session::state::{Session, Setup, Uncertainty};
+use crate::scene::{Answer, Layer, Request, Running, ScaledMachine, Setting, Topic, View};
+use crate::session::state::setup::{ON_A_MACHINE, symbol_of};
+use crate::session::{Session, Setup, Uncertainty};
 
 impl Session {
     /// The machine of the scene with its present setting.
     pub fn running(&self) -> Option<Running<'_>> {
-        let scaled = self.scene.machine.as_ref()?;
-        let machine = self.rebuilt.as_deref().unwrap_or(&scaled.machine);
-        let present = self.setting.and_then(|it| Running::at(machine, it.speed).ok());
-        Some(present.unwrap_or_else(|| scaled.running()))
+        self.scaled.as_deref().map(ScaledMachine::running)
     }
 
     /// One line about a number of the machine that is unlikely in its unit; `None` if there is none.
     pub fn unlikely_number(&self) -> Option<String> {
-        let Running { machine, speed, .. } = self.running()?;
-        let belt = Belt { belt_speed: speed, ..machine.belt.clone() };
-        unlikely(&Body::Belt(Box::new(belt)), (machine.displacement, machine.velocity))
+        let Running { machine, .. } = self.running()?;
+        let body = Body::Belt(Box::new(machine.belt.clone()));
+        unlikely(&body, (machine.displacement, machine.velocity))
     }
 
     /// Whether the parameters on show are those of the machine at the speed of its belt; `None` without a
@@ -39,11 +39,12 @@ impl Session {
     /// correspond to the dampers and the guide, but D2 corresponds to no part.
     pub fn machine(&self) -> Option<Belt> {
         let running = self.running()?;
-        let mut belt = Belt { belt_speed: running.speed, ..running.machine.belt.clone() };
+        let mut belt = running.machine.belt.clone();
         if running.carries(&self.problem.parameters) {
             return Some(belt);
         }
-        let own = Session::of_parameters(&running.reduced.parameters);
+        let at_rest = State { q: 0.0, v: 0.0 };
+        let own = |symbol: Knob| symbol.get(&running.reduced.parameters, &at_rest);
         if own(Knob::D2) != self.value(Knob::D2) {
             return None;
         }
@@ -80,15 +81,9 @@ impl Session {
         Some(whole)
     }
 
-    /// A function that reads these parameters.
-    fn of_parameters(parameters: &Parameters) -> impl Fn(Knob) -> f64 {
-        let parameters = *parameters;
-        move |symbol| symbol.get(&parameters, &State { q: 0.0, v: 0.0 })
-    }
-
     /// The uncertainty of `setup` with another half width of a parameter, or tolerance of a number of the
     /// machine, in SI units. Fails with one line if no parameter corresponds to that number.
-    pub(in crate::session) fn with_tolerance(
+    pub(crate) fn with_tolerance(
         &self,
         setup: &Setup,
         knob: Knob,
@@ -102,14 +97,13 @@ impl Session {
                 "{knob} has no tolerance here; R, d1 and d3 have, all of them in a machine's file"
             )
         })?;
-        let machine = self.set_machine(setup)?;
-        let running = Running::at(&machine, machine.belt.belt_speed)?;
-        setup.doubt.with_half_width(symbol, half_width / running.scale(symbol))
+        let scale = self.machine_of(setup)?.running().scale(symbol);
+        setup.doubt.with_half_width(symbol, half_width / scale)
     }
 
     /// The unit of r and w, in newtons. Fails with one line if there is no machine and no record with a known
     /// mass.
-    pub(in crate::session) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
+    pub(crate) fn unit_of_force(&self, setup: &Setup) -> Result<f64, String> {
         let fitted = self.fitted().and_then(|fitted| fitted.fit.units());
         if let Some(units) = fitted {
             let known = Some(units.force).filter(|force| force.is_finite());
@@ -117,27 +111,24 @@ impl Session {
                 "no mass is known: :fit FILE mass=2 kg, or stiffness=800 N/m".to_owned()
             });
         }
-        let machine = self.set_machine(setup)?;
-        Ok(Running::at(&machine, machine.belt.belt_speed)?.reduced.units.force)
+        Ok(self.machine_of(setup)?.reduced.units.force)
     }
 
-    /// The machine of the scene with the setting of `setup`. Fails with one line if the scene has no machine.
-    fn set_machine(&self, setup: &Setup) -> Result<Machine, String> {
+    /// The machine of the scene with the setting of `setup`. Fails with one line if the scene has no machine, or is
+    /// none with that setting.
+    fn machine_of(&self, setup: &Setup) -> Result<ScaledMachine, String> {
         let scaled = self.scene.machine.as_ref().ok_or("the scene has no machine")?;
-        let own = || Ok(scaled.machine.clone());
-        setup.setting.map_or_else(own, |setting| setting.on(&scaled.machine))
+        match &setup.setting {
+            Some(setting) => setting.on(&scaled.machine),
+            None => Ok(ScaledMachine::clone(scaled)),
+        }
     }
 
     /// The setup with another value of a number; one of the machine leaves the start in metres and the
     /// disturbance in newtons. Fails with one line if the number is outside its range, or there is no machine.
-    pub(in crate::session) fn with(
-        &self,
-        setup: &Setup,
-        knob: Knob,
-        value: f64,
-    ) -> Result<Setup, String> {
+    pub(crate) fn with(&self, setup: &Setup, knob: Knob, value: f64) -> Result<Setup, String> {
         let value = knob.check(value)?;
-        let mut changed = *setup;
+        let mut changed = setup.clone();
         match knob {
             Knob::Disturbance => changed.doubt.disturbance = value,
             _ if knob.is_of_machine() => return self.rebuilt(setup, knob, value),
@@ -147,17 +138,40 @@ impl Session {
     }
 
     fn rebuilt(&self, setup: &Setup, knob: Knob, value: f64) -> Result<Setup, String> {
-        let was = self.set_machine(setup)?;
-        let setting = setup.setting.unwrap_or(Setting::of_speed(was.belt.belt_speed));
-        let setting = setting.with(knob, value);
-        let is = self.set_machine(&Setup { setting: Some(setting), ..*setup })?;
-        let running = Running::at(&was, was.belt.belt_speed)?;
-        let other = Running::at(&is, setting.speed)?;
-        let Setup { problem, others, doubt, .. } = *setup;
-        let brought = |initial| running.brought_to(&other, Problem { initial, ..problem }).initial;
-        let others = others.map(brought);
-        let problem = running.brought_to(&other, problem);
-        let doubt = doubt.brought_to(&running, &other);
-        Ok(Setup { problem, others, setting: Some(setting), doubt })
+        let was = self.machine_of(setup)?;
+        let setting = setup.setting.unwrap_or(Setting::of_speed(was.machine.belt.belt_speed));
+        let mut setup = Setup { setting: Some(setting.with(knob, value)), ..setup.clone() };
+        let is = self.machine_of(&setup)?;
+        let (from, to) = (was.running(), is.running());
+        let Setup { problem, others, doubt, .. } = &mut setup;
+        for start in others {
+            *start = from.brought_to(&to, Problem { initial: *start, ..*problem }).initial;
+        }
+        *problem = from.brought_to(&to, *problem);
+        *doubt = doubt.brought_to(&from, &to);
+        Ok(setup)
+    }
+
+    /// Whether a plot states guaranteed margins: something is uncertain, or a layer asks for them.
+    pub fn tells_certain(&self, plot: usize) -> bool {
+        let layers = [Layer::Safe, Layer::Lost].iter().any(|it| self.layers.contains(it));
+        let phase = self.plots.get(plot).is_some_and(|plot| plot.view == View::Phase);
+        phase && (layers || !self.doubt.is_certain())
+    }
+
+    /// The question for the starts that are certainly safe or lost at these parameters, by the model that is
+    /// drawn. `None` if something uncertain corresponds to no part of the machine.
+    pub(crate) fn zones_request(&self, parameters: &Parameters) -> Option<Request> {
+        let running = self.running().filter(|_| self.draws_whole());
+        Some(match running.zip(self.machine()) {
+            Some((running, belt)) => Request::MachineZones(question::machine_zones::Inputs {
+                tolerances: self.doubt.on_machine(&running, &belt).ok()?,
+                belt: Arc::new(belt),
+            }),
+            None => Request::Zones(question::zones::Inputs {
+                known: self.doubt.known(parameters),
+                disturbance: self.doubt.disturbance,
+            }),
+        })
     }
 }

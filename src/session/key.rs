@@ -67,27 +67,6 @@ const SPECIAL: [(char, &str); 3] = [('<', "lt"), ('>', "gt"), ('#', "hash")];
 /// Number of the last function key; the first one is 1.
 const LAST_F: u8 = 12;
 
-/// A text that names no key.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NoKey {
-    /// The text, without its angle brackets.
-    pub text: String,
-    /// The most similar name of a key.
-    pub nearest: Option<&'static str>,
-}
-
-impl fmt::Display for NoKey {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "unknown key <{}>", self.text)?;
-        match self.nearest {
-            Some(name) => write!(out, "; did you mean <{name}>?"),
-            None => write!(out, "; a key is a character or a name such as <esc>, <C-r> or <S-tab>"),
-        }
-    }
-}
-
-impl std::error::Error for NoKey {}
-
 impl Key {
     /// A key without modifiers.
     pub const fn plain(code: Code) -> Self {
@@ -125,8 +104,8 @@ impl Key {
         }
     }
 
-    /// Reads the text between angle brackets. Fails with [`NoKey`], which has the most similar name.
-    pub fn named(text: &str) -> Result<Self, NoKey> {
+    /// Reads the text between angle brackets. Fails with one line, which has the most similar name.
+    pub fn named(text: &str) -> Result<Self, String> {
         let (mut control, mut alt, mut shift) = (false, false, false);
         let mut rest = text;
         while let Some((modifier, after)) = rest.split_at_checked(2).filter(|(_, r)| !r.is_empty())
@@ -139,9 +118,21 @@ impl Key {
             }
             rest = after;
         }
-        let refused = || NoKey { text: text.to_owned(), nearest: most_similar(rest, names()) };
+        let refused = || unknown(text, most_similar(rest, names()));
         let code = code_named(rest).ok_or_else(refused)?;
         Ok(Key::new(code, control, alt, shift))
+    }
+}
+
+/// One line about a text, without its angle brackets, that names no key.
+fn unknown(text: &str, nearest: Option<&str>) -> String {
+    match nearest {
+        Some(name) => format!("unknown key <{text}>; did you mean <{name}>?"),
+        None => {
+            format!(
+                "unknown key <{text}>; a key is a character or a name such as <esc>, <C-r> or <S-tab>"
+            )
+        }
     }
 }
 
@@ -210,10 +201,10 @@ impl fmt::Display for Key {
 }
 
 impl FromStr for Key {
-    type Err = NoKey;
+    type Err = String;
 
     /// Reads one key, with its angle brackets if it has a name.
-    fn from_str(text: &str) -> Result<Self, NoKey> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let mut chars = text.chars();
         match (chars.next(), chars.next()) {
             (Some(char), None) if !matches!(char, '<' | '#') && !char.is_whitespace() => {
@@ -221,14 +212,14 @@ impl FromStr for Key {
             }
             _ => match text.strip_prefix('<').and_then(|rest| rest.strip_suffix('>')) {
                 Some(name) => Key::named(name),
-                None => Err(NoKey { text: text.to_owned(), nearest: None }),
+                None => Err(unknown(text, None)),
             },
         }
     }
 }
 
 #[cfg(test)]
-pub(in crate::session) mod tests {
+pub(crate) mod tests {
     use proptest::prelude::*;
 
     use super::*;

@@ -11,7 +11,7 @@ use crate::numerics::elementary::hypot;
 use crate::question::fit::Measured;
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Answer, Axes, Layer, Point, Request, Span, Topic, View, Window};
-use crate::session::state::{Framing, ScanOnShow, Session};
+use crate::session::{Framing, ScanOnShow, Session};
 
 /// Width of a fitted window, relative to its content.
 const ROOM: f64 = 1.1;
@@ -42,7 +42,7 @@ const BELT: f64 = 2.0;
 const QUANTILE: f64 = 0.9;
 
 /// The window that shows the whole content of a plot; `None` if there is none yet.
-pub(in crate::session) fn fitted(session: &Session, index: usize) -> Option<Window> {
+pub(crate) fn fitted(session: &Session, index: usize) -> Option<Window> {
     match session.plots[index].view {
         View::Phase => phase(session, index),
         View::Diagram => diagram(session, index),
@@ -70,12 +70,17 @@ pub(in crate::session) fn fitted(session: &Session, index: usize) -> Option<Wind
     }
 }
 
+/// A span with room at both ends.
+fn roomy(span: Span) -> Span {
+    span.scaled(span.center(), ROOM)
+}
+
 fn extent([left, right, low, high]: Extent) -> Option<Window> {
     Some(Window { x: Span::new(left, right).ok()?, y: Span::new(low, high).ok()? })
 }
 
 /// Whether something that a plot shows has yet to be computed.
-pub(in crate::session) fn is_pending(session: &Session, plot: usize) -> bool {
+pub(crate) fn is_pending(session: &Session, plot: usize) -> bool {
     first_open(session, plot).is_some()
 }
 
@@ -85,7 +90,7 @@ fn first_open(session: &Session, plot: usize) -> Option<Request> {
 }
 
 /// The question whose answer the window of a plot waits for, if the plot is on show and is being fitted.
-pub(in crate::session) fn awaited(session: &Session, plot: usize) -> Option<Request> {
+pub(crate) fn awaited(session: &Session, plot: usize) -> Option<Request> {
     let fitting = session.plots.get(plot).is_some_and(|plot| plot.framing == Framing::Fitting);
     let on_show = session.on_show().contains(&plot);
     first_open(session, plot).filter(|_| fitting && on_show)
@@ -105,7 +110,7 @@ fn trade(session: &Session) -> Option<Window> {
     let places: Vec<_> = session.trade()?.rows.iter().filter_map(TradePoint::place).collect();
     let x = Span::covering(places.iter().map(|place| place.0))?;
     let y = Span::covering(places.iter().map(|place| place.1))?;
-    Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })
+    Some(Window { x: roomy(x), y: roomy(y) })
 }
 
 /// The motions, the cycles and the sticking sets.
@@ -156,7 +161,7 @@ fn phase(session: &Session, plot: usize) -> Option<Window> {
     } else {
         y
     };
-    Some(Window { x: x.scaled(x.center(), ROOM), y: y.scaled(y.center(), ROOM) })
+    Some(Window { x: roomy(x), y: roomy(y) })
 }
 
 /// The positions of the mass.
@@ -231,7 +236,7 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     values.extend(record.iter().filter_map(near));
     let y = Span::covering(values)?;
     let x = Span::covering(record.iter().map(|at| at.tau).chain([0.0, end]))?;
-    Some(Window { x, y: y.scaled(y.center(), ROOM) })
+    Some(Window { x, y: roomy(y) })
 }
 
 /// All lines of the energy ledger.
@@ -262,7 +267,7 @@ fn energy_rate(session: &Session) -> Option<Window> {
     let rate = |v: f64| lyapunov::energy_rate(&parameters, State { q: 0.0, v });
     let parts = (0..=RATES).map(|part| rate(x.at(f64::from(part) / f64::from(RATES))));
     let y = Span::covering(parts.chain([0.0]))?;
-    Some(Window { x, y: y.scaled(y.center(), ROOM) })
+    Some(Window { x, y: roomy(y) })
 }
 
 /// The unit circle and both eigenvalues.

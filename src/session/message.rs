@@ -1,15 +1,11 @@
 //! The messages that a session takes in.
 
-pub mod key;
-pub mod pointer;
-
 use std::path::PathBuf;
 
 use crate::model::Knob;
 use crate::question::NoAnswer;
-use crate::scene::{Answer, Answered, Request};
-use crate::session::message::key::Key;
-use crate::session::message::pointer::Pointed;
+use crate::scene::{Answer, Answered, Point, Request};
+use crate::session::Key;
 
 /// A message: anything that can happen to a session.
 #[derive(Clone, Debug)]
@@ -82,4 +78,32 @@ pub struct Notice {
     /// Whether it reports a refusal or a failure.
     pub error: bool,
     pub text: String,
+}
+
+/// What the mouse did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gesture {
+    /// The left button was pressed.
+    Click,
+    /// The wheel turned away from the user.
+    Nearer,
+    /// The wheel turned towards the user.
+    Farther,
+}
+
+/// The mouse on a target; the outer rings determine it from the cell of the screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pointed {
+    /// What the mouse did.
+    pub gesture: Gesture,
+    pub place: PointerTarget,
+}
+
+/// A part of the screen that reacts to the mouse.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PointerTarget {
+    /// A row of the parameter pane, counted from 0.
+    Row(usize),
+    /// A point of a plot, in its world coordinates; the plot by its index among those of the session.
+    Plot(usize, Point),
 }

@@ -1,0 +1,157 @@
+//! Commands of the motions: starting them beside each other, such as one on each side of the border of the basin,
+//! removing them, and playing the present one.
+
+use std::f64::consts::TAU;
+
+use crate::model::State;
+use crate::numerics::decimal::shortest;
+use crate::portrait::Cycles;
+use crate::scene::{Layer, Topic};
+use crate::session::act::inform;
+use crate::session::act::parameters::put;
+use crate::session::state::rows::decimal_sum;
+use crate::session::state::session::PACES;
+use crate::session::{Done, MOST_MOTIONS, Pace, Session, Setup};
+
+/// Clearance of a start relative to that of the border: near enough to stay close for a while, far enough to be
+/// distinguished.
+pub const INSIDE: f64 = 0.95;
+
+/// Like [`INSIDE`], on the other side.
+pub const OUTSIDE: f64 = 1.05;
+
+/// Why a motion is not removed.
+const ONLY: &str = "the only motion cannot be removed";
+
+/// Starts a motion beside the present ones; if there are too many, the oldest is removed.
+pub(crate) fn start(session: &mut Session, initial: State) {
+    let before = session.problem.initial;
+    if initial == before {
+        return;
+    }
+    let mut setup = session.setup();
+    setup.others.retain(|start| ![initial, before].contains(start));
+    setup.others.push(before);
+    if setup.others.len() == MOST_MOTIONS {
+        setup.others.remove(0);
+        inform(session, format!("{MOST_MOTIONS} motions at most: the oldest gave way"));
+    }
+    setup.problem.initial = initial;
+    put(session, setup);
+}
+
+/// Removes the newest motion; the previous one becomes the present one.
+pub fn drop_newest(session: &mut Session) -> Done {
+    let mut setup = session.setup();
+    let State { q, v } = setup.others.pop().ok_or(ONLY)?;
+    setup.problem.initial = State { q, v };
+    let count = setup.others.len() + 1;
+    put(session, setup);
+    let motions = if count == 1 { "motion" } else { "motions" };
+    let place = format!("q0 = {}, v0 = {}", shortest(q), shortest(v));
+    inform(session, format!("{count} {motions} on show; {place}"));
+    Ok(())
+}
+
+/// Removes all motions but the newest.
+pub fn drop_others(session: &mut Session) -> Done {
+    let differs = put(session, Setup { others: Vec::new(), ..session.setup() });
+    if differs { Ok(()) } else { Err(ONLY.to_owned()) }
+}
+
+/// Starts a motion at rest beside a turning point of the border: the right one of the smallest unstable cycle,
+/// or that of the separatrix.
+pub fn beside_edge(session: &mut Session, factor: f64) -> Done {
+    let q = beside(session, factor)?;
+    start(session, State { q, v: 0.0 });
+    Ok(())
+}
+
+/// The clearance of the border from the sticking set, and the side (1 or -1) of its turning point.
+fn edge(found: &Cycles) -> Option<(f64, f64)> {
+    if !found.border.parts_without_cycle() {
+        return found.cycles.iter().find(|cycle| !cycle.stable).map(|cycle| (cycle.clearance, 1.0));
+    }
+    // Motions escape to the side where D2 feeds them: for D2 > 0 to the left, from a turning point on the
+    // right.
+    let displacement = found.picture.as_ref()?.margin.displacement?;
+    Some(((displacement - found.parameters.r).max(0.0), 1.0_f64.copysign(found.parameters.d2)))
+}
+
+fn beside(session: &Session, factor: f64) -> Result<f64, String> {
+    if let Some(why) = session.failure(Topic::Cycles, session.plot) {
+        return Err(format!("the cycles are not known: {why}"));
+    }
+    let edge = session.cycles().and_then(edge);
+    let (clearance, side) =
+        edge.ok_or("there is no border to start beside: neither cycle nor separatrix")?;
+    let r = session.problem.parameters.r;
+    let outside = factor > 1.0;
+    let keeps_side = |q: &f64| if outside { q - r > clearance } else { q - r < clearance };
+    // Three digits are enough and easy to read, unless the border is very close to the sticking set.
+    let short = format!("{:.2e}", factor * clearance).parse().unwrap_or(clearance);
+    let candidates = [decimal_sum(r, short), r + factor * clearance];
+    // A border can pass closer to r than floating-point numbers resolve: only rest is then inside of it.
+    let last = if outside { (r + clearance).next_up() } else { r };
+    Ok(side * candidates.into_iter().find(keeps_side).unwrap_or(last))
+}
+
+const NO_MOTION: &str = "there is no motion on show to play";
+
+/// Plays or pauses the motion; at its end, starts again.
+pub fn play(session: &mut Session) -> Done {
+    let shown = session.shows(Layer::Trajectory) || session.shows(Layer::Mass);
+    let given_up = session.failure(Topic::Trajectory, session.plot).is_some();
+    if !shown || given_up || session.trajectory().is_none() {
+        return Err(NO_MOTION.to_owned());
+    }
+    let at_end = session.playback.at.is_some_and(|at| at >= session.last_moment());
+    session.playback.playing = !session.playback.playing;
+    if session.playback.at.is_none() || (at_end && session.playback.playing) {
+        session.playback.at = Some(0.0);
+    }
+    let playing = session.playback.playing;
+    let text = if playing { format!("playing: {}", session.pace()) } else { "held".to_owned() };
+    inform(session, text);
+    Ok(())
+}
+
+/// Number of steps of a key per period.
+const STEPS: f64 = 40.0;
+
+/// Moves the head forward or back by some steps, and stops playback.
+pub fn step(session: &mut Session, steps: f64) -> Done {
+    session.trajectory().ok_or(NO_MOTION)?;
+    session.playback.playing = false;
+    session.advance(steps * TAU / STEPS);
+    Ok(())
+}
+
+/// Selects the next faster pace, and the slowest after the fastest. The real pace exists only for a machine.
+pub fn pace(session: &mut Session) {
+    let real = session.scene.machine.is_some().then_some(Pace::Real);
+    let mut paces: Vec<Pace> = PACES.into_iter().chain(real).collect();
+    paces.sort_by(|one, other| session.rate(*one).total_cmp(&session.rate(*other)));
+    let now = paces.iter().position(|pace| *pace == session.playback.pace);
+    session.playback.pace = now.and_then(|now| paces.get(now + 1)).copied().unwrap_or(paces[0]);
+    inform(session, format!("pace: {}", session.pace()));
+}
+
+impl Session {
+    /// Advances the head with time; it stops at the end.
+    pub(crate) fn elapse(&mut self, seconds: f64) {
+        if self.playback.playing && seconds > 0.0 {
+            self.advance(seconds * self.rate(self.playback.pace));
+        }
+    }
+
+    /// Moves the head by a dimensionless time, within the motion.
+    pub(crate) fn advance(&mut self, by: f64) {
+        let end = self.last_moment();
+        let at = (self.playback.at.unwrap_or(0.0) + by).clamp(0.0, end.max(0.0));
+        self.playback.at = Some(at);
+        if at >= end {
+            self.playback.playing = false;
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! The last answer on each topic, named after its content; and the fit of the record on show, of all numbers or of the
+//! others while some are held by hand.
+
+use crate::accuracy::harmonic_error::HarmonicBalance;
+use crate::accuracy::reference::{Deviation, NoComparison, Reference};
+use crate::accuracy::trade::Trade;
+use crate::branch::chart::Chart;
+use crate::flow::Trajectory;
+use crate::model::Knob;
+use crate::model::belt::Units;
+use crate::paper::ClaimResult;
+use crate::portrait::{Cycles, ReturnMap};
+use crate::proof::Proof;
+use crate::question;
+use crate::question::fit::Unsure;
+use crate::question::speeds::Speeds;
+use crate::question::zones::Zones;
+use crate::question::{Borders, Fit, Fitted, NoAnswer};
+use crate::scene::{Answer, Axes, Request, Topic};
+use crate::session::{AnswerState, Session, Uncertainty};
+
+/// Why a motion has no measured error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoErrorReason {
+    /// Its reference takes too long.
+    TighterGaveUp,
+    /// The motion itself was not computed to its end.
+    GaveUp,
+    /// Only one of the motion and its reference escapes.
+    OtherFate,
+}
+
+macro_rules! last_answers {
+    (
+        in_use { $($name:ident: $topic:ident => $found:ty,)* }
+        of_any_plot { $($of_any:ident: $its_topic:ident => $of_it:ty,)* }
+    ) => {
+        impl Session {
+            $(
+                /// The last answer on this topic for the plot in use, stale or not.
+                pub fn $name(&self) -> Option<&$found> {
+                    let Answer::$topic(found) = self.answer(Topic::$topic, self.plot)? else {
+                        return None;
+                    };
+                    Some(found)
+                }
+            )*
+            $(
+                /// The last answer on this topic for a plot, stale or not.
+                pub fn $of_any(&self, plot: usize) -> Option<&$of_it> {
+                    let Answer::$its_topic(found) = self.answer(Topic::$its_topic, plot)? else {
+                        return None;
+                    };
+                    Some(found)
+                }
+            )*
+        }
+    };
+}
+
+last_answers! {
+    in_use {
+        trajectory: Trajectory => Trajectory,
+        cycles: Cycles => Cycles,
+        balance: Balance => HarmonicBalance,
+        zones: Zones => Zones,
+        trade: Trade => Trade,
+    }
+    of_any_plot {
+        borders: Capture => Borders,
+        return_map: ReturnMap => ReturnMap,
+        speeds: Speeds => Speeds,
+    }
+}
+
+impl Session {
+    /// The fit of the record on show with the held numbers; until it is there, the most similar one.
+    pub fn fitted(&self) -> Option<&Fitted> {
+        // With the distribution of the margin once that is there.
+        let held = self.refit(true).filter(|drawn| drawn.is_fresh()).or_else(|| self.refit(false));
+        let held = match held.and_then(AnswerState::answer) {
+            Some(Answer::Refit(fit)) => fit.found().ok(),
+            _ => None,
+        };
+        held.or_else(|| self.fit_of_all()?.found().ok())
+    }
+
+    /// The fit only if the distribution of its margin is that for the held numbers and for what is unsure.
+    pub fn drawn(&self) -> Option<&Fitted> {
+        self.fitted().filter(|_| self.refit(true).is_none_or(AnswerState::is_fresh))
+    }
+
+    /// The fit only if it is up to date with the held numbers.
+    pub(crate) fn followed(&self) -> Option<&Fitted> {
+        self.fitted().filter(|_| self.refit(false).is_none_or(AnswerState::is_fresh))
+    }
+
+    /// The state of the fit with the held numbers, if `drawn` with the distribution of the margin.
+    fn refit(&self, drawn: bool) -> Option<AnswerState<'_>> {
+        self.refit_request(drawn).map(|request| self.answers.standing(&request))
+    }
+
+    /// The fit of all numbers; `None` until it is there.
+    fn fit_of_all(&self) -> Option<&Fit> {
+        let standing = self.standing(Topic::Fit, self.plot);
+        match standing.answer()? {
+            Answer::Fit(fit) if standing.is_fresh() => Some(fit),
+            _ => None,
+        }
+    }
+
+    /// The question for the fit with the held numbers, if `drawn` with the distribution of the margin; `None`
+    /// if nothing is held, and nothing unsure that a margin is drawn for.
+    pub(crate) fn refit_request(&self, drawn: bool) -> Option<Request> {
+        let held =
+            Knob::PARAMETERS.map(|symbol| self.doubt.holds(symbol).then(|| self.value(symbol)));
+        let asks = held.iter().any(Option::is_some) || (drawn && !self.doubt.is_certain());
+        let fit = self.fit_of_all().filter(|_| asks)?.clone();
+        let Uncertainty { half_widths, disturbance, .. } = self.doubt;
+        let drawn = drawn.then_some(Unsure { disturbance, half_widths });
+        Some(Request::Refit(question::refit::Inputs { fit, held, drawn }))
+    }
+
+    /// Whether the record on show is being fitted.
+    pub fn is_fitting(&self) -> bool {
+        let request = self.request(Topic::Fit, self.plot);
+        request.is_some_and(|request| self.is_open(&request))
+    }
+
+    /// The units of the machine or of the record on show.
+    pub fn units(&self) -> Option<Units> {
+        match self.running() {
+            Some(running) => Some(running.reduced.units),
+            None => self.fitted()?.fit.units(),
+        }
+    }
+
+    /// The state of the answer on this topic for the present problem, as a plot asks it.
+    pub fn standing(&self, topic: Topic, plot: usize) -> AnswerState<'_> {
+        let request = self.request(topic, plot);
+        request.map_or(AnswerState::None, |request| self.answers.standing(&request))
+    }
+
+    /// The answer on this topic for the present problem, as a plot asks it, stale or not.
+    pub fn answer(&self, topic: Topic, plot: usize) -> Option<&Answer> {
+        self.standing(topic, plot).answer()
+    }
+
+    /// Whether the answer on this topic is missing for the present problem.
+    pub fn is_stale(&self, topic: Topic, plot: usize) -> bool {
+        !self.standing(topic, plot).is_fresh()
+    }
+
+    /// Whether there are answers on this topic for all problems that a plot shows.
+    pub fn is_fresh(&self, topic: Topic, plot: usize) -> bool {
+        let mut asked = self.requests(topic, plot).into_iter();
+        asked.all(|(_, request)| self.answers.standing(&request).is_fresh())
+    }
+
+    /// Whether the answer to the draft of this question is there to be shown meanwhile.
+    pub fn is_refinement(&self, request: &Request) -> bool {
+        matches!(self.answers.standing(request), AnswerState::Draft(_))
+    }
+
+    /// Whether a question has neither an answer nor a failure.
+    pub fn is_open(&self, request: &Request) -> bool {
+        if request.topic() == Topic::Scan {
+            return self.scan_request().as_ref() == Some(request);
+        }
+        self.answers.is_open(request)
+    }
+
+    /// Whether something on show has yet to be computed.
+    pub fn is_busy(&self) -> bool {
+        self.wants().iter().any(|request| self.is_open(request))
+    }
+
+    /// Why there is no answer on this topic for the present problem.
+    pub fn failure(&self, topic: Topic, plot: usize) -> Option<&NoAnswer> {
+        self.answers.failure(&self.request(topic, plot)?)
+    }
+
+    /// The error of the motion on show, and its reference.
+    ///
+    /// `None` until both are computed, and if there is no error: [`Session::unmeasured`] then says why.
+    pub fn measured(&self) -> Option<(Deviation, &Reference)> {
+        self.comparison()?.ok()
+    }
+
+    /// Why the motion on show has no measured error; `None` while it may still get one.
+    pub fn unmeasured(&self) -> Option<NoErrorReason> {
+        self.comparison()?.err()
+    }
+
+    /// The comparison of the motion on show with its reference; `None` until both are computed.
+    fn comparison(&self) -> Option<Result<(Deviation, &Reference), NoErrorReason>> {
+        let stale = |topic| self.is_stale(topic, self.plot);
+        if !self.measures() || stale(Topic::Reference) {
+            return None;
+        }
+        let Answer::Reference(reference) = self.answer(Topic::Reference, self.plot)? else {
+            return None;
+        };
+        let Ok(reference) = reference else { return Some(Err(NoErrorReason::TighterGaveUp)) };
+        let motion = self.trajectory().filter(|_| !stale(Topic::Trajectory))?;
+        Some(match reference.compare(motion) {
+            Ok(deviation) => Ok((deviation, reference)),
+            Err(NoComparison::GaveUp(_)) => Err(NoErrorReason::GaveUp),
+            Err(NoComparison::OtherFate) => Err(NoErrorReason::OtherFate),
+        })
+    }
+
+    /// The proof about the cycles at the present parameters; `None` until it is there.
+    pub fn proof(&self) -> Option<&Proof> {
+        let Answer::Proof(found) = self.answer(Topic::Proof, self.plot)? else { return None };
+        Some(found).filter(|_| !self.is_stale(Topic::Proof, self.plot))
+    }
+
+    /// The examined claims of the paper; empty until they are there.
+    pub fn examined(&self) -> &[ClaimResult] {
+        match self.answer(Topic::Claims, self.plot) {
+            Some(Answer::Claims(examined)) => examined,
+            _ => &[],
+        }
+    }
+
+    /// The chart computed last over the two parameters of a plot, stale or not.
+    pub fn chart(&self, plot: usize) -> Option<&Chart> {
+        let Axes { abscissa, against, .. } = self.plots.get(plot)?.axes;
+        let Answer::Regimes(found) = self.answer(Topic::Regimes, plot)? else { return None };
+        Some(found).filter(|found| (found.plane.right, found.plane.up) == (abscissa, against))
+    }
+}

@@ -1,0 +1,354 @@
+//! Saved sessions: the complete state of a session as a TOML file.
+//!
+//! What the user made is saved: scene, motion, steps, plots, layers, marks, typed lines and the
+//! history. Answers are not saved, because they follow from the rest. The appearance of the screen belongs to
+//! the terminal, and the keys to the settings file. A field of `Session` that must survive the program has its
+//! place here.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
+
+use crate::flow::Problem;
+use crate::model::State;
+use crate::portrait::kicks::RandomKick;
+use crate::scene::{
+    Arrangement, Axes, Layer, MOST_PLOTS, Misread, PlotSetup, Point, Scene, Setting, View, Window,
+    find, misread,
+};
+use crate::session::act::history::{restore, snapshot};
+use crate::session::read::completion::difference;
+use crate::session::state::session::MOST_HARMONICS;
+use crate::session::{
+    Before, Bookmark, Bookmarks, Framing, History, Overlay, Pane, Plot, Row, ScreenSetup, Session,
+    Setup, Snapshot, StepSizes, Uncertainty,
+};
+
+/// The format that this program writes; it reads this and all earlier formats.
+const VERSION: u32 = 1;
+
+/// The file of a saved session.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedSession {
+    hopfscope: u32,
+    /// The selected row of the parameter pane, by its name.
+    selected: String,
+    /// The pane in focus: 0 for the parameters, then the plots.
+    focus: usize,
+    /// The plot in use, from 1.
+    plot: usize,
+    enlarged: bool,
+    unfolded: bool,
+    harmonics: usize,
+    #[serde(default)]
+    kicks: RandomKick,
+    /// Lines typed on the command line, the most recent last.
+    lines: Vec<String>,
+    present: Show,
+    plots: Vec<SavedPlot>,
+    /// The motions at marks.
+    #[serde(default)]
+    marks: BTreeMap<char, Problem>,
+    /// The settings of the machine at marks.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    belts: BTreeMap<char, Setting>,
+    /// The starts of the other motions at marks.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    beside: BTreeMap<char, Vec<State>>,
+    /// What is not known exactly at marks.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    doubts: BTreeMap<char, Uncertainty>,
+    /// The motion of the point that was left last.
+    left: Option<Problem>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    left_beside: Vec<State>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    left_belt: Option<Setting>,
+    #[serde(default, skip_serializing_if = "Uncertainty::is_none")]
+    left_doubt: Uncertainty,
+    /// Recorded keys of earlier versions, which are dropped.
+    #[serde(default, skip_serializing)]
+    #[expect(dead_code, reason = "a file that has them is still read")]
+    registers: IgnoredAny,
+    #[serde(default)]
+    past: Vec<SavedChange>,
+    #[serde(default)]
+    future: Vec<SavedChange>,
+}
+
+/// A scene, by its name if it is built in, otherwise in full.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+enum SavedScene {
+    Library(String),
+    Full(Box<Scene>),
+}
+
+/// Everything that a scene determines but its plots, at present or before a change.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Show {
+    arrangement: Arrangement,
+    layers: BTreeSet<Layer>,
+    steps: StepSizes,
+    motion: Problem,
+    /// Starts of the other motions.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    beside: Vec<State>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    belt: Option<Setting>,
+    #[serde(default, skip_serializing_if = "Uncertainty::is_none")]
+    doubt: Uncertainty,
+    scene: SavedScene,
+}
+
+/// A plot with its window and cursor.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedPlot {
+    view: View,
+    framing: Framing,
+    axes: Axes,
+    window: Window,
+    cursor: Option<Point>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    family: Option<usize>,
+}
+
+/// A change that can be undone or redone: the state on its other side.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum SavedChange {
+    /// A motion alone, without a machine and known exactly: earlier versions wrote that.
+    Motion(Problem),
+    #[serde(alias = "motion-on-belt")]
+    Motions(Setup),
+    Plots(ScreenSetup),
+    Scene {
+        plots: Vec<PlotSetup>,
+        show: Box<Show>,
+    },
+}
+
+/// The session as the text of a file. Fails with one line if the text cannot be made; no such session is known.
+pub fn text(session: &Session) -> Result<String, String> {
+    let left = session.marks.left.as_ref().map(|mark| mark.setup.clone());
+    let file = SavedSession {
+        hopfscope: VERSION,
+        selected: session.selected.name().to_owned(),
+        focus: match session.focus {
+            Pane::Parameters => 0,
+            Pane::Plot(index) => index + 1,
+        },
+        plot: session.plot + 1,
+        enlarged: session.enlarged,
+        unfolded: session.unfolded,
+        harmonics: session.harmonics,
+        kicks: session.kicks,
+        lines: session.lines.clone(),
+        present: show(&snapshot(session)),
+        plots: session.plots.iter().map(saved_plot).collect(),
+        marks: of_marks(session, |setup| Some(setup.problem)),
+        belts: of_marks(session, |setup| setup.setting),
+        beside: of_marks(session, |setup| {
+            Some(setup.others.clone()).filter(|beside| !beside.is_empty())
+        }),
+        doubts: of_marks(session, |setup| Some(setup.doubt).filter(|doubt| !doubt.is_none())),
+        left: left.as_ref().map(|setup| setup.problem),
+        left_belt: left.as_ref().and_then(|setup| setup.setting),
+        left_doubt: left.as_ref().map(|setup| setup.doubt).unwrap_or_default(),
+        left_beside: left.map(|setup| setup.others).unwrap_or_default(),
+        registers: IgnoredAny,
+        past: session.history.past.iter().map(saved_change).collect(),
+        future: session.history.future.iter().map(saved_change).collect(),
+    };
+    let body = toml::to_string(&file).map_err(|error| format!("not saved: {error}"))?;
+    Ok(format!("# A session of hopfscope; `hopfscope --open FILE` resumes it.\n{body}"))
+}
+
+/// A value for each mark that has one.
+fn of_marks<T>(session: &Session, of: impl Fn(&Setup) -> Option<T>) -> BTreeMap<char, T> {
+    let marks = session.marks.places.iter();
+    marks.filter_map(|(name, mark)| Some((*name, of(&mark.setup)?))).collect()
+}
+
+fn show(snapshot: &Snapshot) -> Show {
+    let Snapshot { scene, setup, steps, layers, screen_setup } = snapshot.clone();
+    let Setup { problem, others, setting, doubt } = setup;
+    Show {
+        arrangement: screen_setup.arrangement,
+        layers,
+        steps,
+        motion: problem,
+        beside: others,
+        belt: setting,
+        doubt,
+        scene: match find(&scene.name) {
+            Ok(known) if known == scene => SavedScene::Library(scene.name.clone()),
+            _ => SavedScene::Full(Box::new(Scene::clone(&scene))),
+        },
+    }
+}
+
+fn saved_plot(plot: &Plot) -> SavedPlot {
+    let Plot { view, axes, window, framing, cursor, family, .. } = *plot;
+    SavedPlot { view, framing, axes, window, cursor, family }
+}
+
+fn saved_change(before: &Before) -> SavedChange {
+    match before {
+        Before::Setup(setup) => SavedChange::Motions(Setup::clone(setup)),
+        Before::ScreenSetup(screen_setup) => SavedChange::Plots(screen_setup.clone()),
+        Before::Scene(snapshot) => SavedChange::Scene {
+            plots: snapshot.screen_setup.plots.clone(),
+            show: Box::new(show(snapshot)),
+        },
+    }
+}
+
+/// Changes a session to that of a file. Appearance, keys and size stay, and so do answers that fit. Fails with
+/// one line that says what is wrong; the session is then unchanged.
+pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
+    let file = read(text)?;
+    let count = file.plots.len();
+    let plot_setups = file.plots.iter().map(plot_setup).collect();
+    let present = shown(file.present, plot_setups)?;
+    if file.focus > count {
+        return Err(format!("focus = {}, but there are {count} plots", file.focus));
+    }
+    if !(1..=count).contains(&file.plot) {
+        return Err(format!("plot = {}, but there are {count}", file.plot));
+    }
+    let selected = Row::all().find(|row| row.name() == file.selected);
+    let selected = selected.ok_or_else(|| format!("no row {:?} to select", file.selected))?;
+    if !(1..=MOST_HARMONICS).contains(&file.harmonics) {
+        return Err(format!("harmonics = {}, not 1 to {MOST_HARMONICS}", file.harmonics));
+    }
+    let mark = |problem, others, setting, doubt| {
+        let setup = Setup { problem, others, setting, doubt }.checked()?;
+        Ok::<_, String>(Bookmark { setup, asked: Vec::new() })
+    };
+    let mut marks = Bookmarks::default();
+    for (name, problem) in file.marks {
+        let beside = file.beside.get(&name).cloned().unwrap_or_default();
+        let doubt = file.doubts.get(&name).copied().unwrap_or_default();
+        let bookmark = mark(problem, beside, file.belts.get(&name).copied(), doubt)?;
+        marks.places.insert(name, bookmark);
+    }
+    if let Some(left) = file.left {
+        marks.left = Some(mark(left, file.left_beside, file.left_belt, file.left_doubt)?);
+    }
+    let changes =
+        |changes: Vec<SavedChange>| changes.into_iter().map(before).collect::<Result<_, _>>();
+    let history = History { past: changes(file.past)?, future: changes(file.future)? };
+
+    let mut opened = Session::new(Arc::clone(&present.scene), session.size);
+    restore(&mut opened, present);
+    for (plot, saved) in opened.plots.iter_mut().zip(file.plots) {
+        plot.framing = saved.framing;
+        plot.cursor = saved.cursor.filter(|cursor| cursor.x.is_finite() && cursor.y.is_finite());
+    }
+    opened.plot = file.plot - 1;
+    opened.focus = file.focus.checked_sub(1).map_or(Pane::Parameters, Pane::Plot);
+    (opened.selected, opened.marks) = (selected, marks);
+    (opened.enlarged, opened.unfolded) = (file.enlarged, file.unfolded);
+    (opened.harmonics, opened.kicks) = (file.harmonics, file.kicks);
+    (opened.lines, opened.history) = (file.lines, history);
+    opened.answers = std::mem::take(&mut session.answers);
+    opened.answers.ask(opened.asks());
+    opened.answers.forget_others();
+    opened.keymap = Arc::clone(&session.keymap);
+    opened.display = session.display;
+    *session = opened;
+    Ok(())
+}
+
+/// A summary of a saved session in one line: its scene, what was changed, and how often. Fails with one line
+/// that says what is wrong.
+pub fn summary(text: &str) -> Result<String, String> {
+    let file = read(text)?;
+    let plot_setups = file.plots.iter().map(plot_setup).collect();
+    let Snapshot { scene, setup, .. } = shown(file.present, plot_setups)?;
+    let changed = difference(&Setup::of_scene(&scene), &setup);
+    let marks = match file.marks.len() {
+        0 => String::new(),
+        1 => ", 1 mark".to_owned(),
+        count => format!(", {count} marks"),
+    };
+    let changes = match file.past.len() {
+        1 => "1 change".to_owned(),
+        count => format!("{count} changes"),
+    };
+    let with = if changed.is_empty() { changed } else { format!(" {changed}") };
+    Ok(format!("{}{with} ({changes}{marks})", scene.name))
+}
+
+/// Parses the file, if its format is known.
+fn read(text: &str) -> Result<SavedSession, String> {
+    #[derive(Deserialize)]
+    struct Head {
+        hopfscope: Option<u32>,
+    }
+    let refused = |misread: Misread| format!("line {}: {}", misread.line, misread.message);
+    let head: Head = misread::toml("", text).map_err(refused)?;
+    match head.hopfscope {
+        None => Err("not a saved session: it does not say hopfscope = 1".to_owned()),
+        Some(version @ (0 | VERSION..)) if version != VERSION => {
+            Err(format!("a session of format {version}; this program reads up to {VERSION}"))
+        }
+        Some(_) => misread::toml("", text).map_err(refused),
+    }
+}
+
+fn plot_setup(saved: &SavedPlot) -> PlotSetup {
+    let SavedPlot { view, axes, window, family, .. } = *saved;
+    PlotSetup { view, axes, window: Some(window), family }
+}
+
+/// What is shown, with these plots. Fails with one line if a number is outside its range.
+fn shown(show: Show, plots: Vec<PlotSetup>) -> Result<Snapshot, String> {
+    let Show { arrangement, layers, steps, motion, beside, belt, doubt, scene } = show;
+    let scene = match scene {
+        SavedScene::Library(name) => find(&name)?,
+        SavedScene::Full(scene) => {
+            Setup::alone(scene.problem).checked()?;
+            if !(1..=MOST_PLOTS).contains(&scene.plots.len()) {
+                return Err(format!("a scene with {} plots", scene.plots.len()));
+            }
+            Arc::new(*scene)
+        }
+    };
+    let setup = Setup { problem: motion, others: beside, setting: belt, doubt }.checked()?;
+    let screen_setup = counted(ScreenSetup { arrangement, plots })?;
+    Ok(Snapshot { scene, setup, steps, layers, screen_setup })
+}
+
+/// The plots, if their number is allowed on a screen.
+fn counted(screen_setup: ScreenSetup) -> Result<ScreenSetup, String> {
+    match screen_setup.plots.len() {
+        1..=MOST_PLOTS => Ok(screen_setup),
+        count => Err(format!("{count} plots; there can be 1 to {MOST_PLOTS}")),
+    }
+}
+
+fn before(change: SavedChange) -> Result<Before, String> {
+    Ok(match change {
+        SavedChange::Motion(problem) => Before::Setup(Box::new(Setup::alone(problem).checked()?)),
+        SavedChange::Motions(setup) => Before::Setup(Box::new(setup.checked()?)),
+        SavedChange::Plots(screen_setup) => Before::ScreenSetup(counted(screen_setup)?),
+        SavedChange::Scene { plots, show } => Before::Scene(Box::new(shown(*show, plots)?)),
+    })
+}
+
+impl Session {
+    /// Whether the user made something whose loss would matter: a change, a mark.
+    pub fn is_worth_keeping(&self) -> bool {
+        let (past, future) = self.history.depth();
+        past + future > 0
+            || !self.marks.places.is_empty()
+            || matches!(self.overlay, Some(Overlay::Entry(_)))
+    }
+}
