@@ -3,12 +3,10 @@
 
 use std::fmt::Write;
 
-use super::content::Panel;
-use super::ink::ink;
-use super::layout::{Frame, PLOT, Spot};
-use crate::numerics::count::real;
-use crate::numerics::elementary::hypot;
-use crate::picture::items::Caption;
+use super::Panel;
+use super::paper::{Frame, PLOT, Spot, ink};
+use crate::numerics::{count::real, elementary::hypot};
+use crate::picture::{Caption, Dash};
 use crate::scene::Point;
 use crate::words::printable::xml;
 
@@ -87,13 +85,13 @@ impl Surroundings {
         };
         let of_pairs = |points: &Vec<[f64; 2]>| spots(&mut points.iter().copied().map(Point::from));
         // Asymptotes and the line of the present value are there to be read against too.
-        let sparse = panel.curves.iter().filter(|curve| curve.style == "sparse");
+        let sparse = panel.curves.iter().filter(|curve| curve.style == Dash::Sparse);
         Surroundings {
             // A bar may run through its own name.
             curves: panel
                 .curves
                 .iter()
-                .filter(|curve| curve.style != "thick" && curve.style != "sparse")
+                .filter(|curve| !matches!(curve.style, Dash::Thick | Dash::Sparse))
                 .map(|curve| of_pairs(&curve.points))
                 .collect(),
             guides: panel

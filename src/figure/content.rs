@@ -5,10 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::model::{Parameters, State};
-use crate::picture::items::{self, Caption};
-use crate::picture::map::ScanMap;
-use crate::picture::role::{self, Role};
-use crate::picture::ticks::Scale;
+use crate::picture::{Caption, Dash, Mark, Role, Scale, ScanMap, items};
 use crate::scene::{Point, Window};
 use crate::words::provenance::Provenance;
 
@@ -92,9 +89,9 @@ pub struct Axis {
 pub struct FigureCurve {
     /// What it is, and which values it has of its own.
     pub name: String,
-    pub role: &'static str,
-    /// How it is drawn: solid, dashed, dotted, sparse or thick.
-    pub style: &'static str,
+    pub role: Role,
+    /// How it is drawn.
+    pub style: Dash,
     /// The parameters that hold all along it; those on an axis of the panel are left out.
     pub parameters: BTreeMap<&'static str, f64>,
     /// Its points; `null` interrupts it.
@@ -102,14 +99,12 @@ pub struct FigureCurve {
     /// What it is, whichever variant it belongs to.
     #[serde(skip)]
     pub kind: String,
-    #[serde(skip)]
-    pub pen: Role,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Area {
     pub name: String,
-    pub role: &'static str,
+    pub role: Role,
     /// The parameters that hold all over it; those on an axis of the panel are left out.
     pub parameters: BTreeMap<&'static str, f64>,
     /// Its edge. Where this is not closed, the area is the side of it that holds the origin.
@@ -117,8 +112,6 @@ pub struct Area {
     /// What it is, whichever variant it belongs to.
     #[serde(skip)]
     pub kind: String,
-    #[serde(skip)]
-    pub pen: Role,
 }
 
 /// A point with a meaning.
@@ -134,7 +127,7 @@ pub struct MarkedPoint {
     pub at_edge: bool,
     /// How it is drawn.
     #[serde(skip)]
-    pub mark: role::Mark,
+    pub mark: Mark,
     #[serde(skip)]
-    pub pen: Role,
+    pub role: Role,
 }

@@ -1,9 +1,8 @@
 //! A figure as data: one JSON document, or one CSV row a point.
 
-use super::content::{Figure, FigureCurve, Panel};
-use crate::picture::map::{MapCell, ScanMap};
-use crate::report::columns::Columns;
-use crate::report::json::text;
+use super::{Area, Figure, FigureCurve, MarkedPoint, Panel};
+use crate::picture::{MapCell, ScanMap};
+use crate::report::{columns::Columns, json::text};
 use crate::words::printable;
 
 /// One document; what is not a number is `null`.
@@ -63,17 +62,14 @@ fn rows<'a>(panel: u32, shown: &'a Panel) -> Vec<PointRow<'a>> {
     };
     let plain = PointRow::default();
     for (number, FigureCurve { name, role, style, points, .. }) in (1..).zip(&shown.curves) {
+        let (role, style) = (role.name(), style.name());
         add(PointRow { kind: "curve", number, name, role, style, ..plain }, points);
     }
-    for (number, area) in (1..).zip(&shown.areas) {
-        add(
-            PointRow { kind: "area", number, name: &area.name, role: area.role, ..plain },
-            &area.edge,
-        );
+    for (number, Area { name, role, edge, .. }) in (1..).zip(&shown.areas) {
+        add(PointRow { kind: "area", number, name, role: role.name(), ..plain }, edge);
     }
-    for (number, mark) in (1..).zip(&shown.marks) {
-        let (name, role) = (&mark.name, mark.pen.name());
-        add(PointRow { kind: "mark", number, name, role, ..plain }, &[[mark.x, mark.y]]);
+    for (number, MarkedPoint { name, role, x, y, .. }) in (1..).zip(&shown.marks) {
+        add(PointRow { kind: "mark", number, name, role: role.name(), ..plain }, &[[*x, *y]]);
     }
     rows
 }

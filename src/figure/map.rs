@@ -2,14 +2,11 @@
 
 use std::fmt::Write;
 
-use super::ink::shading;
-use super::layout::{Frame, PLOT, Spot};
+use super::paper::{Frame, PLOT, Spot, shading};
 use crate::numerics::count::{real, truncated};
-use crate::picture::map::{Danger, MapCell, ScanMap};
-use crate::picture::role::Role;
+use crate::picture::{Danger, MapCell, Role, ScanMap};
 use crate::scene::Point;
-use crate::words::number::significant;
-use crate::words::printable::xml;
+use crate::words::{number::significant, printable::xml};
 
 /// Height of the scale of a map with its name and its numbers, in pixels.
 pub(super) const SCALE: f64 = 54.0;

@@ -6,32 +6,30 @@
 //! to whole pixels and have no dashed curves. The PNG is
 //! that SVG, painted.
 
+mod areas;
 mod captions;
-mod chord;
 mod content;
 mod data;
-mod filled;
-mod fit;
-mod ink;
-mod layout;
+mod lines;
 mod map;
 mod panel;
+mod paper;
 #[cfg(feature = "png")]
 mod png;
-mod region;
-mod sample;
 mod svg;
 
-pub use chord::FAINT;
-pub use data::{csv, json};
-pub use svg::{panels, svg};
-
 pub use content::{Area, Axis, Figure, FigureCurve, MarkedPoint, Panel};
+pub use data::{csv, json};
+pub use lines::FAINT;
+pub use svg::{panels, svg};
 
 use std::path::Path;
 
+use crate::fit::{Fitted, OMEGA0, parameters};
 use crate::flow::Problem;
+use crate::model::State;
 use crate::picture;
+use crate::picture::fit::pictures;
 use crate::session::{Key, Session};
 use crate::words::provenance::Provenance;
 
@@ -86,7 +84,7 @@ const UNITS: &str =
 fn panel(session: &Session, plot: usize) -> Panel {
     let mut picture = picture::of(session, plot);
     if session.has_equal_units(plot) {
-        picture.window = picture.window.with_equal_units(layout::PLOT.0, layout::PLOT.1);
+        picture.window = picture.window.with_equal_units(paper::PLOT.0, paper::PLOT.1);
     }
     let nothing = session.nothing(plot).filter(|_| !picture.draws());
     let nothing = nothing.map(|text| session.keymap.fill(&text, Key::said));
@@ -116,4 +114,30 @@ impl Figure {
             panels: plots.into_iter().map(|plot| panel(session, plot)).collect(),
         }
     }
+
+    /// What a fitted record shows.
+    pub fn of_fit(fitted: &Fitted) -> Self {
+        let estimate = &fitted.estimate;
+        let p = &estimate.p;
+        Figure {
+            figure: "fit".into(),
+            title: format!("{}: fitted motion", fitted.name),
+            program: format!("hopfscope {}", env!("CARGO_PKG_VERSION")),
+            provenance: None,
+            units: "lengths in the unit of the record, times in s, velocities and impulses over omega0",
+            parameters: parameters(p),
+            initial: estimate.start.beginning(p, &[]).1,
+            until: duration(fitted),
+            method: "half swings with exact derivatives".into(),
+            tolerance: 1e-13,
+            panels: pictures(fitted).iter().map(Panel::of).collect(),
+        }
+    }
+}
+
+/// The dimensionless duration of the record.
+fn duration(fitted: &Fitted) -> f64 {
+    let t = fitted.estimate.data.times();
+    let span = t.last().zip(t.first()).map_or(0.0, |(last, first)| last - first);
+    fitted.estimate.p[OMEGA0] * span
 }

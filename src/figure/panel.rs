@@ -2,13 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::content::{Area, Axis, FigureCurve, MarkedPoint, Panel};
-use super::filled;
-use super::sample;
+use super::lines::{graph, lattice};
+use super::{Area, Axis, FigureCurve, MarkedPoint, Panel, areas::polygons};
 use crate::model::{Knob, State};
-use crate::picture::items::{Item, LineStyle, Marks, Picture, VariantTag};
-use crate::picture::role::Dash;
-use crate::picture::ticks::Scale;
+use crate::picture::{Dash, Item, LineStyle, Marks, Picture, Scale, VariantTag};
 use crate::scene::{Point, Span, Window, rectangle};
 
 /// The parameters that hold all along a curve.
@@ -64,14 +61,14 @@ impl Panel {
         match item {
             Item::Path(..) => {}
             Item::Curve(line, points) => add(line, points),
-            Item::Graph(line, value) => add(line, &sample::graph(value, window)),
+            Item::Graph(line, value) => add(line, &graph(value, window)),
             Item::Upright(line, at) => {
                 add(line, &[y.from(), y.to()].map(|y| Point { x: *at, y }));
             }
             Item::Bar(line, from, to) => {
                 let curve = curve(line, &[*from, *to], held(picture, line.variant.as_ref()));
                 if let Some(curve) = curve {
-                    self.curve(FigureCurve { style: "thick", ..curve });
+                    self.curve(FigureCurve { style: Dash::Thick, ..curve });
                 }
             }
             Item::Shade(line, edge) => self.area(picture, line, edge),
@@ -83,7 +80,7 @@ impl Panel {
                 self.area(picture, line, &rectangle([x.from(), x.to()], [*from, *to]));
             }
             Item::Texture(at) => {
-                for (fill, corners) in filled::polygons(at, self.window) {
+                for (fill, corners) in polygons(at, self.window) {
                     self.area(
                         picture,
                         &LineStyle::new(fill.name, fill.role, Dash::Solid),
@@ -92,7 +89,7 @@ impl Panel {
                 }
             }
             Item::Arrows(_, flow) => {
-                self.arrows.extend(sample::lattice(self.window).map(|at| (at, flow(at))));
+                self.arrows.extend(lattice(self.window).map(|at| (at, flow(at))));
             }
             Item::Marks(marks) => self.marks(marks),
             // What a screen writes beside a curve stands in the legend.
@@ -104,7 +101,7 @@ impl Panel {
     /// Adds a curve; of several variants that have it in common it is kept once.
     fn curve(&mut self, curve: FigureCurve) {
         let same = |other: &&mut FigureCurve| {
-            (other.pen, other.style, &other.kind) == (curve.pen, curve.style, &curve.kind)
+            (other.role, other.style, &other.kind) == (curve.role, curve.style, &curve.kind)
                 && other.points == curve.points
         };
         match self.curves.iter_mut().find(same) {
@@ -119,11 +116,10 @@ impl Panel {
     fn area(&mut self, picture: &Picture, line: &LineStyle, edge: &[Point]) {
         let area = Area {
             name: line.full_name().into_owned(),
-            role: line.role.name(),
+            role: line.role,
             parameters: held(picture, line.variant.as_ref()),
             edge: pairs(edge),
             kind: line.name.to_string(),
-            pen: line.role,
         };
         let same = |other: &&mut Area| other.kind == area.kind && other.edge == area.edge;
         match self.areas.iter_mut().find(same) {
@@ -135,10 +131,10 @@ impl Panel {
     }
 
     fn marks(&mut self, marks: &Marks) {
+        let &Marks { mark, role, at_edge, .. } = marks;
         for at in &marks.at {
-            let (name, mark, pen) = (marks.name.clone(), marks.mark, marks.role);
-            let at_edge = marks.at_edge;
-            let mark = MarkedPoint { name, x: at.x, y: at.y, at_edge, mark, pen };
+            let name = marks.name.clone();
+            let mark = MarkedPoint { name, x: at.x, y: at.y, at_edge, mark, role };
             if !self.marks.contains(&mark) {
                 self.marks.push(mark);
             }
@@ -163,12 +159,11 @@ fn curve(line: &LineStyle, points: &[Point], parameters: Held) -> Option<FigureC
     let finite = points.iter().filter(|point| point.x.is_finite() && point.y.is_finite());
     (finite.count() > 1).then(|| FigureCurve {
         name: line.full_name().into_owned(),
-        role: line.role.name(),
-        style: line.dash.name(),
+        role: line.role,
+        style: line.dash,
         parameters,
         points: pairs(points),
         kind: line.name.to_string(),
-        pen: line.role,
     })
 }
 

@@ -2,19 +2,13 @@
 
 use std::fmt::Write;
 
-use super::captions;
-use super::content::{Area, Figure, MarkedPoint, Panel};
-use super::data::remarks;
-use super::ink::{dashes, ink, shading};
-use super::layout::{self, ENTRY, Frame, HEAD, MARGIN, PLOT, Spot};
-use super::map;
-use super::region::loops;
+use super::paper::{self, ENTRY, Frame, HEAD, MARGIN, PLOT, Spot, ink, shading, stroke};
+use super::{
+    Area, Figure, FigureCurve, MarkedPoint, Panel, areas::loops, captions, data::remarks, map,
+};
 use crate::numerics::count::{real, truncated};
 use crate::numerics::elementary::hypot;
-use crate::picture::items::{Marks, passes};
-use crate::picture::map::ScanMap;
-use crate::picture::role::{self, Role};
-use crate::picture::ticks::Ticks;
+use crate::picture::{LegendEntry, LegendSample, Mark, Marks, ScanMap, Ticks, passes};
 use crate::scene::Point;
 use crate::words::printable::xml;
 
@@ -37,9 +31,9 @@ pub fn panels(figure: &Figure) -> Vec<String> {
 /// names of its parts differ from those of the others.
 fn picture(figure: &Figure, alone: Option<u32>) -> String {
     let panels = u32::try_from(figure.panels.len()).unwrap_or(u32::MAX).max(1);
-    let (width, height) = layout::panel();
-    let width = width * f64::from(layout::columns(panels));
-    let below = HEAD + height * f64::from(layout::rows(panels));
+    let (width, height) = paper::panel();
+    let width = width * f64::from(paper::columns(panels));
+    let below = HEAD + height * f64::from(paper::rows(panels));
     let entries = legend(figure);
     let across = truncated(((width - 2.0 * MARGIN.1) / ENTRY.0).floor().max(1.0));
     let lines = real(entries.len().div_ceil(across));
@@ -93,8 +87,8 @@ fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
         map::draw(out, shown, frame);
     }
     // Parts of the same area are one path: between two paths a hair of paper would show.
-    for same in panel.areas.chunk_by(|one, other| (&one.name, one.pen) == (&other.name, other.pen))
-    {
+    let alike = |one: &Area, other: &Area| (&one.name, one.role) == (&other.name, other.role);
+    for same in panel.areas.chunk_by(alike) {
         shade(out, same, frame);
     }
     for (at, way) in &panel.arrows {
@@ -102,12 +96,10 @@ fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
     }
     for guide in &panel.guides {
         let points = guide.iter().map(|point| [point.x, point.y]).collect::<Vec<_>>();
-        stroke(out, &points, "#b0b0b0", 0.6, "", frame);
+        polyline(out, &points, "stroke=\"#b0b0b0\" stroke-width=\"0.6\"", frame);
     }
     for curve in &panel.curves {
-        let (thickness, color) = ink(curve.pen);
-        let thickness = if curve.style == "thick" { 3.0 } else { thickness };
-        stroke(out, &curve.points, color, thickness, dashes(curve.style), frame);
+        polyline(out, &curve.points, &stroke(curve.role, curve.style), frame);
     }
     for mark in &panel.marks {
         dot(out, mark, frame);
@@ -117,21 +109,11 @@ fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
     captions::write(out, panel, frame);
 }
 
-/// A polyline, run by run between points that are not finite.
-fn stroke(
-    out: &mut String,
-    points: &[[f64; 2]],
-    color: &str,
-    thickness: f64,
-    dashes: &str,
-    frame: Frame,
-) {
+/// A polyline with these attributes, run by run between points that are not finite.
+fn polyline(out: &mut String, points: &[[f64; 2]], attributes: &str, frame: Frame) {
     let path = path(points, frame);
     if !path.is_empty() {
-        let _ = writeln!(
-            out,
-            "<path d=\"{path}\" stroke=\"{color}\" stroke-width=\"{thickness}\"{dashes}/>"
-        );
+        let _ = writeln!(out, "<path d=\"{path}\" {attributes}/>");
     }
 }
 
@@ -148,14 +130,18 @@ fn path(points: &[[f64; 2]], frame: Frame) -> String {
             down = false;
             continue;
         }
-        let (across, along) = frame.spot(Point { x: *x, y: *y });
-        // Coordinates of paper have six digits; what is far outside keeps its side.
-        let (across, along) = (across.clamp(-1e5, 1e5), along.clamp(-1e5, 1e5));
+        let (across, along) = drawable(frame, [*x, *y]);
         let command = if down { 'L' } else { 'M' };
         let _ = write!(path, "{command}{across:.3} {along:.3}");
         down = true;
     }
     path
+}
+
+/// Where a point stands. Coordinates of paper have six digits; what is far outside keeps its side.
+fn drawable(frame: Frame, point: [f64; 2]) -> Spot {
+    let (across, along) = frame.spot(point.into());
+    (across.clamp(-1e5, 1e5), along.clamp(-1e5, 1e5))
 }
 
 /// Whether a point lies within a few sizes of the plot.
@@ -165,17 +151,16 @@ fn near(x: f64, y: f64, frame: Frame) -> bool {
 }
 
 fn shade(out: &mut String, areas: &[Area], frame: Frame) {
-    let Some(Area { pen, .. }) = areas.first() else { return };
+    let Some(Area { role, .. }) = areas.first() else { return };
     let mut path = String::new();
     for polygon in areas.iter().flat_map(|area| loops(&area.edge, frame.window)) {
-        for (index, [x, y]) in polygon.iter().enumerate() {
-            let (across, along) = frame.spot(Point { x: *x, y: *y });
-            let (across, along) = (across.clamp(-1e5, 1e5), along.clamp(-1e5, 1e5));
+        for (index, point) in polygon.iter().enumerate() {
+            let (across, along) = drawable(frame, *point);
             let _ = write!(path, "{}{across:.3} {along:.3}", if index == 0 { 'M' } else { 'L' });
         }
         path.push('Z');
     }
-    let (color, opacity) = shading(*pen);
+    let (color, opacity) = shading(*role);
     let _ = writeln!(
         out,
         "<path d=\"{path}\" fill=\"{color}\" fill-opacity=\"{opacity}\" fill-rule=\"evenodd\"/>"
@@ -206,7 +191,7 @@ fn arrow(out: &mut String, at: Point, way: Point, frame: Frame) {
 }
 
 fn dot(out: &mut String, mark: &MarkedPoint, frame: Frame) {
-    let (_, color) = ink(mark.pen);
+    let (_, color) = ink(mark.role);
     let at = Point { x: mark.x, y: mark.y };
     if let Some((at, above)) = Marks::edge(at, frame.window).filter(|_| mark.at_edge) {
         let (x, y) = frame.spot(at);
@@ -225,30 +210,30 @@ fn dot(out: &mut String, mark: &MarkedPoint, frame: Frame) {
 }
 
 /// A mark at a place on paper.
-fn spot(out: &mut String, mark: role::Mark, (x, y): Spot, color: &str) {
+fn spot(out: &mut String, mark: Mark, (x, y): Spot, color: &str) {
     let _ = match mark {
-        role::Mark::Rest => writeln!(
+        Mark::Rest => writeln!(
             out,
             "<rect x=\"{:.3}\" y=\"{:.3}\" width=\"6\" height=\"6\" fill=\"{color}\"/>",
             x - 3.0,
             y - 3.0
         ),
-        role::Mark::Head | role::Mark::Stable => {
+        Mark::Head | Mark::Stable => {
             writeln!(out, "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"3.2\" fill=\"{color}\"/>")
         }
-        role::Mark::Start | role::Mark::Turn | role::Mark::Unstable => writeln!(
+        Mark::Start | Mark::Turn | Mark::Unstable => writeln!(
             out,
             "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"3.2\" fill=\"#ffffff\" stroke=\"{color}\" \
              stroke-width=\"1.2\"/>"
         ),
-        role::Mark::Outlier => writeln!(
+        Mark::Outlier => writeln!(
             out,
             "<path d=\"M{x:.2} {y:.2}m-3 -3l6 6m-6 0l6 -6\" stroke=\"{color}\" stroke-width=\"1.4\"/>"
         ),
-        role::Mark::Saturated => {
+        Mark::Saturated => {
             writeln!(out, "<path d=\"M{x:.2} {y:.2}m-3 0l3 -3l3 3l-3 3z\" fill=\"{color}\"/>")
         }
-        role::Mark::Aside => {
+        Mark::Aside => {
             writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"1.2\" fill=\"{color}\"/>")
         }
     };
@@ -317,72 +302,56 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
     let _ = writeln!(out, "<path d=\"{notches}\" stroke=\"#222222\" stroke-width=\"0.8\"/>");
 }
 
-/// A line of the legend.
-#[derive(PartialEq)]
-struct FigureLegendEntry<'a> {
-    name: &'a str,
-    role: Role,
-    /// How the line is drawn; `None` for an area or a mark.
-    style: Option<&'static str>,
-    mark: Option<role::Mark>,
-}
-
 /// Everything with a name that is seen, once; which of several variants a curve is stands beside it. An
 /// area whose edge has its name needs no entry.
-fn legend(figure: &Figure) -> Vec<FigureLegendEntry<'_>> {
-    let mut entries: Vec<FigureLegendEntry> = Vec::new();
+fn legend(figure: &Figure) -> Vec<LegendEntry> {
+    let mut entries: Vec<LegendEntry> = Vec::new();
     for panel in &figure.panels {
         let seen = panel.curves.iter().filter(|curve| {
             let points: Vec<Point> = curve.points.iter().copied().map(Point::from).collect();
             passes(&points, panel.window)
         });
-        let lines = seen.map(|curve| (curve.kind.as_str(), curve.pen, Some(curve.style)));
-        let areas = panel.areas.iter().map(|area| (area.kind.as_str(), area.pen, None));
-        let words = panel.map.iter().flat_map(ScanMap::words);
-        let words = words.map(|word| (word, map::role(word), None));
-        let dropped = [role::Mark::Outlier, role::Mark::Saturated, role::Mark::Aside];
+        let line = |it: &FigureCurve| (it.kind.clone(), it.role, LegendSample::Line(it.style));
+        let area = |it: &Area| (it.kind.clone(), it.role, LegendSample::Shade);
+        let word = |it: &'static str| (it.to_owned(), map::role(it), LegendSample::Shade);
+        let dropped = [Mark::Outlier, Mark::Saturated, Mark::Aside];
         let marks = panel.marks.iter().filter(|it| dropped.contains(&it.mark));
-        let marks = marks.map(|it| (it.name.as_ref(), it.pen, None, Some(it.mark)));
-        let others =
-            lines.chain(areas).chain(words).map(|(name, role, style)| (name, role, style, None));
-        for (name, role, style, mark) in others.chain(marks) {
-            let entry = FigureLegendEntry { name, role, style, mark };
+        let mark = |it: &MarkedPoint| (it.name.to_string(), it.role, LegendSample::Point(it.mark));
+        let words = panel.map.iter().flat_map(ScanMap::words).map(word);
+        let all = seen.map(line).chain(panel.areas.iter().map(area)).chain(words);
+        for (text, role, sample) in all.chain(marks.map(mark)) {
+            let entry = LegendEntry { sample, role, text };
             if !entries.contains(&entry) {
                 entries.push(entry);
             }
         }
     }
-    let edges: Vec<(&str, Role)> = entries
-        .iter()
-        .filter(|entry| entry.style.is_some())
-        .map(|entry| (entry.name, entry.role))
-        .collect();
+    let is_line = |entry: &LegendEntry| matches!(entry.sample, LegendSample::Line(_));
+    let edges: Vec<LegendEntry> = entries.iter().filter(|entry| is_line(entry)).cloned().collect();
     entries.retain(|entry| {
-        entry.style.is_some() || entry.mark.is_some() || !edges.contains(&(entry.name, entry.role))
+        let is_edge = |edge: &LegendEntry| (&edge.text, edge.role) == (&entry.text, entry.role);
+        entry.sample != LegendSample::Shade || !edges.iter().any(is_edge)
     });
     entries
 }
 
-fn sample(out: &mut String, entry: &FigureLegendEntry, (x, y): (f64, f64)) {
-    if let Some(mark) = entry.mark {
-        spot(out, mark, (x + 15.0, y), ink(entry.role).1);
-    } else if let Some(style) = entry.style {
-        let (thickness, color) = ink(entry.role);
-        let thickness = if style == "thick" { 3.0 } else { thickness };
-        let dashes = dashes(style);
-        let _ = writeln!(
-            out,
-            "<path d=\"M{x:.1} {y:.1}h30\" stroke=\"{color}\" stroke-width=\"{thickness}\"{dashes}/>"
-        );
-    } else {
-        let (color, opacity) = shading(entry.role);
-        let _ = writeln!(
-            out,
-            "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"30\" height=\"10\" fill=\"{color}\" \
-                 fill-opacity=\"{opacity}\"/>",
-            y - 5.0
-        );
+fn sample(out: &mut String, LegendEntry { sample, role, text }: &LegendEntry, (x, y): Spot) {
+    match sample {
+        LegendSample::Point(mark) => spot(out, *mark, (x + 15.0, y), ink(*role).1),
+        LegendSample::Line(dash) => {
+            let stroke = stroke(*role, *dash);
+            let _ = writeln!(out, "<path d=\"M{x:.1} {y:.1}h30\" {stroke}/>");
+        }
+        LegendSample::Shade | LegendSample::Spot | LegendSample::Arrow => {
+            let (color, opacity) = shading(*role);
+            let _ = writeln!(
+                out,
+                "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"30\" height=\"10\" fill=\"{color}\" \
+                     fill-opacity=\"{opacity}\"/>",
+                y - 5.0
+            );
+        }
     }
-    let (x, y, name) = (x + 37.0, y + 4.0, xml(entry.name));
+    let (x, y, name) = (x + 37.0, y + 4.0, xml(text));
     let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"11\">{name}</text>");
 }

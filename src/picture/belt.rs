@@ -3,13 +3,11 @@
 //! Along the horizontal axis everything is in the units of the motion: the mass is at its displacement
 //! from static equilibrium, the marks of the belt move with its speed. The vertical axis has no meaning.
 
-use super::items::{LineStyle, Picture};
-use super::role::{Dash, Role};
+use super::{Dash, LineStyle, Picture, Role};
 use crate::flow::Sample;
 use crate::scene::{Layer, Point, Span, rectangle};
 use crate::session::Session;
-use crate::words::number::significant;
-use crate::words::quantity::with_unit;
+use crate::words::{number::significant, quantity::with_unit};
 
 /// Heights of the surfaces of the belt, from below.
 const BELT: (f64, f64) = (0.12, 0.26);

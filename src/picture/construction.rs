@@ -1,10 +1,9 @@
 //! Formulas drawn into the phase plane: levels of the energy, and the spirals that make the cycle.
 
-use super::items::{Item, LineStyle, Picture, ellipse};
-use super::role::{Dash, Mark, Role};
-use crate::closed_form::linear::linear_flow;
-use crate::closed_form::lyapunov::energy_rate;
-use crate::closed_form::piecewise_linear::LinearCycle;
+use super::{Dash, Item, LineStyle, Mark, Picture, Role, ellipse};
+use crate::closed_form::{
+    linear::linear_flow, lyapunov::energy_rate, piecewise_linear::LinearCycle,
+};
 use crate::model::{Parameters, State};
 use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::scene::{Point, Span};

@@ -6,9 +6,10 @@
 //! those of others are paler, without marks. A point of the branch that is held has a cross.
 
 use super::equilibria::{self, at};
-use super::items::{LineStyle, Picture, Text, VariantTag};
-use super::phase_plane::variants;
-use super::role::{CycleStyle, Dash, Role, cycle_style};
+use super::{
+    CycleStyle, Dash, LineStyle, Picture, Role, Text, VariantTag, cycle_style,
+    phase_plane::variants,
+};
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,

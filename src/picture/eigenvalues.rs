@@ -1,8 +1,7 @@
 //! The eigenvalues of the rest without friction in the complex plane, and the way that they take as D
 //! moves (9): a circle on which the motion swings, and the real axis on which it does not.
 
-use super::items::{Item, LineStyle, Picture, ellipse};
-use super::role::{Dash, Role, cycle_style};
+use super::{Dash, Item, LineStyle, Picture, Role, cycle_style, ellipse};
 use crate::model::Knob;
 use crate::scene::{Layer, Point};
 use crate::session::Session;

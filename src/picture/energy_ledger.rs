@@ -2,21 +2,18 @@
 //!
 //! Bars are fractions of the largest work of their owner, numbers are energies in the units of the model.
 
-use super::items::{LineStyle, Picture};
-use super::role::{Dash, Mark, Role};
+use super::{Dash, LineStyle, Mark, Picture, Role};
 use crate::numerics::count::real;
 use crate::scene::{Point, Span};
 use crate::session::Session;
 use crate::session::ledger::{LedgerLine, Owner};
 use crate::words::number::significant;
 
-/// The name of the horizontal axis; lines have names of their own.
-pub const AXIS: &str = "part of the largest work";
-
 /// The ledger in a figure: a bar for each work, with its name and number.
 pub fn draw(picture: &mut Picture, session: &Session) {
     let lines = session.ledger();
-    picture.axes(AXIS, "");
+    // Lines have names of their own.
+    picture.axes("part of the largest work", "");
     picture.window.y = Span::new(middle(lines.len()), 0.0).unwrap_or(Span::known(-1.0, 0.0));
     picture.upright(LineStyle::guide(), 0.0);
     for (line, entry) in lines.iter().enumerate() {

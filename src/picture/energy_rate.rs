@@ -1,8 +1,7 @@
 //! The rate V' of the energy over the velocity, of which alone it is a function (17 to 19): what damping
 //! feeds, what friction takes, and between which velocities friction takes more.
 
-use super::items::{LineStyle, Picture};
-use super::role::{Dash, Mark, Role};
+use super::{Dash, LineStyle, Mark, Picture, Role};
 use crate::closed_form::lyapunov::{self, energy_rate};
 use crate::model::{Parameters, State};
 use crate::scene::{Layer, Point};

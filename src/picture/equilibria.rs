@@ -1,9 +1,10 @@
 //! Rest in a bifurcation diagram: with friction the sticking set, a band that attracts; without, the
 //! equilibrium at 0, stable on one side of the Hopf point and unstable on the other.
 
-use super::items::{Fill, Item, LineStyle, Pattern, Picture, VariantTag};
-use super::phase_plane::AT_REST;
-use super::role::{CycleStyle, Dash, Role, cycle_style};
+use super::{
+    CycleStyle, Dash, Fill, Item, LineStyle, Pattern, Picture, Role, VariantTag, cycle_style,
+    phase_plane::AT_REST,
+};
 use crate::model::{Knob, Parameters};
 use crate::scene::{Height, Ordinate};
 use crate::session::ShownMotion;

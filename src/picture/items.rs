@@ -4,10 +4,7 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::fmt;
 
-use super::map::ScanMap;
-use super::reading::reading;
-use super::role::{Dash, Mark, Role};
-use super::ticks::Scale;
+use super::{Dash, Mark, Role, Scale, ScanMap, units::said};
 use crate::model::{Knob, Parameters};
 use crate::numerics::elementary::sin_cos;
 use crate::scene::{Point, Window};
@@ -313,8 +310,8 @@ impl<'a> Picture<'a> {
 
     /// The coordinates of a point under the names of the axes, to the digits that the window resolves.
     pub fn coordinates(&self, at: Point) -> String {
-        let (x, y) = reading(at, self.window);
-        format!("{} {x} {} {y}", self.x, self.y)
+        let ([across, upward], Window { x, y }) = (self.scales, self.window);
+        format!("{} {}", said(across, &self.x, at.x, x), said(upward, &self.y, at.y, y))
     }
 
     pub fn curve(&mut self, line: LineStyle, points: impl IntoIterator<Item = Point>) {

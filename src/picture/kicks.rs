@@ -1,7 +1,6 @@
 //! Random kicks over the basin: their distribution, and what fraction of them is lost.
 
-use super::items::{LineStyle, Picture, ellipse};
-use super::role::{Dash, Role};
+use super::{Dash, LineStyle, Picture, Role, ellipse};
 use crate::portrait::kicks::{Distribution, RandomKick};
 use crate::scene::{Answer, Layer, Topic, rectangle};
 use crate::session::Session;

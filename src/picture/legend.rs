@@ -1,7 +1,6 @@
 //! What the legend of the screen explains: everything with a name that is seen, once.
 
-use super::items::{Item, Marks, Picture};
-use super::role::{Dash, Mark, Role};
+use super::{Dash, Item, Mark, Marks, Picture, Role};
 
 /// What a sample in the legend shows.
 #[derive(Clone, Copy, Debug, PartialEq)]

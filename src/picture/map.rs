@@ -15,37 +15,29 @@ pub enum Dangerous {
     Large,
 }
 
-/// Columns of measures that say how dangerous a place is; all others are shaded by size.
-const DANGEROUS: [(Dangerous, &[&str]); 2] = [
-    (
-        Dangerous::Small,
-        &[
-            "displacement",
-            "impulse",
-            "from_rest_displacement",
-            "from_rest_impulse",
-            "guaranteed_displacement",
-            "guaranteed_impulse",
-            "captured_part",
-            "rested_part",
-            "area",
-            "circle_radius",
-            "kicks_mean",
-        ],
-    ),
-    (Dangerous::Large, &["lost_part", "kicks_lost"]),
+/// Columns of measures that say how dangerous a place is; all others are shaded by size. With each, whether it has no
+/// number where every kick is survived.
+const DANGEROUS: [(&str, Dangerous, bool); 13] = [
+    ("displacement", Dangerous::Small, true),
+    ("impulse", Dangerous::Small, true),
+    ("from_rest_displacement", Dangerous::Small, true),
+    ("from_rest_impulse", Dangerous::Small, true),
+    ("guaranteed_displacement", Dangerous::Small, true),
+    ("guaranteed_impulse", Dangerous::Small, true),
+    ("circle_radius", Dangerous::Small, true),
+    ("captured_part", Dangerous::Small, false),
+    ("rested_part", Dangerous::Small, false),
+    ("area", Dangerous::Small, false),
+    ("kicks_mean", Dangerous::Small, false),
+    ("lost_part", Dangerous::Large, false),
+    ("kicks_lost", Dangerous::Large, false),
 ];
 
-/// Columns without a number where every kick is survived.
-const OF_KICKS: [&str; 7] = [
-    "displacement",
-    "impulse",
-    "from_rest_displacement",
-    "from_rest_impulse",
-    "guaranteed_displacement",
-    "guaranteed_impulse",
-    "circle_radius",
-];
+/// Which values of a column are dangerous, and whether it has none where every kick is survived.
+fn danger_of(column: &str) -> Option<(Dangerous, bool)> {
+    let row = DANGEROUS.iter().find(|(name, ..)| *name == column);
+    row.map(|(_, which, of_kicks)| (*which, *of_kicks))
+}
 
 /// Ratio of the largest to the smallest value from which on shades are parts of a logarithm.
 const SPREAD: f64 = 10.0;
@@ -76,8 +68,10 @@ pub fn nothing(scanned: &ScanOnShow, index: usize) -> Option<&'static str> {
     match (scanned.height(index), &row.reason) {
         (Some(_), _) => None,
         (None, Some(_)) => Some("gave up"),
-        (None, None) if OF_KICKS.contains(&measured(scanned)) => Some("every kick survived"),
-        (None, None) => Some("none"),
+        (None, None) => match danger_of(measured(scanned)) {
+            Some((_, true)) => Some("every kick survived"),
+            _ => Some("none"),
+        },
     }
 }
 
@@ -96,10 +90,9 @@ impl Danger {
     /// The scale of what is plotted; `None` without a number.
     pub fn of(scanned: &ScanOnShow) -> Option<Self> {
         let (low, high) = scanned.range()?;
-        let name = measured(scanned);
-        let row = DANGEROUS.iter().find(|(_, columns)| columns.contains(&name));
+        let dangerous = danger_of(measured(scanned)).map(|(which, _)| which);
         let logarithmic = low > 0.0 && high / low >= SPREAD;
-        Some(Danger { low, high, logarithmic, dangerous: row.map(|(which, _)| *which) })
+        Some(Danger { low, high, logarithmic, dangerous })
     }
 
     /// How far a value is on the way from the lowest to the highest, from 0 to 1.
@@ -211,8 +204,7 @@ mod tests {
 
     #[test]
     fn what_is_dangerous_is_measured() {
-        let named = DANGEROUS.iter().flat_map(|(_, columns)| columns.iter()).chain(&OF_KICKS);
-        for name in named {
+        for (name, ..) in &DANGEROUS {
             assert!(MEASURES.iter().any(|row| row.columns.contains(name)), "{name}");
         }
     }

@@ -5,7 +5,6 @@
 //! ([`crate::view`]) and files ([`crate::figure`]) draw the same one.
 
 mod belt;
-mod belt_path;
 mod construction;
 mod diagram;
 mod eigenvalues;
@@ -18,7 +17,6 @@ mod kicks;
 pub mod legend;
 pub mod map;
 mod phase_plane;
-mod reading;
 mod regimes;
 mod return_map;
 pub mod role;
@@ -29,8 +27,14 @@ mod time_series;
 pub mod trade;
 pub(crate) mod units;
 
-use items::Picture;
-use ticks::Scale;
+pub use items::{
+    Caption, Fill, Flow, Function, Item, LineStyle, Marks, Pattern, Picture, Text, Texture,
+    VariantTag, ellipse, passes,
+};
+pub use legend::{LegendEntry, LegendSample};
+pub use map::{Danger, Dangerous, MapCell, ScanMap};
+pub use role::{CycleStyle, Dash, Mark, ROLES, Role, cycle_style};
+pub use ticks::{Scale, Tick, Ticks};
 
 use crate::fit::Fitted;
 use crate::scene::View;
@@ -52,15 +56,16 @@ const EXPANDED: [View; 5] =
 /// What the plot with this index shows.
 pub fn of(session: &Session, index: usize) -> Picture<'_> {
     let Plot { view, window, cursor, .. } = session.plots[index];
-    let mut picture = Picture { cursor, ..Picture::new(view.spec().title, "", "", window) };
+    let scales = scales(session, index);
+    let mut picture = Picture { cursor, scales, ..Picture::new(view.spec().title, "", "", window) };
     let fitted = |draw: fn(&Fitted) -> Option<Picture<'static>>| {
         let drawn = session.fitted().and_then(|found| draw(&found.fit))?;
-        Some(Picture { window, cursor, ..drawn })
+        Some(Picture { window, cursor, scales, ..drawn })
     };
     match view {
         View::Phase => phase_plane::draw(&mut picture, session, index),
         View::Diagram => diagram::draw(&mut picture, session, index),
-        View::TimeSeries => time_series::draw(&mut picture, session, index),
+        View::TimeSeries => time_series::draw(&mut picture, session),
         View::EnergyLedger => energy_ledger::draw(&mut picture, session),
         View::ReturnMap => return_map::draw(&mut picture, session, index),
         View::Regimes => regimes::draw(&mut picture, session, index),
@@ -82,7 +87,6 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
     if session.draws_whole() && EXPANDED.contains(&view) {
         picture.add_to_title("cubic expansion");
     }
-    picture.scales = scales(session, index);
     let shown = session.shown(index);
     picture.variants = shown.iter().map(|shown| shown.problem.parameters).collect();
     // Values that all variants hold stand in the title; those that distinguish them, beside their curves.

@@ -5,11 +5,10 @@
 //! cursor. Formulas show the present parameters; computed layers show the last answer, and the title
 //! says when that is stale.
 
-use super::construction;
-use super::items::{Item, LineStyle, Picture, VariantTag, ellipse};
-use super::kicks;
-use super::role::{CycleStyle, Dash, Mark, Role, cycle_style};
-use super::units::{self, said};
+use super::{
+    CycleStyle, Dash, Item, LineStyle, Mark, Picture, Role, VariantTag, construction, cycle_style,
+    ellipse, kicks,
+};
 use crate::closed_form::lyapunov;
 use crate::fit::Signal;
 use crate::flow::{Outcome, Problem, Trajectory};
@@ -27,11 +26,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         let model = if session.draws_whole() { "whole model" } else { "cubic expansion" };
         picture.add_to_title(model);
     }
-    let [across, upward] = units::scales(session, index).unwrap_or_default();
-    picture.reading = picture.cursor.map(|Point { x, y }| {
-        let window = picture.window;
-        format!("{} {}", said(across, "q", x, window.x), said(upward, "v", y, window.y))
-    });
+    picture.reading = picture.cursor.map(|at| picture.coordinates(at));
     let shows = |layer| session.layers.contains(&layer);
     let shown = session.shown(index);
 

@@ -3,20 +3,20 @@
 //! Where the map crosses the diagonal it has a cycle; where it enters the shaded band the motion comes
 //! to rest. The turning points of the motion climb and descend between map and diagonal as a cobweb.
 
-use super::items::{Item, LineStyle, Marks, Picture};
 use super::phase_plane::{self, sticking_set};
-use super::reading::reading;
-use super::role::{CycleStyle, Dash, Mark, Role, cycle_style};
+use super::{
+    CycleStyle, Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, cycle_style, units::said,
+};
 use crate::flow::{Outcome, Trajectory};
 use crate::scene::{Layer, Point};
-use crate::session::Session;
-use crate::session::motion::turning_points;
+use crate::session::{Session, motion::turning_points};
 
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     picture.axes("q", "next q");
     picture.reading = picture.cursor.map(|at| {
-        let (q, next) = reading(at, picture.window);
-        format!("q {q} next {next}")
+        let read = |name, value, span| said(Scale::Even, name, value, span);
+        let window = picture.window;
+        format!("{} {}", read("q", at.x, window.x), read("next", at.y, window.y))
     });
     let shows = |layer| session.layers.contains(&layer);
     let r = session.problem.parameters.r;

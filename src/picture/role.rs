@@ -1,11 +1,14 @@
 //! What a part of a picture stands for, and how it is told apart without colour: roles, dashes, marks.
 
+use serde::Serialize;
+
 /// Makes [`Role`] and [`ROLES`] from one list: each role with its name in theme files, and its glyph in a plot
 /// without dots.
 macro_rules! roles {
     ($($(#[$doc:meta])* $role:ident = $name:literal, $glyph:literal,)*) => {
         /// What a part of the screen stands for, as far as its style goes.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+        #[serde(rename_all = "kebab-case")]
         pub enum Role {
             $($(#[$doc])* $role,)*
         }
@@ -84,7 +87,8 @@ impl Role {
 }
 
 /// How a stroke is interrupted; told apart without colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Dash {
     Solid,
     /// Two dots wide.

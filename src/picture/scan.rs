@@ -1,20 +1,9 @@
 //! A scan: a curve over one parameter, or a map over two.
 
-use super::items::{LineStyle, Picture};
-use super::map::{ScanMap, measured};
-use super::role::{Dash, Role};
-use super::ticks::Scale;
+use super::{Dash, LineStyle, Picture, Role, Scale, ScanMap, map::measured};
 use crate::scan::sweep::{Spacing, Sweep};
 use crate::scene::Point;
-use crate::session::Session;
-use crate::session::scan::ScanOnShow;
-
-/// The names of both axes.
-pub fn names(scanned: &ScanOnShow) -> (&'static str, &'static str) {
-    let over = scanned.scan.over();
-    let name = |sweep: &Sweep| sweep.symbol.spec().name;
-    (name(&over[0]), over.get(1).map_or_else(|| measured(scanned), name))
-}
+use crate::session::{Session, scan::ScanOnShow};
 
 /// What the numbers along both axes stand for.
 pub fn scales(scanned: &ScanOnShow) -> [Scale; 2] {
@@ -31,14 +20,15 @@ pub fn scales(scanned: &ScanOnShow) -> [Scale; 2] {
 /// The curve over one parameter, or the map over two.
 pub fn draw(picture: &mut Picture, session: &Session) {
     let Some(scanned) = &session.scanned else { return };
-    let (x, y) = names(scanned);
-    picture.axes(x, y);
     picture.varied = scanned.scan.over().iter().map(|sweep| sweep.symbol).collect();
+    let names: Vec<&str> = picture.varied.iter().map(|knob| knob.spec().name).collect();
+    let upward = names.get(1).copied().unwrap_or_else(|| measured(scanned));
+    picture.axes(names[0], upward);
     picture.map = ScanMap::of(scanned);
-    if let Some(ScanMap { name, .. }) = picture.map.clone() {
+    if let Some(name) = picture.map.as_ref().map(|map| map.name.clone()) {
         picture.add_to_title(&name);
     } else {
-        let line = LineStyle::new(y, Role::Trajectory, Dash::Solid);
+        let line = LineStyle::new(upward, Role::Trajectory, Dash::Solid);
         let points = 0..scanned.rows.len();
         picture.curve(line, points.map(|index| scanned.place(index).unwrap_or(Point::NOWHERE)));
     }

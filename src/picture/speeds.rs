@@ -2,10 +2,7 @@
 //! where it is stable and dashed where it is not, stick-slip in thick ones, overtaking dotted; and where a
 //! stable state ends, the jump to the one that is left.
 
-use super::items::{LineStyle, Picture};
-use super::phase_plane::AT_REST;
-use super::reading::reading;
-use super::role::{Dash, Role};
+use super::{Dash, LineStyle, Picture, Role, phase_plane::AT_REST};
 use crate::branch::machine_special::Jump;
 use crate::branch::machine_special::{MachineSpecial, MachineSpecialKind};
 use crate::portrait::Cycle;
@@ -39,10 +36,7 @@ const KINDS: [CycleKind; 5] = [
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     picture.axes("v0 [m/s]", "x_max [m]");
     picture.add_to_title("whole model");
-    picture.reading = picture.cursor.map(|at| {
-        let (speed, x) = reading(at, picture.window);
-        format!("v0 {speed} m/s x_max {x} m")
-    });
+    picture.reading = picture.cursor.map(|at| picture.coordinates(at));
     if let Some(running) = session.running() {
         picture.upright(
             LineStyle::new("present speed", Role::Current, Dash::Sparse).briefly("present value"),

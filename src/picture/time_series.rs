@@ -3,19 +3,16 @@
 //! Displacement and energy change smoothly through the turning points, where the force of friction
 //! jumps from one end of `[-r, r]` to the other; at rest it balances the spring.
 
-use super::fit::dropped;
-use super::items::{Item, LineStyle, Marks, Picture};
 use super::phase_plane::{motion, number_curve};
-use super::role::{Dash, Mark, Role};
-use super::ticks::Scale;
-use super::units::{self, said};
+use super::{
+    Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, fit::mark_dropped, units::said,
+};
 use crate::fit::Signal;
 use crate::flow::{Outcome, Sample, Trajectory};
 use crate::model::State;
 use crate::model::parameters::energy;
 use crate::scene::{Layer, Point};
-use crate::session::Session;
-use crate::session::motion::friction_force;
+use crate::session::{Session, motion::friction_force};
 
 /// A quantity over time: its layer, its letter, its name, how it is drawn, and how it is read from a
 /// state.
@@ -27,15 +24,8 @@ const QUANTITIES: [Quantity; 3] = [
     (Layer::Position, "q", "displacement q", Role::Trajectory, Dash::Solid, |state| state.q),
 ];
 
-pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
-    let window = picture.window;
-    let [time, upward] = units::scales(session, index).unwrap_or_default();
-    // A displacement in metres has its own letter.
-    let physical = |text: &'static str| match (upward, text) {
-        (Scale::Times { .. }, "q") => "x",
-        (Scale::Times { .. }, "displacement q") => "displacement x",
-        _ => text,
-    };
+pub fn draw(picture: &mut Picture, session: &Session) {
+    let (window, [time, upward]) = (picture.window, picture.scales);
     let shows = |layer| session.layers.contains(&layer);
     let shown = || QUANTITIES.iter().rev().filter(|(layer, ..)| shows(*layer));
     let friction = shows(Layer::Friction).then_some("f");
@@ -49,76 +39,24 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
         })
     });
     picture.level(LineStyle::guide(), 0.0);
-    if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Record)) {
-        // An acceleration is none of the quantities on show.
-        let (layer, name) = match fitted.fit.record.signal {
-            Signal::Displacement => (Some(Layer::Position), "record"),
-            Signal::Velocity => (Some(Layer::Velocity), "record of v"),
-            Signal::Acceleration => (None, ""),
-        };
-        if layer.is_some_and(shows) {
-            let signal = fitted.fit.record.signal;
-            let all = || {
-                fitted
-                    .points
-                    .iter()
-                    .filter_map(|it| Some((Point { x: it.tau, y: it.shown(signal)? }, it.dropped)))
-            };
-            let line = LineStyle::new(name, Role::Ghost, Dash::Solid).briefly("measured");
-            picture.curve(line, all().filter(|(_, why)| why.is_none()).map(|(at, _)| at));
-            dropped::mark(picture, all().filter_map(|(at, why)| Some((at, why?))));
-        }
+    if shows(Layer::Record) {
+        record(picture, session);
     }
     for (place, beside) in session.motions().into_iter().filter(|(place, _)| *place > 0) {
-        let line = motion(session, place);
-        for (layer, _, name, _, dash, read) in QUANTITIES {
-            if shows(layer) {
-                let points = curve(beside, beside.problem.until, read);
-                let number = session.number(place);
-                let text = number.unwrap_or_default().to_string();
-                if let Some(first) = points.first() {
-                    picture.caption(*first, text, line.role);
-                }
-                number_curve(picture, number, &points, line.role);
-                let name = format!("{}, {}", physical(name), line.name);
-                picture
-                    .curve(LineStyle::new(name, line.role, dash).briefly("other motions"), points);
-            }
-        }
+        others(picture, session, beside, place);
     }
     // In the whole model the belt holds the mass too: the force of the guide alone is not known.
     let whole = session.draws_whole();
     let force = session.trajectory().filter(|_| shows(Layer::Friction) && !whole);
     let force = force.map(|motion| friction_force(motion, motion.problem.until));
+    if let Some(force) = &force {
+        let points: Vec<Point> = force.iter().copied().map(Point::from).collect();
+        let first = points.first().copied();
+        picture.curve(LineStyle::new("friction force f", Role::Sticking, Dash::DashDot), points);
+        label(picture, first, "f", Role::Sticking);
+    }
     if let Some(motion) = session.trajectory() {
-        let end = motion.problem.until;
-        if let Some(force) = force.clone() {
-            let points: Vec<Point> = force.into_iter().map(Point::from).collect();
-            let first = points.first().copied();
-            picture
-                .curve(LineStyle::new("friction force f", Role::Sticking, Dash::DashDot), points);
-            label(picture, first, "f", Role::Sticking);
-        }
-        for (layer, letter, name, role, dash, read) in QUANTITIES {
-            if shows(layer) {
-                let points = curve(motion, end, read);
-                number_curve(picture, session.number(0), &points, role);
-                let line = LineStyle::new(physical(name), role, dash);
-                // The same motion as in the phase plane, drawn in the same way.
-                let line = if layer == Layer::Position { line.briefly("motion") } else { line };
-                picture.curve(line, points);
-                let first = motion.samples.first();
-                let first = first.map(|sample| at(sample, read));
-                label(picture, first, physical(letter), role);
-            }
-        }
-        for ride in session.course().iter().flat_map(|motion| &motion.rides) {
-            for (.., read) in QUANTITIES.iter().filter(|(layer, ..)| shows(*layer)) {
-                let [from, to] = ride.map(|end| at(&end, *read));
-                let line = LineStyle::new("sticks to the belt", Role::Trajectory, Dash::Thick);
-                picture.bar(line.briefly("motion on the belt"), from, to);
-            }
-        }
+        present(picture, session, motion);
         if shows(Layer::Events) {
             events(picture, motion);
         }
@@ -130,6 +68,76 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
         }
         if let Some(y) = force.and_then(|force| force_at(&force, head.tau)) {
             picture.mark(Mark::Head, Point { x: head.tau, y }, Role::Cursor);
+        }
+    }
+}
+
+/// What a quantity is called in a picture: a displacement in metres has its own letter.
+fn physical(picture: &Picture, text: &'static str) -> &'static str {
+    match (picture.scales[1], text) {
+        (Scale::Times { .. }, "q") => "x",
+        (Scale::Times { .. }, "displacement q") => "displacement x",
+        _ => text,
+    }
+}
+
+/// What was measured. An acceleration is none of the quantities on show.
+fn record(picture: &mut Picture, session: &Session) {
+    let Some(fitted) = session.fitted() else { return };
+    let signal = fitted.fit.record.signal;
+    let (layer, name) = match signal {
+        Signal::Displacement => (Layer::Position, "record"),
+        Signal::Velocity => (Layer::Velocity, "record of v"),
+        Signal::Acceleration => return,
+    };
+    if !session.layers.contains(&layer) {
+        return;
+    }
+    let samples = fitted.points.iter();
+    let all =
+        samples.filter_map(|it| Some((Point { x: it.tau, y: it.shown(signal)? }, it.dropped)));
+    let line = LineStyle::new(name, Role::Ghost, Dash::Solid).briefly("measured");
+    picture.curve(line, all.clone().filter(|(_, why)| why.is_none()).map(|(at, _)| at));
+    mark_dropped(picture, all.filter_map(|(at, why)| Some((at, why?))));
+}
+
+/// A motion beside the present one.
+fn others(picture: &mut Picture, session: &Session, beside: &Trajectory, place: usize) {
+    let line = motion(session, place);
+    for (layer, _, name, _, dash, read) in QUANTITIES {
+        if !session.layers.contains(&layer) {
+            continue;
+        }
+        let points = curve(beside, beside.problem.until, read);
+        let number = session.number(place);
+        if let Some(first) = points.first() {
+            picture.caption(*first, number.unwrap_or_default().to_string(), line.role);
+        }
+        number_curve(picture, number, &points, line.role);
+        let name = format!("{}, {}", physical(picture, name), line.name);
+        picture.curve(LineStyle::new(name, line.role, dash).briefly("other motions"), points);
+    }
+}
+
+/// The present motion, and where it rides on its belt.
+fn present(picture: &mut Picture, session: &Session, motion: &Trajectory) {
+    let shows = |(layer, ..): &&Quantity| session.layers.contains(layer);
+    for &(layer, letter, name, role, dash, read) in QUANTITIES.iter().filter(shows) {
+        let points = curve(motion, motion.problem.until, read);
+        number_curve(picture, session.number(0), &points, role);
+        let line = LineStyle::new(physical(picture, name), role, dash);
+        // The same motion as in the phase plane, drawn in the same way.
+        let line = if layer == Layer::Position { line.briefly("motion") } else { line };
+        picture.curve(line, points);
+        let first = motion.samples.first();
+        let first = first.map(|sample| at(sample, read));
+        label(picture, first, physical(picture, letter), role);
+    }
+    for ride in session.course().iter().flat_map(|motion| &motion.rides) {
+        for (.., read) in QUANTITIES.iter().filter(shows) {
+            let [from, to] = ride.map(|end| at(&end, *read));
+            let line = LineStyle::new("sticks to the belt", Role::Trajectory, Dash::Thick);
+            picture.bar(line.briefly("motion on the belt"), from, to);
         }
     }
 }

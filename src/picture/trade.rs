@@ -3,8 +3,7 @@
 //! Each method is a curve through its tolerances, steps or widths, with its name at the finest; the best
 //! choices stand out, and so does the row that is nearest to the method in use.
 
-use super::items::{Item, LineStyle, Marks, Picture};
-use super::role::{Dash, Mark, Role};
+use super::{Dash, Item, LineStyle, Mark, Marks, Picture, Role};
 use crate::accuracy::trade::{Trade, TradePoint};
 use crate::flow::{METHODS, Method};
 use crate::scene::{Layer, Point};

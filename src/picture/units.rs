@@ -1,7 +1,7 @@
-//! The axes of a machine in its own units: metres, seconds, and parts of these.
+//! Numbers along axes: in the units of a machine (metres, seconds, and parts of these), and to the digits that can be
+//! told apart.
 
-use super::reading::CELLS;
-use super::ticks::Scale;
+use super::Scale;
 use crate::model::belt::Units as Physical;
 use crate::scene::{Layer, Span, View, Window};
 use crate::session::Session;
@@ -52,10 +52,12 @@ pub fn scales(session: &Session, index: usize) -> Option<[Scale; 2]> {
 /// A number along an axis under its name there, or under `name` where the axis has no other unit, to the digits that
 /// can be told apart.
 pub fn said(scale: Scale, name: &str, value: f64, span: Span) -> String {
-    let Scale::Times { factor, name } = scale else {
-        return format!("{name} {}", resolved(value, span.width() / CELLS));
-    };
-    let (symbol, unit) = name.split_once(' ').unwrap_or((name, ""));
-    let unit = unit.trim_matches(['[', ']']);
-    format!("{symbol} {} {unit}", resolved(factor * value, factor * span.width() / CELLS))
+    /// Cells of a large plot: what a cursor can tell apart.
+    const CELLS: f64 = 200.0;
+    let factor = if let Scale::Times { factor, .. } = scale { factor } else { 1.0 };
+    let number = resolved(factor * value, factor * span.width() / CELLS);
+    match scale.title(name).split_once(" [") {
+        Some((symbol, unit)) => format!("{symbol} {number} {}", unit.trim_end_matches(']')),
+        None => format!("{} {number}", scale.title(name)),
+    }
 }

@@ -5,14 +5,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
-use super::keys;
-use super::lists::frame;
-use super::look::Look;
-use super::pane;
-use super::prose;
-use crate::picture::role::Role;
-use crate::session::Session;
-use crate::session::overlay::SessionCaption;
+use super::{Look, keys, pane, prose};
+use crate::picture::Role;
+use crate::session::{Session, overlay::SessionCaption};
 
 const WIDTH: u16 = 100;
 
@@ -46,8 +41,6 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     }
     let place =
         Rect { x: area.x + (area.width - width) / 2, y: area.bottom() - height, width, height };
-    pane::clear(place, buffer);
-    let text = Rect { x: place.x + 2, y: place.y + 1, width: inner, height: height - 2 };
+    let text = pane::boxed(place, &heading, "", look, buffer);
     prose::write(text, lines, look, buffer);
-    frame(place, &heading, "", look, buffer);
 }

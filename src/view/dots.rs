@@ -18,8 +18,8 @@ use ratatui::layout::Rect;
 use ratatui::symbols::braille::BRAILLE;
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS};
 
-use super::look::Look;
-use crate::picture::role::{Dash, Role};
+use super::Look;
+use crate::picture::{Dash, Role};
 use crate::session::settings::Glyphs;
 
 /// What a curve is drawn with.

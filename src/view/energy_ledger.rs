@@ -7,38 +7,35 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::look::Look;
-use super::paint::symbol;
-use super::pane::Heading;
+use super::pane::{self, Heading};
 use super::plot::{Canvas, Names, rows};
+use super::{Look, paint::symbol};
 use crate::numerics::count::real;
-use crate::picture::energy_ledger::{AXIS, middle, reading};
-use crate::picture::role::{CycleStyle, Dash, Role, cycle_style};
-use crate::picture::ticks::{Tick, Ticks};
+use crate::picture::energy_ledger::{middle, reading};
+use crate::picture::{CycleStyle, Dash, Picture, Role, Tick, Ticks, cycle_style};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::ledger::{LedgerLine, Owner};
-use crate::session::{self, Pane, Session};
 use crate::words::number::significant;
 
 const DIGITS: usize = 4;
 
 const ERROR_DIGITS: usize = 2;
 
-pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
-    let session::Plot { window, cursor, .. } = session.plots[index];
-    let lines = session.ledger();
-    let (window, marks) = marks(area, session, window);
+pub fn draw(
+    area: Rect,
+    picture: &Picture,
+    mut heading: Heading,
+    lines: &[LedgerLine],
+    look: &Look,
+    buffer: &mut Buffer,
+) {
+    let (window, marks) = marks(area, lines, picture.window);
     let title = View::EnergyLedger.spec().title;
-    let scales = Default::default();
-    let names = Names { title, x: AXIS, y: "", scales, marks: Some(marks) };
-    let mut heading = Heading::of(session, Pane::Plot(index));
-    heading.reading = cursor.map(|cursor| {
-        lines
-            .iter()
-            .enumerate()
-            .find(|(line, _)| (middle(*line) - cursor.y).abs() <= 0.5)
-            .map(|(_, entry)| reading(entry))
-            .unwrap_or_default()
+    let names = Names { title, x: &picture.x, y: "", scales: picture.scales, marks: Some(marks) };
+    heading.reading = picture.cursor.map(|cursor| {
+        let near = |(line, _): &(usize, &LedgerLine)| (middle(*line) - cursor.y).abs() <= 0.5;
+        let found = lines.iter().enumerate().find(near);
+        found.map_or_else(String::new, |(_, entry)| reading(entry))
     });
     let mut plot = Canvas::new(area, window, names, &heading, look, buffer);
     plot.upright(0.0, Role::Axis, Dash::Solid);
@@ -47,9 +44,8 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
     for y in left_out(lines.len(), window, half) {
         plot.write(y, &format!("{} more", symbols.more), Role::Quiet);
     }
-    for (line, entry) in
-        lines.iter().enumerate().filter(|(line, _)| is_seen(*line, window, half, lines.len()))
-    {
+    let seen = |(line, _): &(usize, &LedgerLine)| is_seen(*line, window, half, lines.len());
+    for (line, entry) in lines.iter().enumerate().filter(seen) {
         let y = seat(line, half);
         match entry {
             LedgerLine::Title(Owner::Motion(..)) => plot.write(y, &reading(entry), Role::Title),
@@ -57,10 +53,8 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
                 let CycleStyle { mark, role, name, .. } = cycle_style(cycle.stable);
                 let short =
                     format!("{} q_max {}", symbol(mark, symbols), significant(cycle.q_max, DIGITS));
-                let full = format!("{short}, {name}");
-                let room = usize::from(plot.inner().width);
-                let fits = full.chars().count() <= room;
-                plot.write(y, if fits { &full } else { &short }, role);
+                let texts = [format!("{short}, {name}"), short];
+                plot.write(y, &pane::fitting(texts, plot.inner().width.into()), role);
             }
             LedgerLine::Work { work, part, so_far, .. } => {
                 let role = if *work < 0.0 { Role::Loss } else { Role::Gain };
@@ -75,21 +69,25 @@ pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &m
             }
         }
     }
-    if let Some(cursor) = cursor {
+    if let Some(cursor) = picture.cursor {
         plot.cross(cursor);
     }
     plot.finish(buffer);
 }
 
 /// The lines that are seen in `area`, each in whole rows, and the sources at the axis.
-pub fn marks(area: Rect, session: &Session, window: Window) -> (Window, Ticks) {
+pub fn marks(area: Rect, lines: &[LedgerLine], window: Window) -> (Window, Ticks) {
     let window = Window { y: whole_lines(window.y, rows(area)), ..window };
     let half = half_a_row(area, window);
-    let lines = session.ledger();
     let mark = |(line, entry): (usize, &LedgerLine)| {
         let fraction = window.y.fraction(seat(line, half));
-        let label = label(entry)?.to_owned();
-        is_seen(line, window, half, lines.len()).then_some(Tick { fraction, label })
+        let label = match entry {
+            LedgerLine::Work { source, .. } => *source,
+            LedgerLine::Residual(_) => "error",
+            LedgerLine::Title(_) => return None,
+        };
+        let is_seen = is_seen(line, window, half, lines.len());
+        is_seen.then(|| Tick { fraction, label: label.to_owned() })
     };
     let ticks = lines.iter().enumerate().filter_map(mark).collect();
     (window, Ticks { base: None, ticks })
@@ -127,13 +125,4 @@ fn left_out(lines: usize, window: Window, half: f64) -> Vec<f64> {
     let below = seat(last, half) < window.y.from();
     let rows = [(above, window.y.to() - half), (below, window.y.from() + half)];
     rows.into_iter().filter(|(is_there, _)| *is_there).map(|(_, row)| row).collect()
-}
-
-/// What stands at the axis.
-fn label(entry: &LedgerLine) -> Option<&'static str> {
-    match entry {
-        LedgerLine::Work { source, .. } => Some(source),
-        LedgerLine::Residual(_) => Some("error"),
-        LedgerLine::Title(_) => None,
-    }
 }

@@ -1,14 +1,11 @@
 //! What a fitted record says in the pane: numbers with their errors, in physical units where these are known.
 
-use super::look::Look;
-use super::pane;
+use super::{Look, pane};
 use crate::fit::{OMEGA0, named, rows};
 use crate::model::Knob;
 use crate::scene::Fitted;
 use crate::session::{Row, Session};
-use crate::words::number::significant;
-use crate::words::quantity::with_unit;
-use crate::words::statement::signed;
+use crate::words::{number::significant, quantity::with_unit, statement::signed};
 
 /// What a fitted number stands for with its standard error, and the error alone; or that it is held.
 pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {

@@ -5,15 +5,14 @@ use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 use ratatui::text::Span;
 
-use super::keys;
-use super::look::Look;
-use super::pane;
+use super::{Look, keys, pane};
 use crate::flow::QUALITIES;
 use crate::model::{Knob, KnobSpec};
-use crate::picture::role::Role;
-use crate::session::Hint;
-use crate::session::read::completion::described;
-use crate::session::{Entry, Input, Keymap, Notice, Overlay, Pending, Prompt, Row, Session};
+use crate::picture::Role;
+use crate::session::{
+    Entry, Hint, Input, Keymap, Notice, Overlay, Pending, Prompt, Row, Session,
+    read::completion::described,
+};
 
 /// Hints that are never left out, at the right end of the line.
 const ALWAYS: [&str; 5] = ["help", "accept", "replay", "forget", "quit"];

@@ -5,19 +5,14 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::layout::{Layout, SMALLEST, layout};
-use super::look::Look;
-use super::paint::paint;
 use super::pane::{self, Heading};
-use super::plot::shown;
 use super::{
-    caption, energy_ledger, footer, keys, legend, lists, parameters, prose, scan, scan_form, signs,
-    status,
+    Look, caption, energy_ledger, footer, keys, legend, lists, paint::paint, parameters,
+    plot::shown, prose, scan, scan_form, signs, status,
 };
-use crate::picture::role::Role;
-use crate::picture::{self, items::Picture};
+use crate::picture::{self, Picture, Role};
 use crate::scene::View;
-use crate::session::settings::Glyphs;
-use crate::session::{Overlay, Pane, Session};
+use crate::session::{Overlay, Pane, Session, settings::Glyphs};
 
 /// Draws a session. Nothing is decided or computed here except what a visible cell shows.
 pub fn draw(frame: &mut Frame, session: &Session, look: &Look) {
@@ -86,15 +81,17 @@ fn plot(
     if let Some(text) = session.nothing(index).filter(|_| !draws) {
         return nothing(area, &text, (&picture, session, index), look, buffer);
     }
-    match session.plots[index].view {
+    let heading = Heading::of(session, Pane::Plot(index));
+    match (session.plots[index].view, &session.scanned) {
         // Its lines are whole rows of the screen.
-        View::EnergyLedger => energy_ledger::draw(area, session, index, look, buffer),
-        // Its shades fill cells, and its table is text.
-        View::Scan => scan::draw(area, session, index, look, buffer),
-        _ => {
-            let heading = Heading::of(session, Pane::Plot(index));
-            paint(area, picture, heading, look, buffer);
+        (View::EnergyLedger, _) => {
+            energy_ledger::draw(area, &picture, heading, &session.ledger(), look, buffer);
         }
+        // Its shades fill cells, and its table is text.
+        (View::Scan, Some(scanned)) => {
+            scan::draw(area, &picture, &heading, scanned, look, buffer);
+        }
+        _ => paint(area, picture, heading, look, buffer),
     }
 }
 

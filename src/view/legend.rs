@@ -4,11 +4,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::dots::{DotPen, Dots};
-use super::look::Look;
-use super::paint::symbol;
-use crate::picture::items::Picture;
-use crate::picture::legend::{LegendEntry, LegendSample, entries};
-use crate::picture::role::{Dash, Mark, Role};
+use super::{Look, paint::symbol};
+use crate::picture::{Dash, LegendEntry, LegendSample, Mark, Picture, Role, legend::entries};
 
 const SAMPLE: u16 = 3;
 

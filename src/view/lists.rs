@@ -1,26 +1,17 @@
-//! Lists over the panes: everything, the scenes, the layers, the views. They scroll so that the selected row is
-//! seen, and show what is searched for.
+//! What the lists over the panes hold: everything, the scenes, the layers, the views, the costs. Those that are
+//! searched show what is searched for.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Style;
 use ratatui::text::Line;
 
-use super::content::{ListContent, ListLine, TEXT};
-use super::costs;
-use super::keys;
-use super::look::Look;
-use super::pane;
-use super::paper;
-use super::prose;
-use crate::picture::role::Role;
-use crate::scene::library::SceneGroup;
-use crate::scene::said::said_by;
-use crate::scene::{Layer, letters};
-use crate::session::PaletteRow;
-use crate::session::{List, Listed, Overlay, Session};
-
-const WIDTH: u16 = 90;
+use super::list::{ListContent, TEXT};
+use super::{Look, keys, paper};
+use crate::picture::Role;
+use crate::scene::{Answer, Answered, Layer, Topic, letters, library::SceneGroup, said::said_by};
+use crate::session::wants::{CostRow, Requirement, named};
+use crate::session::{AnswerState, List, Listed, Overlay, PaletteRow, Session};
+use crate::words::number::{count, duration};
 
 /// Columns of keys in the help.
 const KEYS: usize = 16;
@@ -32,103 +23,12 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Listed::Scenes => scenes(session, list, look),
         Listed::Layers => layers(session, list, look),
         Listed::Views => views(session, list, look),
-        Listed::Cost => costs::content(session, list, look),
+        Listed::Cost => costs(session, list, look),
         Listed::Paper => paper::content(session, list, look),
         Listed::Palette => palette(session, list, look),
         Listed::Interrupted => interrupted(session, list, look),
     };
-    let below = if content.about.is_empty() { 0 } else { content.below + 1 };
-    let wanted = u16::try_from(content.rows.len()).unwrap_or(u16::MAX).saturating_add(2 + below);
-    // No slivers of panes beside the list; the footer stays in sight.
-    let width = if screen.width < WIDTH + 10 { screen.width } else { WIDTH };
-    let height = screen.height.saturating_sub(1).min(wanted.max(4));
-    let area = pane::centred(screen, width, height);
-    if area.width < 4 || area.height < 4 {
-        return;
-    }
-    pane::clear(area, buffer);
-    let inner = Rect { x: area.x + 2, y: area.y + 1, width: width - 4, height: height - 2 };
-    let about = below.min(inner.height.saturating_sub(4));
-    let rows = Rect { height: inner.height - about, ..inner };
-    let place = self::rows(rows, &content.rows, list.selected, look, buffer);
-    if about > 0 {
-        let text = Rect { y: rows.bottom() + 1, height: about - 1, ..inner };
-        prose::write(text, content.about, look, buffer);
-    }
-    frame(area, &heading(content.title, list), &place, look, buffer);
-}
-
-fn heading(title: &str, list: &List) -> String {
-    if list.searching || !list.search.is_empty() {
-        let caret = if list.searching { "_" } else { "" };
-        format!(" {title}: /{}{caret} ", list.search)
-    } else {
-        format!(" {title} ")
-    }
-}
-
-/// Draws the rows around the selected one; returns which part of them is seen.
-fn rows(
-    area: Rect,
-    rows: &[ListLine],
-    selected: usize,
-    look: &Look,
-    buffer: &mut Buffer,
-) -> String {
-    let height = usize::from(area.height);
-    let selectable = rows.iter().enumerate().filter(|(_, row)| matches!(row, ListLine::Row(_)));
-    let index = selectable.clone().nth(selected).map_or(0, |(index, _)| index);
-    let first = index.saturating_sub(height / 2).min(rows.len().saturating_sub(height));
-    for (y, (place, row)) in (area.y..area.bottom()).zip(rows.iter().enumerate().skip(first)) {
-        let line = match row {
-            ListLine::Heading(text) => Line::styled(*text, look.style(Role::Title)),
-            ListLine::Row(spans) => {
-                let pointer = if place == index { look.symbols().pointer } else { " " };
-                let mut line = vec![look.span(format!("{pointer} "), Role::Focus)];
-                line.extend(spans.iter().cloned().map(|span| {
-                    if place == index { span.patch_style(look.style(Role::Selected)) } else { span }
-                }));
-                Line::from(line)
-            }
-        };
-        buffer.set_line(area.x, y, &pane::fitted(line, area.width.into(), look), area.width);
-    }
-    let count = selectable.count();
-    if count == 0 {
-        buffer.set_stringn(
-            area.x,
-            area.y,
-            "nothing found",
-            area.width.into(),
-            look.style(Role::Quiet),
-        );
-        return String::new();
-    }
-    format!(" {} of {count} ", (selected + 1).min(count))
-}
-
-/// Draws a frame with a heading above and a remark below at the right.
-pub(super) fn frame(area: Rect, heading: &str, remark: &str, look: &Look, buffer: &mut Buffer) {
-    let symbols = look.symbols();
-    let style = look.style(Role::Axis);
-    let [top_left, top_right, bottom_left, bottom_right] = symbols.corners;
-    let (right, bottom) = (area.right() - 1, area.bottom() - 1);
-    let rule = symbols.rule.repeat(usize::from(area.width - 2));
-    for (y, left, end) in [(area.y, top_left, top_right), (bottom, bottom_left, bottom_right)] {
-        buffer.set_string(area.x, y, left, style);
-        buffer.set_string(area.x + 1, y, &rule, style);
-        buffer.set_string(right, y, end, style);
-    }
-    for y in area.y + 1..bottom {
-        buffer.set_string(area.x, y, symbols.upright, style);
-        buffer.set_string(right, y, symbols.upright, style);
-    }
-    let room = usize::from(area.width.saturating_sub(4));
-    let style = Style::reset().patch(look.style(Role::Focus));
-    buffer.set_string(area.x + 2, area.y, pane::cut(heading, room, look), style);
-    let remark = pane::cut(remark, room, look);
-    let length = u16::try_from(remark.chars().count()).unwrap_or(0);
-    buffer.set_string(right - 1 - length, bottom, remark, look.style(Role::Quiet));
+    content.draw(screen, list, look, buffer);
 }
 
 /// Everything that has a name: with headings where nothing is searched, the best first where something is.
@@ -242,4 +142,57 @@ fn interrupted(session: &Session, list: &List, look: &Look) -> ListContent {
         content.row([look.span(when, Role::Key), look.span(kept.what.clone(), Role::Text)]);
     }
     content
+}
+
+/// What each question of the picture took, and what a step of each number asks again.
+fn costs(session: &Session, list: &List, look: &Look) -> ListContent {
+    /// Columns of what a row is about.
+    const NAME: usize = 14;
+    let mut content = ListContent::new("what the picture costs");
+    for row in session.cost_rows(list) {
+        if matches!(row, CostRow::Step(..)) {
+            content.group("a step of");
+        }
+        let (name, text) = match row {
+            CostRow::Asked(requirement) => asked(session, &requirement),
+            CostRow::Formulas(layers) => ("formulas", format!("nothing for {}", names(&layers))),
+            CostRow::Step(row, reused, anew) => {
+                (row.name_in(&session.problem), consequence(&reused, &anew))
+            }
+        };
+        let name = format!("{name:<NAME$}");
+        content.row([look.span(name, Role::Key), look.span(text, Role::Text)]);
+    }
+    content
+}
+
+fn names(layers: &[Layer]) -> String {
+    layers.iter().map(|layer| layer.spec().name).collect::<Vec<_>>().join(", ")
+}
+
+/// What a question took, and for which layers it is asked.
+fn asked(session: &Session, requirement: &Requirement) -> (&'static str, String) {
+    let topic = requirement.request.topic();
+    let held = match session.answers.standing(&requirement.request) {
+        AnswerState::Fresh(held) => Some(held),
+        _ => None,
+    };
+    let price = held.map_or_else(|| "not answered".to_owned(), price);
+    (topic.name(), format!("{price} for {}", names(&requirement.layers)))
+}
+
+fn price(answered: &Answered) -> String {
+    let cost = answered.result.as_ref().map(Answer::cost).unwrap_or_default();
+    let (evaluations, steps) = (count(cost.evaluations), count(cost.steps));
+    format!("{evaluations:>6} ev {steps:>6} steps {:>8}", duration(answered.seconds))
+}
+
+/// What a step recomputes and what it reuses.
+fn consequence(reused: &[Topic], anew: &[Topic]) -> String {
+    let part = |name: &str, topics: &[Topic]| {
+        (!topics.is_empty()).then(|| format!("{name} {}", named(topics, ", ")))
+    };
+    let parts = part("recomputes", anew).into_iter().chain(part("reuses", reused));
+    let parts: Vec<_> = parts.collect();
+    if parts.is_empty() { "nothing is asked".to_owned() } else { parts.join("; ") }
 }

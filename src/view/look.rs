@@ -12,7 +12,7 @@ use ratatui::text::Span;
 
 use super::colour::{STEPS, color_of, in_depth, mixed, parsed};
 use crate::numerics::count::truncated;
-use crate::picture::role::{ROLES, Role};
+use crate::picture::{ROLES, Role};
 use crate::session::settings::{self, Colors, Glyphs, Theme};
 
 /// The text of a theme that comes with the program.

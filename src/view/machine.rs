@@ -3,8 +3,7 @@
 use crate::flow::{Fate, Outcome, Trajectory};
 use crate::portrait::{Border, Cycle};
 use crate::session::Session;
-use crate::words::number::significant;
-use crate::words::quantity::with_unit;
+use crate::words::{number::significant, quantity::with_unit};
 
 const PLACES: usize = 4;
 

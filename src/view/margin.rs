@@ -1,8 +1,7 @@
 //! Margins in words: the smallest kicks that are not survived, from the worst rest position first; nominal and for
 //! certain, of the machine by the whole model and by its cubic expansion.
 
-use super::fitted::statement;
-use super::pane;
+use super::{fitted::statement, pane};
 use crate::model::Knob;
 use crate::portrait::{Border, Margin};
 use crate::scene::Topic;

@@ -6,8 +6,6 @@
 
 pub mod caption;
 mod colour;
-mod content;
-mod costs;
 pub mod dots;
 pub mod energy_ledger;
 mod fitted;
@@ -16,6 +14,7 @@ pub mod frame;
 pub mod keys;
 pub mod layout;
 pub mod legend;
+mod list;
 pub mod lists;
 pub mod look;
 mod machine;

@@ -3,11 +3,9 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::look::{Look, Symbols};
-use super::pane::Heading;
 use super::plot::{Canvas, Names};
-use crate::picture::items::{Caption, Item, Marks, Pattern, Picture};
-use crate::picture::role::{Dash, Mark};
+use super::{Look, look::Symbols, pane::Heading};
+use crate::picture::{Caption, Dash, Item, Mark, Marks, Pattern, Picture};
 use crate::scene::{Point, Window};
 
 /// Plots at least this wide have the long form of captions.

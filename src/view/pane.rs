@@ -3,12 +3,13 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Modifier;
+use ratatui::style::{Modifier, Style};
+use ratatui::symbols::border;
 use ratatui::text::{Line, Span};
-use ratatui::widgets::{Clear, Widget};
+use ratatui::widgets::{Block, Clear, Widget};
 
-use super::look::Look;
-use crate::picture::role::Role;
+use super::look::{Look, Symbols};
+use crate::picture::Role;
 use crate::session::{AnswerState, Pane, Session};
 
 /// The middle of the screen above the footer, for what stands over the panes.
@@ -19,7 +20,7 @@ pub fn centred(screen: Rect, width: u16, height: u16) -> Rect {
 }
 
 /// Clears an area for what stands over the panes, and what it would leave of words and numbers beside it.
-pub fn clear(area: Rect, buffer: &mut Buffer) {
+fn clear(area: Rect, buffer: &mut Buffer) {
     let full = buffer.area;
     let letter = |buffer: &Buffer, x: u16, y: u16| {
         let symbol = buffer.cell((x, y)).map_or(" ", |cell| cell.symbol());
@@ -39,6 +40,42 @@ pub fn clear(area: Rect, buffer: &mut Buffer) {
         }
     }
     Clear.render(area, buffer);
+}
+
+/// Clears an area for a box with a frame, a heading above and a remark below at the right; returns the part of the box
+/// for its text.
+pub fn boxed(area: Rect, heading: &str, remark: &str, look: &Look, buffer: &mut Buffer) -> Rect {
+    clear(area, buffer);
+    let Symbols { rule, upright, corners, .. } = *look.symbols();
+    let [top_left, top_right, bottom_left, bottom_right] = corners;
+    let frame = border::Set {
+        top_left,
+        top_right,
+        bottom_left,
+        bottom_right,
+        vertical_left: upright,
+        vertical_right: upright,
+        horizontal_top: rule,
+        horizontal_bottom: rule,
+    };
+    let room = usize::from(area.width.saturating_sub(4));
+    let above = [
+        look.span(rule, Role::Axis),
+        Span::styled(cut(heading, room, look), Style::reset().patch(look.style(Role::Focus))),
+    ];
+    let below = [look.span(cut(remark, room, look), Role::Quiet), look.span(rule, Role::Axis)];
+    Block::bordered()
+        .border_set(frame)
+        .border_style(look.style(Role::Axis))
+        .title_top(Line::from_iter(above))
+        .title_bottom(Line::from_iter(below).right_aligned())
+        .render(area, buffer);
+    Rect { x: area.x + 2, y: area.y + 1, width: area.width - 4, height: area.height - 2 }
+}
+
+/// The first of so many rows that is seen where `height` of them are, with the selected one among them.
+pub fn first_seen(selected: usize, rows: usize, height: usize) -> usize {
+    selected.saturating_sub(height / 2).min(rows.saturating_sub(height))
 }
 
 /// What stands in a title line besides the title.

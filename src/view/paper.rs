@@ -2,13 +2,12 @@
 
 use ratatui::text::Line;
 
-use super::content::{ListContent, TEXT};
-use super::look::Look;
+use super::Look;
+use super::list::{ListContent, TEXT};
 use crate::paper::{Claim, ClaimResult, UNSAID, Verdict};
-use crate::picture::role::Role;
+use crate::picture::Role;
 use crate::session::{List, Session};
-use crate::words::claim;
-use crate::words::number::significant;
+use crate::words::{claim, number::significant};
 
 /// The list, section by section.
 pub(super) fn content(session: &Session, list: &List, look: &Look) -> ListContent {

@@ -2,11 +2,8 @@
 
 use ratatui::layout::{Position, Rect};
 
-use super::energy_ledger;
-use super::layout::layout;
-use super::parameters;
 use super::plot::{point_at, shown};
-use super::scan;
+use super::{energy_ledger, layout::layout, parameters, scan};
 use crate::picture;
 use crate::scene::View;
 use crate::session::{PointerTarget, Session};
@@ -26,7 +23,7 @@ pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<PointerT
     let window = shown(area, session, index, scales);
     let point = match session.plots[index].view {
         View::EnergyLedger => {
-            let (window, marks) = energy_ledger::marks(area, session, window);
+            let (window, marks) = energy_ledger::marks(area, &session.ledger(), window);
             point_at(area, window, scales, Some(marks), cell)
         }
         View::Scan => point_at(scan::body(area), window, scales, None, cell),

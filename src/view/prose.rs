@@ -4,8 +4,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::look::Look;
-use super::pane;
+use super::{Look, pane};
 use crate::words::wrapped;
 
 /// Writes lines from the top of `area` down; those that are too long for a row go on in the next, in the

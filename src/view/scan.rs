@@ -8,18 +8,14 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
-use super::look::Look;
 use super::pane::{self, Heading};
 use super::plot::{Canvas, Names};
-use super::scan_map;
-use super::scan_table;
-use crate::picture::map::{Danger, measured, nothing};
-use crate::picture::role::{Dash, Role};
-use crate::picture::scan::{names, scales};
+use super::{Look, scan_map, scan_table};
+use crate::picture::map::{measured, nothing};
+use crate::picture::{Danger, Dash, Picture, Role};
 use crate::scan::measure::Value;
 use crate::scene::{Point, View};
 use crate::session::scan::{ScanOnShow, ScanProgress, WORDS};
-use crate::session::{Pane, Session};
 use crate::words::measured::rounded;
 use crate::words::number::{remaining, significant};
 
@@ -34,25 +30,29 @@ pub fn body(area: Rect) -> Rect {
     Rect { height: area.height.saturating_sub(BELOW), ..area }
 }
 
-pub fn draw(area: Rect, session: &Session, index: usize, look: &Look, buffer: &mut Buffer) {
-    let heading = Heading::of(session, Pane::Plot(index));
-    let Some(scanned) = &session.scanned else { return };
+pub fn draw(
+    area: Rect,
+    picture: &Picture,
+    heading: &Heading,
+    scanned: &ScanOnShow,
+    look: &Look,
+    buffer: &mut Buffer,
+) {
     let title = format!("{} {}", View::Scan.spec().title, progress(scanned));
     if scanned.table {
-        pane::title(area, &title, "", &heading, look, buffer);
+        pane::title(area, &title, "", heading, look, buffer);
         let body = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
         return scan_table::draw(body, scanned, look, buffer);
     }
-    let (x, y) = names(scanned);
+    let Picture { x, y, scales, window, map, .. } = picture;
     let width = usize::from(area.width);
     // The names of the axes stand there in any case; how far the scan is, where there is room.
     let full = title.chars().count() + y.len() + x.len() + 9 <= width;
     let short = if full { title.as_str() } else { View::Scan.spec().title };
-    let names = Names { title: short, x, y, scales: scales(scanned), marks: None };
-    let window = session.plots[index].window;
-    let mut plot = Canvas::new(body(area), window, names, &heading, look, buffer);
-    let legend = if scanned.is_grid() {
-        scan_map::draw(&plot, scanned, look, buffer);
+    let names = Names { title: short, x, y, scales: *scales, marks: None };
+    let mut plot = Canvas::new(body(area), *window, names, heading, look, buffer);
+    let legend = if let Some(map) = map {
+        scan_map::draw(&plot, map, look, buffer);
         scan_map::legend(scanned, width, look)
     } else {
         curve(&mut plot, scanned, look);

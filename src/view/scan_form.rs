@@ -3,11 +3,8 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::footer::typed;
-use super::lists::frame;
-use super::look::Look;
-use super::pane;
-use crate::picture::role::Role;
+use super::{Look, footer::typed, pane};
+use crate::picture::Role;
 use crate::scan::measure::MEASURES;
 use crate::session::overlay::{FIELDS, FormField, ScanForm};
 use crate::session::{Overlay, Session};
@@ -27,8 +24,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     if area.width < 20 || area.height < 6 {
         return;
     }
-    pane::clear(area, buffer);
-    let inner = Rect { x: area.x + 2, y: area.y + 1, width: width - 4, height: height - 2 };
+    let inner = pane::boxed(area, " scan ", "", look, buffer);
     for (row, (index, spec)) in (0..inner.height).zip(FIELDS.iter().enumerate()) {
         let active = index == form.at;
         let pointer = if active { look.symbols().pointer } else { " " };
@@ -47,10 +43,8 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let quiet = |text: String| look.span(text, Role::Quiet);
     pane::line(inner, below, quiet(about(form)), look, buffer);
     if let Some(why) = &form.refused {
-        let text = pane::cut(why, inner.width.into(), look);
-        pane::line(inner, below + 1, look.span(text, Role::Failure), look, buffer);
+        pane::line(inner, below + 1, look.span(why.clone(), Role::Failure), look, buffer);
     }
-    frame(area, " scan ", "", look, buffer);
 }
 
 /// What the field takes, or what the measure in it means.

@@ -6,13 +6,10 @@ use ratatui::buffer::Buffer;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use super::look::Look;
-use super::pane;
-use super::plot::Canvas;
+use super::{Look, pane, plot::Canvas};
 use crate::numerics::count::{real, truncated};
-use crate::picture::map::{Danger, Dangerous, measured, nothing};
-use crate::picture::role::Role;
-use crate::scan::sweep::Sweep;
+use crate::picture::map::{measured, nothing};
+use crate::picture::{Danger, Dangerous, MapCell, Role, ScanMap};
 use crate::scene::Point;
 use crate::session::scan::{ScanOnShow, WORDS};
 use crate::session::settings::Glyphs;
@@ -37,14 +34,13 @@ struct Ramp {
 }
 
 impl Ramp {
-    fn of(scanned: &ScanOnShow, look: &Look) -> Option<Self> {
-        let scale = Danger::of(scanned)?;
+    fn of(scale: Danger, look: &Look) -> Self {
         let plain = look.glyphs == Glyphs::Ascii;
         let mut shades: Vec<char> = if plain { LETTERS } else { SHADES }.chars().collect();
         if scale.dangerous == Some(Dangerous::Small) {
             shades.reverse();
         }
-        Some(Ramp { shades, scale })
+        Ramp { shades, scale }
     }
 
     /// The shade of a value, and how dangerous it is.
@@ -61,37 +57,35 @@ impl Ramp {
 }
 
 /// Fills each cell with the shade of the point nearest to it.
-pub fn draw(plot: &Canvas, scanned: &ScanOnShow, look: &Look, buffer: &mut Buffer) {
-    let words = scanned.plots_words();
-    let ramp = Ramp::of(scanned, look);
+pub fn draw(plot: &Canvas, map: &ScanMap, look: &Look, buffer: &mut Buffer) {
+    let ramp = map.scale.map(|scale| Ramp::of(scale, look));
     let quiet = look.style(Role::Quiet);
-    let shade = |value: f64| match &ramp {
-        _ if words => {
-            let (letter, danger) = OF_WORDS[(truncated(value)).min(OF_WORDS.len() - 1)];
-            (letter, of_word(danger, look))
-        }
-        Some(ramp) => {
+    let sign = |cell: MapCell| match (cell, &ramp) {
+        (MapCell::Number(value), Some(ramp)) => {
             let (shade, danger) = ramp.shade(value);
             (shade, look.danger(danger))
         }
-        None => (NOTHING, quiet),
+        (MapCell::Word(word), _) => match WORDS.iter().position(|known| *known == word) {
+            Some(index) => (OF_WORDS[index].0, of_word(OF_WORDS[index].1, look)),
+            None => (sign_of_nothing(word), quiet),
+        },
+        (MapCell::Number(_), None) => (NOTHING, quiet),
     };
-    let over = scanned.scan.over();
-    // Of more than two parameters the others stay at their first values.
-    let stride: usize = over[2..].iter().map(|sweep| sweep.count).product();
     let inner = plot.inner();
     for column in 0..inner.width {
         for row in 0..inner.height {
             let Point { x, y } = plot.world(column, row);
-            let (across, upward) = (nearest(&over[0], x), nearest(&over[1], y));
-            let (Some(across), Some(upward)) = (across, upward) else { continue };
-            let index = (across * over[1].count + upward) * stride;
-            let Some(found) = scanned.rows.get(index) else { continue };
-            let none = if found.reason.is_some() { UNKNOWN } else { NOTHING };
-            let (symbol, style) = scanned.height(index).map_or((none, quiet), shade);
+            let across = nearest(&map.x, x).and_then(|across| map.values.get(across));
+            let cell = nearest(&map.y, y).and_then(|upward| across?.get(upward));
+            let Some((symbol, style)) = cell.copied().map(sign) else { continue };
             buffer[(inner.x + column, inner.y + row)].set_char(symbol).set_style(style);
         }
     }
+}
+
+/// What stands for a point without a number.
+fn sign_of_nothing(meaning: &str) -> char {
+    if meaning == "gave up" { UNKNOWN } else { NOTHING }
 }
 
 fn of_word(danger: Option<f64>, look: &Look) -> Style {
@@ -110,10 +104,9 @@ pub fn without_numbers(scanned: &ScanOnShow, width: usize) -> String {
             meanings.push(meaning);
         }
     }
-    let sign = |meaning: &&str| match *meaning {
-        _ if !scanned.is_grid() => format!("gap: {meaning}"),
-        "gave up" => format!("{UNKNOWN} {meaning}"),
-        _ => format!("{NOTHING} {meaning}"),
+    let sign = |meaning: &&str| match scanned.is_grid() {
+        false => format!("gap: {meaning}"),
+        true => format!("{} {meaning}", sign_of_nothing(meaning)),
     };
     let signs = || meanings.iter().map(sign);
     let texts = [signs().collect::<Vec<_>>().join("  "), signs().take(1).collect()];
@@ -124,8 +117,9 @@ pub fn without_numbers(scanned: &ScanOnShow, width: usize) -> String {
 /// begins, else with the smallest and the largest alone.
 pub fn legend(scanned: &ScanOnShow, width: usize, look: &Look) -> Line<'static> {
     let name = measured(scanned);
-    let ramp = Ramp::of(scanned, look).filter(|_| !scanned.plots_words());
-    let texts: Vec<String> = if scanned.plots_words() {
+    let words = scanned.plots_words();
+    let ramp = Danger::of(scanned).filter(|_| !words).map(|scale| Ramp::of(scale, look));
+    let texts: Vec<String> = if words {
         let words =
             OF_WORDS.iter().zip(WORDS).map(|((symbol, _), word)| format!("{symbol} {word}"));
         let words = words.collect::<Vec<_>>().join("  ");
@@ -174,11 +168,10 @@ pub fn legend(scanned: &ScanOnShow, width: usize, look: &Look) -> Line<'static> 
     text.chars().enumerate().map(span).collect::<Vec<_>>().into()
 }
 
-/// Which value of a sweep a place on its axis belongs to; none beyond half a step of its ends.
-fn nearest(sweep: &Sweep, place: f64) -> Option<usize> {
-    let last = sweep.count - 1;
-    let [from, to] = [0, last].map(|index| ScanOnShow::coordinate(sweep, index));
-    let steps = (place - from) / (to - from) * real(last);
+/// Which of some evenly spaced places along an axis another belongs to; none beyond half a step of their ends.
+fn nearest(places: &[f64], place: f64) -> Option<usize> {
+    let last = places.len() - 1;
+    let steps = (place - places[0]) / (places[last] - places[0]) * real(last);
     let index = (steps >= -0.5 && steps.is_finite()).then_some(truncated(steps + 0.5));
     index.filter(|index| *index <= last)
 }

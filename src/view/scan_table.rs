@@ -6,14 +6,12 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
-use super::look::Look;
-use super::pane;
-use crate::picture::role::Role;
+use super::{Look, pane};
+use crate::picture::Role;
 use crate::scan::measure::Value;
 use crate::scan::sweep::Sweep;
 use crate::session::scan::ScanOnShow;
-use crate::words::measured::rounded;
-use crate::words::number::significant;
+use crate::words::{measured::rounded, number::significant};
 
 const DIGITS: usize = 8;
 
@@ -23,8 +21,7 @@ pub fn draw(area: Rect, scanned: &ScanOnShow, look: &Look, buffer: &mut Buffer) 
     let Some(room) = usize::from(area.height).checked_sub(1).filter(|room| *room > 0) else {
         return;
     };
-    let first = scanned.at.saturating_sub(room / 2);
-    let first = first.min(scanned.rows.len().saturating_sub(room));
+    let first = pane::first_seen(scanned.at, scanned.rows.len(), room);
     let seen = first..scanned.rows.len().min(first + room);
     let columns = columns(scanned, seen.clone());
     let mut used = 0;

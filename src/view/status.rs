@@ -4,21 +4,12 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::fitted::UNRELIABLE;
-use super::keys;
-use super::look::Look;
-use super::machine;
-use super::margin;
-use super::pane;
-use super::walk;
-use crate::flow::trajectory::choice;
-use crate::flow::{Outcome, Trajectory};
-use crate::picture::role::Role;
-use crate::picture::units;
+use super::{Look, fitted::UNRELIABLE, keys, machine, margin, pane, walk};
+use crate::flow::{Outcome, Trajectory, trajectory::choice};
+use crate::picture::{Role, units};
 use crate::scene::{Answer, Layer, Topic};
-use crate::session::Session;
 use crate::session::fate::{End, MotionVerdict, SideOfBorder};
-use crate::session::wants::named;
+use crate::session::{Session, wants::named};
 use crate::words::motion::{Writing, sentence, swings};
 use crate::words::number::{count, duration, significant};
 

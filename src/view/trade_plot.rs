@@ -3,14 +3,12 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::look::Look;
-use super::pane::Heading;
 use super::plot::{Canvas, Names};
-use super::screen;
+use super::{Look, pane::Heading, screen};
 use crate::accuracy::trade::Trade;
 use crate::flow::Method;
 use crate::numerics::elementary::log10;
-use crate::picture::role::Role;
+use crate::picture::Role;
 use crate::scene::{Point, Span, Window};
 use crate::session::settings::{self, Colors, Glyphs};
 

@@ -1,6 +1,6 @@
 //! The point of the branch that is held, in numbers.
 
-use super::look::Look;
+use super::Look;
 use crate::branch::SpecialKind;
 use crate::portrait::Cycle;
 use crate::session::{BranchStop, Session};

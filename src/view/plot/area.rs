@@ -10,7 +10,7 @@ use ratatui::layout::Rect;
 
 use super::Canvas;
 use crate::numerics::elementary::atan2;
-use crate::picture::role::Role;
+use crate::picture::Role;
 use crate::scene::Point;
 
 impl Canvas<'_> {

@@ -8,7 +8,7 @@
 
 use ratatui::layout::{Position, Rect};
 
-use crate::picture::ticks::{Scale, Tick, Ticks};
+use crate::picture::{Scale, Tick, Ticks};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::Session;
 use crate::words::number::resolved;

@@ -3,11 +3,9 @@
 #![expect(clippy::cast_possible_truncation, reason = "lengths of short texts count cells")]
 
 use super::Canvas;
-use crate::picture::items::Caption;
-use crate::picture::role::Role;
+use crate::picture::{Caption, Role};
 use crate::scene::Point;
-use crate::view::dots::Covering;
-use crate::view::pane;
+use crate::view::{dots::Covering, pane};
 use crate::words::number::significant;
 
 /// What a text may hide anywhere, the best first.

@@ -1,15 +1,15 @@
 //! The pictures of a fit: record and residuals, damping over amplitude, phase plane, margin, D and r
-//! together.
+//! together. Samples of a record that do not count are marked by what they are.
 
-use super::damping::damping;
-use super::dropped::mark;
-use super::pieces::{StyledPoints, at, curve, picture, points, window, with_unit};
-use crate::fit::{D, Dropped, Fitted, Q0, R, Signal, memory as memory_of, parameters};
+use std::f64::consts::PI;
+
+use super::{CycleStyle, Dash, Item, LineStyle, Mark, Marks, Picture, Role, cycle_style};
+use crate::fit::{
+    D, D3, Dropped, Extent, Fitted, PlotPoint, Q0, R, Signal, memory as memory_of, parameters,
+};
 use crate::flow::Limits;
 use crate::model::{Parameters, State};
 use crate::numerics::count::real;
-use crate::picture::items::{Item, LineStyle, Marks, Picture};
-use crate::picture::role::{Dash, Mark, Role};
 use crate::portrait::Border;
 use crate::portrait::basin::{Basin, basin};
 use crate::scene::{Point, Span, Window};
@@ -41,7 +41,7 @@ fn record(fitted: &Fitted) -> Option<Picture<'static>> {
         picture.window.x = times.scaled(times.center(), 1.06);
     }
     let all = record.t.iter().flatten().zip(&record.x).zip(&fitted.estimate.dropped);
-    mark(&mut picture, all.filter_map(|((t, x), why)| Some((at(*t, *x), (*why)?))));
+    mark_dropped(&mut picture, all.filter_map(|((t, x), why)| Some((at(*t, *x), (*why)?))));
     Some(picture)
 }
 
@@ -63,7 +63,7 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
         let why = why.filter(|it| matches!(it, Dropped::Outlier | Dropped::Jump))?;
         Some((at(*t, *e), why))
     });
-    mark(&mut picture, apart);
+    mark_dropped(&mut picture, apart);
     Some(picture)
 }
 
@@ -80,6 +80,57 @@ fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
     ];
     let names = ("lag [s]".to_owned(), "correlation".to_owned());
     picture("memory of the residuals", names, curves, window([0.0, periods, -1.0, 1.0]))
+}
+
+/// Damping over amplitude: measured decrements, the exact curve, the averaged one with its terms and its band.
+pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
+    let p = &fitted.estimate.p;
+    let found = &fitted.curves.damping;
+    let over = |value: &dyn Fn(f64) -> f64| {
+        found.averaged.iter().map(|&[x, _]| Point { x, y: value(x) }).collect()
+    };
+    let friction = |a: f64| 2.0 * p[R] / (PI * a);
+    let mut curves = vec![
+        curve("linear part D", Role::Asymptote, Dash::Sparse, over(&|_| p[D])),
+        curve("friction 2 r/(pi A)", Role::Sticking, Dash::Dotted, over(&friction)),
+        curve(
+            "cubic part (3/8) D3 A^2",
+            Role::Lyapunov,
+            Dash::DashDot,
+            over(&|a| 0.375 * p[D3] * a * a),
+        ),
+        curve("averaged", Role::Harmonic, Dash::Dashed, points(&found.averaged)),
+        curve("exact", Role::Trajectory, Dash::Thick, points(&found.exact)),
+    ];
+    let extent = window(found.extent)?;
+    let measured: Vec<Point> = found.measured.iter().map(|&[x, y, _]| Point { x, y }).collect();
+    let beyond = measured.iter().filter(|at| !extent.contains(**at)).count();
+    let name = match beyond {
+        0 => "measured".to_owned(),
+        _ => format!("measured, {beyond} beyond the plot"),
+    };
+    curves.extend(found.measured.iter().map(|&[x, y, error]| {
+        let bar = [y - error, y + error].map(|y| Point { x, y });
+        (LineStyle::new(name.clone(), Role::Ghost, Dash::Solid), bar.to_vec())
+    }));
+    let amplitude = with_unit("amplitude A", fitted.unit());
+    let names = (amplitude, "loss of amplitude".to_owned());
+    let mut picture = picture("damping over amplitude", names, curves, Some(extent))?;
+    let line = LineStyle::new("90 % band of averaged", Role::Field, Dash::Solid);
+    picture.items.push(Item::Shade(line, points(&found.band)));
+    let exact = points(&found.exact);
+    let zeros = exact.windows(2).filter(|two| two[0].y * two[1].y < 0.0);
+    picture.items.extend(zeros.map(|two| Item::Marks(zero(two[0], two[1]))));
+    let marks = Marks::new(Mark::Turn, Role::Ghost, measured);
+    picture.items.push(Item::Marks(Marks { name: "measured".into(), at_edge: true, ..marks }));
+    Some(picture)
+}
+
+/// Where the damping is zero there is a cycle: stable where the damping grows through zero.
+fn zero(from: Point, to: Point) -> Marks {
+    let x = from.x + from.y / (from.y - to.y) * (to.x - from.x);
+    let CycleStyle { mark, role, name, .. } = cycle_style(to.y > from.y);
+    Marks { name: name.into(), brief: name, ..Marks::new(mark, role, vec![Point { x, y: 0.0 }]) }
 }
 
 /// The first border of a basin, thinned, as a curve.
@@ -168,4 +219,82 @@ pub fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
     let names = (name, "probability".to_owned());
     let extent = Some(window(fitted.curves.spread_extent)?);
     picture("margin from rest, distribution", names, curves, extent)
+}
+
+/// How samples that do not count are marked, and what legends call them.
+const MARKS: [(Dropped, Mark, Role, &str); 6] = [
+    (Dropped::Before, Mark::Aside, Role::Bands, "before the stroke, left out"),
+    (Dropped::After, Mark::Aside, Role::Bands, "after a second stroke, left out"),
+    (Dropped::Jump, Mark::Aside, Role::Bands, "at jumps, left out"),
+    (Dropped::Alike, Mark::Aside, Role::Harmonic, "alike at rest, left out"),
+    (Dropped::Saturated, Mark::Saturated, Role::Danger, "saturated, left out"),
+    (Dropped::Outlier, Mark::Outlier, Role::Danger, "outliers, left out"),
+];
+
+/// Marks of one kind that a picture shows at most.
+const MOST: usize = 500;
+
+/// Marks the samples that do not count. What lies above or below the window is shown at its edge.
+pub fn mark_dropped(picture: &mut Picture, samples: impl Iterator<Item = (Point, Dropped)>) {
+    let samples: Vec<(Point, Dropped)> = samples.collect();
+    for (which, mark, role, name) in MARKS {
+        let of_kind = samples.iter().filter(|(_, why)| *why == which).map(|(at, _)| *at);
+        let all: Vec<Point> = of_kind.collect();
+        let at: Vec<Point> = all.iter().copied().step_by(all.len().div_ceil(MOST).max(1)).collect();
+        if !at.is_empty() {
+            let marks = Marks::new(mark, role, at);
+            let marks = Marks { name: name.into(), brief: name, at_edge: true, ..marks };
+            picture.items.push(Item::Marks(marks));
+        }
+    }
+}
+
+/// A curve before it stands in a picture.
+type StyledPoints = (LineStyle, Vec<Point>);
+
+fn at(x: f64, y: f64) -> Point {
+    Point { x, y }
+}
+
+fn points(places: &[PlotPoint]) -> Vec<Point> {
+    places.iter().copied().map(Point::from).collect()
+}
+
+/// What is worth seeing; `None` if it has no extent.
+fn window([left, right, low, high]: Extent) -> Option<Window> {
+    Some(Window { x: Span::new(left, right).ok()?, y: Span::new(low, high).ok()? })
+}
+
+/// A curve through these points.
+fn curve(name: &'static str, role: Role, dash: Dash, points: Vec<Point>) -> StyledPoints {
+    (LineStyle::new(name, role, dash), points)
+}
+
+/// A picture of these curves; where no window is given, of one that holds them all with some room. `None` if
+/// they have no extent.
+fn picture(
+    title: &'static str,
+    (x, y): (String, String),
+    curves: Vec<StyledPoints>,
+    within: Option<Window>,
+) -> Option<Picture<'static>> {
+    let around = |place: fn(&Point) -> f64| {
+        let points = curves.iter().flat_map(|(_, points)| points);
+        let span = Span::covering(points.map(place).filter(|it| it.is_finite()))?;
+        Some(span.scaled(span.center(), 1.06))
+    };
+    let window = match within {
+        Some(window) => window,
+        None => Window { x: around(|point| point.x)?, y: around(|point| point.y)? },
+    };
+    let mut picture = Picture::new(title, x, y, window);
+    for (line, points) in curves {
+        picture.curve(line, points);
+    }
+    Some(picture)
+}
+
+/// `name [unit]`.
+fn with_unit(name: &str, unit: &str) -> String {
+    if unit.is_empty() { name.into() } else { format!("{name} [{unit}]") }
 }

@@ -1,13 +1,77 @@
-//! What fills a window, as polygons.
+//! Areas as polygons: the side of a curve that holds the origin, and what fills a window.
 //!
-//! The window is cut into level strips. Along each edge of a strip the places are bisected at which the
+//! To fill it, the window is cut into level strips. Along each edge of a strip the places are bisected at which the
 //! filling changes; where all edges have the same fillings in the same order and the places lie on straight
 //! lines, the strip is a row of trapezoids between these places, else it is halved. Trapezoids above each
 //! other become one polygon.
 
+use crate::numerics::elementary::{atan2, sin_cos};
 use crate::numerics::root::bisect;
-use crate::picture::items::{Fill, Texture};
+use crate::picture::{Fill, Texture};
 use crate::scene::{Point, Window};
+
+type Pair = [f64; 2];
+
+/// How far around the window an open curve is closed, in sizes of the window.
+const AROUND: f64 = 4.0;
+
+/// The loops whose even-odd filling is the area: the curve where it is closed, else the curve closed
+/// around the window, and a rectangle around all where the origin lies outside of that.
+pub(super) fn loops(edge: &[Pair], window: Window) -> Vec<Vec<Pair>> {
+    let (Some(first), Some(last)) = (edge.first(), edge.last()) else { return Vec::new() };
+    if first == last {
+        return vec![edge.to_vec()];
+    }
+    let mut closed = edge.to_vec();
+    closed.extend(detour(*last, *first, window));
+    if contains(&closed, [0.0, 0.0]) { vec![closed] } else { vec![rectangle(window), closed] }
+}
+
+fn rectangle(window: Window) -> Vec<Pair> {
+    [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|corner| place(window, corner))
+        .to_vec()
+}
+
+/// A point of the rectangle around the window; its sides lie at -1 and 1.
+fn place(window: Window, (x, y): (f64, f64)) -> Pair {
+    let center = window.center();
+    [center.x + 0.5 * AROUND * window.x.width() * x, center.y + 0.5 * AROUND * window.y.width() * y]
+}
+
+/// The way from one point outside of the window to another, around it.
+fn detour(from: Pair, to: Pair, window: Window) -> Vec<Pair> {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+    let center = window.center();
+    let angle =
+        |[x, y]: Pair| atan2((y - center.y) / window.y.width(), (x - center.x) / window.x.width());
+    let outward = |angle: f64| {
+        let (sin, cos) = sin_cos(angle);
+        let longest = sin.abs().max(cos.abs());
+        place(window, (cos / longest, sin / longest))
+    };
+    let (start, end) = (angle(from), angle(to));
+    // The shorter way round.
+    let turn = (end - start + PI).rem_euclid(TAU) - PI;
+    let corners = (-8..=8).map(|corner| FRAC_PI_4 + FRAC_PI_2 * f64::from(corner));
+    let mut between: Vec<f64> = corners
+        .filter(|corner| (corner - start) * turn > 0.0 && (corner - start).abs() < turn.abs())
+        .collect();
+    if turn < 0.0 {
+        between.reverse();
+    }
+    let way = std::iter::once(start).chain(between).chain(std::iter::once(end));
+    way.map(outward).collect()
+}
+
+/// Whether a polygon contains a point, by counting crossings.
+fn contains(polygon: &[Pair], [x, y]: Pair) -> bool {
+    let next = polygon.iter().cycle().skip(1);
+    let crossed = polygon.iter().zip(next).filter(|([x0, y0], [x1, y1])| {
+        (*y0 > y) != (*y1 > y) && x < x0 + (y - y0) / (y1 - y0) * (x1 - x0)
+    });
+    crossed.count() % 2 == 1
+}
 
 /// Strips that a window is cut into at least.
 const STRIPS: u32 = 150;
@@ -156,10 +220,36 @@ mod tests {
     use crate::picture::role::Role;
     use crate::scene::Span;
 
+    const WINDOW: Window = Window { x: Span::known(-1.0, 1.0), y: Span::known(-1.0, 1.0) };
+
+    fn inside(loops: &[Vec<Pair>], point: Pair) -> bool {
+        loops.iter().filter(|polygon| contains(polygon, point)).count() % 2 == 1
+    }
+
+    #[test]
+    fn a_closed_curve_around_the_origin_holds_its_inside() {
+        let square = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5]];
+        let area = loops(&square, WINDOW);
+        assert!(inside(&area, [0.4, 0.4]) && !inside(&area, [0.6, 0.0]));
+    }
+
+    #[test]
+    fn an_open_curve_holds_the_side_of_the_origin() {
+        for turned in [false, true] {
+            let mut line = vec![[0.5, -3.0], [0.5, 0.0], [0.5, 3.0]];
+            if turned {
+                line.reverse();
+            }
+            let area = loops(&line, WINDOW);
+            assert!(inside(&area, [-0.9, 0.9]) && inside(&area, [0.4, -0.9]), "{turned}");
+            assert!(!inside(&area, [0.9, 0.0]), "{turned}");
+        }
+    }
+
     const FILL: Fill = Fill { pattern: Pattern::Shade, role: Role::Stable, name: "inside" };
 
     /// The area of closed polygons, by the trapezoidal rule.
-    fn area(polygons: &[(Fill, Vec<Point>)]) -> f64 {
+    fn area_of(polygons: &[(Fill, Vec<Point>)]) -> f64 {
         let of = |corners: &[Point]| -> f64 {
             corners
                 .windows(2)
@@ -174,11 +264,11 @@ mod tests {
         let span = Span::known(-1.0, 1.0);
         let window = Window { x: span, y: span };
         let disc: Texture = Box::new(|at| (hypot(at.x, at.y) < 0.8).then_some(FILL));
-        let found = area(&polygons(&disc, window));
+        let found = area_of(&polygons(&disc, window));
         assert!((found - std::f64::consts::PI * 0.64).abs() < 2e-4, "{found}");
         let half: Texture = Box::new(|at| (at.y > 0.0).then_some(FILL));
         let [(_, corners)] = &polygons(&half, window)[..] else { panic!("one polygon") };
-        assert!((area(&[(FILL, corners.clone())]) - 2.0).abs() < 1e-12);
+        assert!((area_of(&[(FILL, corners.clone())]) - 2.0).abs() < 1e-12);
         assert_eq!(corners.first(), corners.last());
     }
 
@@ -189,6 +279,6 @@ mod tests {
         let both: Texture =
             Box::new(|at| Some(if at.x * at.x * at.y < 0.0078 { FILL } else { other }));
         let found = polygons(&both, window);
-        assert!((area(&found) - 0.5 * 1.98).abs() < 1e-9, "{}", area(&found));
+        assert!((area_of(&found) - 0.5 * 1.98).abs() < 1e-9, "{}", area_of(&found));
     }
 }
