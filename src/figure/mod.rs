@@ -27,7 +27,6 @@ use std::path::Path;
 
 use crate::fit::{Fitted, OMEGA0, parameters};
 use crate::flow::Problem;
-use crate::model::State;
 use crate::picture;
 use crate::picture::fit::pictures;
 use crate::session::{Key, Session};

@@ -4,9 +4,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::fit::names::{Choice, NAMES, assigned, listed, named};
 use crate::fit::{
-    Column, Inertia, LENGTHS, LOSSES, LossName, Reading, Signal, length_in_metres, parse,
+    Choice, Column, Inertia, LENGTHS, LOSSES, LossName, NAMES, Reading, Signal, assigned,
+    length_in_metres, listed, named, parse,
 };
 use crate::model::Knob;
 use crate::question::Opened;
