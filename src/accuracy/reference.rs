@@ -6,9 +6,10 @@
 //! millions of swings) the closed form takes its place, or else an implicit run near rounding; then the
 //! difference of a further method from it is taken as its own error, and no smaller error can be measured.
 
-use crate::flow::precise::{self, COARSE, FINE, Precise, precise};
+use crate::flow::precise::{COARSE, FINE, precise};
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Crossing, Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
+use crate::numerics::scalar::Scalar;
 use crate::numerics::twofold::Twofold;
 
 /// Maximum number of evaluations in twice the working precision: about a second.
@@ -16,37 +17,6 @@ const MOST: u64 = 1_000_000;
 
 /// Tolerances of the two methods where the motion is too long or too stiff for twice the precision.
 const TIGHT: (f64, f64) = (1e-14, 1e-13);
-
-/// A turning point: an arrival at `v = 0`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PreciseTurn {
-    /// Time.
-    pub tau: Twofold,
-    /// Displacement.
-    pub q: Twofold,
-}
-
-/// Where a motion ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ending {
-    /// At rest forever.
-    Rest {
-        /// Displacement.
-        q: Twofold,
-    },
-    /// Still moving at the end time.
-    Moving {
-        /// Displacement.
-        q: Twofold,
-        /// Velocity.
-        v: Twofold,
-    },
-    /// The velocity becomes infinite.
-    Escape {
-        /// The time of it.
-        tau: Twofold,
-    },
-}
 
 /// Where the reference comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,9 +33,9 @@ pub enum Source {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     /// Every arrival at `v = 0` after the start, the last one included.
-    pub turns: Vec<PreciseTurn>,
+    pub turns: Vec<Crossing<Twofold>>,
     /// How it ended.
-    pub end: Ending,
+    pub end: Outcome<Twofold>,
     /// Where it comes from.
     pub source: Source,
     /// Its own error: how far two independent computations of it differ.
@@ -117,27 +87,11 @@ impl Reference {
     /// where no two ways of computing it come to an end.
     pub fn of(problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
         let tight = Limits { evaluations: limits.evaluations.min(MOST), ..*limits };
-        let both = precise(problem, FINE, &tight)
-            .and_then(|fine| Ok((fine, precise(problem, COARSE, &tight)?)));
-        match both {
-            Ok((fine, coarse)) => Ok(Self::agreed(problem, &fine, &coarse)),
-            Err(Reason::Interrupted) => Err(Reason::Interrupted),
-            Err(_) => Self::by_two_methods(problem, limits),
+        let run = |grain| Self::new(&precise(problem, grain, &tight)?, Source::TwicePrecision);
+        match run(FINE).and_then(|fine| Ok(fine.checked_by(&run(COARSE)?))) {
+            Err(reason) if reason != Reason::Interrupted => Self::by_two_methods(problem, limits),
+            answer => answer,
         }
-    }
-
-    fn agreed(problem: &Problem, fine: &Precise, coarse: &Precise) -> Self {
-        let reference = |found: &Precise| {
-            let turns =
-                found.turns.iter().map(|mark| PreciseTurn { tau: mark.tau, q: mark.q }).collect();
-            let end = match found.end {
-                precise::PreciseEnd::Captured(mark) => Ending::Rest { q: mark.q },
-                precise::PreciseEnd::Moving(mark) => Ending::Moving { q: mark.q, v: mark.v },
-                precise::PreciseEnd::Escaped { tau } => Ending::Escape { tau },
-            };
-            Self::new(problem, turns, end, Source::TwicePrecision, found.cost)
-        };
-        reference(fine).checked_by(&reference(coarse))
     }
 
     fn by_two_methods(problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
@@ -149,41 +103,29 @@ impl Reference {
         };
         let run = |method, tolerance| {
             let question = Problem { method, tolerance, ..*problem };
-            let found = trajectory(&question, Detail::default(), limits);
-            Self::from_doubles(&found, source)
+            Self::new(&trajectory(&question, Detail::default(), limits), source)
         };
         Ok(run(first, TIGHT.0)?.checked_by(&run(second, TIGHT.1)?))
     }
 
     /// What a method found, as a reference with an error unknown yet; or why it gave up.
-    fn from_doubles(found: &Trajectory, source: Source) -> Result<Self, Reason> {
-        let of = Twofold::of;
-        let end = match found.outcome {
-            Outcome::Captured { q, .. } => Ending::Rest { q: of(q) },
-            Outcome::Moving { q, v, .. } => Ending::Moving { q: of(q), v: of(v) },
-            Outcome::Escaped { tau } => Ending::Escape { tau: of(tau) },
-            Outcome::GaveUp { reason, .. } => return Err(reason),
-        };
-        let turn = |at: &Crossing| PreciseTurn { tau: of(at.tau), q: of(at.q) };
-        let turns = found.crossings.iter().map(turn).collect();
-        Ok(Self::new(&found.problem, turns, end, source, found.cost))
-    }
-
-    fn new(
-        problem: &Problem,
-        turns: Vec<PreciseTurn>,
-        end: Ending,
-        source: Source,
-        cost: Cost,
-    ) -> Self {
-        let last = match end {
-            Ending::Rest { q } | Ending::Moving { q, .. } => q.high,
-            Ending::Escape { .. } => 0.0,
-        };
-        let ends = [problem.initial.q, last];
-        let places = turns.iter().map(|turn| turn.q.high).chain(ends);
-        let scale = places.map(f64::abs).fold(0.0, f64::max);
-        Reference { turns, end, source, error: 0.0, scale, cost }
+    fn new<N>(found: &Trajectory<N>, source: Source) -> Result<Self, Reason>
+    where
+        N: Scalar + Into<Twofold>,
+    {
+        found.outcome.answered()?;
+        let turn = |at: &Crossing<N>| Crossing { tau: at.tau.into(), q: at.q.into() };
+        let last = found.outcome.state().map_or(0.0, |(q, _)| q.value());
+        let places = found.crossings.iter().map(|turn| turn.q.value());
+        let places = places.chain([found.problem.initial.q, last]);
+        Ok(Reference {
+            turns: found.crossings.iter().map(turn).collect(),
+            end: found.outcome.map(N::into),
+            source,
+            error: 0.0,
+            scale: places.map(f64::abs).fold(0.0, f64::max),
+            cost: found.cost,
+        })
     }
 
     /// This reference, its own error being how far another computation of it differs.
@@ -198,7 +140,7 @@ impl Reference {
 
     /// How far a computed motion is from this one. Fails with [`NoComparison`] where there is no distance.
     pub fn compare(&self, found: &Trajectory) -> Result<Deviation, NoComparison> {
-        let mut other = Self::from_doubles(found, self.source).map_err(NoComparison::GaveUp)?;
+        let mut other = Self::new(found, self.source).map_err(NoComparison::GaveUp)?;
         if found.problem.parameters.r == 0.0 && found.crossings.is_empty() {
             // Where nothing happens at turning points they are not located: the ends are compared.
             other.turns.clone_from(&self.turns);
@@ -208,31 +150,23 @@ impl Reference {
 
     /// How far another motion is from this one, where both escape or neither does.
     fn deviation(&self, other: &Self) -> Option<Deviation> {
-        let apart = |one: Twofold, other: Twofold| one.minus(other).value().abs();
-        let same_end = match (self.end, other.end) {
-            (Ending::Escape { tau: one }, Ending::Escape { tau: other }) => Some(apart(one, other)),
-            _ => None,
-        };
-        let at_end = |end| match end {
-            Ending::Rest { q } => Some((q, Twofold::of(0.0))),
-            Ending::Moving { q, v } => Some((q, v)),
-            Ending::Escape { .. } => None,
-        };
-        let (mut error, rest) = match (at_end(self.end), at_end(other.end)) {
-            (Some(one), Some(other)) => {
-                (apart(one.0, other.0).max(apart(one.1, other.1)), Some((one.0, other.0)))
+        let apart = |one: Twofold, other: Twofold| (one - other).value().abs();
+        let ends = self.end.state().zip(other.end.state());
+        let mut error = match (self.end, other.end, ends) {
+            (_, _, Some((one, other))) => apart(one.0, other.0).max(apart(one.1, other.1)),
+            (Outcome::Escaped { tau: one }, Outcome::Escaped { tau: other }, _) => {
+                apart(one, other)
             }
-            _ => (same_end?, None),
+            _ => return None,
         };
         let mut time: f64 = 0.0;
         for index in 0..self.turns.len().max(other.turns.len()) {
-            let (one, other) = (self.turns.get(index), other.turns.get(index));
-            if let (Some(one), Some(other)) = (one, other) {
+            let turns = (self.turns.get(index), other.turns.get(index));
+            if let (Some(one), Some(other)) = turns {
                 time = time.max(apart(one.tau, other.tau));
             }
-            let place = |turn: Option<&PreciseTurn>, end| turn.map(|turn| turn.q).or(end);
-            let one = place(one, rest.map(|rest| rest.0));
-            let other = place(other, rest.map(|rest| rest.1));
+            let one = turns.0.map(|turn| turn.q).or(ends.map(|(one, _)| one.0));
+            let other = turns.1.map(|turn| turn.q).or(ends.map(|(_, other)| other.0));
             error = error.max(apart(one?, other?));
         }
         let same_kind = std::mem::discriminant(&self.end) == std::mem::discriminant(&other.end);

@@ -19,7 +19,6 @@
 //! ```
 
 pub(crate) mod auto;
-mod between;
 pub(crate) mod exact;
 pub(crate) mod explicit;
 pub(crate) mod fate;
@@ -43,7 +42,6 @@ pub(crate) mod tableau;
 pub(crate) mod taylor;
 pub(crate) mod time_stepping;
 pub mod trajectory;
-pub(crate) mod without_events;
 
 pub use fate::Fate;
 pub use limits::{Limits, Reason};

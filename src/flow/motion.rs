@@ -5,6 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::limits::Reason;
 use super::method::Method;
 use crate::model::{Knob, Ledger, Parameters, State};
+use crate::numerics::hermite::Hermite;
+use crate::numerics::scalar::Scalar;
 
 /// An initial value problem.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -88,36 +90,69 @@ impl Default for Detail {
 /// How a motion ended.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
-pub enum Outcome {
+pub enum Outcome<N = f64> {
     /// At rest on the sticking set since `tau`.
     Captured {
         /// Time of the arrival.
-        tau: f64,
+        tau: N,
         /// Displacement at rest.
-        q: f64,
+        q: N,
     },
     /// Still moving at the end time.
     Moving {
         /// The end time.
-        tau: f64,
+        tau: N,
         /// Displacement at the end time.
-        q: f64,
+        q: N,
         /// Velocity at the end time.
-        v: f64,
+        v: N,
     },
     /// The velocity runs to infinity in finite time.
     Escaped {
         /// Estimated time of the blow-up.
-        tau: f64,
+        tau: N,
     },
     /// No answer.
     GaveUp {
         /// The time reached.
-        tau: f64,
+        tau: N,
         /// Why the computation gave up.
         #[serde(serialize_with = "reason_as_text")]
         reason: Reason,
     },
+}
+
+impl<N> Outcome<N> {
+    /// Nothing, unless the motion was given up.
+    ///
+    /// # Errors
+    /// Why it was.
+    pub fn answered(&self) -> Result<(), Reason> {
+        if let Outcome::GaveUp { reason, .. } = self { Err(*reason) } else { Ok(()) }
+    }
+
+    /// The same outcome in other numbers.
+    pub fn map<M>(self, number: impl Fn(N) -> M) -> Outcome<M> {
+        match self {
+            Outcome::Captured { tau, q } => Outcome::Captured { tau: number(tau), q: number(q) },
+            Outcome::Moving { tau, q, v } => {
+                Outcome::Moving { tau: number(tau), q: number(q), v: number(v) }
+            }
+            Outcome::Escaped { tau } => Outcome::Escaped { tau: number(tau) },
+            Outcome::GaveUp { tau, reason } => Outcome::GaveUp { tau: number(tau), reason },
+        }
+    }
+}
+
+impl<N: Scalar> Outcome<N> {
+    /// Displacement and velocity at the end, where these are known.
+    pub fn state(self) -> Option<(N, N)> {
+        match self {
+            Outcome::Captured { q, .. } => Some((q, N::of(0.0))),
+            Outcome::Moving { q, v, .. } => Some((q, v)),
+            Outcome::Escaped { .. } | Outcome::GaveUp { .. } => None,
+        }
+    }
 }
 
 fn reason_as_text<S: serde::Serializer>(reason: &Reason, out: S) -> Result<S::Ok, S::Error> {
@@ -126,11 +161,11 @@ fn reason_as_text<S: serde::Serializer>(reason: &Reason, out: S) -> Result<S::Ok
 
 /// An arrival at `v = 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Crossing {
+pub struct Crossing<N = f64> {
     /// Time.
-    pub tau: f64,
+    pub tau: N,
     /// Displacement.
-    pub q: f64,
+    pub q: N,
 }
 
 /// A point of a motion.
@@ -170,9 +205,9 @@ impl std::ops::AddAssign for Cost {
     }
 }
 
-/// A computed motion.
+/// A computed motion, in doubles or in numbers of twice the precision.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Trajectory {
+pub struct Trajectory<N = f64> {
     /// The problem that was solved.
     pub problem: Problem,
     /// The method that took most of the steps; never `Auto`.
@@ -180,13 +215,78 @@ pub struct Trajectory {
     /// Steps that `Auto` took with the implicit method.
     pub implicit_steps: u64,
     /// How the motion ended.
-    pub outcome: Outcome,
+    pub outcome: Outcome<N>,
     /// Every arrival at `v = 0` after the start, the last one included.
-    pub crossings: Vec<Crossing>,
+    pub crossings: Vec<Crossing<N>>,
     /// The energy balance, if requested.
     pub ledger: Option<Ledger>,
     /// Points for drawing, if requested; the first is the start.
     pub samples: Vec<Sample>,
     /// Cost of the computation.
     pub cost: Cost,
+}
+
+impl Trajectory {
+    /// When the motion ended: the time of its outcome.
+    pub fn end(&self) -> f64 {
+        match self.outcome {
+            Outcome::Captured { tau, .. }
+            | Outcome::Moving { tau, .. }
+            | Outcome::Escaped { tau }
+            | Outcome::GaveUp { tau, .. } => tau,
+        }
+    }
+
+    /// The motion at any time from its start: between two samples on the cubic through their displacements and
+    /// velocities, and at rest after capture. `None` without samples.
+    pub fn at(&self, tau: f64) -> Option<Sample> {
+        let last = *self.samples.last()?;
+        if let Outcome::Captured { tau: since, q } = self.outcome
+            && tau >= since
+        {
+            return Some(Sample { tau, q, v: 0.0 });
+        }
+        let after = self.samples.partition_point(|sample| sample.tau <= tau);
+        let Some(to) = self.samples.get(after) else { return Some(last) };
+        let Some(from) = after.checked_sub(1).and_then(|before| self.samples.get(before)) else {
+            return Some(*to);
+        };
+        let h = to.tau - from.tau;
+        let t = (tau - from.tau) / h;
+        let q = Hermite { values: (from.q, to.q), slopes: (h * from.v, h * to.v) };
+        Some(Sample { tau, q: q.at(t), v: q.slope(t) / h })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::flow::trajectory::trajectory;
+    use crate::flow::{Detail, Limits, Problem};
+    use crate::model::{Parameters, State};
+
+    #[test]
+    fn between_samples_a_motion_is_where_it_is_computed_to_be() {
+        let parameters = Parameters { d: -0.1, d2: 0.1, d3: 0.4, r: 0.1 };
+        let problem =
+            Problem { parameters, initial: State { q: 1.0, v: 0.2 }, ..Problem::default() };
+        let detail = Detail { samples_per_step: 16, ..Detail::default() };
+        let motion = trajectory(&problem, detail, &Limits::PATIENT);
+        for tau in [0.0, 0.013, 1.0, 3.3, 7.77] {
+            let end = trajectory(&Problem { until: tau, ..problem }, detail, &Limits::PATIENT);
+            let (found, exact) = (motion.at(tau).unwrap(), *end.samples.last().unwrap());
+            assert!((found.q - exact.q).abs() < 1e-6, "tau = {tau}: {found:?} {exact:?}");
+            assert!((found.v - exact.v).abs() < 1e-4, "tau = {tau}: {found:?} {exact:?}");
+        }
+    }
+
+    #[test]
+    fn after_its_capture_it_rests() {
+        let parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.25 };
+        let problem = Problem { parameters, ..Problem::default() };
+        let detail = Detail { samples_per_step: 4, ..Detail::default() };
+        let motion = trajectory(&problem, detail, &Limits::PATIENT);
+        let end = motion.end();
+        let (one, other) = (motion.at(end).unwrap(), motion.at(end + 9.0).unwrap());
+        assert_eq!((one.q, one.v, other.v), (other.q, 0.0, 0.0));
+    }
 }

@@ -5,9 +5,10 @@
 //! else ever rests. The other keeps the sign. What should rest then chatters across `v = 0`, and the steps lose
 //! the order of their method.
 
-use super::step::Field;
+use super::step::{Field, PlaneField};
 use crate::model::{HalfPlane, Parameters, Side};
 use crate::numerics::elementary::tanh;
+use crate::numerics::scaling::times_power;
 
 /// The law that replaces the sign of `v`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,8 +23,9 @@ pub enum SignLaw {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmoothField {
     /// Damping and restoring force.
-    smooth: HalfPlane,
-    r: f64,
+    pub smooth: HalfPlane,
+    /// Intensity of the friction.
+    pub r: f64,
     law: SignLaw,
 }
 
@@ -57,5 +59,19 @@ impl Field for SmoothField {
 
     fn magnitude(&self, x: f64, v: f64) -> f64 {
         self.smooth.magnitude(x, v) + self.r
+    }
+}
+
+impl PlaneField for SmoothField {
+    fn in_units(&self, k: i32) -> Self {
+        let law = match self.law {
+            SignLaw::Tanh(epsilon) => SignLaw::Tanh(times_power(epsilon, -k)),
+            SignLaw::Sign => SignLaw::Sign,
+        };
+        SmoothField { smooth: self.smooth.in_units(k), r: times_power(self.r, -k), law }
+    }
+
+    fn frictionless(&self) -> HalfPlane {
+        self.smooth
     }
 }

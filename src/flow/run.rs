@@ -5,12 +5,14 @@ use std::ops::ControlFlow;
 use super::limits::{Limits, Reason};
 use super::method::Method;
 use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
-use super::step::{Field, Powers, Step, StepPoint, Stepper};
+use super::step::{Field, PlaneField, Powers, Step, StepPoint, Stepper};
 use super::stop::ComingToRest;
 use super::swing::{Failed, Swing, SwingEnd, glide, swing};
 use crate::model::parameters::energy;
+use crate::model::parameters::rests;
 use crate::model::{HalfPlane, Ledger, Side, State};
 use crate::numerics::count::real;
+use crate::numerics::scalar::Scalar;
 use crate::numerics::scaling::times_power;
 use crate::numerics::sum::Sum;
 
@@ -18,30 +20,30 @@ use crate::numerics::sum::Sum;
 const MOST_CROSSINGS: usize = 2_000_000;
 
 /// A motion in progress.
-pub struct MotionRun {
-    pub(super) detail: Detail,
+pub struct MotionRun<N = f64> {
+    detail: Detail,
     /// The results so far.
-    pub(super) found: Trajectory,
-    pub(super) time: Sum,
-    pub(super) works: Works,
+    found: Trajectory<N>,
+    time: Sum<N>,
+    works: Works,
 }
 
 /// Work of the damping terms and path length, in the units of the problem.
 #[derive(Default)]
-pub(super) struct Works {
+struct Works {
     linear: f64,
     quadratic: f64,
     cubic: f64,
-    pub(super) path: f64,
+    path: f64,
 }
 
-impl MotionRun {
+impl<N: Scalar> MotionRun<N> {
     /// A run at its start.
     pub fn new(problem: &Problem, method: Method, detail: Detail) -> Self {
-        let moving = Outcome::Moving { tau: 0.0, q: problem.initial.q, v: problem.initial.v };
+        let State { q, v } = problem.initial;
         let mut samples = Vec::new();
         if detail.samples_per_step > 0 {
-            samples.push(Sample { tau: 0.0, q: problem.initial.q, v: problem.initial.v });
+            samples.push(Sample { tau: 0.0, q, v });
         }
         MotionRun {
             detail,
@@ -49,7 +51,7 @@ impl MotionRun {
                 problem: *problem,
                 method,
                 implicit_steps: 0,
-                outcome: moving,
+                outcome: Outcome::Moving { tau: N::of(0.0), q: N::of(q), v: N::of(v) },
                 crossings: Vec::new(),
                 ledger: None,
                 samples,
@@ -61,36 +63,39 @@ impl MotionRun {
     }
 
     /// Ends the run without an answer.
-    pub fn give_up(mut self, reason: Reason) -> Trajectory {
-        self.found.outcome = Outcome::GaveUp { tau: self.time.value(), reason };
+    pub fn give_up(mut self, reason: Reason) -> Trajectory<N> {
+        self.found.outcome = self.gives_up(reason);
         self.found
     }
 
     /// Follows the motion until it ends.
-    pub fn go<S: Stepper>(mut self, stepper: &mut S, limits: &Limits) -> Trajectory {
+    pub fn go<S: Stepper<HalfPlane, N>>(
+        mut self,
+        stepper: &mut S,
+        limits: &Limits,
+    ) -> Trajectory<N> {
         let Problem { parameters, initial, .. } = self.found.problem;
         let outcome = match Side::entered_from(initial, parameters.r) {
-            None => Outcome::Captured { tau: 0.0, q: initial.q },
-            Some(_) if parameters.r == 0.0 && !self.detail.crossings => self.glide(stepper, limits),
+            None => self.rests(),
+            Some(_) if parameters.r == 0.0 && !self.detail.crossings => {
+                let field = HalfPlane::new(&parameters, Side::Upper);
+                self.glide(stepper, &field, limits, |_, _, _, _| None)
+            }
             Some(side) => self.half_swings(side, stepper, limits),
         };
         self.close(outcome, stepper.evaluations(), stepper.rejected())
     }
 
     /// The motion with its outcome, cost and energy ledger.
-    pub(super) fn close(mut self, outcome: Outcome, evaluations: u64, rejected: u64) -> Trajectory {
+    fn close(mut self, outcome: Outcome<N>, evaluations: u64, rejected: u64) -> Trajectory<N> {
         let Problem { parameters, initial, .. } = self.found.problem;
         self.found.outcome = outcome;
         self.found.cost.evaluations = evaluations;
         self.found.cost.rejected = rejected;
-        let end = match outcome {
-            Outcome::Captured { q, .. } => Some(State { q, v: 0.0 }),
-            Outcome::Moving { q, v, .. } => Some(State { q, v }),
-            Outcome::Escaped { .. } | Outcome::GaveUp { .. } => None,
-        };
         if self.detail.energy
-            && let Some(end) = end
+            && let Some((q, v)) = outcome.state()
         {
+            let end = State { q: q.value(), v: v.value() };
             let ledger = self.works.balance(initial, end, parameters.r);
             // Energies may overflow where states do not.
             self.found.ledger = ledger.residual.is_finite().then_some(ledger);
@@ -98,55 +103,80 @@ impl MotionRun {
         self.found
     }
 
-    /// The outcome of a motion of which no more can be kept.
-    pub(super) fn full(&self) -> Option<Outcome> {
-        let (tau, reason) = (self.time.value(), Reason::HalfSwings { most: MOST_CROSSINGS });
-        (self.found.crossings.len() >= MOST_CROSSINGS).then_some(Outcome::GaveUp { tau, reason })
+    /// The outcome of a motion that rests at its start.
+    fn rests(&self) -> Outcome<N> {
+        Outcome::Captured { tau: N::of(0.0), q: N::of(self.found.problem.initial.q) }
     }
 
-    /// Without friction: one smooth motion on both sides of `v = 0`.
-    fn glide<S: Stepper>(&mut self, stepper: &mut S, limits: &Limits) -> Outcome {
-        let Problem { parameters, initial, until, .. } = self.found.problem;
-        if until <= 0.0 {
-            return Outcome::Moving { tau: until, q: initial.q, v: initial.v };
+    fn gives_up(&self, reason: Reason) -> Outcome<N> {
+        Outcome::GaveUp { tau: self.time.value(), reason }
+    }
+
+    /// One smooth motion on both sides of `v = 0`: there is no friction, or it is part of the field.
+    ///
+    /// `see` is called after each step, with the stepper, the time at which it began, the exponent of its unit and
+    /// the step; it may end the motion there.
+    fn glide<F: PlaneField, S: Stepper<F, N>>(
+        &mut self,
+        stepper: &mut S,
+        field: &F,
+        limits: &Limits,
+        mut see: impl FnMut(&mut S, f64, i32, &Step<N>) -> Option<Outcome<N>>,
+    ) -> Outcome<N> {
+        let Problem { initial: State { q, v }, until, .. } = self.found.problem;
+        let (point, until) = (StepPoint { x: N::of(q), v: N::of(v) }, N::of(until));
+        if until <= N::of(0.0) {
+            return Outcome::Moving { tau: until, q: point.x, v: point.v };
         }
-        let field = HalfPlane::new(&parameters, Side::Upper);
-        let point = StepPoint { x: initial.q, v: initial.v };
-        let watch = self.watcher(Side::Upper, field);
-        let result = glide(stepper, &field, point, until, limits, watch);
+        let mut ended = None;
+        let result = {
+            let mut keep = self.keeper::<F, S>(Side::Upper, 0.0, field.frictionless());
+            let watch = |stepper: &mut S, at: f64, unit: i32, step: &Step<N>| {
+                keep(stepper, at, unit, step);
+                ended = see(stepper, at, unit, step);
+                if ended.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            glide(stepper, field, point, until, limits, watch)
+        };
         match self.book(result) {
             Err(failed) => failed,
-            Ok(SwingEnd::Stopped { point }) => self.stopped(State { q: point.x, v: point.v }),
+            Ok(SwingEnd::Stopped { point }) => ended.unwrap_or_else(|| self.stopped(point)),
             Ok(_) => Outcome::Escaped { tau: self.time.value() },
         }
     }
 
     /// Joins half swings, the first on `side`, until the motion ends.
-    fn half_swings<S: Stepper>(
+    fn half_swings<S: Stepper<HalfPlane, N>>(
         &mut self,
         mut side: Side,
         stepper: &mut S,
         limits: &Limits,
-    ) -> Outcome {
+    ) -> Outcome<N> {
         let Problem { parameters, initial, until, .. } = self.found.problem;
-        let r = parameters.r;
-        let mut point = StepPoint { x: side.position(initial.q, r), v: initial.v.abs() };
+        let (r, until, rest) = (parameters.r, N::of(until), N::of(0.0));
+        let mut last = StepPoint { x: N::of(initial.q), v: N::of(initial.v) };
+        let mut point = StepPoint { x: side.position(last.x, r), v: N::of(initial.v.abs()) };
         let mut unit = 0;
-        let mut last = initial;
         loop {
             let remaining = self.time.until(until);
-            if remaining <= 0.0 {
-                return Outcome::Moving { tau: until, q: last.q, v: last.v };
+            if remaining <= rest {
+                return Outcome::Moving { tau: until, q: last.x, v: last.v };
             }
-            if let Some(full) = self.full() {
-                return full;
+            if self.found.crossings.len() >= MOST_CROSSINGS {
+                return self.gives_up(Reason::HalfSwings { most: MOST_CROSSINGS });
             }
             let field = HalfPlane::new(&parameters, side);
-            let stop = ComingToRest::of(&field, point).filter(|stop| stop.duration < remaining);
+            let stop = ComingToRest::of(&field, point.rounded(), N::NEGLIGIBLE);
+            let stop = stop.filter(|stop| N::of(stop.duration) < remaining);
             let result = if let Some(ComingToRest { duration, .. }) = stop {
-                Ok(Swing { end: SwingEnd::Crossing { x: point.x }, duration, steps: 0 })
+                let end = SwingEnd::Crossing { x: point.x };
+                Ok(Swing { end, duration: N::of(duration), steps: 0 })
             } else {
-                let watch = self.watcher(side, field);
+                let mut keep = self.keeper::<HalfPlane, S>(side, r, field);
+                let watch = |stepper: &mut S, at: f64, unit: i32, step: &Step<N>| {
+                    keep(stepper, at, unit, step);
+                    ControlFlow::Continue(())
+                };
                 swing(stepper, &field, (point, unit), remaining, limits, watch)
             };
             let end = match self.book(result) {
@@ -157,50 +187,56 @@ impl MotionRun {
             match end {
                 SwingEnd::Escape => return Outcome::Escaped { tau },
                 SwingEnd::Stopped { point: end } => {
-                    self.works.path += end.x - point.x;
-                    let (q, v) = (side.displacement(end.x, r), side.sign() * end.v);
-                    return self.stopped(State { q, v });
+                    self.works.path += (end.x - point.x).value();
+                    let v = N::of(side.sign()) * end.v;
+                    return self.stopped(StepPoint { x: side.displacement(end.x, r), v });
                 }
                 SwingEnd::Crossing { x } => {
                     let (way, q) = match stop {
-                        Some(stop) => (stop.way(), last.q + side.sign() * stop.way()),
-                        None => (x - point.x, side.displacement(x, r)),
+                        Some(stop) => (stop.way(), last.x + N::of(side.sign() * stop.way())),
+                        None => ((x - point.x).value(), side.displacement(x, r)),
                     };
-                    if !q.is_finite() {
-                        return Outcome::GaveUp { tau, reason: Reason::OutOfRange };
+                    if !q.value().is_finite() {
+                        return self.gives_up(Reason::OutOfRange);
                     }
                     self.found.crossings.push(Crossing { tau, q });
                     self.works.path += way;
                     // The next half swing starts from its clearance, which is known more accurately than q - r.
                     let (clearance, of) = match stop {
-                        Some(stop) => stop.beyond(side.sign() * last.q - r),
-                        None => (x - 2.0 * r, 0),
+                        Some(stop) => {
+                            let passed = N::of(side.sign()) * last.x - N::of(r);
+                            let (beyond, of) = stop.beyond(passed.value());
+                            (N::of(beyond), of)
+                        }
+                        None => (x - N::of(2.0 * r), 0),
                     };
-                    last = State { q, v: 0.0 };
-                    if clearance <= 0.0 {
+                    last = StepPoint { x: q, v: rest };
+                    if clearance <= rest {
                         return Outcome::Captured { tau, q };
                     }
                     side = side.opposite();
-                    (point, unit) = (StepPoint { x: -clearance, v: 0.0 }, of);
+                    (point, unit) = (StepPoint { x: -clearance, v: rest }, of);
                 }
             }
         }
     }
 
-    /// The callback for each step on this side: keeps points for drawing and adds up the work.
-    fn watcher<S: Stepper>(
+    /// What is to be done for each step on a side whose centre is displaced by `shift`: keeps points for drawing and
+    /// adds up the work.
+    fn keeper<F: Field, S: Stepper<F, N>>(
         &mut self,
         side: Side,
+        shift: f64,
         field: HalfPlane,
-    ) -> impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()> {
-        let (detail, time, r) = (self.detail, self.time, self.found.problem.parameters.r);
+    ) -> impl FnMut(&mut S, f64, i32, &Step<N>) {
+        let (detail, time) = (self.detail, self.time);
         let (samples, works) = (&mut self.found.samples, &mut self.works);
         move |stepper, at, unit, step| {
             if detail.samples_per_step > 0 {
                 sample(stepper, step, detail.samples_per_step, |offset, point| {
                     samples.push(Sample {
-                        tau: time.plus(at + offset),
-                        q: side.displacement(times_power(point.x, unit), r),
+                        tau: time.plus(N::of(at + offset)).value(),
+                        q: side.displacement(times_power(point.x, unit), shift),
                         v: side.sign() * times_power(point.v, unit),
                     });
                 });
@@ -208,38 +244,88 @@ impl MotionRun {
             if detail.energy {
                 works.add(&stepper.powers(), &field, unit);
             }
-            ControlFlow::Continue(())
         }
     }
 
     /// Records steps and time; returns how the piece ended, or the outcome where it failed.
-    fn book(&mut self, result: Result<Swing, Failed>) -> Result<SwingEnd, Outcome> {
+    fn book(&mut self, result: Result<Swing<N>, Failed<N>>) -> Result<SwingEnd<N>, Outcome<N>> {
         let (duration, steps) = match &result {
             Ok(swing) => (swing.duration, swing.steps),
             Err(failed) => (failed.duration, failed.steps),
         };
         self.found.cost.steps += steps;
         self.time.add(duration);
-        let tau = self.time.value();
         match result {
             Ok(swing) => Ok(swing.end),
-            Err(failed) => Err(Outcome::GaveUp { tau, reason: failed.reason }),
+            Err(failed) => Err(self.gives_up(failed.reason)),
         }
     }
 
     /// The motion at its end time.
-    fn stopped(&self, State { q, v }: State) -> Outcome {
-        if q.is_finite() && v.is_finite() {
-            Outcome::Moving { tau: self.found.problem.until, q, v }
+    fn stopped(&self, StepPoint { x: q, v }: StepPoint<N>) -> Outcome<N> {
+        if q.value().is_finite() && v.value().is_finite() {
+            Outcome::Moving { tau: N::of(self.found.problem.until), q, v }
         } else {
-            Outcome::GaveUp { tau: self.time.value(), reason: Reason::OutOfRange }
+            self.gives_up(Reason::OutOfRange)
         }
+    }
+}
+
+impl MotionRun {
+    /// Takes steps that ignore `v = 0`, as the methods do that are included for comparison, and counts sign changes
+    /// of the velocity as crossings.
+    ///
+    /// `sticks` says whether a motion that this method brings to `v = 0` inside the sticking set stays there.
+    /// Positions at crossings assume a velocity that is linear within the step.
+    pub fn walk<F: PlaneField, S: Stepper<F>>(
+        mut self,
+        stepper: &mut S,
+        field: &F,
+        sticks: bool,
+        limits: &Limits,
+    ) -> Trajectory {
+        let Problem { parameters, initial, .. } = self.found.problem;
+        let mut crossings = Vec::new();
+        let mut path = 0.0;
+        let mut from = StepPoint { x: initial.q, v: initial.v };
+        let see = |_: &mut S, at: f64, unit: i32, step: &Step| {
+            let end = step.end.times_power(unit);
+            let (tau, start) = (at + step.duration, std::mem::replace(&mut from, end));
+            let mut turn = None;
+            if start.v != 0.0 && start.v.signum() * end.v <= 0.0 {
+                let part = start.v / (start.v - end.v);
+                let q = start.x + 0.5 * part * step.duration * start.v;
+                crossings.push(Crossing { tau: at + part * step.duration, q });
+                turn = Some(q);
+            }
+            // The path within the step, out and back where the velocity changes sign.
+            let turn = turn.unwrap_or(start.x);
+            path += (turn - start.x).abs() + (end.x - turn).abs();
+            if tau == at {
+                let reason = Reason::StepTooSmall { step: step.duration };
+                return Some(Outcome::GaveUp { tau, reason });
+            }
+            if crossings.len() >= MOST_CROSSINGS {
+                let reason = Reason::HalfSwings { most: MOST_CROSSINGS };
+                return Some(Outcome::GaveUp { tau, reason });
+            }
+            let stays = sticks && rests(State { q: end.x, v: end.v }, parameters.r);
+            stays.then_some(Outcome::Captured { tau, q: end.x })
+        };
+        let outcome = if sticks && rests(initial, parameters.r) {
+            self.rests()
+        } else {
+            self.glide(stepper, field, limits, see)
+        };
+        self.found.crossings = crossings;
+        self.works.path = path;
+        self.close(outcome, stepper.evaluations(), stepper.rejected())
     }
 }
 
 impl Works {
     /// Adds the work of the damping terms over one step measured in units of `2^unit`.
-    pub(super) fn add(&mut self, powers: &Powers, field: &HalfPlane, unit: i32) {
+    fn add(&mut self, powers: &Powers, field: &HalfPlane, unit: i32) {
         let field = field.in_units(unit);
         let energy = |work: f64| times_power(times_power(work, unit), unit);
         self.linear += energy(-2.0 * field.d * powers.second);
@@ -267,12 +353,13 @@ impl Works {
 ///
 /// Near the largest numbers, a position measured from the centre of its spiral may overflow, and so may the
 /// polynomial of a step between two finite points. Points that are not finite are left out.
-pub(super) fn sample<F: Field, S: Stepper<F>>(
+fn sample<N: Scalar, F: Field, S: Stepper<F, N>>(
     stepper: &mut S,
-    step: &Step,
+    step: &Step<N>,
     count: usize,
     mut keep: impl FnMut(f64, StepPoint),
 ) {
+    let duration = step.duration.value();
     let mut keep_number = |offset, point: StepPoint| {
         if point.x.is_finite() && point.v.is_finite() {
             keep(offset, point);
@@ -281,8 +368,11 @@ pub(super) fn sample<F: Field, S: Stepper<F>>(
     let count = count * stepper.pieces();
     stepper.prepare_dense();
     for index in 1..count {
-        let offset = step.duration * (real(index) / real(count));
+        let offset = duration * (real(index) / real(count));
         keep_number(offset, stepper.at(offset));
     }
-    keep_number(step.duration, step.end);
+    keep_number(duration, step.end.rounded());
 }
+
+#[cfg(test)]
+mod tests;

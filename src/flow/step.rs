@@ -2,20 +2,31 @@
 
 use super::limits::Reason;
 use crate::model::HalfPlane;
+use crate::numerics::scalar::Scalar;
 
 /// A point `(x, v)` in the frame of a half plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepPoint {
+pub struct StepPoint<N = f64> {
     /// Position.
-    pub x: f64,
+    pub x: N,
     /// Velocity, not negative inside a half swing.
-    pub v: f64,
+    pub v: N,
 }
 
-impl StepPoint {
+impl<N: Scalar> StepPoint<N> {
     /// Size of the state, `max(abs(x), abs(v))`.
     pub fn size(self) -> f64 {
-        self.x.abs().max(self.v.abs())
+        self.x.value().abs().max(self.v.value().abs())
+    }
+
+    /// The point rounded to doubles.
+    pub fn rounded(self) -> StepPoint {
+        StepPoint { x: self.x.value(), v: self.v.value() }
+    }
+
+    /// The point `2^k` times as far out.
+    pub fn times_power(self, k: i32) -> Self {
+        StepPoint { x: self.x.times_power(k), v: self.v.times_power(k) }
     }
 }
 
@@ -81,21 +92,40 @@ impl Field for HalfPlane {
     }
 }
 
+/// A field of the oscillator: on one side of `v = 0`, or on both with friction that is no longer set-valued.
+pub trait PlaneField: Field {
+    /// The same field for a motion measured in units of `2^k`, exactly.
+    fn in_units(&self, k: i32) -> Self;
+
+    /// The field without friction, which alone drives an escape.
+    fn frictionless(&self) -> HalfPlane;
+}
+
+impl PlaneField for HalfPlane {
+    fn in_units(&self, k: i32) -> Self {
+        HalfPlane::in_units(self, k)
+    }
+
+    fn frictionless(&self) -> HalfPlane {
+        *self
+    }
+}
+
 /// An accepted step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
+pub struct Step<N = f64> {
     /// Duration of the step.
-    pub duration: f64,
+    pub duration: N,
     /// End point.
-    pub end: StepPoint,
+    pub end: StepPoint<N>,
     /// Whether it ended by arriving at `v = 0`; `end.v` is then exactly 0.
     pub crossed: bool,
 }
 
-impl Step {
+impl<N: Scalar> Step<N> {
     /// Whether a motion above `v = 0` can arrive at the end point: at `x < 0` the field would lift it off again.
     pub fn is_possible(&self) -> bool {
-        self.end.x >= 0.0
+        self.end.x >= N::default()
     }
 }
 
@@ -120,21 +150,21 @@ impl Powers {
     }
 }
 
-/// A method that integrates a smooth field, by default that of one side.
+/// A method that integrates a smooth field, by default that of one side, in numbers of one kind.
 ///
 /// The field stays the same between calls of [`Stepper::begin`]. After an accepted step, [`Stepper::at`] and
 /// [`Stepper::powers`] refer to that step.
-pub trait Stepper<F: Field = HalfPlane> {
+pub trait Stepper<F: Field = HalfPlane, N: Scalar = f64> {
     /// Prepares for steps in this field.
     fn begin(&mut self, field: &F);
 
     /// Takes one step of at most `longest` from a point with `v >= 0` (on `v = 0`: with `x < 0`), and not
     /// beyond the first arrival at `v = 0`. Fails with [`Reason::StepTooSmall`] or [`Reason::OutOfRange`] where
     /// no step meets the tolerance.
-    fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason>;
+    fn advance(&mut self, from: StepPoint<N>, longest: N) -> Result<Step<N>, Reason>;
 
     /// Takes one step of at most `longest`, wherever it leads, without looking for `v = 0`.
-    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason>;
+    fn pass(&mut self, from: StepPoint<N>, longest: N) -> Result<Step<N>, Reason>;
 
     /// Prepares [`Stepper::at`] for the last step, if that takes any work.
     fn prepare_dense(&mut self) {}

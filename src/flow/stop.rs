@@ -22,22 +22,20 @@ pub struct ComingToRest {
 }
 
 impl ComingToRest {
-    /// The stop of a motion through `point` if its remaining distance is negligible beside its position;
-    /// otherwise `None`.
+    /// The stop of a motion through `point` if its remaining distance is at most a part of its position that is
+    /// `negligible`, by which the force of the spring changes as well; otherwise `None`.
     ///
     /// With x constant, `v' = -(x + force)`, so the distance is the integral of `v/(x + force)` over v, by
     /// Gauss's rule. Guarantee: a relative error of 1e-12 at most.
-    pub fn of(field: &HalfPlane, point: StepPoint) -> Option<Self> {
+    pub fn of(field: &HalfPlane, point: StepPoint, negligible: f64) -> Option<Self> {
         /// Largest damping force as a fraction of the position.
         const WEAK: f64 = 1e-3;
-        /// Largest distance as a fraction of the position; the force of the spring changes by the same fraction.
-        const NOTHING: f64 = 1e-12;
         let unit = exponent(point.v);
         let HalfPlane { d, d2, d3 } = field.in_units(unit);
         let x = times_power(point.x, -unit);
         let top = times_power(point.v, -unit);
         let force = |v: f64| v * (2.0 * d.abs() + v * (d2.abs() + v * d3.abs()));
-        if !(x > 0.0 && top > 0.0 && force(top) <= WEAK * x && top * top <= NOTHING * x * x) {
+        if !(x > 0.0 && top > 0.0 && force(top) <= WEAK * x && top * top <= negligible * x * x) {
             return None;
         }
         // In units of the position neither integral overflows or underflows.
@@ -76,22 +74,22 @@ mod tests {
     fn undamped_motions_stop_on_their_circle() {
         let field = HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 };
         for (x, v) in [(2.0, 1e-9), (3e-5, 1e-18), (1e200, 1e-100)] {
-            let stop = ComingToRest::of(&field, StepPoint { x, v }).unwrap();
+            let stop = ComingToRest::of(&field, StepPoint { x, v }, 1e-12).unwrap();
             // In units of 2^-600 the last of these distances is representable.
             let way = times_power(stop.distance, stop.unit + 600);
             let expected = 0.5 * times_power(v, 300) * (times_power(v, 300) / x);
             assert!((way / expected - 1.0).abs() < 1e-15, "{stop:?}");
             assert!((stop.duration / (v / x) - 1.0).abs() < 1e-15);
         }
-        assert_eq!(ComingToRest::of(&field, StepPoint { x: 2.0, v: 1e-5 }), None);
-        assert_eq!(ComingToRest::of(&field, StepPoint { x: -2.0, v: 1e-30 }), None);
+        assert_eq!(ComingToRest::of(&field, StepPoint { x: 2.0, v: 1e-5 }, 1e-12), None);
+        assert_eq!(ComingToRest::of(&field, StepPoint { x: -2.0, v: 1e-30 }, 1e-12), None);
     }
 
     /// The distance is quadratic in the velocity: it is known even where that square underflows.
     #[test]
     fn ways_below_the_range_of_numbers_keep_their_digits() {
         let field = HalfPlane { d: -1.5, d2: 3.0, d3: 1e3 };
-        let stop = ComingToRest::of(&field, StepPoint { x: 2.0, v: 3e-300 }).unwrap();
+        let stop = ComingToRest::of(&field, StepPoint { x: 2.0, v: 3e-300 }, 1e-12).unwrap();
         let log = ln(stop.distance) + f64::from(stop.unit) * std::f64::consts::LN_2;
         let expected = 2.0 * ln(3e-300) - ln(4.0);
         assert!((log / expected - 1.0).abs() < 1e-15, "{stop:?}");
@@ -103,7 +101,8 @@ mod tests {
         let (x, v) = (1.0, 1e-9);
         let stop = |d: f64| {
             let stop =
-                ComingToRest::of(&HalfPlane { d, d2: 0.0, d3: 0.0 }, StepPoint { x, v }).unwrap();
+                ComingToRest::of(&HalfPlane { d, d2: 0.0, d3: 0.0 }, StepPoint { x, v }, 1e-12)
+                    .unwrap();
             stop.way()
         };
         // The integral of v/(1 + k v), as a series in k v.

@@ -6,30 +6,32 @@
 use std::ops::ControlFlow;
 
 use super::limits::{Limits, Reason};
-use super::step::{Step, StepPoint, Stepper};
+use super::step::{PlaneField, Step, StepPoint, Stepper};
 use crate::model::HalfPlane;
 use crate::numerics::elementary::ln_1p;
-use crate::numerics::scaling::{exponent, times_power};
+use crate::numerics::scalar::Scalar;
+use crate::numerics::scaling::exponent;
 use crate::numerics::sum::Sum;
 
 /// Size, as a power of two, at which the unit is chosen anew.
 const FAR: i32 = 300;
 
-/// Relative error allowed in the time of a blow-up when it is taken from its asymptotic form.
-const BLOW_UP_ERROR: f64 = 1e-14;
+/// Relative error allowed in the time of a blow-up when it is taken from its asymptotic form, as a part of what is
+/// negligible.
+const BLOW_UP_ERROR: f64 = 1e-2;
 
 /// How a half swing ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SwingEnd {
+pub enum SwingEnd<N = f64> {
     /// At `v = 0`, at this position.
     Crossing {
         /// Position in the frame of the half plane.
-        x: f64,
+        x: N,
     },
     /// At the end time, or where the watcher stopped it.
     Stopped {
         /// The point reached.
-        point: StepPoint,
+        point: StepPoint<N>,
     },
     /// The velocity becomes infinite before the end time.
     Escape,
@@ -37,22 +39,22 @@ pub enum SwingEnd {
 
 /// A half swing and how long it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Swing {
+pub struct Swing<N = f64> {
     /// How it ended.
-    pub end: SwingEnd,
+    pub end: SwingEnd<N>,
     /// Duration (until the blow-up where it escaped).
-    pub duration: f64,
+    pub duration: N,
     /// Accepted steps.
     pub steps: u64,
 }
 
 /// A half swing that could not be completed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Failed {
+pub struct Failed<N = f64> {
     /// Why it failed.
     pub reason: Reason,
     /// The time reached.
-    pub duration: f64,
+    pub duration: N,
     /// Accepted steps.
     pub steps: u64,
 }
@@ -63,46 +65,46 @@ pub struct Failed {
 /// `watch` is called after each accepted step with the stepper that holds it, the time at which it began, the
 /// exponent of its unit, and the step; it may stop the swing there. Errors are [`Failed`], with the reason and
 /// the time reached.
-pub fn swing<S: Stepper>(
+pub fn swing<N: Scalar, S: Stepper<HalfPlane, N>>(
     stepper: &mut S,
     field: &HalfPlane,
-    (start, unit): (StepPoint, i32),
-    longest: f64,
+    (start, unit): (StepPoint<N>, i32),
+    longest: N,
     limits: &Limits,
-    watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
-) -> Result<Swing, Failed> {
+    watch: impl FnMut(&mut S, f64, i32, &Step<N>) -> ControlFlow<()>,
+) -> Result<Swing<N>, Failed<N>> {
     drive(stepper, S::advance, field, (start, unit), longest, limits, watch)
 }
 
 /// Follows a motion for `longest` without looking for `v = 0`, through as many half swings as occur.
 ///
-/// Assumption: there is no friction. Then the field of the upper side holds on both sides.
-pub fn glide<S: Stepper>(
+/// Assumption: the field holds on both sides: there is no friction, or it is part of the field.
+pub fn glide<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
     stepper: &mut S,
-    field: &HalfPlane,
-    start: StepPoint,
-    longest: f64,
+    field: &F,
+    start: StepPoint<N>,
+    longest: N,
     limits: &Limits,
-    watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
-) -> Result<Swing, Failed> {
+    watch: impl FnMut(&mut S, f64, i32, &Step<N>) -> ControlFlow<()>,
+) -> Result<Swing<N>, Failed<N>> {
     drive(stepper, S::pass, field, (start, 0), longest, limits, watch)
 }
 
 /// Takes steps with `advance` until a crossing, the end of the time span, or certain escape.
-fn drive<S: Stepper>(
+fn drive<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
     stepper: &mut S,
-    advance: impl Fn(&mut S, StepPoint, f64) -> Result<Step, Reason>,
-    field: &HalfPlane,
-    (start, unit): (StepPoint, i32),
-    longest: f64,
+    advance: impl Fn(&mut S, StepPoint<N>, N) -> Result<Step<N>, Reason>,
+    field: &F,
+    (start, unit): (StepPoint<N>, i32),
+    longest: N,
     limits: &Limits,
-    mut watch: impl FnMut(&mut S, f64, i32, &Step) -> ControlFlow<()>,
-) -> Result<Swing, Failed> {
+    mut watch: impl FnMut(&mut S, f64, i32, &Step<N>) -> ControlFlow<()>,
+) -> Result<Swing<N>, Failed<N>> {
     let size = exponent(start.size());
-    let mut point = StepPoint { x: times_power(start.x, -size), v: times_power(start.v, -size) };
+    let mut point = start.times_power(-size);
     let mut unit = unit + size;
     let mut scaled = field.in_units(unit);
-    let mut clock = Sum::default();
+    let mut clock = Sum::<N>::default();
     let mut steps = 0;
     stepper.begin(&scaled);
     loop {
@@ -114,41 +116,39 @@ fn drive<S: Stepper>(
         if stepper.evaluations() > limits.evaluations {
             return Err(failed(Reason::Budget { evaluations: stepper.evaluations() }));
         }
-        if !(scaled.d2.is_finite() && scaled.d3.is_finite()) {
+        let smooth = scaled.frictionless();
+        if !(smooth.d2.is_finite() && smooth.d3.is_finite()) {
             return Err(failed(Reason::OutOfRange));
         }
         let remaining = longest - time;
         let step = advance(stepper, point, remaining).map_err(failed)?;
         steps += 1;
-        let goes_on = watch(stepper, time, unit, &step).is_continue();
+        let goes_on = watch(stepper, time.value(), unit, &step).is_continue();
         let step = progress(step, point, remaining);
         clock.add(step.duration);
         let time = clock.value();
         point = step.end;
         let done = |end| Ok(Swing { end, duration: time, steps });
         if step.crossed {
-            return done(SwingEnd::Crossing { x: times_power(point.x, unit) });
+            return done(SwingEnd::Crossing { x: point.x.times_power(unit) });
         }
         let in_time = step.duration < remaining;
         if !(in_time && goes_on) {
-            let (x, v) = (times_power(point.x, unit), times_power(point.v, unit));
-            let duration = if in_time { time } else { longest };
-            return Ok(Swing {
-                end: SwingEnd::Stopped { point: StepPoint { x, v } },
-                duration,
-                steps,
-            });
+            let end = SwingEnd::Stopped { point: point.times_power(unit) };
+            return Ok(Swing { end, duration: if in_time { time } else { longest }, steps });
         }
-        if let Some(rest) = time_to_blow_up(&scaled, point, time)
-            && time + rest <= longest
+        let error = BLOW_UP_ERROR * N::NEGLIGIBLE * time.value();
+        if let Some(rest) = time_to_blow_up(&smooth, point.rounded(), error)
+            && time + N::of(rest) <= longest
         {
-            return Ok(Swing { end: SwingEnd::Escape, duration: time + rest, steps });
+            let duration = time + N::of(rest);
+            return Ok(Swing { end: SwingEnd::Escape, duration, steps });
         }
         let drift = exponent(point.size());
         if drift.abs() > FAR {
             unit += drift;
             scaled = field.in_units(unit);
-            point = StepPoint { x: times_power(point.x, -drift), v: times_power(point.v, -drift) };
+            point = point.times_power(-drift);
             stepper.begin(&scaled);
         }
     }
@@ -158,26 +158,26 @@ fn drive<S: Stepper>(
 ///
 /// Far out, where large terms balance, rounding creates spurious points of rest: x moves by less than its own
 /// rounding error, and every further step would be the same again.
-fn progress(step: Step, from: StepPoint, longest: f64) -> Step {
-    if step.crossed || step.end != from || from.v == 0.0 {
+fn progress<N: Scalar>(step: Step<N>, from: StepPoint<N>, longest: N) -> Step<N> {
+    if step.crossed || step.end != from || from.v == N::default() {
         return step;
     }
-    let x = if from.v > 0.0 { from.x.next_up() } else { from.x.next_down() };
-    let duration = (x - from.x) / from.v;
+    let StepPoint { x, v } = from.rounded();
+    let next = if v > 0.0 { x.next_up() } else { x.next_down() };
+    let duration = N::of((next - x) / v);
     if duration < longest {
-        Step { duration, end: StepPoint { x, ..from }, crossed: false }
+        Step { duration, end: StepPoint { x: N::of(next), ..from }, crossed: false }
     } else {
         Step { duration: longest, ..step }
     }
 }
 
-/// Time until v becomes infinite, where escape is certain and this time is known to rounding.
+/// Time until v becomes infinite, where escape is certain and this time is known to within `error`.
 ///
-/// The time is that of the two driving terms alone ([`blow_up`]). It is used once the effect of the other terms
-/// is below [`BLOW_UP_ERROR`] of the time so far.
-pub(super) fn time_to_blow_up(field: &HalfPlane, point: StepPoint, elapsed: f64) -> Option<f64> {
+/// The time is that of the two driving terms alone ([`blow_up`]); its error is the effect of the other terms.
+fn time_to_blow_up(field: &HalfPlane, point: StepPoint, error: f64) -> Option<f64> {
     let (rest, others) = blow_up(field, point)?;
-    (rest * others <= BLOW_UP_ERROR * elapsed).then_some(rest)
+    (rest * others <= error).then_some(rest)
 }
 
 /// Whether v is certain to become infinite.

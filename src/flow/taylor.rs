@@ -13,17 +13,18 @@ use super::step::{LONGEST, Powers, Step, StepPoint, Stepper};
 use crate::model::HalfPlane;
 use crate::numerics::count::real;
 use crate::numerics::polynomial::{
-    derivative, reciprocals, value_and_slope_in_two as value_and_slope, value_in_two as value,
+    derivative, value_and_slope_in_two as value_and_slope, value_in_two as value,
 };
 use crate::numerics::quadrature::GAUSS;
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
+use crate::numerics::scalar::Scalar;
 use crate::numerics::scaling::{exponent, rough_exp2, rough_log2, times_power};
 
 /// Highest order.
-const MOST: usize = 28;
+const MOST: usize = 32;
 
 /// Length of a coefficient array, at least `MOST + 1`.
-const LENGTH: usize = 32;
+const LENGTH: usize = 34;
 
 /// The last term of a step is kept below the tolerance by this factor, so that the accumulated error of some
 /// dozens of steps still stays near the tolerance.
@@ -47,19 +48,19 @@ const ORDERS: [(f64, usize); 10] = [
     (0.0, 26),
 ];
 
-/// The Taylor stepper.
+/// The Taylor stepper, in doubles or in numbers of twice the precision.
 #[derive(Clone, Debug)]
-pub struct Taylor {
+pub struct Taylor<N = f64> {
     field: HalfPlane,
     order: usize,
     /// `log2` of the tolerance of a step.
     log_tolerance: f64,
     /// Coefficients of x and v in powers of `t / 2^time_exponent`.
-    x: [f64; LENGTH],
-    v: [f64; LENGTH],
+    x: [N; LENGTH],
+    v: [N; LENGTH],
     /// Coefficients of the integral of `v^2`; maintained only where the field is not linear.
-    square_integral: [f64; LENGTH],
-    inner: Inner,
+    square_integral: [N; LENGTH],
+    inner: Inner<N>,
     time_exponent: i32,
     /// Unit of time for the next step, near the length of the last one.
     next_time_exponent: i32,
@@ -68,26 +69,23 @@ pub struct Taylor {
     rejected: u64,
 }
 
-/// `1/k`.
-const INVERSE: [f64; LENGTH] = reciprocals();
-
-impl Taylor {
+impl<N: Scalar> Taylor<N> {
     /// A stepper with a relative truncation error per step of about `tolerance`.
     pub fn new(tolerance: f64) -> Self {
         let order = ORDERS.iter().find(|row| tolerance >= row.0).map_or(MOST, |row| row.1);
         Self::with_order(tolerance, order)
     }
 
-    /// As [`Taylor::new`], with a given order of at most 28.
+    /// As [`Taylor::new`], with a given order of at most 32.
     pub fn with_order(tolerance: f64, order: usize) -> Self {
         Taylor {
             field: HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 },
             order: order.clamp(4, MOST),
             log_tolerance: rough_log2((AIM * tolerance).max(1e-300)),
-            x: [0.0; LENGTH],
-            v: [0.0; LENGTH],
-            square_integral: [0.0; LENGTH],
-            inner: Inner::EMPTY,
+            x: [N::default(); LENGTH],
+            v: [N::default(); LENGTH],
+            square_integral: [N::default(); LENGTH],
+            inner: Inner::empty(),
             time_exponent: 0,
             next_time_exponent: 0,
             duration: 0.0,
@@ -106,21 +104,22 @@ impl Taylor {
     /// coefficients. The newest two enter it linearly and are kept in registers, so that each coefficient waits
     /// for only one product of its predecessor. The sums over the others run over memory written at least two
     /// iterations ago.
-    fn expand(&mut self, from: StepPoint) {
-        let HalfPlane { d, d2, d3 } = self.field;
-        let unit = times_power(1.0, self.time_exponent);
+    fn expand(&mut self, from: StepPoint<N>) {
+        let [d, d2, d3] = [2.0 * self.field.d, self.field.d2, self.field.d3].map(N::of);
+        let two = N::of(2.0);
+        let unit = N::of(times_power(1.0, self.time_exponent));
         let order = self.order.min(MOST);
         self.evaluations += order as u64;
         let v0 = from.v;
         let force0 = v0 * (d2 + d3 * v0);
-        let v1 = unit * (-from.x - v0 * (2.0 * d + force0));
+        let v1 = unit * (-from.x - v0 * (d + force0));
         (self.x[0], self.x[1]) = (from.x, unit * v0);
         (self.v[0], self.v[1]) = (v0, v1);
         let mut newest = v1;
         if self.field.is_linear() {
             for k in 1..order {
-                let factor = unit * INVERSE[k + 1];
-                let acceleration = -self.x[k] - 2.0 * d * newest;
+                let factor = unit.over_count(k + 1);
+                let acceleration = -self.x[k] - d * newest;
                 self.x[k + 1] = newest * factor;
                 newest = acceleration * factor;
                 self.v[k + 1] = newest;
@@ -130,23 +129,25 @@ impl Taylor {
         // With `square_k = sum of v_i v_(k-i)` over 0 < i < k, coefficient k of v^2 is `2 v0 v_k + square_k`
         // and that of the force is `slope v_k + d3 square_k`. The damping contains
         // `damping v_k + neighbour v_(k-1)` besides terms in earlier coefficients only.
-        let slope = d2 + 2.0 * d3 * v0;
-        let damping = 2.0 * d + force0 + v0 * slope;
+        let slope = d2 + two * d3 * v0;
+        let damping = d + force0 + v0 * slope;
         let (cubic, cubic1) = (d3 * v0, d3 * v1);
-        let neighbour = 2.0 * v1 * (slope + cubic);
+        let (twice0, twice1) = (two * v0, two * v1);
+        let neighbour = twice1 * (slope + cubic);
         self.square_integral[1] = unit * v0 * v0;
-        let (mut before, mut force_before, mut square_before) = (0.0, 0.0, 0.0);
+        let zero = N::default();
+        let (mut before, mut force_before, mut square_before) = (zero, zero, zero);
         for k in 1..order {
-            let (inner, product) = if k < 4 { (0.0, 0.0) } else { self.inner.sums(k) };
+            let (inner, product) = if k < 4 { (zero, zero) } else { self.inner.sums(k) };
             let earlier = cubic * inner + (cubic1 * square_before + product);
             // In `square_2` and its product, v1 is paired with itself, so it counts once instead of twice.
-            let next = if k == 2 { 0.5 * before } else { before };
+            let next = if k == 2 { N::of(0.5) * before } else { before };
             let acceleration = -(self.x[k] + (neighbour * next + earlier)) - damping * newest;
-            let square = 2.0 * v1 * next + inner;
+            let square = twice1 * next + inner;
             let force = slope * newest + d3 * square;
             self.inner.keep(k, [before, newest], [force_before, force]);
-            let factor = unit * INVERSE[k + 1];
-            self.square_integral[k + 1] = (2.0 * v0 * newest + square) * factor;
+            let factor = unit.over_count(k + 1);
+            self.square_integral[k + 1] = (twice0 * newest + square) * factor;
             self.x[k + 1] = newest * factor;
             (before, force_before, square_before) = (newest, force, square);
             newest = acceleration * factor;
@@ -163,21 +164,21 @@ impl Taylor {
     /// fewer would sometimes miss the trend.
     fn allowed(&self) -> Option<f64> {
         let log2 = |value: f64| if value == 0.0 { f64::NEG_INFINITY } else { rough_log2(value) };
-        let (size, slope) = (log2(self.v[0].abs()), log2(self.v[1].abs()));
+        let (size, slope) = (log2(self.v[0].value().abs()), log2(self.v[1].value().abs()));
         let (mut by_size, mut by_slope) = (f64::INFINITY, f64::INFINITY);
         for k in self.order + 1 - TAIL..=self.order {
-            let coefficient = self.v[k].abs();
+            let coefficient = self.v[k].value().abs();
             if !coefficient.is_finite() {
                 return None;
             }
             if coefficient > 0.0 {
                 let coefficient = rough_log2(coefficient);
-                by_size = by_size.min((size - coefficient) * INVERSE[k]);
-                by_slope = by_slope.min((slope - coefficient) * INVERSE[k - 1]);
+                by_size = by_size.min((size - coefficient).over_count(k));
+                by_slope = by_slope.min((slope - coefficient).over_count(k - 1));
             }
         }
-        by_size += self.log_tolerance * INVERSE[self.order];
-        by_slope += self.log_tolerance * INVERSE[self.order - 1];
+        by_size += self.log_tolerance.over_count(self.order);
+        by_slope += self.log_tolerance.over_count(self.order - 1);
         Some(rough_exp2(by_size.max(by_slope).min(60.0)))
     }
 
@@ -185,16 +186,22 @@ impl Taylor {
     ///
     /// Newton's method on the polynomial, from the root of the parabola through both ends with the initial
     /// slope. `v > 0` just after 0 is known from the side entered, whatever `v(0)` is.
-    fn root(&self, end: f64, v_end: f64) -> f64 {
+    fn root(&self, end: N, v_end: N) -> N {
         const SETTLED: PlaceTolerance = PlaceTolerance::Relative(1e-9);
-        let (v, slope) = (self.v[0], self.v[1]);
+        let (end, v_end) = (end.value(), v_end.value());
+        let (v, slope) = (self.v[0].value(), self.v[1].value());
         let bend = ((v_end - v) / end - slope) / end;
         let spread = (slope * slope - 4.0 * bend * v).sqrt();
         let guess =
             if slope > 0.0 { (slope + spread) / (-2.0 * bend) } else { 2.0 * v / (spread - slope) };
         let start = if guess > 0.0 && guess < end { guess } else { end };
-        let v = |t: f64| value_and_slope(&self.v[..=self.order], t);
-        newton(Bracket::falling(0.0, end), start, SETTLED, v).at
+        let rounded = self.v.map(N::value);
+        let v = |t: f64| value_and_slope(&rounded[..=self.order], t);
+        let root = N::of(newton(Bracket::falling(0.0, end), start, SETTLED, v).at);
+        (0..N::POLISHING).fold(root, |root, _| {
+            let (v, slope) = value_and_slope(&self.v[..=self.order], root);
+            root - v.over(slope)
+        })
     }
 }
 
@@ -226,65 +233,72 @@ impl Taylor {
 /// Each is stored in a pair with its neighbour and read as it was written: a processor forwards what it has
 /// just stored at once, but not if it is read together with other memory.
 #[derive(Clone, Debug)]
-struct Inner {
+struct Inner<N> {
     /// Element i holds coefficients i and i + 1, of v and of the force.
-    v: [Pair; LENGTH],
-    force: [Pair; LENGTH],
+    v: [[N; 2]; LENGTH],
+    force: [[N; 2]; LENGTH],
     /// Element i holds coefficients i and i - 1 of v; zero replaces coefficient 1 to end a sum.
-    reversed: [Pair; LENGTH],
+    reversed: [[N; 2]; LENGTH],
 }
 
-/// Two coefficients.
-type Pair = [f64; 2];
-
-impl Inner {
-    const EMPTY: Inner =
-        Inner { v: [[0.0; 2]; LENGTH], force: [[0.0; 2]; LENGTH], reversed: [[0.0; 2]; LENGTH] };
+impl<N: Scalar> Inner<N> {
+    fn empty() -> Self {
+        let zeros = [[N::default(); 2]; LENGTH];
+        Inner { v: zeros, force: zeros, reversed: zeros }
+    }
 
     /// Stores coefficients `k - 1` and k.
-    fn keep(&mut self, k: usize, v: Pair, force: Pair) {
+    fn keep(&mut self, k: usize, v: [N; 2], force: [N; 2]) {
         (self.v[k - 1], self.force[k - 1]) = (v, force);
-        self.reversed[k] = [v[1], if k > 2 { v[0] } else { 0.0 }];
+        self.reversed[k] = [v[1], if k > 2 { v[0] } else { N::default() }];
     }
 
     /// The sums over `2 <= i <= k - 2` of `v_i v_(k-i)` and of `force_i v_(k-i)`.
-    fn sums(&self, k: usize) -> (f64, f64) {
+    fn sums(&self, k: usize) -> (N, N) {
         let pairs = (k - 2) / 2;
-        let (mut squares, mut products) = ([0.0; 2], [0.0; 2]);
+        let (mut squares, mut products) = ([N::default(); 2], [N::default(); 2]);
         for pair in 0..pairs {
             let (i, partner) = (2 + 2 * pair, self.reversed[k - 2 - 2 * pair]);
             for lane in 0..2 {
-                squares[lane] += self.v[i][lane] * partner[lane];
-                products[lane] += self.force[i][lane] * partner[lane];
+                squares[lane] = squares[lane] + self.v[i][lane] * partner[lane];
+                products[lane] = products[lane] + self.force[i][lane] * partner[lane];
             }
         }
         (squares[0] + squares[1], products[0] + products[1])
     }
 }
 
-impl Taylor {
-    /// Expands at a point; returns the step length that the tolerance allows, in units of the
+impl<N: Scalar> Taylor<N> {
+    /// Expands at a point; returns the step length that the tolerance allows, at most `longest`, in units of the
     /// coefficients.
-    fn settle(&mut self, from: StepPoint) -> Result<f64, Reason> {
+    fn settle(&mut self, from: StepPoint<N>, longest: N, bound: f64) -> Result<N, Reason> {
         self.time_exponent = self.next_time_exponent;
         loop {
             self.expand(from);
             if let Some(allowed) = self.allowed() {
-                return Ok(allowed);
+                let allowed = N::of(allowed.min(times_power(bound, -self.time_exponent)));
+                let longest = longest.times_power(-self.time_exponent);
+                return Ok(if longest < allowed { longest } else { allowed });
             }
             // Coefficients that overflow belong to a time scale far below 1: use a smaller unit.
             if self.time_exponent < -1000 {
                 return Err(Reason::OutOfRange);
             }
             self.time_exponent -= 40;
-            self.inner = Inner::EMPTY;
+            self.inner = Inner::empty();
         }
     }
 
-    fn accept(&mut self, duration: f64, end: StepPoint) -> Step {
-        self.duration = duration;
+    /// The point at a time in units of the coefficients.
+    fn point(&self, t: N) -> StepPoint<N> {
+        let order = self.order;
+        StepPoint { x: value(&self.x[..=order], t), v: value(&self.v[..=order], t) }
+    }
+
+    fn accept(&mut self, duration: N, end: StepPoint<N>) -> Step<N> {
+        self.duration = duration.value();
         // Keep the unit of time near the step length, so that coefficients neither overflow nor underflow.
-        let drift = exponent(duration);
+        let drift = exponent(self.duration);
         if (drift - self.time_exponent).abs() > 20 {
             self.next_time_exponent = drift;
         }
@@ -292,28 +306,27 @@ impl Taylor {
     }
 }
 
-impl Stepper for Taylor {
+impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
     fn begin(&mut self, field: &HalfPlane) {
         self.field = *field;
     }
 
-    fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        let allowed = self.settle(from)?;
-        let unit = times_power(1.0, self.time_exponent);
-        let mut scaled = allowed.min(LONGEST / unit).min(longest / unit);
+    fn advance(&mut self, from: StepPoint<N>, longest: N) -> Result<Step<N>, Reason> {
+        let mut scaled = self.settle(from, longest, LONGEST)?;
         let order = self.order;
         loop {
-            let duration = scaled * unit;
-            if duration == 0.0 {
-                return Err(Reason::StepTooSmall { step: duration });
+            let duration = scaled.times_power(self.time_exponent);
+            if duration == N::default() {
+                return Err(Reason::StepTooSmall { step: 0.0 });
             }
             let v = value(&self.v[..=order], scaled);
-            if v <= 0.0 {
+            if v <= N::default() {
                 let root = self.root(scaled, v);
-                let end = StepPoint { x: value(&self.x[..=order], root), v: 0.0 };
-                let step = Step { duration: root * unit, end, crossed: true };
+                let end = StepPoint { x: value(&self.x[..=order], root), v: N::default() };
+                let duration = root.times_power(self.time_exponent);
+                let step = Step { duration, end, crossed: true };
                 if step.is_possible() {
-                    self.duration = step.duration;
+                    self.duration = duration.value();
                     return Ok(step);
                 }
                 scaled = root;
@@ -325,27 +338,22 @@ impl Stepper for Taylor {
                 }
             }
             self.rejected += 1;
-            scaled *= 0.5;
+            scaled = scaled.times_power(-1);
         }
     }
 
-    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        let allowed = self.settle(from)?;
-        let unit = times_power(1.0, self.time_exponent);
-        let scaled = allowed.min(longest / unit);
-        if scaled * unit == 0.0 {
+    fn pass(&mut self, from: StepPoint<N>, longest: N) -> Result<Step<N>, Reason> {
+        let scaled = self.settle(from, longest, f64::INFINITY)?;
+        let duration = scaled.times_power(self.time_exponent);
+        if duration == N::default() {
             return Err(Reason::StepTooSmall { step: 0.0 });
         }
-        let order = self.order;
-        let end =
-            StepPoint { x: value(&self.x[..=order], scaled), v: value(&self.v[..=order], scaled) };
-        Ok(self.accept(scaled * unit, end))
+        let end = self.point(scaled);
+        Ok(self.accept(duration, end))
     }
 
     fn at(&self, time: f64) -> StepPoint {
-        let t = times_power(time, -self.time_exponent);
-        let order = self.order;
-        StepPoint { x: value(&self.x[..=order], t), v: value(&self.v[..=order], t) }
+        self.point(N::of(times_power(time, -self.time_exponent))).rounded()
     }
 
     fn powers(&self) -> Powers {

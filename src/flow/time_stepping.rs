@@ -9,8 +9,8 @@
 //! Mechanics and Engineering 177, 1999).
 
 use super::limits::Reason;
+use super::regularized::SmoothField;
 use super::step::{Powers, Step, StepPoint, Stepper};
-use crate::model::HalfPlane;
 
 /// Newton iterations for the velocity at the end of a step. The residual is nearly linear.
 const ITERATIONS: usize = 50;
@@ -18,11 +18,11 @@ const ITERATIONS: usize = 50;
 /// Below this many damping times the equation of a step is a contraction and can be solved.
 const STABLE: f64 = 2.0;
 
-/// The time stepper, in coordinates `(q, v)` of the whole phase plane.
+/// The time stepper, in coordinates `(q, v)` of the whole phase plane. Of its field it needs the smooth part and the
+/// intensity of the friction.
 #[derive(Clone, Debug)]
 pub struct TimeStepping {
-    field: HalfPlane,
-    r: f64,
+    field: SmoothField,
     length: f64,
     start: StepPoint,
     end: StepPoint,
@@ -31,10 +31,10 @@ pub struct TimeStepping {
 }
 
 impl TimeStepping {
-    /// A stepper with friction `r` and steps of this length.
-    pub fn new(field: HalfPlane, r: f64, length: f64) -> Self {
+    /// A stepper with steps of this length.
+    pub fn new(field: SmoothField, length: f64) -> Self {
         let start = StepPoint { x: 0.0, v: 0.0 };
-        TimeStepping { field, r, length, start, end: start, duration: length, evaluations: 0 }
+        TimeStepping { field, length, start, end: start, duration: length, evaluations: 0 }
     }
 
     /// The impulse still needed from friction if the step is to end with velocity `v`.
@@ -43,7 +43,7 @@ impl TimeStepping {
         let StepPoint { x, v: before } = self.start;
         let middle = 0.5 * (before + v);
         let position = x + 0.5 * h * middle;
-        (v - before) - h * self.field.acceleration(position, middle)
+        (v - before) - h * self.field.smooth.acceleration(position, middle)
     }
 
     /// Velocity at the end of a step under constant `friction`, by Newton's method.
@@ -53,7 +53,7 @@ impl TimeStepping {
         for _ in 0..ITERATIONS {
             let residual = self.missing(h, v) - h * friction;
             let middle = 0.5 * (self.start.v + v);
-            let slope = 1.0 + 0.25 * h * h - 0.5 * h * self.field.divergence(middle);
+            let slope = 1.0 + 0.25 * h * h - 0.5 * h * self.field.smooth.divergence(middle);
             let step = residual / slope;
             v -= step;
             change = step.abs();
@@ -68,8 +68,8 @@ impl TimeStepping {
     }
 }
 
-impl Stepper for TimeStepping {
-    fn begin(&mut self, field: &HalfPlane) {
+impl Stepper<SmoothField> for TimeStepping {
+    fn begin(&mut self, field: &SmoothField) {
         self.field = *field;
     }
 
@@ -80,17 +80,17 @@ impl Stepper for TimeStepping {
     fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         let h = self.length.min(longest);
         self.start = from;
-        let rate = self.field.divergence(from.v).abs();
+        let rate = self.field.smooth.divergence(from.v).abs();
         if h * rate > STABLE {
             return Err(Reason::StepTooLong { step: h, stable: STABLE / rate });
         }
         let to_rest = self.missing(h, 0.0);
-        let strongest = h * self.r;
+        let strongest = h * self.field.r;
         let v = if to_rest.abs() <= strongest {
             0.0
         } else {
             // The missing impulse grows with v: if it exceeds what friction can supply, v ends below 0.
-            self.solve(h, if to_rest > 0.0 { self.r } else { -self.r })?
+            self.solve(h, if to_rest > 0.0 { self.field.r } else { -self.field.r })?
         };
         self.duration = h;
         self.end = StepPoint { x: from.x + 0.5 * h * (from.v + v), v };

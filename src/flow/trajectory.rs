@@ -43,15 +43,21 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
         Method::Stiff => run(Method::Stiff).go(&mut Stiff::new(field, tolerance), limits),
         Method::Smoothed => {
             let field = SmoothField::new(&parameters, SignLaw::Tanh(epsilon));
-            run(Method::Smoothed).walk(&mut Dop853::dop853(field, tolerance), false, limits)
+            let mut stepper = Dop853::dop853(field, tolerance);
+            run(Method::Smoothed).walk(&mut stepper, &field, false, limits)
         }
         Method::SignRk4 => {
             let field = SmoothField::new(&parameters, SignLaw::Sign);
-            run(Method::SignRk4).walk(&mut Rk4::rk4(field, step), false, limits)
+            run(Method::SignRk4).walk(&mut Rk4::rk4(field, step), &field, false, limits)
         }
         Method::TimeStepping => {
-            let mut stepper = TimeStepping::new(field, parameters.r, step);
-            run(Method::TimeStepping).walk(&mut stepper, true, limits)
+            let field = SmoothField::new(&parameters, SignLaw::Sign);
+            run(Method::TimeStepping).walk(
+                &mut TimeStepping::new(field, step),
+                &field,
+                true,
+                limits,
+            )
         }
     }
 }

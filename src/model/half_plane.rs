@@ -10,6 +10,7 @@
 //! and ends at `(X, 0)`; the next clearance is `X - 2 r`.
 
 use super::parameters::{Parameters, State};
+use crate::numerics::scalar::Scalar;
 use crate::numerics::scaling::times_power;
 
 /// A side of the switching line `v = 0`.
@@ -57,14 +58,14 @@ impl Side {
 
     /// Displacement `q` of a point `x` of this side's frame.
     #[must_use]
-    pub fn displacement(self, x: f64, r: f64) -> f64 {
-        self.sign() * (x - r)
+    pub fn displacement<N: Scalar>(self, x: N, r: f64) -> N {
+        N::of(self.sign()) * (x - N::of(r))
     }
 
     /// Position `x` in this side's frame of a displacement `q`.
     #[must_use]
-    pub fn position(self, q: f64, r: f64) -> f64 {
-        self.sign() * q + r
+    pub fn position<N: Scalar>(self, q: N, r: f64) -> N {
+        N::of(self.sign()) * q + N::of(r)
     }
 }
 

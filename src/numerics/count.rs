@@ -11,3 +11,14 @@ pub const fn real(count: usize) -> f64 {
 pub fn truncated(number: f64) -> usize {
     number as usize
 }
+
+/// The reciprocals of `0 .. N`, with 0 for that of 0.
+pub const fn reciprocals<const N: usize>() -> [f64; N] {
+    let mut table = [0.0; N];
+    let mut k = 1;
+    while k < N {
+        table[k] = 1.0 / real(k);
+        k += 1;
+    }
+    table
+}

@@ -1,6 +1,7 @@
 //! Arithmetic used by every other ring, independent of oscillators.
 //!
-//! - Numbers: [`interval`] rounds outwards, [`twofold`] carries twice the digits, [`scaling`] multiplies by powers
+//! - Numbers: [`interval`] rounds outwards, [`twofold`] carries twice the digits, [`scalar`] says what both have in
+//!   common with doubles, [`scaling`] multiplies by powers
 //!   of two without error, [`sum`] compensates rounding, [`mod@count`] converts between counts and real numbers,
 //!   [`random`] simulates noise.
 //! - Functions: [`elementary`] has those of the standard library, [`root`] finds zeros inside brackets, [`quadrature`]
@@ -18,6 +19,7 @@ pub(crate) mod quadrature;
 #[doc(hidden)]
 pub mod random;
 pub(crate) mod root;
+pub(crate) mod scalar;
 #[doc(hidden)]
 pub mod scaling;
 pub(crate) mod similar;

@@ -1,18 +1,7 @@
 //! Polynomials and power series, lowest power first.
 
-use crate::numerics::count::real;
-/// The reciprocals of `0 .. N`, with 0 for that of 0.
-pub const fn reciprocals<const N: usize>() -> [f64; N] {
-    let mut table = [0.0; N];
-    let mut k = 1;
-    while k < N {
-        {
-            table[k] = 1.0 / real(k);
-        }
-        k += 1;
-    }
-    table
-}
+use super::count::real;
+use super::scalar::Scalar;
 
 /// The coefficients of the derivative, with a zero at the end.
 pub fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
@@ -74,9 +63,9 @@ pub fn derivatives(coefficients: &[f64], t: f64) -> Derivatives {
 
 /// The value by Horner's rule in even and odd powers: two independent chains of half the length.
 #[inline]
-pub fn value_in_two(coefficients: &[f64], t: f64) -> f64 {
+pub fn value_in_two<N: Scalar>(coefficients: &[N], t: N) -> N {
     let square = t * t;
-    let (mut even, mut odd) = (0.0, 0.0);
+    let (mut even, mut odd) = (N::default(), N::default());
     let pairs = coefficients.chunks_exact(2);
     if let [last] = pairs.remainder() {
         even = *last;
@@ -90,9 +79,9 @@ pub fn value_in_two(coefficients: &[f64], t: f64) -> f64 {
 
 /// The value and the derivative by Horner's rule in even and odd powers.
 #[inline]
-pub fn value_and_slope_in_two(coefficients: &[f64], t: f64) -> (f64, f64) {
+pub fn value_and_slope_in_two<N: Scalar>(coefficients: &[N], t: N) -> (N, N) {
     let square = t * t;
-    let (mut value, mut slope) = ([0.0; 2], [0.0; 2]);
+    let (mut value, mut slope) = ([N::default(); 2], [N::default(); 2]);
     let rows = coefficients.chunks_exact(2);
     if let [last] = rows.remainder() {
         value[0] = *last;
@@ -104,12 +93,14 @@ pub fn value_and_slope_in_two(coefficients: &[f64], t: f64) -> (f64, f64) {
         }
     }
     // With p(t) = e(t^2) + t o(t^2): p' = o + 2 t (e' + t o').
-    (value[0] + t * value[1], value[1] + 2.0 * t * (slope[0] + t * slope[1]))
+    let twice = N::of(2.0) * t;
+    (value[0] + t * value[1], value[1] + twice * (slope[0] + t * slope[1]))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::count::reciprocals;
     use crate::numerics::elementary::exp;
 
     #[test]

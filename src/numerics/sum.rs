@@ -1,33 +1,35 @@
 //! A compensated sum.
 
+use super::scalar::Scalar;
+
 /// A compensated sum (Neumaier's): terms below its last digit are not lost, however many there are.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Sum {
-    sum: f64,
-    lost: f64,
+pub struct Sum<N> {
+    sum: N,
+    lost: N,
 }
 
-impl Sum {
+impl<N: Scalar> Sum<N> {
     /// The sum, rounded.
-    pub fn value(self) -> f64 {
-        self.plus(0.0)
+    pub fn value(self) -> N {
+        self.plus(N::default())
     }
 
     /// The sum with one more term, rounded.
-    pub fn plus(self, term: f64) -> f64 {
+    pub fn plus(self, term: N) -> N {
         self.sum + (self.lost + term)
     }
 
     /// `end` minus the sum.
-    pub fn until(self, end: f64) -> f64 {
+    pub fn until(self, end: N) -> N {
         (end - self.sum) - self.lost
     }
 
     /// Adds a non-negative term.
-    pub fn add(&mut self, term: f64) {
+    pub fn add(&mut self, term: N) {
         let sum = self.sum + term;
-        self.lost +=
-            if self.sum >= term { (self.sum - sum) + term } else { (term - sum) + self.sum };
+        let lost = if self.sum >= term { (self.sum - sum) + term } else { (term - sum) + self.sum };
+        self.lost = self.lost + lost;
         self.sum = sum;
     }
 }

@@ -5,10 +5,12 @@
 //! derived from them is accurate to the last digits of a double (T. J. Dekker, *A floating-point technique for
 //! extending the available precision*, Numerische Mathematik 18, 1971).
 
+use std::ops::{Add, Mul, Neg, Sub};
+
 use crate::numerics::elementary::{exp, exp_m1, sin_cos};
 
 /// The sum `high + low`, where `low` is at most half a unit in the last place of `high`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct Twofold {
     /// The sum rounded to a double.
     pub high: f64,
@@ -125,6 +127,44 @@ impl Twofold {
     /// The number rounded to a double.
     pub fn value(self) -> f64 {
         self.high + self.low
+    }
+}
+
+impl From<f64> for Twofold {
+    fn from(value: f64) -> Self {
+        Self::of(value)
+    }
+}
+
+impl Add for Twofold {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        self.plus(other)
+    }
+}
+
+impl Sub for Twofold {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self.minus(other)
+    }
+}
+
+impl Mul for Twofold {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        self.by(other)
+    }
+}
+
+impl Neg for Twofold {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        self.opposite()
     }
 }
 

@@ -3,7 +3,7 @@
 use super::columns::Columns;
 use super::json::Document;
 use super::table::motion;
-use crate::accuracy::reference::{Deviation, Ending, Reference, Source};
+use crate::accuracy::reference::{Deviation, Reference, Source};
 use crate::accuracy::trade;
 use crate::accuracy::trade::{Trade, TradePoint};
 use crate::flow::method::Dial;
@@ -202,12 +202,14 @@ pub fn table(timed: &TimedTrade, plot: &str) -> String {
 fn ending(reference: &Reference) -> String {
     let swings = counted(reference.turns.len(), "half swing");
     match reference.end {
-        Ending::Rest { q } => format!("rests at q = {} after {swings}", significant(q.high, 12)),
-        Ending::Moving { q, v } => {
+        Outcome::Captured { q, .. } => {
+            format!("rests at q = {} after {swings}", significant(q.high, 12))
+        }
+        Outcome::Moving { q, v, .. } => {
             let [q, v] = [q, v].map(|number| significant(number.high, 12));
             format!("moving still after {swings}: q = {q}, v = {v}")
         }
-        Ending::Escape { tau } => {
+        Outcome::Escaped { tau } | Outcome::GaveUp { tau, .. } => {
             format!("escapes at tau = {} after {swings}", significant(tau.high, 12))
         }
     }

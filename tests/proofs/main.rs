@@ -130,7 +130,7 @@ fn check_half_swings(count: usize) {
             ..Problem::default()
         };
         let [fine, coarse] = [FINE, COARSE].map(|grain| {
-            precise(&problem, grain, &Limits::PATIENT).expect("a smooth motion").turns[0]
+            precise(&problem, grain, &Limits::PATIENT).expect("a smooth motion").crossings[0]
         });
         let (q, tau) = ((fine.q.high, fine.q.low), (fine.tau.high, fine.tau.low));
         assert!((fine.q.high - coarse.q.high).abs() <= 1e-15 * x.max(q.0), "{problem:?}");

@@ -5,9 +5,9 @@
 //! keeps the last terms below rounding (Jorba and Zou, Experimental Mathematics 14, 2005).
 
 use crate::model::force::{Fall, ForceBranch, ForcePiece};
-use crate::numerics::count::real;
+use crate::numerics::count::{real, reciprocals};
 use crate::numerics::elementary::{exp2, log2, pow};
-use crate::numerics::polynomial::{reciprocals, value, value_and_slope};
+use crate::numerics::polynomial::{value, value_and_slope};
 
 /// Order of the series; near the one that costs least at full precision.
 pub const ORDER: usize = 20;

@@ -1,6 +1,6 @@
 //! The precise method against closed forms and against itself.
 
-use super::super::Method;
+use super::super::{Method, Outcome};
 use super::*;
 use crate::model::{Parameters, State};
 use crate::numerics::twofold::PI;
@@ -23,13 +23,14 @@ fn apart(one: Twofold, other: Twofold) -> f64 {
 fn without_damping_each_half_swing_takes_pi_and_two_r_to_thirty_digits() {
     let found = precise(&problem([0.0, 0.0, 0.0, 0.125], 3.0, 60.0), FINE, &Limits::PATIENT);
     let found = found.unwrap();
-    assert_eq!(found.turns.len(), 12);
-    for (index, turn) in (0_i32..).zip(&found.turns) {
+    assert_eq!(found.crossings.len(), 12);
+    for (index, turn) in (0_i32..).zip(&found.crossings) {
         let place = (2.75 - 0.25 * f64::from(index)) * if index % 2 == 0 { -1.0 } else { 1.0 };
         assert!(apart(turn.q, Twofold::of(place)) < 1e-28, "{turn:?}");
         assert!(apart(turn.tau, PI.times(f64::from(index + 1))) < 1e-28, "{turn:?}");
     }
-    assert_eq!(found.end, PreciseEnd::Captured(found.turns[11]));
+    let last = found.crossings[11];
+    assert_eq!(found.outcome, Outcome::Captured { tau: last.tau, q: last.q });
 }
 
 /// `D = 2 sqrt(2)/3` would make `omega = 1/3` but is not a double. The test therefore uses the ratio of two
@@ -45,7 +46,8 @@ fn linear_half_swings_shrink_by_one_and_the_same_factor() {
         let r = Twofold::of(r);
         size(after).plus(r).over(size(before).minus(r))
     };
-    let ratios: Vec<_> = found.turns.windows(2).map(|pair| ratio(pair[0].q, pair[1].q)).collect();
+    let ratios: Vec<_> =
+        found.crossings.windows(2).map(|pair| ratio(pair[0].q, pair[1].q)).collect();
     assert!(ratios.len() > 8);
     for other in &ratios[1..] {
         assert!(apart(*other, ratios[0]) < 1e-27, "{other:?} {:?}", ratios[0]);
@@ -63,9 +65,9 @@ fn two_grains_agree_to_many_more_digits_than_a_double_has() {
         let question = problem(parameters, q, until);
         let [fine, coarse] =
             [FINE, COARSE].map(|grain| precise(&question, grain, &Limits::PATIENT).unwrap());
-        assert_eq!(fine.turns.len(), coarse.turns.len());
-        assert!(!fine.turns.is_empty() && fine.cost.steps < coarse.cost.steps);
-        for (one, other) in fine.turns.iter().zip(&coarse.turns) {
+        assert_eq!(fine.crossings.len(), coarse.crossings.len());
+        assert!(!fine.crossings.is_empty() && fine.cost.steps < coarse.cost.steps);
+        for (one, other) in fine.crossings.iter().zip(&coarse.crossings) {
             assert!(apart(one.q, other.q) < 1e-24 * q.max(1e-200), "{one:?} {other:?}");
         }
     }
@@ -77,14 +79,14 @@ fn an_escape_has_its_time() {
     let start = State { q: 0.0, v: 1e9 };
     let question = Problem { initial: start, ..problem([0.0, 0.0, -1.0, 0.0], 0.0, 1.0) };
     let found = precise(&question, FINE, &Limits::PATIENT).unwrap();
-    let PreciseEnd::Escaped { tau } = found.end else { panic!("{found:?}") };
+    let Outcome::Escaped { tau } = found.outcome else { panic!("{found:?}") };
     assert!((tau.value() / 5e-19 - 1.0).abs() < 1e-15, "{tau:?}");
 }
 
 #[test]
 fn a_rest_stays_and_a_budget_is_kept() {
     let rest = precise(&problem([-0.1, 0.0, 0.0, 0.5], 0.5, 9.0), FINE, &Limits::PATIENT);
-    assert!(matches!(rest.unwrap().end, PreciseEnd::Captured(mark) if mark.q == Twofold::of(0.5)));
+    assert!(matches!(rest.unwrap().outcome, Outcome::Captured { q, .. } if q == Twofold::of(0.5)));
     let limits = Limits { evaluations: 1000, ..Limits::PATIENT };
     let stiff = precise(&problem([0.0, 0.0, 1.0, 0.1], 1e6, 1e4), FINE, &limits);
     assert!(matches!(stiff, Err(Reason::Budget { .. })));

@@ -31,7 +31,7 @@ use std::sync::Arc;
 use super::replay::{Action, Player, parse};
 use super::{Effect, Msg, Overlay, Session, Size, update};
 use crate::accuracy::harmonic_error::HarmonicBalance;
-use crate::accuracy::reference::{Deviation, Ending, Reference, Source};
+use crate::accuracy::reference::{Deviation, Reference, Source};
 use crate::accuracy::trade::{Trade, TradePoint};
 use crate::branch::chart::Chart;
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
@@ -193,7 +193,7 @@ fn trade(cost: Cost) -> Trade {
     let zero = Twofold::of(0.0);
     let reference = Reference {
         turns: Vec::new(),
-        end: Ending::Moving { q: zero, v: zero },
+        end: Outcome::Moving { tau: zero, q: zero, v: zero },
         source: Source::TwicePrecision,
         error: 1e-30,
         scale: 1.0,
