@@ -3,16 +3,13 @@
 //! Errors are measured against Taylor series whose steps end below rounding; how far these can be trusted is how far
 //! they are from the other methods at their finest ([`crate::accuracy::trade`] does the same where there are formulas).
 
-use crate::flow::Fate;
-use crate::flow::machine::by_method::MethodMotion;
-use crate::flow::machine::stepped::SteppedMethod;
+use crate::flow::{Detail, Fate, MachineMotion, Method};
 use crate::model::Model;
 use crate::model::model::FINEST;
 use crate::numerics::elementary::powi;
 
 /// The methods, Taylor series first.
-const WAYS: [Option<SteppedMethod>; 3] =
-    [None, Some(SteppedMethod::Dop853), Some(SteppedMethod::Dopri5)];
+const METHODS: [Method; 3] = [Method::Taylor, Method::Dop853, Method::Dopri5];
 
 /// Decimal digits of the tolerances.
 const DIGITS: std::ops::RangeInclusive<i32> = 2..=15;
@@ -20,8 +17,7 @@ const DIGITS: std::ops::RangeInclusive<i32> = 2..=15;
 /// One method at one tolerance.
 #[derive(Clone, Debug)]
 pub struct MachineTradePoint {
-    pub way: Option<SteppedMethod>,
-    pub motion: MethodMotion,
+    pub motion: MachineMotion,
     /// The largest difference in displacement from the reference, at the standstills and at the end, as a part of the
     /// largest displacement there; `None` where it has not as many standstills.
     pub error: Option<f64>,
@@ -31,7 +27,7 @@ pub struct MachineTradePoint {
 #[derive(Clone, Debug)]
 pub struct MachineTrade {
     /// What the errors are measured against.
-    pub reference: MethodMotion,
+    pub reference: MachineMotion,
     pub points: Vec<MachineTradePoint>,
 }
 
@@ -39,23 +35,33 @@ impl MachineTrade {
     /// Computes every row for a motion from displacement and velocity (m, m/s) of `until` seconds.
     #[must_use]
     pub fn new(model: &Model, start: (f64, f64), until: f64) -> Self {
-        let reference = MethodMotion::new(model, (None, FINEST), start, until);
-        let point = |(way, digits): (Option<SteppedMethod>, i32)| {
-            let tolerance = powi(10.0, -digits);
-            let motion = MethodMotion::new(model, (way, tolerance), start, until);
+        let follow = |method, tolerance| Self::follow(model, (method, tolerance), start, until);
+        let reference = follow(Method::Taylor, FINEST);
+        let point = |(method, digits): (Method, i32)| {
+            let motion = follow(method, powi(10.0, -digits));
             let error = deviation(&motion, &reference);
-            MachineTradePoint { way, motion, error }
+            MachineTradePoint { motion, error }
         };
-        let ways = WAYS.into_iter().flat_map(|way| DIGITS.map(move |digits| (way, digits)));
-        let points = ways.map(point).collect();
+        let rows = METHODS.into_iter().flat_map(|way| DIGITS.map(move |digits| (way, digits)));
+        let points = rows.map(point).collect();
         MachineTrade { reference, points }
+    }
+
+    /// The motion of a row, by a method at a tolerance.
+    #[must_use]
+    pub fn follow(
+        model: &Model,
+        asked: (Method, f64),
+        start: (f64, f64),
+        until: f64,
+    ) -> MachineMotion {
+        MachineMotion::by(model, asked, start, until, Detail::default())
     }
 }
 
 /// The error of a motion.
-fn deviation(motion: &MethodMotion, reference: &MethodMotion) -> Option<f64> {
-    let [places, expected] =
-        [motion, reference].map(|it| it.places().map(|(_, x)| x).collect::<Vec<f64>>());
+fn deviation(motion: &MachineMotion, reference: &MachineMotion) -> Option<f64> {
+    let [places, expected] = [motion, reference].map(|it| it.places().collect::<Vec<f64>>());
     let unknown = matches!(motion.outcome, Fate::Unknown(_));
     if unknown || places.len() != expected.len() {
         return None;

@@ -13,7 +13,6 @@ use super::machine::{MachineCase, second, troubled};
 use super::output::{Format, Output, write};
 use super::timing::timed;
 use crate::figure::panels;
-use crate::flow::machine::stepped::SteppedMethod;
 use crate::flow::{Limits, Method};
 use crate::model::unit::WithTolerance;
 use crate::model::{Belt, Knob, MachineProblem, Subject, Tolerances};
@@ -102,7 +101,7 @@ impl Arguments {
     }
 
     /// The tolerance of the Taylor steps; `None` with a second method, to which `--tol` then applies.
-    fn own(&self, second: Option<SteppedMethod>) -> Option<f64> {
+    fn own(&self, second: Option<Method>) -> Option<f64> {
         self.tol.filter(|_| second.is_none())
     }
 
@@ -133,7 +132,7 @@ impl Arguments {
         &self,
         problem: &'a MachineProblem,
         head: &'a Head,
-        second: Option<SteppedMethod>,
+        second: Option<Method>,
     ) -> Result<MachineAnswer<'a>, Trouble> {
         let MachineProblem { subject, tolerances, start, until } = problem;
         let on_belt = |belt: &Belt| {

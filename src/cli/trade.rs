@@ -8,9 +8,8 @@ use super::machine::{MachineCase, print, troubled};
 use super::output::{Format, Output};
 use super::source::SourceOptions;
 use super::timing::in_turn;
-use crate::accuracy::machine_trade::{MachineTrade, MachineTradePoint};
+use crate::accuracy::machine_trade::MachineTrade;
 use crate::accuracy::trade::Trade as Found;
-use crate::flow::machine::by_method::MethodMotion;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Fate, Limits};
 use crate::model::{Knob, MachineProblem};
@@ -71,8 +70,8 @@ impl Arguments {
         let model = subject.model().map_err(troubled)?;
         let trade = MachineTrade::new(&model, *start, *until);
         let seconds = in_turn(self.output.repeat, trade.points.len(), |index| {
-            let MachineTradePoint { way, motion, .. } = &trade.points[index];
-            MethodMotion::new(&model, (*way, motion.tolerance), *start, *until)
+            let motion = &trade.points[index].motion;
+            MachineTrade::follow(&model, (motion.method, motion.tolerance), *start, *until)
         });
         let head = case.head();
         print(&self.output, machine_motion::trade(&head, &case.problem, &trade, &seconds))?;

@@ -3,8 +3,7 @@
 
 use std::fmt;
 
-use crate::flow::machine::stepped::{SteppedEnd, SteppedMethod, stepped};
-use crate::flow::{Fate, Flow, Limits, LostMotion, MachineMotion, Reason};
+use crate::flow::{Detail, Fate, Flow, Limits, LostMotion, MachineMotion, Method, Reason};
 use crate::model::belt::{BeltError, ReducedBelt};
 use crate::model::{Belt, Model, NoModel, Subject};
 use crate::portrait::Portrait;
@@ -42,15 +41,7 @@ pub struct Course {
     /// Where it comes to rest, in m.
     pub rest: Option<f64>,
     /// The same motion by another method, if asked for.
-    pub second: Option<Second>,
-}
-
-/// A motion by a method that is not Taylor series.
-#[derive(Clone, Copy, Debug)]
-pub struct Second {
-    pub way: SteppedMethod,
-    pub tolerance: f64,
-    pub found: Result<SteppedEnd, LostMotion>,
+    pub second: Option<MachineMotion>,
 }
 
 impl Course {
@@ -72,9 +63,9 @@ impl Course {
 
 impl Course {
     /// Follows the motion once more by another method.
-    pub fn follow_by(&mut self, way: SteppedMethod, tolerance: f64, start: (f64, f64), until: f64) {
-        let found = stepped(&self.portrait.model, way, tolerance, start, until);
-        self.second = Some(Second { way, tolerance, found });
+    pub fn follow_by(&mut self, method: Method, tolerance: f64, start: (f64, f64), until: f64) {
+        let (model, asked) = (&self.portrait.model, (method, tolerance));
+        self.second = Some(MachineMotion::by(model, asked, start, until, Detail::default()));
     }
 }
 

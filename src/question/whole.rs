@@ -3,13 +3,12 @@
 
 use crate::flow::machine::curve::{CurvePiece, MachineCurve};
 use crate::flow::machine::motion;
-use crate::flow::machine::stepped::{SteppedMethod, SteppedMotion, traced};
 use crate::flow::machine::turn::ContactState;
 use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
 use crate::flow::{
-    Cost, Fate, Flow, Limits, LostMotion, MachineLedger, MachineMotion, Method, Problem, Reason,
+    Cost, Detail, Fate, Flow, Limits, LostMotion, MachineLedger, MachineMotion, Problem, Reason,
 };
-use crate::model::{Belt, Model, Parameters, Phase, State};
+use crate::model::{Belt, Model, Parameters, State};
 use crate::portrait::basin::cycle;
 use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait};
 
@@ -65,6 +64,10 @@ impl DrawingUnits {
         cycle.scaled(1.0 / self.x, self.t)
     }
 
+    fn crossing(self, leg: &motion::Leg) -> Crossing {
+        Crossing { tau: leg.t / self.t, q: leg.x / self.x }
+    }
+
     fn sample(self, state: &motion::MachineState) -> Sample {
         Sample { tau: state.t / self.t, q: state.x / self.x, v: state.v / self.v }
     }
@@ -99,16 +102,19 @@ pub fn motion(
     let portrait = Portrait::of(&model).map_err(reason)?;
     model.tolerance = problem.tolerance;
     let units = DrawingUnits::of(&model);
-    let way = SteppedMethod::of(problem.method).map_err(|_| Reason::NotApplicable {
-        needs: "to know both switching lines of a machine, as auto, taylor, dop853 and dopri5 do",
-    })?;
+    if !problem.method.follows_machines() {
+        return Err(Reason::NotApplicable {
+            needs: "to know both switching lines of a machine, as auto, taylor, dop853 and dopri5 do",
+        });
+    }
     let (x, v) = (problem.initial.q * units.x, problem.initial.v * units.v);
     let until = problem.until * units.t;
-    let found = MachineMotion::new(&model, x, v, until);
-    let drawn = match way {
-        Some(way) => Drawn::stepped(traced(&model, way, problem.tolerance, (x, v), until), way),
-        None => Drawn::series(&found, between),
-    };
+    let detail =
+        Detail { samples_per_step: between as usize + 1, energy: true, ..Detail::default() };
+    let asked = (problem.method, problem.tolerance);
+    let found = MachineMotion::by(&model, asked, (x, v), until, detail);
+    let ledger = found.ledger;
+    let ledger = ledger.or_else(|| MachineMotion::new(&model, x, v, until).ledger);
     let fate = match portrait.fate(x, v) {
         Err(stop @ LostMotion::OutsideLaw { .. }) => Fate::Unknown(stop),
         fate => fate.map_err(reason)?,
@@ -121,46 +127,13 @@ pub fn motion(
         fate,
         cycle: cycle.map(|cycle| units.cycle(cycle)),
         border: portrait.border,
-        rides: rides(&drawn, model.speed * model.omega_0, units),
-        ledger: units.ledger(&found.ledger, &model),
+        rides: rides(&found, model.speed * model.omega_0, units),
+        ledger: units.ledger(&ledger.unwrap_or_default(), &model),
     };
-    Ok((trajectory(&drawn, problem, units), course))
+    Ok((trajectory(&found, problem, units), course))
 }
 
-/// A motion to be drawn, whichever method computed it.
-struct Drawn {
-    method: Method,
-    legs: Vec<motion::Leg>,
-    samples: Vec<motion::MachineState>,
-    end: motion::MachineState,
-    outcome: Fate<LostMotion>,
-    cost: Cost,
-}
-
-impl Drawn {
-    /// By Taylor series, with `between` points between the ends of each step.
-    fn series(found: &MachineMotion, between: u32) -> Self {
-        Drawn {
-            method: Method::Taylor,
-            legs: found.legs.clone(),
-            samples: found.samples(between),
-            end: found.end,
-            outcome: found.outcome,
-            cost: cost(found.curve.pieces.len() as u64),
-        }
-    }
-
-    /// By another method, at its steps.
-    fn stepped(found: SteppedMotion, way: SteppedMethod) -> Self {
-        let SteppedMotion { legs, samples, outcome, evaluations, steps } = found;
-        let end =
-            samples.last().copied().unwrap_or(motion::MachineState { t: 0.0, x: 0.0, v: 0.0 });
-        let cost = Cost { evaluations, steps, rejected: 0 };
-        Drawn { method: way.method(), legs, samples, end, outcome, cost }
-    }
-}
-
-fn trajectory(found: &Drawn, problem: &Problem, units: DrawingUnits) -> Trajectory {
+fn trajectory(found: &MachineMotion, problem: &Problem, units: DrawingUnits) -> Trajectory {
     let start = Sample { tau: 0.0, q: problem.initial.q, v: problem.initial.v };
     let sampled = found.samples.iter().skip(1).map(|at| units.sample(at));
     let samples = std::iter::once(start).chain(sampled);
@@ -171,20 +144,13 @@ fn trajectory(found: &Drawn, problem: &Problem, units: DrawingUnits) -> Trajecto
         Fate::Escapes => Outcome::Escaped { tau },
         Fate::Unknown(stop) => Outcome::GaveUp { tau, reason: reason(stop) },
     };
-    // A leg begins at a turning point unless it begins on the belt's line.
-    let turns = found.legs.windows(2).filter(|pair| match pair[1].place {
-        ContactState::Slips(Phase::Between) => pair[0].place == ContactState::Slips(Phase::Below),
-        ContactState::Slips(Phase::Below) | ContactState::Rests => true,
-        ContactState::Slips(Phase::Above) | ContactState::Sticks => false,
-    });
-    let crossing =
-        |pair: &[motion::Leg]| Crossing { tau: pair[1].t / units.t, q: pair[1].x / units.x };
+    let turns = motion::turns(&found.legs);
     Trajectory {
         problem: *problem,
         method: found.method,
         implicit_steps: 0,
         outcome,
-        crossings: turns.map(crossing).collect(),
+        crossings: turns.map(|leg| units.crossing(leg)).collect(),
         ledger: None,
         samples: samples.collect(),
         cost: found.cost,
@@ -196,7 +162,7 @@ fn cost(steps: u64) -> Cost {
 }
 
 /// The stretches on which a motion rides on the belt, whose speed is `v0`.
-fn rides(found: &Drawn, v0: f64, units: DrawingUnits) -> Vec<[Sample; 2]> {
+fn rides(found: &MachineMotion, v0: f64, units: DrawingUnits) -> Vec<[Sample; 2]> {
     let ends = found.legs.iter().skip(1).map(|leg| (leg.t, leg.x));
     let ends = ends.chain([(found.end.t, found.end.x)]);
     let legs = found.legs.iter().zip(ends).filter(|(leg, _)| leg.place == ContactState::Sticks);

@@ -5,10 +5,9 @@ use super::columns::{Columns, Quantity};
 use super::json::Document;
 use super::machine::{IMPULSE, LENGTH, MachineReport, SPEED, TIME, machine_cycles};
 use crate::accuracy::machine_trade::MachineTrade;
-use crate::flow::Fate;
-use crate::flow::machine::by_method::MethodMotion;
 use crate::flow::machine::motion::{Leg, turns};
 use crate::flow::machine::turn::ContactState;
+use crate::flow::{Fate, MachineMotion};
 use crate::model::{Interval, Knob, MachineProblem, Subject};
 use crate::portrait::basin::Counts;
 use crate::portrait::guarantee::machine::MachineUncertain;
@@ -137,10 +136,10 @@ pub struct MotionRow {
 pub fn motion<'a>(
     head: &'a Head,
     MachineProblem { subject, start, .. }: &'a MachineProblem,
-    found: &MethodMotion,
+    found: &MachineMotion,
     seconds: f64,
 ) -> MachineReport<'a, MotionRow> {
-    let MethodMotion { method, tolerance, legs, end, outcome, ledger, cost } = found;
+    let MachineMotion { method, tolerance, legs, end, outcome, ledger, cost, .. } = found;
     let kind = outcome.word();
     let reason = if let Fate::Unknown(why) = outcome { Some(why.to_string()) } else { None };
     let place = |q: f64, v: f64| Document::default().with("q", q).with("v", v);
@@ -195,7 +194,7 @@ pub fn motion<'a>(
 /// A method at a tolerance, its error, and its time in seconds.
 #[derive(Clone)]
 pub struct MachineTradeRow {
-    motion: MethodMotion,
+    motion: MachineMotion,
     error: f64,
     seconds: f64,
 }
@@ -215,7 +214,7 @@ pub fn trade<'a>(
         if let Some(error) = point.error {
             rows.push(MachineTradeRow { motion, error, seconds });
         } else {
-            let MethodMotion { method, tolerance, .. } = motion;
+            let MachineMotion { method, tolerance, .. } = motion;
             notes.push(format!("{method} at {tolerance:e}: not the same standstills"));
         }
     }

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 use hopfscope::branch::machine::branch;
 use hopfscope::branch::machine_special::MachineSpecialKind;
 use hopfscope::flow::machine::turn::ContactState;
-use hopfscope::flow::{Fate, Flow, MachineMotion};
+use hopfscope::flow::{Detail, Fate, Flow, MachineMotion, Method};
 use hopfscope::model::belt::FrictionLaw;
 use hopfscope::model::{Belt, Group, Knob, Model, NoModel};
 use hopfscope::numerics::elementary::{
@@ -294,7 +294,7 @@ fn the_ledger_of_a_motion_closes_with_the_work_of_the_belt() {
             let period = 2.0 * PI / model.omega_0;
             let motion = MachineMotion::new(&model, start.0, start.1, 5.3 * period);
             assert!(
-                motion.ledger.residual().abs() < 1e-13,
+                motion.ledger.unwrap().residual().abs() < 1e-13,
                 "{name} {start:?}: {:?}",
                 motion.ledger
             );

@@ -72,9 +72,12 @@ fn any_start_ends_where_its_motion_goes() {
         for _ in 0..3 {
             let (x, v) = (6.0 * chance.even() - 3.0, 4.0 * chance.even() - 2.0);
             let Ok(fate) = found.fate(x, v) else { continue };
-            let motion = MachineMotion::new(&model, x, v, 400.0);
-            assert!(motion.ledger.residual().abs() < 1e-11, "{belt:?}: {:?}", motion.ledger);
-            let late = motion.samples(0).into_iter().filter(|state| state.t > 380.0);
+            let detail = Detail { energy: true, samples_per_step: 1, ..Detail::default() };
+            let asked = (Method::Taylor, model.tolerance);
+            let motion = MachineMotion::by(&model, asked, (x, v), 400.0, detail);
+            let ledger = motion.ledger.unwrap();
+            assert!(ledger.residual().abs() < 1e-11, "{belt:?}: {ledger:?}");
+            let late = motion.samples.iter().filter(|state| state.t > 380.0);
             let size = late.map(|state| state.x).fold(0.0, f64::max);
             match (fate, motion.outcome) {
                 (Fate::Cycle(index), Fate::Moving) if found.cycles[index].sticks() => {

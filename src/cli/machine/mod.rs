@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::output::{Format, Output};
 use super::timing::timed;
 use crate::flow::Method;
-use crate::flow::machine::stepped::{ALLOWED, SteppedMethod};
+use crate::flow::machine::stepped::ALLOWED;
 use crate::model::unit::WithTolerance;
 use crate::model::{Body, Group, Knob, MachineProblem, Tolerances};
 use crate::portrait::{Portrait, Trouble};
@@ -194,11 +194,12 @@ pub fn troubled(trouble: impl Into<Trouble>) -> Failure {
 }
 
 /// The method that follows a motion in place of Taylor series, if one is asked for.
-pub fn second(method: Option<Method>) -> Result<Option<SteppedMethod>, Failure> {
-    let Some(method) = method else { return Ok(None) };
-    SteppedMethod::of(method).map_err(|_| {
-        Failure::Usage(format!(
+pub fn second(method: Option<Method>) -> Result<Option<Method>, Failure> {
+    match method {
+        None | Some(Method::Auto | Method::Taylor) => Ok(None),
+        Some(method) if method.follows_machines() => Ok(Some(method)),
+        Some(method) => Err(Failure::Usage(format!(
             "--method {method} knows one switching line only; a machine has two: allowed are {ALLOWED}"
-        ))
-    })
+        ))),
+    }
 }

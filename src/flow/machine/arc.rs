@@ -79,15 +79,17 @@ pub struct SeriesStep<'a> {
 pub trait Watch {
     /// A step in slip.
     fn step(&mut self, model: &Model, step: &SeriesStep);
+    /// A step in slip by a method without series: its duration, and displacement and velocity at its end.
+    fn passes(&mut self, _duration: f64, _end: (f64, f64)) {}
     /// A piece during which the mass rides on the belt.
     fn stick(&mut self, _model: &Model, _from: f64, _to: f64) {}
     /// Whether a motion that turns no more is to be followed to its end nevertheless.
     fn follows(&self) -> bool {
         false
     }
-    /// Whether it has seen enough.
-    fn is_done(&self) -> bool {
-        false
+    /// For how long the motion is still to be followed, in `1/omega_0`.
+    fn left(&self) -> f64 {
+        f64::INFINITY
     }
 }
 
@@ -231,7 +233,7 @@ impl<'a> Flow<'a> {
             let size = x.abs().max(y.abs());
             let end = if watch.follows() { NEAR * started } else { f64::INFINITY };
             let turns = size > end || !creeps(phase, side, (x, y), forward);
-            if size < SETTLED * started || !turns || watch.is_done() {
+            if size < SETTLED * started || !turns || watch.left() <= 0.0 {
                 return Err(LostMotion::Settled);
             }
             if size.is_nan() || size > ESCAPED * started {
@@ -265,62 +267,79 @@ fn creeps(phase: Phase, side: &ForceBranch, (x, y): (f64, f64), forward: f64) ->
         && side.decay(x.abs(), forward).is_some_and(|decay| decay >= OVERDAMPED)
 }
 
+/// A step of any method, as far as the search for its events needs it.
+pub trait StepInside {
+    /// The velocity at a time from its start, and its derivative.
+    fn velocity(&mut self, t: f64) -> (f64, f64);
+
+    /// Where the acceleration vanishes between 0 and `end`, at which it has opposite signs.
+    fn turning(&mut self, end: f64) -> f64;
+}
+
+impl StepInside for &Series {
+    fn velocity(&mut self, t: f64) -> (f64, f64) {
+        Series::velocity(self, t)
+    }
+
+    fn turning(&mut self, end: f64) -> f64 {
+        let slopes = derivative(&self.y);
+        let bracket = Bracket { low: 0.0, high: end, rising: slopes[0] < 0.0 };
+        newton(bracket, 0.5 * end, PlaceTolerance::Absolute(1e-16 * end), |t| {
+            value_and_slope(&slopes, t)
+        })
+        .at
+    }
+}
+
 /// Where a step turns, and where it first reaches a level.
-struct StepLevels {
+pub struct StepLevels {
     peak: Option<f64>,
     /// Time and level.
-    hit: Option<(f64, f64)>,
+    pub hit: Option<(f64, f64)>,
 }
 
 /// The first of two levels that a step reaches, given that the speed turns at most once, from growing to
 /// falling.
-fn crossing(series: &Series, phase: Phase, end: f64, (low, high): (f64, f64)) -> StepLevels {
+pub fn crossing(
+    mut step: impl StepInside,
+    phase: Phase,
+    end: f64,
+    (low, high): (f64, f64),
+) -> StepLevels {
     let sign = phase.sign();
     let (outer, inner) = if sign > 0.0 { (high, low) } else { (low, high) };
     let grows = |slope: f64| sign * slope > 0.0;
     let beyond = |y: f64, level: f64| sign * (y - level);
-    let (velocity, slope) = series.velocity(end);
+    let (velocity, slope) = step.velocity(end);
     let mut peak = None;
-    if grows(series.y[1]) {
+    if grows(step.velocity(0.0).1) {
         let (until, fastest) = if grows(slope) {
             (end, velocity)
         } else {
-            let turn = turning(series, end);
+            let turn = step.turning(end);
             peak = Some(turn);
-            (turn, series.velocity(turn).0)
+            (turn, step.velocity(turn).0)
         };
         if beyond(fastest, outer) >= 0.0 {
-            return StepLevels {
-                peak,
-                hit: Some((root(series, outer, (0.0, until), sign), outer)),
-            };
+            let at = root(&mut step, outer, (0.0, until), sign);
+            return StepLevels { peak, hit: Some((at, outer)) };
         }
     }
-    let falls = if beyond(velocity, inner) <= 0.0 && !grows(slope) {
-        Some((root(series, inner, (peak.unwrap_or(0.0), end), -sign), inner))
-    } else {
-        None
-    };
-    StepLevels { peak, hit: falls }
+    let falls = beyond(velocity, inner) <= 0.0 && !grows(slope);
+    let hit = falls.then(|| {
+        let begin = peak.unwrap_or(0.0);
+        (root(&mut step, inner, (begin, end), -sign), inner)
+    });
+    StepLevels { peak, hit }
 }
 
 /// The time in a bracket on which y is monotone, with the given direction, at which it is at a level.
-fn root(series: &Series, level: f64, (low, high): (f64, f64), direction: f64) -> f64 {
+fn root(step: &mut impl StepInside, level: f64, (low, high): (f64, f64), direction: f64) -> f64 {
     let bracket = Bracket { low, high, rising: direction > 0.0 };
     let settled = PlaceTolerance::Absolute(1e-16 * high);
     let ahead = |t: f64| {
-        let (velocity, slope) = series.velocity(t);
+        let (velocity, slope) = step.velocity(t);
         (velocity - level, slope)
     };
     newton(bracket, high, settled, ahead).at
-}
-
-/// Where the acceleration vanishes between 0 and `end`.
-fn turning(series: &Series, end: f64) -> f64 {
-    let slopes = derivative(&series.y);
-    let bracket = Bracket { low: 0.0, high: end, rising: slopes[0] < 0.0 };
-    newton(bracket, 0.5 * end, PlaceTolerance::Absolute(1e-16 * end), |t| {
-        value_and_slope(&slopes, t)
-    })
-    .at
 }

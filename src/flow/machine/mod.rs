@@ -3,8 +3,6 @@
 
 #[warn(clippy::missing_errors_doc)]
 pub(crate) mod arc;
-#[doc(hidden)]
-pub mod by_method;
 pub(crate) mod curve;
 pub(crate) mod ledger;
 #[doc(hidden)]

@@ -1,13 +1,16 @@
-//! A motion in time: its legs, the curve that it draws, and its ledger.
+//! A motion in time, by any of the methods that can follow a machine: its legs, points of it, and its ledger.
 
 use serde::Serialize;
 
 use super::arc::{Flow, LostMotion, SeriesStep, Watch};
-use super::curve::{CurvePiece, MachineCurve};
 use super::ledger::{MachineLedger, StepWorks};
+use super::series::ORDER;
+use super::stepped;
+use super::stepped::{PhaseField, PhaseStepper};
 use super::turn::ContactState;
-use crate::flow::Fate;
+use crate::flow::{Cost, Detail, Fate, Method};
 use crate::model::{Model, Phase};
+use crate::numerics::polynomial::value;
 
 /// A stretch of a motion in one phase, on the belt, or at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,10 +46,14 @@ pub struct MachineState {
 /// A motion from a start, in SI units.
 #[derive(Clone, Debug)]
 pub struct MachineMotion {
+    /// The method that computed it; never `Auto`.
+    pub method: Method,
+    /// The error of a step, relative to the state.
+    pub tolerance: f64,
     /// Its legs in their order.
     pub legs: Vec<Leg>,
-    /// All of it as a curve, whose pieces follow one another in time.
-    pub curve: MachineCurve,
+    /// Points of it, if asked for; the first is the start.
+    pub samples: Vec<MachineState>,
     /// Where it ends, or how far it was followed.
     pub end: MachineState,
     /// How it ends.
@@ -55,35 +62,63 @@ pub struct MachineMotion {
     pub x: (f64, f64),
     /// Smallest and largest velocity, in m/s.
     pub v: (f64, f64),
-    /// Where the energy comes from and goes.
-    pub ledger: MachineLedger,
-    model: Model,
+    /// Where the energy comes from and goes, if asked for; only Taylor series count it.
+    pub ledger: Option<MachineLedger>,
+    pub cost: Cost,
 }
 
 /// Collects a motion until its time is up.
-struct Recorder {
-    curve: MachineCurve,
+struct Recorder<'a> {
+    model: &'a Model,
+    detail: Detail,
     works: StepWorks,
+    samples: Vec<MachineState>,
+    whole: f64,
     left: f64,
+    steps: u64,
     state: (f64, f64),
     x: (f64, f64),
     y: (f64, f64),
 }
 
-impl Recorder {
-    fn reaches(&mut self, x: f64, y: f64) {
+impl Recorder<'_> {
+    fn reaches(&mut self, (x, y): (f64, f64)) {
         self.x = (self.x.0.min(x), self.x.1.max(x));
         self.y = (self.y.0.min(y), self.y.1.max(y));
     }
+
+    /// A state in SI units, `later` than the last one.
+    fn state_at(&self, later: f64, (x, y): (f64, f64)) -> MachineState {
+        let omega_0 = self.model.omega_0;
+        let t = (self.whole - (self.left - later).max(0.0)) / omega_0;
+        MachineState { t, x, v: y * omega_0 }
+    }
+
+    /// Keeps points of a step, evenly spaced, including its end but not its start.
+    fn keep(&mut self, duration: f64, at: impl Fn(f64) -> (f64, f64)) {
+        let count = u32::try_from(self.detail.samples_per_step).unwrap_or(u32::MAX);
+        for part in 1..=count {
+            let t = duration * f64::from(part) / f64::from(count);
+            self.samples.push(self.state_at(t, at(t)));
+        }
+    }
+
+    /// Takes note of the end of a step, which may lie beyond the time.
+    fn ends(&mut self, duration: f64, state: (f64, f64)) {
+        self.left -= duration;
+        self.steps += 1;
+        self.state = state;
+        self.reaches(state);
+    }
 }
 
-impl Watch for Recorder {
+impl Watch for Recorder<'_> {
     fn follows(&self) -> bool {
         true
     }
 
-    fn is_done(&self) -> bool {
-        self.left <= 0.0
+    fn left(&self) -> f64 {
+        self.left
     }
 
     fn step(&mut self, model: &Model, step: &SeriesStep) {
@@ -91,19 +126,23 @@ impl Watch for Recorder {
             return;
         }
         let duration = step.duration.min(self.left);
-        self.left -= step.duration;
-        self.works.slip(model, step, duration);
-        self.curve.step(
-            model,
-            &SeriesStep { duration, peak: step.peak.filter(|t| *t < duration), ..*step },
-        );
-        if let Some(CurvePiece::Slip(slip)) = self.curve.pieces.last() {
-            let ends = [slip.peak.map(|peak| slip.at(peak)), Some(slip.at(duration))];
-            for (x, y) in ends.into_iter().flatten() {
-                self.state = (x, y);
-                self.reaches(x, y);
-            }
+        if self.detail.energy {
+            self.works.slip(model, step, duration);
         }
+        let offset = model.offset(step.phase);
+        let at = |t: f64| (value(&step.series.x, t) - offset, value(&step.series.y, t));
+        if let Some(peak) = step.peak.filter(|peak| *peak < duration) {
+            self.reaches(at(peak));
+        }
+        self.keep(duration, at);
+        self.ends(step.duration, at(duration));
+    }
+
+    fn passes(&mut self, duration: f64, end: (f64, f64)) {
+        if self.detail.samples_per_step > 0 {
+            self.samples.push(self.state_at(duration, end));
+        }
+        self.ends(duration, end);
     }
 
     fn stick(&mut self, model: &Model, from: f64, to: f64) {
@@ -111,30 +150,65 @@ impl Watch for Recorder {
             return;
         }
         let duration = (to - from) / model.speed;
+        let ride = duration.min(self.left);
         let to = if duration > self.left { from + self.left * model.speed } else { to };
-        self.left -= duration;
-        self.works.ride(model, from, to);
-        self.curve.stick(model, from, to);
-        self.state = (to, model.speed);
-        self.reaches(to, model.speed);
+        if self.detail.energy {
+            self.works.ride(model, from, to);
+        }
+        self.keep(ride, |t| (from + t * model.speed, model.speed));
+        self.ends(duration, (to, model.speed));
     }
 }
 
-/// Maximum number of pieces that are kept of a motion.
-const MOST_PIECES: usize = 200_000;
+/// Maximum number of steps that are followed of a motion by Taylor series.
+const MOST_STEPS: u64 = 200_000;
 
 impl MachineMotion {
-    /// Follows a motion from displacement `x` (m) and velocity `v` (m/s) for `until` seconds.
+    /// Follows a motion from displacement `x` (m) and velocity `v` (m/s) for `until` seconds by Taylor series, with
+    /// its ledger.
     #[must_use]
     pub fn new(model: &Model, x: f64, v: f64, until: f64) -> Self {
+        let detail = Detail { energy: true, ..Detail::default() };
+        Self::by(model, (Method::Taylor, model.tolerance), (x, v), until, detail)
+    }
+
+    /// The same by any method that [follows machines](Method::follows_machines), at a tolerance of its own.
+    #[must_use]
+    pub fn by(
+        model: &Model,
+        (method, tolerance): (Method, f64),
+        start: (f64, f64),
+        until: f64,
+        detail: Detail,
+    ) -> Self {
+        let mut model = model.clone();
+        model.tolerance = tolerance;
+        Self::followed(&model, method, start, until, detail)
+    }
+
+    fn followed(
+        model: &Model,
+        method: Method,
+        (x, v): (f64, f64),
+        until: f64,
+        detail: Detail,
+    ) -> Self {
         let omega_0 = model.omega_0;
         let start = (x, model.scaled_velocity(v));
         let (mut x, mut y) = start;
         let whole = until * omega_0;
+        let mut stepper = stepped::stepper(model, method);
+        let detail = Detail { energy: detail.energy && stepper.is_none(), ..detail };
+        let most = if stepper.is_some() { stepped::STEPS } else { MOST_STEPS };
+        let first = MachineState { t: 0.0, x, v: y * omega_0 };
         let mut recorder = Recorder {
-            curve: MachineCurve::default(),
+            model,
+            detail,
             works: StepWorks::default(),
+            samples: if detail.samples_per_step > 0 { vec![first] } else { Vec::new() },
+            whole,
             left: whole,
+            steps: 0,
             state: start,
             x: (x, x),
             y: (y, y),
@@ -146,63 +220,68 @@ impl MachineMotion {
             if recorder.left <= 0.0 {
                 break Fate::Moving;
             }
-            if recorder.curve.pieces.len() > MOST_PIECES {
+            if recorder.steps > most {
                 break Fate::Unknown(LostMotion::Steps);
             }
             legs.push(Leg { place, t: (whole - recorder.left) / omega_0, x });
-            match flow.leg(place, (x, y), &mut recorder) {
+            match flow.leg(stepper.as_mut(), place, (x, y), &mut recorder) {
                 Ok(Some(next)) => (place, x, y) = next,
                 _ if recorder.left <= 0.0 => break Fate::Moving,
                 Ok(None) => break Fate::Rest,
                 Err(stop) => break stop.into(),
             }
         };
-        let Recorder { curve, works, left, state: (x, y), .. } = recorder;
-        let t = (whole - left.max(0.0)) / omega_0;
+        let end = recorder.state_at(0.0, recorder.state);
+        let Recorder { works, samples, steps, state, .. } = recorder;
         let scaled = |(low, high): (f64, f64)| (low * omega_0, high * omega_0);
+        let of_series = steps * ORDER as u64;
         MachineMotion {
+            method: if stepper.is_some() { method } else { Method::Taylor },
+            tolerance: model.tolerance,
             legs,
-            end: MachineState { t, x, v: y * omega_0 },
+            samples,
+            end,
             outcome,
             x: recorder.x,
             v: scaled(recorder.y),
-            ledger: works.ledger(model, start, (x, y)),
-            curve,
-            model: model.clone(),
+            ledger: detail.energy.then(|| works.ledger(model, start, state)),
+            cost: Cost {
+                evaluations: stepper.map_or(of_series, |stepper| stepper.evaluations()),
+                steps,
+                ..Cost::default()
+            },
         }
     }
 
-    /// The states at the ends of its steps and at this many places evenly between them.
-    #[must_use]
-    pub fn samples(&self, between: u32) -> Vec<MachineState> {
-        let Model { omega_0, speed, .. } = self.model;
-        let parts = f64::from(between + 1);
-        let mut begin = 0.0;
-        let mut found = Vec::new();
-        for piece in &self.curve.pieces {
-            let duration = match piece {
-                CurvePiece::Slip(slip) => slip.duration,
-                CurvePiece::Line { from, to } => (to - from) / speed,
-            };
-            let first = u32::from(!found.is_empty());
-            for part in first..=between + 1 {
-                let t = duration * f64::from(part) / parts;
-                let (x, y) = match piece {
-                    CurvePiece::Slip(slip) => slip.at(t),
-                    CurvePiece::Line { from, .. } => (from + t * speed, speed),
-                };
-                found.push(MachineState { t: (begin + t) / omega_0, x, v: y * omega_0 });
-            }
-            begin += duration;
+    /// Where it ends. Fails with [`LostMotion`] where it leaves the law, escapes, or needs too many steps.
+    pub fn known_end(&self) -> Result<MachineState, LostMotion> {
+        match self.outcome {
+            Fate::Unknown(stop) => Err(stop),
+            Fate::Escapes => Err(LostMotion::Escaped),
+            _ => Ok(self.end),
         }
-        found
+    }
+
+    /// The displacements of its standstills and of its end.
+    pub fn places(&self) -> impl Iterator<Item = f64> + '_ {
+        turns(&self.legs).map(|leg| leg.x).chain([self.end.x])
     }
 }
 
-impl Flow<'_> {
-    /// Follows one leg; returns where the next begins, `None` at rest.
+impl Method {
+    /// Whether it knows both switching lines of a machine.
+    #[must_use]
+    pub fn follows_machines(self) -> bool {
+        matches!(self, Method::Auto | Method::Taylor | Method::Dop853 | Method::Dopri5)
+    }
+}
+
+impl<'a> Flow<'a> {
+    /// Follows one leg, by Taylor series where there is no other stepper; returns where the next begins, `None` at
+    /// rest.
     fn leg(
         &mut self,
+        stepper: Option<&mut PhaseStepper<'a>>,
         place: ContactState,
         (x, y): (f64, f64),
         watch: &mut impl Watch,
@@ -216,7 +295,13 @@ impl Flow<'_> {
             }
             ContactState::Slips(phase) => phase,
         };
-        let end = self.arc(phase, (x, y), false, watch)?;
+        let end = match stepper {
+            None => self.arc(phase, (x, y), false, watch)?,
+            Some(stepper) => {
+                let field = PhaseField { model: self.model, phase };
+                stepped::stepped(stepper, field, (x, y), watch)?
+            }
+        };
         let (place, x) = self.after(phase, &end);
         Ok(Some((place, x, if end.on_belt { self.model.speed } else { 0.0 })))
     }

@@ -4,13 +4,12 @@ use std::collections::BTreeMap;
 
 use super::cycle::cycle_document;
 use super::{DesignAnswer, MachineAnswer, OnBelt, expansion};
-use crate::flow::Fate;
 use crate::flow::machine::motion::{Leg, MachineState};
 use crate::flow::machine::turn::ContactState;
+use crate::flow::{Fate, MachineMotion};
 use crate::model::Group;
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::portrait::guarantee::machine::MachineUncertain;
-use crate::portrait::survey::Second;
 use crate::portrait::{Course, CubicExpansion, Margin, Portrait};
 use crate::report::json::Document;
 
@@ -111,7 +110,9 @@ fn motion((x, v): (f64, f64), course: &Course) -> Document {
         };
         Document::default().with("t", leg.t).with("x", leg.x).with("phase", phase)
     };
-    let energy = Document::default().and(&motion.ledger).with("residual", motion.ledger.residual());
+    let energy = motion
+        .ledger
+        .map(|ledger| Document::default().and(&ledger).with("residual", ledger.residual()));
     let second = course.second.as_ref().map(|second| by_second(second, motion.end));
     Document::default()
         .with("start", Document::default().with("x", x).with("v", v))
@@ -142,16 +143,16 @@ fn outcome(Course { motion, fate, rest, .. }: &Course) -> Document {
 }
 
 /// The motion by a second method, and the difference between the ends.
-fn by_second(Second { way, tolerance, found }: &Second, first: MachineState) -> Document {
-    let end = found.map(|found| found.end);
+fn by_second(second: &MachineMotion, first: MachineState) -> Document {
+    let end = second.known_end();
     let less = |end: MachineState| MachineState {
         t: end.t - first.t,
         x: end.x - first.x,
         v: end.v - first.v,
     };
     Document::default()
-        .with("method", way.name())
-        .with("tolerance", tolerance)
+        .with("method", second.method)
+        .with("tolerance", second.tolerance)
         .with_any("end", end.ok())
         .with_any("difference", end.ok().map(less))
         .with_any("reason", end.err().map(|stop| stop.to_string()))

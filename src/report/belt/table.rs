@@ -2,13 +2,11 @@
 
 use super::cycle::{NUMBERS, described, number_columns};
 use super::{MachineAnswer, OnBelt, PLACES, expansion};
-use crate::flow::Fate;
 use crate::flow::machine::motion::MachineState;
-use crate::flow::machine::stepped::SteppedEnd;
+use crate::flow::{Fate, MachineMotion};
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::model::{Interval, Knob};
 use crate::portrait::guarantee::machine::MachineUncertain;
-use crate::portrait::survey::Second;
 use crate::portrait::{Border, Course, CubicExpansion, Cycle, Margin, Portrait};
 use crate::report::columns::{Columns, Quantity};
 use crate::report::table::Table;
@@ -305,11 +303,11 @@ pub(super) fn fate((x, v): (f64, f64), course: &Course) -> String {
 }
 
 /// The motion by the second method, compared with the first, in a sentence.
-fn by(Second { way, tolerance, found }: &Second, course: &Course) -> String {
+fn by(second: &MachineMotion, course: &Course) -> String {
     let MachineState { t, x, v } = course.motion.end;
-    let lead = format!("\nby {} at {tolerance:e}: ", way.name());
-    lead + &match found {
-        Ok(SteppedEnd { end, .. }) => format!(
+    let lead = format!("\nby {} at {:e}: ", second.method, second.tolerance);
+    lead + &match second.known_end() {
+        Ok(end) => format!(
             "at t = {} x = {}, v = {}; Taylor series differ by {} and {}",
             with_unit(t, PLACES, "s"),
             with_unit(end.x, 12, "m"),

@@ -1,6 +1,5 @@
 //! Commands of the parameter pane: select, step, reset, and typing a value.
 
-use crate::flow::machine::stepped::SteppedMethod;
 use crate::flow::{METHODS, Method, Problem, QUALITIES};
 use crate::model::unit::measured;
 use crate::model::{Knob, KnobSpec};
@@ -162,7 +161,7 @@ pub fn next_method(session: &mut Session, by: isize) {
     let whole = session.draws_whole();
     let usable = METHODS.iter().filter(|row| {
         if whole {
-            SteppedMethod::of(row.method).is_ok()
+            row.method.follows_machines()
         } else {
             !(nonlinear && row.method == Method::Exact)
         }
