@@ -20,7 +20,7 @@ const TIGHT: (f64, f64) = (1e-14, 1e-13);
 
 /// Where the reference comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Source {
+pub enum ReferenceSource {
     /// Taylor series in twice the working precision, of two orders.
     TwicePrecision,
     /// The closed form for `D2 = D3 = 0`, and a Taylor series beside it.
@@ -37,7 +37,7 @@ pub struct Reference {
     /// How it ended.
     pub end: Outcome<Twofold>,
     /// Where it comes from.
-    pub source: Source,
+    pub source: ReferenceSource,
     /// Its own error: how far two independent computations of it differ.
     pub error: f64,
     /// The largest displacement of a turning point, the start and the end included.
@@ -87,7 +87,8 @@ impl Reference {
     /// where no two ways of computing it come to an end.
     pub fn of(problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
         let tight = Limits { evaluations: limits.evaluations.min(MOST), ..*limits };
-        let run = |grain| Self::new(&precise(problem, grain, &tight)?, Source::TwicePrecision);
+        let run =
+            |grain| Self::new(&precise(problem, grain, &tight)?, ReferenceSource::TwicePrecision);
         match run(FINE).and_then(|fine| Ok(fine.checked_by(&run(COARSE)?))) {
             Err(reason) if reason != Reason::Interrupted => Self::by_two_methods(problem, limits),
             answer => answer,
@@ -97,9 +98,9 @@ impl Reference {
     fn by_two_methods(problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
         let linear = problem.parameters.is_piecewise_linear();
         let (source, first, second) = if linear {
-            (Source::ClosedForm, Method::Exact, Method::Taylor)
+            (ReferenceSource::ClosedForm, Method::Exact, Method::Taylor)
         } else {
-            (Source::Implicit, Method::Stiff, Method::Auto)
+            (ReferenceSource::Implicit, Method::Stiff, Method::Auto)
         };
         let run = |method, tolerance| {
             let question = Problem { method, tolerance, ..*problem };
@@ -109,7 +110,7 @@ impl Reference {
     }
 
     /// What a method found, as a reference with an error unknown yet; or why it gave up.
-    fn new<N>(found: &Trajectory<N>, source: Source) -> Result<Self, Reason>
+    fn new<N>(found: &Trajectory<N>, source: ReferenceSource) -> Result<Self, Reason>
     where
         N: Scalar + Into<Twofold>,
     {
@@ -197,7 +198,7 @@ mod tests {
     fn the_closed_form_is_right_to_rounding_and_the_reference_knows_it() {
         let question = problem([-0.1, 0.0, 0.0, 0.5], 2.0, 50.0);
         let reference = Reference::of(&question, &Limits::PATIENT).unwrap();
-        assert_eq!(reference.source, Source::TwicePrecision);
+        assert_eq!(reference.source, ReferenceSource::TwicePrecision);
         assert!(reference.error < 1e-28 && reference.turns.len() == 3);
         let deviation = reference.compare(&run(&question)).unwrap();
         assert!(deviation.agrees && deviation.error < 1e-15, "{deviation:?}");
@@ -244,7 +245,7 @@ mod tests {
         let question = problem([-0.1, 0.0, 1.0, 0.1], 1e6, 100.0);
         let limits = Limits { evaluations: 100_000, ..Limits::PATIENT };
         let reference = Reference::of(&question, &limits).unwrap();
-        assert_eq!(reference.source, Source::Implicit);
+        assert_eq!(reference.source, ReferenceSource::Implicit);
         assert!(reference.error < 1e-5, "of a million: {:e}", reference.error);
         let never = Limits { interrupted: &|| true, ..Limits::PATIENT };
         assert_eq!(Reference::of(&question, &never), Err(Reason::Interrupted));

@@ -8,6 +8,8 @@
 //! mirrors as the motion does, and the same question always gets the same answer. At loose tolerances this
 //! noise may exceed the velocity and hide the sign, so a half swing of very many steps is suspect too.
 
+use std::sync::Arc;
+
 use super::exact::Exact;
 use super::limits::Reason;
 use super::step::{Field, Powers, Step, StepPoint, Stepper};
@@ -80,34 +82,16 @@ enum Taken {
 }
 
 /// One step of a motion, kept for later evaluation.
-#[derive(Clone, Debug)]
-pub enum LastStep {
-    /// A Taylor polynomial.
-    Series(Box<Taylor>),
-    /// A collocation polynomial.
-    Implicit(Box<Stiff>),
-    /// The closed form of a linear oscillation.
-    Closed(Exact),
-}
+pub type KeptStep = Arc<dyn Stepper + Send + Sync>;
 
-impl LastStep {
-    /// The point at `time` after the start of the step.
-    pub fn at(&self, time: f64) -> StepPoint {
-        match self {
-            LastStep::Series(step) => step.at(time),
-            LastStep::Implicit(step) => step.at(time),
-            LastStep::Closed(step) => step.at(time),
-        }
-    }
-
-    /// The integrals of powers of `v` over the step.
-    pub fn powers(&self) -> Powers {
-        match self {
-            LastStep::Series(step) => step.powers(),
-            LastStep::Implicit(step) => step.powers(),
-            LastStep::Closed(step) => step.powers(),
-        }
-    }
+/// A step with or without looking for `v = 0`.
+fn step<S: Stepper>(
+    stepper: &mut S,
+    from: StepPoint,
+    longest: f64,
+    arrives: bool,
+) -> Result<Step, Reason> {
+    if arrives { stepper.advance(from, longest) } else { stepper.pass(from, longest) }
 }
 
 impl Auto {
@@ -144,13 +128,22 @@ impl Auto {
         self.stiff.as_deref().filter(|_| self.last == Taken::Implicit)
     }
 
+    /// The method that took the last step.
+    fn taken(&self) -> &dyn Stepper {
+        match self.implicit() {
+            Some(stiff) => stiff,
+            None if self.last == Taken::Closed => &self.exact,
+            None => &self.taylor,
+        }
+    }
+
     /// A copy of the last step, to be kept.
-    pub fn last_step(&mut self) -> LastStep {
+    pub fn last_step(&mut self) -> KeptStep {
         self.prepare_dense();
         match self.implicit() {
-            Some(stiff) => LastStep::Implicit(Box::new(stiff.clone())),
-            None if self.last == Taken::Closed => LastStep::Closed(self.exact.clone()),
-            None => LastStep::Series(Box::new(self.taylor.clone())),
+            Some(stiff) => Arc::new(stiff.clone()),
+            None if self.last == Taken::Closed => Arc::new(self.exact.clone()),
+            None => Arc::new(self.taylor.clone()),
         }
     }
 
@@ -169,14 +162,14 @@ impl Auto {
     }
 
     /// Takes a step by the current method, then chooses the method of the next one.
-    fn step(
-        &mut self,
-        series: impl FnOnce(&mut Taylor) -> Result<Step, Reason>,
-        implicit: impl FnOnce(&mut Stiff) -> Result<Step, Reason>,
-    ) -> Result<Step, Reason> {
+    fn step(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {
+        if self.linear {
+            self.last = Taken::Closed;
+            return step(&mut self.exact, from, longest.min(CLOSED), arrives);
+        }
         if self.implicit
-            && let Some(stiff) = &mut self.stiff
-            && let Ok(step) = implicit(stiff)
+            && let Some(stiff) = self.stiff.as_deref_mut()
+            && let Ok(step) = step(stiff, from, longest, arrives)
         {
             self.last = Taken::Implicit;
             self.implicit_steps += 1;
@@ -197,7 +190,7 @@ impl Auto {
             return Ok(step);
         }
         (self.last, self.implicit) = (Taken::Series, false);
-        let step = series(&mut self.taylor)?;
+        let step = step(&mut self.taylor, from, longest, arrives)?;
         let limited = self.damping_times(&step) > LIMITED * self.taylor.order();
         self.limited = if limited { self.limited + 1 } else { 0 };
         self.series_steps += 1;
@@ -231,19 +224,11 @@ impl Stepper for Auto {
     }
 
     fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        if self.linear {
-            self.last = Taken::Closed;
-            return self.exact.advance(from, longest.min(CLOSED));
-        }
-        self.step(|taylor| taylor.advance(from, longest), |stiff| stiff.advance(from, longest))
+        self.step(from, longest, true)
     }
 
     fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        if self.linear {
-            self.last = Taken::Closed;
-            return self.exact.pass(from, longest.min(CLOSED));
-        }
-        self.step(|taylor| taylor.pass(from, longest), |stiff| stiff.pass(from, longest))
+        self.step(from, longest, false)
     }
 
     fn prepare_dense(&mut self) {
@@ -255,17 +240,11 @@ impl Stepper for Auto {
     }
 
     fn at(&self, time: f64) -> StepPoint {
-        match self.last {
-            Taken::Closed => self.exact.at(time),
-            _ => self.implicit().map_or_else(|| self.taylor.at(time), |stiff| stiff.at(time)),
-        }
+        self.taken().at(time)
     }
 
     fn powers(&self) -> Powers {
-        match self.last {
-            Taken::Closed => self.exact.powers(),
-            _ => self.implicit().map_or_else(|| self.taylor.powers(), Stepper::powers),
-        }
+        self.taken().powers()
     }
 
     fn evaluations(&self) -> u64 {

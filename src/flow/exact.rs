@@ -5,7 +5,6 @@ use super::step::{Powers, Step, StepPoint, Stepper};
 use crate::closed_form::linear::Linear;
 use crate::model::HalfPlane;
 use crate::numerics::count::truncated;
-use crate::numerics::quadrature::GAUSS;
 
 /// Maximum number of pieces into which a step is cut for drawing and for quadrature. A piece is one unit of
 /// time long.
@@ -21,6 +20,11 @@ pub struct Exact {
     evaluations: u64,
 }
 
+/// A step, unless it leaves the range of numbers.
+fn finite(step: Step) -> Result<Step, Reason> {
+    if step.end.size().is_finite() { Ok(step) } else { Err(Reason::OutOfRange) }
+}
+
 impl Exact {
     /// A stepper that has taken no step yet.
     pub fn new() -> Self {
@@ -32,9 +36,7 @@ impl Exact {
             evaluations: 0,
         }
     }
-}
 
-impl Exact {
     /// The largest v in the last step, if the acceleration changes sign there.
     ///
     /// Velocity and acceleration obey the same equation as displacement and velocity.
@@ -46,42 +48,26 @@ impl Exact {
     }
 }
 
-impl Default for Exact {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl Stepper for Exact {
     fn begin(&mut self, field: &HalfPlane) {
         (self.field, self.linear) = (*field, Linear::new(field.d));
     }
 
     fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        self.start = from;
-        self.evaluations += 1;
         let arrival = self.linear.first_standstill(from.x, from.v);
-        let step = match arrival {
-            Some(arrival) if arrival.time <= longest => Step {
-                duration: arrival.time,
-                end: StepPoint { x: arrival.x, v: 0.0 },
-                crossed: true,
-            },
-            _ => {
-                self.duration = longest;
-                Step { duration: longest, end: self.at(longest), crossed: false }
-            }
+        let Some(arrival) = arrival.filter(|arrival| arrival.time <= longest) else {
+            return self.pass(from, longest);
         };
-        self.duration = step.duration;
-        if step.end.size().is_finite() { Ok(step) } else { Err(Reason::OutOfRange) }
+        (self.start, self.duration) = (from, arrival.time);
+        self.evaluations += 1;
+        let end = StepPoint { x: arrival.x, v: 0.0 };
+        finite(Step { duration: arrival.time, end, crossed: true })
     }
 
     fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        self.start = from;
+        (self.start, self.duration) = (from, longest);
         self.evaluations += 1;
-        self.duration = longest;
-        let step = Step { duration: longest, end: self.at(longest), crossed: false };
-        if step.end.size().is_finite() { Ok(step) } else { Err(Reason::OutOfRange) }
+        finite(Step { duration: longest, end: self.at(longest), crossed: false })
     }
 
     fn at(&self, time: f64) -> StepPoint {
@@ -90,17 +76,7 @@ impl Stepper for Exact {
     }
 
     fn powers(&self) -> Powers {
-        let pieces = self.duration.clamp(1.0, MOST_PIECES).ceil();
-        let width = self.duration / pieces;
-        let mut powers = Powers::default();
-        let mut begin = 0.0;
-        for _ in 0..self.pieces() {
-            for &(node, weight) in &GAUSS {
-                powers.add_node(weight * width, self.at(begin + node * width).v);
-            }
-            begin += width;
-        }
-        powers
+        Powers::over(self.duration, self.pieces(), |time| self.at(time).v)
     }
 
     fn pieces(&self) -> usize {

@@ -21,7 +21,6 @@
 pub(crate) mod auto;
 pub(crate) mod exact;
 pub(crate) mod explicit;
-pub(crate) mod fate;
 pub(crate) mod limits;
 #[doc(hidden)]
 pub mod machine;
@@ -43,8 +42,7 @@ pub(crate) mod taylor;
 pub(crate) mod time_stepping;
 pub mod trajectory;
 
-pub use fate::Fate;
-pub use limits::{Limits, Reason};
+pub use limits::{Fate, Limits, Reason};
 pub use machine::arc::{Flow, LostMotion};
 pub use machine::ledger::MachineLedger;
 pub use machine::motion::MachineMotion;

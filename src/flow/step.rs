@@ -1,7 +1,11 @@
 //! The interface of an integration method: one step of the smooth field on one side of `v = 0`.
 
+use std::fmt::Debug;
+
 use super::limits::Reason;
 use crate::model::HalfPlane;
+use crate::numerics::count::real;
+use crate::numerics::quadrature::GAUSS;
 use crate::numerics::scalar::Scalar;
 
 /// A point `(x, v)` in the frame of a half plane.
@@ -64,7 +68,7 @@ pub fn stopping_time(v: f64, acceleration: f64) -> f64 {
 }
 
 /// A smooth field `x' = v, v' = acceleration(x, v)` with `acceleration = -x - (a function of v)`.
-pub trait Field: Copy {
+pub trait Field: Copy + Debug {
     /// The acceleration `v'`.
     fn acceleration(&self, x: f64, v: f64) -> f64;
 
@@ -141,6 +145,19 @@ pub struct Powers {
 }
 
 impl Powers {
+    /// The integrals of a velocity from 0 to `duration`, by Gauss's rule on so many pieces.
+    pub fn over(duration: f64, pieces: usize, velocity: impl Fn(f64) -> f64) -> Self {
+        let width = duration / real(pieces);
+        let (mut powers, mut begin) = (Powers::default(), 0.0);
+        for _ in 0..pieces {
+            for &(node, weight) in &GAUSS {
+                powers.add_node(weight * width, velocity(begin + node * width));
+            }
+            begin += width;
+        }
+        powers
+    }
+
     /// Adds `weight * (v^2, v^3, v^4)`: one node of a quadrature.
     pub fn add_node(&mut self, weight: f64, v: f64) {
         let square = v * v;
@@ -154,7 +171,7 @@ impl Powers {
 ///
 /// The field stays the same between calls of [`Stepper::begin`]. After an accepted step, [`Stepper::at`] and
 /// [`Stepper::powers`] refer to that step.
-pub trait Stepper<F: Field = HalfPlane, N: Scalar = f64> {
+pub trait Stepper<F: Field = HalfPlane, N: Scalar = f64>: Debug {
     /// Prepares for steps in this field.
     fn begin(&mut self, field: &F);
 

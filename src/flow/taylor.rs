@@ -15,7 +15,6 @@ use crate::numerics::count::real;
 use crate::numerics::polynomial::{
     derivative, value_and_slope_in_two as value_and_slope, value_in_two as value,
 };
-use crate::numerics::quadrature::GAUSS;
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scalar::Scalar;
 use crate::numerics::scaling::{exponent, rough_exp2, rough_log2, times_power};
@@ -357,11 +356,7 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
     }
 
     fn powers(&self) -> Powers {
-        let mut powers = Powers::default();
-        for &(node, weight) in &GAUSS {
-            powers.add_node(weight * self.duration, self.at(node * self.duration).v);
-        }
-        powers
+        Powers::over(self.duration, 1, |time| self.at(time).v)
     }
 
     fn evaluations(&self) -> u64 {

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::return_map::gaps::{Divide, Gap, Tendency, gaps, jumps, ways};
 use super::without_belt::{self, WithoutBelt};
 use super::{Border, Cycle, Margin, Reach, RestMargin};
-use crate::flow::machine::curve::{CurvePiece, MachineCurve, Rectangle};
+use crate::flow::machine::curve::{CurvePiece, MachineCurve, PhaseWindow};
 use crate::flow::machine::turn::ContactState;
 use crate::flow::{Fate, Flow, LostMotion};
 use crate::model::{Model, Phase};
@@ -408,7 +408,7 @@ impl Portrait {
     #[must_use]
     pub fn rest_share(&self, x: (f64, f64), v: (f64, f64)) -> Option<f64> {
         let y = (self.model.scaled_velocity(v.0), self.model.scaled_velocity(v.1));
-        let window = Rectangle { x, y };
+        let window = PhaseWindow { x, y };
         match &self.traced {
             Traced::Basin(basin) => {
                 without_belt::rest_share(basin, &Window { q: window.x, v: window.y })

@@ -3,7 +3,7 @@
 use super::columns::Columns;
 use super::json::Document;
 use super::table::motion;
-use crate::accuracy::reference::{Deviation, Reference, Source};
+use crate::accuracy::reference::{Deviation, Reference, ReferenceSource};
 use crate::accuracy::trade;
 use crate::accuracy::trade::{Trade, TradePoint};
 use crate::flow::method::Dial;
@@ -128,12 +128,12 @@ impl TimedTrade {
 pub fn reference(trade: &Trade) -> String {
     let reference = &trade.reference;
     let (first, second) = match reference.source {
-        Source::TwicePrecision => (
+        ReferenceSource::TwicePrecision => (
             "Taylor series of order 32 in twice the working precision",
             "another of order 28 with other steps",
         ),
-        Source::ClosedForm => ("closed form", "taylor at 1e-13"),
-        Source::Implicit => ("stiff at 1e-14", "auto at 1e-13"),
+        ReferenceSource::ClosedForm => ("closed form", "taylor at 1e-13"),
+        ReferenceSource::Implicit => ("stiff at 1e-14", "auto at 1e-13"),
     };
     let differs = if reference.error.is_finite() {
         format!("differs by {}", significant(reference.error, 1))
@@ -141,7 +141,7 @@ pub fn reference(trade: &Trade) -> String {
         "ends otherwise: no error is certain".to_owned()
     };
     let closed = trade.rows.iter().find(|row| row.problem.method == Method::Exact);
-    let closed = closed.filter(|_| reference.source == Source::TwicePrecision);
+    let closed = closed.filter(|_| reference.source == ReferenceSource::TwicePrecision);
     let closed = closed.and_then(trade::TradePoint::error).map_or_else(String::new, |error| {
         format!(", the closed form in doubles by {}", significant(error, 1))
     });

@@ -1,7 +1,5 @@
 //! The lattice of extremes: values of each parameter, and starts.
 
-use std::fmt;
-
 use serde::Serialize;
 
 use crate::model::{Parameters, State};
@@ -20,77 +18,59 @@ const LEAST: f64 = 1e-150;
 pub const D2_D3: [f64; 5] = [-1e6, -1e-12, 0.0, 1e-12, 1e6];
 
 /// A start, by what is special about it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SpecialStart {
-    /// At rest in the middle of the sticking set.
-    Centre,
-    /// At `q = r`.
-    RightEnd,
-    /// At `q = -r`.
-    LeftEnd,
-    /// One unit in the last place inside the right end; 1e-150 where there is no friction.
-    InsideRight,
-    /// The same at the left end.
-    InsideLeft,
-    /// One unit in the last place outside the right end.
-    OutsideRight,
-    /// The same at the left end.
-    OutsideLeft,
-    /// Three clearances beyond the right end, with `v = -0.0`.
-    NegativeZero,
-    /// At the centre with the smallest velocity.
-    SmallestUp,
-    /// The same downwards.
-    SmallestDown,
-    /// At `q = 1e-150`.
-    Tiny,
-    /// At `q = 1e6`: far out, where cubic damping is stiff.
-    Far,
-    /// At `q = 1e150`.
-    Huge,
-    /// At the centre with a velocity far beyond which motions escape, where there is such a one.
-    Escaping,
-}
-
-impl fmt::Display for SpecialStart {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.pad(match self {
-            SpecialStart::Centre => "centre",
-            SpecialStart::RightEnd => "right-end",
-            SpecialStart::LeftEnd => "left-end",
-            SpecialStart::InsideRight => "inside-right",
-            SpecialStart::InsideLeft => "inside-left",
-            SpecialStart::OutsideRight => "outside-right",
-            SpecialStart::OutsideLeft => "outside-left",
-            SpecialStart::NegativeZero => "negative-zero",
-            SpecialStart::SmallestUp => "smallest-up",
-            SpecialStart::SmallestDown => "smallest-down",
-            SpecialStart::Tiny => "tiny",
-            SpecialStart::Far => "far",
-            SpecialStart::Huge => "huge",
-            SpecialStart::Escaping => "escaping",
-        })
-    }
+#[derive(Clone, Copy)]
+pub struct SpecialStart {
+    pub name: &'static str,
+    /// The start at these parameters.
+    state: fn(&Parameters) -> State,
 }
 
 /// Every start.
 pub const STARTS: [SpecialStart; 14] = [
-    SpecialStart::Centre,
-    SpecialStart::RightEnd,
-    SpecialStart::LeftEnd,
-    SpecialStart::InsideRight,
-    SpecialStart::InsideLeft,
-    SpecialStart::OutsideRight,
-    SpecialStart::OutsideLeft,
-    SpecialStart::NegativeZero,
-    SpecialStart::SmallestUp,
-    SpecialStart::SmallestDown,
-    SpecialStart::Tiny,
-    SpecialStart::Far,
-    SpecialStart::Huge,
-    SpecialStart::Escaping,
+    // At rest in the middle of the sticking set.
+    SpecialStart { name: "centre", state: |_| at(0.0) },
+    SpecialStart { name: "right-end", state: |parameters| at(parameters.r) },
+    SpecialStart { name: "left-end", state: |parameters| at(-parameters.r) },
+    // One unit in the last place inside an end of the sticking set; 1e-150 where there is no friction.
+    SpecialStart { name: "inside-right", state: |parameters| at(-above(-parameters.r)) },
+    SpecialStart { name: "inside-left", state: |parameters| at(above(-parameters.r)) },
+    // One unit in the last place outside.
+    SpecialStart { name: "outside-right", state: |parameters| at(above(parameters.r)) },
+    SpecialStart { name: "outside-left", state: |parameters| at(-above(parameters.r)) },
+    // Three clearances beyond the right end.
+    SpecialStart {
+        name: "negative-zero",
+        state: |parameters| State { q: 4.0 * parameters.r.max(1e-3), v: -0.0 },
+    },
+    // At the centre with the smallest velocity.
+    SpecialStart { name: "smallest-up", state: |_| State { q: 0.0, v: LEAST } },
+    SpecialStart { name: "smallest-down", state: |_| State { q: 0.0, v: -LEAST } },
+    SpecialStart { name: "tiny", state: |_| at(LEAST) },
+    // Far out, where cubic damping is stiff.
+    SpecialStart { name: "far", state: |_| at(1e6) },
+    SpecialStart { name: "huge", state: |_| at(1e150) },
+    SpecialStart { name: "escaping", state: escaping },
 ];
+
+fn at(q: f64) -> State {
+    State { q, v: 0.0 }
+}
+
+fn above(q: f64) -> f64 {
+    if q == 0.0 { LEAST } else { q.next_up() }
+}
+
+/// At the centre with a velocity far beyond which motions escape, where there is such a one.
+fn escaping(parameters: &Parameters) -> State {
+    /// How far beyond the balance of all other terms it is.
+    const BEYOND: f64 = 100.0;
+    let Parameters { d, d2, d3, r } = *parameters;
+    let others = 1.0 + 2.0 * d.abs();
+    let quadratic = if d2 == 0.0 { 0.0 } else { others / d2.abs() };
+    let cubic = if d3 == 0.0 { 0.0 } else { others.sqrt() / d3.abs().sqrt() };
+    let beyond = BEYOND * quadratic.max(cubic).max(r.sqrt()).max(1.0);
+    State { q: 0.0, v: if d2 > 0.0 { -beyond } else { beyond } }
+}
 
 /// End time of every motion: some twenty half swings.
 pub const UNTIL: f64 = 60.0;
@@ -104,42 +84,9 @@ pub const THIN: usize = 11;
 pub struct Case {
     pub parameters: Parameters,
     /// What is special about its start.
-    pub start: SpecialStart,
+    pub start: &'static str,
     /// Its start.
     pub initial: State,
-}
-
-impl SpecialStart {
-    /// The start at these parameters.
-    pub fn state(self, parameters: &Parameters) -> State {
-        /// How far beyond the balance of all other terms the escaping velocity is.
-        const BEYOND: f64 = 100.0;
-        let Parameters { d, d2, d3, r } = *parameters;
-        let at = |q| State { q, v: 0.0 };
-        let above = |q: f64| if q == 0.0 { LEAST } else { q.next_up() };
-        match self {
-            SpecialStart::Centre => at(0.0),
-            SpecialStart::RightEnd => at(r),
-            SpecialStart::LeftEnd => at(-r),
-            SpecialStart::InsideRight => at(-above(-r)),
-            SpecialStart::InsideLeft => at(above(-r)),
-            SpecialStart::OutsideRight => at(above(r)),
-            SpecialStart::OutsideLeft => at(-above(r)),
-            SpecialStart::NegativeZero => State { q: 4.0 * r.max(1e-3), v: -0.0 },
-            SpecialStart::SmallestUp => State { q: 0.0, v: LEAST },
-            SpecialStart::SmallestDown => State { q: 0.0, v: -LEAST },
-            SpecialStart::Tiny => at(LEAST),
-            SpecialStart::Far => at(1e6),
-            SpecialStart::Huge => at(1e150),
-            SpecialStart::Escaping => {
-                let others = 1.0 + 2.0 * d.abs();
-                let quadratic = if d2 == 0.0 { 0.0 } else { others / d2.abs() };
-                let cubic = if d3 == 0.0 { 0.0 } else { others.sqrt() / d3.abs().sqrt() };
-                let beyond = BEYOND * quadratic.max(cubic).max(r.sqrt()).max(1.0);
-                State { q: 0.0, v: if d2 > 0.0 { -beyond } else { beyond } }
-            }
-        }
-    }
 }
 
 /// The parameters of the lattice.
@@ -153,7 +100,11 @@ pub fn all_parameters() -> impl Iterator<Item = Parameters> {
 /// The motions of the lattice, every one or, if `thin`, each [`THIN`]th.
 pub fn cases(thin: bool) -> impl Iterator<Item = Case> {
     let all = all_parameters().flat_map(|parameters| {
-        STARTS.map(|start| Case { parameters, start, initial: start.state(&parameters) })
+        STARTS.map(|SpecialStart { name: start, state }| Case {
+            parameters,
+            start,
+            initial: state(&parameters),
+        })
     });
     all.step_by(if thin { THIN } else { 1 })
 }

@@ -11,7 +11,7 @@ pub mod named;
 pub mod sets;
 pub mod verdict;
 
-pub use lattice::{Case, SpecialStart, cases};
+pub use lattice::{Case, cases};
 pub use named::{NamedExtreme, named};
 pub use sets::{SetVerdict, judge_set, sets};
 pub use verdict::{MethodAnswer, MethodsVerdict, judge};

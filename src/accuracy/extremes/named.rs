@@ -31,62 +31,43 @@ const NONLINEAR: [Method; 5] =
 /// with the integral of `dx/v` from the first integral of the motion.
 struct BlowUp {
     what: &'static str,
-    d: f64,
-    d2: f64,
-    d3: f64,
+    /// D, D2 and D3.
+    damping: [f64; 3],
     start: (f64, f64),
     time: f64,
 }
 
+const fn blow_up(what: &'static str, damping: [f64; 3], start: (f64, f64), time: f64) -> BlowUp {
+    BlowUp { what, damping, start, time }
+}
+
 const BLOW_UPS: [BlowUp; 6] = [
-    BlowUp {
-        what: "blow-up beyond the parabola of D2",
-        d: 0.0,
-        d2: -1.0,
-        d3: 0.0,
-        start: (0.1, 3.0),
-        time: 0.338_881_285_452_042_3,
-    },
-    BlowUp {
-        what: "blow-up close to the parabola of D2",
-        d: 0.0,
-        d2: -0.5,
-        d3: 0.0,
-        start: (-0.2, 2.5),
-        time: 0.846_439_335_312_472_2,
-    },
-    BlowUp {
-        what: "blow-up by D3 < 0",
-        d: 0.0,
-        d2: 0.0,
-        d3: -1.0,
-        start: (0.1, 2.0),
-        time: 0.126_165_782_926_803_04,
-    },
-    BlowUp {
-        what: "blow-up by D < 0 and D3 < 0",
-        d: -0.1,
-        d2: 0.0,
-        d3: -0.5,
-        start: (0.5, 1.5),
-        time: 0.489_627_247_499_876_8,
-    },
-    BlowUp {
-        what: "blow-up by D3 < 0 against D and D2",
-        d: 0.2,
-        d2: 0.3,
-        d3: -0.1,
-        start: (0.1, 40.0),
-        time: 0.003_295_064_729_575_763_5,
-    },
-    BlowUp {
-        what: "blow-up by all damping together",
-        d: -0.5,
-        d2: -0.2,
-        d3: -2.0,
-        start: (0.3, 1.2),
-        time: 0.147_045_254_234_713_24,
-    },
+    blow_up(
+        "blow-up beyond the parabola of D2",
+        [0.0, -1.0, 0.0],
+        (0.1, 3.0),
+        0.338_881_285_452_042_3,
+    ),
+    blow_up(
+        "blow-up close to the parabola of D2",
+        [0.0, -0.5, 0.0],
+        (-0.2, 2.5),
+        0.846_439_335_312_472_2,
+    ),
+    blow_up("blow-up by D3 < 0", [0.0, 0.0, -1.0], (0.1, 2.0), 0.126_165_782_926_803_04),
+    blow_up("blow-up by D < 0 and D3 < 0", [-0.1, 0.0, -0.5], (0.5, 1.5), 0.489_627_247_499_876_8),
+    blow_up(
+        "blow-up by D3 < 0 against D and D2",
+        [0.2, 0.3, -0.1],
+        (0.1, 40.0),
+        0.003_295_064_729_575_763_5,
+    ),
+    blow_up(
+        "blow-up by all damping together",
+        [-0.5, -0.2, -2.0],
+        (0.3, 1.2),
+        0.147_045_254_234_713_24,
+    ),
 ];
 
 /// Every named extreme by the methods that serve it.
@@ -134,7 +115,7 @@ fn million_swings(method: Method, tolerance: f64, allowed: f64, limits: &Limits)
 
 impl BlowUp {
     fn by(&self, method: Method, limits: &Limits) -> NamedExtreme {
-        let &BlowUp { what, d, d2, d3, start: (q, v), time } = self;
+        let &BlowUp { what, damping: [d, d2, d3], start: (q, v), time } = self;
         let problem = Problem {
             parameters: Parameters { d, d2, d3, r: 0.0 },
             initial: State { q, v },

@@ -107,7 +107,7 @@ mod tests {
     use std::collections::HashSet;
 
     use super::*;
-    use crate::accuracy::extremes::lattice::{Case, cases};
+    use crate::accuracy::extremes::lattice::{Case, STARTS, cases};
 
     /// Number of different pairs of values of two different coordinates of these points.
     fn pairs<const N: usize>(points: impl Iterator<Item = [u64; N]>) -> usize {
@@ -127,7 +127,8 @@ mod tests {
         let numbers = |Parameters { d, d2, d3, r }: Parameters| [d, r, d2, d3].map(f64::to_bits);
         let motion = |case: Case| {
             let [d, r, d2, d3] = numbers(case.parameters);
-            [d, r, d2, d3, case.start as u64]
+            let start = STARTS.iter().position(|start| start.name == case.start);
+            [d, r, d2, d3, start.unwrap() as u64]
         };
         assert_eq!((cases(false).count(), sets(false).count()), (21_000, 1_500));
         assert_eq!(pairs(cases(true).map(motion)), pairs(cases(false).map(motion)));

@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use super::series::Series;
+use super::series::PhaseSeries;
 use crate::flow::Fate;
 use crate::model::force::ForceBranch;
 use crate::model::model::FINEST;
@@ -68,7 +68,7 @@ pub struct SeriesStep<'a> {
     /// The phase.
     pub phase: Phase,
     /// The series, of which `duration` belongs to the step.
-    pub series: &'a Series,
+    pub series: &'a PhaseSeries,
     /// Duration, in `1/omega_0`.
     pub duration: f64,
     /// Where the velocity has its extremum in the step.
@@ -153,7 +153,7 @@ const ESCAPED: f64 = 1e60;
 pub struct Flow<'a> {
     /// The model.
     pub model: &'a Model,
-    series: Series,
+    series: PhaseSeries,
     /// Steps taken.
     pub steps: u64,
 }
@@ -162,7 +162,7 @@ impl<'a> Flow<'a> {
     /// Ready to compute.
     #[must_use]
     pub fn new(model: &'a Model) -> Self {
-        Flow { model, series: Series::new(), steps: 0 }
+        Flow { model, series: PhaseSeries::new(), steps: 0 }
     }
 
     /// Follows a motion from `(x, y)` to the end of its phase, forward in time or backward.
@@ -276,9 +276,9 @@ pub trait StepInside {
     fn turning(&mut self, end: f64) -> f64;
 }
 
-impl StepInside for &Series {
+impl StepInside for &PhaseSeries {
     fn velocity(&mut self, t: f64) -> (f64, f64) {
-        Series::velocity(self, t)
+        PhaseSeries::velocity(self, t)
     }
 
     fn turning(&mut self, end: f64) -> f64 {

@@ -62,7 +62,7 @@ impl Slip {
     }
 
     /// The parts of the step between the places where it passes these values of x and y.
-    fn cuts(&self, window: &Rectangle) -> Vec<f64> {
+    fn cuts(&self, window: &PhaseWindow) -> Vec<f64> {
         let mut cuts = vec![0.0];
         let turns = self.peak.into_iter().chain([self.duration]);
         let mut from = 0.0;
@@ -87,7 +87,7 @@ impl Slip {
     }
 
     /// The integral of the clamped velocity over x, as far as x lies within the window.
-    fn area(&self, window: &Rectangle) -> f64 {
+    fn area(&self, window: &PhaseWindow) -> f64 {
         let cuts = self.cuts(window);
         let part = |ends: &[f64]| {
             let (from, length) = (ends[0], ends[1] - ends[0]);
@@ -113,14 +113,14 @@ fn span(low: f64, high: f64) -> f64 {
 
 /// A rectangle of the phase plane; velocities divided by the natural frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rectangle {
+pub struct PhaseWindow {
     /// From which displacement to which.
     pub x: (f64, f64),
     /// From which velocity to which.
     pub y: (f64, f64),
 }
 
-impl Rectangle {
+impl PhaseWindow {
     pub fn area(&self) -> f64 {
         (self.x.1 - self.x.0) * (self.y.1 - self.y.0)
     }
@@ -201,7 +201,7 @@ impl MachineCurve {
 
     /// The area that a closed curve has in common with a window: the integral of `y dx` along it, with y
     /// clamped to the window.
-    pub fn area_within(&self, window: &Rectangle, speed: f64) -> f64 {
+    pub fn area_within(&self, window: &PhaseWindow, speed: f64) -> f64 {
         let clamped = speed.clamp(window.y.0, window.y.1);
         let of = |piece: &CurvePiece| match piece {
             CurvePiece::Slip(slip) => slip.area(window),

@@ -68,7 +68,7 @@ pub struct MachineMotion {
 }
 
 /// Collects a motion until its time is up.
-struct Recorder<'a> {
+struct MotionRecorder<'a> {
     model: &'a Model,
     detail: Detail,
     works: StepWorks,
@@ -81,7 +81,7 @@ struct Recorder<'a> {
     y: (f64, f64),
 }
 
-impl Recorder<'_> {
+impl MotionRecorder<'_> {
     fn reaches(&mut self, (x, y): (f64, f64)) {
         self.x = (self.x.0.min(x), self.x.1.max(x));
         self.y = (self.y.0.min(y), self.y.1.max(y));
@@ -112,7 +112,7 @@ impl Recorder<'_> {
     }
 }
 
-impl Watch for Recorder<'_> {
+impl Watch for MotionRecorder<'_> {
     fn follows(&self) -> bool {
         true
     }
@@ -201,7 +201,7 @@ impl MachineMotion {
         let detail = Detail { energy: detail.energy && stepper.is_none(), ..detail };
         let most = if stepper.is_some() { stepped::STEPS } else { MOST_STEPS };
         let first = MachineState { t: 0.0, x, v: y * omega_0 };
-        let mut recorder = Recorder {
+        let mut recorder = MotionRecorder {
             model,
             detail,
             works: StepWorks::default(),
@@ -232,7 +232,7 @@ impl MachineMotion {
             }
         };
         let end = recorder.state_at(0.0, recorder.state);
-        let Recorder { works, samples, steps, state, .. } = recorder;
+        let MotionRecorder { works, samples, steps, state, .. } = recorder;
         let scaled = |(low, high): (f64, f64)| (low * omega_0, high * omega_0);
         let of_series = steps * ORDER as u64;
         MachineMotion {

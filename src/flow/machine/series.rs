@@ -23,7 +23,7 @@ const INVERSE: Terms = reciprocals();
 
 /// The series of one step.
 #[derive(Clone, Debug)]
-pub struct Series {
+pub struct PhaseSeries {
     /// Displacement from the balance of the phase, `x + offset`.
     pub x: Terms,
     /// Velocity.
@@ -41,9 +41,9 @@ pub struct Series {
     fall: Terms,
 }
 
-impl Series {
+impl PhaseSeries {
     pub fn new() -> Self {
-        Series {
+        PhaseSeries {
             x: [0.0; TERMS],
             y: [0.0; TERMS],
             local: Vec::new(),

@@ -12,7 +12,7 @@ use crate::numerics::root::bisect;
 pub const ALLOWED: &str = "auto, taylor, dop853 and dopri5";
 
 /// The field of one phase about its balance.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct PhaseField<'a> {
     pub model: &'a Model,
     pub phase: Phase,

@@ -5,7 +5,9 @@
 //! comparison with the graph at its q. The graph is kept as the polynomials of the
 //! integration steps and evaluated to rounding by Newton's method in time.
 
-use crate::flow::auto::LastStep;
+use std::sync::Arc as Shared;
+
+use crate::flow::auto::KeptStep;
 use crate::flow::exact::Exact;
 use crate::flow::step::{Powers, Stepper};
 use crate::flow::{Cost, Limits, Reason};
@@ -45,7 +47,7 @@ impl Direction {
 /// One integration step of an arc.
 #[derive(Clone, Debug)]
 struct ArcStep {
-    step: LastStep,
+    step: KeptStep,
     unit: i32,
     duration: f64,
     /// Position at its end, in the direction of the computation.
@@ -238,7 +240,7 @@ fn rest(field: &HalfPlane, pieces: &[ArcStep], detail: f64) -> Option<ArcStep> {
     // Both times of decay have the product 1, and the sum 2 D.
     let step = exact.advance(from, DECAYED * (2.0 * field.d).max(1.0)).ok()?;
     let end = times_power(step.end.x, unit);
-    Some(ArcStep { step: LastStep::Closed(exact), unit, duration: step.duration, end })
+    Some(ArcStep { step: Shared::new(exact), unit, duration: step.duration, end })
 }
 
 impl ArcStep {

@@ -31,7 +31,7 @@ use std::sync::Arc;
 use super::replay::{Action, Player, parse};
 use super::{Effect, Msg, Overlay, Session, Size, update};
 use crate::accuracy::harmonic_error::HarmonicBalance;
-use crate::accuracy::reference::{Deviation, Reference, Source};
+use crate::accuracy::reference::{Deviation, Reference, ReferenceSource};
 use crate::accuracy::trade::{Trade, TradePoint};
 use crate::branch::chart::Chart;
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
@@ -194,7 +194,7 @@ fn trade(cost: Cost) -> Trade {
     let reference = Reference {
         turns: Vec::new(),
         end: Outcome::Moving { tau: zero, q: zero, v: zero },
-        source: Source::TwicePrecision,
+        source: ReferenceSource::TwicePrecision,
         error: 1e-30,
         scale: 1.0,
         cost,
