@@ -183,7 +183,7 @@ impl MachineCurve {
     /// The area within a closed curve.
     pub fn area(&self, speed: f64) -> f64 {
         let all = (f64::NEG_INFINITY, f64::INFINITY);
-        self.area_within(&Rectangle { x: all, y: all }, speed)
+        self.area_within(&PhaseWindow { x: all, y: all }, speed)
     }
 
     /// Its points, `between` + 1 on each piece that slips; velocities divided by the natural frequency.

@@ -87,7 +87,7 @@ impl MachinePoint {
                 let cost = &mut self.cost;
                 let found = Settling::of(&conditions.about(&model), |State { q, v }| {
                     let motion = MachineMotion::new(&model, q, v, *until);
-                    cost.steps += motion.curve.pieces.len() as u64;
+                    *cost += motion.cost;
                     match motion.outcome {
                         Fate::Rest => Ok(Some(motion.end.t)),
                         Fate::Unknown(stop) => Err(stop),
