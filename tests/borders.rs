@@ -1,13 +1,14 @@
 //! The border of the basin for any multiplier, against numbers computed elsewhere and against motions.
 
 use hopfscope::flow::trajectory::trajectory;
-use hopfscope::flow::{Detail, Fate, Limits, Outcome, Problem, Reason};
+use hopfscope::flow::{Detail, Fate, Limits, Outcome, Problem, Reason, Trajectory};
 use hopfscope::model::{Parameters, State};
-use hopfscope::numerics::elementary::pow;
+use hopfscope::numerics::elementary::{hypot, pow};
 use hopfscope::portrait::Border;
-use hopfscope::portrait::basin::cycle::cycles;
+use hopfscope::portrait::basin::cycle::{cycles, cycles_drawn};
 use hopfscope::portrait::basin::{Basin, SurveyedBasin, Window, basin};
 use hopfscope::scan::measure::{Measure, Value, measure};
+use hopfscope::session::fate::{End, fate};
 use proptest::prelude::*;
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -303,4 +304,73 @@ proptest! {
             }
         }
     }
+}
+
+/// Parameters for each kind of edge and of cycles.
+const SETS: [[f64; 4]; 8] = [
+    [-0.3, 0.0, 0.5, 0.1],
+    [-0.1, 0.0, 0.5, 0.1],
+    [-0.1, 0.0, -0.5, 0.1],
+    [0.2, 0.0, -0.5, 0.1],
+    [-0.2, 0.2, 0.0, 0.5],
+    [-0.3, 0.3, 0.5, 0.1],
+    [-0.4, 0.0, 0.0, 1.0],
+    [-0.02, 0.5, 0.0, 0.1],
+];
+
+fn followed(parameters: Parameters, initial: State, until: f64) -> Trajectory {
+    let problem = Problem { parameters, initial, until, tolerance: 1e-10, ..Problem::default() };
+    let detail = Detail { crossings: true, samples_per_step: 2, energy: false };
+    trajectory(&problem, detail, &LIMITS)
+}
+
+#[test]
+fn what_is_said_early_comes_true_late() {
+    let mut ends = [0; 3];
+    for [d, d2, d3, r] in SETS {
+        let parameters = Parameters { d, d2, d3, r };
+        let found = cycles_drawn(&parameters, 2, &LIMITS).unwrap();
+        for part in [0.3, 0.9, 0.99, 1.01, 1.2, 3.0] {
+            for (side, v) in [(1.0, 0.0), (-1.0, 0.0), (1.0, 0.3)] {
+                let size = found.cycles.first().map_or(0.6, |cycle| cycle.clearance);
+                let initial = State { q: side * (r + part * size), v };
+                let Some(fate) = fate(&found, &followed(parameters, initial, 8.0)) else {
+                    continue;
+                };
+                let late = followed(parameters, initial, 300.0);
+                let place =
+                    format!("{parameters:?} from {initial:?}: {fate:?}, {:?}", late.outcome);
+                match fate.end {
+                    End::Rests => {
+                        assert!(matches!(late.outcome, Outcome::Captured { .. }), "{place}");
+                        ends[0] += 1;
+                    }
+                    End::Grows => {
+                        let far = late.samples.last().unwrap();
+                        let grown = hypot(far.q, far.v) > 5.0 * size;
+                        let escaped = matches!(late.outcome, Outcome::Escaped { .. });
+                        assert!(grown || escaped, "{place}");
+                        ends[1] += 1;
+                    }
+                    End::Onto { q_max, .. } => {
+                        let turn = late.crossings.iter().rfind(|turn| turn.q > 0.0).unwrap();
+                        assert!((turn.q / q_max - 1.0).abs() < 1e-3, "{place}");
+                        ends[2] += 1;
+                    }
+                    End::Decays | End::OnTheEdge { .. } => panic!("{place}"),
+                }
+            }
+        }
+    }
+    assert!(ends.iter().all(|count| *count > 10), "{ends:?}");
+}
+
+#[test]
+fn a_start_on_the_unstable_cycle_is_left_to_rounding() {
+    let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+    let found = cycles_drawn(&parameters, 2, &LIMITS).unwrap();
+    let initial = State { q: found.cycles[0].q_max, v: 0.0 };
+    let fate = fate(&found, &followed(parameters, initial, 8.0)).unwrap();
+    let End::OnTheEdge { distance } = fate.end else { panic!("{fate:?}") };
+    assert!(distance < 1e-12, "{distance:e}");
 }

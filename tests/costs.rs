@@ -1,14 +1,17 @@
 //! Cost of answers, counted in evaluations; the bounds are a few per cent above the need.
 
+mod explorer;
+
 use std::sync::Arc;
 
+use explorer::Trial;
 use hopfscope::branch::Branch;
 use hopfscope::branch::along::{Points, branch};
 use hopfscope::branch::chart::{Plane, Resolution, chart};
 use hopfscope::branch::fold::{border, fold};
 use hopfscope::branch::fold_graph::highest_cycle;
-use hopfscope::flow::Limits;
 use hopfscope::flow::quality::DRAFT;
+use hopfscope::flow::{Limits, Method};
 use hopfscope::model::{Knob, Parameters};
 use hopfscope::numerics::elementary::hypot;
 use hopfscope::portrait::basin::cycle::cycles;
@@ -304,4 +307,29 @@ fn a_drafted_branch_is_the_branch_to_the_eye() {
         }
     }
     assert!(compared > 1000);
+}
+
+/// Counted in evaluations: without friction, nothing is located at `v = 0`; where there is a closed form,
+/// nothing is integrated; for hidden layers, nothing is computed.
+#[test]
+fn what_a_scene_does_not_need_costs_nothing() {
+    let cost = |keys: &str, scene: &str| {
+        let mut trial = Trial::open(scene);
+        trial.press(keys);
+        let Some(request) = trial.session.request(Topic::Trajectory, 0) else {
+            panic!("no motion")
+        };
+        let Ok(Answer::Trajectory(found)) = answer(&request, &Limits::PATIENT) else {
+            panic!("no motion")
+        };
+        found
+    };
+    let free = cost("", "hopf");
+    assert!(free.problem.parameters.r == 0.0 && free.crossings.is_empty());
+    let with_friction = cost("x<down*3>1e-9<enter>", "hopf");
+    assert!(with_friction.crossings.len() > 10);
+    assert!(free.cost.steps < with_friction.cost.steps);
+    let linear = cost("", "capture");
+    assert_eq!(linear.method, Method::Exact);
+    assert_eq!(linear.cost.evaluations, linear.crossings.len() as u64, "one for each half swing");
 }

@@ -8,6 +8,7 @@ use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem, Trajectory};
 use hopfscope::model::{Parameters, State};
 use hopfscope::portrait::Cycle;
 use hopfscope::portrait::basin::cycle::cycles;
+use hopfscope::session::motion::{friction_force, turning_points};
 use serde::Deserialize;
 
 /// A motion of `data/trajectories.json`, followed until tau = 200 or capture.
@@ -167,4 +168,57 @@ fn there_are_no_other_cycles_than_the_reference_ones() {
         assert_eq!(found.len(), known, "{:?}", reference.parameters);
         assert!(found.windows(2).all(|pair| pair[0].q_max < pair[1].q_max));
     }
+}
+
+const BRAKED: Parameters = Parameters { d: 0.02, d2: 0.1, d3: 0.05, r: 0.125 };
+const START: State = State { q: 1.5, v: 0.0 };
+
+fn followed(parameters: Parameters, initial: State, method: Method) -> Trajectory {
+    let problem = Problem { parameters, initial, method, until: 30.0, ..Problem::default() };
+    let crossings = parameters.r > 0.0;
+    let detail = Detail { crossings, samples_per_step: 16, energy: true };
+    trajectory(&problem, detail, &Limits::PATIENT)
+}
+
+#[test]
+fn the_friction_force_lies_between_its_limits_and_jumps_at_the_turning_points() {
+    for method in [Method::Taylor, Method::Dop853, Method::Smoothed] {
+        let found = followed(BRAKED, START, method);
+        let force = friction_force(&found, 30.0);
+        assert!(force.iter().all(|(_, force)| force.abs() <= BRAKED.r), "{method}");
+        assert!(force.windows(2).all(|pair| pair[0].0 <= pair[1].0), "{method}");
+    }
+    let found = followed(BRAKED, START, Method::Taylor);
+    let force = friction_force(&found, 30.0);
+    // The mass first moves to the left: friction pulls fully to the right.
+    assert_eq!(force[0], (0.0, BRAKED.r));
+    let jumps = force.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| pair[0].0);
+    let turns = found.crossings.iter().map(|crossing| crossing.tau);
+    assert_eq!(jumps.clone().count(), found.crossings.len());
+    // The time of a sample is computed from that of its step, with one more rounding.
+    assert!(jumps.zip(turns).all(|(jump, turn)| (jump / turn - 1.0).abs() <= f64::EPSILON));
+    // At rest, friction balances the spring.
+    let Outcome::Captured { q, .. } = found.outcome else { panic!("it comes to rest") };
+    assert_eq!(force.last(), Some(&(30.0, q)));
+}
+
+#[test]
+fn turning_points_end_where_the_motion_rests() {
+    let found = followed(BRAKED, START, Method::Taylor);
+    let points = turning_points(&found);
+    assert_eq!(points[0], START.q);
+    assert_eq!(points.len(), found.crossings.len() + 1);
+    assert!(points.windows(2).all(|pair| pair[1].abs() < pair[0].abs()));
+    assert!(points.last().unwrap().abs() <= BRAKED.r);
+    assert!(turning_points(&followed(BRAKED, State { q: 0.0, v: 1.0 }, Method::Taylor))[0] > 0.0);
+}
+
+#[test]
+fn without_friction_turning_points_are_read_off_the_curve() {
+    // Undamped, every turning point is as far out as the first one.
+    let centre = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
+    let found = followed(centre, START, Method::Taylor);
+    let points = turning_points(&found);
+    assert_eq!(points.len(), 10, "nine half turns fit into 30");
+    assert!(points.iter().all(|q| (q.abs() - 1.5).abs() < 1e-3), "{points:?}");
 }

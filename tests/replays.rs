@@ -103,7 +103,7 @@ fn every_instruction_of_the_contract_is_read() {
     for name in ["<space>", "<lt>", "<C-r>", "<S-tab>", "<f1>", "<pgup>"] {
         wanted.push(key(name, 1));
     }
-    wanted.push(Instruction::Resize { width: 80, height: 24 });
+    wanted.push(Instruction::Give(Msg::Resize { width: 80, height: 24 }));
     wanted.push(Instruction::Expect("captured".to_owned()));
     wanted.push(Instruction::Screen("after-five-steps".to_owned()));
     wanted.push(Instruction::Async);

@@ -21,7 +21,7 @@ use crate::scene::find;
 use crate::scene::library::{PLAIN, names};
 use crate::session::opening::opening;
 use crate::session::replay::{Instruction, Recorder, Script};
-use crate::session::{Kept, Key, Notice, Session, Size, save};
+use crate::session::{Kept, Key, Msg, Notice, Session, Size, save};
 use crate::terminal::Environment;
 
 /// Opens the explorer.
@@ -102,7 +102,7 @@ fn played(path: &Path) -> Result<Vec<Instruction>, Failure> {
     script(path)?;
     let text = Files::read(path).map_err(Failure::Usage)?;
     let name = path.display().to_string();
-    let run = Instruction::Run(format!("play {name}"));
+    let run = Instruction::Give(Msg::Run(format!("play {name}")));
     Ok(vec![Instruction::File { name, text }, run])
 }
 

@@ -11,7 +11,7 @@ use super::failure::Failure;
 use super::look::Looks;
 use crate::scene::plain;
 use crate::session::replay::Instruction;
-use crate::session::{Session, Size};
+use crate::session::{Msg, Session, Size};
 
 /// Guided tour of the explorer: the keys named in a caption work, any other key continues, Esc leaves
 #[derive(Debug, Args)]
@@ -28,6 +28,6 @@ impl Arguments {
         let mut session = Session::new(plain(), Size { width: 80, height: 24 });
         session.display = self.looks.wishes(&config);
         session.keymap = Arc::new(config.keymap);
-        go(session, &[Instruction::Run("tour".to_owned())], None, false)
+        go(session, &[Instruction::Give(Msg::Run("tour".to_owned()))], None, false)
     }
 }

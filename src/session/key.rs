@@ -224,65 +224,6 @@ pub(crate) mod tests {
 
     use super::*;
 
-    #[test]
-    fn keys_are_written_as_people_write_them() {
-        for text in [
-            "a",
-            "Z",
-            "?",
-            "[",
-            "é",
-            "<space>",
-            "<lt>",
-            "<hash>",
-            "<C-r>",
-            "<S-tab>",
-            "<A-left>",
-            "<C-A-S-f12>",
-            "<pgup>",
-            "<esc>",
-            "<C-space>",
-            "<C-lt>",
-            "<C-->",
-            "<A-*>",
-        ] {
-            let key: Key = text.parse().unwrap();
-            assert_eq!(key.to_string(), text);
-        }
-    }
-
-    #[test]
-    fn other_names_mean_the_same_key() {
-        for (text, canonical) in [
-            ("<CR>", "<enter>"),
-            ("<Esc>", "<esc>"),
-            ("<c-R>", "<C-r>"),
-            ("<a>", "a"),
-            ("<S-A>", "A"),
-            ("<bs>", "<backspace>"),
-            (">", "<gt>"),
-            ("<u+20>", "<space>"),
-        ] {
-            assert_eq!(text.parse::<Key>().unwrap().to_string(), canonical);
-        }
-    }
-
-    #[test]
-    fn what_is_no_key_is_said_with_the_nearest_name() {
-        for (text, line) in [
-            ("<rigth>", "unknown key <rigth>; did you mean <right>?"),
-            ("<C-pgpu>", "unknown key <C-pgpu>; did you mean <pgup>?"),
-            ("<f13>", "unknown key <f13>; a key is a character"),
-            ("<>", "unknown key <>;"),
-            ("<", "unknown key <<>;"),
-            ("ab", "unknown key <ab>;"),
-            ("", "unknown key <>;"),
-        ] {
-            let said = text.parse::<Key>().unwrap_err().to_string();
-            assert!(said.starts_with(line), "{said}");
-        }
-    }
-
     /// Any key that a terminal can send.
     pub fn any_key() -> impl Strategy<Value = Key> {
         let named = prop::sample::select(NAMES.iter().map(|row| row.0).collect::<Vec<_>>());

@@ -84,29 +84,3 @@ pub(super) const LINES: &[CommandRow] = &[
 pub fn lines() -> impl Iterator<Item = &'static Command> {
     LINES.iter().map(|row| &row.command)
 }
-
-#[cfg(test)]
-mod tests {
-    use std::collections::BTreeSet;
-
-    use super::*;
-    use crate::session::commands::commands;
-
-    #[test]
-    fn every_line_has_a_name_of_its_own_and_one_line_of_explanation() {
-        let names: BTreeSet<_> = lines().map(|line| line.name).collect();
-        assert_eq!(names.len(), LINES.len());
-        for Command { name, arguments, doc, .. } in lines() {
-            assert!(!arguments.is_empty(), "{name} takes nothing: it is a row of COMMANDS");
-            assert!(doc.len() > 4 && doc.len() <= 60, "{name}: {doc}");
-            assert!(doc.starts_with(char::is_uppercase) && !doc.ends_with('.'), "{name}: {doc}");
-        }
-    }
-
-    #[test]
-    fn a_name_may_mean_a_key_too_only_where_the_key_takes_the_next_of_the_same() {
-        let is_key = |name: &&str| commands().any(|command| command.name == *name);
-        let both: Vec<_> = lines().map(|line| line.name).filter(is_key).collect();
-        assert_eq!(both, ["theme", "units", "equal", "glyphs"]);
-    }
-}

@@ -8,7 +8,7 @@ use crate::scene::{Answer, Answered, Point, Request};
 use crate::session::Key;
 
 /// A message: anything that can happen to a session.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Msg {
     /// A key was pressed.
     Key(Key),

@@ -9,7 +9,7 @@ use crate::model::Knob;
 use crate::numerics::decimal::shortest;
 use crate::scene::{Scene, find};
 use crate::session::settings::{COLORS, DisplaySettings, GLYPHS, THEMES};
-use crate::session::{Instruction, Session, save};
+use crate::session::{Instruction, Msg, Session, save};
 
 /// The name under which a file embeds a session.
 const CARRIED: &str = "start.toml";
@@ -23,14 +23,19 @@ pub fn opening(session: &Session) -> Result<Vec<Instruction>, String> {
     let is_new = save::text(&new)? == text;
     if let Some((lines, names)) = scene(&session.scene).filter(|_| is_new) {
         steps.extend(lines);
-        steps.push(Instruction::Start(names));
+        steps.push(Instruction::Give(Msg::Start(names)));
     } else {
         steps.push(Instruction::File { name: CARRIED.to_owned(), text });
-        steps.push(Instruction::Run(format!("open {CARRIED}")));
+        steps.push(run(format!("open {CARRIED}")));
         // The scene opens with these numbers, so they are no change; an earlier change can still be undone.
-        steps.extend(is_new.then(|| Instruction::Start(Vec::new())));
+        steps.extend(is_new.then(|| Instruction::Give(Msg::Start(Vec::new()))));
     }
     Ok(steps)
+}
+
+/// The step that runs a line.
+fn run(line: String) -> Instruction {
+    Instruction::Give(Msg::Run(line))
 }
 
 /// The steps that set the user's wishes for the screen, where they differ from the defaults.
@@ -48,7 +53,7 @@ fn display_lines(display: DisplaySettings) -> Vec<Instruction> {
         switched(display.dimensionless, "units off"),
         switched(display.mouse, "mouse"),
     ];
-    lines.into_iter().flatten().map(Instruction::Run).collect()
+    lines.into_iter().flatten().map(run).collect()
 }
 
 /// The lines that open a built-in scene with other numbers, and the parameters that were added to its terms;
@@ -63,8 +68,8 @@ fn scene(scene: &Scene) -> Option<(Vec<Instruction>, Vec<Knob>)> {
     }
     let names = scene.terms.difference(&known.terms).copied().collect();
     let words = numbers(&known.problem, &scene.problem);
-    let set = (!words.is_empty()).then(|| Instruction::Run(format!("set {}", words.join(" "))));
-    let lines = std::iter::once(Instruction::Run(format!("scene {}", scene.name))).chain(set);
+    let set = (!words.is_empty()).then(|| run(format!("set {}", words.join(" "))));
+    let lines = std::iter::once(run(format!("scene {}", scene.name))).chain(set);
     Some((lines.collect(), names))
 }
 

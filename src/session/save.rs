@@ -15,15 +15,14 @@ use crate::flow::Problem;
 use crate::model::State;
 use crate::portrait::kicks::RandomKick;
 use crate::scene::{
-    Arrangement, Axes, Layer, MOST_PLOTS, Misread, PlotSetup, Point, Scene, Setting, View, Window,
-    find, misread,
+    Arrangement, Layer, MOST_PLOTS, Misread, PlotSetup, Point, Scene, Setting, find, misread,
 };
 use crate::session::act::history::{restore, snapshot};
 use crate::session::read::completion::difference;
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::{
-    Before, Bookmark, Bookmarks, Framing, History, Overlay, Pane, Plot, Row, ScreenSetup, Session,
-    Setup, Snapshot, StepSizes, Uncertainty,
+    Before, Bookmark, Bookmarks, History, Overlay, Pane, Plot, Row, ScreenSetup, Session, Setup,
+    Snapshot, StepSizes, Uncertainty,
 };
 
 /// The format that this program writes; it reads this and all earlier formats.
@@ -48,7 +47,7 @@ struct SavedSession {
     /// Lines typed on the command line, the most recent last.
     lines: Vec<String>,
     present: Show,
-    plots: Vec<SavedPlot>,
+    plots: Vec<Plot>,
     /// The motions at marks.
     #[serde(default)]
     marks: BTreeMap<char, Problem>,
@@ -105,19 +104,6 @@ struct Show {
     scene: SavedScene,
 }
 
-/// A plot with its window and cursor.
-#[derive(Clone, Copy, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SavedPlot {
-    view: View,
-    framing: Framing,
-    axes: Axes,
-    window: Window,
-    cursor: Option<Point>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    family: Option<usize>,
-}
-
 /// A change that can be undone or redone: the state on its other side.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -125,7 +111,7 @@ enum SavedChange {
     /// A motion alone, without a machine and known exactly: earlier versions wrote that.
     Motion(Problem),
     #[serde(alias = "motion-on-belt")]
-    Motions(Setup),
+    Motions(Box<Setup>),
     Plots(ScreenSetup),
     Scene {
         plots: Vec<PlotSetup>,
@@ -150,7 +136,7 @@ pub fn text(session: &Session) -> Result<String, String> {
         kicks: session.kicks,
         lines: session.lines.clone(),
         present: show(&snapshot(session)),
-        plots: session.plots.iter().map(saved_plot).collect(),
+        plots: session.plots.clone(),
         marks: of_marks(session, |setup| Some(setup.problem)),
         belts: of_marks(session, |setup| setup.setting),
         beside: of_marks(session, |setup| {
@@ -193,14 +179,9 @@ fn show(snapshot: &Snapshot) -> Show {
     }
 }
 
-fn saved_plot(plot: &Plot) -> SavedPlot {
-    let Plot { view, axes, window, framing, cursor, family, .. } = *plot;
-    SavedPlot { view, framing, axes, window, cursor, family }
-}
-
 fn saved_change(before: &Before) -> SavedChange {
     match before {
-        Before::Setup(setup) => SavedChange::Motions(Setup::clone(setup)),
+        Before::Setup(setup) => SavedChange::Motions(setup.clone()),
         Before::ScreenSetup(screen_setup) => SavedChange::Plots(screen_setup.clone()),
         Before::Scene(snapshot) => SavedChange::Scene {
             plots: snapshot.screen_setup.plots.clone(),
@@ -247,10 +228,9 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
 
     let mut opened = Session::new(Arc::clone(&present.scene), session.size);
     restore(&mut opened, present);
-    for (plot, saved) in opened.plots.iter_mut().zip(file.plots) {
-        plot.framing = saved.framing;
-        plot.cursor = saved.cursor.filter(|cursor| cursor.x.is_finite() && cursor.y.is_finite());
-    }
+    opened.plots = file.plots;
+    let is_place = |at: &Point| at.x.is_finite() && at.y.is_finite();
+    opened.plots.iter_mut().for_each(|plot| plot.cursor = plot.cursor.filter(is_place));
     opened.plot = file.plot - 1;
     opened.focus = file.focus.checked_sub(1).map_or(Pane::Parameters, Pane::Plot);
     (opened.selected, opened.marks) = (selected, marks);
@@ -303,8 +283,8 @@ fn read(text: &str) -> Result<SavedSession, String> {
     }
 }
 
-fn plot_setup(saved: &SavedPlot) -> PlotSetup {
-    let SavedPlot { view, axes, window, family, .. } = *saved;
+fn plot_setup(plot: &Plot) -> PlotSetup {
+    let Plot { view, axes, window, family, .. } = *plot;
     PlotSetup { view, axes, window: Some(window), family }
 }
 

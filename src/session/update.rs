@@ -21,8 +21,8 @@ use crate::session::read::waiting;
 use crate::session::replay::parse::parse;
 use crate::session::state::keymap::full_name;
 use crate::session::{
-    Code, Command, Context, Done, Effect, Entry, Instruction, Key, Letter, Msg, NextCommand,
-    Overlay, Pane, Pending, Price, Prompt, Row, Session, SessionCaption, Size, Waiting,
+    Code, Command, Context, Done, Effect, Entry, Key, Letter, Msg, NextCommand, Overlay, Pane,
+    Pending, Price, Prompt, Row, Session, SessionCaption, Size, Waiting,
 };
 use crate::words::printable;
 
@@ -34,9 +34,8 @@ pub fn update(session: &mut Session, message: Msg) -> Vec<Effect> {
             inform(session, "the waiting key is dropped");
             return Vec::new();
         }
-        if let (Some(request), Some(step)) = (session.awaited(&message), Instruction::of(&message))
-        {
-            session.waiting = Some(Waiting { step, request });
+        if let Some(request) = session.awaited(&message) {
+            session.waiting = Some(Waiting { message, request });
             return Vec::new();
         }
     }
@@ -171,13 +170,9 @@ fn keep_selection(session: &mut Session) {
 
 /// Releases the press that waits, if its answer is there or will not come.
 fn released(session: &mut Session) -> Option<Msg> {
-    let message = session.waiting.as_ref()?.step.message()?;
+    let message = session.waiting.as_ref()?.message.clone();
     let request = session.awaited(&message);
-    session.waiting = session
-        .waiting
-        .take()
-        .zip(request)
-        .map(|(waiting, request)| Waiting { request, ..waiting });
+    session.waiting = request.map(|request| Waiting { message: message.clone(), request });
     (!session.is_waiting()).then_some(message)
 }
 

@@ -1,6 +1,7 @@
 //! What scripts rely on: documents, their numbers, and exit codes.
 
 mod files;
+mod keys;
 mod outside;
 mod page;
 #[path = "../program/mod.rs"]

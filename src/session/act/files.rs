@@ -187,10 +187,7 @@ pub fn forget_selected(session: &mut Session) -> Done {
         return forget(session);
     }
     let path = session.interrupted.remove(number).path;
-    let last = session.list_length().saturating_sub(1);
-    if let Some(list) = session.list_mut() {
-        list.selected = list.selected.min(last);
-    }
+    lists::move_by(session, 0);
     session.effects.push(Effect::PutAside(path));
     Ok(())
 }

@@ -30,46 +30,60 @@ pub enum NoErrorReason {
     OtherFate,
 }
 
-macro_rules! last_answers {
-    (
-        in_use { $($name:ident: $topic:ident => $found:ty,)* }
-        of_any_plot { $($of_any:ident: $its_topic:ident => $of_it:ty,)* }
-    ) => {
-        impl Session {
-            $(
-                /// The last answer on this topic for the plot in use, stale or not.
-                pub fn $name(&self) -> Option<&$found> {
-                    let Answer::$topic(found) = self.answer(Topic::$topic, self.plot)? else {
-                        return None;
-                    };
-                    Some(found)
-                }
-            )*
-            $(
-                /// The last answer on this topic for a plot, stale or not.
-                pub fn $of_any(&self, plot: usize) -> Option<&$of_it> {
-                    let Answer::$its_topic(found) = self.answer(Topic::$its_topic, plot)? else {
-                        return None;
-                    };
-                    Some(found)
-                }
-            )*
+/// The last answer on a topic for a plot, stale or not.
+macro_rules! last {
+    ($session:ident, $topic:ident, $plot:expr) => {
+        match $session.answer(Topic::$topic, $plot)? {
+            Answer::$topic(found) => Some(found),
+            _ => None,
         }
     };
 }
 
-last_answers! {
-    in_use {
-        trajectory: Trajectory => Trajectory,
-        cycles: Cycles => Cycles,
-        balance: Balance => HarmonicBalance,
-        zones: Zones => Zones,
-        trade: Trade => Trade,
+/// The last answers, stale or not: for the plot in use, or for any plot.
+impl Session {
+    pub fn trajectory(&self) -> Option<&Trajectory> {
+        last!(self, Trajectory, self.plot)
     }
-    of_any_plot {
-        borders: Capture => Borders,
-        return_map: ReturnMap => ReturnMap,
-        speeds: Speeds => Speeds,
+
+    pub fn cycles(&self) -> Option<&Cycles> {
+        last!(self, Cycles, self.plot)
+    }
+
+    pub fn balance(&self) -> Option<&HarmonicBalance> {
+        last!(self, Balance, self.plot)
+    }
+
+    pub fn zones(&self) -> Option<&Zones> {
+        last!(self, Zones, self.plot)
+    }
+
+    pub fn trade(&self) -> Option<&Trade> {
+        last!(self, Trade, self.plot).map(|found| &**found)
+    }
+
+    pub fn borders(&self, plot: usize) -> Option<&Borders> {
+        last!(self, Capture, plot)
+    }
+
+    pub fn return_map(&self, plot: usize) -> Option<&ReturnMap> {
+        last!(self, ReturnMap, plot)
+    }
+
+    pub fn speeds(&self, plot: usize) -> Option<&Speeds> {
+        last!(self, Speeds, plot)
+    }
+
+    /// The chart over the two parameters of a plot.
+    pub fn chart(&self, plot: usize) -> Option<&Chart> {
+        let Axes { abscissa, against, .. } = self.plots.get(plot)?.axes;
+        let found = last!(self, Regimes, plot)?;
+        Some(found).filter(|found| (found.plane.right, found.plane.up) == (abscissa, against))
+    }
+
+    /// The proof about the cycles at the present parameters; `None` until it is there.
+    pub fn proof(&self) -> Option<&Proof> {
+        last!(self, Proof, self.plot).filter(|_| !self.is_stale(Topic::Proof, self.plot))
     }
 }
 
@@ -210,24 +224,11 @@ impl Session {
         })
     }
 
-    /// The proof about the cycles at the present parameters; `None` until it is there.
-    pub fn proof(&self) -> Option<&Proof> {
-        let Answer::Proof(found) = self.answer(Topic::Proof, self.plot)? else { return None };
-        Some(found).filter(|_| !self.is_stale(Topic::Proof, self.plot))
-    }
-
     /// The examined claims of the paper; empty until they are there.
     pub fn examined(&self) -> &[ClaimResult] {
         match self.answer(Topic::Claims, self.plot) {
             Some(Answer::Claims(examined)) => examined,
             _ => &[],
         }
-    }
-
-    /// The chart computed last over the two parameters of a plot, stale or not.
-    pub fn chart(&self, plot: usize) -> Option<&Chart> {
-        let Axes { abscissa, against, .. } = self.plots.get(plot)?.axes;
-        let Answer::Regimes(found) = self.answer(Topic::Regimes, plot)? else { return None };
-        Some(found).filter(|found| (found.plane.right, found.plane.up) == (abscissa, against))
     }
 }

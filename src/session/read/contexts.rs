@@ -115,19 +115,22 @@ pub enum PaletteRow {
 }
 
 impl PaletteRow {
-    /// Its name, its other name if it has one, and its explanation in one line.
-    fn texts(self) -> [&'static str; 3] {
+    /// Its name, its other name if it has one, its explanation in one line, and the heading under which it stands,
+    /// unless that depends on the pane in focus.
+    fn texts(self) -> [&'static str; 4] {
         match self {
-            PaletteRow::Command(command) | PaletteRow::Line(command) => {
-                [command.name, "", command.doc]
-            }
+            PaletteRow::Command(command) => [command.name, "", command.doc, ""],
+            PaletteRow::Line(line) => [line.name, "", line.doc, "Typed after a colon"],
             PaletteRow::Scene(scene) => {
-                [&scene.name, scene.also.as_deref().unwrap_or_default(), &scene.title]
+                let other = scene.also.as_deref().unwrap_or_default();
+                [&scene.name, other, &scene.title, "Scenes"]
             }
-            PaletteRow::View(view) => [view.name, view.title, view.meaning],
-            PaletteRow::Layer(layer) => [layer.name, "", layer.meaning],
-            PaletteRow::Machine(machine) => [&machine.name, "", &machine.title],
-            PaletteRow::Claim(claim) => [claim.equation, claim.section, claim.statement],
+            PaletteRow::View(view) => [view.name, view.title, view.meaning, "Views of a plot"],
+            PaletteRow::Layer(layer) => [layer.name, "", layer.meaning, "Layers"],
+            PaletteRow::Machine(machine) => [&machine.name, "", &machine.title, "Machines"],
+            PaletteRow::Claim(claim) => {
+                [claim.equation, claim.section, claim.statement, "Claims of the paper"]
+            }
         }
     }
 
@@ -142,7 +145,7 @@ impl PaletteRow {
 
     /// All of its names.
     fn names(self) -> Vec<&'static str> {
-        let [name, other, _] = self.texts();
+        let [name, other, ..] = self.texts();
         let own = [name, other].into_iter().filter(|name| !name.is_empty());
         own.chain(aliases(name).iter().copied()).collect()
     }
@@ -188,15 +191,8 @@ impl Session {
 
     /// The heading under which a row stands.
     pub fn heading(&self, row: PaletteRow) -> &'static str {
-        match row {
-            PaletteRow::Command(command) => self.place_of(command).map_or("", Context::title),
-            PaletteRow::Line(_) => "Typed after a colon",
-            PaletteRow::Scene(_) => "Scenes",
-            PaletteRow::View(_) => "Views of a plot",
-            PaletteRow::Layer(_) => "Layers",
-            PaletteRow::Machine(_) => "Machines",
-            PaletteRow::Claim(_) => "Claims of the paper",
-        }
+        let PaletteRow::Command(command) = row else { return row.texts()[3] };
+        self.place_of(command).map_or("", Context::title)
     }
 
     /// The distance of a row's context from the pane in focus.

@@ -254,8 +254,6 @@ mod tests {
     use crate::flow::trajectory::trajectory;
     use crate::flow::{Detail, Limits, Problem};
     use crate::model::State;
-    use crate::numerics::elementary::hypot;
-    use crate::portrait::basin::cycle::cycles_drawn;
 
     fn motion(parameters: Parameters, initial: State, until: f64) -> Trajectory {
         let problem =
@@ -263,18 +261,6 @@ mod tests {
         let detail = Detail { crossings: true, samples_per_step: 2, energy: false };
         trajectory(&problem, detail, &Limits::PATIENT)
     }
-
-    /// Parameters for each kind of edge and of cycles.
-    const SETS: [[f64; 4]; 8] = [
-        [-0.3, 0.0, 0.5, 0.1],
-        [-0.1, 0.0, 0.5, 0.1],
-        [-0.1, 0.0, -0.5, 0.1],
-        [0.2, 0.0, -0.5, 0.1],
-        [-0.2, 0.2, 0.0, 0.5],
-        [-0.3, 0.3, 0.5, 0.1],
-        [-0.4, 0.0, 0.0, 1.0],
-        [-0.02, 0.5, 0.0, 0.1],
-    ];
 
     #[test]
     fn without_friction_and_nonlinear_damping_the_sign_of_damping_decides() {
@@ -285,56 +271,5 @@ mod tests {
         assert_eq!(fate(-0.05, 0.5, 0.0), Some(End::Grows));
         assert_eq!(fate(0.1, 0.5, 0.0), Some(End::Decays));
         assert_eq!([fate(0.0, 0.5, 0.0), fate(-0.05, 0.0, 0.0), fate(-0.05, 0.5, 0.1)], [None; 3]);
-    }
-
-    #[test]
-    fn what_is_said_early_comes_true_late() {
-        let mut ends = [0; 3];
-        for [d, d2, d3, r] in SETS {
-            let parameters = Parameters { d, d2, d3, r };
-            let found = cycles_drawn(&parameters, 2, &Limits::PATIENT).unwrap();
-            for part in [0.3, 0.9, 0.99, 1.01, 1.2, 3.0] {
-                for (side, v) in [(1.0, 0.0), (-1.0, 0.0), (1.0, 0.3)] {
-                    let size = found.cycles.first().map_or(0.6, |cycle| cycle.clearance);
-                    let initial = State { q: side * (r + part * size), v };
-                    let Some(fate) = fate(&found, &motion(parameters, initial, 8.0)) else {
-                        continue;
-                    };
-                    let late = motion(parameters, initial, 300.0);
-                    let place =
-                        format!("{parameters:?} from {initial:?}: {fate:?}, {:?}", late.outcome);
-                    match fate.end {
-                        End::Rests => {
-                            assert!(matches!(late.outcome, Outcome::Captured { .. }), "{place}");
-                            ends[0] += 1;
-                        }
-                        End::Grows => {
-                            let far = late.samples.last().unwrap();
-                            let grown = hypot(far.q, far.v) > 5.0 * size;
-                            let escaped = matches!(late.outcome, Outcome::Escaped { .. });
-                            assert!(grown || escaped, "{place}");
-                            ends[1] += 1;
-                        }
-                        End::Onto { q_max, .. } => {
-                            let turn = late.crossings.iter().rfind(|turn| turn.q > 0.0).unwrap();
-                            assert!((turn.q / q_max - 1.0).abs() < 1e-3, "{place}");
-                            ends[2] += 1;
-                        }
-                        End::Decays | End::OnTheEdge { .. } => panic!("{place}"),
-                    }
-                }
-            }
-        }
-        assert!(ends.iter().all(|count| *count > 10), "{ends:?}");
-    }
-
-    #[test]
-    fn a_start_on_the_unstable_cycle_is_left_to_rounding() {
-        let parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
-        let found = cycles_drawn(&parameters, 2, &Limits::PATIENT).unwrap();
-        let initial = State { q: found.cycles[0].q_max, v: 0.0 };
-        let fate = fate(&found, &motion(parameters, initial, 8.0)).unwrap();
-        let End::OnTheEdge { distance } = fate.end else { panic!("{fate:?}") };
-        assert!(distance < 1e-12, "{distance:e}");
     }
 }

@@ -151,17 +151,3 @@ impl Session {
 pub fn forgets(message: &Msg) -> bool {
     matches!(message, Msg::Key(key) if *key == Key::plain(Code::Esc))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::session::{commands, lines};
-
-    #[test]
-    fn what_needs_something_is_a_command() {
-        for name in NEEDS.iter().flat_map(|(_, names)| names.iter()) {
-            let is_key = commands().any(|command| command.name == *name);
-            assert!(is_key || lines().any(|line| line.name == *name), "{name}");
-        }
-    }
-}

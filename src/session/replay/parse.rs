@@ -5,7 +5,7 @@ use crate::numerics::similar::most_similar;
 use crate::scene::Point;
 use crate::session::key;
 use crate::session::replay::script::{ESCAPES, GESTURES, LONGEST, MOST, ScriptError, too_long};
-use crate::session::{Code, Instruction, Key, Pointed, PointerTarget, Script, ScriptStep};
+use crate::session::{Code, Instruction, Key, Msg, Pointed, PointerTarget, Script, ScriptStep};
 
 /// Largest width and height that a file may ask for.
 const LARGEST: u16 = 1000;
@@ -20,9 +20,9 @@ const DIRECTIVES: [(&str, Reading); 14] = [
     ("elapse", elapse),
     ("resize", resize),
     ("expect", |rest| text(rest, "expect").map(Instruction::Expect)),
-    ("paste", |rest| text(rest, "paste").map(Instruction::Paste)),
-    ("run", |rest| text(rest, "run").map(Instruction::Run)),
-    ("say", |rest| text(rest, "say").map(Instruction::Say)),
+    ("paste", |rest| text(rest, "paste").map(|text| Instruction::Give(Msg::Paste(text)))),
+    ("run", |rest| text(rest, "run").map(|line| Instruction::Give(Msg::Run(line)))),
+    ("say", |rest| text(rest, "say").map(|text| Instruction::Give(Msg::Say(text, None)))),
     ("screen", screen),
     ("start", start),
     ("file", file),
@@ -95,7 +95,7 @@ fn step(token: &str) -> Result<Instruction, String> {
 fn elapse(text: &str) -> Result<Instruction, String> {
     let seconds = text.parse().ok().filter(|seconds| (0.0..=LONGEST).contains(seconds));
     seconds
-        .map(Instruction::Elapse)
+        .map(|seconds| Instruction::Give(Msg::Elapsed { seconds }))
         .ok_or_else(|| format!("elapse takes seconds, 0 .. {LONGEST}, such as <elapse 0.25>"))
 }
 
@@ -149,7 +149,7 @@ fn pointed(word: &str, rest: &str) -> Result<Instruction, String> {
     };
     let gesture = GESTURES.iter().find(|row| row.1 == word).map(|row| row.0);
     let pointed = gesture.zip(place).map(|(gesture, place)| Pointed { gesture, place });
-    pointed.map(Instruction::Pointed).ok_or_else(|| {
+    pointed.map(|pointed| Instruction::Give(Msg::Pointed(pointed))).ok_or_else(|| {
         format!("a place of the mouse is \"N X Y\" on plot N, from 1, or \"row N\", not {rest:?}")
     })
 }
@@ -158,7 +158,7 @@ fn resize(rest: &str) -> Result<Instruction, String> {
     let read = |text: &str| text.parse().ok().filter(|cells| (1..=LARGEST).contains(cells));
     let size = rest.split_once('x').and_then(|(w, h)| Some((read(w)?, read(h)?)));
     match size {
-        Some((width, height)) => Ok(Instruction::Resize { width, height }),
+        Some((width, height)) => Ok(Instruction::Give(Msg::Resize { width, height })),
         None => Err(format!(
             "<resize {rest}> needs columns and rows from 1 to {LARGEST}, as in <resize 80x24>"
         )),
@@ -176,7 +176,8 @@ fn screen(name: &str) -> Result<Instruction, String> {
 
 fn start(rest: &str) -> Result<Instruction, String> {
     let named = |name: &str| Knob::named(name, &[Group::Motion]);
-    rest.split_whitespace().map(named).collect::<Result<_, _>>().map(Instruction::Start)
+    let names = rest.split_whitespace().map(named).collect::<Result<_, _>>()?;
+    Ok(Instruction::Give(Msg::Start(names)))
 }
 
 /// A name and a text, both in quotes.
@@ -247,7 +248,8 @@ mod tests {
             }
             let one_line: String = quoted.chars().filter(|char| *char != '\u{feff}').collect();
             if !one_line.is_empty() {
-                for step in [Instruction::Expect(one_line.clone()), Instruction::Paste(one_line)] {
+                let paste = Instruction::Give(Msg::Paste(one_line.clone()));
+                for step in [Instruction::Expect(one_line), paste] {
                     prop_assert_eq!(steps(&format!("x{step}x"))[1].clone(), step);
                 }
             }

@@ -44,7 +44,9 @@ const PICTURES: usize = 1000;
 
 /// Number of captions in a file.
 fn captions(script: &Script) -> usize {
-    script.steps.iter().filter(|located| matches!(located.step, Instruction::Say(_))).count()
+    let is_caption =
+        |located: &&ScriptStep| matches!(located.step, Instruction::Give(Msg::Say(..)));
+    script.steps.iter().filter(is_caption).count()
 }
 
 impl Player {
@@ -112,7 +114,7 @@ impl Player {
                     let why = format!("the screen does not show {text:?}");
                     return Err(ScriptError { line, column, why });
                 }
-                Instruction::Say(text) => {
+                Instruction::Give(Msg::Say(text, _)) => {
                     self.captions.0 += 1;
                     return Ok(Action::Give(Msg::Say(text, Some(self.captions))));
                 }

@@ -41,12 +41,13 @@ impl Recorder {
             ) if *key == pressed && *count < MOST => {
                 *count += 1;
             }
-            (Some(Instruction::Elapse(passed)), Instruction::Elapse(seconds))
-                if *passed + seconds <= LONGEST =>
+            (
+                Some(Instruction::Give(Msg::Elapsed { seconds: passed })),
+                Instruction::Give(Msg::Elapsed { seconds }),
+            ) if *passed + seconds <= LONGEST => *passed += seconds,
+            (Some(Instruction::Give(last @ Msg::Resize { .. })), Instruction::Give(step))
+                if matches!(step, Msg::Resize { .. }) =>
             {
-                *passed += seconds;
-            }
-            (Some(last @ Instruction::Resize { .. }), step @ Instruction::Resize { .. }) => {
                 *last = step;
             }
             (_, step) => self.steps.push(step),
@@ -71,9 +72,7 @@ impl Recorder {
     pub fn forget(&mut self, presses: u32) {
         let first = self.before(presses);
         let forgotten: Vec<Instruction> = self.steps.drain(first..).collect();
-        let nobodys = |step: &Instruction| {
-            matches!(step, Instruction::Resize { .. } | Instruction::Elapse(_))
-        };
+        let nobodys = |step: &Instruction| matches!(step, Instruction::Give(it) if !is_press(it));
         forgotten.into_iter().filter(nobodys).for_each(|step| self.add(step));
     }
 
@@ -104,7 +103,8 @@ impl Recorder {
                     presses = 0;
                 }
                 Instruction::Key { count, .. } => presses -= *count,
-                Instruction::Resize { .. } | Instruction::Elapse(_) | Instruction::File { .. } => {}
+                Instruction::File { .. } => {}
+                Instruction::Give(message) if !is_press(message) => {}
                 _ => presses -= 1,
             }
         }
@@ -116,6 +116,11 @@ impl Recorder {
     pub fn text(&self, started: &str) -> String {
         text(&heading(started), &self.steps)
     }
+}
+
+/// Whether a user does it; the size of the screen and the passing of time are nobody's doing.
+fn is_press(message: &Msg) -> bool {
+    !matches!(message, Msg::Resize { .. } | Msg::Elapsed { .. })
 }
 
 /// The comments at the beginning of a recording, without the comment characters.

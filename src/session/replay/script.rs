@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use crate::model::Knob;
 use crate::scene::Point;
 use crate::session::{Gesture, Key, Msg, Pointed, PointerTarget};
 use crate::words::printable;
@@ -56,29 +55,21 @@ pub(super) fn too_long() -> String {
 pub enum Instruction {
     /// A key, pressed this many times: `x`, `<right>`, `<right*5>`.
     Key { key: Key, count: u32 },
-    /// The mouse: `<click 1 0.5 -0.25>` on the first plot, `<click row 2>`; `<nearer ..>` and `<farther ..>` for its wheel.
-    Pointed(Pointed),
-    /// Text pasted at once: `<paste "text">`.
-    Paste(String),
-    /// Time passes, in seconds: `<elapse 0.25>`.
-    Elapse(f64),
+    /// A message: the mouse, `<click 1 0.5 -0.25>` on the first plot, `<click row 2>`, and `<nearer ..>` and
+    /// `<farther ..>` for its wheel; text pasted at once, `<paste "text">`; time that passes, in seconds, `<elapse 0.25>`;
+    /// the size of the screen, `<resize 80x24>`; a line of the command line, independently of key bindings,
+    /// `<run "set D=-0.3">`; a caption, for which the explorer waits for a key, `<say "text">`; and the present state as
+    /// the start of the session, with an empty history: `<start>`, or `<start D3 r>` with the parameters that are added to
+    /// those of its scene.
+    Give(Msg),
     /// Wait until no computation is pending: `<wait>`.
     Wait,
     /// From here on, do not wait after each key: `<async>`.
     Async,
-    /// Set the size of the screen: `<resize 80x24>`.
-    Resize { width: u16, height: u16 },
     /// The screen must show this text on one of its rows: `<expect "text">`.
     Expect(String),
-    /// Run a line of the command line, independently of key bindings: `<run "set D=-0.3">`.
-    Run(String),
-    /// Show a caption and, in the explorer, wait for a key: `<say "text">`.
-    Say(String),
     /// Keep a picture of the screen under this name: `<screen name>`.
     Screen(String),
-    /// Make the present state the start of the session, with an empty history: `<start>`, or `<start D3 r>`
-    /// with the parameters that are added to those of its scene.
-    Start(Vec<Knob>),
     /// Embed a file: a command that reads a file of this name during the replay gets this text. `<file "a.toml"
     /// "text">`.
     File {
@@ -91,23 +82,20 @@ pub enum Instruction {
 impl Instruction {
     /// The step that gives this message; `None` for a message that results from other steps.
     pub fn of(message: &Msg) -> Option<Self> {
-        Some(match message {
-            Msg::Key(key) => Instruction::Key { key: *key, count: 1 },
-            Msg::Pointed(pointed) => Instruction::Pointed(*pointed),
-            Msg::Paste(text) if !text.is_empty() => Instruction::Paste(text.clone()),
-            Msg::Elapsed { seconds } => Instruction::Elapse(*seconds),
-            Msg::Resize { width, height } => Instruction::Resize { width: *width, height: *height },
-            Msg::Run(line) => Instruction::Run(line.clone()),
-            Msg::Say(text, _) if !text.is_empty() => Instruction::Say(text.clone()),
-            Msg::Start(names) => Instruction::Start(names.clone()),
-            Msg::Paste(_)
-            | Msg::Say(..)
-            | Msg::Read { .. }
-            | Msg::Answered(_)
-            | Msg::Idle
-            | Msg::Written(_)
-            | Msg::Told(_) => return None,
-        })
+        match message {
+            Msg::Key(key) => Some(Instruction::Key { key: *key, count: 1 }),
+            Msg::Paste(text) | Msg::Say(text, _) if text.is_empty() => None,
+            Msg::Say(text, _) => Some(Instruction::Give(Msg::Say(text.clone(), None))),
+            Msg::Pointed(_)
+            | Msg::Paste(_)
+            | Msg::Elapsed { .. }
+            | Msg::Resize { .. }
+            | Msg::Run(_)
+            | Msg::Start(_) => Some(Instruction::Give(message.clone())),
+            Msg::Read { .. } | Msg::Answered(_) | Msg::Idle | Msg::Written(_) | Msg::Told(_) => {
+                None
+            }
+        }
     }
 
     /// Number of times that it is done.
@@ -117,23 +105,11 @@ impl Instruction {
 
     /// The message that a step gives to a session; for a key, that of one press.
     pub fn message(&self) -> Option<Msg> {
-        Some(match self {
-            Instruction::Key { key, .. } => Msg::Key(*key),
-            Instruction::Pointed(pointed) => Msg::Pointed(*pointed),
-            Instruction::Paste(text) => Msg::Paste(text.clone()),
-            Instruction::Elapse(seconds) => Msg::Elapsed { seconds: *seconds },
-            Instruction::Resize { width, height } => Msg::Resize { width: *width, height: *height },
-            Instruction::Run(line) => Msg::Run(line.clone()),
-            Instruction::Say(text) => Msg::Say(text.clone(), None),
-            Instruction::Start(names) => Msg::Start(names.clone()),
-            Instruction::Wait
-            | Instruction::Async
-            | Instruction::Expect(_)
-            | Instruction::Screen(_)
-            | Instruction::File { .. } => {
-                return None;
-            }
-        })
+        match self {
+            Instruction::Key { key, .. } => Some(Msg::Key(*key)),
+            Instruction::Give(message) => Some(message.clone()),
+            _ => None,
+        }
     }
 }
 
@@ -184,33 +160,40 @@ impl fmt::Display for Instruction {
                 let name = key.strip_prefix('<').and_then(|name| name.strip_suffix('>'));
                 write!(out, "<{}*{count}>", name.unwrap_or(&key))
             }
-            Instruction::Pointed(Pointed { gesture, place }) => {
-                let gesture = GESTURES.iter().find(|row| row.0 == *gesture).map_or("", |row| row.1);
-                match place {
-                    PointerTarget::Row(row) => write!(out, "<{gesture} row {row}>"),
-                    PointerTarget::Plot(index, Point { x, y }) => {
-                        write!(out, "<{gesture} {} {x:?} {y:?}>", index + 1)
-                    }
-                }
-            }
-            Instruction::Paste(text) => write!(out, "<paste {}>", quoted(text)),
-            Instruction::Elapse(seconds) => write!(out, "<elapse {seconds}>"),
+            Instruction::Give(message) => out.write_str(&written(message)),
             Instruction::Wait => write!(out, "<wait>"),
             Instruction::Async => write!(out, "<async>"),
-            Instruction::Resize { width, height } => write!(out, "<resize {width}x{height}>"),
             Instruction::Expect(text) => write!(out, "<expect {}>", quoted(text)),
-            Instruction::Run(line) => write!(out, "<run {}>", quoted(line)),
-            Instruction::Say(text) => write!(out, "<say {}>", quoted(text)),
             Instruction::Screen(name) => write!(out, "<screen {name}>"),
-            Instruction::Start(names) => {
-                write!(out, "<start")?;
-                names.iter().try_for_each(|symbol| write!(out, " {}", symbol.spec().name))?;
-                write!(out, ">")
-            }
             Instruction::File { name, text } => {
                 write!(out, "<file {} {}>", quoted(name), quoted(text))
             }
         }
+    }
+}
+
+/// A message as it is written in a file; nothing for one that results from other steps.
+fn written(message: &Msg) -> String {
+    match message {
+        Msg::Pointed(Pointed { gesture, place }) => {
+            let gesture = GESTURES.iter().find(|row| row.0 == *gesture).map_or("", |row| row.1);
+            match place {
+                PointerTarget::Row(row) => format!("<{gesture} row {row}>"),
+                PointerTarget::Plot(index, Point { x, y }) => {
+                    format!("<{gesture} {} {x:?} {y:?}>", index + 1)
+                }
+            }
+        }
+        Msg::Paste(text) => format!("<paste {}>", quoted(text)),
+        Msg::Elapsed { seconds } => format!("<elapse {seconds}>"),
+        Msg::Resize { width, height } => format!("<resize {width}x{height}>"),
+        Msg::Run(line) => format!("<run {}>", quoted(line)),
+        Msg::Say(text, _) => format!("<say {}>", quoted(text)),
+        Msg::Start(names) => {
+            let names: String = names.iter().map(|knob| format!(" {knob}")).collect();
+            format!("<start{names}>")
+        }
+        _ => String::new(),
     }
 }
 

@@ -184,17 +184,3 @@ pub fn chain(first: Context) -> &'static [Context] {
     let chains = chains();
     chains.iter().find(|chain| chain[0] == first).unwrap_or(&chains[0])
 }
-
-#[cfg(test)]
-mod tests {
-    use std::collections::BTreeSet;
-
-    use super::*;
-
-    #[test]
-    fn every_context_has_a_name_of_its_own() {
-        let names: BTreeSet<_> = contexts().map(|row| row.context.spec().name).collect();
-        assert_eq!(names.len(), contexts().count());
-        assert_eq!(names.len(), OTHERS.len() + VIEWS.len());
-    }
-}

@@ -27,12 +27,14 @@ pub enum Framing {
 }
 
 /// A plot: its view, its window and its cursor.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Plot {
     pub view: View,
     /// Its axes, where the view leaves a choice.
     pub axes: Axes,
     /// The family of variants, by its index in the scene, that the plot shows in place of the present values.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub family: Option<usize>,
     /// The part of the world on show.
     pub window: Window,

@@ -16,8 +16,8 @@ use crate::portrait::kicks::RandomKick;
 use crate::scene::{Arrangement, Layer, Request, ScaledMachine, Scene, Setting, Topic};
 use crate::session::settings::DisplaySettings;
 use crate::session::{
-    Answers, Bookmarks, Context, Effect, History, Instruction, Key, Keymap, Notice, Overlay, Pane,
-    Plot, Row, ScanForm, ScanOnShow, SessionCaption, Setup, StepSizes, Uncertainty,
+    Answers, Bookmarks, Context, Effect, History, Key, Keymap, Msg, Notice, Overlay, Pane, Plot,
+    Row, ScanForm, ScanOnShow, SessionCaption, Setup, StepSizes, Uncertainty,
 };
 
 /// Maximum number of harmonics: more would cost more than the picture can show.
@@ -343,7 +343,7 @@ pub struct Kept {
 /// A press that waits, and the request whose answer it needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Waiting {
-    pub step: Instruction,
+    pub message: Msg,
     /// The request that must be answered first.
     pub request: Request,
 }

@@ -3,7 +3,7 @@
 use super::Trial;
 use super::saved::reopened;
 use crate::model::belt::ReducedBelt;
-use crate::scene::{Layer, ScaledMachine};
+use crate::scene::Layer;
 use crate::session::{Msg, save};
 
 /// The textbook machine at a speed of its belt, reduced without a session.
@@ -56,10 +56,7 @@ fn marks_scenes_and_saved_sessions_know_the_speed() {
     // The refused files changed nothing.
     trial.give(Msg::Idle);
     runs_at(&trial, 0.35);
-    assert_eq!(
-        ScaledMachine::new(trial.session.running().unwrap().machine.clone()).unwrap().reduced,
-        at(0.3)
-    );
+    assert_eq!(trial.session.scene.machine.as_ref().unwrap().reduced, at(0.3));
 }
 
 #[test]

@@ -217,28 +217,3 @@ fn why_there_is_no_measured_error_is_known() {
         assert_eq!(session.measured().is_none(), why.is_some());
     }
 }
-
-/// Counted in evaluations: without friction, nothing is located at `v = 0`; where there is a closed form,
-/// nothing is integrated; for hidden layers, nothing is computed.
-#[test]
-fn what_a_scene_does_not_need_costs_nothing() {
-    let cost = |keys: &str, scene: &str| {
-        let mut trial = Trial::open(scene);
-        trial.press(keys);
-        let Some(request) = trial.session.request(Topic::Trajectory, 0) else {
-            panic!("no motion")
-        };
-        let Ok(Answer::Trajectory(found)) = answer(&request, &Limits::PATIENT) else {
-            panic!("no motion")
-        };
-        found
-    };
-    let free = cost("", "hopf");
-    assert!(free.problem.parameters.r == 0.0 && free.crossings.is_empty());
-    let with_friction = cost("x<down*3>1e-9<enter>", "hopf");
-    assert!(with_friction.crossings.len() > 10);
-    assert!(free.cost.steps < with_friction.cost.steps);
-    let linear = cost("", "capture");
-    assert_eq!(linear.method, Method::Exact);
-    assert_eq!(linear.cost.evaluations, linear.crossings.len() as u64, "one for each half swing");
-}

@@ -20,7 +20,6 @@ mod requests;
 mod saved;
 mod scan;
 mod strange;
-mod table;
 mod undo;
 mod views;
 mod waiting;

@@ -4,24 +4,7 @@ use super::Trial;
 use super::facts::refuses;
 use crate::scene::View;
 use crate::session::read::completion::completion;
-use crate::session::{Effect, List, Overlay, commands, lines, run_line};
-
-#[test]
-fn every_command_is_reached_from_the_palette_without_a_key_of_its_own() {
-    let trial = Trial::open("plain");
-    let list = crate::session::List::default();
-    let listed: Vec<_> = trial.session.palette_rows(&list).iter().map(|row| row.name()).collect();
-    for command in commands() {
-        let inside = command.keys.iter().all(|(context, _)| context.is_overlay());
-        let name = command.name.strip_prefix("toggle-").unwrap_or(command.name);
-        // A digit cannot be typed in a list.
-        let typed = command.keys.iter().any(|(_, keys)| keys.contains(&"1"));
-        assert!(inside || listed.contains(&name) != typed, "{name}");
-    }
-    for line in lines() {
-        assert!(listed.contains(&line.name), "{}", line.name);
-    }
-}
+use crate::session::{Effect, List, Overlay, lines, run_line};
 
 #[test]
 fn the_palette_runs_a_command_in_the_pane_that_it_belongs_to() {
@@ -165,48 +148,6 @@ fn the_palette_finds_what_has_all_the_words() {
     assert!(names.contains(&"goto") && !names.contains(&"set-mark"), "{names:?}");
 }
 
-/// The headings and names that the palette finds for some words.
-fn found(words: &str) -> Vec<(&'static str, &'static str)> {
-    let trial = Trial::open("plain");
-    let list = crate::session::List { search: words.to_owned(), ..Default::default() };
-    let rows = trial.session.palette_rows(&list);
-    rows.iter().map(|row| (trial.session.heading(*row), row.name())).collect()
-}
-
-/// Words that a person may type, and the row that is meant.
-#[rustfmt::skip]
-const MEANT: [(&str, &str); 59] = [
-    ("fold", "walk-to-next"), ("export", "save-figure"), ("stable", "cycles"), ("animate", "play-motion"),
-    ("fig 16", "fig16"), ("fig16b", "supercritical"), ("time series", "time-series"), ("damping", "damping"),
-    ("save", "write"), ("zoom", "zoom-in"), ("undo", "undo"), ("amplitude", "diagram"), ("basin", "basin"),
-    ("hopf", "hopf"), ("period", "axes"), ("quit", "quit"), ("exit", "quit"), ("copy", "copy-number"),
-    ("theme", "theme"), ("help", "help"), ("keys", "help"), ("color", "color"), ("bifurcation", "diagram"),
-    ("phase plane", "phase"), ("friction", "friction"), ("sweep", "scan-form"), ("scan", "scan-form"),
-    ("kick", "start-inside"), ("tolerance", "tol"), ("method", "next-method"), ("mouse", "mouse"),
-    ("record", "record"), ("mark", "set-mark"), ("import", "fit"), ("load", "open"),
-    ("open", "open"), ("print", "save-figure"), ("csv", "save-scan"), ("eigenvalue", "eigenvalues"),
-    ("poincare", "return-map"), ("return map", "return-map"), ("lyapunov", "lyapunov"), ("restart", "reset-scene"),
-    ("reset", "reset-value"), ("squeal", "groan"), ("tour", "tour"), ("window", "window"), ("axis", "axes"),
-    ("new plot", "add-plot"), ("split", "add-plot"), ("redo", "redo"), ("screenshot", "copy-screen"),
-    ("play", "play-motion"), ("uncertainty", "wider"), ("border", "boundaries"), ("clutch", "clutch"),
-    ("48", "(48)"), ("search", "palette"), ("resume", "restore"),
-];
-
-#[test]
-fn what_a_person_types_finds_first_what_is_meant() {
-    let first = |words: &str| found(words).first().map(|(_, name)| *name);
-    let wrong: Vec<_> = MEANT.iter().filter(|(words, name)| first(words) != Some(name)).collect();
-    let found: Vec<_> = wrong.iter().map(|(words, _)| (words, first(words))).collect();
-    assert!(wrong.is_empty(), "{found:?}");
-}
-
-#[test]
-fn a_key_that_is_searched_for_comes_before_all_that_has_its_letter() {
-    for (key, name) in [("i", "start-inside"), ("%", "scan-form"), ("W", "add-plot")] {
-        assert_eq!(found(key)[0].1, name, "{key}");
-    }
-}
-
 #[test]
 fn a_picker_lists_first_what_is_called_so() {
     for (search, view) in [("damping", View::Damping), ("phase", View::Phase)] {
@@ -217,6 +158,14 @@ fn a_picker_lists_first_what_is_called_so() {
     let mut trial = Trial::open("plain");
     trial.press("s/escape<enter>");
     assert_eq!(trial.session.scene.name, "escape");
+}
+
+/// The headings and names that the palette finds for some words.
+fn found(words: &str) -> Vec<(&'static str, &'static str)> {
+    let trial = Trial::open("plain");
+    let list = crate::session::List { search: words.to_owned(), ..Default::default() };
+    let rows = trial.session.palette_rows(&list);
+    rows.iter().map(|row| (trial.session.heading(*row), row.name())).collect()
 }
 
 #[test]

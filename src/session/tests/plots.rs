@@ -116,23 +116,6 @@ fn fit_shows_every_variant_and_not_the_motion_that_none_of_them_is() {
 }
 
 #[test]
-fn fit_waits_for_what_is_being_computed() {
-    let mut trial = Trial::open("supercritical");
-    for key in ["<down*2>", "<right>", "<tab>", "0"] {
-        let script = crate::session::replay::parse(key).unwrap();
-        let mut player = crate::session::replay::Player::new(script);
-        while let Ok(crate::session::replay::Action::Give(message)) = player.next(true, String::new)
-        {
-            crate::session::update(&mut trial.session, message);
-        }
-    }
-    assert_eq!(trial.session.plots[0].framing, Framing::Fitting);
-    assert_eq!(trial.session.plots[0].window, trial.session.scene.plots[0].opening());
-    trial.settle();
-    assert_eq!(trial.session.plots[0].framing, Framing::Fitted);
-}
-
-#[test]
 fn the_motion_starts_on_either_side_of_the_unstable_cycle() {
     // In the made-up answer, the unstable cycle has clearance 1.
     Trial::open("supercritical").goes(&[
