@@ -480,7 +480,7 @@ fn linear_branch(r: f64, from: f64, to: f64, points: Points) -> Option<Vec<Branc
             _ if index + 1 == count => to,
             _ => from * pow(to / from, fraction),
         };
-        let cycle = LinearCycle::new(d, r).ok()?;
+        let cycle = LinearCycle::new(d, r)?;
         Some(BranchPoint { value: d, cycle: Cycle::from(&cycle) })
     };
     Some((0..count).filter_map(point).collect())

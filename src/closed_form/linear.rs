@@ -162,16 +162,6 @@ fn together(slow: f64, fast: f64) -> f64 {
     if fast.is_infinite() { fast } else { slow + fast }
 }
 
-/// [`Linear::state`] for a single use.
-pub fn linear_flow(d: f64, x: f64, v: f64, t: f64) -> (f64, f64) {
-    Linear::new(d).state(x, v, t)
-}
-
-/// [`Linear::first_standstill`] for a single use.
-pub fn first_standstill(d: f64, x: f64, v: f64) -> Option<Standstill> {
-    Linear::new(d).first_standstill(x, v)
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
@@ -184,7 +174,7 @@ mod tests {
     fn states_agree_with_sixty_digit_arithmetic() {
         for row in rows(include_str!("../../tests/data/linear_states.csv")) {
             let [d, x0, v0, t, x, v] = row[..] else { panic!("{row:?}") };
-            let got = linear_flow(d, x0, v0, t);
+            let got = Linear::new(d).state(x0, v0, t);
             let size = x.abs().max(v.abs());
             let error = (got.0 - x).abs().max((got.1 - v).abs()) / size;
             assert!(error <= 8.0 * f64::EPSILON, "D = {d:?}, t = {t}: {got:?}, error {error:e}");
@@ -195,7 +185,7 @@ mod tests {
     fn standstills_agree_with_sixty_digit_arithmetic() {
         for row in rows(include_str!("../../tests/data/linear_standstills.csv")) {
             let [d, x0, v0, ref expected @ ..] = row[..] else { panic!("{row:?}") };
-            let got = first_standstill(d, x0, v0);
+            let got = Linear::new(d).first_standstill(x0, v0);
             assert_eq!(got.is_none(), expected.is_empty(), "D = {d:?}, ({x0}, {v0}): {got:?}");
             if let (Some(got), &[time, x]) = (got, expected) {
                 let error = (got.time / time - 1.0).abs();
@@ -208,12 +198,15 @@ mod tests {
     #[test]
     fn a_swing_from_rest_takes_half_a_period_where_there_is_one() {
         assert_eq!(
-            first_standstill(0.0, -1.0, 0.0),
+            Linear::new(0.0).first_standstill(-1.0, 0.0),
             Some(Standstill { time: std::f64::consts::PI, x: 1.0 })
         );
-        assert_eq!(first_standstill(-0.0, -1.0, 0.0), first_standstill(0.0, -1.0, -0.0));
+        assert_eq!(
+            Linear::new(-0.0).first_standstill(-1.0, 0.0),
+            Linear::new(0.0).first_standstill(-1.0, -0.0)
+        );
         for d in [1.0, -1.0, 1.0 + 1e-3, -1.0 - 1e-3, 2.0, 1e6] {
-            assert_eq!(first_standstill(d, -1.0, 0.0), None, "D = {d}");
+            assert_eq!(Linear::new(d).first_standstill(-1.0, 0.0), None, "D = {d}");
         }
     }
 
@@ -221,7 +214,7 @@ mod tests {
     fn what_overflows_is_infinite_and_never_nan() {
         for d in [-1e6, -1.001, -1.0, -0.999_999, 1e6] {
             for (x, v) in [(-1.0, 0.0), (0.0, 0.0), (-0.3, 1.0), (1e300, -1e300)] {
-                let (x, v) = linear_flow(d, x, v, 1e5);
+                let (x, v) = Linear::new(d).state(x, v, 1e5);
                 assert!(!x.is_nan() && !v.is_nan(), "D = {d}: {x} {v}");
             }
         }
@@ -241,9 +234,9 @@ mod tests {
     proptest! {
         #[test]
         fn two_steps_are_one(d in damping(), x in -1.0..1.0, v in -1.0..1.0, s in 0.0..3.0, t in 0.0..3.0) {
-            let once = linear_flow(d, x, v, s + t);
-            let halfway = linear_flow(d, x, v, s);
-            let twice = linear_flow(d, halfway.0, halfway.1, t);
+            let once = Linear::new(d).state(x, v, s + t);
+            let halfway = Linear::new(d).state(x, v, s);
+            let twice = Linear::new(d).state(halfway.0, halfway.1, t);
             // Growth within 6 time units bounds what the error of the first step becomes.
             let size = (halfway.0.abs() + halfway.1.abs()) * exp(3.0 * t);
             let error = (once.0 - twice.0).abs().max((once.1 - twice.1).abs());
@@ -255,12 +248,12 @@ mod tests {
             d in damping(), x in -1.0..1.0, v in -1.0..1.0, t in 0.0..6.0, k in -400_i32..=400,
         ) {
             let unit = exp2(f64::from(k));
-            let plain = linear_flow(d, x, v, t);
-            let other = linear_flow(d, -x * unit, -v * unit, t);
+            let plain = Linear::new(d).state(x, v, t);
+            let other = Linear::new(d).state(-x * unit, -v * unit, t);
             prop_assert_eq!((-plain.0 * unit, -plain.1 * unit), other);
             let v = v.abs();
-            let plain = first_standstill(d, x, v);
-            let other = first_standstill(d, -x * unit, -v * unit);
+            let plain = Linear::new(d).first_standstill(x, v);
+            let other = Linear::new(d).first_standstill(-x * unit, -v * unit);
             prop_assert_eq!(plain.map(|it| (it.time, -it.x * unit)), other.map(|it| (it.time, it.x)));
         }
 
@@ -268,13 +261,13 @@ mod tests {
         fn velocity_is_positive_until_the_first_standstill(
             d in damping(), x0 in -1.0..1.0, v0 in 1e-3..1.0, part in 0.0..1.0,
         ) {
-            let end = first_standstill(d, x0, v0).map_or(10.0, |it| it.time);
-            prop_assert!(linear_flow(d, x0, v0, end * part).1 >= 0.0);
-            if let Some(still) = first_standstill(d, x0, v0) {
-                let (x, v) = linear_flow(d, x0, v0, still.time);
+            let end = Linear::new(d).first_standstill(x0, v0).map_or(10.0, |it| it.time);
+            prop_assert!(Linear::new(d).state(x0, v0, end * part).1 >= 0.0);
+            if let Some(still) = Linear::new(d).first_standstill(x0, v0) {
+                let (x, v) = Linear::new(d).state(x0, v0, still.time);
                 // The last digit of the start alone moves the time by this much: where next to critical
                 // damping a motion almost misses v = 0, by more than any rounding.
-                let moved = first_standstill(d, x0, v0.next_up());
+                let moved = Linear::new(d).first_standstill(x0, v0.next_up());
                 let unsure = moved.map_or(f64::INFINITY, |moved| (moved.time - still.time).abs());
                 let bound = 1e-14 * (1.0 + still.time) + 4.0 * unsure;
                 prop_assert!(v.abs() <= bound * x.abs(), "{x} {v} {still:?}");

@@ -5,14 +5,13 @@
 //!   of two without error, [`sum`] compensates rounding, [`mod@count`] converts between counts and real numbers,
 //!   [`random`] simulates noise.
 //! - Functions: [`elementary`] has those of the standard library, [`root`] finds zeros inside brackets, [`quadrature`]
-//!   integrates, [`polynomial`] evaluates, [`hermite`] interpolates by cubics, [`spline`] smooths measured points.
+//!   integrates, [`polynomial`] evaluates and interpolates by cubics, [`spline`] smooths measured points.
 //! - Texts: [`decimal`] writes numbers, [`similar`] finds the name that was meant.
 
 pub(crate) mod count;
 pub(crate) mod decimal;
 #[doc(hidden)]
 pub mod elementary;
-pub(crate) mod hermite;
 pub(crate) mod interval;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;

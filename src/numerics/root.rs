@@ -297,23 +297,6 @@ mod tests {
     }
 
     #[test]
-    fn errors_end_each_search_at_once() {
-        let count = Cell::new(0);
-        let fail = |_: f64| {
-            count.set(count.get() + 1);
-            Err::<f64, _>("no value")
-        };
-        let ends = [(0.0, -1.0), (1.0, 1.0)];
-        assert_eq!(illinois(ends, 0.0, PlaceTolerance::Relative(0.0), fail), Err("no value"));
-        assert_eq!(try_bisect(0.0, 1.0, 9, |at| fail(at).map(|it| it > 0.0)), Err("no value"));
-        let newton =
-            try_newton(Bracket::rising(0.0, 1.0), 0.5, PlaceTolerance::Relative(0.0), |at| {
-                fail(at).map(|value| (value, 1.0))
-            });
-        assert_eq!((newton, count.get()), (Err("no value"), 3));
-    }
-
-    #[test]
     fn the_largest_value_is_bracketed() {
         let count = Cell::new(0);
         let (low, high) = maximum(-1.0, 5.0, 1e-6, |x| {

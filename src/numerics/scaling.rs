@@ -1,5 +1,8 @@
 //! Powers of two as units: multiplication by one of them is exact.
 
+/// `value * 2^k` for every `k`, rounded at most once.
+pub use libm::scalbn as times_power;
+
 /// The exponent `k` with `2^k <= abs(value) < 2^(k + 1)`; 0 for zero.
 pub fn exponent(value: f64) -> i32 {
     const FRACTION_BITS: i32 = 52;
@@ -10,30 +13,8 @@ pub fn exponent(value: f64) -> i32 {
     let field = |bits: u64| i32::try_from((bits >> FRACTION_BITS) & 0x7ff).unwrap_or(0);
     match field(value.to_bits()) {
         // Subnormal: normalise by an exact multiplication first.
-        0 => field((value * power(BIAS)).to_bits()) - 2 * BIAS,
+        0 => field(times_power(value, BIAS).to_bits()) - 2 * BIAS,
         biased => biased - BIAS,
-    }
-}
-
-/// `2^k` for `-1022 <= k <= 1023`.
-fn power(k: i32) -> f64 {
-    f64::from_bits(u64::from((k.clamp(-1022, 1023) + 1023).unsigned_abs()) << 52)
-}
-
-/// `value * 2^k` for every `k`, rounded at most once.
-pub fn times_power(value: f64, k: i32) -> f64 {
-    if (-1022..=1023).contains(&k) {
-        value * power(k)
-    } else if k > 0 {
-        value * power(1023) * power((k - 1023).min(1023)) * power((k - 2046).max(0))
-    } else {
-        // Two steps would round twice in the subnormal range; the first step keeps the value normal.
-        let lifted = k + 1022;
-        if exponent(value) + lifted >= -1022 {
-            value * power(lifted) * power(-1022)
-        } else {
-            value * power(lifted.max(-1022)) * power(-1022) * power((lifted + 1022).min(0))
-        }
     }
 }
 

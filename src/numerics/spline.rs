@@ -28,27 +28,32 @@ pub const FEWEST: usize = 4;
 
 /// The data of a curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Points {
+struct ScatteredPoints {
     points: Vec<(f64, f64)>,
     scatter: f64,
 }
 
 /// A smooth curve near given points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Points", into = "Points")]
+#[serde(try_from = "ScatteredPoints", into = "ScatteredPoints")]
 pub struct SmoothingSpline {
     /// The data of the curve, for serialization.
-    given: Points,
-    /// Abscissae, increasing.
-    x: Vec<f64>,
-    /// Values of the curve at the abscissae.
-    g: Vec<f64>,
-    /// First and second derivatives at the left end of each interval.
-    slopes: Vec<(f64, f64)>,
-    /// Third derivative on each interval, as a quadratic in the distance from the left end.
-    third: Vec<[f64; 3]>,
+    given: ScatteredPoints,
+    /// The curve on each interval.
+    pieces: Vec<Piece>,
     /// Root mean square distance from the points.
     missed: f64,
+}
+
+/// A curve between two neighbouring points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Piece {
+    /// Value, first and second derivative at the left end.
+    value: f64,
+    first: f64,
+    second: f64,
+    /// Third derivative, as a quadratic in the distance from the left end.
+    third: [f64; 3],
 }
 
 /// Why no curve can be constructed from points.
@@ -93,15 +98,15 @@ impl fmt::Display for PointsError {
 
 impl std::error::Error for PointsError {}
 
-impl TryFrom<Points> for SmoothingSpline {
+impl TryFrom<ScatteredPoints> for SmoothingSpline {
     type Error = PointsError;
 
-    fn try_from(given: Points) -> Result<Self, PointsError> {
+    fn try_from(given: ScatteredPoints) -> Result<Self, PointsError> {
         SmoothingSpline::new(&given.points, given.scatter)
     }
 }
 
-impl From<SmoothingSpline> for Points {
+impl From<SmoothingSpline> for ScatteredPoints {
     fn from(spline: SmoothingSpline) -> Self {
         spline.given
     }
@@ -123,30 +128,34 @@ impl SmoothingSpline {
             return Err(PointsError::Point { index });
         }
         let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
-        let system = System::new(&x, &y);
+        let system = SplineSystem::new(&x, &y);
         let smoothing = system.smoothing(scatter);
         let (c, g) = system.solve(smoothing);
         let missed = quadratic_mean(&y, &g);
         let third = third_derivatives(&x, &c);
         let slopes = slopes(&x, &g, &third);
-        let all = third.iter().flatten().chain(&g).copied();
-        if !all.chain(slopes.iter().flat_map(|pair| [pair.0, pair.1])).all(f64::is_finite) {
+        let piece = |((value, (first, second)), third)| Piece { value, first, second, third };
+        let pieces: Vec<_> = g.iter().copied().zip(slopes).zip(third).map(piece).collect();
+        let is_finite = |it: &Piece| {
+            it.third.iter().chain([&it.first, &it.second]).all(|number| number.is_finite())
+        };
+        if !(pieces.iter().all(is_finite) && g.iter().all(|value| value.is_finite())) {
             let gap = |index: &usize| x[index + 1] - x[*index];
             let closest = (0..x.len() - 1).min_by(|one, other| gap(one).total_cmp(&gap(other)));
             return Err(PointsError::Uneven { index: closest.unwrap_or(0) });
         }
-        let given = Points { points: points.to_vec(), scatter };
-        Ok(SmoothingSpline { given, x, g, slopes, third, missed })
+        let given = ScatteredPoints { points: points.to_vec(), scatter };
+        Ok(SmoothingSpline { given, pieces, missed })
     }
 
     /// First and last abscissa.
     pub fn range(&self) -> (f64, f64) {
-        (self.x[0], self.x[self.x.len() - 1])
+        (self.given.points[0].0, self.given.points[self.pieces.len()].0)
     }
 
     /// Number of points.
     pub fn points(&self) -> usize {
-        self.x.len()
+        self.given.points.len()
     }
 
     /// A number that the same data always have, and other data hardly ever (FNV-1a).
@@ -163,22 +172,21 @@ impl SmoothingSpline {
 
     /// The pieces in order: their two ends, and the coefficients in powers of the distance from the left end.
     pub fn polynomials(&self) -> impl Iterator<Item = (f64, f64, [f64; 6])> + '_ {
-        let ends = self.x.windows(2).zip(&self.g).zip(self.slopes.iter().zip(&self.third));
-        ends.map(|((ends, value), ((first, second), [a, b, c]))| {
-            let terms = [*value, *first, second / 2.0, a / 6.0, b / 24.0, c / 60.0];
-            (ends[0], ends[1], terms)
+        self.given.points.windows(2).zip(&self.pieces).map(|(ends, piece)| {
+            let Piece { value, first, second, third: [a, b, c] } = *piece;
+            (ends[0].0, ends[1].0, [value, first, second / 2.0, a / 6.0, b / 24.0, c / 60.0])
         })
     }
 
     /// The curve and its derivatives at `x`; beyond the ends the end pieces are continued.
     pub fn at(&self, x: f64) -> Derivatives {
-        let after = self.x.partition_point(|&knot| knot <= x);
-        let piece = after.clamp(1, self.x.len() - 1) - 1;
-        let t = x - self.x[piece];
-        let [a, b, c] = self.third[piece];
-        let (first, second) = self.slopes[piece];
+        let after = self.given.points.partition_point(|knot| knot.0 <= x);
+        let index = after.clamp(1, self.pieces.len()) - 1;
+        let t = x - self.given.points[index].0;
+        let Piece { value, first, second, third } = self.pieces[index];
+        let [a, b, c] = third;
         Derivatives {
-            value: self.g[piece] + t * (first + t * second / 2.0) + thrice(self.third[piece], t),
+            value: value + t * (first + t * second / 2.0) + thrice(third, t),
             first: first + t * (second + t * (a / 2.0 + t * (b / 6.0 + t * c / 12.0))),
             second: second + t * (a + t * (b / 2.0 + t * c / 3.0)),
             third: a + t * (b + t * c),
@@ -201,7 +209,7 @@ fn quadratic_mean(one: &[f64], other: &[f64]) -> f64 {
 type Band = Vec<[f64; 4]>;
 
 /// The linear system for given points.
-struct System<'a> {
+struct SplineSystem<'a> {
     y: &'a [f64],
     /// Third divided differences: row i acts on points i to i + 3.
     q: Vec<[f64; 4]>,
@@ -209,7 +217,7 @@ struct System<'a> {
     penalty: Band,
 }
 
-impl<'a> System<'a> {
+impl<'a> SplineSystem<'a> {
     fn new(x: &[f64], y: &'a [f64]) -> Self {
         let rows = x.len() - 3;
         let q: Vec<[f64; 4]> = (0..rows).map(|row| divided_difference(&x[row..row + 4])).collect();
@@ -222,7 +230,7 @@ impl<'a> System<'a> {
                 penalty[row][right] = 36.0 * shared.map(|(one, other)| one * other).sum::<f64>();
             }
         }
-        System { y, q, gram, penalty }
+        SplineSystem { y, q, gram, penalty }
     }
 
     /// Coefficients of the third derivative and values at the points.
@@ -379,4 +387,96 @@ fn ahead(first: [f64; 3], second: [f64; 3], h: f64, far: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    //! Smoothing against exact curves.
+
+    use super::*;
+    use crate::numerics::elementary::{exp, pow};
+
+    fn sampled(mu: impl Fn(f64) -> f64, count: u32) -> Vec<(f64, f64)> {
+        // Unevenly spaced, closer near 0, as measurements are.
+        let at = |index: u32| pow(f64::from(index) / f64::from(count - 1), 1.3);
+        (0..count).map(|index| (at(index), mu(at(index)))).collect()
+    }
+
+    fn stribeck(v: f64) -> f64 {
+        0.2 + 0.3 * exp(-v / 0.3)
+    }
+
+    #[test]
+    fn it_passes_through_every_point_and_repeats_parabolas() {
+        let points = sampled(stribeck, 12);
+        let spline = SmoothingSpline::new(&points, 0.0).unwrap();
+        assert!(points.iter().all(|&(x, y)| (spline.at(x).value - y).abs() < 1e-14));
+        let parabola = |v: f64| 0.5 - 0.3 * v + 0.1 * v * v;
+        let spline = SmoothingSpline::new(&sampled(parabola, 9), 0.0).unwrap();
+        for v in [0.0, 0.123, 0.5, 1.0] {
+            let found = spline.at(v);
+            assert!((found.value - parabola(v)).abs() < 1e-14);
+            assert!((found.first - (0.2 * v - 0.3)).abs() < 1e-12);
+            assert!((found.second - 0.2).abs() < 1e-10 && found.third.abs() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn four_derivatives_are_continuous() {
+        let points = sampled(stribeck, 9);
+        let spline = SmoothingSpline::new(&points, 0.0).unwrap();
+        for &(x, _) in &points[1..8] {
+            let (before, after) = (spline.at(x - 1e-9), spline.at(x + 1e-9));
+            assert!((before.first - after.first).abs() < 1e-7);
+            assert!((before.second - after.second).abs() < 1e-6);
+            assert!((before.third - after.third).abs() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn derivatives_away_from_the_ends_converge_to_those_of_the_law() {
+        let exact = Derivatives {
+            value: stribeck(0.5),
+            first: (stribeck(0.5) - 0.2) / -0.3,
+            second: (stribeck(0.5) - 0.2) / 0.09,
+            third: (stribeck(0.5) - 0.2) / -0.027,
+        };
+        let error = |count| {
+            let found = SmoothingSpline::new(&sampled(stribeck, count), 0.0).unwrap().at(0.5);
+            (found.third / exact.third - 1.0).abs().max((found.first / exact.first - 1.0).abs())
+        };
+        assert!(error(12) < 0.05, "{}", error(12));
+        assert!(error(48) < 2e-3 && error(192) < 1e-4, "{} {}", error(48), error(192));
+    }
+
+    #[test]
+    fn scatter_is_taken_out_by_as_much_as_was_said() {
+        // Uniform deviations of root mean square 0.01, from a congruential generator.
+        let mut points = sampled(stribeck, 60);
+        let mut seed = 1_u32;
+        for point in &mut points {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let even = f64::from(seed) / f64::from(u32::MAX) - 0.5;
+            point.1 += 0.01 * 12.0_f64.sqrt() * even;
+        }
+        let spline = SmoothingSpline::new(&points, 0.01).unwrap();
+        assert!((spline.missed() - 0.01).abs() < 1e-6, "{}", spline.missed());
+        let rough = SmoothingSpline::new(&points, 0.0).unwrap();
+        let slope = (stribeck(0.5) - 0.2) / -0.3;
+        let (smooth, rough) = (spline.at(0.5).first, rough.at(0.5).first);
+        assert!((smooth / slope - 1.0).abs() < 0.1, "{smooth} for {slope}");
+        assert!((rough / slope - 1.0).abs() > 0.2, "{rough} for {slope}");
+        // If all deviation is allowed as scatter, the least squares parabola remains.
+        let parabola = SmoothingSpline::new(&points, 1.0).unwrap();
+        assert!(parabola.at(0.5).third.abs() < 1e-6);
+    }
+
+    #[test]
+    fn what_is_no_table_is_refused() {
+        let refused = |points: &[(f64, f64)]| SmoothingSpline::new(points, 0.0).unwrap_err();
+        assert_eq!(refused(&[(0.0, 1.0); 3]), PointsError::TooFew { count: 3 });
+        let twice = [(0.0, 1.0), (1.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
+        assert_eq!(refused(&twice), PointsError::Point { index: 2 });
+        let uneven = [(0.0, 0.4), (1.0, 0.3), (1.0 + 1e-15, 0.25), (1e300, 0.2)];
+        assert_eq!(refused(&uneven), PointsError::Uneven { index: 1 });
+        let missing = [(0.0, 1.0), (1.0, f64::NAN), (2.0, 2.0), (3.0, 1.0)];
+        assert_eq!(refused(&missing), PointsError::Point { index: 1 });
+    }
+}

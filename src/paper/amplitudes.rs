@@ -2,16 +2,16 @@
 
 use std::f64::consts::PI;
 
-use super::certain::BoundedCycle;
-use super::harmonic::{NO_AMPLITUDE, largest_amplitude};
+use super::harmonic::largest_amplitude;
+use super::known::Known;
 use super::measure::{
-    Known, amplitude, beside_proof, cycles, largest, last_cycle, of_cycle, oscillator, place,
-    smallest,
+    amplitude, beside_proof, cycles, everywhere, extent, largest, last_cycle, missing, oscillator,
+    over, place, smallest, towards,
 };
 use super::{Claim, Finding};
 use crate::branch::fold::fold;
 use crate::branch::special::FoldPoint;
-use crate::closed_form::harmonic::{self, Harmonic, amplitudes};
+use crate::closed_form::harmonic::{self, amplitudes};
 use crate::flow::{Limits, Reason};
 use crate::model::Parameters;
 use crate::numerics::elementary::{cbrt, powi};
@@ -25,7 +25,7 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            over_branch(|parameters| {
+            over(BRANCH.map(both_cycles), |parameters| {
                 let cycle = smallest(parameters, limits)?;
                 Ok(Finding::near(amplitudes(parameters)[0].amplitude, amplitude(&cycle)))
             })
@@ -38,7 +38,7 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            over_branch(|parameters| {
+            over(BRANCH.map(both_cycles), |parameters| {
                 let cycle = largest(parameters, limits)?;
                 Ok(Finding::near(largest_amplitude(parameters)?, amplitude(&cycle)))
             })
@@ -51,8 +51,8 @@ pub const CLAIMS: &[Claim] = &[
         basis: "(43)",
         scene: Some("fig10"),
         check: |_| {
-            Finding::worst(dampings().map(|(d, d3)| {
-                let r = 0.1;
+            over(both_sides(), |parameters| {
+                let Parameters { d, d3, r, .. } = *parameters;
                 let (a, b) = (8.0 * d / (3.0 * d3), 16.0 * r / (3.0 * PI * d3));
                 let (cube, square) = (-4.0 * a * a * a, 27.0 * b * b);
                 // What is left of the difference of two terms is uncertain by their rounding.
@@ -60,8 +60,8 @@ pub const CLAIMS: &[Claim] = &[
                 let computed = Known::new(cube - square, error);
                 let scale = powi(16.0 / (3.0 * d3), 2) / 3.0;
                 let formula = scale * (-8.0 * d * d * (d / d3) - powi(9.0 / PI, 2) * r * r);
-                Ok(Finding::equal(formula, computed).at(place(&oscillator(d, 0.0, d3, r))))
-            }))
+                Ok(Finding::equal(formula, computed))
+            })
         },
     },
     Claim {
@@ -71,13 +71,10 @@ pub const CLAIMS: &[Claim] = &[
         basis: "(42)",
         scene: Some("fig10"),
         check: |_| {
-            let cases = dampings().map(|(d, d3)| {
-                let parameters = oscillator(d, 0.0, d3, 0.1);
-                let positive = harmonic::discriminant(&parameters).is_some_and(|value| value > 0.0);
-                let expected = if positive { 3 } else { 1 };
-                (place(&parameters), real_roots(&parameters) == expected)
-            });
-            Ok(Finding::always(cases))
+            everywhere(both_sides(), |parameters| {
+                let positive = harmonic::discriminant(parameters).is_some_and(|value| value > 0.0);
+                Ok(real_roots(parameters) == if positive { 3 } else { 1 })
+            })
         },
     },
     Claim {
@@ -91,13 +88,11 @@ pub const CLAIMS: &[Claim] = &[
             const PARTS: [f64; 8] = [0.2, 0.8, 0.95, 1.0025, 1.05, 1.3, 2.0, 3.0];
             let cases = [0.1, 0.5, 2.0, 25.0].into_iter().flat_map(|d3| {
                 let fold = printed_fold(d3, 0.1);
-                PARTS.map(|part| {
-                    (oscillator(part * fold, 0.0, d3, 0.1), 2 * usize::from(part > 1.0))
-                })
+                PARTS.map(|part| oscillator(part * fold, 0.0, d3, 0.1))
             });
-            let between = (oscillator(-0.637, 0.0, 0.25, 1.0), 2);
-            let cases = std::iter::once(between).chain(cases);
-            counted(limits, cases.filter(|(parameters, _)| parameters.d.abs() <= 1.0))
+            let between = oscillator(-0.637, 0.0, 0.25, 1.0);
+            let cases = std::iter::once(between).chain(cases).filter(|it| it.d.abs() <= 1.0);
+            counted(limits, cases, |it| 2 * usize::from(it.d < printed_fold(it.d3, it.r)))
         },
     },
     Claim {
@@ -108,10 +103,8 @@ pub const CLAIMS: &[Claim] = &[
         scene: Some("fig10"),
         check: |limits| {
             const DAMPINGS: [f64; 9] = [-1.0, -0.99, -0.75, -0.2, -0.02, 0.0, 0.2, 0.75, 1.0];
-            let cases = [-0.1, -0.5, -2.0]
-                .into_iter()
-                .flat_map(|d3| DAMPINGS.map(|d| (oscillator(d, 0.0, d3, 0.1), 1)));
-            counted(limits, cases)
+            let cases = [-0.1, -0.5, -2.0].map(|d3| DAMPINGS.map(|d| oscillator(d, 0.0, d3, 0.1)));
+            counted(limits, cases.into_iter().flatten(), |_| 1)
         },
     },
     Claim {
@@ -122,8 +115,8 @@ pub const CLAIMS: &[Claim] = &[
         scene: Some("fig10"),
         check: |limits| {
             let dampings = [-1.0, -0.9, -0.5, -0.1, -1e-3, 0.0, 0.1, 0.5];
-            let case = |d: f64| (oscillator(d, 0.0, 0.0, 0.1), usize::from(d <= 0.0));
-            counted(limits, dampings.map(case))
+            let cases = dampings.map(|d| oscillator(d, 0.0, 0.0, 0.1));
+            counted(limits, cases, |it| usize::from(it.d <= 0.0))
         },
     },
     Claim {
@@ -154,17 +147,14 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig11"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for d2 in [0.0, 0.2, 0.5, 1.0] {
-                for part in [0.9, 1.1] {
-                    let d = part * printed_fold(0.01, 0.1);
-                    let parameters = oscillator(d, d2, 0.01, 0.1);
-                    let finite = cycles(&parameters, limits)?.answer(|found| !found.is_empty());
-                    let case = format!("D = {part} D_F, D2 = {d2}, D3 = 0.01, r = 0.1");
-                    cases.push((case, finite.is(part > 1.0)));
-                }
-            }
-            Ok(Finding::always(cases))
+            let cases = [0.0, 0.2, 0.5, 1.0].into_iter().flat_map(|d2| [(d2, 0.9), (d2, 1.1)]);
+            Finding::always(cases.map(|(d2, part)| {
+                let d = part * printed_fold(0.01, 0.1);
+                let found = cycles(&oscillator(d, d2, 0.01, 0.1), limits)?;
+                let finite = found.map(|found| !found.is_empty());
+                let case = format!("D = {part} D_F, D2 = {d2}, D3 = 0.01, r = 0.1");
+                Ok((case, finite.is(part > 1.0)))
+            }))
         },
     },
     Claim {
@@ -191,12 +181,12 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            Finding::worst([-0.01, -0.1, -1.0, -10.0, -25.0].map(|d3| {
-                let parameters = oscillator(0.0, 0.0, d3, 0.1);
-                let cycle = smallest(&parameters, limits)?;
-                let formula = cbrt(-16.0 * parameters.r / (3.0 * PI * d3));
-                Ok(Finding::near(formula, amplitude(&cycle)).at(place(&parameters)))
-            }))
+            let cases = [-0.01, -0.1, -1.0, -10.0, -25.0].map(|d3| oscillator(0.0, 0.0, d3, 0.1));
+            over(cases, |parameters| {
+                let cycle = smallest(parameters, limits)?;
+                let formula = cbrt(-16.0 * parameters.r / (3.0 * PI * parameters.d3));
+                Ok(Finding::near(formula, amplitude(&cycle)))
+            })
         },
     },
     Claim {
@@ -206,13 +196,12 @@ pub const CLAIMS: &[Claim] = &[
         basis: "(42)",
         scene: Some("fig09"),
         check: |_| {
-            Finding::worst([-0.9, -0.4, -0.01].map(|d| {
-                let parameters = oscillator(d, 0.0, 0.0, 0.1);
-                let root = largest_amplitude(&parameters)?;
+            over([-0.9, -0.4, -0.01].map(|d| oscillator(d, 0.0, 0.0, 0.1)), |parameters| {
+                let (d, root) = (parameters.d, largest_amplitude(parameters)?);
                 let left = 4.0 * parameters.r / PI + 2.0 * d * root;
                 let computed = Known::new(root - left / (2.0 * d), f64::EPSILON * root);
-                Ok(Finding::equal(small(&parameters), computed).at(place(&parameters)))
-            }))
+                Ok(Finding::equal(small(parameters), computed))
+            })
         },
     },
     Claim {
@@ -222,12 +211,10 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig09"),
         check: |limits| {
-            Finding::worst([-0.9, -0.7, -0.4, -0.1, -0.01].map(|d| {
-                let parameters = oscillator(d, 0.0, 0.0, 0.1);
-                let cycle = smallest(&parameters, limits)?;
-                let computed = of_cycle(&cycle, cycle.q_max, |it| it.q_max);
-                Ok(Finding::equal(small(&parameters), computed).at(place(&parameters)))
-            }))
+            let cases = [-0.9, -0.7, -0.4, -0.1, -0.01].map(|d| oscillator(d, 0.0, 0.0, 0.1));
+            over(cases, |parameters| {
+                Ok(Finding::equal(small(parameters), extent(&smallest(parameters, limits)?)))
+            })
         },
     },
     Claim {
@@ -237,7 +224,7 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            over_branch(|parameters| {
+            over(BRANCH.map(both_cycles), |parameters| {
                 Ok(Finding::near(small(parameters), amplitude(&smallest(parameters, limits)?)))
             })
         },
@@ -260,12 +247,13 @@ pub const CLAIMS: &[Claim] = &[
         basis: "(42)",
         scene: Some("fig12"),
         check: |_| {
-            let Parameters { d, d3, r, .. } = TWO_CYCLES;
-            let root = largest_amplitude(&TWO_CYCLES)?;
+            let parameters = both_cycles(-0.3);
+            let Parameters { d, d3, r, .. } = parameters;
+            let root = largest_amplitude(&parameters)?;
             let computed = Known::relative(-2.0 * r / (PI * d), 1e-14);
             let terms = |factor: f64| root + factor * d3 / d * powi(root, 3);
             let finding = Finding::equal(terms(8.0 / 3.0), computed).corrected(terms(3.0 / 8.0));
-            Ok(finding.at(place(&TWO_CYCLES)))
+            Ok(finding.at(place(&parameters)))
         },
     },
     Claim {
@@ -275,7 +263,7 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            over_branch(|parameters| {
+            over(BRANCH.map(both_cycles), |parameters| {
                 Ok(Finding::near(large(parameters), amplitude(&largest(parameters, limits)?)))
             })
         },
@@ -287,9 +275,10 @@ pub const CLAIMS: &[Claim] = &[
         basis: "(42)",
         scene: Some("fig12"),
         check: |_| {
+            let solutions = |it: &Parameters| amplitudes(it).into_iter().map(|one| one.amplitude);
             Finding::worst([
-                approached(0.5, -1.0, <[_]>::first, small),
-                approached(0.5, -1.0, <[_]>::last, large),
+                approached(0.5, -1.0, |it| solutions(it).next(), small),
+                approached(0.5, -1.0, |it| solutions(it).last(), large),
             ])
         },
     },
@@ -300,16 +289,10 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for d in [-0.9, -0.5, -0.3, -0.2] {
-                let parameters = Parameters { d, ..TWO_CYCLES };
-                let found = cycles(&parameters, limits)?;
-                let pair = |found: &[BoundedCycle]| {
-                    found.iter().map(|cycle| cycle.stable).eq([false, true])
-                };
-                cases.push((place(&parameters), found.answer(pair)));
-            }
-            Ok(Finding::always(cases))
+            everywhere([-0.9, -0.5, -0.3, -0.2].map(both_cycles), |parameters| {
+                let found = cycles(parameters, limits)?;
+                Ok(found.map(|found| found.iter().map(|cycle| cycle.stable).eq([false, true])))
+            })
         },
     },
     Claim {
@@ -319,14 +302,10 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig12"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for d in [-0.8, -0.3, 0.0, 0.3, 0.8] {
-                let parameters = oscillator(d, 0.0, -0.5, 0.1);
-                let found = cycles(&parameters, limits)?;
-                let unstable = |found: &[BoundedCycle]| found.iter().all(|cycle| !cycle.stable);
-                cases.push((place(&parameters), found.answer(unstable)));
-            }
-            Ok(Finding::always(cases))
+            let cases = [-0.8, -0.3, 0.0, 0.3, 0.8].map(|d| oscillator(d, 0.0, -0.5, 0.1));
+            everywhere(cases, |parameters| {
+                Ok(cycles(parameters, limits)?.map(|found| found.iter().all(|it| !it.stable)))
+            })
         },
     },
     Claim {
@@ -336,21 +315,28 @@ pub const CLAIMS: &[Claim] = &[
         basis: "(42)",
         scene: Some("fig12"),
         check: |_| {
+            let solution = |it: &Parameters| largest_amplitude(it).ok();
             Finding::worst([
-                approached(-0.5, -1.0, <[_]>::first, small),
-                approached(-0.5, 1.0, <[_]>::first, large),
+                approached(-0.5, -1.0, solution, small),
+                approached(-0.5, 1.0, solution, large),
             ])
         },
     },
 ];
 
+/// Dampings from a strong one to next to the fold.
+const BRANCH: [f64; 6] = [-0.9, -0.7, -0.5, -0.3, -0.2, -0.18];
+
 /// An oscillator with two cycles.
-const TWO_CYCLES: Parameters = Parameters { d: -0.3, d2: 0.0, d3: 0.5, r: 0.1 };
+fn both_cycles(d: f64) -> Parameters {
+    oscillator(d, 0.0, 0.5, 0.1)
+}
 
 /// Linear and cubic dampings on both sides of the fold.
-fn dampings() -> impl Iterator<Item = (f64, f64)> {
+fn both_sides() -> impl Iterator<Item = Parameters> {
     let cubic = [-2.0, -0.5, -0.1, 0.1, 0.5, 2.0];
-    [-0.9, -0.3, -0.1, -0.01, 0.1, 0.5].into_iter().flat_map(move |d| cubic.map(|d3| (d, d3)))
+    let linear = [-0.9, -0.3, -0.1, -0.01, 0.1, 0.5].into_iter();
+    linear.flat_map(move |d| cubic.map(|d3| oscillator(d, 0.0, d3, 0.1)))
 }
 
 /// How many real roots (42) has: changes of its sign between the places where it turns.
@@ -367,19 +353,18 @@ fn real_roots(parameters: &Parameters) -> usize {
 /// The number of cycles at some parameters against what it should be.
 fn counted(
     limits: &Limits,
-    expected: impl IntoIterator<Item = (Parameters, usize)>,
+    cases: impl IntoIterator<Item = Parameters>,
+    expected: fn(&Parameters) -> usize,
 ) -> Result<Finding, Reason> {
-    let mut cases = Vec::new();
-    for (parameters, expected) in expected {
+    everywhere(cases, |parameters| {
         // The search has nothing to go by where the motion is linear and no swing ends.
         let found = if parameters.omega().is_none() && parameters.is_piecewise_linear() {
-            beside_proof(&parameters, cycles_of(&parameters, false, limits)?.cycles)
+            beside_proof(parameters, cycles_of(parameters, false, limits)?.cycles)
         } else {
-            cycles(&parameters, limits)?
+            cycles(parameters, limits)?
         };
-        cases.push((place(&parameters), found.are(expected)));
-    }
-    Ok(Finding::always(cases))
+        Ok(found.map(Vec::len).is(expected(parameters)))
+    })
 }
 
 fn printed_fold(d3: f64, r: f64) -> f64 {
@@ -387,9 +372,8 @@ fn printed_fold(d3: f64, r: f64) -> f64 {
 }
 
 /// The fold of the cycles.
-fn found_fold(parameters: &Parameters, limits: &Limits) -> Result<FoldPoint, Reason> {
-    let lost = Reason::NoConvergence { sought: "the fold", change: f64::NAN };
-    fold(parameters, limits)?.0.ok_or(lost)
+pub(crate) fn found_fold(parameters: &Parameters, limits: &Limits) -> Result<FoldPoint, Reason> {
+    fold(parameters, limits)?.0.ok_or(missing("the fold"))
 }
 
 /// (48) against the fold of the cycles.
@@ -411,29 +395,15 @@ fn large(parameters: &Parameters) -> f64 {
     (-8.0 * parameters.d / (3.0 * parameters.d3)).sqrt()
 }
 
-/// A comparison along both cycles, from strong damping to next to the fold.
-fn over_branch(
-    compare: impl Fn(&Parameters) -> Result<Finding, Reason>,
-) -> Result<Finding, Reason> {
-    Finding::worst([-0.9, -0.7, -0.5, -0.3, -0.2, -0.18].map(|d| {
-        let parameters = Parameters { d, ..TWO_CYCLES };
-        Ok(compare(&parameters)?.at(place(&parameters)))
-    }))
-}
-
 /// How a solution of (42) approaches a formula as abs(D) grows to 1.
 fn approached(
     d3: f64,
     direction: f64,
-    of: fn(&[Harmonic]) -> Option<&Harmonic>,
+    solution: impl Fn(&Parameters) -> Option<f64>,
     formula: fn(&Parameters) -> f64,
 ) -> Result<Finding, Reason> {
-    let at = |size: f64| {
-        let parameters = oscillator(direction * size, 0.0, d3, 0.1);
-        let solutions = amplitudes(&parameters);
-        let root = of(&solutions).ok_or(NO_AMPLITUDE)?.amplitude;
-        Ok((formula(&parameters), Known::relative(root, 1e-14)))
-    };
-    let near = oscillator(direction * 0.95, 0.0, d3, 0.1);
-    Ok(Finding::tends(at(0.3)?, at(0.95)?).at(place(&near)))
+    towards([0.3, 0.95].map(|size| oscillator(direction * size, 0.0, d3, 0.1)), |parameters| {
+        let root = solution(parameters).ok_or(missing("a stationary amplitude"))?;
+        Ok((formula(parameters), Known::relative(root, 1e-14)))
+    })
 }

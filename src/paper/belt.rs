@@ -4,7 +4,8 @@
 //! that comes with the program: friction that falls exponentially with the relative velocity.
 
 use super::Finding;
-use super::measure::{Known, largest, smallest};
+use super::known::Known;
+use super::measure::{largest, smallest};
 use crate::closed_form::harmonic::amplitudes;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Problem, Reason};
@@ -68,9 +69,9 @@ pub fn stays_slower(limits: &Limits) -> Result<Finding, Reason> {
         let detail = Detail { crossings: true, samples_per_step: 8, energy: false };
         let motion = trajectory(&problem, detail, limits);
         let slower = FollowedOnBelt::of(&motion, sticking_velocity).sticks.is_none();
-        cases.push((format!("v0 = {speed} m/s"), below && slower));
+        cases.push(Ok((format!("v0 = {speed} m/s"), below && slower)));
     }
-    Ok(Finding::always(cases))
+    Finding::always(cases)
 }
 
 /// The speed of the belt at which the stable cycle just reaches it, by one harmonic and computed. Fails with the

@@ -2,22 +2,18 @@
 
 use std::f64::consts::PI;
 
-use super::certain::enclosed;
-use super::known::KnownAnswer;
+use super::known::{Certain, Known};
 use super::measure::{
-    Known, at_rest, cycles, half_swing, last_cycle, of_cycle, oscillator, outcome, place, smallest,
-    state_at,
+    BoundedCycle, arcs, at_rest, cycles, enclosed, half_swing, last_cycle, missing, motion,
+    of_cycle, oscillator, place, smallest, state_at, towards,
 };
 use super::{Claim, Finding, UNSAID, belt};
 use crate::branch::escape::escape_point;
-use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Limits, Outcome, Problem, Reason};
-use crate::model::{Parameters, Side, State};
+use crate::flow::{Limits, Outcome, Reason};
+use crate::model::{Parameters, State};
 use crate::numerics::Interval;
 use crate::numerics::elementary::exp;
-use crate::portrait::basin::arc::{Arc, Direction};
 use crate::portrait::basin::basin;
-use crate::portrait::closing::half_map::Length;
 use crate::proof::motion::ProvedFate;
 
 pub const CLAIMS: &[Claim] = &[
@@ -39,20 +35,16 @@ pub const CLAIMS: &[Claim] = &[
         scene: Some("supercritical"),
         check: |limits| {
             let parameters = oscillator(-0.3, 0.2, 0.5, 0.1);
-            Finding::worst(cycles(&parameters, limits)?.cycles.into_iter().map(|cycle| {
-                let arc = |side, clearance| {
-                    Arc::new(&parameters, side, Direction::Forward, Length::new(clearance), limits)
-                };
+            Finding::worst(cycles(&parameters, limits)?.value.into_iter().map(|cycle| {
                 let Parameters { d, d3, r, .. } = parameters;
-                let square = arc(Side::Upper, -cycle.q_min - r)?.area()
-                    + arc(Side::Lower, cycle.q_max - r)?.area();
+                let [rise, fall] = arcs(&parameters, &cycle, limits)?;
+                let square = rise.area() + fall.area();
                 let share = |turning: f64| (turning - r) / (turning + r);
                 // On a closed curve the integral of v vanishes.
                 let formula = share(-cycle.q_min)
                     * share(cycle.q_max)
                     * exp(-2.0 * d * cycle.period - 3.0 * d3 * square);
-                let computed = return_slope(&parameters, cycle.q_max, limits)?
-                    .within(cycle.bounds.map(|it| it.multiplier));
+                let computed = return_slope(&parameters, &cycle, limits)?;
                 let at = format!("{}, q_max = {:.6}", place(&parameters), cycle.q_max);
                 Ok(Finding::equal(formula, computed).at(at))
             }))
@@ -68,8 +60,7 @@ pub const CLAIMS: &[Claim] = &[
             let parameters = oscillator(-0.4, 0.0, 0.0, 0.1);
             let cycle = smallest(&parameters, limits)?;
             let omega = (1.0 - parameters.d * parameters.d).sqrt();
-            let computed = return_slope(&parameters, cycle.q_max, limits)?
-                .within(cycle.bounds.map(|it| it.multiplier));
+            let computed = return_slope(&parameters, &cycle, limits)?;
             let formula = exp(-2.0 * PI * parameters.d / omega);
             Ok(Finding::equal(formula, computed).at(place(&parameters)))
         },
@@ -100,20 +91,17 @@ pub const CLAIMS: &[Claim] = &[
         basis: "motion",
         scene: Some("asymmetry"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for (d, d2, d3, r) in [
-                (0.0, 0.5, 0.0, 0.1),
-                (0.0, 2.0, 0.5, 0.01),
-                (0.01, -1.0, 0.0, 0.1),
-                (0.3, 0.3, 0.3, 0.0),
-            ] {
-                let parameters = oscillator(d, d2, d3, r);
-                for q in [0.2, 1.0, 3.0] {
-                    let returned = returns_to(&parameters, q, limits)?;
-                    cases.push((format!("{}, q = {q}", place(&parameters)), returned.is(false)));
-                }
-            }
-            Ok(Finding::always(cases))
+            let oscillators = [
+                oscillator(0.0, 0.5, 0.0, 0.1),
+                oscillator(0.0, 2.0, 0.5, 0.01),
+                oscillator(0.01, -1.0, 0.0, 0.1),
+                oscillator(0.3, 0.3, 0.3, 0.0),
+            ];
+            let cases = oscillators.iter().flat_map(|it| [0.2, 1.0, 3.0].map(|q| (it, q)));
+            Finding::always(cases.map(|(parameters, q)| {
+                let returned = returns_to(parameters, q, limits)?;
+                Ok((format!("{}, q = {q}", place(parameters)), returned.is(false)))
+            }))
         },
     },
     Claim {
@@ -127,9 +115,9 @@ pub const CLAIMS: &[Claim] = &[
             let impulse = |part: f64| {
                 let parameters = oscillator(-1e-3 * part, 0.5, 0.0, 1e-2 * part);
                 let margin = basin(&parameters, 10.0, limits)?.margin();
-                let lost = Reason::NoConvergence { sought: "the separatrix", change: f64::NAN };
+                let impulse = margin.impulse.ok_or(missing("the separatrix"))?;
                 let formula = (0.5 / (parameters.d2 * parameters.d2)).sqrt();
-                Ok((formula, Known::relative(margin.impulse.ok_or(lost)?, 1e-12)))
+                Ok((formula, Known::relative(impulse, 1e-12)))
             };
             let finding = Finding::tends(impulse(1.0)?, impulse(0.01)?);
             Ok(finding.at("D = -1e-5, D2 = 0.5, r = 1e-4"))
@@ -148,15 +136,15 @@ pub const CLAIMS: &[Claim] = &[
                 let cycle = smallest(&parameters, limits)?;
                 for part in [1.001, 1.5, 10.0] {
                     let start = at_rest(part * cycle.q_max);
-                    let end = outcome(&parameters, start, 1e3, limits)?;
+                    let end = motion(&parameters, start, 1e3, limits)?.outcome;
                     let case = format!("{}, q = {:.6}", place(&parameters), start.q);
                     let fate = enclosed(&parameters, start, 1e3).fate;
-                    let holds = matches!(end, Outcome::Escaped { .. });
-                    let certain = holds && matches!(fate, ProvedFate::Escaped { .. });
-                    cases.push((case, KnownAnswer { holds, certain }));
+                    let value = matches!(end, Outcome::Escaped { .. });
+                    let certain = value && matches!(fate, ProvedFate::Escaped { .. });
+                    cases.push(Ok((case, Certain { value, certain })));
                 }
             }
-            Ok(Finding::always(cases))
+            Finding::always(cases)
         },
     },
     Claim {
@@ -189,10 +177,10 @@ pub const CLAIMS: &[Claim] = &[
                 for (part, expected) in [(1.5, 1), (1.01, 1), (0.99, 0), (0.5, 0)] {
                     let parameters = oscillator(part * end, d2, 0.0, 0.3);
                     let case = format!("D = {part} D_c, D2 = {d2}, r = 0.3");
-                    cases.push((case, cycles(&parameters, limits)?.are(expected)));
+                    cases.push(Ok((case, cycles(&parameters, limits)?.map(Vec::len).is(expected))));
                 }
             }
-            Ok(Finding::always(cases))
+            Finding::always(cases)
         },
     },
     Claim {
@@ -203,43 +191,36 @@ pub const CLAIMS: &[Claim] = &[
         scene: Some("escape"),
         check: |limits| {
             let end = end_of_cycle(&oscillator(0.0, 0.5, 0.0, 0.1), limits)?;
-            let extent = |part: f64| {
-                let cycle = smallest(&oscillator(part * end, 0.5, 0.0, 0.1), limits)?;
-                let nearness =
-                    of_cycle(&cycle, -1.0 / cycle.q_min, |it| Interval::point(-1.0) / it.q_min);
-                Ok((0.0, nearness))
-            };
-            let finding = Finding::tends(extent(2.0)?, extent(1.000_001)?);
+            let cases = [2.0, 1.000_001].map(|part| oscillator(part * end, 0.5, 0.0, 0.1));
+            let finding = towards(cases, |parameters| {
+                let (cycle, minus) = (smallest(parameters, limits)?, Interval::point(-1.0));
+                Ok((0.0, of_cycle(&cycle, -1.0 / cycle.q_min, |it| minus / it.q_min)))
+            })?;
             Ok(finding.at("D = 1.000001 D_c, D2 = 0.5, r = 0.1"))
         },
     },
 ];
 
 /// Whether a motion from rest at `q` is at rest there, or further out, one turn later.
-fn returns_to(parameters: &Parameters, q: f64, limits: &Limits) -> Result<KnownAnswer, Reason> {
-    let problem = Problem {
-        parameters: *parameters,
-        initial: at_rest(q),
-        until: 60.0,
-        tolerance: 1e-12,
-        ..Problem::default()
-    };
-    let motion = trajectory(&problem, Detail::default(), limits);
-    if let Outcome::GaveUp { reason, .. } = motion.outcome {
-        return Err(reason);
-    }
-    let holds = motion.crossings.get(1).is_some_and(|crossing| crossing.q >= q);
+fn returns_to(parameters: &Parameters, q: f64, limits: &Limits) -> Result<Certain<bool>, Reason> {
+    let motion = motion(parameters, at_rest(q), 60.0, limits)?;
+    let value = motion.crossings.get(1).is_some_and(|crossing| crossing.q >= q);
     let bounds = enclosed(parameters, at_rest(q), 60.0);
     let nearer = match (bounds.turns.get(1), bounds.fate) {
         (Some(turn), _) => turn.q.upper() < q,
         (None, ProvedFate::Captured { .. } | ProvedFate::Escaped { .. }) => true,
         (None, _) => false,
     };
-    Ok(KnownAnswer { holds, certain: nearer && !holds })
+    Ok(Certain { value, certain: nearer && !value })
 }
 
-/// The slope of the return map of `v = 0, q > r` at `q`: central differences of integrated motions.
-fn return_slope(parameters: &Parameters, q: f64, limits: &Limits) -> Result<Known, Reason> {
+/// The slope of the return map of `v = 0, q > r` at a cycle: central differences of integrated motions.
+fn return_slope(
+    parameters: &Parameters,
+    cycle: &BoundedCycle,
+    limits: &Limits,
+) -> Result<Known, Reason> {
+    let q = cycle.q_max;
     let turn = |q: f64| {
         let [left, _] = half_swing(parameters, at_rest(q), limits)?;
         half_swing(parameters, at_rest(left.value), limits).map(|[right, _]| right.value)
@@ -252,7 +233,8 @@ fn return_slope(parameters: &Parameters, q: f64, limits: &Limits) -> Result<Know
     let step = 1e-3 * (q - parameters.r);
     let known = Known::twice(slope(step)?, slope(2.0 * step)?);
     // The integrated turns themselves are known to some 1e-14.
-    Ok(Known::new(known.value, known.error + 1e-13 * q / step))
+    let known = Known::new(known.value, known.error + 1e-13 * q / step);
+    Ok(known.within(cycle.bounds.map(|it| it.multiplier)))
 }
 
 /// The first integral of the motion with D2 alone.
@@ -262,13 +244,12 @@ fn first_integral(d2: f64, State { q, v }: State) -> f64 {
 
 /// The same, of all states of a box.
 fn enclosed_integral(d2: f64, q: Interval, v: Interval) -> Interval {
-    let [half, one, d2] = [0.5, 1.0, d2].map(Interval::point);
-    let bracket = half * v.square() + q / d2.twice() - one / d2.twice().square();
-    bracket * (d2.twice() * q).exp()
+    let [one, double] = [1.0, 2.0 * d2].map(Interval::point);
+    let bracket = v.square() * 0.5 + q / double - one / double.square();
+    bracket * (double * q).exp()
 }
 
 /// `D_c`.
 fn end_of_cycle(parameters: &Parameters, limits: &Limits) -> Result<f64, Reason> {
-    let lost = Reason::NoConvergence { sought: "the end of the cycle", change: f64::NAN };
-    escape_point(parameters, limits)?.0.ok_or(lost)
+    escape_point(parameters, limits)?.0.ok_or(missing("the end of the cycle"))
 }

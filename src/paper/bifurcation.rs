@@ -1,20 +1,19 @@
-//! Sections 6.3 and 6.4: the mean shift, and how friction changes the bifurcation.
+//! Sections 6.3, 6.4 and 7: the mean shift, how friction changes the bifurcation, and what it does at small and at
+//! large amplitude.
 
 use std::f64::consts::PI;
 
-use super::certain::BoundedCycle;
-use super::harmonic::NO_AMPLITUDE;
-use super::known::KnownAnswer;
+use super::amplitudes::found_fold;
+use super::known::{Certain, Known};
 use super::measure::{
-    Known, amplitude, at_rest, beside_proof, captured, cycles, edge, mean, of_cycle, oscillator,
-    place, smallest,
+    amplitude, at_rest, beside_proof, captured, cycles, edge, energy_change, everywhere, extent,
+    largest, mean, missing, of_cycle, oscillator, over, smallest, towards,
 };
 use super::{Claim, Finding};
-use crate::branch::fold::fold;
-use crate::closed_form::harmonic::{Harmonic, amplitudes, mean as harmonic_mean};
-use crate::flow::Reason;
+use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
+use crate::flow::{Limits, Reason};
 use crate::model::Parameters;
-use crate::numerics::elementary::ln;
+use crate::numerics::elementary::{ln, log2};
 use crate::portrait::Border;
 use crate::portrait::basin::cycle::cycles as all;
 
@@ -45,13 +44,12 @@ pub const CLAIMS: &[Claim] = &[
         basis: "(40, 51)",
         scene: Some("fig14"),
         check: |_| {
-            Finding::worst([-0.9, -0.3, -0.01].map(|d| {
-                let parameters = oscillator(d, 0.2, 0.5, 0.01);
-                let Parameters { d2, r, .. } = parameters;
+            over([-0.9, -0.3, -0.01].map(shifted), |parameters| {
+                let Parameters { d, d2, r, .. } = *parameters;
                 let computed = Known::relative(harmonic_mean(d2, -2.0 * r / (PI * d)), 1e-15);
                 let finding = Finding::equal(2.0 * r * r / PI * d2 / d, computed);
-                Ok(finding.corrected(asymptotes(&parameters)[0]).at(place(&parameters)))
-            }))
+                Ok(finding.corrected(asymptotes(parameters)[0]))
+            })
         },
     },
     Claim {
@@ -61,12 +59,11 @@ pub const CLAIMS: &[Claim] = &[
         basis: "(40, 52)",
         scene: Some("fig14"),
         check: |_| {
-            Finding::worst([-0.9, -0.3, -0.01].map(|d| {
-                let parameters = oscillator(d, 0.2, 0.5, 0.01);
-                let amplitude = (-8.0 * d / (3.0 * parameters.d3)).sqrt();
+            over([-0.9, -0.3, -0.01].map(shifted), |parameters| {
+                let amplitude = (-8.0 * parameters.d / (3.0 * parameters.d3)).sqrt();
                 let computed = Known::relative(harmonic_mean(parameters.d2, amplitude), 1e-15);
-                Ok(Finding::equal(asymptotes(&parameters)[1], computed).at(place(&parameters)))
-            }))
+                Ok(Finding::equal(asymptotes(parameters)[1], computed))
+            })
         },
     },
     Claim {
@@ -76,20 +73,15 @@ pub const CLAIMS: &[Claim] = &[
         basis: "(40, 42)",
         scene: Some("fig14"),
         check: |_| {
-            let shifts = |d: f64| {
-                let parameters = oscillator(d, 0.2, 0.5, 0.01);
-                let shift = |it: &Harmonic| harmonic_mean(parameters.d2, it.amplitude);
-                let [small, large] = asymptotes(&parameters);
-                let found = amplitudes(&parameters);
-                let by = |it: Option<&Harmonic>| {
-                    let shift = it.map(shift).ok_or(NO_AMPLITUDE)?;
-                    Ok(Known::relative(shift, 1e-14))
-                };
-                Ok([(small, by(found.first())?), (large, by(found.last())?)])
-            };
-            let [far, near] = [shifts(-0.1)?, shifts(-0.9)?];
-            let both = [0, 1].map(|which| Ok(Finding::tends(far[which], near[which])));
-            Ok(Finding::worst(both)?.at("D = -0.9, D2 = 0.2, D3 = 0.5, r = 0.01"))
+            Finding::worst([0, 1].map(|which| {
+                towards([-0.1, -0.9].map(shifted), |parameters| {
+                    let found = amplitudes(parameters);
+                    let solution = [found.first(), found.last()][which];
+                    let shift = solution.map(|it| harmonic_mean(parameters.d2, it.amplitude));
+                    let shift = shift.ok_or(missing("a stationary amplitude"))?;
+                    Ok((asymptotes(parameters)[which], Known::relative(shift, 1e-14)))
+                })
+            }))
         },
     },
     Claim {
@@ -99,18 +91,14 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig13"),
         check: |limits| {
-            // Those of Fig. 13 are -0.7 and -0.2.
-            let mut cases = Vec::new();
-            for d in [-0.9, -0.7, -0.4, -0.2, -0.1, -0.07, -0.02] {
-                // The friction of Fig. 13 with the D2 of Fig. 14, the only one that the paper names.
-                let with = oscillator(d, 0.2, 0.0, 0.5);
-                let without = cycles(&Parameters { d2: 0.0, ..with }, limits)?;
-                let found = cycles(&with, limits)?;
-                let certain = found.certain && without.certain;
-                let same = found.are(without.cycles.len());
-                cases.push((place(&with), KnownAnswer { certain, ..same }));
-            }
-            Ok(Finding::always(cases))
+            // Those of Fig. 13 are -0.7 and -0.2; its friction with the D2 of Fig. 14, the only one that the paper names.
+            let dampings = [-0.9, -0.7, -0.4, -0.2, -0.1, -0.07, -0.02];
+            everywhere(dampings.map(|d| oscillator(d, 0.2, 0.0, 0.5)), |with| {
+                let without = cycles(&Parameters { d2: 0.0, ..*with }, limits)?;
+                let found = cycles(with, limits)?;
+                let value = found.value.len() == without.value.len();
+                Ok(Certain { value, certain: found.certain && without.certain })
+            })
         },
     },
     Claim {
@@ -120,14 +108,10 @@ pub const CLAIMS: &[Claim] = &[
         basis: "border",
         scene: Some("escape"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for d2 in [0.2, 1.0] {
-                for d in [0.01, 0.1, 0.5] {
-                    let parameters = oscillator(d, d2, 0.0, 0.1);
-                    cases.push((place(&parameters), edge(&parameters, limits)?.is(Border::None)));
-                }
-            }
-            Ok(Finding::always(cases))
+            let cases = [0.2, 1.0].map(|d2| [0.01, 0.1, 0.5].map(|d| oscillator(d, d2, 0.0, 0.1)));
+            everywhere(cases.into_iter().flatten(), |parameters| {
+                Ok(edge(parameters, limits)?.is(Border::None))
+            })
         },
     },
     Claim {
@@ -137,21 +121,14 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("hopf"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for (d, d3, expected) in [
-                (-0.1, 0.5, vec![true]),
-                (0.1, 0.5, vec![]),
-                (-0.1, -0.5, vec![]),
-                (0.1, -0.5, vec![false]),
-            ] {
-                let parameters = oscillator(d, 0.0, d3, 0.0);
-                let found = cycles(&parameters, limits)?;
-                let as_expected = |found: &[BoundedCycle]| {
-                    found.iter().map(|cycle| cycle.stable).eq(expected.iter().copied())
-                };
-                cases.push((place(&parameters), found.answer(as_expected)));
-            }
-            Ok(Finding::always(cases))
+            let cases = [(-0.1, 0.5), (0.1, 0.5), (-0.1, -0.5), (0.1, -0.5)];
+            everywhere(cases.map(|(d, d3)| oscillator(d, 0.0, d3, 0.0)), |parameters| {
+                // One that attracts where the steady state does not, and the other way round.
+                let Parameters { d, d3, .. } = *parameters;
+                let expected = (d * d3 < 0.0).then_some(d3 > 0.0);
+                let found = cycles(parameters, limits)?;
+                Ok(found.map(|found| found.iter().map(|cycle| cycle.stable).eq(expected)))
+            })
         },
     },
     Claim {
@@ -161,13 +138,11 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("hopf"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for (d, d2) in [(-0.5, 0.0), (-0.1, 0.0), (-0.5, 0.3), (-0.1, 0.3), (-0.01, 1.0)] {
-                let parameters = oscillator(d, d2, 0.0, 0.0);
-                let found = beside_proof(&parameters, all(&parameters, false, limits)?.cycles);
-                cases.push((place(&parameters), found.are(0)));
-            }
-            Ok(Finding::always(cases))
+            let cases = [(-0.5, 0.0), (-0.1, 0.0), (-0.5, 0.3), (-0.1, 0.3), (-0.01, 1.0)];
+            everywhere(cases.map(|(d, d2)| oscillator(d, d2, 0.0, 0.0)), |parameters| {
+                let found = beside_proof(parameters, all(parameters, false, limits)?.cycles);
+                Ok(found.map(Vec::is_empty))
+            })
         },
     },
     Claim {
@@ -177,13 +152,11 @@ pub const CLAIMS: &[Claim] = &[
         basis: "motion",
         scene: Some("linear"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for d in [0.5, 0.1, 0.0, -0.5, -0.9, -0.99, -1.0] {
+            Finding::always([0.5, 0.1, 0.0, -0.5, -0.9, -0.99, -1.0].map(|d| {
                 let parameters = oscillator(d, 0.0, 0.0, 1.0);
                 let rests = captured(&parameters, at_rest(1.0 + 1e-10), 100.0, limits)?;
-                cases.push((format!("D = {d}"), rests));
-            }
-            Ok(Finding::always(cases))
+                Ok((format!("D = {d}"), rests))
+            }))
         },
     },
     Claim {
@@ -193,17 +166,11 @@ pub const CLAIMS: &[Claim] = &[
         basis: "border",
         scene: Some("fig16"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for d2 in [0.0, 1.0] {
-                for d3 in [-0.5, 0.0, 0.5] {
-                    for d in [-0.8, -0.4, -0.05, -0.01] {
-                        let parameters = oscillator(d, d2, d3, 0.1);
-                        let separatrix = edge(&parameters, limits)?.is(Border::Separatrix);
-                        cases.push((place(&parameters), separatrix.is(false)));
-                    }
-                }
-            }
-            Ok(Finding::always(cases))
+            let nonlinear = [0.0, 1.0].map(|d2| [-0.5, 0.0, 0.5].map(|d3| (d2, d3)));
+            let cases = nonlinear.into_iter().flatten().flat_map(|(d2, d3)| {
+                [-0.8, -0.4, -0.05, -0.01].map(|d| oscillator(d, d2, d3, 0.1))
+            });
+            everywhere(cases, |it| Ok(edge(it, limits)?.is(Border::Separatrix).is(false)))
         },
     },
     Claim {
@@ -213,12 +180,9 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig15"),
         check: |limits| {
-            let extent = |r: f64| {
-                let cycle = smallest(&oscillator(-0.3, 0.0, 0.5, r), limits)?;
-                Ok((0.0, of_cycle(&cycle, cycle.q_max, |it| it.q_max)))
-            };
-            Ok(Finding::tends(extent(1e-2)?, extent(1e-6)?)
-                .at("q_max at D = -0.3, D3 = 0.5, r = 1e-6"))
+            let cases = [1e-2, 1e-6].map(|r| oscillator(-0.3, 0.0, 0.5, r));
+            let extents = |it: &Parameters| Ok((0.0, extent(&smallest(it, limits)?)));
+            Ok(towards(cases, extents)?.at("q_max at D = -0.3, D3 = 0.5, r = 1e-6"))
         },
     },
     Claim {
@@ -228,8 +192,7 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig17"),
         check: |limits| {
-            let lost = Reason::NoConvergence { sought: "the fold", change: f64::NAN };
-            let place = |r: f64| fold(&oscillator(0.0, 0.0, 0.5, r), limits)?.0.ok_or(lost);
+            let place = |r: f64| found_fold(&oscillator(0.0, 0.0, 0.5, r), limits);
             let (far, near) = (place(1e-3)?.d, place(1e-6)?.d);
             let exponent = ln(far / near) / ln(1e3);
             Ok(Finding::near(2.0 / 3.0, Known::new(exponent, 1e-11))
@@ -243,20 +206,113 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig17"),
         check: |limits| {
-            let size = |r: f64| {
-                let cycle = smallest(&oscillator(0.0, 0.0, -0.5, r), limits)?;
-                Ok(cycle.q_max)
-            };
-            let (far, near) = (size(1e-3)?, size(1e-6)?);
+            let crossing = |r: f64| smallest(&oscillator(0.0, 0.0, -0.5, r), limits);
+            let (far, near) = (crossing(1e-3)?.q_max, crossing(1e-6)?.q_max);
             let exponent = ln(far / near) / ln(1e3);
             Ok(Finding::near(1.0 / 3.0, Known::new(exponent, 1e-12))
                 .at("D3 = -0.5, r = 1e-6 .. 1e-3"))
         },
     },
+    Claim {
+        equation: "after Fig. 17",
+        section: "6.4",
+        statement: "what viscous damping dissipates goes as the square of the amplitude: exponent",
+        basis: "motion",
+        scene: None,
+        check: |limits| {
+            let [_, linear, _] = exponents(limits)?;
+            Ok(Finding::near(2.0, linear).at("D = 1e-3, r = 1e-3, from q = 1 and 2"))
+        },
+    },
+    Claim {
+        equation: "after Fig. 17",
+        section: "6.4",
+        statement: "what Coulomb friction dissipates is proportional to the amplitude: exponent",
+        basis: "motion",
+        scene: None,
+        check: |limits| {
+            let [_, _, friction] = exponents(limits)?;
+            Ok(Finding::near(1.0, friction).at("D = 1e-3, r = 1e-3, from q = 1 and 2"))
+        },
+    },
+    Claim {
+        equation: "7",
+        section: "7",
+        statement: "friction mainly affects small amplitudes: that of the stable cycle tends to what it is for \
+                    r = 0 as it grows",
+        basis: "cycle",
+        scene: Some("supercritical"),
+        check: |limits| {
+            towards([-0.3, -0.9].map(|d| oscillator(d, 0.0, 0.5, 0.1)), |parameters| {
+                let smooth = largest(&Parameters { r: 0.0, ..*parameters }, limits)?;
+                Ok((smooth.q_max, amplitude(&largest(parameters, limits)?)))
+            })
+        },
+    },
+    Claim {
+        equation: "7",
+        section: "7",
+        statement: "as r goes to 0 the scenario of the smooth system returns: amplitude of the stable cycle",
+        basis: "cycle",
+        scene: Some("supercritical"),
+        check: |limits| {
+            towards([0.1, 1e-3].map(|r| oscillator(-0.3, 0.0, 0.5, r)), |parameters| {
+                let smooth = largest(&Parameters { r: 0.0, ..*parameters }, limits)?;
+                Ok((smooth.q_max, extent(&largest(parameters, limits)?)))
+            })
+        },
+    },
+    Claim {
+        equation: "7",
+        section: "7",
+        statement: "for D > 0 the basin is finite or infinite, as nonlinear damping has it: D3 decides",
+        basis: "border",
+        scene: Some("subcritical"),
+        check: |limits| {
+            let cases =
+                [-0.5, 0.0, 0.5].map(|d3| [0.01, 0.1, 0.5].map(|d| oscillator(d, 0.0, d3, 0.1)));
+            everywhere(cases.into_iter().flatten(), |parameters| {
+                Ok(edge(parameters, limits)?.is(Border::None).is(parameters.d3 >= 0.0))
+            })
+        },
+    },
+    Claim {
+        equation: "6.2.2",
+        section: "6.2.2",
+        statement: "for small D < 0 very little friction stabilises the rest: size of the basin over r",
+        basis: "cycle",
+        scene: Some("marginal"),
+        check: |limits| {
+            let cases = [-1e-2, -1e-4].map(|d| oscillator(d, 0.0, 0.0, 1e-6));
+            let finding = towards(cases, |parameters| {
+                let Parameters { d, r, .. } = *parameters;
+                let cycle = smallest(parameters, limits)?;
+                Ok((2.0 / PI, of_cycle(&cycle, -d * cycle.q_max / r, |it| it.q_max * -d / r)))
+            })?;
+            Ok(finding.at("times abs(D), which makes it 2/pi, at D = -1e-4"))
+        },
+    },
 ];
+
+/// An oscillator whose cycles are shifted.
+fn shifted(d: f64) -> Parameters {
+    oscillator(d, 0.2, 0.5, 0.01)
+}
 
 /// (53), as it should read, and (54).
 fn asymptotes(parameters: &Parameters) -> [f64; 2] {
     let Parameters { d, d2, d3, r } = *parameters;
     [-2.0 * r * r * d2 / (PI * PI * d * d), 4.0 * d2 * d / (3.0 * d3)]
+}
+
+/// Exponents with which the energy change and its parts grow when the amplitude is doubled.
+fn exponents(limits: &Limits) -> Result<[Known; 3], Reason> {
+    let parameters = oscillator(1e-3, 0.0, 0.0, 1e-3);
+    let works = |q: f64| energy_change(&parameters, at_rest(q), 2.0 * PI, limits);
+    let (one, two) = (works(1.0)?, works(2.0)?);
+    Ok(std::array::from_fn(|index| {
+        let relative = |known: Known| known.error / known.value.abs();
+        let error = relative(one[index]) + relative(two[index]);
+        Known::new(log2(two[index].value / one[index].value), error)
+    }))
 }

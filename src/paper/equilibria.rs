@@ -2,10 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::certain::enclosed;
-use super::known::KnownAnswer;
+use super::known::{Certain, Known};
 use super::measure::{
-    Known, at_rest, captured, energy_change, half_swing, oscillator, outcome, place,
+    at_rest, captured, enclosed, energy_change, half_swing, motion, oscillator, over, place,
 };
 use super::{Claim, Finding};
 use crate::closed_form::lyapunov::{self, Disk};
@@ -27,12 +26,10 @@ pub const CLAIMS: &[Claim] = &[
         basis: "motion",
         scene: Some("fig03"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for q in displacements() {
+            Finding::always(displacements().map(|q| {
                 let rests = captured(&PLAIN, at_rest(q), 1e-3, limits)?;
-                cases.push((format!("q = {q}"), rests.is(q.abs() <= PLAIN.r)));
-            }
-            Ok(Finding::always(cases))
+                Ok((format!("q = {q}"), rests.is(q.abs() <= PLAIN.r)))
+            }))
         },
     },
     Claim {
@@ -63,11 +60,10 @@ pub const CLAIMS: &[Claim] = &[
         scene: Some("fig03"),
         check: |limits| {
             let parameters = oscillator(-0.3, 0.5, 0.5, 0.1);
-            let linear = oscillator(-0.3, 0.0, 0.0, 0.1);
             let swing = |clearance: f64| {
                 let start = at_rest(-(parameters.r + clearance));
                 let [full, _] = half_swing(&parameters, start, limits)?;
-                let [simple, _] = half_swing(&linear, start, limits)?;
+                let [simple, _] = half_swing(&linear(-0.3), start, limits)?;
                 Ok((simple.plus(parameters.r).value, full.plus(parameters.r)))
             };
             let finding = Finding::tends(swing(0.1)?, swing(0.001)?);
@@ -89,14 +85,12 @@ pub const CLAIMS: &[Claim] = &[
         basis: "motion",
         scene: Some("linear"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for d in [-0.99, -0.9, -0.5, -0.1, 0.0, 0.5, 0.99] {
+            Finding::always([-0.99, -0.9, -0.5, -0.1, 0.0, 0.5, 0.99].map(|d| {
                 let parameters = oscillator(d, 0.3, -0.5, 1.0);
                 // At D = -0.99 the clearance of the basin is some 1e-10.
                 let rests = captured(&parameters, at_rest(1.0 + 1e-12), 1e3, limits)?;
-                cases.push((format!("D = {d}"), rests));
-            }
-            Ok(Finding::always(cases))
+                Ok((format!("D = {d}"), rests))
+            }))
         },
     },
     Claim {
@@ -106,18 +100,16 @@ pub const CLAIMS: &[Claim] = &[
         basis: "motion",
         scene: Some("capture"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for part in [-0.8, -0.3, 0.0, 0.5] {
+            Finding::always([-0.8, -0.3, 0.0, 0.5].map(|part| {
                 let q = part * PLAIN.r;
                 let start = State { q, v: 1e-3 };
-                let end = outcome(&PLAIN, start, 10.0, limits)?;
-                let holds = matches!(end, Outcome::Captured { q: end, .. } if end != q);
+                let end = motion(&PLAIN, start, 10.0, limits)?.outcome;
+                let value = matches!(end, Outcome::Captured { q: end, .. } if end != q);
                 let fate = enclosed(&PLAIN, start, 10.0).fate;
                 let certain =
                     matches!(fate, ProvedFate::Captured { q: end, .. } if !end.contains(q));
-                cases.push((format!("q = {q}"), KnownAnswer { holds, certain: certain && holds }));
-            }
-            Ok(Finding::always(cases))
+                Ok((format!("q = {q}"), Certain { value, certain: certain && value }))
+            }))
         },
     },
     Claim {
@@ -144,10 +136,9 @@ pub const CLAIMS: &[Claim] = &[
         scene: Some("fig04"),
         check: |_| {
             let parameters = oscillator(-0.3, 0.2, 0.5, 0.1);
-            let linear = oscillator(-0.3, 0.0, 0.0, 0.1);
             let rates = |v: f64| {
                 let rate = |it: &Parameters| lyapunov::energy_rate(it, State { q: 0.0, v });
-                (rate(&linear), Known::relative(rate(&parameters), 1e-15))
+                (rate(&linear(-0.3)), Known::relative(rate(&parameters), 1e-15))
             };
             let finding = Finding::tends(rates(0.1), rates(0.001));
             Ok(finding.at(format!("{}, v = 0.001", place(&parameters))))
@@ -162,13 +153,12 @@ pub const CLAIMS: &[Claim] = &[
         check: |_| {
             let cases = [-0.9, -0.5, -0.1, -0.01].into_iter().flat_map(|d| {
                 [0.5, 0.999, 1.001, 2.0, -0.5, -0.999, -1.001, -2.0].map(|part: f64| {
-                    let parameters = oscillator(d, 0.0, 0.0, 0.1);
-                    let v = -part * parameters.r / (2.0 * d);
-                    let rate = lyapunov::energy_rate(&parameters, State { q: 0.0, v });
-                    (format!("D = {d}, v = {v}"), (rate < 0.0) == (part.abs() < 1.0))
+                    let v = -part * linear(d).r / (2.0 * d);
+                    let rate = lyapunov::energy_rate(&linear(d), State { q: 0.0, v });
+                    Ok((format!("D = {d}, v = {v}"), (rate < 0.0) == (part.abs() < 1.0)))
                 })
             });
-            Ok(Finding::always(cases))
+            Finding::always(cases)
         },
     },
     Claim {
@@ -178,11 +168,9 @@ pub const CLAIMS: &[Claim] = &[
         basis: "border",
         scene: Some("fig04"),
         check: |limits| {
-            Finding::worst([-0.95, -0.7, -0.4, -0.1, -0.01].map(|d| {
-                let parameters = oscillator(d, 0.0, 0.0, 0.1);
-                let least = least_kick(&parameters, limits)?;
-                Ok(Finding::at_most(circle(&parameters), least).at(place(&parameters)))
-            }))
+            over([-0.95, -0.7, -0.4, -0.1, -0.01].map(linear), |parameters| {
+                Ok(Finding::at_most(circle(parameters), least_kick(parameters, limits)?))
+            })
         },
     },
     Claim {
@@ -192,13 +180,11 @@ pub const CLAIMS: &[Claim] = &[
         basis: "border",
         scene: Some("fig04"),
         check: |limits| {
-            Finding::worst([-0.9, -0.7, -0.4, -0.1, -0.01].map(|d| {
-                let parameters = oscillator(d, 0.0, 0.0, 0.1);
-                let least = least_kick(&parameters, limits)?;
-                let part = circle(&parameters) / least.value;
-                let computed = Known::relative(part, least.error / least.value);
-                Ok(Finding::near(0.5 / 0.6, computed).at(place(&parameters)))
-            }))
+            over([-0.9, -0.7, -0.4, -0.1, -0.01].map(linear), |parameters| {
+                let least = least_kick(parameters, limits)?;
+                let part = circle(parameters) / least.value;
+                Ok(Finding::near(0.5 / 0.6, Known::relative(part, least.error / least.value)))
+            })
         },
     },
     Claim {
@@ -220,7 +206,12 @@ pub const CLAIMS: &[Claim] = &[
 ];
 
 /// The plain oscillator.
-const PLAIN: Parameters = Parameters { d: -0.1, d2: 0.0, d3: 0.0, r: 0.1 };
+const PLAIN: Parameters = linear(-0.1);
+
+/// With linear damping only.
+const fn linear(d: f64) -> Parameters {
+    Parameters { d, d2: 0.0, d3: 0.0, r: 0.1 }
+}
 
 /// Places at rest inside and outside of the sticking set, its ends included.
 fn displacements() -> impl Iterator<Item = f64> {
@@ -249,11 +240,11 @@ fn crossings(
         // A motion on its way to the place: a little earlier it was a little above or below.
         let from_above = State { q, v: 1e-9 };
         let from_below = State { v: -from_above.v, ..from_above };
-        let stops = [from_above, from_below].map(|state| captured(&PLAIN, state, 1e-3, limits));
-        let [above, below] = stops;
+        let [above, below] =
+            [from_above, from_below].map(|state| captured(&PLAIN, state, 1e-3, limits));
         let (above, below) = (above?, below?);
         certain &= above.certain && below.certain;
-        computed += f64::from(u8::from((above.holds && below.holds) != crosses));
+        computed += f64::from(u8::from((above.value && below.value) != crosses));
     }
     let at = format!("{} places beside the ends, {}", 11, place(&PLAIN));
     let computed = Known::exact(computed).within(certain.then_some(Interval::point(computed)));
@@ -267,9 +258,9 @@ pub(crate) fn shifted(limits: &Limits, shift: f64) -> Result<Finding, Reason> {
     let [end, _] = half_swing(&parameters, start, limits)?;
     let (d, r) = (parameters.d, parameters.r);
     let growth = exp(-PI * d / (1.0 - d * d).sqrt());
-    let linear = |centre: f64| centre - (start.q - centre) * growth;
-    let finding = Finding::equal(linear(shift * r), end);
-    let finding = if shift < 0.0 { finding } else { finding.corrected(linear(-r)) };
+    let around = |centre: f64| centre - (start.q - centre) * growth;
+    let finding = Finding::equal(around(shift * r), end);
+    let finding = if shift < 0.0 { finding } else { finding.corrected(around(-r)) };
     Ok(finding.at(format!("{}, from q = -1", place(&parameters))))
 }
 

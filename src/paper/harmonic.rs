@@ -1,21 +1,21 @@
 //! Sections 5.2 and 6.1: the harmonic approximation, and how near it comes.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{E, PI, TAU};
 
-use super::certain::{BoundedCycle, enclosed};
-use super::known::KnownAnswer;
+use super::known::{Certain, Known};
 use super::measure::{
-    Known, amplitude, at_rest, half_swing, largest, mean, of_cycle, oscillator, place, smallest,
+    amplitude, at_rest, enclosed, extent, half_swing, largest, mean, missing, of_cycle, oscillator,
+    over, place, smallest, speed, towards,
 };
 use super::{Claim, Finding, UNSAID};
 use crate::accuracy::harmonic_error::harmonic_balance;
-use crate::closed_form::harmonic::{Harmonic, amplitudes, mean as harmonic_mean};
+use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
+use crate::closed_form::harmonics::HarmonicCycle;
 use crate::flow::{Limits, Reason};
 use crate::model::Parameters;
 use crate::numerics::Interval;
 use crate::numerics::elementary::{powi, sin};
 use crate::numerics::interval::PI as PI_BOUNDS;
-use crate::proof::Enclosure;
 
 pub const CLAIMS: &[Claim] = &[
     Claim {
@@ -25,7 +25,7 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("linear"),
         check: |limits| {
-            let parameters = oscillator(-0.7, 0.0, 0.0, 0.1);
+            let parameters = linear(-0.7);
             let [few, many] = [3, 31].map(|number| by_harmonics(&parameters, number, limits));
             let computed = amplitude(&smallest(&parameters, limits)?);
             Ok(Finding::tends((few?, computed), (many?, computed)).at(place(&parameters)))
@@ -57,9 +57,11 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig09"),
         check: |limits| {
-            over_dampings(limits, |_, cycle| {
-                let bounds = |it: &Enclosure| PI_BOUNDS.twice() / it.period;
-                Ok(Finding::near(1.0, of_cycle(cycle, TAU / cycle.period, bounds)))
+            over(DAMPINGS.map(linear), |parameters| {
+                let cycle = smallest(parameters, limits)?;
+                let frequency =
+                    of_cycle(&cycle, TAU / cycle.period, |it| PI_BOUNDS.twice() / it.period);
+                Ok(Finding::near(1.0, frequency))
             })
         },
     },
@@ -70,14 +72,11 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("linear"),
         check: |limits| {
-            let parameters = oscillator(-0.999, 0.0, 0.0, 1.0);
-            let cycle = smallest(&parameters, limits)?;
-            let weaker = oscillator(-0.9, 0.0, 0.0, 1.0);
-            let other = smallest(&weaker, limits)?;
-            let ratio = |cycle: &BoundedCycle| {
-                of_cycle(cycle, cycle.v_max / cycle.q_max, |it| it.v_max / it.q_max)
-            };
-            Ok(Finding::tends((1.0, ratio(&other)), (1.0, ratio(&cycle))).at(place(&parameters)))
+            towards([-0.9, -0.999].map(units_of_friction), |parameters| {
+                let cycle = smallest(parameters, limits)?;
+                let ratio = cycle.v_max / cycle.q_max;
+                Ok((1.0, of_cycle(&cycle, ratio, |it| it.v_max / it.q_max)))
+            })
         },
     },
     Claim {
@@ -87,13 +86,12 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig14"),
         check: |limits| {
-            Finding::worst([-0.4, -0.2, -0.1, -0.05, -0.02].map(|d| {
-                let parameters = oscillator(d, 0.2, 0.2, 1e-3);
-                let cycle = largest(&parameters, limits)?;
-                let formula = harmonic_mean(parameters.d2, largest_amplitude(&parameters)?);
-                let computed = mean(&parameters, &cycle, limits)?;
-                Ok(Finding::near(formula, computed).at(place(&parameters)))
-            }))
+            let cases = [-0.4, -0.2, -0.1, -0.05, -0.02].map(|d| oscillator(d, 0.2, 0.2, 1e-3));
+            over(cases, |parameters| {
+                let cycle = largest(parameters, limits)?;
+                let formula = harmonic_mean(parameters.d2, largest_amplitude(parameters)?);
+                Ok(Finding::near(formula, mean(parameters, &cycle, limits)?))
+            })
         },
     },
     Claim {
@@ -125,8 +123,9 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig09"),
         check: |limits| {
-            over_dampings(limits, |parameters, cycle| {
-                Ok(Finding::near(largest_amplitude(parameters)?, amplitude(cycle)))
+            over(DAMPINGS.map(linear), |parameters| {
+                let cycle = smallest(parameters, limits)?;
+                Ok(Finding::near(largest_amplitude(parameters)?, amplitude(&cycle)))
             })
         },
     },
@@ -137,11 +136,9 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig08"),
         check: |limits| {
-            let extent = |d: f64| {
-                let cycle = smallest(&oscillator(d, 0.0, 0.0, 1.0), limits)?;
-                Ok((1.0, of_cycle(&cycle, cycle.q_max, |it| it.q_max)))
-            };
-            Ok(Finding::tends(extent(-0.7)?, extent(-0.9)?).at("D = -0.9, r = 1"))
+            towards([-0.7, -0.9].map(units_of_friction), |parameters| {
+                Ok((1.0, extent(&smallest(parameters, limits)?)))
+            })
         },
     },
     Claim {
@@ -151,11 +148,10 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig09"),
         check: |limits| {
-            let extents = |d: f64| {
-                let cycle = smallest(&oscillator(d, 0.0, 0.0, 0.1), limits)?;
-                Ok((cycle.v_max, of_cycle(&cycle, cycle.q_max, |it| it.q_max)))
-            };
-            Ok(Finding::tends(extents(-0.4)?, extents(-0.02)?).at("D = -0.02, r = 0.1"))
+            towards([-0.4, -0.02].map(linear), |parameters| {
+                let cycle = smallest(parameters, limits)?;
+                Ok((cycle.v_max, extent(&cycle)))
+            })
         },
     },
     Claim {
@@ -181,44 +177,37 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig08"),
         check: |limits| {
-            let extent = |d: f64| {
-                let cycle = smallest(&oscillator(d, 0.0, 0.0, 1.0), limits)?;
-                let limit = 2.0 / std::f64::consts::E;
-                Ok((limit, of_cycle(&cycle, cycle.v_max, |it| it.v_max)))
-            };
-            Ok(Finding::tends(extent(-0.9)?, extent(-0.999)?).at("D = -0.999, r = 1"))
+            towards([-0.9, -0.999].map(units_of_friction), |parameters| {
+                Ok((2.0 / E, speed(&smallest(parameters, limits)?)))
+            })
         },
     },
 ];
 
-/// The amplitude by a number of harmonics.
-fn by_harmonics(parameters: &Parameters, number: usize, limits: &Limits) -> Result<f64, Reason> {
-    let lost = Reason::NoConvergence { sought: "a cycle of some harmonics", change: f64::NAN };
-    let found = harmonic_balance(parameters, number, 0, limits)?;
-    let cycle = found.balanced.first().and_then(|balanced| balanced.cycle.as_ref().ok());
-    cycle.map(crate::closed_form::harmonics::HarmonicCycle::amplitude).ok_or(lost)
+/// Dampings at which the first-order answer is compared with the cycle.
+const DAMPINGS: [f64; 6] = [-0.9, -0.7, -0.4, -0.2, -0.1, -0.01];
+
+/// The piecewise linear oscillator, with the friction of Fig. 9.
+fn linear(d: f64) -> Parameters {
+    oscillator(d, 0.0, 0.0, 0.1)
 }
 
-/// (42) has no solution where it should.
-pub(crate) const NO_AMPLITUDE: Reason =
-    Reason::NoConvergence { sought: "a stationary amplitude", change: f64::NAN };
+/// The piecewise linear oscillator in units of its friction.
+pub(crate) fn units_of_friction(d: f64) -> Parameters {
+    oscillator(d, 0.0, 0.0, 1.0)
+}
+
+/// The amplitude by a number of harmonics.
+fn by_harmonics(parameters: &Parameters, number: usize, limits: &Limits) -> Result<f64, Reason> {
+    let found = harmonic_balance(parameters, number, 0, limits)?;
+    let cycle = found.balanced.first().and_then(|balanced| balanced.cycle.as_ref().ok());
+    cycle.map(HarmonicCycle::amplitude).ok_or(missing("a cycle of some harmonics"))
+}
 
 /// The largest stationary amplitude of (42).
 pub(crate) fn largest_amplitude(parameters: &Parameters) -> Result<f64, Reason> {
-    let last = amplitudes(parameters).last().map(|harmonic: &Harmonic| harmonic.amplitude);
-    last.ok_or(NO_AMPLITUDE)
-}
-
-/// A number of the piecewise linear cycle, at some dampings.
-fn over_dampings(
-    limits: &Limits,
-    compare: impl Fn(&Parameters, &BoundedCycle) -> Result<Finding, Reason>,
-) -> Result<Finding, Reason> {
-    Finding::worst([-0.9, -0.7, -0.4, -0.2, -0.1, -0.01].map(|d| {
-        let parameters = oscillator(d, 0.0, 0.0, 0.1);
-        let cycle = smallest(&parameters, limits)?;
-        Ok(compare(&parameters, &cycle)?.at(place(&parameters)))
-    }))
+    let last = amplitudes(parameters).last().map(|harmonic| harmonic.amplitude);
+    last.ok_or(missing("a stationary amplitude"))
 }
 
 /// Whether the harmonic amplitude lies where `holds` says, given the smaller and the larger extent.
@@ -226,28 +215,25 @@ fn harmonic_against_extents(
     limits: &Limits,
     holds: fn(f64, f64, f64) -> bool,
 ) -> Result<Finding, Reason> {
-    let mut cases = Vec::new();
-    for number in 1..20 {
-        let d = -0.05 * f64::from(number);
-        let parameters = oscillator(d, 0.0, 0.0, 0.1);
+    Finding::always((1..20).map(|number| {
+        let parameters = linear(-0.05 * f64::from(number));
         let cycle = smallest(&parameters, limits)?;
         let harmonic = largest_amplitude(&parameters)?;
         let (low, high) = (cycle.v_max.min(cycle.q_max), cycle.v_max.max(cycle.q_max));
         let place =
             format!("{}: A = {harmonic:.5}, A_v = {low:.5}, A_q = {high:.5}", place(&parameters));
-        let decided = holds(harmonic, low, high);
+        let value = holds(harmonic, low, high);
         let certain = cycle.bounds.is_some_and(|it| {
             let [v, q] = [it.v_max, it.q_max];
             // The formula is rounded, and which of both extents is the larger one is certain.
             let ordered = v.upper() < q.lower() || q.upper() < v.lower();
-            let agrees = |a: f64, v: f64, q: f64| holds(a, v.min(q), v.max(q)) == decided;
+            let agrees = |a: f64, v: f64, q: f64| holds(a, v.min(q), v.max(q)) == value;
             let formula = [harmonic * (1.0 - 1e-9), harmonic * (1.0 + 1e-9)];
             ordered
                 && formula
                     .iter()
                     .all(|&a| agrees(a, v.lower(), q.lower()) && agrees(a, v.upper(), q.upper()))
         });
-        cases.push((place, KnownAnswer { holds: decided, certain }));
-    }
-    Ok(Finding::always(cases))
+        Ok((place, Certain { value, certain }))
+    }))
 }

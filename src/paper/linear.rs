@@ -2,18 +2,19 @@
 
 use std::f64::consts::PI;
 
-use super::certain::BoundedCycle;
 use super::equilibria::{least_kick, shifted};
+use super::harmonic::units_of_friction;
+use super::known::Known;
 use super::measure::{
-    Known, at_rest, edge, half_swing, of_cycle, oscillator, place, smallest, state_at,
+    at_rest, cycles, edge, extent, half_swing, of_cycle, oscillator, over, place, smallest, speed,
+    state_at,
 };
 use super::{Claim, Finding};
 use crate::flow::{Limits, Reason};
 use crate::model::{Parameters, State};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{atan, atan2, exp, sin, sin_cos};
-use crate::portrait::{Border, Cycle};
-use crate::proof::Enclosure;
+use crate::portrait::Border;
 
 pub const CLAIMS: &[Claim] = &[
     Claim {
@@ -25,10 +26,10 @@ pub const CLAIMS: &[Claim] = &[
         check: |limits| {
             let parameters = oscillator(-0.02, 0.5, 0.0, 0.1);
             let found = edge(&parameters, limits)?;
-            let cycles = f64::from(u8::from(found.border == Border::Cycle));
+            let cycles = f64::from(u8::from(found.value == Border::Cycle));
             let at = format!("{}, where starts beyond a finite border escape", place(&parameters));
             // A basin without a border would need none.
-            let needed = f64::from(u8::from(found.border != Border::None));
+            let needed = f64::from(u8::from(found.value != Border::None));
             let bounds = found.certain.then_some(Interval::point(cycles));
             Ok(Finding::equal(needed, Known::exact(cycles).within(bounds)).at(at))
         },
@@ -40,13 +41,11 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("linear"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for d in DAMPINGS {
-                let found = crate::paper::measure::cycles(&units_of_friction(d), limits)?;
-                let further = |found: &[BoundedCycle]| found.len() == 1 && found[0].clearance > 0.0;
-                cases.push((format!("D = {d}"), found.answer(further)));
-            }
-            Ok(Finding::always(cases))
+            Finding::always(DAMPINGS.map(|d| {
+                let found = cycles(&units_of_friction(d), limits)?;
+                let further = found.map(|found| found.len() == 1 && found[0].clearance > 0.0);
+                Ok((format!("D = {d}"), further))
+            }))
         },
     },
     Claim {
@@ -57,11 +56,9 @@ pub const CLAIMS: &[Claim] = &[
         basis: "border",
         scene: Some("linear"),
         check: |limits| {
-            Finding::worst(DAMPINGS.map(|d| {
-                let parameters = units_of_friction(d);
-                let least = least_kick(&parameters, limits)?;
-                Ok(Finding::at_most(parameters.r, least).at(place(&parameters)))
-            }))
+            over(DAMPINGS.map(units_of_friction), |parameters| {
+                Ok(Finding::at_most(parameters.r, least_kick(parameters, limits)?))
+            })
         },
     },
     Claim {
@@ -87,18 +84,18 @@ pub const CLAIMS: &[Claim] = &[
         basis: "motion",
         scene: Some("fig06"),
         check: |limits| {
-            Finding::worst(DAMPINGS.map(|d| {
-                let (parameters, swing) = (units_of_friction(d), LinearSwing::new(d));
+            over(DAMPINGS.map(units_of_friction), |parameters| {
+                let swing = LinearSwing::of(parameters);
                 let tau = 0.4 * PI / swing.omega;
                 let start = at_rest(-parameters.r - 1.0);
-                let [_, velocity] = state_at(&parameters, start, tau, limits)?;
-                let (a, b) = (-1.0, -d / swing.omega);
+                let [_, velocity] = state_at(parameters, start, tau, limits)?;
+                let (d, a, b) = (swing.d, -1.0, -swing.d / swing.omega);
                 let (sine, cosine) = sin_cos(swing.omega * tau);
                 let formula =
                     -(a * d - b * swing.omega) * cosine - (b * d + a * swing.omega) * sine;
-                let at = format!("{}, from q = -2, at tau = {tau:.4}", place(&parameters));
+                let at = format!("{}, from q = -2, at tau = {tau:.4}", place(parameters));
                 Ok(Finding::equal(formula * exp(-d * tau), velocity).at(at))
-            }))
+            })
         },
     },
     Claim {
@@ -116,17 +113,15 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig07"),
         check: |limits| {
-            let dampings = std::iter::once(-0.999).chain(DAMPINGS);
-            Finding::worst(dampings.map(|d| {
-                let parameters = units_of_friction(d);
-                let cycle = smallest(&parameters, limits)?;
+            over(std::iter::once(-0.999).chain(DAMPINGS).map(units_of_friction), |parameters| {
+                let (cycle, swing) = (smallest(parameters, limits)?, LinearSwing::of(parameters));
                 // An exponential has as many times the relative error of its exponent, 70 at D = -0.999.
-                let exponent = 1.0 + PI * d.abs() / (1.0 - d * d).sqrt();
+                let exponent = 1.0 + PI * swing.d.abs() / swing.omega;
                 let error = cycle.error.unwrap_or(f64::INFINITY) + exponent * 1e-14;
                 let bounds = cycle.bounds.map(|it| it.clearance);
                 let computed = Known::relative(cycle.clearance, error).within(bounds);
-                Ok(Finding::equal(LinearSwing::new(d).clearance(), computed).at(place(&parameters)))
-            }))
+                Ok(Finding::equal(swing.clearance(), computed))
+            })
         },
     },
     Claim {
@@ -144,11 +139,11 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig08"),
         check: |limits| {
-            over_cycles(
-                limits,
-                |swing| ((swing.growth + 1.0) / (swing.growth - 1.0), None),
-                (|cycle| cycle.q_max, |bounds| bounds.q_max),
-            )
+            over(DAMPINGS.map(units_of_friction), |parameters| {
+                let LinearSwing { growth, .. } = LinearSwing::of(parameters);
+                let formula = (growth + 1.0) / (growth - 1.0);
+                Ok(Finding::equal(formula, extent(&smallest(parameters, limits)?)))
+            })
         },
     },
     Claim {
@@ -158,11 +153,12 @@ pub const CLAIMS: &[Claim] = &[
         basis: "cycle",
         scene: Some("fig08"),
         check: |limits| {
-            over_cycles(
-                limits,
-                |swing| (swing.printed_velocity(), Some(swing.largest_velocity())),
-                (|cycle| cycle.v_max, |bounds| bounds.v_max),
-            )
+            over(DAMPINGS.map(units_of_friction), |parameters| {
+                let swing = LinearSwing::of(parameters);
+                let computed = speed(&smallest(parameters, limits)?);
+                let printed = Finding::equal(swing.printed_velocity(), computed);
+                Ok(printed.corrected(swing.largest_velocity()))
+            })
         },
     },
     Claim {
@@ -175,10 +171,8 @@ pub const CLAIMS: &[Claim] = &[
             let cycle = |r: f64| smallest(&oscillator(-0.4, 0.0, 0.0, r), limits);
             let (one, three) = (cycle(1.0)?, cycle(3.0)?);
             let ratio = three.q_max / one.q_max;
-            let ratio = match one.bounds {
-                Some(unit) => of_cycle(&three, ratio, |it| it.q_max / unit.q_max),
-                None => of_cycle(&three, ratio, |_| Interval::ALL),
-            };
+            let unit = one.bounds.map_or(Interval::ALL, |it| it.q_max);
+            let ratio = of_cycle(&three, ratio, |it| it.q_max / unit);
             Ok(Finding::equal(3.0, ratio).at("D = -0.4, D2 = D3 = 0"))
         },
     },
@@ -186,11 +180,6 @@ pub const CLAIMS: &[Claim] = &[
 
 /// Dampings at which formulas of the piecewise linear oscillator are tested.
 const DAMPINGS: [f64; 5] = [-0.9, -0.7, -0.4, -0.1, -0.01];
-
-/// The oscillator in units of its friction.
-fn units_of_friction(d: f64) -> Parameters {
-    oscillator(d, 0.0, 0.0, 1.0)
-}
 
 /// What the formulas of a half swing are made of, in units of friction.
 struct LinearSwing {
@@ -202,7 +191,8 @@ struct LinearSwing {
 }
 
 impl LinearSwing {
-    fn new(d: f64) -> Self {
+    fn of(parameters: &Parameters) -> Self {
+        let d = parameters.d;
         let omega = (1.0 - d * d).sqrt();
         LinearSwing { d, omega, growth: exp(-PI * d / omega) }
     }
@@ -239,39 +229,19 @@ fn over_swings(
     formula: fn(&LinearSwing) -> f64,
     read: fn([Known; 2]) -> Known,
 ) -> Result<Finding, Reason> {
-    Finding::worst(DAMPINGS.map(|d| {
-        let parameters = units_of_friction(d);
-        let paper = formula(&LinearSwing::new(d));
-        let computed = read(half_swing(&parameters, at_rest(-2.0), limits)?);
-        Ok(Finding::equal(paper, computed).at(format!("{}, from q = -2", place(&parameters))))
-    }))
-}
-
-/// How a number is read from a cycle, and its bounds.
-type Reading = (fn(&Cycle) -> f64, fn(&Enclosure) -> Interval);
-
-/// A formula of the cycle against the one found by the search, at the worst of some dampings.
-fn over_cycles(
-    limits: &Limits,
-    formula: fn(&LinearSwing) -> (f64, Option<f64>),
-    (read, bounds): Reading,
-) -> Result<Finding, Reason> {
-    Finding::worst(DAMPINGS.map(|d| {
-        let parameters = units_of_friction(d);
-        let cycle = smallest(&parameters, limits)?;
-        let (paper, corrected) = formula(&LinearSwing::new(d));
-        let computed = of_cycle(&cycle, read(&cycle), bounds);
-        let finding = Finding::equal(paper, computed).at(place(&parameters));
-        Ok(Finding { corrected, ..finding })
-    }))
+    over(DAMPINGS.map(units_of_friction), |parameters| {
+        let computed = read(half_swing(parameters, at_rest(-2.0), limits)?);
+        let at = format!("{}, from q = -2", place(parameters));
+        Ok(Finding::equal(formula(&LinearSwing::of(parameters)), computed).at(at))
+    })
 }
 
 /// Both coordinates of (31) against the motion that starts at the turning point of the cycle.
 fn on_the_curve(limits: &Limits) -> Result<Finding, Reason> {
     const ANGLE: f64 = 2.0;
     let mut findings = Vec::new();
-    for d in DAMPINGS {
-        let (parameters, swing) = (units_of_friction(d), LinearSwing::new(d));
+    for parameters in DAMPINGS.map(units_of_friction) {
+        let swing = LinearSwing::of(&parameters);
         let start = at_rest(swing.curve(0.0).q);
         let state = state_at(&parameters, start, ANGLE / swing.omega, limits)?;
         // The start is rounded, and near D = -1 its clearance is a small fraction of it.

@@ -3,11 +3,12 @@
 //! A motion is integrated by two methods that share nothing but the field, and the error is what they
 //! differ by. Cycles come from the general search, also where a closed form exists.
 
-use super::certain::{AllFound, BoundedCycle, CertainBorder, enclosed, enclosed_state};
-pub use super::known::Known;
-use super::known::KnownAnswer;
+use std::ops::Deref;
+
+use super::Finding;
+use super::known::{Certain, Known};
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason};
+use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
 use crate::model::{Knob, Parameters, Side, State};
 use crate::numerics::Interval;
 use crate::portrait::basin::arc::{Arc, Direction};
@@ -17,12 +18,31 @@ use crate::portrait::closing::equation::Equation;
 use crate::portrait::closing::half_map::Length;
 use crate::portrait::proved::matching;
 use crate::portrait::{Border, Cycle};
-use crate::proof::motion::ProvedFate;
+use crate::proof::motion::{ProvedFate, ProvedMotion, follow};
 use crate::proof::range::change_within;
 use crate::proof::{Enclosure, ParameterBox, kicks, prove};
 
 /// Rounding of a number that several operations made from a computed one.
 const ROUNDED: f64 = 1e-14;
+
+/// A cycle of the search, and bounds of its numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoundedCycle {
+    cycle: Cycle,
+    /// Where it is proved.
+    pub bounds: Option<Enclosure>,
+}
+
+impl Deref for BoundedCycle {
+    type Target = Cycle;
+
+    fn deref(&self) -> &Cycle {
+        &self.cycle
+    }
+}
+
+/// All cycles of the search; certain, if it is proved that there are these and no others.
+pub type AllFound = Certain<Vec<BoundedCycle>>;
 
 /// A number made from those of a cycle, and the same from their bounds.
 pub fn of_cycle(
@@ -32,6 +52,16 @@ pub fn of_cycle(
 ) -> Known {
     Known::relative(value, cycle.error.unwrap_or(f64::INFINITY) + ROUNDED)
         .within(cycle.bounds.as_ref().map(bounds))
+}
+
+/// The extent `q_max` of a cycle.
+pub fn extent(cycle: &BoundedCycle) -> Known {
+    of_cycle(cycle, cycle.q_max, |it| it.q_max)
+}
+
+/// The largest velocity of a cycle.
+pub fn speed(cycle: &BoundedCycle) -> Known {
+    of_cycle(cycle, cycle.v_max, |it| it.v_max)
 }
 
 /// An oscillator, in the order of the equation.
@@ -59,6 +89,34 @@ fn short(value: f64) -> String {
     if full.len() <= TYPED { full } else { format!("{value:.6}") }
 }
 
+/// The worst comparison over some oscillators; its place is the oscillator, unless it has one.
+pub fn over(
+    cases: impl IntoIterator<Item = Parameters>,
+    compare: impl Fn(&Parameters) -> Result<Finding, Reason>,
+) -> Result<Finding, Reason> {
+    Finding::worst(cases.into_iter().map(|parameters| {
+        let finding = compare(&parameters)?;
+        let unnamed = finding.place.is_empty();
+        Ok(if unnamed { finding.at(place(&parameters)) } else { finding })
+    }))
+}
+
+/// What should hold for each of some oscillators.
+pub fn everywhere<A: Into<Certain<bool>>>(
+    cases: impl IntoIterator<Item = Parameters>,
+    holds: impl Fn(&Parameters) -> Result<A, Reason>,
+) -> Result<Finding, Reason> {
+    Finding::always(cases.into_iter().map(|it| Ok((place(&it), holds(&it)?))))
+}
+
+/// How a formula and what it should approach differ far from the limit and near it.
+pub fn towards(
+    [far, near]: [Parameters; 2],
+    compare: impl Fn(&Parameters) -> Result<(f64, Known), Reason>,
+) -> Result<Finding, Reason> {
+    Ok(Finding::tends(compare(&far)?, compare(&near)?).at(place(&near)))
+}
+
 pub fn at_rest(q: f64) -> State {
     State { q, v: 0.0 }
 }
@@ -66,12 +124,13 @@ pub fn at_rest(q: f64) -> State {
 /// The two methods that answer every question about a motion, with the relative error of a step.
 const METHODS: [(Method, f64); 2] = [(Method::Taylor, 1e-15), (Method::Dop853, 1e-14)];
 
-/// A motion from `initial` until `until` by both methods, each reduced to numbers by `read`.
+/// A motion from `initial` until `until` by both methods, each reduced to numbers by `read`. Fails where one has none,
+/// or was given up.
 fn motions<const N: usize>(
     (parameters, initial, until): (Parameters, State, f64),
-    limits: &Limits,
-    read: impl Fn(&crate::flow::Trajectory) -> Option<[f64; N]>,
-) -> Result<Option<[Known; N]>, Reason> {
+    (limits, sought): (&Limits, &'static str),
+    read: impl Fn(&Trajectory) -> Option<[f64; N]>,
+) -> Result<[Known; N], Reason> {
     let mut answers = [None; 2];
     for (answer, (method, tolerance)) in answers.iter_mut().zip(METHODS) {
         let problem =
@@ -83,15 +142,15 @@ fn motions<const N: usize>(
         }
         *answer = read(&motion);
     }
-    let [Some(first), Some(second)] = answers else { return Ok(None) };
-    Ok(Some(std::array::from_fn(|index| Known::twice(first[index], second[index]))))
+    let [Some(first), Some(second)] = answers else { return Err(missing(sought)) };
+    Ok(std::array::from_fn(|index| Known::twice(first[index], second[index])))
 }
 
 /// Longer than any half swing asked for here.
 const LONG: f64 = 1000.0;
 
 /// A question whose answer should exist did not have one.
-fn missing(sought: &'static str) -> Reason {
+pub fn missing(sought: &'static str) -> Reason {
     Reason::NoConvergence { sought, change: f64::NAN }
 }
 
@@ -103,14 +162,12 @@ pub fn half_swing(
 ) -> Result<[Known; 2], Reason> {
     // Stopping at the arrival needs its time; a first run over one half swing finds it.
     let until = parameters.omega().map_or(LONG, |omega| 2.0 * std::f64::consts::PI / omega);
-    motions((*parameters, initial, until), limits, |motion| {
+    let sought = (limits, "an arrival at v = 0");
+    let [q, tau] = motions((*parameters, initial, until), sought, |motion| {
         motion.crossings.first().map(|crossing| [crossing.q, crossing.tau])
-    })?
-    .map(|[q, tau]| {
-        let turn = enclosed(parameters, initial, until).turns.first().copied();
-        [q.within(turn.map(|turn| turn.q)), tau.within(turn.map(|turn| turn.tau))]
-    })
-    .ok_or(missing("an arrival at v = 0"))
+    })?;
+    let turn = enclosed(parameters, initial, until).turns.first().copied();
+    Ok([q.within(turn.map(|turn| turn.q)), tau.within(turn.map(|turn| turn.tau))])
 }
 
 /// State at a time before the motion comes to rest.
@@ -120,15 +177,13 @@ pub fn state_at(
     tau: f64,
     limits: &Limits,
 ) -> Result<[Known; 2], Reason> {
-    motions((*parameters, initial, tau), limits, |motion| match motion.outcome {
+    let sought = (limits, "a state in motion");
+    let [q, v] = motions((*parameters, initial, tau), sought, |motion| match motion.outcome {
         Outcome::Moving { q, v, .. } => Some([q, v]),
         _ => None,
-    })?
-    .map(|[q, v]| {
-        let bounds = enclosed_state(parameters, initial, tau);
-        [q.within(bounds.map(|it| it[0])), v.within(bounds.map(|it| it[1]))]
-    })
-    .ok_or(missing("a state in motion"))
+    })?;
+    let bounds = enclosed_state(parameters, initial, tau);
+    Ok([q.within(bounds.map(|it| it[0])), v.within(bounds.map(|it| it[1]))])
 }
 
 /// Change of the energy over a motion, and the works of linear damping and of friction.
@@ -138,32 +193,30 @@ pub fn energy_change(
     until: f64,
     limits: &Limits,
 ) -> Result<[Known; 3], Reason> {
-    motions((*parameters, initial, until), limits, |motion| {
+    let sought = (limits, "an energy ledger");
+    let [change, linear, friction] = motions((*parameters, initial, until), sought, |motion| {
         motion.ledger.map(|ledger| [ledger.end - ledger.start, ledger.linear, ledger.friction])
-    })?
-    .map(|[change, linear, friction]| {
-        let half = Interval::point(0.5);
-        let energy = |[q, v]: [Interval; 2]| (q.square() + v.square()) * half;
-        let start = energy([initial.q, initial.v].map(Interval::point));
-        let end = enclosed_state(parameters, initial, until).map(energy);
-        [change.within(end.map(|end| end - start)), linear, friction]
-    })
-    .ok_or(missing("an energy ledger"))
+    })?;
+    let energy = |[q, v]: [Interval; 2]| (q.square() + v.square()) * 0.5;
+    let start = energy([initial.q, initial.v].map(Interval::point));
+    let end = enclosed_state(parameters, initial, until).map(energy);
+    Ok([change.within(end.map(|end| end - start)), linear, friction])
 }
 
-/// How a motion ends before `until`. Fails with the [`Reason`] why it was given up.
-pub fn outcome(
+/// A motion until `until`. Fails with the [`Reason`] why it was given up.
+pub fn motion(
     parameters: &Parameters,
     initial: State,
     until: f64,
     limits: &Limits,
-) -> Result<Outcome, Reason> {
+) -> Result<Trajectory, Reason> {
     let (parameters, tolerance) = (*parameters, 1e-12);
     let problem = Problem { parameters, initial, until, tolerance, ..Problem::default() };
-    match trajectory(&problem, Detail::default(), limits).outcome {
-        Outcome::GaveUp { reason, .. } => Err(reason),
-        outcome => Ok(outcome),
+    let motion = trajectory(&problem, Detail::default(), limits);
+    if let Outcome::GaveUp { reason, .. } = motion.outcome {
+        return Err(reason);
     }
+    Ok(motion)
 }
 
 /// Whether a motion comes to rest before `until`. Fails with the [`Reason`] why it was given up.
@@ -172,15 +225,15 @@ pub fn captured(
     initial: State,
     until: f64,
     limits: &Limits,
-) -> Result<KnownAnswer, Reason> {
-    let end = outcome(parameters, initial, until, limits)?;
-    let holds = matches!(end, Outcome::Captured { .. });
+) -> Result<Certain<bool>, Reason> {
+    let end = motion(parameters, initial, until, limits)?.outcome;
+    let value = matches!(end, Outcome::Captured { .. });
     let certain = match enclosed(parameters, initial, until).fate {
-        ProvedFate::Captured { .. } => holds,
-        ProvedFate::Moving { .. } | ProvedFate::Escaped { .. } => !holds,
+        ProvedFate::Captured { .. } => value,
+        ProvedFate::Moving { .. } | ProvedFate::Escaped { .. } => !value,
         ProvedFate::Open { .. } => false,
     };
-    Ok(KnownAnswer { holds, certain })
+    Ok(Certain { value, certain })
 }
 
 /// All cycles by the general search, smallest first, whether or not a closed form exists. Fails with the [`Reason`]
@@ -197,14 +250,15 @@ pub fn beside_proof(parameters: &Parameters, found: Vec<Cycle>) -> AllFound {
     let hints: Vec<f64> = found.iter().map(|cycle| cycle.clearance).collect();
     let proof = prove(&ParameterBox::from(parameters), &hints);
     let certain = proof.is_complete() && proof.cycles.len() == found.len();
-    let with_bounds = |cycle: Cycle| {
-        BoundedCycle::new(cycle, matching(&proof, &cycle).and_then(|proved| proved.enclosure))
+    let with_bounds = |cycle: Cycle| BoundedCycle {
+        cycle,
+        bounds: matching(&proof, &cycle).and_then(|proved| proved.enclosure),
     };
-    AllFound { cycles: found.into_iter().map(with_bounds).collect(), certain }
+    Certain { value: found.into_iter().map(with_bounds).collect(), certain }
 }
 
 /// What borders the basin. Fails with the [`Reason`] why a border could not be computed.
-pub fn edge(parameters: &Parameters, limits: &Limits) -> Result<CertainBorder, Reason> {
+pub fn edge(parameters: &Parameters, limits: &Limits) -> Result<Certain<Border>, Reason> {
     let found = basin(parameters, 10.0, limits)?.border;
     let proved = kicks::edge(&prove(&ParameterBox::from(parameters), &[]));
     let certain = match found {
@@ -213,7 +267,7 @@ pub fn edge(parameters: &Parameters, limits: &Limits) -> Result<CertainBorder, R
         Border::Separatrix => proved == Some(kicks::ProvedEdge::Separatrix),
         _ => false,
     };
-    Ok(CertainBorder { border: found, certain })
+    Ok(Certain { value: found, certain })
 }
 
 /// The value of D at which cycles vanish, `found` being where the search says so: enclosed to a thousandth.
@@ -226,31 +280,47 @@ pub fn last_cycle(parameters: &Parameters, found: f64, error: f64) -> Known {
 
 /// The smallest cycle.
 pub fn smallest(parameters: &Parameters, limits: &Limits) -> Result<BoundedCycle, Reason> {
-    cycles(parameters, limits)?.cycles.first().copied().ok_or(missing("a limit cycle"))
+    cycles(parameters, limits)?.value.first().copied().ok_or(missing("a limit cycle"))
 }
 
 /// The largest cycle.
 pub fn largest(parameters: &Parameters, limits: &Limits) -> Result<BoundedCycle, Reason> {
-    cycles(parameters, limits)?.cycles.last().copied().ok_or(missing("a limit cycle"))
+    cycles(parameters, limits)?.value.last().copied().ok_or(missing("a limit cycle"))
 }
 
 /// Half of what lies between the turning points.
 pub fn amplitude(cycle: &BoundedCycle) -> Known {
-    of_cycle(cycle, 0.5 * (cycle.q_max - cycle.q_min), |it| {
-        Interval::point(0.5) * (it.q_max - it.q_min)
-    })
+    of_cycle(cycle, 0.5 * (cycle.q_max - cycle.q_min), |it| (it.q_max - it.q_min) * 0.5)
 }
 
 /// Mean displacement of a cycle over its period. Fails with the [`Reason`] why its arcs could not be computed.
 pub fn mean(parameters: &Parameters, cycle: &Cycle, limits: &Limits) -> Result<Known, Reason> {
     /// Relative error of the integral of q by arcs to 1e-14.
     const INTEGRAL: f64 = 1e-11;
-    let r = parameters.r;
-    let arc = |side, clearance| {
-        Arc::new(parameters, side, Direction::Forward, Length::new(clearance), limits)
-    };
-    let rise = arc(Side::Upper, -cycle.q_min - r)?;
-    let fall = arc(Side::Lower, cycle.q_max - r)?;
+    let [rise, fall] = arcs(parameters, cycle, limits)?;
     let mean = (rise.time_integral() + fall.time_integral()) / cycle.period;
     Ok(Known::new(mean, INTEGRAL * cycle.q_max))
+}
+
+/// The arcs of a cycle above and below `v = 0`. Fails with the [`Reason`] why they could not be computed.
+pub fn arcs(parameters: &Parameters, cycle: &Cycle, limits: &Limits) -> Result<[Arc; 2], Reason> {
+    let arc = |side, turn: f64| {
+        let clearance = Length::new(turn - parameters.r);
+        Arc::new(parameters, side, Direction::Forward, clearance, limits)
+    };
+    Ok([arc(Side::Upper, -cycle.q_min)?, arc(Side::Lower, cycle.q_max)?])
+}
+
+/// The motion from a state, enclosed.
+pub fn enclosed(parameters: &Parameters, initial: State, until: f64) -> ProvedMotion {
+    let start = [initial.q, initial.v].map(Interval::point);
+    follow(&ParameterBox::from(parameters), start, until)
+}
+
+/// Bounds of a state at a time before the motion comes to rest.
+pub fn enclosed_state(parameters: &Parameters, initial: State, tau: f64) -> Option<[Interval; 2]> {
+    match enclosed(parameters, initial, tau).fate {
+        ProvedFate::Moving { q, v } => Some([q, v]),
+        _ => None,
+    }
 }

@@ -10,18 +10,15 @@ mod amplitudes;
 pub(crate) mod belt;
 mod beyond;
 mod bifurcation;
-mod certain;
 mod equilibria;
 mod harmonic;
 mod known;
 mod linear;
 mod measure;
 mod model;
-mod summary;
 mod verdict;
 
-pub use certain::Certainty;
-pub use known::{POOR, Sense};
+pub use known::{Certainty, POOR, Sense};
 pub use verdict::{Finding, Verdict};
 
 use crate::flow::{Limits, Reason};
@@ -69,14 +66,13 @@ impl ClaimResult {
 }
 
 /// All claims, section by section, then what the paper does not say.
-pub const SECTIONS: [&[Claim]; 8] = [
+pub const SECTIONS: [&[Claim]; 7] = [
     model::CLAIMS,
     equilibria::CLAIMS,
     linear::CLAIMS,
     harmonic::CLAIMS,
     amplitudes::CLAIMS,
     bifurcation::CLAIMS,
-    summary::CLAIMS,
     beyond::CLAIMS,
 ];
 

@@ -1,8 +1,9 @@
 //! Sections 2 and 3: from the mass on its belt to the equation, and the smooth steady state.
 
-use super::measure::{Known, at_rest, half_swing, oscillator};
+use super::known::Known;
+use super::measure::{at_rest, half_swing, oscillator};
 use super::{Claim, Finding, belt};
-use crate::closed_form::linear::first_standstill;
+use crate::closed_form::linear::Linear;
 use crate::flow::{Limits, Reason};
 use crate::model::Parameters;
 use crate::numerics::elementary::{exp, ln, powi};
@@ -24,11 +25,10 @@ pub const CLAIMS: &[Claim] = &[
         basis: "law",
         scene: None,
         check: |_| {
-            let stiffness = derivatives(|x| -MASS.acceleration(x, 0.0, 0.0))[0];
+            let stiffness = derivatives(|x| -acceleration(x, 0.0, 0.0))[0];
             let value = stiffness.value.sqrt();
             let computed = Known::new(value, 0.5 * stiffness.error / value);
-            let (c, m) = (MASS.c, MASS.m);
-            Ok(Finding::equal(c / m, computed).corrected((c / m).sqrt()).at(MASS_PLACE))
+            Ok(Finding::equal(C / M, computed).corrected(omega()).at(MASS))
         },
     },
     Claim {
@@ -40,9 +40,8 @@ pub const CLAIMS: &[Claim] = &[
         scene: None,
         check: |_| {
             let computed = coefficient(0, -0.5);
-            let [slope, ..] = MASS.friction_derivatives();
-            let form = |mu: f64| (MASS.d1 + MASS.normal * mu) / (2.0 * MASS.m * MASS.omega());
-            Ok(Finding::equal(form(-slope), computed).corrected(form(slope)).at(MASS_PLACE))
+            let form = |mu: f64| (D1 + NORMAL * mu) / (2.0 * M * omega());
+            Ok(Finding::equal(form(falling()), computed).corrected(form(-falling())).at(MASS))
         },
     },
     Claim {
@@ -53,9 +52,8 @@ pub const CLAIMS: &[Claim] = &[
         scene: None,
         check: |_| {
             let computed = coefficient(1, -0.5);
-            let [_, curvature, _] = MASS.friction_derivatives();
-            let form = MASS.normal * curvature * MASS.shift() / (2.0 * MASS.m);
-            Ok(Finding::equal(form, computed).corrected(-form).at(MASS_PLACE))
+            let form = NORMAL * falling() * shift() / (2.0 * M);
+            Ok(Finding::equal(form, computed).corrected(-form).at(MASS))
         },
     },
     Claim {
@@ -66,10 +64,9 @@ pub const CLAIMS: &[Claim] = &[
         scene: None,
         check: |_| {
             let computed = coefficient(2, -1.0 / 6.0);
-            let [.., third] = MASS.friction_derivatives();
-            let unit = MASS.omega() * MASS.shift() * MASS.shift() / MASS.m;
-            let form = |mu: f64| (MASS.d3 + MASS.normal * mu / 6.0) * unit;
-            Ok(Finding::equal(form(-third), computed).corrected(form(third)).at(MASS_PLACE))
+            let unit = omega() * shift() * shift() / M;
+            let form = |mu: f64| (D3 + NORMAL * mu / 6.0) * unit;
+            Ok(Finding::equal(form(falling()), computed).corrected(form(-falling())).at(MASS))
         },
     },
     Claim {
@@ -79,10 +76,10 @@ pub const CLAIMS: &[Claim] = &[
         basis: "law",
         scene: None,
         check: |_| {
-            let jump = MASS.dimensionless(0.0, -0.0) - MASS.dimensionless(0.0, 0.0);
-            let printed = MASS.joint / (MASS.m * powi(MASS.omega(), 2));
+            let jump = dimensionless(0.0, JOINT) - dimensionless(0.0, -JOINT);
+            let printed = JOINT / (M * powi(omega(), 2));
             let computed = Known::relative(0.5 * jump, 1e-14);
-            Ok(Finding::equal(printed, computed).corrected(printed / MASS.shift()).at(MASS_PLACE))
+            Ok(Finding::equal(printed, computed).corrected(printed / shift()).at(MASS))
         },
     },
     Claim {
@@ -93,8 +90,8 @@ pub const CLAIMS: &[Claim] = &[
         scene: None,
         check: |_| {
             let cases = [-1.0, -0.999_999, -0.5, 0.0, 0.5, 0.999_999, 1.0];
-            let returns = |d: f64| first_standstill(d, -1.0, 0.0).is_some();
-            Ok(Finding::always(cases.map(|d| (format!("D = {d}"), returns(d)))))
+            let returns = |d: f64| Linear::new(d).first_standstill(-1.0, 0.0).is_some();
+            Finding::always(cases.map(|d| Ok((format!("D = {d}"), returns(d)))))
         },
     },
     Claim {
@@ -139,14 +136,11 @@ pub const CLAIMS: &[Claim] = &[
         basis: "motion",
         scene: Some("fig02"),
         check: |limits| {
-            let mut cases = Vec::new();
-            for d in [-0.9, -0.1, -1e-3, 1e-3, 0.1, 0.9] {
+            Finding::always([-0.9, -0.1, -1e-3, 1e-3, 0.1, 0.9].map(|d| {
                 let parameters = oscillator(d, 0.2, 0.5, 0.0);
                 let [end, _] = half_swing(&parameters, at_rest(-1e-6), limits)?;
-                let grows = end.exceeds(1e-6);
-                cases.push((format!("D = {d}"), grows.is(d < 0.0)));
-            }
-            Ok(Finding::always(cases))
+                Ok((format!("D = {d}"), end.exceeds(1e-6).is(d < 0.0)))
+            }))
         },
     },
 ];
@@ -168,67 +162,57 @@ fn over_damping(
     }))
 }
 
-/// A mass on a belt, in SI units, whose friction falls exponentially with the relative velocity.
-struct Mass {
-    m: f64,
-    c: f64,
-    d1: f64,
-    d3: f64,
-    /// Normal force F.
-    normal: f64,
-    /// Velocity of the belt.
-    belt: f64,
-    /// Friction R of the joint.
-    joint: f64,
-}
-
-/// The example: no two of its numbers make a factor 1.
-const MASS: Mass = Mass { m: 2.0, c: 8.0, d1: 0.1, d3: 0.02, normal: 5.0, belt: 0.8, joint: 0.6 };
-
-const MASS_PLACE: &str =
+/// A mass on a belt, in SI units, whose friction falls exponentially with the relative velocity. No two of its
+/// numbers make a factor 1.
+const MASS: &str =
     "m = 2, c = 8, d1 = 0.1, d3 = 0.02, F = 5, v0 = 0.8, R = 0.6, mu = 0.2 + 0.3 exp(-v)";
 
-impl Mass {
-    fn friction(velocity: f64) -> f64 {
-        0.2 + 0.3 * exp(-velocity)
-    }
+const M: f64 = 2.0;
+const C: f64 = 8.0;
+const D1: f64 = 0.1;
+const D3: f64 = 0.02;
+/// Normal force F.
+const NORMAL: f64 = 5.0;
+/// Velocity of the belt.
+const BELT: f64 = 0.8;
+/// Friction R of the joint.
+const JOINT: f64 = 0.6;
 
-    /// First, second and third derivative of the friction by the relative velocity, at the belt's.
-    fn friction_derivatives(&self) -> [f64; 3] {
-        let falling = 0.3 * exp(-self.belt);
-        [-falling, falling, -falling]
-    }
-
-    fn omega(&self) -> f64 {
-        (self.c / self.m).sqrt()
-    }
-
-    /// The static displacement, at which the spring balances the belt.
-    fn shift(&self) -> f64 {
-        self.normal * Self::friction(self.belt) / self.c
-    }
-
-    /// Acceleration at the displacement `x` from the static one; `joint` is the force of the joint.
-    fn acceleration(&self, x: f64, velocity: f64, joint: f64) -> f64 {
-        let spring = self.c * (x + self.shift());
-        let pull = self.normal * Self::friction(self.belt - velocity);
-        (pull - spring - velocity * (self.d1 + self.d3 * velocity * velocity) + joint) / self.m
-    }
-
-    /// `q''` over q and q', friction of the joint included; the sign of a zero velocity is its side.
-    fn dimensionless(&self, q: f64, v: f64) -> f64 {
-        let (length, omega) = (self.shift(), self.omega());
-        let joint = -self.joint * 1.0_f64.copysign(v);
-        self.acceleration(q * length, v * length * omega, joint) / (length * omega * omega)
-    }
+/// Coefficient of friction at a relative velocity.
+fn friction(velocity: f64) -> f64 {
+    0.2 + 0.3 * exp(-velocity)
 }
 
-/// A factor times a derivative of the dimensionless acceleration by the velocity; the side above.
+/// Second derivative of the friction by the relative velocity, at the belt's; the first and the third are its
+/// negative.
+fn falling() -> f64 {
+    0.3 * exp(-BELT)
+}
+
+fn omega() -> f64 {
+    (C / M).sqrt()
+}
+
+/// The static displacement, at which the spring balances the belt.
+fn shift() -> f64 {
+    NORMAL * friction(BELT) / C
+}
+
+/// Acceleration at the displacement `x` from the static one; `joint` is the force of the joint.
+fn acceleration(x: f64, velocity: f64, joint: f64) -> f64 {
+    let pull = NORMAL * friction(BELT - velocity);
+    (pull - C * (x + shift()) - velocity * (D1 + D3 * velocity * velocity) + joint) / M
+}
+
+/// `q''` at `q = 0` over q'.
+fn dimensionless(v: f64, joint: f64) -> f64 {
+    let (length, omega) = (shift(), omega());
+    acceleration(0.0, v * length * omega, joint) / (length * omega * omega)
+}
+
+/// A factor times a derivative of the dimensionless acceleration by the velocity, without the joint.
 fn coefficient(order: usize, factor: f64) -> Known {
-    let (length, omega) = (MASS.shift(), MASS.omega());
-    let smooth =
-        |v: f64| MASS.acceleration(0.0, v * length * omega, 0.0) / (length * omega * omega);
-    let derivative = derivatives(smooth)[order];
+    let derivative = derivatives(|v| dimensionless(v, 0.0))[order];
     Known::new(factor * derivative.value, (factor * derivative.error).abs())
 }
 

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use super::certain::Certainty;
-use super::known::{Known, KnownAnswer, POOR, Sense};
+use super::known::{Certain, Certainty, Known, POOR, Sense};
 
 /// Rounding of a formula, as a fraction of its value.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -80,17 +79,21 @@ impl Finding {
         Finding { mark, ..Self::new(Sense::Tends { before }, near.0, near.1) }
     }
 
-    /// What should hold in each of these cases; the place becomes the first in which it does not.
-    pub fn always<A: Into<KnownAnswer>>(cases: impl IntoIterator<Item = (String, A)>) -> Self {
+    /// What should hold in each of these cases; the place becomes the first in which it does not. Fails with the
+    /// first error among them.
+    pub fn always<A: Into<Certain<bool>>, E>(
+        cases: impl IntoIterator<Item = Result<(String, A), E>>,
+    ) -> Result<Self, E> {
         let (mut holds, mut all, mut place) = (0_u32, 0_u32, String::new());
         let (mut certain, mut refuted) = (true, false);
-        for (case, answer) in cases {
-            let answer: KnownAnswer = answer.into();
+        for case in cases {
+            let (case, answer) = case?;
+            let answer: Certain<bool> = answer.into();
             all += 1;
-            holds += u32::from(answer.holds);
+            holds += u32::from(answer.value);
             certain &= answer.certain;
-            refuted |= answer.certain && !answer.holds;
-            if !answer.holds && place.is_empty() {
+            refuted |= answer.certain && !answer.value;
+            if !answer.value && place.is_empty() {
                 place = format!("first fails at {case}");
             }
         }
@@ -99,7 +102,13 @@ impl Finding {
         let mark =
             if refuted { Some(Certainty::Refuted) } else { certain.then_some(Certainty::Proved) };
         let mark = mark.filter(|_| all > 0);
-        Finding { place, cases, held, mark, ..Self::new(Sense::Always, f64::from(all), computed) }
+        Ok(Finding {
+            place,
+            cases,
+            held,
+            mark,
+            ..Self::new(Sense::Always, f64::from(all), computed)
+        })
     }
 
     /// The same, but the paper is silent: its formula is one of ours.
@@ -120,7 +129,7 @@ impl Finding {
     /// Of several findings about one claim, the one that misses most; first of all one that the corrected formula
     /// misses too. Fails with the first error among them.
     pub fn worst<E>(findings: impl IntoIterator<Item = Result<Self, E>>) -> Result<Self, E> {
-        let mut worst = Self::always::<bool>([]);
+        let mut worst = Self::new(Sense::Always, 0.0, Known::exact(0.0));
         let (mut cases, mut held, mut mark) = (0, 0, Some(Certainty::Proved));
         for finding in findings {
             let finding = finding?;
@@ -300,16 +309,11 @@ mod tests {
         assert_eq!(Finding::at_most(1.02, above).mark, Some(Certainty::Refuted));
         assert_eq!(Finding::at_most(0.5, above).mark, None);
         // One case that certainly fails refutes, all that certainly hold prove.
-        let case = |holds, certain| (String::new(), KnownAnswer { holds, certain });
-        assert_eq!(
-            Finding::always([case(true, true), case(true, true)]).mark,
-            Some(Certainty::Proved)
-        );
-        assert_eq!(Finding::always([case(true, true), case(true, false)]).mark, None);
-        assert_eq!(
-            Finding::always([case(true, false), case(false, true)]).mark,
-            Some(Certainty::Refuted)
-        );
+        let case = |value, certain| Ok::<_, ()>((String::new(), Certain { value, certain }));
+        let mark_of = |cases: [_; 2]| Finding::always(cases).unwrap().mark;
+        assert_eq!(mark_of([case(true, true), case(true, true)]), Some(Certainty::Proved));
+        assert_eq!(mark_of([case(true, true), case(true, false)]), None);
+        assert_eq!(mark_of([case(true, false), case(false, true)]), Some(Certainty::Refuted));
         let several = [Finding::near(1.0, known), Finding::near(1.12, known)].map(Ok::<_, ()>);
         assert_eq!(Finding::worst(several).unwrap().mark, Some(Certainty::Refuted));
     }
@@ -317,7 +321,9 @@ mod tests {
     #[test]
     fn of_several_cases_all_or_some_or_none_hold() {
         let holds = |does: [bool; 3]| {
-            Finding::always(does.iter().enumerate().map(|(case, &does)| (case.to_string(), does)))
+            let cases = does.into_iter().enumerate();
+            Finding::always(cases.map(|(case, does)| Ok::<_, ()>((case.to_string(), does))))
+                .unwrap()
         };
         assert_eq!(holds([true; 3]).verdict(), Verdict::Agrees);
         assert_eq!(holds([true, false, true]).verdict(), Verdict::InPart);

@@ -2,7 +2,7 @@
 
 use super::{Dash, Item, LineStyle, Mark, Picture, Role, ellipse};
 use crate::closed_form::{
-    linear::linear_flow, lyapunov::energy_rate, piecewise_linear::LinearCycle,
+    linear::Linear, lyapunov::energy_rate, piecewise_linear::LinearCycle,
 };
 use crate::model::{Parameters, State};
 use crate::numerics::root::{TO_ROUNDING, bisect};
@@ -56,7 +56,7 @@ pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
     /// Points on a half turn.
     const POINTS: u16 = 160;
     let Parameters { d, r, .. } = *parameters;
-    let Ok(cycle) = LinearCycle::new(d, r) else { return };
+    let Some(cycle) = LinearCycle::new(d, r) else { return };
     if !parameters.is_piecewise_linear() {
         return;
     }
@@ -65,7 +65,7 @@ pub(super) fn spirals(picture: &mut Picture, parameters: &Parameters) {
         (0..=POINTS).map(move |index| {
             let along = f64::from(index) / f64::from(POINTS);
             let tau = duration * (from + (to - from) * along);
-            let (x, v) = linear_flow(d, -cycle.clearance, 0.0, tau);
+            let (x, v) = Linear::new(d).state(-cycle.clearance, 0.0, tau);
             Point { x: side * (x - r), y: side * v }
         })
     };

@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::flow::Trajectory;
 use crate::model::belt::Units;
 use crate::model::{HalfPlane, Parameters, Side, State};
-use crate::numerics::hermite::Hermite;
+use crate::numerics::polynomial::Hermite;
 use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::portrait::{Margin, RestMargin};
 

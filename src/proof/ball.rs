@@ -1,9 +1,8 @@
 //! A ball of motions that is carried through a half plane, step by step.
 
 use super::field::{FieldBox, scaled};
-use super::norm::{INFLATE, Norm};
 use super::series::MotionSeries;
-use super::step::{StepEnd, StepField};
+use super::step::{INFLATE, Norm, StepEnd, StepField};
 use crate::numerics::Interval;
 use crate::numerics::scaling::exponent;
 

@@ -13,8 +13,7 @@
 //! `B = z_c` (lemma 20).
 
 use super::ball::StartBox;
-use super::count::Count;
-use super::ends::{Sign, sign_at};
+use super::count::{Count, Sign, sign_at};
 use super::field::{FieldBox, ParameterBox};
 use super::funnel::Funnel;
 use super::map::{MapDirection, ProvedMap};
@@ -184,19 +183,4 @@ fn bracket<T: PartialEq>(near: f64, mut verdict: impl FnMut(f64) -> Option<T>) -
         }
     }
     Some(Interval::new(low, high))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_change_is_closed_in_as_far_as_it_is_certain() {
-        let sign = |blur: f64| move |x: f64| (f64::abs(x - 2.0) > blur).then_some(x > 2.0);
-        for blur in [0.0, 1e-13, 1e-9] {
-            let found = bracket(2.0 * (1.0 + 3e-7), sign(blur)).unwrap();
-            assert!(found.contains(2.0) && found.width() <= 3.0 * blur + 1e-15, "{blur} {found}");
-        }
-        assert!(bracket(1.0, sign(0.0)).is_none());
-    }
 }

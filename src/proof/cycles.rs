@@ -2,9 +2,8 @@
 
 use serde::Serialize;
 
-use super::count::Count;
+use super::count::{Count, SearchEnd, inner_end, outer_end};
 use super::enclose::{Enclosure, affine_cycle, enclose};
-use super::ends::{SearchEnd, inner_end, outer_end};
 use super::field::{ParameterBox, scaled};
 use super::map::ProvedMap;
 use crate::numerics::Interval;

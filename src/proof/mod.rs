@@ -1,11 +1,10 @@
 //! Proofs: half swings enclosed rigorously, whatever the rounding, and from them all limit cycles.
 //!
-//! A [`ball`] of motions, measured in a [`norm`], is carried around Taylor polynomials in plain doubles
-//! ([`series`], [`step`]) through one half plane, for every [`field`] in a box of parameters: a [`swing`]. Swings
-//! too stiff for this run through a [`funnel`]. Two half swings form the return [`map`], with bounds from both
-//! sides, its inverse and its derivative. The [`ends`] are clearances between which all cycles lie. The [`count`]
-//! excludes every clearance between them, or finds it in an interval with exactly one cycle, which is then
-//! enclosed ([`enclose`]). Where a theorem decides, nothing is computed. [`cycles`] combines these parts.
+//! A [`ball`] of motions is carried around Taylor polynomials in plain doubles ([`series`], [`step`]) through one
+//! half plane, for every [`field`] in a box of parameters: a [`swing`]. Swings too stiff for this run through a
+//! [`funnel`]. Two half swings form the return [`map`], with bounds from both sides, its inverse and its
+//! derivative. The [`count`] excludes every clearance, or finds it in an interval with exactly one cycle, which is
+//! then enclosed ([`enclose`]). Where a theorem decides, nothing is computed. [`cycles`] combines these parts.
 //!
 //! [`bifurcation`] encloses the value of a parameter at which the number of cycles changes, [`range`] decides
 //! that number piece by piece, [`motion`] follows single motions, and [`kicks`] bounds the margins.
@@ -40,7 +39,6 @@ pub(crate) mod count;
 pub mod cycles;
 #[doc(hidden)]
 pub mod enclose;
-pub(crate) mod ends;
 #[doc(hidden)]
 pub mod field;
 pub(crate) mod funnel;
@@ -50,7 +48,6 @@ pub mod kicks;
 pub mod map;
 #[doc(hidden)]
 pub mod motion;
-pub(crate) mod norm;
 #[doc(hidden)]
 pub mod range;
 pub(crate) mod series;

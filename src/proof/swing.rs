@@ -4,8 +4,7 @@ use std::convert::Infallible;
 
 use super::ball::{Ahead, Ball, MOST_STEPS, StartBox, never_returns};
 use super::field::{FieldBox, scaled};
-use super::norm::{INFLATE, UNIT};
-use super::step::StepEnd;
+use super::step::{INFLATE, StepEnd, UNIT};
 use crate::numerics::Interval;
 use crate::numerics::elementary::powi;
 use crate::numerics::root::{Bracket, PlaceTolerance, illinois, newton};

@@ -43,7 +43,7 @@ fn some_closings(
 ) -> Result<Vec<Closing>, Reason> {
     let parameters = equation.parameters;
     if parameters.is_piecewise_linear() {
-        let cycle = LinearCycle::new(parameters.d, parameters.r).ok();
+        let cycle = LinearCycle::new(parameters.d, parameters.r);
         return Ok(cycle.iter().map(Closing::from).collect());
     }
     if let Some(closing) = weak_closing(&parameters) {

@@ -12,7 +12,7 @@
 use std::ops::ControlFlow;
 
 use super::roundoff::{Errors, Roundoff};
-use crate::closed_form::linear::first_standstill;
+use crate::closed_form::linear::Linear;
 use crate::flow::auto::Auto;
 use crate::flow::step::{Step, StepPoint, Stepper};
 use crate::flow::swing::{Failed, SwingEnd, is_escaping, swing};
@@ -249,7 +249,7 @@ impl HalfMap {
                 if self.field.d < 1.0 {
                     Spiral::of(self.field.d).arrive(point)
                 } else {
-                    let end = first_standstill(self.field.d, point.x, point.v);
+                    let end = Linear::new(self.field.d).first_standstill(point.x, point.v);
                     end.map(|end| (Length::new(end.x), end.time)).ok_or(NoEnd::Never)?
                 }
             }

@@ -11,7 +11,7 @@
 //! Guarantee: every interval between the roots found is excluded by monotonicity, or by a cubic whose
 //! error was measured. Assumption: the function varies on scales not below 1e-4.
 
-use crate::numerics::hermite::Hermite;
+use crate::numerics::polynomial::Hermite;
 use crate::numerics::root::{PlaceTolerance, illinois};
 
 /// Intervals of this length are not halved any more.

@@ -116,7 +116,7 @@ impl TwoSided {
         limits: &Limits,
     ) -> Result<Option<(Closing, f64)>, Reason> {
         if self.upper == self.lower && self.upper.is_piecewise_linear() {
-            let cycle = LinearCycle::new(self.upper.d, self.upper.r).ok();
+            let cycle = LinearCycle::new(self.upper.d, self.upper.r);
             return Ok(cycle.map(|cycle| (Closing::from(&cycle), NOISE)));
         }
         let Some(bracket) = innermost_bracket(equation, limits)? else {

@@ -7,7 +7,7 @@
 //! cannot hide a pair.
 
 use crate::flow::LostMotion;
-use crate::numerics::hermite::Hermite;
+use crate::numerics::polynomial::Hermite;
 use crate::numerics::root::{Bracket, PlaceTolerance, illinois, try_newton};
 
 /// A value of the function.
