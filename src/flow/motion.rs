@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::limits::Reason;
 use super::method::Method;
 use crate::model::{Knob, Ledger, Parameters, State};
-use crate::numerics::hermite::Hermite;
+use crate::numerics::polynomial::Hermite;
 use crate::numerics::scalar::Scalar;
 
 /// An initial value problem.

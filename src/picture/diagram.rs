@@ -24,7 +24,7 @@ use crate::words::stability;
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     let diagram = &session.plots[index];
-    let Axes { abscissa, ordinate, .. } = diagram.axes;
+    let abscissa = diagram.axes.abscissa;
     let (name, label) = (abscissa.spec().name, diagram.axes.label());
     let velocity = Axes { ordinate: Ordinate::VMax, ..diagram.axes }.label();
     let beside = session.layers.contains(&Layer::Extents) && velocity != label;
@@ -57,20 +57,15 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         picture.level(LineStyle::guide(), 0.0);
     }
     picture.upright(LineStyle::new("present value", Role::Current, Dash::Sparse), current);
-    if ordinate.spec().harmonic.is_some() {
-        for (variant, shown) in variants(&all) {
-            let height = diagram.axes.height(shown.problem.parameters.r);
-            // Beside branches of other values the formulas stand for the present one alone.
-            if !shown.present && has_present {
-                continue;
-            }
-            if shows(Layer::Asymptotes) {
-                asymptotes(picture, shown, &variant, abscissa, height);
-            }
-            if shows(Layer::Harmonic) {
-                let largest = largest_amplitude(diagram, height, &found);
-                harmonic(picture, (shown, &variant), abscissa, height, largest);
-            }
+    // Beside branches of other values the formulas stand for the present one alone.
+    for (variant, shown) in variants(&all).filter(|(_, shown)| shown.present || !has_present) {
+        let height = diagram.axes.height(shown.problem.parameters.r);
+        if shows(Layer::Asymptotes) {
+            asymptotes(picture, shown, &variant, abscissa, height);
+        }
+        if shows(Layer::Harmonic) {
+            let largest = largest_amplitude(diagram, height, &found);
+            harmonic(picture, (shown, &variant), abscissa, height, largest);
         }
     }
     let rest = |shown: &ShownMotion| match (shown.present || all.len() == 1, has_present) {
@@ -82,26 +77,17 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         let height = diagram.axes.height(shown.problem.parameters.r);
         equilibria::draw(picture, (shown, &variant), rest(shown), abscissa, height);
     }
+    let pieces = || {
+        found.iter().flat_map(|found| found.branch.pieces.iter().map(move |piece| (found, piece)))
+    };
     if shows(Layer::Branch) {
-        for found in &found {
-            for piece in &found.branch.pieces {
-                branch(picture, piece, found);
-            }
-        }
-    }
-    if shows(Layer::Branch) {
-        for found in found.iter().filter(|found| !found.beside) {
-            for piece in &found.branch.pieces {
-                here(picture, piece, found.height, current);
-            }
+        pieces().for_each(|(found, piece)| branch(picture, piece, found));
+        for (found, piece) in pieces().filter(|(found, _)| !found.beside) {
+            here(picture, piece, found, current);
         }
     }
     if shows(Layer::Extents) {
-        for found in &found {
-            for piece in &found.branch.pieces {
-                extents(picture, piece, found);
-            }
-        }
+        pieces().for_each(|(found, piece)| extents(picture, piece, found));
     }
     if shows(Layer::Special) {
         let mut named: Vec<&Special> = Vec::new();
@@ -126,6 +112,22 @@ struct ComputedBranch<'a> {
     present: bool,
     /// Whether it stands beside that.
     beside: bool,
+}
+
+impl ComputedBranch<'_> {
+    fn place(&self, point: &BranchPoint) -> Point {
+        Point { x: point.value, y: self.height.of(point.value, &point.cycle) }
+    }
+
+    /// Where the fold between two neighbours stands.
+    fn fold_between(&self, one: &BranchPoint, other: &BranchPoint) -> Option<Point> {
+        let (one, other) = (one.cycle.q_max, other.cycle.q_max);
+        let folds = self.branch.special.iter().filter(|it| it.kind == SpecialKind::Fold);
+        let mut cycles = folds.filter_map(|fold| Some((fold.value, fold.cycle?)));
+        cycles
+            .find(|(_, cycle)| (one.min(other)..=one.max(other)).contains(&cycle.q_max))
+            .map(|(value, cycle)| Point { x: value, y: self.height.of(value, &cycle) })
+    }
 }
 
 /// Where the point that is held stands in a diagram: in every one over its parameter. A cycle that has
@@ -221,15 +223,13 @@ fn largest_amplitude(diagram: &session::Plot, height: Height, found: &[ComputedB
 /// Adds a piece, run by run of equal stability; neighbouring runs meet at the fold between them. One of
 /// several branches has its label where it is highest in the window.
 fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) {
-    let ComputedBranch { variant, branch: Branch { special, .. }, height, present, beside } = found;
-    let place =
-        |point: &BranchPoint| Point { x: point.value, y: height.of(point.value, &point.cycle) };
+    let ComputedBranch { variant, present, beside, .. } = found;
+    let place = |point: &BranchPoint| found.place(point);
     let mut start = None;
     for run in piece.chunk_by(|one, other| one.cycle.stable == other.cycle.stable) {
         let (first, last) = (&run[0], &run[run.len() - 1]);
         let next = piece.iter().skip_while(|point| *point != last).nth(1);
-        let end =
-            next.map(|next| fold_between(last, next, special, *height).unwrap_or(place(next)));
+        let end = next.map(|next| found.fold_between(last, next).unwrap_or(place(next)));
         let CycleStyle { role, dash, name, .. } = cycle_style(first.cycle.stable);
         let line = if *beside {
             let pale = if first.cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
@@ -238,34 +238,18 @@ fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) 
         } else {
             LineStyle::new(name, role, dash)
         };
-        let line = line.of(variant);
         if *present {
             let points: Vec<Point> = run.iter().map(place).collect();
             picture.label_curve(&points, stability(first.cycle.stable), role);
         }
-        picture.curve(line, start.into_iter().chain(run.iter().map(place)).chain(end));
+        let points = start.into_iter().chain(run.iter().map(place)).chain(end);
+        picture.curve(line.of(variant), points);
         // Without a fold the runs share a point, which this one has as its last.
         start = end.filter(|end| next.is_none_or(|next| *end != place(next)));
     }
     let points: Vec<Point> = piece.iter().map(place).collect();
     let role = if *beside { Role::Quiet } else { Role::Special };
     picture.name_curve(&points, &variant.label, role);
-}
-
-/// Where the fold between two neighbours stands.
-fn fold_between(
-    one: &BranchPoint,
-    other: &BranchPoint,
-    special: &[Special],
-    height: Height,
-) -> Option<Point> {
-    let (low, high) =
-        (one.cycle.q_max.min(other.cycle.q_max), one.cycle.q_max.max(other.cycle.q_max));
-    let folds = special.iter().filter(|special| special.kind == SpecialKind::Fold);
-    let mut cycles = folds.filter_map(|fold| Some((fold.value, fold.cycle?)));
-    cycles
-        .find(|(_, cycle)| (low..=high).contains(&cycle.q_max))
-        .map(|(value, cycle)| Point { x: value, y: height.of(value, &cycle) })
 }
 
 /// The largest velocities of a piece.
@@ -278,12 +262,11 @@ fn extents(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch)
 }
 
 /// Marks the cycles of a piece at the present value.
-fn here(picture: &mut Picture, piece: &[BranchPoint], height: Height, value: f64) {
+fn here(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch, value: f64) {
     for (index, pair) in piece.windows(2).enumerate() {
         let (a, b) = (&pair[0], &pair[1]);
         if (a.value < value) != (b.value < value) {
-            let place = |point: &BranchPoint| [point.value, height.of(point.value, &point.cycle)];
-            let places: Vec<[f64; 2]> = piece.iter().map(place).collect();
+            let places: Vec<[f64; 2]> = piece.iter().map(|it| found.place(it).into()).collect();
             let y = between(&places, index, value);
             picture.mark(cycle_style(a.cycle.stable).mark, Point { x: value, y }, Role::Current);
         }

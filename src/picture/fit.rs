@@ -49,13 +49,8 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
     let seen = fitted.curves.sampled.as_ref()?;
     let deviation = fitted.estimate.covariance.deviation;
     let points = seen.points.iter().map(|[t, _, e]| at(*t, *e)).collect();
-    let (first, last) = (seen.points.first()?[0], seen.points.last()?[0]);
-    let level = |height: f64| vec![at(first, height), at(last, height)];
-    let curves = vec![
-        curve("residuals", Role::Ghost, Dash::Solid, points),
-        curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(2.0 * deviation)),
-        curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(-2.0 * deviation)),
-    ];
+    let mut curves = vec![curve("residuals", Role::Ghost, Dash::Solid, points)];
+    curves.extend(band([seen.points.first()?[0], seen.points.last()?[0]], 2.0 * deviation));
     let names = ("t [s]".to_owned(), with_unit("measured - fitted", &fitted.signal_unit()));
     let mut picture = picture("residuals", names, curves, None)?;
     let all = fitted.estimate.data.times().iter().zip(&fitted.estimate.residuals);
@@ -67,17 +62,22 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
     Some(picture)
 }
 
+/// Both ends of what is to be expected by chance.
+fn band(along: [f64; 2], height: f64) -> [StyledPoints; 2] {
+    [height, -height].map(|height| {
+        let level = along.map(|x| at(x, height)).to_vec();
+        curve("+-2 standard deviations", Role::Current, Dash::Dashed, level)
+    })
+}
+
 /// The autocorrelation of the residuals over two periods.
 fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
     let memory = memory_of(&fitted.estimate);
     let [periods, _] = *memory.last()?;
     let chance = 2.0 / (real(fitted.estimate.kept_residuals().count())).sqrt();
-    let level = |height: f64| vec![at(0.0, height), at(periods, height)];
-    let curves = vec![
-        curve("autocorrelation of the residuals", Role::Energy, Dash::Solid, points(&memory)),
-        curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(chance)),
-        curve("+-2 standard deviations", Role::Current, Dash::Dashed, level(-chance)),
-    ];
+    let name = "autocorrelation of the residuals";
+    let mut curves = vec![curve(name, Role::Energy, Dash::Solid, points(&memory))];
+    curves.extend(band([0.0, periods], chance));
     let names = ("lag [s]".to_owned(), "correlation".to_owned());
     picture("memory of the residuals", names, curves, window([0.0, periods, -1.0, 1.0]))
 }

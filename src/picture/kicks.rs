@@ -23,8 +23,7 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
         Distribution::Normal => {
             for (name, distance, dash) in NORMAL {
                 let line = LineStyle::new(name, Role::Harmonic, dash).briefly("kicks: 1, 2, 3 sd");
-                let half = |spread: f64| distance * spread;
-                picture.curve(line, ellipse((q.0, half(q.1)), (v.0, half(v.1))));
+                picture.curve(line, ellipse((q.0, distance * q.1), (v.0, distance * v.1)));
             }
         }
         Distribution::Uniform => {

@@ -57,10 +57,10 @@ const EXPANDED: [View; 5] =
 pub fn of(session: &Session, index: usize) -> Picture<'_> {
     let Plot { view, window, cursor, .. } = session.plots[index];
     let scales = scales(session, index);
-    let mut picture = Picture { cursor, scales, ..Picture::new(view.spec().title, "", "", window) };
+    let mut picture = Picture { scales, cursor, ..Picture::new(view.spec().title, "", "", window) };
     let fitted = |draw: fn(&Fitted) -> Option<Picture<'static>>| {
         let drawn = session.fitted().and_then(|found| draw(&found.fit))?;
-        Some(Picture { window, cursor, scales, ..drawn })
+        Some(Picture { scales, window, cursor, ..drawn })
     };
     match view {
         View::Phase => phase_plane::draw(&mut picture, session, index),
@@ -95,10 +95,4 @@ pub fn of(session: &Session, index: usize) -> Picture<'_> {
         picture.add_to_title(&held);
     }
     picture
-}
-
-/// The pictures of all plots of a session.
-#[cfg(test)]
-pub fn all(session: &Session) -> Vec<Picture<'_>> {
-    (0..session.plots.len()).map(|index| of(session, index)).collect()
 }

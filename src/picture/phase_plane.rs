@@ -18,7 +18,7 @@ use crate::portrait::{Border, Cycle, Cycles, Ride};
 use crate::question::Fitted;
 use crate::question::zones::Extent;
 use crate::scene::{Answer, Layer, Point, Topic};
-use crate::session::{MOST_MOTIONS, Session, ShownMotion};
+use crate::session::{Session, ShownMotion};
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     picture.axes("q", "v");
@@ -30,31 +30,30 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     let shows = |layer| session.layers.contains(&layer);
     let shown = session.shown(index);
 
-    if shows(Layer::Field)
-        && let Some(first) = shown.first()
-    {
+    if let Some(first) = shown.first() {
         let parameters = first.problem.parameters;
-        picture.items.push(Item::Arrows(Role::Field, Box::new(move |at| flow(&parameters, at))));
-    }
-    if shows(Layer::Levels)
-        && let Some(first) = shown.first()
-    {
-        construction::levels(picture, &first.problem.parameters);
-    }
-    if shows(Layer::Basin) {
-        for (variant, answer) in found(session, Topic::Cycles, index) {
-            if let Answer::Cycles(found) = answer {
-                basin(picture, found, &variant, shows(Layer::Cycles));
-            }
+        if shows(Layer::Field) {
+            let flow = Box::new(move |at| flow(&parameters, at));
+            picture.items.push(Item::Arrows(Role::Field, flow));
+        }
+        if shows(Layer::Levels) {
+            construction::levels(picture, &parameters);
         }
     }
-    if let Some(found) = session.zones() {
-        if shows(Layer::Safe) {
-            safe(picture, &found.safe);
-        }
-        if shows(Layer::Lost) {
-            lost(picture, &found.hopeful);
-        }
+    let all_cycles = found(session, Topic::Cycles, index).into_iter().filter_map(|it| match it {
+        (variant, Answer::Cycles(found)) => Some((variant, found)),
+        _ => None,
+    });
+    let all_cycles: Vec<(VariantTag, &Cycles)> = all_cycles.collect();
+    for (variant, found) in all_cycles.iter().filter(|_| shows(Layer::Basin)) {
+        basin(picture, found, variant, shows(Layer::Cycles));
+    }
+    let zones = session.zones();
+    if let Some(found) = zones.filter(|_| shows(Layer::Safe)) {
+        safe(picture, &found.safe);
+    }
+    if let Some(found) = zones.filter(|_| shows(Layer::Lost)) {
+        lost(picture, &found.hopeful);
     }
     if shows(Layer::Bands) {
         for border in session.borders(index).iter().flat_map(|found| &found.curves) {
@@ -85,18 +84,13 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
             construction::spirals(picture, &shown.problem.parameters);
         }
     }
-    if shows(Layer::Cycles) {
-        for (variant, answer) in found(session, Topic::Cycles, index) {
-            if let Answer::Cycles(found) = answer {
-                cycles(picture, found, &variant, session.draws_whole());
-            }
-        }
+    for (variant, found) in all_cycles.iter().filter(|_| shows(Layer::Cycles)) {
+        cycles(picture, found, variant, session.draws_whole());
     }
-    if shows(Layer::Balance) {
-        for found in session.balance().iter().flat_map(|balance| &balance.balanced) {
-            let line = LineStyle::new("cycle of N harmonics", Role::Harmonic, Dash::Dotted);
-            picture.curve(line.briefly("N harmonics"), points(&found.curve));
-        }
+    let balance = session.balance().filter(|_| shows(Layer::Balance));
+    for found in balance.iter().flat_map(|balance| &balance.balanced) {
+        let line = LineStyle::new("cycle of N harmonics", Role::Harmonic, Dash::Dotted);
+        picture.curve(line.briefly("N harmonics"), points(&found.curve));
     }
     if shows(Layer::Sticking) {
         for (variant, shown) in variants(&shown) {
@@ -227,15 +221,11 @@ pub(super) fn number_curve(
 
 /// How the motion in this place among those on show is drawn, and what it is called.
 pub(super) fn motion(session: &Session, place: usize) -> LineStyle {
-    const NAMES: [&str; MOST_MOTIONS] = [
-        "motion 1", "motion 2", "motion 3", "motion 4", "motion 5", "motion 6", "motion 7",
-        "motion 8",
-    ];
     const DASHES: [Dash; 2] = [Dash::DashDot, Dash::Dotted];
     let Some(number) = session.number(place) else {
         return LineStyle::new("motion", Role::Trajectory, Dash::Solid);
     };
-    let name = NAMES[(number - 1).min(NAMES.len() - 1)];
+    let name = format!("motion {number}");
     match place {
         0 => LineStyle::new(name, Role::Trajectory, Dash::Solid),
         // They are numbered where they begin and end.
@@ -320,9 +310,13 @@ fn circle(picture: &mut Picture, parameters: &Parameters, variant: &VariantTag) 
     }
 }
 
+/// The cycles, each with its curve.
+fn curves(found: &Cycles) -> impl Iterator<Item = (&Cycle, &Vec<State>)> {
+    found.cycles.iter().zip(found.picture.iter().flat_map(|picture| &picture.curves))
+}
+
 fn cycles(picture: &mut Picture, found: &Cycles, variant: &VariantTag, whole: bool) {
-    let curves = found.picture.iter().flat_map(|picture| &picture.curves);
-    for (cycle, curve) in found.cycles.iter().zip(curves) {
+    for (cycle, curve) in curves(found) {
         let CycleStyle { role, dash, name: plain, .. } = cycle_style(cycle.stable);
         let (name, own) = if whole { kind(cycle) } else { (plain, variant.label.as_str()) };
         let points: Vec<Point> = points(curve);
@@ -342,8 +336,7 @@ fn ghost(picture: &mut Picture, session: &Session) {
                 picture.curve(line.briefly("the point left"), samples);
             }
             Answer::Cycles(found) => {
-                let curves = found.picture.iter().flat_map(|drawn| &drawn.curves);
-                for (cycle, curve) in found.cycles.iter().zip(curves) {
+                for (cycle, curve) in curves(found) {
                     let role = if cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
                     let line = LineStyle::new("cycle left", role, Dash::Dashed);
                     picture.curve(line.briefly("the point left"), points(curve));
@@ -382,12 +375,8 @@ fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMo
 
 fn end(picture: &mut Picture, motion: &Trajectory, role: Role) {
     match motion.outcome {
-        Outcome::Captured { q, .. } => {
-            picture.mark(Mark::Rest, Point { x: q, y: 0.0 }, role);
-        }
-        Outcome::Moving { q, v, .. } => {
-            picture.mark(Mark::Head, Point { x: q, y: v }, role);
-        }
+        Outcome::Captured { q, .. } => picture.mark(Mark::Rest, Point { x: q, y: 0.0 }, role),
+        Outcome::Moving { q, v, .. } => picture.mark(Mark::Head, Point { x: q, y: v }, role),
         Outcome::Escaped { .. } | Outcome::GaveUp { .. } => {}
     }
 }

@@ -169,19 +169,15 @@ fn milestones(
     place: impl Fn(Station) -> Point,
 ) {
     let window = picture.window;
-    let distance = |one: Point, other: Point| {
-        let x = (one.x - other.x).abs() / window.x.width();
-        (x, (one.y - other.y).abs() / window.y.width())
+    let apart = |one: Point, other: Point, x: f64, y: f64| {
+        let (across, along) = (one.x - other.x, one.y - other.y);
+        across.abs() >= x * window.x.width() || along.abs() >= y * window.y.width()
     };
     let mut kept: Vec<Point> = Vec::new();
     for station in running.milestones() {
         let (speed, at) = (station.0, place(station));
-        let far = |other: &Point| {
-            let (x, y) = distance(at, *other);
-            x >= APART.0 || y >= APART.1
-        };
-        let (x, y) = distance(at, here);
-        if window.contains(at) && kept.iter().all(far) && x.max(y) >= CLEAR {
+        let is_free = kept.iter().all(|other| apart(at, *other, APART.0, APART.1));
+        if window.contains(at) && is_free && apart(at, here, CLEAR, CLEAR) {
             kept.push(at);
             picture.items.push(milestone(at, speed, PEN));
             picture.caption(at, with_unit(speed, 1, "m/s"), PEN);

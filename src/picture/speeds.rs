@@ -75,13 +75,12 @@ fn cycles(
 
 /// Rest, where it is stable, and how far its basin goes where the motion that touches the belt borders it.
 fn rest(picture: &mut Picture, points: &[SpeedPoint]) {
-    let stable =
-        points.iter().map(|at| Point { x: at.v0, y: if at.rests { 0.0 } else { f64::NAN } });
+    let place =
+        |at: &SpeedPoint, height: Option<f64>| Point { x: at.v0, y: height.unwrap_or(f64::NAN) };
     let rest = LineStyle::new("rest", Role::Sticking, Dash::Thick).briefly(AT_REST);
-    picture.curve(rest, stable.collect::<Vec<_>>());
-    let touching = points.iter().map(|at| Point { x: at.v0, y: at.touching.unwrap_or(f64::NAN) });
-    let line = LineStyle::new("touches the belt", Role::Special, Dash::Dotted);
-    picture.curve(line, touching.collect::<Vec<_>>());
+    picture.curve(rest, points.iter().map(|at| place(at, at.rests.then_some(0.0))));
+    let touching = LineStyle::new("touches the belt", Role::Special, Dash::Dotted);
+    picture.curve(touching, points.iter().map(|at| place(at, at.touching)));
 }
 
 /// A change, by its letter, and the jumps from the stable states that end there.

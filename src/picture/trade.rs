@@ -5,7 +5,7 @@
 
 use super::{Dash, Item, LineStyle, Mark, Marks, Picture, Role};
 use crate::accuracy::trade::{Trade, TradePoint};
-use crate::flow::{METHODS, Method};
+use crate::flow::{METHODS, Method, MethodSpec};
 use crate::scene::{Layer, Point};
 use crate::session::Session;
 use crate::words::number::{count, significant};
@@ -36,15 +36,18 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     }
 }
 
-fn curves(picture: &mut Picture, found: &Trade) {
-    for spec in METHODS {
-        let (role, dash) = if spec.events {
-            (Role::Trajectory, Dash::Solid)
-        } else {
-            (Role::Beside, Dash::Dotted)
-        };
+/// The methods, each with its role and where its rows lie.
+fn methods(found: &Trade) -> impl Iterator<Item = (&MethodSpec, Role, Vec<Point>)> {
+    METHODS.iter().map(|spec| {
+        let role = if spec.events { Role::Trajectory } else { Role::Beside };
         let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
-        let points: Vec<Point> = own.filter_map(place).collect();
+        (spec, role, own.filter_map(place).collect())
+    })
+}
+
+fn curves(picture: &mut Picture, found: &Trade) {
+    for (spec, role, points) in methods(found) {
+        let dash = if spec.events { Dash::Solid } else { Dash::Dotted };
         picture.curve(LineStyle::new(spec.name, role, dash).captioned(), points.iter().copied());
         picture.items.push(Item::Marks(Marks::new(Mark::Turn, role, points)));
     }
@@ -53,11 +56,9 @@ fn curves(picture: &mut Picture, found: &Trade) {
 /// The names of the methods at their finest rows, over everything else.
 fn names(picture: &mut Picture, found: &Trade) {
     // Where auto chooses a method, the curve of that method covers its own.
-    for spec in METHODS.iter().filter(|spec| spec.method != Method::Auto) {
-        let role = if spec.events { Role::Trajectory } else { Role::Beside };
-        let own = found.rows.iter().filter(|row| row.problem.method == spec.method);
-        if let Some(finest) = own.filter_map(place).next_back() {
-            picture.caption(finest, spec.name, role);
+    for (spec, role, points) in methods(found).filter(|(spec, ..)| spec.method != Method::Auto) {
+        if let Some(finest) = points.last() {
+            picture.caption(*finest, spec.name, role);
         }
     }
 }

@@ -5,7 +5,7 @@ use super::resources::Resources;
 use crate::flow::{Cost, Reason};
 use crate::model::Parameters;
 use crate::portrait::basin::basin;
-use crate::portrait::basin::stability::Share;
+pub use crate::portrait::basin::stability::Share;
 use crate::portrait::kicks::RandomKick;
 
 #[derive(Clone, Debug, PartialEq)]

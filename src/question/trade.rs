@@ -2,7 +2,7 @@
 
 use super::kind::{Motion, Question, of_motion};
 use super::resources::Resources;
-use crate::accuracy::trade::Trade;
+pub use crate::accuracy::trade::Trade;
 use crate::flow::{Limits, Reason};
 
 /// Maximum number of evaluations for a row of the trade on the screen; the command line allows more.

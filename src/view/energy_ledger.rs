@@ -7,12 +7,12 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use super::Look;
 use super::pane::{self, Heading};
-use super::plot::{Canvas, Names, rows};
-use super::{Look, paint::symbol};
+use super::plot::{Canvas, rows};
 use crate::numerics::count::real;
 use crate::picture::energy_ledger::{middle, reading};
-use crate::picture::{CycleStyle, Dash, Picture, Role, Tick, Ticks, cycle_style};
+use crate::picture::{CycleStyle, Dash, Mark, Picture, Role, Tick, Ticks, cycle_style};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::ledger::{LedgerLine, Owner};
 use crate::words::number::significant;
@@ -23,21 +23,21 @@ const ERROR_DIGITS: usize = 2;
 
 pub fn draw(
     area: Rect,
-    picture: &Picture,
+    mut picture: Picture,
     mut heading: Heading,
     lines: &[LedgerLine],
     look: &Look,
     buffer: &mut Buffer,
 ) {
     let (window, marks) = marks(area, lines, picture.window);
+    picture.window = window;
     let title = View::EnergyLedger.spec().title;
-    let names = Names { title, x: &picture.x, y: "", scales: picture.scales, marks: Some(marks) };
     heading.reading = picture.cursor.map(|cursor| {
         let near = |(line, _): &(usize, &LedgerLine)| (middle(*line) - cursor.y).abs() <= 0.5;
         let found = lines.iter().enumerate().find(near);
         found.map_or_else(String::new, |(_, entry)| reading(entry))
     });
-    let mut plot = Canvas::new(area, window, names, &heading, look, buffer);
+    let mut plot = Canvas::new(area, title, &picture, Some(marks), &heading, look, buffer);
     plot.upright(0.0, Role::Axis, Dash::Solid);
     let symbols = look.symbols();
     let half = half_a_row(area, window);
@@ -52,7 +52,7 @@ pub fn draw(
             LedgerLine::Title(Owner::Cycle(cycle)) => {
                 let CycleStyle { mark, role, name, .. } = cycle_style(cycle.stable);
                 let short =
-                    format!("{} q_max {}", symbol(mark, symbols), significant(cycle.q_max, DIGITS));
+                    format!("{} q_max {}", symbols.mark(mark), significant(cycle.q_max, DIGITS));
                 let texts = [format!("{short}, {name}"), short];
                 plot.write(y, &pane::fitting(texts, plot.inner().width.into()), role);
             }
@@ -60,7 +60,7 @@ pub fn draw(
                 let role = if *work < 0.0 { Role::Loss } else { Role::Gain };
                 plot.bar(Point { x: 0.0, y }, Point { x: *part, y }, role);
                 if let Some(so_far) = so_far {
-                    plot.mark(Point { x: *so_far, y }, symbols.head, Role::Cursor);
+                    plot.mark(Point { x: *so_far, y }, symbols.mark(Mark::Head), Role::Cursor);
                 }
                 plot.beside_zero(y, *work, DIGITS, *work < 0.0);
             }

@@ -10,8 +10,7 @@ use crate::words::{number::significant, quantity::with_unit, statement::signed};
 /// What a fitted number stands for with its standard error, and the error alone; or that it is held.
 pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
     let (Row::Number(symbol), Some(found)) = (row, session.fitted()) else { return Vec::new() };
-    let sign = look.symbols().plus_minus;
-    let error = found.error(symbol);
+    let (sign, error) = (look.symbols().plus_minus, found.error(symbol));
     let told = match error {
         Some(error) => {
             let bare = format!("{sign}{}", significant(error, 2));
@@ -20,32 +19,24 @@ pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {
         None if found.holds(symbol) => vec!["held".to_owned()],
         None => return Vec::new(),
     };
-    let physical = rows(&found.fit).into_iter().find(|row| row.name == stands_for(symbol));
-    let value = session.value(symbol);
-    let physical = match (physical, found.fit.units()) {
-        (Some(row), _) => {
-            let error = error.map_or_else(String::new, |_| {
-                format!(" {sign}{}", with_unit(row.standard_error, 2, row.unit))
-            });
-            Some(format!("{} {}{error}", row.name, with_unit(row.value, 4, row.unit)))
-        }
-        (None, Some(units)) => {
-            let scale = match symbol {
-                Knob::R | Knob::Q0 => Some((units.displacement, "m")),
-                Knob::V0 => Some((units.velocity, "m/s")),
-                _ => None,
-            };
-            scale.map(|(scale, unit)| {
-                let error = error.map_or_else(String::new, |error| {
-                    format!(" {sign}{}", with_unit(error * scale, 2, unit))
-                });
-                with_unit(value * scale, 4, unit) + &error
-            })
-        }
-        _ => None,
+    let with_error = |value, error: Option<f64>, unit| {
+        let error = error.map(|error| format!("{sign}{}", with_unit(error, 2, unit)));
+        format!("{} {}", with_unit(value, 4, unit), error.as_deref().unwrap_or("held"))
     };
-    let held = if error.is_none() { " held" } else { "" };
-    physical.map(|text| text + held).into_iter().chain(told).collect()
+    let named = rows(&found.fit).into_iter().find(|row| row.name == stands_for(symbol));
+    let physical = if let Some(row) = named {
+        let error = error.map(|_| row.standard_error);
+        Some(format!("{} {}", row.name, with_error(row.value, error, row.unit)))
+    } else {
+        let scale = found.fit.units().and_then(|units| match symbol {
+            Knob::R | Knob::Q0 => Some((units.displacement, "m")),
+            Knob::V0 => Some((units.velocity, "m/s")),
+            _ => None,
+        });
+        let value = session.value(symbol);
+        scale.map(|(one, unit)| with_error(value * one, error.map(|error| error * one), unit))
+    };
+    physical.into_iter().chain(told).collect()
 }
 
 /// The unit in which a number of the record stands; nothing where the record names no unit of length.

@@ -78,34 +78,27 @@ fn plot(
         View::Scan => session.scanned.is_some(),
         _ => picture.draws(),
     };
-    if let Some(text) = session.nothing(index).filter(|_| !draws) {
-        return nothing(area, &text, (&picture, session, index), look, buffer);
-    }
     let heading = Heading::of(session, Pane::Plot(index));
+    if let Some(text) = session.nothing(index).filter(|_| !draws) {
+        pane::title(area, &picture.title, "", &heading, look, buffer);
+        let text = keys::sentence(&text, &session.keymap, look);
+        return nothing(area, text, look, buffer);
+    }
     match (session.plots[index].view, &session.scanned) {
         // Its lines are whole rows of the screen.
         (View::EnergyLedger, _) => {
-            energy_ledger::draw(area, &picture, heading, &session.ledger(), look, buffer);
+            energy_ledger::draw(area, picture, heading, &session.ledger(), look, buffer);
         }
         // Its shades fill cells, and its table is text.
         (View::Scan, Some(scanned)) => {
             scan::draw(area, &picture, &heading, scanned, look, buffer);
         }
-        _ => paint(area, picture, heading, look, buffer),
+        _ => paint(area, &picture, heading, look, buffer),
     }
 }
 
 /// What a plot says in place of empty axes.
-fn nothing(
-    area: Rect,
-    text: &str,
-    (picture, session, index): (&Picture, &Session, usize),
-    look: &Look,
-    buffer: &mut Buffer,
-) {
-    let heading = Heading::of(session, Pane::Plot(index));
-    pane::title(area, &picture.title, "", &heading, look, buffer);
-    let text = keys::sentence(text, &session.keymap, look);
+fn nothing(area: Rect, text: String, look: &Look, buffer: &mut Buffer) {
     let line = vec![look.span(text, Role::Text).into()];
     let width = area.width.saturating_sub(2);
     let rows = prose::rows(&line, width).min(area.height.saturating_sub(1));

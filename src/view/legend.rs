@@ -3,8 +3,8 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use super::Look;
 use super::dots::{DotPen, Dots};
-use super::{Look, paint::symbol};
 use crate::picture::{Dash, LegendEntry, LegendSample, Mark, Picture, Role, legend::entries};
 
 const SAMPLE: u16 = 3;
@@ -82,7 +82,7 @@ fn draw_sample(place: Rect, role: Role, sample: LegendSample, look: &Look, buffe
         LegendSample::Shade => {
             (0..SAMPLE).for_each(|x| dots.texture(x, 0, look.symbols().shade, role));
         }
-        LegendSample::Point(mark) => dots.symbol(1, 0, symbol(mark, look.symbols()), role),
+        LegendSample::Point(mark) => dots.symbol(1, 0, look.symbols().mark(mark), role),
         LegendSample::Arrow => dots.texture(1, 0, look.symbols().arrows[0], role),
     }
     dots.paint(buffer, look);

@@ -12,7 +12,7 @@ use ratatui::text::Span;
 
 use super::colour::{STEPS, color_of, in_depth, mixed, parsed};
 use crate::numerics::count::truncated;
-use crate::picture::{ROLES, Role};
+use crate::picture::{Mark, ROLES, Role};
 use crate::session::settings::{self, Colors, Glyphs, Theme};
 
 /// The text of a theme that comes with the program.
@@ -39,16 +39,8 @@ pub struct Symbols {
     pub upright: &'static str,
     /// Corner of an axis: vertical line, tick on it, corner, horizontal line, tick on it.
     pub axis: [&'static str; 5],
-    /// Where a motion starts.
-    pub start: char,
-    /// Where a motion came to rest.
-    pub rest: char,
-    /// Where a motion is at its end time.
-    pub head: char,
-    /// A stable and an unstable point.
-    pub points: [char; 2],
-    /// Samples that do not count: an outlier, a saturated one, one aside.
-    pub dropped: [char; 3],
+    /// Marks, in the order of [`Mark`].
+    marks: [char; 9],
     /// Corners and sides of a box: top left, top right, bottom left, bottom right.
     pub corners: [&'static str; 4],
     /// Direction of motion, from east counter-clockwise in eighths of a turn.
@@ -66,11 +58,7 @@ const RICH: Symbols = Symbols {
     rule: "─",
     upright: "│",
     axis: ["│", "┤", "└", "─", "┴"],
-    start: '○',
-    rest: '■',
-    head: '●',
-    points: ['●', '○'],
-    dropped: ['×', '◆', ':'],
+    marks: ['○', '■', '●', '○', '●', '○', '×', '◆', ':'],
     corners: ["┌", "┐", "└", "┘"],
     arrows: ['→', '↗', '↑', '↖', '←', '↙', '↓', '↘'],
     shade: '·',
@@ -85,16 +73,18 @@ const LETTERS: Symbols = Symbols {
     rule: "-",
     upright: "|",
     axis: ["|", "+", "+", "-", "+"],
-    start: 'S',
-    rest: 'X',
-    head: '@',
-    points: ['#', 'o'],
-    dropped: ['x', '%', ':'],
+    marks: ['S', 'X', '@', 'S', '#', 'o', 'x', '%', ':'],
     corners: ["+", "+", "+", "+"],
     arrows: ['>', '/', '^', '\\', '<', '/', 'v', '\\'],
     shade: '.',
     cross: ['+', '-', '|'],
 };
+
+impl Symbols {
+    pub fn mark(&self, mark: Mark) -> char {
+        self.marks[mark as usize]
+    }
+}
 
 /// Everything that decides how the screen looks.
 #[derive(Clone, Debug, PartialEq)]

@@ -17,7 +17,6 @@ pub mod legend;
 mod list;
 pub mod lists;
 pub mod look;
-mod machine;
 mod margin;
 pub mod paint;
 pub mod pane;
@@ -34,10 +33,7 @@ pub mod screen;
 mod signs;
 pub mod status;
 pub mod trade_plot;
-mod walk;
-
-#[cfg(test)]
-mod tests;
+mod verdict;
 
 pub use frame::{draw, panels};
 pub use look::Look;

@@ -3,8 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::plot::{Canvas, Names};
-use super::{Look, look::Symbols, pane::Heading};
+use super::{Look, look::Symbols, pane::Heading, plot::Canvas};
 use crate::picture::{Caption, Dash, Item, Mark, Marks, Pattern, Picture};
 use crate::scene::{Point, Window};
 
@@ -17,19 +16,23 @@ const LABELLED: u16 = 30;
 /// Columns between marks that are left out where they would touch.
 const APART: usize = 4;
 
-pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, buffer: &mut Buffer) {
-    let Picture { title, x, y, scales, window, cursor, reading, items, .. } = picture;
-    heading.reading = reading;
-    let (x, y) = (scales[0].title(&x), scales[1].title(&y));
-    let names = Names { title: &title, x, y, scales, marks: None };
-    let mut plot = Canvas::new(area, window, names, &heading, look, buffer);
+pub fn paint(
+    area: Rect,
+    picture: &Picture,
+    mut heading: Heading,
+    look: &Look,
+    buffer: &mut Buffer,
+) {
+    let Picture { title, window, cursor, items, .. } = picture;
+    heading.reading.clone_from(&picture.reading);
+    let mut plot = Canvas::new(area, title, picture, None, &heading, look, buffer);
     // Texts find their places when all else is there; names of curves last, since they have many places
     // to go to.
     let mut captions = Vec::new();
-    for item in &items {
+    for item in items {
         match item {
             Item::Caption(caption) => captions.push(caption),
-            item => put(&mut plot, item, window, look),
+            item => put(&mut plot, item, *window, look),
         }
     }
     let (names, beside_points): (Vec<&Caption>, Vec<&Caption>) =
@@ -40,7 +43,7 @@ pub fn paint(area: Rect, picture: Picture, mut heading: Heading, look: &Look, bu
         plot.caption(*at, texts, *role);
     }
     if let Some(cursor) = cursor {
-        plot.cross(cursor);
+        plot.cross(*cursor);
     }
     let labelled = plot.inner().width >= LABELLED;
     let named = |name: &&Caption| labelled || !name.long.is_empty();
@@ -87,7 +90,7 @@ fn put(plot: &mut Canvas, item: &Item, window: Window, look: &Look) {
                         Some((at, above)) => {
                             plot.mark(at, symbols.arrows[if above { 2 } else { 6 }], *role);
                         }
-                        None => plot.mark(*at, symbol(*mark, symbols), *role),
+                        None => plot.mark(*at, symbols.mark(*mark), *role),
                     }
                 }
             }
@@ -100,20 +103,7 @@ fn filling(pattern: Pattern, symbols: &Symbols) -> char {
     match pattern {
         Pattern::Shade => symbols.shade,
         Pattern::Arrows => symbols.arrows[0],
-        Pattern::Stable => symbols.points[0],
-        Pattern::Unstable => symbols.points[1],
-    }
-}
-
-pub fn symbol(mark: Mark, symbols: &Symbols) -> char {
-    match mark {
-        Mark::Start | Mark::Turn => symbols.start,
-        Mark::Rest => symbols.rest,
-        Mark::Head => symbols.head,
-        Mark::Stable => symbols.points[0],
-        Mark::Unstable => symbols.points[1],
-        Mark::Outlier => symbols.dropped[0],
-        Mark::Saturated => symbols.dropped[1],
-        Mark::Aside => symbols.dropped[2],
+        Pattern::Stable => symbols.mark(Mark::Stable),
+        Pattern::Unstable => symbols.mark(Mark::Unstable),
     }
 }

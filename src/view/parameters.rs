@@ -6,7 +6,7 @@ use ratatui::text::{Line, Span};
 
 use super::fitted::{fitted, spread};
 use super::pane::{self, Heading};
-use super::{Look, keys, margin, paint::symbol, prose};
+use super::{Look, keys, margin, prose, verdict::multiplier};
 use crate::accuracy::harmonic_error::BalanceResult;
 use crate::flow::Problem;
 use crate::model::belt::Units;
@@ -243,80 +243,63 @@ fn folded(session: &Session) -> Option<String> {
     (!hidden.is_empty()).then(|| format!("{} = 0", hidden.join(" = ")))
 }
 
-/// A column of the table of cycles: heading, width, and what stands in it.
-type CycleColumn = (&'static str, usize, Box<dyn Fn(&Cycle) -> String>);
+/// Headings and widths of the table of cycles: in numbers of the oscillator, and in the units of a machine.
+const COLUMNS: [[(&str, usize); 5]; 2] = [
+    [("q_max", 10), ("period", 8), ("v_max", 9), ("multiplier", 12), ("error", 8)],
+    [("x_max", 11), ("period", 9), ("v_max", 11), ("multiplier", 12), ("error", 8)],
+];
 
-/// The columns, of which as many are shown as fit; lengths, times and speeds in the units of a machine.
-fn cycle_columns(units: Option<Units>) -> [CycleColumn; 5] {
-    type Number = fn(&Cycle) -> f64;
-    let with = move |one: f64, unit, number: Number| -> Box<dyn Fn(&Cycle) -> String> {
-        Box::new(move |cycle| with_unit(number(cycle) * one, 4, unit))
-    };
-    let own = |digits, number: Number| -> Box<dyn Fn(&Cycle) -> String> {
-        Box::new(move |cycle| significant(number(cycle), digits))
-    };
-    let (q_max, period, v_max): (Number, Number, Number) =
-        (|cycle| cycle.q_max, |cycle| cycle.period, |cycle| cycle.v_max);
+/// A cycle in the cells of the table.
+fn cells(cycle: &Cycle, units: Option<Units>) -> [String; 5] {
+    let Cycle { q_max, period, v_max, .. } = *cycle;
     let [size, period, speed] = match units {
-        None => [
-            ("q_max", 10, own(5, q_max)),
-            ("period", 8, own(4, period)),
-            ("v_max", 9, own(5, v_max)),
-        ],
+        None => [significant(q_max, 5), significant(period, 4), significant(v_max, 5)],
         Some(units) => [
-            ("x_max", 11, with(units.displacement, "m", q_max)),
-            ("period", 9, with(units.time, "s", period)),
-            ("v_max", 11, with(units.velocity, "m/s", v_max)),
+            with_unit(q_max * units.displacement, 4, "m"),
+            with_unit(period * units.time, 4, "s"),
+            with_unit(v_max * units.velocity, 4, "m/s"),
         ],
     };
-    let multiplier = |cycle: &Cycle| match cycle.multiplier {
-        Some(multiplier) => significant(multiplier, 4),
-        None => format!("e^{}", significant(cycle.log_multiplier, 4)),
-    };
-    let error = |cycle: &Cycle| cycle.error.map_or_else(String::new, |error| significant(error, 1));
-    let multiplier = ("multiplier", 12, Box::new(multiplier) as Box<_>);
-    [size, period, speed, multiplier, ("error", 8, Box::new(error) as Box<_>)]
+    let error = cycle.error.map_or_else(String::new, |error| significant(error, 1));
+    [size, period, speed, multiplier(cycle), error]
 }
 
-/// What the cycles are, in numbers, and what borders the basin; returns the rows that it took.
+/// What the cycles are, in numbers in as many columns as fit, and what borders the basin; returns the rows that it
+/// took.
 fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u16 {
     /// Columns of the symbol before the numbers.
     const SYMBOL: usize = 3;
     let Some(found) = session.cycles() else { return 0 };
+    let (width, units) = (usize::from(area.width), units::shown(session));
     let mut used = SYMBOL;
-    let fits = |(_, width, _): &CycleColumn| {
+    let fits = |(_, width): &&(&str, usize)| {
         used += width;
         used <= usize::from(area.width)
     };
-    let units = units::shown(session);
-    let columns: Vec<CycleColumn> = cycle_columns(units).into_iter().take_while(fits).collect();
-    let cells = |text: &dyn Fn(&CycleColumn) -> String| -> String {
-        columns
-            .iter()
-            .fold(String::new(), |line, column| format!("{line}{:>1$}", text(column), column.1))
+    let columns = COLUMNS[usize::from(units.is_some())].iter().take_while(fits);
+    let columns: Vec<(&str, usize)> = columns.copied().collect();
+    let aligned = |cells: &[String]| {
+        let all = cells.iter().zip(&columns);
+        all.fold(String::new(), |line, (cell, (_, width))| format!("{line}{cell:>width$}"))
     };
     let title = " cycles";
-    let headings = cells(&|(heading, ..)| (*heading).to_owned());
-    let headings = headings.split_at(title.len() - SYMBOL).1.to_owned();
+    let headings: Vec<String> = columns.iter().map(|(name, _)| (*name).to_owned()).collect();
+    let headings = aligned(&headings).split_at(title.len() - SYMBOL).1.to_owned();
     let heading = vec![look.span(title, Role::Title), look.span(headings, Role::Quiet)];
-    pane::line(area, 0, heading, look, buffer);
-    let mut y = 1;
-    for cycle in &found.cycles {
+    let numbers = found.cycles.iter().map(|cycle| {
         let CycleStyle { mark, role, .. } = cycle_style(cycle.stable);
-        let symbol = symbol(mark, look.symbols());
-        let numbers = cells(&|(.., number)| number(cycle));
-        let line = vec![look.span(format!(" {symbol} "), role), Span::raw(numbers)];
+        let symbol = look.span(format!(" {} ", look.symbols().mark(mark)), role);
+        vec![symbol, Span::raw(aligned(&cells(cycle, units)))]
+    });
+    let (count, role) = counted(session, found, width);
+    let words = basin(session, found, width, look).into_iter().chain(balance(session, width));
+    let words = words.map(|text| (text, Role::Quiet));
+    let below = std::iter::once((count, role)).chain(words);
+    let below = below.map(|(text, role)| vec![look.span(format!(" {text}"), role)]);
+    let lines: Vec<_> = std::iter::once(heading).chain(numbers).chain(below).collect();
+    let mut y = 0;
+    for line in lines {
         pane::line(area, y, line, look, buffer);
-        y += 1;
-    }
-    let (count, role) = counted(session, found, usize::from(area.width));
-    pane::line(area, y, look.span(format!(" {count}"), role), look, buffer);
-    y += 1;
-    let words = basin(session, found, usize::from(area.width), look)
-        .into_iter()
-        .chain(balance(session, usize::from(area.width)));
-    for text in words {
-        pane::line(area, y, look.span(format!(" {text}"), Role::Quiet), look, buffer);
         y += 1;
     }
     y + 1

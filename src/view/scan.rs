@@ -9,10 +9,9 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use super::pane::{self, Heading};
-use super::plot::{Canvas, Names};
-use super::{Look, scan_map, scan_table};
+use super::{Look, plot::Canvas, scan_map, scan_table};
 use crate::picture::map::{measured, nothing};
-use crate::picture::{Danger, Dash, Picture, Role};
+use crate::picture::{Danger, Dash, Mark, Picture, Role};
 use crate::scan::measure::Value;
 use crate::scene::{Point, View};
 use crate::session::scan::{ScanOnShow, ScanProgress, WORDS};
@@ -44,13 +43,12 @@ pub fn draw(
         let body = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
         return scan_table::draw(body, scanned, look, buffer);
     }
-    let Picture { x, y, scales, window, map, .. } = picture;
+    let Picture { x, y, map, .. } = picture;
     let width = usize::from(area.width);
     // The names of the axes stand there in any case; how far the scan is, where there is room.
     let full = title.chars().count() + y.len() + x.len() + 9 <= width;
     let short = if full { title.as_str() } else { View::Scan.spec().title };
-    let names = Names { title: short, x, y, scales: *scales, marks: None };
-    let mut plot = Canvas::new(body(area), *window, names, heading, look, buffer);
+    let mut plot = Canvas::new(body(area), short, picture, None, heading, look, buffer);
     let legend = if let Some(map) = map {
         scan_map::draw(&plot, map, look, buffer);
         scan_map::legend(scanned, width, look)
@@ -122,7 +120,7 @@ fn curve(plot: &mut Canvas, scanned: &ScanOnShow, look: &Look) {
     let known = |index: usize| scanned.height(index).is_some();
     let joined = |index: usize| (index > 0 && known(index - 1)) || known(index + 1);
     for index in all.filter(|index| scanned.plots_words() || (known(*index) && !joined(*index))) {
-        plot.mark(point(index), look.symbols().points[0], role);
+        plot.mark(point(index), look.symbols().mark(Mark::Stable), role);
     }
 }
 

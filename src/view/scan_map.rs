@@ -104,9 +104,9 @@ pub fn without_numbers(scanned: &ScanOnShow, width: usize) -> String {
             meanings.push(meaning);
         }
     }
-    let sign = |meaning: &&str| match scanned.is_grid() {
-        false => format!("gap: {meaning}"),
-        true => format!("{} {meaning}", sign_of_nothing(meaning)),
+    let sign = |meaning: &&str| match *meaning {
+        _ if !scanned.is_grid() => format!("gap: {meaning}"),
+        meaning => format!("{} {meaning}", sign_of_nothing(meaning)),
     };
     let signs = || meanings.iter().map(sign);
     let texts = [signs().collect::<Vec<_>>().join("  "), signs().take(1).collect()];
@@ -117,55 +117,49 @@ pub fn without_numbers(scanned: &ScanOnShow, width: usize) -> String {
 /// begins, else with the smallest and the largest alone.
 pub fn legend(scanned: &ScanOnShow, width: usize, look: &Look) -> Line<'static> {
     let name = measured(scanned);
-    let words = scanned.plots_words();
-    let ramp = Danger::of(scanned).filter(|_| !words).map(|scale| Ramp::of(scale, look));
-    let texts: Vec<String> = if words {
-        let words =
-            OF_WORDS.iter().zip(WORDS).map(|((symbol, _), word)| format!("{symbol} {word}"));
-        let words = words.collect::<Vec<_>>().join("  ");
-        vec![format!(" {name} {words}"), format!(" {words}")]
-    } else if let Some(ramp) = &ramp {
-        let begins = |(step, shade): (usize, &char)| {
-            format!("{} {shade} ", significant(ramp.begin(step), 3))
+    let quiet = |text: String| look.span(text, Role::Quiet);
+    let lines: Vec<Vec<Span>> = if scanned.plots_words() {
+        let word = |((symbol, danger), word): (&(char, Option<f64>), &str)| {
+            let symbol = Span::styled(symbol.to_string(), of_word(*danger, look));
+            [quiet("  ".to_owned()), symbol, quiet(format!(" {word}"))]
         };
-        let all: String = ramp.shades.iter().enumerate().map(begins).collect();
-        let Danger { low, high, .. } = ramp.scale;
-        let [low, high] = [low, high].map(|value| significant(value, 4));
-        let bare: String = ramp.shades.iter().collect();
-        let [lowest, highest] = ramp.scale.ends().map(|end| format!(" {end} "));
+        let words: Vec<Span> = OF_WORDS.iter().zip(WORDS).flat_map(word).skip(1).collect();
+        [format!(" {name} "), " ".to_owned()]
+            .map(|before| [vec![quiet(before)], words.clone()].concat())
+            .into()
+    } else if let Some(scale) = Danger::of(scanned) {
+        let ramp = Ramp::of(scale, look);
+        let shade = |(step, shade): (usize, &char)| {
+            Span::styled(shade.to_string(), look.danger(ramp.shade(ramp.begin(step)).1))
+        };
+        let shades: Vec<Span> = ramp.shades.iter().enumerate().map(shade).collect();
+        let begin = |(step, shade): (usize, &Span<'static>)| {
+            [
+                quiet(format!("{} ", significant(ramp.begin(step), 3))),
+                shade.clone(),
+                quiet(" ".into()),
+            ]
+        };
+        let all: Vec<Span> = shades.iter().enumerate().flat_map(begin).collect();
+        let [low, high] = [scale.low, scale.high].map(|value| significant(value, 4));
+        let [lowest, highest] = scale.ends().map(|end| format!(" {end} "));
         let (from, to) = (lowest.trim_start(), highest.trim_end());
+        let between = |before: String, shades: &[Span<'static>], after: String| {
+            [&[quiet(before)], shades, &[quiet(after)]].concat()
+        };
         vec![
-            format!(" {name} {from}{all}{high}{to}"),
-            format!(" {name} {from}{low} {bare} {high}{to}"),
-            format!(" {from}{low} {bare} {high}{to}"),
-            format!(" {from}{bare}{to}"),
-            format!(" {low} {bare} {high}"),
+            between(format!(" {name} {from}"), &all, format!("{high}{to}")),
+            between(format!(" {name} {from}{low} "), &shades, format!(" {high}{to}")),
+            between(format!(" {from}{low} "), &shades, format!(" {high}{to}")),
+            between(format!(" {from}"), &shades, to.to_owned()),
+            between(format!(" {low} "), &shades, format!(" {high}")),
         ]
     } else {
-        vec![format!(" {name}")]
+        vec![vec![quiet(format!(" {name}"))]]
     };
-    let text = pane::fitting(texts, width);
-    let style = |letter: char| {
-        let quiet = look.style(Role::Quiet);
-        let Some(ramp) = &ramp else {
-            let word = OF_WORDS.iter().find(|(symbol, _)| *symbol == letter);
-            return word.map_or(quiet, |(_, danger)| of_word(*danger, look));
-        };
-        let step = ramp.shades.iter().position(|shade| *shade == letter);
-        step.map_or(quiet, |step| look.danger(ramp.shade(ramp.begin(step)).1))
-    };
-    let alone = |at: usize| {
-        let around = [at.checked_sub(1), at.checked_add(1)];
-        around
-            .into_iter()
-            .flatten()
-            .all(|at| text.chars().nth(at).is_none_or(|it| !it.is_alphanumeric()))
-    };
-    let span = |(at, letter): (usize, char)| {
-        let style = if alone(at) { style(letter) } else { look.style(Role::Quiet) };
-        Span::styled(letter.to_string(), style)
-    };
-    text.chars().enumerate().map(span).collect::<Vec<_>>().into()
+    let mut lines = lines.into_iter().map(Line::from);
+    let last = lines.clone().next_back().unwrap_or_default();
+    lines.find(|line| line.width() <= width).unwrap_or(last)
 }
 
 /// Which of some evenly spaced places along an axis another belongs to; none beyond half a step of their ends.

@@ -299,31 +299,28 @@ fn is_shape(symbol: &str) -> bool {
 /// A colour as `#rrggbb`, or `None` where it is left to the terminal.
 fn hex(color: Color) -> Option<String> {
     /// The sixteen colours of the terminal's palette, as in most terminals today.
-    const PALETTE: [u32; 16] = [
-        0x00_0000, 0xcd_3131, 0x0d_bc79, 0xe5_e510, 0x24_72c8, 0xbc_3fbc, 0x11_a8cd, 0xe5_e5e5,
-        0x66_6666, 0xf1_4c4c, 0x23_d18b, 0xf5_f543, 0x3b_8eea, 0xd6_70d6, 0x29_b8db, 0xff_ffff,
+    const PALETTE: [(Color, u32); 16] = [
+        (Color::Black, 0x00_0000),
+        (Color::Red, 0xcd_3131),
+        (Color::Green, 0x0d_bc79),
+        (Color::Yellow, 0xe5_e510),
+        (Color::Blue, 0x24_72c8),
+        (Color::Magenta, 0xbc_3fbc),
+        (Color::Cyan, 0x11_a8cd),
+        (Color::Gray, 0xe5_e5e5),
+        (Color::DarkGray, 0x66_6666),
+        (Color::LightRed, 0xf1_4c4c),
+        (Color::LightGreen, 0x23_d18b),
+        (Color::LightYellow, 0xf5_f543),
+        (Color::LightBlue, 0x3b_8eea),
+        (Color::LightMagenta, 0xd6_70d6),
+        (Color::LightCyan, 0x29_b8db),
+        (Color::White, 0xff_ffff),
     ];
     let number = match color {
-        Color::Reset => return None,
-        Color::Black => PALETTE[0],
-        Color::Red => PALETTE[1],
-        Color::Green => PALETTE[2],
-        Color::Yellow => PALETTE[3],
-        Color::Blue => PALETTE[4],
-        Color::Magenta => PALETTE[5],
-        Color::Cyan => PALETTE[6],
-        Color::Gray => PALETTE[7],
-        Color::DarkGray => PALETTE[8],
-        Color::LightRed => PALETTE[9],
-        Color::LightGreen => PALETTE[10],
-        Color::LightYellow => PALETTE[11],
-        Color::LightBlue => PALETTE[12],
-        Color::LightMagenta => PALETTE[13],
-        Color::LightCyan => PALETTE[14],
-        Color::White => PALETTE[15],
         Color::Rgb(red, green, blue) => u32::from_be_bytes([0, red, green, blue]),
         Color::Indexed(index) => match index {
-            0..16 => PALETTE[usize::from(index)],
+            0..16 => PALETTE[usize::from(index)].1,
             16..232 => {
                 // A cube of six levels a colour.
                 let level = |digit: u8| if digit == 0 { 0 } else { 55 + 40 * digit };
@@ -332,6 +329,7 @@ fn hex(color: Color) -> Option<String> {
             }
             232.. => u32::from(8 + 10 * (index - 232)) * 0x01_0101,
         },
+        named => PALETTE.iter().find(|(color, _)| *color == named)?.1,
     };
     Some(format!("#{number:06x}"))
 }

@@ -4,13 +4,12 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::{Look, fitted::UNRELIABLE, keys, machine, margin, pane, walk};
-use crate::flow::{Outcome, Trajectory, trajectory::choice};
-use crate::picture::{Role, units};
-use crate::scene::{Answer, Layer, Topic};
-use crate::session::fate::{End, MotionVerdict, SideOfBorder};
+use super::{Look, fitted::UNRELIABLE, keys, margin, pane, verdict};
+use crate::flow::{Outcome, trajectory::choice};
+use crate::picture::{Mark, Role};
+use crate::scene::Topic;
 use crate::session::{Session, wants::named};
-use crate::words::motion::{Writing, sentence, swings};
+use crate::words::motion::swings;
 use crate::words::number::{count, duration, significant};
 
 /// Draws the title line: what the scene is, and its name.
@@ -22,28 +21,16 @@ pub fn title(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 
 /// Draws the status lines: the outcome first, then method, cost and error.
 pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    let (text, role) = if let Some(held) = walk::reading(session, look, area.width) {
+    let (text, role) = if let Some(held) = verdict::held_point(session, look, area.width) {
         (held, Role::Cursor)
     } else {
-        let (sentence, role) = outcome(session);
+        let (sentence, role) = verdict::outcome(session);
         let of = session.number(0).map_or_else(String::new, |number| format!("motion {number} "));
         // The symbol belongs to the motion: what else is said has none.
         let symbol = Some(symbol(session, look)).filter(|_| role == Role::Text);
         (format!("{}{of}{sentence}", symbol.unwrap_or_default()), role)
     };
-    let fitting = session.is_fitting();
-    let fitting = fitting.then(|| format!("fitting: {} motions, esc stops ", session.fitting));
-    let computing = if session.is_busy() { "computing " } else { "" };
-    let busy = fitting.as_deref().unwrap_or(computing);
-    let busy = match session.writing.as_ref().and_then(|path| path.file_name()) {
-        Some(name) => format!("{busy}writing {} ", name.display()),
-        None => busy.to_owned(),
-    };
-    let busy = match session.keymap.key_of("play-motion").filter(|_| session.is_playing()) {
-        Some(key) => format!("{busy}playing, {} holds ", keys::name(key, look)),
-        None if session.is_playing() => format!("{busy}playing "),
-        None => busy,
-    };
+    let busy = busy(session, look);
     // That a computation is running matters more than the end of the sentence.
     let room = usize::from(area.width).saturating_sub(busy.chars().count());
     let text = pane::cut(&shorter(session, format!(" {text}"), room), room, look);
@@ -65,6 +52,25 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     };
     let (left, right) = WORDS.iter().map(line).find(fits).unwrap_or_else(|| line(&WORDS[3]));
     pane::both_ends(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")), look, buffer);
+}
+
+/// What goes on: a computation, a file that is written, a motion that is played.
+fn busy(session: &Session, look: &Look) -> String {
+    let mut busy = String::new();
+    if session.is_fitting() {
+        busy += &format!("fitting: {} motions, esc stops ", session.fitting);
+    } else if session.is_busy() {
+        busy += "computing ";
+    }
+    if let Some(name) = session.writing.as_ref().and_then(|path| path.file_name()) {
+        busy += &format!("writing {} ", name.display());
+    }
+    match session.keymap.key_of("play-motion").filter(|_| session.is_playing()) {
+        Some(key) => busy += &format!("playing, {} holds ", keys::name(key, look)),
+        None if session.is_playing() => busy += "playing ",
+        None => {}
+    }
+    busy
 }
 
 /// A verdict that fits into this many columns, if that is possible: why it is so matters more than after how many
@@ -127,117 +133,15 @@ const WORDS: [StatusWords; 4] = {
     [full, short, shorter, StatusWords { unmeasured, duration: false, ..shorter }]
 };
 
-/// What became of the motion, in a sentence.
-fn outcome(session: &Session) -> (String, Role) {
-    let needs = |plot: usize| session.needs(plot).contains(&Topic::Trajectory);
-    let asked = session.on_show().any(|plot| session.variants(plot).is_none() && needs(plot));
-    if let Some(text) = held_motions(session).filter(|_| !asked) {
-        return (text, Role::Quiet);
-    }
-    if !session.layers.contains(&Layer::Trajectory) {
-        return ("the motion is not shown".into(), Role::Quiet);
-    }
-    if let Some(failure) = session.failure(Topic::Trajectory, session.plot) {
-        return (format!("no motion: {failure}"), Role::Failure);
-    }
-    match session.trajectory() {
-        // Where no plot shows it, it is not computed.
-        None if !asked => ("the motion is not shown".into(), Role::Quiet),
-        None => ("computing the motion".into(), Role::Quiet),
-        Some(found) if session.course().is_some() => (machine::outcome(session, found), Role::Text),
-        Some(found) => alarm(session).unwrap_or_else(|| {
-            let fate = session.fate();
-            let writing = Writing(units::shown(session));
-            let text = match fate {
-                Some(fate) => verdict(&fate, found, writing),
-                None => sentence(found, writing),
-            };
-            (text, Role::Text)
-        }),
-    }
-}
-
-/// What became of the motions that plots hold, where there are any and all are known.
-fn held_motions(session: &Session) -> Option<String> {
-    let plots = session.on_show().filter(|plot| session.variants(*plot).is_some());
-    let found = plots.flat_map(|plot| session.found(Topic::Trajectory, plot));
-    let outcomes: Vec<Outcome> = found
-        .filter_map(|(.., answer)| match answer {
-            Answer::Trajectory(found) => Some(found.outcome),
-            _ => None,
-        })
-        .collect();
-    let word = |end: &Outcome| match end {
-        Outcome::Captured { .. } => "come to rest",
-        Outcome::Moving { .. } => "still move",
-        Outcome::Escaped { .. } => "escape",
-        Outcome::GaveUp { .. } => "given up",
-    };
-    let parts =
-        ["come to rest", "still move", "escape", "given up"].into_iter().filter_map(|name| {
-            let number = outcomes.iter().filter(|end| word(end) == name).count();
-            (number > 0).then(|| format!("{number} {name}"))
-        });
-    let parts: Vec<String> = parts.collect();
-    (!parts.is_empty()).then(|| format!("{} motions: {}", outcomes.len(), parts.join(", ")))
-}
-
-/// What stands in place of the outcome where the mass would overtake its belt earlier.
-fn alarm(session: &Session) -> Option<(String, Role)> {
-    let (tau, q) = session.contact()?;
-    let writing = Writing(units::shown(session));
-    let (time, place) = (writing.time(tau, 3), writing.position(q, 3));
-    let text = format!("sticks to the belt at {time}, {place}: the model ends there");
-    Some((text, Role::Warning))
-}
-
 /// The mark at the end of the motion in the phase plane.
 fn symbol(session: &Session, look: &Look) -> String {
-    let symbols = look.symbols();
-    match session.trajectory().map(|found| found.outcome) {
-        _ if session.contact().is_some() => String::new(),
-        Some(Outcome::Captured { .. }) => format!("{} ", symbols.rest),
-        Some(Outcome::Moving { .. }) => format!("{} ", symbols.head),
-        _ => String::new(),
-    }
-}
-
-/// What becomes of a motion and why, in a sentence.
-fn verdict(fate: &MotionVerdict, motion: &Trajectory, writing: Writing) -> String {
-    let why = match fate.place {
-        SideOfBorder::InsideCycle => " (inside the unstable cycle)",
-        SideOfBorder::OutsideCycle => " (outside the unstable cycle)",
-        SideOfBorder::InsideSeparatrix => " (inside the separatrix)",
-        SideOfBorder::OutsideSeparatrix => " (outside the separatrix)",
-        SideOfBorder::Anywhere => "",
+    let mark = match session.trajectory().map(|found| found.outcome) {
+        _ if session.contact().is_some() => return String::new(),
+        Some(Outcome::Captured { .. }) => Mark::Rest,
+        Some(Outcome::Moving { .. }) => Mark::Head,
+        _ => return String::new(),
     };
-    let end = match (fate.end, motion.outcome) {
-        (End::OnTheEdge { distance }, _) => {
-            let distance = significant(distance, 1);
-            return format!("on the unstable cycle to {distance}: decided by rounding");
-        }
-        (End::Rests, Outcome::Captured { .. }) if motion.crossings.is_empty() => {
-            return sentence(motion, writing);
-        }
-        (End::Rests, Outcome::Captured { q, .. }) => {
-            format!("comes to rest at {}{}", writing.position(q, 3), swings(motion))
-        }
-        (End::Rests, _) => {
-            format!("comes to rest, after {}", writing.time(motion.problem.until, 3))
-        }
-        (End::Onto { q_max, grows: true }, _) => {
-            format!("grows onto the stable cycle, {}", writing.amplitude(q_max, 4))
-        }
-        (End::Onto { q_max, .. }, _) => {
-            format!("falls onto the stable cycle, {}", writing.amplitude(q_max, 4))
-        }
-        (End::Grows, Outcome::Escaped { tau }) => {
-            format!("escapes at {}{}", writing.time(tau, 4), swings(motion))
-        }
-        (End::Grows, _) => "grows without bound".to_owned(),
-        (End::Decays, _) => "decays towards the equilibrium".to_owned(),
-    };
-    end + why
+    format!("{} ", look.symbols().mark(mark))
 }
 
 /// How the motion was computed, what it cost, and its error: measured while the dial is in use, else

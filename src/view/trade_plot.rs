@@ -3,12 +3,12 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::plot::{Canvas, Names};
+use super::plot::Canvas;
 use super::{Look, pane::Heading, screen};
 use crate::accuracy::trade::Trade;
 use crate::flow::Method;
 use crate::numerics::elementary::log10;
-use crate::picture::Role;
+use crate::picture::{Picture, Role};
 use crate::scene::{Point, Span, Window};
 use crate::session::settings::{self, Colors, Glyphs};
 
@@ -18,19 +18,20 @@ use crate::session::settings::{self, Colors, Glyphs};
 pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
     const AREA: Rect = Rect { x: 0, y: 0, width: 78, height: 24 };
     let front = trade.front(seconds);
-    let rows = trade.rows.iter().zip(seconds).zip(front).filter_map(|((row, seconds), front)| {
-        Some((row.problem.method, row.deviation.ok()?.error, *seconds, front))
-    });
-    let rows: Vec<_> = rows.collect();
-    let points: Vec<(Point, char)> = rows
-        .iter()
-        .filter(|(_, error, seconds, _)| *error > 0.0 && *seconds > 0.0)
-        .map(|(method, error, seconds, front)| {
-            let letter = letter(*method);
-            let point = Point { x: log10(1e3 * seconds), y: log10(*error) };
-            (point, if *front { letter.to_ascii_uppercase() } else { letter })
-        })
-        .collect();
+    let mut points: Vec<(Point, char)> = Vec::new();
+    let mut key: Vec<String> = Vec::new();
+    for ((row, seconds), front) in trade.rows.iter().zip(seconds).zip(front) {
+        let Ok(deviation) = row.deviation else { continue };
+        let (method, letter) = (row.problem.method, letter(row.problem.method));
+        let entry = format!("{letter} {method}");
+        if !key.contains(&entry) {
+            key.push(entry);
+        }
+        if deviation.error > 0.0 && *seconds > 0.0 {
+            let at = Point { x: log10(1e3 * seconds), y: log10(deviation.error) };
+            points.push((at, if front { letter.to_ascii_uppercase() } else { letter }));
+        }
+    }
     let around = |place: fn(&Point) -> f64| {
         let span = Span::covering(points.iter().map(|(point, _)| place(point)))?;
         Some(span.scaled(span.at(0.5), 1.1))
@@ -44,26 +45,13 @@ pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
         ..settings::DisplaySettings::default()
     });
     let mut buffer = Buffer::empty(AREA);
-    let names = Names {
-        title: "trade",
-        x: "log10(time/ms)",
-        y: "log10(error)",
-        scales: Default::default(),
-        marks: None,
-    };
     let heading = Heading::default();
-    let mut plot = Canvas::new(AREA, Window { x, y }, names, &heading, &look, &mut buffer);
+    let picture = Picture::new("trade", "log10(time/ms)", "log10(error)", Window { x, y });
+    let mut plot = Canvas::new(AREA, &picture.title, &picture, None, &heading, &look, &mut buffer);
     for (point, letter) in points.into_iter().rev() {
         plot.mark(point, letter, Role::Text);
     }
     plot.finish(&mut buffer);
-    let mut key: Vec<String> = Vec::new();
-    for (method, ..) in rows {
-        let entry = format!("{} {method}", letter(method));
-        if !key.contains(&entry) {
-            key.push(entry);
-        }
-    }
     format!("{}      {}\n", screen::text(&buffer), key.join("  "))
 }
 

@@ -20,24 +20,9 @@ use geometry::{Geometry, along, centred, column};
 pub use geometry::{point_at, rows, shown};
 
 use super::dots::{Covering, DotPen, Dots};
-use super::look::Look;
-use super::pane;
-use crate::picture::role::{Dash, Role};
-use crate::picture::ticks::{Scale, Tick, Ticks};
+use super::{Look, pane};
+use crate::picture::{Dash, Picture, Role, Tick, Ticks};
 use crate::scene::{Point, Window};
-
-/// What a plot is called.
-#[derive(Clone, Debug)]
-pub struct Names<'a> {
-    pub title: &'a str,
-    pub x: &'a str,
-    /// Its vertical axis; empty where heights mean nothing.
-    pub y: &'a str,
-    /// What the numbers along both axes stand for.
-    pub scales: [Scale; 2],
-    /// Marks on the vertical axis in place of round numbers.
-    pub marks: Option<Ticks>,
-}
 
 #[derive(Debug)]
 pub struct Canvas<'a> {
@@ -49,30 +34,31 @@ pub struct Canvas<'a> {
 }
 
 impl<'a> Canvas<'a> {
-    /// Writes title and axes into `area`, and gives the raster between them. Where `names` have no marks
-    /// for the vertical axis it has round numbers.
+    /// Writes a title and the axes of a picture into `area`, and gives the raster between them. Without `marks` the
+    /// vertical axis has round numbers.
     pub fn new(
         area: Rect,
-        window: Window,
-        names: Names,
+        title: &str,
+        picture: &Picture,
+        marks: Option<Ticks>,
         heading: &pane::Heading,
         look: &'a Look,
         buffer: &mut Buffer,
     ) -> Self {
-        let has_marks = names.marks.is_some();
+        let (window, scales, has_marks) = (picture.window, picture.scales, marks.is_some());
         let Geometry { inner, roomy, rightward, mut upward } =
-            Geometry::of(area, window, names.scales, names.marks);
-        let (x, y) = (named(names.x, &rightward), named(names.y, &upward));
-        let axes = if names.y.is_empty() {
+            Geometry::of(area, window, scales, marks);
+        let x = named(scales[0].title(&picture.x), &rightward);
+        let axes = if picture.y.is_empty() {
             if !has_marks {
                 // Heights without meaning have no scale.
                 upward.ticks.clear();
             }
             x
         } else {
-            format!("{y} over {x}")
+            format!("{} over {x}", named(scales[1].title(&picture.y), &upward))
         };
-        pane::title(area, names.title, &axes, heading, look, buffer);
+        pane::title(area, title, &axes, heading, look, buffer);
         let dots = Dots::new(inner, look.glyphs);
         let mut plot = Canvas { look, window, inner, dots, inside: None };
         if roomy {

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::numerics::count::real;
-use crate::picture::items::Caption;
+use crate::picture::{Caption, Scale};
 use crate::scene::Span;
 use crate::session::settings::{DisplaySettings, GLYPHS, Glyphs};
 
@@ -14,9 +14,9 @@ fn look(glyphs: Glyphs) -> Look {
 
 /// A canvas with unnamed axes.
 fn canvas<'a>(size: (u16, u16), window: Window, look: &'a Look, buffer: &mut Buffer) -> Canvas<'a> {
-    let names = Names { title: "", x: "", y: "y", scales: [Scale::Even; 2], marks: None };
+    let picture = Picture::new("", "", "y", window);
     let area = Rect::new(0, 0, size.0, size.1);
-    Canvas::new(area, window, names, &pane::Heading::default(), look, buffer)
+    Canvas::new(area, "", &picture, None, &pane::Heading::default(), look, buffer)
 }
 
 /// The rows in which something stands.

@@ -1,0 +1,201 @@
+//! What becomes of the motion and why, in a sentence; in its place the point of a branch that is held.
+
+use super::{Look, pane};
+use crate::branch::SpecialKind;
+use crate::flow::{Fate, Outcome, Trajectory};
+use crate::model::belt::Units;
+use crate::picture::{Role, units};
+use crate::portrait::{Border, Cycle};
+use crate::question::whole::Course;
+use crate::scene::{Answer, Layer, Topic};
+use crate::session::fate::{End, MotionVerdict, SideOfBorder};
+use crate::session::{BranchStop, Session};
+use crate::words::motion::{Writing, sentence, swings};
+use crate::words::number::significant;
+use crate::words::quantity::with_unit;
+use crate::words::stability;
+
+/// What became of the motion, in a sentence.
+pub fn outcome(session: &Session) -> (String, Role) {
+    let needs = |plot: usize| session.needs(plot).contains(&Topic::Trajectory);
+    let asked = session.on_show().any(|plot| session.variants(plot).is_none() && needs(plot));
+    if let Some(text) = held_motions(session).filter(|_| !asked) {
+        return (text, Role::Quiet);
+    }
+    if !session.layers.contains(&Layer::Trajectory) {
+        return ("the motion is not shown".into(), Role::Quiet);
+    }
+    if let Some(failure) = session.failure(Topic::Trajectory, session.plot) {
+        return (format!("no motion: {failure}"), Role::Failure);
+    }
+    match session.trajectory() {
+        // Where no plot shows it, it is not computed.
+        None if !asked => ("the motion is not shown".into(), Role::Quiet),
+        None => ("computing the motion".into(), Role::Quiet),
+        Some(found) => {
+            let writing = Writing(units::shown(session));
+            let whole = session.course().zip(session.running());
+            if let Some((tau, q)) = session.contact().filter(|_| whole.is_none()) {
+                // The mass would overtake its belt earlier.
+                let (time, place) = (writing.time(tau, 3), writing.position(q, 3));
+                let text = format!("sticks to the belt at {time}, {place}: the model ends there");
+                return (text, Role::Warning);
+            }
+            let text = match (whole, session.fate()) {
+                (Some((course, running)), _) => of_machine(course, &running.reduced.units, found),
+                (None, Some(fate)) => verdict(&fate, found, writing),
+                (None, None) => sentence(found, writing),
+            };
+            (text, Role::Text)
+        }
+    }
+}
+
+/// What became of the motions that plots hold, where there are any and all are known.
+fn held_motions(session: &Session) -> Option<String> {
+    let plots = session.on_show().filter(|plot| session.variants(*plot).is_some());
+    let mut ends = [(0, "come to rest"), (0, "still move"), (0, "escape"), (0, "given up")];
+    for (.., answer) in plots.flat_map(|plot| session.found(Topic::Trajectory, plot)) {
+        if let Answer::Trajectory(found) = answer {
+            let end = match found.outcome {
+                Outcome::Captured { .. } => 0,
+                Outcome::Moving { .. } => 1,
+                Outcome::Escaped { .. } => 2,
+                Outcome::GaveUp { .. } => 3,
+            };
+            ends[end].0 += 1;
+        }
+    }
+    let all: usize = ends.iter().map(|(count, _)| count).sum();
+    let there = ends.iter().filter(|(count, _)| *count > 0);
+    let parts: Vec<String> = there.map(|(count, end)| format!("{count} {end}")).collect();
+    (all > 0).then(|| format!("{all} motions: {}", parts.join(", ")))
+}
+
+/// What becomes of a motion and why, in a sentence.
+fn verdict(fate: &MotionVerdict, motion: &Trajectory, writing: Writing) -> String {
+    let why = match fate.place {
+        SideOfBorder::InsideCycle => " (inside the unstable cycle)",
+        SideOfBorder::OutsideCycle => " (outside the unstable cycle)",
+        SideOfBorder::InsideSeparatrix => " (inside the separatrix)",
+        SideOfBorder::OutsideSeparatrix => " (outside the separatrix)",
+        SideOfBorder::Anywhere => "",
+    };
+    let end = match (fate.end, motion.outcome) {
+        (End::OnTheEdge { distance }, _) => {
+            let distance = significant(distance, 1);
+            return format!("on the unstable cycle to {distance}: decided by rounding");
+        }
+        (End::Rests, Outcome::Captured { .. }) if motion.crossings.is_empty() => {
+            return sentence(motion, writing);
+        }
+        (End::Rests, Outcome::Captured { q, .. }) => {
+            format!("comes to rest at {}{}", writing.position(q, 3), swings(motion))
+        }
+        (End::Rests, _) => {
+            format!("comes to rest, after {}", writing.time(motion.problem.until, 3))
+        }
+        (End::Onto { q_max, grows: true }, _) => {
+            format!("grows onto the stable cycle, {}", writing.amplitude(q_max, 4))
+        }
+        (End::Onto { q_max, .. }, _) => {
+            format!("falls onto the stable cycle, {}", writing.amplitude(q_max, 4))
+        }
+        (End::Grows, Outcome::Escaped { tau }) => {
+            format!("escapes at {}{}", writing.time(tau, 4), swings(motion))
+        }
+        (End::Grows, _) => "grows without bound".to_owned(),
+        (End::Decays, _) => "decays towards the equilibrium".to_owned(),
+    };
+    end + why
+}
+
+/// What becomes of the motion of a machine, in its own units, by the whole model.
+fn of_machine(course: &Course, units: &Units, motion: &Trajectory) -> String {
+    const PLACES: usize = 4;
+    let within = match course.border {
+        Border::Cycle => " (inside the unstable cycle)",
+        Border::Grazing => " (inside the motion that touches the belt)",
+        Border::Capture => " (inside the motion that ends where the guide just holds)",
+        Border::Separatrix => " (inside the separatrix)",
+        Border::None | Border::NoBasin | Border::Unknown(_) => "",
+    };
+    match (course.fate, motion.outcome) {
+        (Fate::Rest, Outcome::Captured { tau, q }) => {
+            let place = with_unit(q * units.displacement, PLACES, "m");
+            let time = with_unit(tau * units.time, PLACES, "s");
+            format!("comes to rest at x = {place}, after {time}{within}")
+        }
+        (Fate::Rest, _) => format!("comes to rest{within}"),
+        (Fate::Cycle(_), _) => course.cycle.map_or_else(String::new, |cycle| {
+            onto(&cycle, &with_unit(cycle.q_max * units.displacement, PLACES, "m"))
+        }),
+        (Fate::Neutral, _) => "is periodic, one of a family".to_owned(),
+        (Fate::Moving, _) => "still moves".to_owned(),
+        (Fate::Escapes, _) => "grows without bound".to_owned(),
+        (Fate::Unknown(stop), _) => format!("ends in a way that is not known: {stop}"),
+    }
+}
+
+/// The cycle to which a motion tends.
+fn onto(cycle: &Cycle, size: &str) -> String {
+    let over = if cycle.overtakes { "overtaking " } else { "" };
+    if !cycle.sticks() {
+        return format!("tends to the {over}slip cycle, x up to {size}");
+    }
+    let part = significant(100.0 * cycle.stick_duration() / cycle.period, 3);
+    format!("tends to {over}stick-slip, x up to {size}; it sticks for {part} % of the time")
+}
+
+/// Significant digits: as many as fit, at most as many as distinguish special points from others.
+const DIGITS: [usize; 5] = [10, 8, 6, 5, 4];
+
+/// What is held, in a line of at most `width` columns if that is possible; `None` where nothing is.
+pub fn held_point(session: &Session, look: &Look, width: u16) -> Option<String> {
+    let held = session.held?;
+    let name = session.plots[session.plot].axes.abscissa.spec().name;
+    let shown = session.shown(session.plot);
+    // The present values stand in the parameter pane.
+    let other = shown.get(held.variant).filter(|shown| !shown.present);
+    let label = other.map_or("", |shown| shown.label.as_str());
+    let line = |digits: &usize| point(name, label, &held, *digits, look.symbols().dot);
+    // The status line begins with a blank and a symbol.
+    Some(pane::fitting(DIGITS.iter().map(line), usize::from(width).saturating_sub(4)))
+}
+
+fn point(name: &str, label: &str, held: &BranchStop, digits: usize, dot: &str) -> String {
+    let mut parts = vec![format!("{name} {}", significant(held.value, digits))];
+    // The values that the variant holds, where the diagram shows several.
+    parts.extend(Some(label.to_owned()).filter(|label| !label.is_empty()));
+    if let Some(kind) = held.special {
+        parts.insert(0, kind.name(held.cycle.as_ref()).to_owned());
+    }
+    match &held.cycle {
+        None => parts.push("the cycle is infinite".to_owned()),
+        Some(cycle) => {
+            // Neither at a fold nor where the cycle vanishes.
+            if !matches!(held.special, Some(SpecialKind::Fold | SpecialKind::Hopf)) {
+                parts.insert(0, stability(cycle.stable).to_owned());
+            }
+            let short = digits.min(5);
+            parts.push(format!(
+                "q {} .. {}",
+                significant(cycle.q_min, short),
+                significant(cycle.q_max, short)
+            ));
+            parts.push(format!("period {}", significant(cycle.period, short)));
+            parts.push(format!("multiplier {}", multiplier(cycle)));
+        }
+    }
+    parts.join(&format!(" {dot} "))
+}
+
+/// The multiplier, as a power of e where it is too large or too small to be read.
+pub fn multiplier(cycle: &Cycle) -> String {
+    match cycle.multiplier {
+        Some(multiplier) if multiplier > 0.0 || cycle.log_multiplier.is_infinite() => {
+            significant(multiplier, 4)
+        }
+        _ => format!("e^{}", significant(cycle.log_multiplier, 4)),
+    }
+}
