@@ -1,9 +1,7 @@
 //! Formulas drawn into the phase plane: levels of the energy, and the spirals that make the cycle.
 
 use super::{Dash, Item, LineStyle, Mark, Picture, Role, ellipse};
-use crate::closed_form::{
-    linear::Linear, lyapunov::energy_rate, piecewise_linear::LinearCycle,
-};
+use crate::closed_form::{linear::Linear, lyapunov::energy_rate, piecewise_linear::LinearCycle};
 use crate::model::{Parameters, State};
 use crate::numerics::root::{TO_ROUNDING, bisect};
 use crate::scene::{Point, Span};
