@@ -28,7 +28,7 @@
 //!   extremes; [`paper`] puts the paper's own equations and sentences to the test.
 //! - [`fit`] turns a recorded motion into estimates of all these numbers, with their errors, and the margin
 //!   that they leave.
-//! - [`question`] has a file for each kind of question that the screen asks: a [`question::Request`] names exactly the
+//! - [`question`] has the questions that the screen asks, and their answers: a [`question::Request`] names exactly the
 //!   inputs that its answer depends on. [`scene`] says what is on show, and
 //!   [`session`] is a pure machine: `update(&mut Session, Msg) -> Vec<Effect>` and
 //!   `Session::wants() -> Vec<Request>`. What has not changed is not asked again; a hidden layer asks

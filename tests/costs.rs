@@ -260,9 +260,7 @@ fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
 /// The branch that a request asks for, with the parameter in units of its range and displacements in units of
 /// the largest.
 fn diagram(request: &Request, extent: Option<f64>) -> (Vec<Vec<(f64, f64)>>, f64) {
-    let Request::Branch(question::branch::Inputs { range, .. }) = request else {
-        panic!("{request:?}")
-    };
+    let Request::Branch { range, .. } = request else { panic!("{request:?}") };
     let Ok(Answer::Branch(Branch { pieces, .. })) = answer(request, &Limits::PATIENT) else {
         panic!("no branch")
     };

@@ -417,10 +417,7 @@ fn what_is_certain_is_asked_with_the_box_and_answers_the_reference() {
     assert!((margin - 0.1743).abs() < 5e-5, "{margin}");
     assert!((found.nominal.displacement.unwrap() - 0.2190).abs() < 5e-5);
     trial.press(":set<space>D3=0.5+-0.1<enter>");
-    let Some(Request::Zones(question::zones::Inputs { known, disturbance })) = certainty(&trial)
-    else {
-        panic!()
-    };
+    let Some(Request::Zones { known, disturbance }) = certainty(&trial) else { panic!() };
     assert_eq!((known.d3, disturbance), (Interval::around(0.5, 0.1), 0.02));
     // However close to 0 its ends are: a tolerance that were left out would promise too much.
     for (d2, half) in [(0.2, 0.2), (3e-150, 2.5e-150)] {

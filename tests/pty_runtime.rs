@@ -11,7 +11,6 @@ use std::time::Duration;
 use hopfscope::flow::{Cost, Limits, Reason};
 use hopfscope::model::Parameters;
 use hopfscope::portrait::{Border, Cycles};
-use hopfscope::question;
 use hopfscope::runtime::worker::Tell;
 use hopfscope::runtime::{Application, Options, launch};
 use hopfscope::scene::{Answer, Answered, Request};
@@ -33,12 +32,12 @@ struct Machinery {
 /// The request that encodes a number.
 fn request(number: u32) -> Request {
     let parameters = Parameters { d: f64::from(number), d2: 0.0, d3: 0.0, r: 0.0 };
-    Request::Cycles(question::cycles::Inputs { parameters })
+    Request::Cycles { parameters, machine: None, whole: false }
 }
 
 /// The worker, which panics at 3.
 fn confirm(request: &Request, _: &Limits, _: &Tell) -> Result<Answer, Reason> {
-    let Request::Cycles(question::cycles::Inputs { parameters, .. }) = *request else {
+    let Request::Cycles { parameters, .. } = *request else {
         return Err(Reason::OutOfRange);
     };
     assert!(parameters.d != 3.0, "three is too much");
@@ -106,7 +105,7 @@ impl Application for Machinery {
 fn machinery() {
     let keep = std::env::var_os("KEEP").map(PathBuf::from);
     let options = Options { keep, ..Options::default() };
-    let ended = launch(Machinery::default(), confirm, options).unwrap();
+    let ended = launch(Machinery::default(), std::sync::Arc::new(confirm), options).unwrap();
     let failed = ended != std::process::ExitCode::SUCCESS;
     println!("{}", if failed { "ended by a signal" } else { "left by the user" });
     std::process::exit(if failed { 77 } else { 0 });

@@ -1,12 +1,11 @@
 //! Keystroke files: how they are read, written and played; and every one of the project plays to its end, on a small
 //! and on a large screen.
 
-use hopfscope::runtime::replay;
+use hopfscope::runtime::play;
 use hopfscope::scene::plain;
 use hopfscope::session::replay::{Action, Player, Recorder, parse, text};
 use hopfscope::session::{Instruction, Msg, Session, Size};
 use hopfscope::terminal::Environment;
-use ratatui::layout;
 
 /// Name and text of every file in `assets/replays`.
 fn files() -> Vec<(String, String)> {
@@ -25,8 +24,7 @@ fn every_file_meets_its_expectations() {
         let script = parse(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
         for (width, height) in [(80, 24), (200, 60)] {
             let session = Session::new(plain(), Size { width, height });
-            let size = layout::Size { width, height };
-            let played = replay(session, Environment::default(), script.clone(), size).unwrap();
+            let played = play(session, Environment::default(), script.clone(), false).unwrap();
             if let Some(unmet) = played.unmet {
                 panic!("{name} at {width}x{height}: {unmet}");
             }
@@ -45,8 +43,7 @@ fn every_keystroke_file_of_the_handbook_plays() {
     for text in blocks {
         let script = parse(text).unwrap_or_else(|error| panic!("docs/explorer.md: {error}"));
         let session = Session::new(plain(), Size { width: 120, height: 40 });
-        let size = layout::Size { width: 120, height: 40 };
-        let played = replay(session, Environment::default(), script, size).unwrap();
+        let played = play(session, Environment::default(), script, false).unwrap();
         assert_eq!(played.unmet, None);
     }
 }
@@ -68,8 +65,7 @@ fn a_newcomer_reads_a_verdict_on_every_screen_of_every_size() {
     let script = parse(include_str!("../assets/replays/newcomer.keys")).unwrap();
     for (width, height) in [(80, 24), (120, 40), (200, 60)] {
         let session = Session::new(plain(), Size { width, height });
-        let size = layout::Size { width, height };
-        let played = replay(session, Environment::default(), script.clone(), size).unwrap();
+        let played = play(session, Environment::default(), script.clone(), false).unwrap();
         assert_eq!(played.unmet, None, "{width}x{height}");
         for (name, words) in READ {
             let kept = played.kept.iter().find(|(kept, _)| kept == name);

@@ -123,7 +123,7 @@ pub fn go(
     may_play_write: bool,
 ) -> Result<ExitCode, Failure> {
     let environment = Environment::of_process();
-    environment.admit().map_err(|refusal| Failure::Usage(refusal.to_string()))?;
+    environment.admit().map_err(Failure::Usage)?;
     let started = started();
     let mut recorder = opening(&session).map_err(Failure::Unanswered)?;
     recorder.extend(play.iter().cloned());

@@ -16,7 +16,7 @@ use crate::question::Fineness;
 use crate::runtime::print::{complete, figure};
 use crate::runtime::provenance_file;
 use crate::scene::Scene;
-use crate::scene::machine::mode::NO_BELT;
+use crate::scene::machine::NO_BELT;
 use crate::session::{Session, Size};
 use crate::view::screen;
 use crate::view::{self, Look};

@@ -13,7 +13,7 @@ use super::part::Shard;
 use super::scan::{ScanCommand, ScanRequest};
 use crate::flow::Limits;
 use crate::report::scan::RowForm;
-use crate::runtime::merging::{Conflict, Part, merge};
+use crate::runtime::merging::{Conflict, ScanPart, merge};
 use crate::runtime::new_file::{NewFile, Readers};
 use crate::runtime::provenance_file;
 use crate::runtime::standard::tell;
@@ -62,7 +62,7 @@ impl Arguments {
         for other in &sources[1..] {
             other.must_belong_with(first)?;
         }
-        let parts: Vec<Part> = sources.iter().map(PartSource::part).collect();
+        let parts: Vec<ScanPart> = sources.iter().map(PartSource::part).collect();
         let ScanRequest { scan, form, .. } = &first.asked;
         let recheck = self.check.then_some(&Limits::PATIENT);
         let begun = |path: &PathBuf| {
@@ -155,10 +155,10 @@ impl PartSource {
         Ok(PartSource { path, provenance, arguments, asked })
     }
 
-    fn part(&self) -> Part {
+    fn part(&self) -> ScanPart {
         let ScanRequest { points, headed, .. } = &self.asked;
         let (path, checksum) = (self.path.clone(), self.provenance.checksum);
-        Part { path, points: points.clone(), headed: *headed, checksum }
+        ScanPart { path, points: points.clone(), headed: *headed, checksum }
     }
 
     /// Refuses a part of another scan or from another version.

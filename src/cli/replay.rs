@@ -10,10 +10,8 @@ use super::input;
 use super::look::Looks;
 use super::output::print;
 use super::start::StartOptions;
-use crate::runtime::explorer::answer;
-use crate::runtime::headless::play;
 use crate::runtime::new_file::{self, Readers};
-use crate::runtime::{Explorer, bounded};
+use crate::runtime::{bounded, play};
 use crate::session::config::Config;
 use crate::session::replay::{Script, parse};
 use crate::session::settings::Theme;
@@ -78,12 +76,8 @@ impl Arguments {
         // With the user's own settings the same file could show different screens.
         session.display = self.looks.wishes(&Config::default());
         let theme = session.display.theme;
-        let size = ratatui::layout::Size { width, height };
-        let played =
-            play(Explorer::new(session, anywhere()), answer, script, size, self.allow_write)
-                .map_err(|error| {
-                    Failure::Unanswered(format!("no thread to compute in: {error}"))
-                })?;
+        let played = play(session, anywhere(), script, self.allow_write)
+            .map_err(|error| Failure::Unanswered(format!("no thread to compute in: {error}")))?;
         if let Some(directory) = &self.screens {
             let light = theme == Theme::Light;
             let paper = if light { Paper::LIGHT } else { Paper::DARK };

@@ -15,7 +15,7 @@ use crate::flow::{Outcome, Problem, Trajectory};
 use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::elementary::hypot;
 use crate::portrait::{Border, Cycle, Cycles, Ride};
-use crate::question::Fitted;
+use crate::question::ShownFit;
 use crate::question::zones::Extent;
 use crate::scene::{Answer, Layer, Point, Topic};
 use crate::session::{Session, ShownMotion};
@@ -112,7 +112,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
 
 /// What was measured; the velocities are those of the fit, or if they were measured the displacements. Of an
 /// acceleration nothing is seen here.
-fn record(picture: &mut Picture, fitted: &Fitted) {
+fn record(picture: &mut Picture, fitted: &ShownFit) {
     if fitted.fit.record.signal == Signal::Acceleration {
         return;
     }

@@ -5,10 +5,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::resources::Resources;
 use crate::fit::{
     self, Choice, Curves, D, D2, D3, Dropped, Estimate, Inertia, LAST, LossName, MarginQuestion,
-    Margins, OMEGA0, Q0, Question, R, Record, Runs, Signal, StartKind, Unfit, estimate,
+    Margins, NAMES, OMEGA0, Q0, Question, R, Record, Runs, Signal, StartKind, Unfit, estimate,
     length_in_metres, margins, parameters,
 };
 use crate::flow::{Limits, Problem, Reason};
@@ -78,22 +77,9 @@ impl std::ops::Deref for Recording {
     }
 }
 
-#[derive(Clone, Debug, PartialEq)]
-pub struct Inputs {
-    pub recording: Recording,
-}
-
-impl super::kind::Question for Inputs {
-    type Found = Fit;
-
-    fn answer(&self, means: &Resources) -> Result<Fit, Reason> {
-        Fit::of(&self.recording, means.limits, &|_| ())
-    }
-}
-
 /// A point of the record in the units of the oscillator: time in `1/omega0`, lengths in the record's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
+pub struct RecordPoint {
     /// Time since the release, or since the first sample.
     pub tau: f64,
     /// Displacement from the offset, as measured; of a velocity from the fit, of an acceleration NaN.
@@ -105,7 +91,7 @@ pub struct Measured {
     pub dropped: Option<Dropped>,
 }
 
-impl Measured {
+impl RecordPoint {
     /// What was measured, if a time series can show it.
     pub fn shown(&self, signal: Signal) -> Option<f64> {
         match signal {
@@ -118,11 +104,11 @@ impl Measured {
 
 /// A fitted record.
 #[derive(Clone, Debug)]
-pub struct Fitted {
+pub struct ShownFit {
     /// What was estimated, the distribution of the margin, and the curves of the pictures.
     pub fit: fit::Fitted,
     /// All points of the record; their velocities are zero in a list of peaks.
-    pub points: Vec<Measured>,
+    pub points: Vec<RecordPoint>,
     /// Increase of chi-squared caused by the held numbers.
     pub rise: f64,
     /// Whether the distribution of the margin takes the held numbers into account.
@@ -132,7 +118,7 @@ pub struct Fitted {
 /// A fitted record, or why it could not be fitted. Copies of one fit compare equal without looking at their
 /// contents.
 #[derive(Clone, Debug)]
-pub struct Fit(Arc<Result<Fitted, Unfit>>);
+pub struct Fit(Arc<Result<ShownFit, Unfit>>);
 
 impl PartialEq for Fit {
     fn eq(&self, other: &Self) -> bool {
@@ -181,7 +167,7 @@ impl Fit {
         drawn: Option<Unsure>,
         limits: &Limits,
     ) -> Result<Self, Reason> {
-        let Ok(Fitted { fit, .. }) = self.found() else { return Ok(self.clone()) };
+        let Ok(ShownFit { fit, .. }) = self.found() else { return Ok(self.clone()) };
         let named = [D, D2, D3, R].into_iter().zip(values);
         let numbers: Vec<_> = named.filter_map(|(place, value)| Some((place, value?))).collect();
         let interrupted = || (limits.interrupted)();
@@ -226,11 +212,11 @@ impl Fit {
         let (record, contours, seconds) = (record.clone(), Vec::new(), 0.0);
         let fit =
             fit::Fitted { name, record, estimate, margins, curves, contours, inertia, seconds };
-        Fit(Arc::new(Ok(Fitted { fit, points, rise, drawn })))
+        Fit(Arc::new(Ok(ShownFit { fit, points, rise, drawn })))
     }
 
     /// The fit. Fails with the [`Unfit`] of the record.
-    pub fn found(&self) -> Result<&Fitted, &Unfit> {
+    pub fn found(&self) -> Result<&ShownFit, &Unfit> {
         self.0.as_ref().as_ref()
     }
 }
@@ -241,7 +227,7 @@ fn metric(recording: &Recording) -> Option<(Inertia, f64)> {
 }
 
 /// The measured points, relative to the fitted motion.
-fn points(record: &Record, estimate: &Estimate) -> Vec<Measured> {
+fn points(record: &Record, estimate: &Estimate) -> Vec<RecordPoint> {
     let p = &estimate.p;
     let (origin, _) = estimate.start.beginning(p, estimate.data.times());
     let mut states = estimate.task(&[]).observation.states(p).into_iter();
@@ -252,24 +238,18 @@ fn points(record: &Record, estimate: &Estimate) -> Vec<Measured> {
         let unseen = State { q: f64::NAN, v: f64::NAN };
         let fitted = fitted.unwrap_or(State { q: 0.0, v: 0.0 });
         let State { q, v } = estimate.measured(t, x, fitted).unwrap_or(unseen);
-        Measured { tau: p[OMEGA0] * (t - origin), q, v, dropped }
+        RecordPoint { tau: p[OMEGA0] * (t - origin), q, v, dropped }
     })
     .collect()
 }
 
 /// Index of a parameter of the oscillator among the unknowns of the fit.
 fn place(symbol: Knob) -> Option<usize> {
-    Some(match symbol {
-        Knob::D => D,
-        Knob::D2 => D2,
-        Knob::D3 => D3,
-        Knob::R => R,
-        Knob::Q0 => Q0,
-        _ => return None,
-    })
+    let named = NAMES.iter().find(|row| row.knob == symbol).map(|row| row.place);
+    named.or((symbol == Knob::Q0).then_some(Q0))
 }
 
-impl Fitted {
+impl ShownFit {
     /// The fitted motion; the method and whatever else the fit does not determine are those of `before`.
     pub fn problem(&self, before: Problem) -> Problem {
         let p = &self.fit.estimate.p;

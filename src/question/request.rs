@@ -1,109 +1,22 @@
-//! Requests, topics and answers: types derived from the table of questions.
+//! Requests: the questions, each with its inputs, its draft (a rougher question that is answered first) and its
+//! measure of likeness.
+
+use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
+use strum::{EnumDiscriminants, IntoStaticStr, VariantArray};
 
-use super::kind::Question;
-use super::resources::{Fineness, Resources, Rows};
-use super::whole::{Course, WholeCycles};
-use crate::flow::{Cost, Limits, Reason, Trajectory};
-use crate::portrait::Cycles;
+use super::fit::{Fit, Recording, Unsure};
+use super::zones::UncertainSubject;
+use crate::branch::chart::Plane;
+use crate::flow::quality::DRAFT;
+use crate::flow::{Method, Problem};
+use crate::model::{Belt, Knob, Parameters, State};
+use crate::portrait::kicks::RandomKick;
 use crate::scan::grid::Scan;
 
-/// Makes these types from the table of questions.
-macro_rules! types {
-    ($(
-        $(#[$doc:meta])* $topic:ident($module:ident) $name:literal costs |$found:pat_param| $cost:expr
-        $(, or $request:ident($its:ident) answered by $answer:path)?;
-    )*) => {
-        /// A question to the worker: exactly the inputs on which a layer depends, so that equal requests have
-        /// equal answers.
-        #[derive(Clone, Debug, PartialEq)]
-        pub enum Request {
-            $($(#[$doc])* $topic(super::$module::Inputs),
-            $(/// The same question about a machine, by the whole model.
-            $request(super::$its::Inputs),)?)*
-        }
-
-        /// The subject of a request.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-        pub enum Topic {
-            $($(#[$doc])* $topic,)*
-        }
-
-        /// The answer of the worker.
-        #[derive(Clone, Debug, PartialEq)]
-        pub enum Answer {
-            $($(#[$doc])* $topic(<super::$module::Inputs as Question>::Found),)*
-            /// A motion or cycles by the whole model.
-            Whole(Box<Whole>),
-        }
-
-        /// Every topic, the most urgent first.
-        pub const TOPICS: &[Topic] = &[$(Topic::$topic),*];
-
-        impl Topic {
-            /// The name on the screen.
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Topic::$topic => $name,)*
-                }
-            }
-        }
-
-        impl Answer {
-            /// Counted cost of the computation.
-            pub fn cost(&self) -> Cost {
-                match self {
-                    $(Answer::$topic($found) => $cost,)*
-                    Answer::Whole(whole) => whole.drawn.cost(),
-                }
-            }
-        }
-
-        impl Request {
-            /// The subject of this request.
-            pub fn topic(&self) -> Topic {
-                match self {
-                    $(Request::$topic(_) $(| Request::$request(_))? => Topic::$topic,)*
-                }
-            }
-
-            /// A rougher version of this request that is answered quickly and first; `None` where this one is
-            /// rough already, or where roughness saves nothing.
-            pub fn draft(&self) -> Option<Request> {
-                match self {
-                    $(Request::$topic(asked) => asked.draft().map(Request::$topic),
-                    $(Request::$request(asked) => asked.draft().map(Request::$request),)?)*
-                }
-            }
-
-            fn numbers(&self) -> [f64; 8] {
-                match self {
-                    $(Request::$topic(asked) => asked.numbers(),
-                    $(Request::$request(asked) => asked.numbers(),)?)*
-                }
-            }
-
-            fn compares(&self, wanted: &Request) -> bool {
-                match (self, wanted) {
-                    $((Request::$topic(mine), Request::$topic(wanted)) => mine.compares(wanted),
-                    $((Request::$request(mine), Request::$request(wanted)) => mine.compares(wanted),)?)*
-                    _ => self.topic() == wanted.topic(),
-                }
-            }
-        }
-
-        /// Answers a request: the only place where a question becomes a computation.
-        pub fn answer_by(request: &Request, means: &Resources) -> Result<Answer, Reason> {
-            match request {
-                $(Request::$topic(asked) => asked.answer(means).map(Answer::$topic),
-                $(Request::$request(asked) => asked.answer(means).map($answer),)?)*
-            }
-        }
-    };
-}
-
-questions!(types);
+/// Every topic, the most urgent first.
+pub const TOPICS: &[Topic] = Topic::VARIANTS;
 
 impl Serialize for Topic {
     /// Serializes as the name on the screen.
@@ -113,41 +26,192 @@ impl Serialize for Topic {
 }
 
 impl Topic {
+    /// The name on the screen.
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
+
     /// Whether it is asked for each variant that a plot shows.
     pub fn is_of_variants(self) -> bool {
         matches!(self, Topic::Trajectory | Topic::Cycles | Topic::Branch)
     }
 }
 
-/// An answer by the whole model, with what has no counterpart in the paper's oscillator.
+/// A motion without its method and its accuracy.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Whole {
-    /// The motion or the cycles in the form that views draw.
-    pub drawn: Answer,
-    /// Fate of the motion, and where it rides on the belt.
-    pub motion: Option<Course>,
-    /// Properties of the cycles; `None` where the whole model has no answer and its expansion is drawn.
-    pub cycles: Option<WholeCycles>,
+pub struct TimedMotion {
+    pub parameters: Parameters,
+    pub initial: State,
+    pub until: f64,
 }
 
-impl Whole {
-    /// Wraps the answer to a question for a motion.
-    fn motion((drawn, course): (Trajectory, Course)) -> Answer {
-        let drawn = Answer::Trajectory(drawn);
-        Answer::Whole(Box::new(Whole { drawn, motion: Some(course), cycles: None }))
+impl TimedMotion {
+    pub(super) fn problem(&self) -> Problem {
+        let TimedMotion { parameters, initial, until } = *self;
+        Problem { parameters, initial, until, ..Problem::default() }
     }
+}
 
-    /// Wraps the answer to a question for cycles.
-    fn cycles((drawn, cycles): (Cycles, Option<WholeCycles>)) -> Answer {
-        let drawn = Answer::Cycles(drawn);
-        Answer::Whole(Box::new(Whole { drawn, motion: None, cycles }))
-    }
+/// A question to the worker: exactly the inputs on which a layer depends, so that equal requests have equal
+/// answers. The most urgent is the first here; [`Topic`] has the same variants without their inputs, each with its
+/// name on the screen.
+#[derive(Clone, Debug, PartialEq, EnumDiscriminants)]
+#[strum_discriminants(name(Topic), derive(Hash, PartialOrd, Ord, IntoStaticStr, VariantArray))]
+pub enum Request {
+    /// The fit of the oscillator to a record, and the margin that follows.
+    #[strum_discriminants(strum(serialize = "fit"))]
+    Fit { recording: Recording },
+    /// The fit with some numbers held.
+    #[strum_discriminants(strum(serialize = "fit"))]
+    Refit {
+        /// The fit with all numbers free.
+        fit: Fit,
+        /// Values at which D, D2, D3 and r are held.
+        held: [Option<f64>; 4],
+        /// What is to be survived if the distribution of the margin is drawn as well, which takes longer than a
+        /// frame.
+        drawn: Option<Unsure>,
+    },
+    /// A motion, with points for drawing and its energy ledger.
+    #[strum_discriminants(strum(serialize = "motion"))]
+    Trajectory {
+        /// The motion; its parameters are those of the machine's cubic expansion.
+        problem: Problem,
+        /// The machine whose motion it is by the whole model, in the units of the paper's oscillator.
+        machine: Option<Arc<Belt>>,
+    },
+    /// All cycles, with their curves and the border of the basin.
+    #[strum_discriminants(strum(serialize = "cycles"))]
+    Cycles {
+        /// The parameters; of a machine, those of its cubic expansion.
+        parameters: Parameters,
+        /// The machine, of which much is told beside its cycles.
+        machine: Option<Arc<Belt>>,
+        /// Whether to draw the cycles of the machine by the whole model instead of those of its expansion.
+        whole: bool,
+    },
+    /// Starts that are certainly safe or certainly lost.
+    #[strum_discriminants(strum(serialize = "certainty"))]
+    Zones(UncertainSubject),
+    /// The fraction of random kicks that is lost.
+    #[strum_discriminants(strum(serialize = "kicks"))]
+    Kicks {
+        parameters: Parameters,
+        /// The density of the kicks.
+        kicks: RandomKick,
+    },
+    /// The borders of the bands of capture.
+    #[strum_discriminants(strum(serialize = "bands"))]
+    Capture {
+        parameters: Parameters,
+        /// Largest clearance to which borders are followed.
+        reach: f64,
+        /// Maximum number of bands.
+        most: usize,
+    },
+    /// The cycles along a parameter.
+    #[strum_discriminants(strum(serialize = "branch"))]
+    Branch {
+        /// The parameters; the one that varies is set to 0, so that stepping it leaves the request unchanged.
+        parameters: Parameters,
+        /// The parameter that varies.
+        parameter: Knob,
+        /// Ends of the range of that parameter.
+        range: (f64, f64),
+        /// Requested relative error.
+        tolerance: f64,
+    },
+    /// The cycles by harmonic balance, beside the true ones.
+    #[strum_discriminants(strum(serialize = "harmonics"))]
+    Balance {
+        parameters: Parameters,
+        /// Number N of harmonics.
+        harmonics: usize,
+    },
+    /// The return map.
+    #[strum_discriminants(strum(serialize = "return map"))]
+    ReturnMap {
+        parameters: Parameters,
+        /// Smallest and largest displacement.
+        range: (f64, f64),
+    },
+    /// The fate of kicks over two parameters.
+    #[strum_discriminants(strum(serialize = "regimes"))]
+    Regimes {
+        /// The parameters; the two that vary are set to 0, so that stepping them leaves the request unchanged.
+        parameters: Parameters,
+        /// The two varied parameters and their ranges.
+        plane: Plane,
+        /// Whether a draft of few lines is enough.
+        rough: bool,
+    },
+    /// The cycles of a machine over the speed of its belt.
+    #[strum_discriminants(strum(serialize = "speeds"))]
+    Speeds {
+        /// The machine; its own belt speed is set to 1, so that stepping it leaves the request unchanged.
+        belt: Arc<Belt>,
+        /// Smallest and largest speed, in m/s; a speed without an answer is left out.
+        range: (f64, f64),
+        /// Whether a draft of few speeds, without the changes between them, is enough.
+        rough: bool,
+    },
+    /// Accuracy against cost of every method on a motion.
+    #[strum_discriminants(strum(serialize = "trade"))]
+    Trade(TimedMotion),
+    /// The rows of a scan that are still missing.
+    #[strum_discriminants(strum(serialize = "scan"))]
+    Scan {
+        scan: Arc<Scan>,
+        /// Index of the first point wanted.
+        from: usize,
+    },
+    /// The claims of the paper, checked by computation.
+    #[strum_discriminants(strum(serialize = "paper"))]
+    Claims,
+    /// A proof of the number of cycles. Nothing waits for it; the screen shows it once it is there.
+    #[strum_discriminants(strum(serialize = "proof"))]
+    Proof { parameters: Parameters },
+    /// The reference against which errors are measured, a motion to more digits than any method yields; the least
+    /// urgent.
+    #[strum_discriminants(strum(serialize = "reference"))]
+    Reference(TimedMotion),
 }
 
 impl Request {
+    /// The subject of this request.
+    pub fn topic(&self) -> Topic {
+        self.into()
+    }
+
     /// Whether it may take so long that it must not keep others waiting.
     pub fn is_long(&self) -> bool {
-        matches!(self, Request::Scan(_) | Request::Proof(_) | Request::Fit(_))
+        matches!(self.topic(), Topic::Scan | Topic::Proof | Topic::Fit)
+    }
+
+    /// A rougher version of this request that is answered quickly and first; `None` where this one is rough
+    /// already, or where roughness saves nothing.
+    pub fn draft(&self) -> Option<Request> {
+        let mut draft = self.clone();
+        match &mut draft {
+            Request::Trajectory { problem, machine: None } => {
+                let linear = problem.parameters.is_piecewise_linear();
+                let closed =
+                    problem.method == Method::Exact || (problem.method == Method::Auto && linear);
+                let rougher = problem.at(&DRAFT);
+                if closed || problem.setting() >= rougher.setting() {
+                    return None;
+                }
+                *problem = rougher;
+            }
+            Request::Branch { tolerance, .. } if *tolerance < DRAFT.tolerance => {
+                *tolerance = DRAFT.tolerance;
+            }
+            Request::Regimes { rough, .. } | Request::Speeds { rough, .. } if !*rough => {
+                *rough = true;
+            }
+            _ => return None,
+        }
+        Some(draft)
     }
 
     /// Likeness to the `wanted` request: how many of their numbers are equal. `None` where its answer must not
@@ -156,22 +220,66 @@ impl Request {
         let pairs = || self.numbers().into_iter().zip(wanted.numbers());
         self.compares(wanted).then(|| pairs().filter(|(mine, wanted)| mine == wanted).count())
     }
-}
 
-/// Answers a request on this thread, with the fineness of the screen.
-pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
-    answer_for(request, Fineness::SCREEN, limits)
-}
+    /// Whether this request's answer may stand in for the `wanted` one until that arrives.
+    fn compares(&self, wanted: &Request) -> bool {
+        match (self, wanted) {
+            (Request::Branch { parameter, .. }, Request::Branch { parameter: wanted, .. }) => {
+                parameter == wanted
+            }
+            (Request::Regimes { plane, .. }, Request::Regimes { plane: wanted, .. }) => {
+                (plane.right, plane.up) == (wanted.right, wanted.up)
+            }
+            (Request::Refit { fit, .. }, Request::Refit { fit: wanted, .. }) => fit == wanted,
+            // A proof at other parameters proves nothing at these.
+            (Request::Proof { .. }, _) => false,
+            _ => self.topic() == wanted.topic(),
+        }
+    }
 
-/// Answers a request on this thread, with curves of this fineness.
-pub fn answer_for(
-    request: &Request,
-    fineness: Fineness,
-    limits: &Limits,
-) -> Result<Answer, Reason> {
-    let rows = |scan: &Scan, first: usize| {
-        let rows = (first..scan.points()).map(|index| scan.row(index, limits));
-        Ok(Rows { first, rows: rows.collect::<Result<_, _>>()? })
-    };
-    answer_by(request, &Resources { fineness, limits, rows: &rows })
+    /// The numbers on which the answer depends, except those that only say how finely to compute it: the more
+    /// of them are equal, the more alike two requests are.
+    fn numbers(&self) -> [f64; 8] {
+        let (parameters, others) = match self {
+            Request::Trajectory { problem, .. } => {
+                let Problem { parameters, initial, until, .. } = *problem;
+                (parameters, [initial.q, initial.v, until, 0.0])
+            }
+            Request::Trade(motion) | Request::Reference(motion) => {
+                let TimedMotion { parameters, initial, until } = *motion;
+                (parameters, [initial.q, initial.v, until, 0.0])
+            }
+            Request::Cycles { parameters, .. }
+            | Request::Proof { parameters }
+            | Request::Balance { parameters, .. } => (*parameters, [0.0; 4]),
+            Request::Zones(UncertainSubject::Parameters { known, disturbance }) => {
+                (known.middle(), [*disturbance, 0.0, 0.0, 0.0])
+            }
+            Request::Zones(UncertainSubject::Machine { belt, tolerances }) => {
+                return [belt.belt_speed, tolerances.disturbance, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+            }
+            Request::Kicks { parameters, kicks: RandomKick { q, v, .. } } => {
+                (*parameters, [q.0, q.1, v.0, v.1])
+            }
+            Request::Capture { parameters, reach, .. } => (*parameters, [*reach, 0.0, 0.0, 0.0]),
+            Request::Branch { parameters, range, .. }
+            | Request::ReturnMap { parameters, range } => {
+                (*parameters, [range.0, range.1, 0.0, 0.0])
+            }
+            Request::Regimes { parameters, plane, .. } => {
+                let ((left, right), (low, high)) = (plane.right_range, plane.up_range);
+                (*parameters, [left, right, low, high])
+            }
+            Request::Refit { held, .. } => {
+                let [d, d2, d3, r] = held.map(Option::unwrap_or_default);
+                (Parameters { d, d2, d3, r }, [0.0; 4])
+            }
+            Request::Speeds { range, .. } => {
+                return [range.0, range.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+            }
+            Request::Fit { .. } | Request::Scan { .. } | Request::Claims => return [0.0; 8],
+        };
+        let (Parameters { d, d2, d3, r }, [a, b, c, e]) = (parameters, others);
+        [d, d2, d3, r, a, b, c, e]
+    }
 }

@@ -1,14 +1,10 @@
 //! The cycles of a machine over the speed of its belt.
 
-use std::sync::Arc;
-
-use super::kind::Question;
-use super::resources::Resources;
 use crate::branch::machine::{MachineBranch, MachineBranchPoint, branch_while, points_while};
 use crate::branch::machine_special::MachineSpecial;
 use crate::flow::machine::series::ORDER;
 use crate::flow::quality::DRAFT;
-use crate::flow::{Cost, Reason};
+use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Belt, Knob, Subject};
 use crate::portrait::basin::between;
 use crate::portrait::{Border, Cycle};
@@ -43,37 +39,29 @@ const STEPS: u8 = 32;
 /// Number of speeds in a draft.
 const FEW: usize = 7;
 
-#[derive(Clone, Debug, PartialEq)]
-pub struct Inputs {
-    /// The machine; its own belt speed is set to 1, so that stepping it leaves the request unchanged.
-    pub belt: Arc<Belt>,
-    /// Smallest and largest speed, in m/s; a speed without an answer is left out.
-    pub range: (f64, f64),
-    /// Whether a draft of few speeds, without the changes between them, is enough.
-    pub rough: bool,
-}
-
 const VARIED: Knob = Knob::BeltSpeed;
 
-impl Inputs {
-    /// The machine at all speeds of this question, and the changes between them.
-    fn followed(&self, go: &(dyn Fn() -> bool + Sync)) -> Result<MachineBranch, String> {
-        let subject = Subject::from(self.belt.as_ref());
-        if self.rough {
-            let subject = Subject { tolerance: Some(DRAFT.tolerance), ..subject };
-            let values = (0..FEW).map(|index| between(self.range, index, FEW)).collect();
-            let points = points_while(&subject, VARIED, values, go)?;
-            return Ok(MachineBranch { points, special: Vec::new() });
-        }
-        let mut found = branch_while(&subject, VARIED, self.range, usize::from(STEPS) + 1, go)?;
-        let (from, to) = self.range;
-        let beside = |special: &MachineSpecial| near(special.value, (to - from) / f64::from(STEPS));
-        let values = found.special.iter().flat_map(beside);
-        let values = values.filter(|value| (from..=to).contains(value)).collect();
-        found.points.extend(points_while(&subject, VARIED, values, go)?);
-        found.points.sort_by(|one, other| one.value.total_cmp(&other.value));
-        Ok(found)
+/// The machine at all speeds, and the changes between them unless it is a `rough` draft.
+fn followed(
+    belt: &Belt,
+    (from, to): (f64, f64),
+    rough: bool,
+    go: &(dyn Fn() -> bool + Sync),
+) -> Result<MachineBranch, String> {
+    let subject = Subject::from(belt);
+    if rough {
+        let subject = Subject { tolerance: Some(DRAFT.tolerance), ..subject };
+        let values = (0..FEW).map(|index| between((from, to), index, FEW)).collect();
+        let points = points_while(&subject, VARIED, values, go)?;
+        return Ok(MachineBranch { points, special: Vec::new() });
     }
+    let mut found = branch_while(&subject, VARIED, (from, to), usize::from(STEPS) + 1, go)?;
+    let beside = |special: &MachineSpecial| near(special.value, (to - from) / f64::from(STEPS));
+    let values = found.special.iter().flat_map(beside);
+    let values = values.filter(|value| (from..=to).contains(value)).collect();
+    found.points.extend(points_while(&subject, VARIED, values, go)?);
+    found.points.sort_by(|one, other| one.value.total_cmp(&other.value));
+    Ok(found)
 }
 
 /// Speeds on both sides of a change, where cycles end and their curves turn as steeply as a square root.
@@ -83,13 +71,17 @@ fn near(value: f64, step: f64) -> impl Iterator<Item = f64> {
         .flat_map(move |part| [value - part * step, value + part * step])
 }
 
-impl Question for Inputs {
-    type Found = Speeds;
-
-    fn answer(&self, means: &Resources) -> Result<Speeds, Reason> {
-        let go = || !(means.limits.interrupted)();
+impl Speeds {
+    /// The cycles over this range of speeds. Fails with [`Reason::Interrupted`], or where the belt does not run.
+    pub(super) fn of(
+        belt: &Belt,
+        range: (f64, f64),
+        rough: bool,
+        limits: &Limits,
+    ) -> Result<Speeds, Reason> {
+        let go = || !(limits.interrupted)();
         let lost = |_| Reason::NotApplicable { needs: "a belt that runs" };
-        let found = self.followed(&go).map_err(lost)?;
+        let found = followed(belt, range, rough, &go).map_err(lost)?;
         if !go() {
             return Err(Reason::Interrupted);
         }
@@ -105,13 +97,5 @@ impl Question for Inputs {
         let cost = Cost { evaluations: steps * ORDER as u64, steps, rejected: 0 };
         let points = found.points.iter().filter_map(point).collect();
         Ok(Speeds { points, special: found.special, cost })
-    }
-
-    fn draft(&self) -> Option<Self> {
-        (!self.rough).then(|| Inputs { rough: true, ..self.clone() })
-    }
-
-    fn numbers(&self) -> [f64; 8] {
-        [self.range.0, self.range.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
     }
 }

@@ -3,18 +3,20 @@
 
 use crate::flow::machine::curve::{CurvePiece, MachineCurve};
 use crate::flow::machine::motion;
+use crate::flow::machine::motion::MachineState;
+use crate::flow::machine::series::ORDER;
 use crate::flow::machine::turn::ContactState;
 use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
 use crate::flow::{
     Cost, Detail, Fate, Flow, Limits, LostMotion, MachineLedger, MachineMotion, Problem, Reason,
 };
 use crate::model::{Belt, Model, Parameters, State};
-use crate::portrait::basin::cycle;
-use crate::portrait::{Border, Cycle, Cycles, Margin, Portrait};
+use crate::portrait::basin::cycle::cycles_drawn;
+use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, Portrait, Trouble, survey};
 
-/// Fate and course of a machine's motion.
+/// What is known of a machine's motion beside its course.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Course {
+pub struct WholeMotion {
     /// The fate.
     pub fate: Fate<LostMotion>,
     /// The cycle to which it tends, in the units of the paper's oscillator.
@@ -64,32 +66,30 @@ impl DrawingUnits {
         cycle.scaled(1.0 / self.x, self.t)
     }
 
-    fn crossing(self, leg: &motion::Leg) -> Crossing {
-        Crossing { tau: leg.t / self.t, q: leg.x / self.x }
-    }
-
-    fn sample(self, state: &motion::MachineState) -> Sample {
+    fn sample(self, state: &MachineState) -> Sample {
         Sample { tau: state.t / self.t, q: state.x / self.x, v: state.v / self.v }
     }
 }
 
 /// Why the whole model has no answer.
-fn reason(stop: LostMotion) -> Reason {
+fn reason(trouble: Trouble) -> Reason {
     Reason::NotApplicable {
-        needs: match stop {
-            LostMotion::OutsideLaw { .. } => {
+        needs: match trouble {
+            Trouble::Belt(_) | Trouble::Unfit(_) => {
+                "a friction law that reaches the belt's speed and static friction above the kinetic one"
+            }
+            Trouble::Stop(LostMotion::OutsideLaw { .. }) => {
                 "a friction law that reaches the slips of these motions"
             }
-            LostMotion::Escaped | LostMotion::Settled => "motions that turn",
-            LostMotion::Steps => "motions that turn within some thousand steps",
+            Trouble::Stop(LostMotion::Escaped | LostMotion::Settled) => "motions that turn",
+            Trouble::Stop(LostMotion::Steps) => "motions that turn within some thousand steps",
         },
     }
 }
 
-fn model(belt: &Belt) -> Result<Model, Reason> {
-    Model::new(belt).map_err(|_| Reason::NotApplicable {
-        needs: "a friction law that reaches the belt's speed and static friction above the kinetic one",
-    })
+/// Why the motions of a machine could not be followed.
+fn lost(stop: LostMotion) -> Reason {
+    reason(stop.into())
 }
 
 /// The motion of a machine, with `between` points between the ends of each step.
@@ -97,9 +97,9 @@ pub fn motion(
     belt: &Belt,
     problem: &Problem,
     between: u32,
-) -> Result<(Trajectory, Course), Reason> {
-    let mut model = model(belt)?;
-    let portrait = Portrait::of(&model).map_err(reason)?;
+) -> Result<(Trajectory, WholeMotion), Reason> {
+    let portrait = found(belt)?;
+    let mut model = portrait.model.clone();
     model.tolerance = problem.tolerance;
     let units = DrawingUnits::of(&model);
     if !problem.method.follows_machines() {
@@ -117,13 +117,13 @@ pub fn motion(
     let ledger = ledger.or_else(|| MachineMotion::new(&model, x, v, until).ledger);
     let fate = match portrait.fate(x, v) {
         Err(stop @ LostMotion::OutsideLaw { .. }) => Fate::Unknown(stop),
-        fate => fate.map_err(reason)?,
+        fate => fate.map_err(lost)?,
     };
     let cycle = match fate {
         Fate::Cycle(index) => portrait.cycles.get(index),
         _ => None,
     };
-    let course = Course {
+    let course = WholeMotion {
         fate,
         cycle: cycle.map(|cycle| units.cycle(cycle)),
         border: portrait.border,
@@ -136,50 +136,50 @@ pub fn motion(
 fn trajectory(found: &MachineMotion, problem: &Problem, units: DrawingUnits) -> Trajectory {
     let start = Sample { tau: 0.0, q: problem.initial.q, v: problem.initial.v };
     let sampled = found.samples.iter().skip(1).map(|at| units.sample(at));
-    let samples = std::iter::once(start).chain(sampled);
-    let Sample { tau, q, v } = units.sample(&found.end);
+    let samples: Vec<Sample> = std::iter::once(start).chain(sampled).collect();
+    let Sample { tau, q, v } = samples[samples.len() - 1];
     let outcome = match found.outcome {
         Fate::Rest => Outcome::Captured { tau, q },
         Fate::Moving | Fate::Cycle(_) | Fate::Neutral => Outcome::Moving { tau, q, v },
         Fate::Escapes => Outcome::Escaped { tau },
-        Fate::Unknown(stop) => Outcome::GaveUp { tau, reason: reason(stop) },
+        Fate::Unknown(stop) => Outcome::GaveUp { tau, reason: lost(stop) },
     };
-    let turns = motion::turns(&found.legs);
+    let crossing = |turn: &motion::Leg| Crossing { tau: turn.t / units.t, q: turn.x / units.x };
     Trajectory {
         problem: *problem,
         method: found.method,
         implicit_steps: 0,
         outcome,
-        crossings: turns.map(|leg| units.crossing(leg)).collect(),
+        crossings: motion::turns(&found.legs).map(crossing).collect(),
         ledger: None,
-        samples: samples.collect(),
+        samples,
         cost: found.cost,
     }
 }
 
 fn cost(steps: u64) -> Cost {
-    Cost { evaluations: steps * crate::flow::machine::series::ORDER as u64, steps, rejected: 0 }
+    Cost { evaluations: steps * ORDER as u64, steps, rejected: 0 }
 }
 
 /// The stretches on which a motion rides on the belt, whose speed is `v0`.
 fn rides(found: &MachineMotion, v0: f64, units: DrawingUnits) -> Vec<[Sample; 2]> {
     let ends = found.legs.iter().skip(1).map(|leg| (leg.t, leg.x));
-    let ends = ends.chain([(found.end.t, found.end.x)]);
+    let ends = ends.chain(found.samples.last().map(|end| (end.t, end.x)));
     let legs = found.legs.iter().zip(ends).filter(|(leg, _)| leg.place == ContactState::Sticks);
-    let at = |t, x| units.sample(&motion::MachineState { t, x, v: v0 });
+    let at = |t, x| units.sample(&MachineState { t, x, v: v0 });
     legs.map(|(leg, (t, x))| [at(leg.t, leg.x), at(t, x)]).collect()
 }
 
-/// The cycles of a machine with their curves, `points` on each step, and the border of the basin; with `cubic`,
-/// those of the cubic expansion instead.
+/// The cycles of a machine with their curves, `points` on each step, and the border of the basin: by the whole
+/// model or by its cubic expansion.
 pub fn portrait(
     belt: &Belt,
     parameters: &Parameters,
-    cubic: bool,
+    whole: bool,
     points: u16,
     limits: &Limits,
 ) -> Result<(Cycles, Option<WholeCycles>), Reason> {
-    let expansion = cycle::cycles_drawn(parameters, points, limits);
+    let expansion = cycles_drawn(parameters, points, limits);
     let found = found(belt);
     let expanded = expansion.as_ref().ok().and_then(|found| found.picture.as_ref());
     let expanded = expanded.map(|picture| picture.margin);
@@ -188,7 +188,7 @@ pub fn portrait(
         margins: [margin(found), expanded.unwrap_or(Margin::ENDLESS)],
         neutral: found.neutral,
     });
-    let drawn = if cubic { expansion? } else { drawn(&found?, parameters, points)? };
+    let drawn = if whole { drawn(&found?, parameters, points)? } else { expansion? };
     Ok((drawn, kinds))
 }
 
@@ -201,7 +201,7 @@ fn works(found: &Portrait) -> Vec<MachineLedger> {
 
 /// The portrait of a machine, or why there is none.
 pub fn found(belt: &Belt) -> Result<Portrait, Reason> {
-    model(belt).and_then(|model| Portrait::of(&model).map_err(reason))
+    survey::portrait(belt).map_err(reason)
 }
 
 /// The kicks that a machine survives, without units.
@@ -221,11 +221,11 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
     let mut curves = Vec::new();
     for cycle in &found.cycles {
         let mut curve = MachineCurve::default();
-        flow.around(cycle.q_max, cycle.is_followed_backward(), &mut curve).map_err(reason)?;
+        flow.around(cycle.q_max, cycle.is_followed_backward(), &mut curve).map_err(lost)?;
         curves.push(places(&curve, model, points));
     }
     let border = found.border_curve().map(|curve| places(curve, model, points));
-    let picture = cycle::BasinPicture {
+    let picture = BasinPicture {
         curves,
         works: Vec::new(),
         border: border.unwrap_or_default(),

@@ -1,8 +1,8 @@
 //! Starts that are certainly safe or certainly lost, for all parameters within their intervals and all bounded
 //! disturbances, as the phase plane draws them and the pane states them.
 
-use super::kind::{Question, numbers};
-use super::resources::Resources;
+use std::sync::Arc;
+
 use super::whole;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Belt, ParameterBox, State, Tolerances};
@@ -12,24 +12,22 @@ use crate::portrait::guarantee::machine::{best, kicks, worst};
 use crate::portrait::guarantee::oscillator::{guarantee, uncertain, zones};
 use crate::portrait::{Margin, Portrait};
 
+/// What is not known exactly, and disturbed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Inputs {
-    /// Intervals of the parameters.
-    pub known: ParameterBox,
-    /// Bound on the disturbance.
-    pub disturbance: f64,
-}
-
-impl Question for Inputs {
-    type Found = Zones;
-
-    fn answer(&self, means: &Resources) -> Result<Zones, Reason> {
-        of_oscillator(&self.known, self.disturbance, means.fineness.points_per_step, means.limits)
-    }
-
-    fn numbers(&self) -> [f64; 8] {
-        numbers(&self.known.middle(), [self.disturbance, 0.0, 0.0, 0.0])
-    }
+pub enum UncertainSubject {
+    /// The oscillator of the paper.
+    Parameters {
+        /// Intervals of the parameters.
+        known: ParameterBox,
+        /// Bound on the disturbance.
+        disturbance: f64,
+    },
+    /// A machine, by the whole model.
+    Machine {
+        belt: Arc<Belt>,
+        /// Tolerances of its numbers, and the bound on the disturbance.
+        tolerances: Tolerances,
+    },
 }
 
 /// A region of the phase plane around the sticking set.
@@ -44,7 +42,7 @@ pub enum Extent {
 
 /// The zones, and the margins that go with them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Zones {
+pub struct CertainZones {
     /// Starts from which every motion stays in this region.
     pub safe: Extent,
     /// Starts outside of this region certainly do not come to rest; everything where no such region is known.
@@ -66,12 +64,12 @@ fn extent(basin: Option<&Basin>, otherwise: Extent, points: u16) -> Extent {
 
 /// The zones of an oscillator, with `points` on each step of a border. Fails with the [`Reason`] why a border
 /// could not be computed.
-fn of_oscillator(
+pub(super) fn of_oscillator(
     known: &ParameterBox,
     disturbance: f64,
     points: u16,
     limits: &Limits,
-) -> Result<Zones, Reason> {
+) -> Result<CertainZones, Reason> {
     let d2 = known.d2.lower().abs().min(known.d2.upper().abs());
     let found = guarantee(known, disturbance, limits)?;
     let drawn = zones(known, disturbance, PICTURE_REACH / d2.max(f64::MIN_POSITIVE), limits)?;
@@ -79,7 +77,7 @@ fn of_oscillator(
         Some(why) => Err(why.to_string()),
         None => Ok(found.guaranteed.margin),
     };
-    Ok(Zones {
+    Ok(CertainZones {
         safe: extent(drawn.safe.as_ref(), Extent::Nothing, points),
         hopeful: extent(drawn.lost.as_ref(), Extent::Everything, points),
         nominal: found.nominal,
@@ -90,7 +88,11 @@ fn of_oscillator(
 
 /// The zones of a machine by the whole model, in the units of its oscillator. Fails with the [`Reason`] why a
 /// machine within the tolerances has no portrait.
-pub fn of_machine(belt: &Belt, known: &Tolerances, points: u16) -> Result<Zones, Reason> {
+pub(super) fn of_machine(
+    belt: &Belt,
+    known: &Tolerances,
+    points: u16,
+) -> Result<CertainZones, Reason> {
     let needs = "a friction law that reaches the slips of all machines within the tolerances";
     let trouble = |_| Reason::NotApplicable { needs };
     let nominal = whole::found(belt)?;
@@ -107,5 +109,5 @@ pub fn of_machine(belt: &Belt, known: &Tolerances, points: u16) -> Result<Zones,
     };
     let hopeful = best(belt, known).map_err(trouble)?.as_ref().map_or(Extent::Everything, drawn);
     let nominal = whole::margin(&nominal);
-    Ok(Zones { safe, hopeful, nominal, guaranteed, cost: Cost::default() })
+    Ok(CertainZones { safe, hopeful, nominal, guaranteed, cost: Cost::default() })
 }

@@ -1,15 +1,17 @@
-//! The interface of what the loop and the replay without a terminal run, and how its effects are carried out.
+//! The interface of what the loop and the replay without a terminal run, the events to which the loop reacts, and how
+//! effects are carried out.
 
 use std::io;
 use std::path::Path;
 
-use ratatui::Frame;
+use ratatui::backend::TestBackend;
+use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
+use ratatui::{Frame, Terminal};
 
-use super::event::LoopEnd;
-use super::figure_writer::Work;
+use super::workers::Work;
 use crate::scene::Request;
-use crate::session::{Effect, Key, Msg, PointerTarget};
+use crate::session::{Effect, Gesture, Key, Msg, PointerTarget};
 
 /// A session and how it is drawn; tests have simpler implementations.
 pub trait Application {
@@ -64,6 +66,49 @@ pub trait Application {
     fn background(&mut self, _is_light: bool) {}
 
     fn draw(&self, frame: &mut Frame);
+
+    /// Its picture at this size, without a terminal.
+    fn picture(&self, size: Size) -> Buffer {
+        let Ok(mut terminal) = Terminal::new(TestBackend::new(size.width, size.height));
+        let Ok(drawn) = terminal.draw(|frame| self.draw(frame));
+        drawn.buffer.clone()
+    }
+}
+
+/// An event to which the loop must react.
+#[derive(Clone, Debug)]
+pub enum Event {
+    /// Something for the session.
+    Session(Msg),
+    /// The mouse did something in a cell of the screen; column and row count from 0.
+    Mouse { gesture: Gesture, column: u16, row: u16 },
+    /// A cursor position report: the terminal has shown everything sent before the request.
+    Shown,
+    /// The terminal reported whether its background is light.
+    Background { is_light: bool },
+    /// The terminal's size may have changed.
+    Resized,
+    /// Something that ends or pauses the loop.
+    End(LoopEnd),
+}
+
+/// Why the loop ended or paused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LoopEnd {
+    /// The user has left.
+    Quit,
+    /// The user wants the job to be stopped, as Ctrl-Z does.
+    Suspend,
+    /// The user wants the mouse reported, or left alone.
+    Mouse(bool),
+    /// A signal asks this process to stop until it is continued.
+    Suspended,
+    /// The process continues after a stop.
+    Continued,
+    /// A signal ends the program.
+    Ended { signal: i32 },
+    /// The terminal is gone.
+    Closed,
 }
 
 /// The outcome of an effect.

@@ -4,16 +4,17 @@ use std::cell::Cell;
 use std::io;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect, Size};
 
 use super::application::Application;
-use super::figure_writer::Work;
-use super::headless::{self, ReplayResult};
-use super::launch::{Options, launch};
+use super::launch::launch;
+use super::pump::Options;
 use super::worker::Tell;
+use super::workers::Work;
 use super::{print, provenance_file, scanning};
 use crate::figure::{self, FileForm};
 use crate::fit::Unfit;
@@ -21,7 +22,6 @@ use crate::flow::{Limits, Reason};
 use crate::question::{self, Fineness, Fit, Recording, Resources};
 use crate::scan::grid::Scan;
 use crate::scene::{Answer, Request};
-use crate::session::replay::Script;
 use crate::session::{Effect, Key, Msg, PointerTarget, Session, save, settings, update};
 use crate::terminal::Environment;
 use crate::view::{self, Look};
@@ -123,8 +123,8 @@ impl Application for Explorer {
 /// Answers a request: a scan on all cores, everything else on this thread.
 pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Answer, Reason> {
     let rows = |scan: &Scan, from| scanning::answer(scan, from, limits, tell);
-    if let Request::Fit(asked) = request {
-        return fitted(&asked.recording, limits, tell).map(Answer::Fit);
+    if let Request::Fit { recording } = request {
+        return fitted(recording, limits, tell).map(Answer::Fit);
     }
     question::answer_by(request, &Resources { fineness: Fineness::SCREEN, limits, rows: &rows })
 }
@@ -150,17 +150,5 @@ pub fn explore(
     environment: Environment,
     options: Options,
 ) -> io::Result<ExitCode> {
-    launch(Explorer::new(session, environment), answer, options)
-}
-
-/// Plays a keystroke file on a session without a terminal. See [`headless::play`] for the result;
-/// [`crate::view::screen::text`] converts its pictures to text. No files are written. Fails if the system provides no thread for the
-/// worker.
-pub fn replay(
-    session: Session,
-    environment: Environment,
-    script: Script,
-    size: Size,
-) -> io::Result<ReplayResult<Explorer>> {
-    headless::play(Explorer::new(session, environment), answer, script, size, false)
+    launch(Explorer::new(session, environment), Arc::new(answer), options)
 }

@@ -1,33 +1,33 @@
-//! Plays a keystroke file without a terminal: the same application and the same workers, but no screen.
+//! Plays a keystroke file without a terminal: the same session and the same workers, but no screen.
 //!
 //! Nothing here waits for time to pass. While something is wanted, the next step waits for the workers' next
 //! message; otherwise the next step of the file is taken.
 
 use std::io;
+use std::sync::Arc;
 
 use crossbeam_channel::unbounded;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::application::{Application, EffectOutcome, Host};
+use super::application::{Application, EffectOutcome, Host, LoopEnd};
 use super::effects::Files;
-use super::event::LoopEnd;
+use super::explorer::{Explorer, answer};
 use super::new_file::Readers;
 use super::panics::Notes;
-use super::worker::Tell;
+use super::scan_file;
 use super::workers::Workers;
-use super::{picture, scan_file};
-use crate::flow::{Limits, Reason};
-use crate::scene::{Answer, Request};
+use crate::flow::Limits;
 use crate::session::replay::{Action, Player, Script, ScriptError};
-use crate::session::{Effect, Msg, Notice};
+use crate::session::{Effect, Msg, Notice, Session};
+use crate::terminal::Environment;
 use crate::view;
 
 /// The result of a keystroke file.
 #[derive(Clone, Debug)]
-pub struct ReplayResult<M> {
+pub struct ReplayResult {
     /// The application at the end.
-    pub application: M,
+    pub application: Explorer,
     /// The last picture; [`crate::view::screen::text`] has its characters.
     pub screen: Buffer,
     /// The pictures that the file asks for by name, in its order.
@@ -38,24 +38,26 @@ pub struct ReplayResult<M> {
     pub unwritten: Option<String>,
 }
 
-/// Plays a file on an application at this size, until the file ends, an expectation is not met, or the
-/// application quits.
+/// Plays a file on a session at its size, until the file ends, an expectation is not met, or the session quits.
 ///
 /// Effects outside the program are not carried out: a replay copies nothing, and writes files only if it may. It
 /// does read the files that the session asks for. Fails if the system provides no thread for the worker.
-pub fn play<M: Application>(
-    application: M,
-    answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
+pub fn play(
+    session: Session,
+    environment: Environment,
     script: Script,
-    mut size: Size,
     may_write: bool,
-) -> io::Result<ReplayResult<M>> {
+) -> io::Result<ReplayResult> {
+    let crate::session::Size { width, height } = session.size;
+    let mut size = Size { width, height };
+    let application = Explorer::new(session, environment);
     let (send, messages) = unbounded();
-    let mut workers = Workers::start(answer, Notes::default(), move |msg| drop(send.send(msg)))?;
+    let report = Arc::new(move |msg| drop(send.send(msg)));
+    let mut workers = Workers::start(Arc::new(answer), Notes::default(), report)?;
     let player = Player::new(script);
     let mut replay = Replay { application, player, may_write, unmet: None, unwritten: None };
     let mut kept = Vec::new();
-    let mut given = Some(Msg::Resize { width: size.width, height: size.height });
+    let mut given = Some(Msg::Resize { width, height });
     let unmet = loop {
         if let Some(msg) = given.take() {
             if let Msg::Resize { width, height } = msg {
@@ -73,7 +75,7 @@ pub fn play<M: Application>(
         }
         let Replay { application, player, .. } = &mut replay;
         workers.ask(application.wants());
-        let screen = || view::screen::text(&picture::of(application, size));
+        let screen = || view::screen::text(&application.picture(size));
         let next = if application.is_waiting() {
             Ok(Action::Wait)
         } else {
@@ -81,28 +83,28 @@ pub fn play<M: Application>(
         };
         match next {
             Ok(Action::Give(msg)) => given = Some(msg),
-            Ok(Action::Keep(name)) => kept.push((name, picture::of(application, size))),
+            Ok(Action::Keep(name)) => kept.push((name, application.picture(size))),
             // The workers live as long as their handle, so a message arrives.
             Ok(Action::Wait) => given = messages.recv().ok(),
             Ok(Action::Done) => break None,
             Err(unmet) => break Some(unmet),
         }
     };
-    let screen = picture::of(&replay.application, size);
+    let screen = replay.application.picture(size);
     let Replay { application, unwritten, .. } = replay;
     Ok(ReplayResult { application, screen, kept, unmet, unwritten })
 }
 
 /// An application and the player of the file.
-struct Replay<M> {
-    application: M,
+struct Replay {
+    application: Explorer,
     player: Player,
     may_write: bool,
     unmet: Option<ScriptError>,
     unwritten: Option<String>,
 }
 
-impl<M: Application> Replay<M> {
+impl Replay {
     /// Carries out an effect that writes a file, if it may, and reports the result.
     fn written(&mut self, effect: Effect) -> Msg {
         let is_figure = matches!(effect, Effect::Figure { .. });
@@ -139,10 +141,10 @@ pub(super) fn unasked(effect: &Effect) -> Option<Notice> {
     Some(Notice { error: true, text })
 }
 
-impl<M: Application> Host for Replay<M> {
-    type Application = M;
+impl Host for Replay {
+    type Application = Explorer;
 
-    fn application(&mut self) -> &mut M {
+    fn application(&mut self) -> &mut Explorer {
         &mut self.application
     }
 
@@ -180,22 +182,15 @@ impl<M: Application> Host for Replay<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::runtime::Explorer;
-    use crate::runtime::explorer::answer;
     use crate::scene::find;
     use crate::scene::library::PLAIN;
-    use crate::session::Session;
     use crate::session::replay::parse;
-    use crate::terminal::Environment;
-
-    const SIZE: Size = Size { width: 80, height: 24 };
 
     /// Plays a file on the plain scene.
-    fn played(file: &str) -> ReplayResult<Explorer> {
-        let size = crate::session::Size { width: SIZE.width, height: SIZE.height };
+    fn played(file: &str) -> ReplayResult {
+        let size = crate::session::Size { width: 80, height: 24 };
         let session = Session::new(find(PLAIN).unwrap(), size);
-        let explorer = Explorer::new(session, Environment::default());
-        play(explorer, answer, parse(file).unwrap(), SIZE, false).unwrap()
+        play(session, Environment::default(), parse(file).unwrap(), false).unwrap()
     }
 
     #[test]

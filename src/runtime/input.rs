@@ -21,7 +21,7 @@ use termina::event::{
 };
 use termina::style::RgbColor;
 
-use super::event::Event;
+use super::application::{Event, LoopEnd};
 use crate::session::{Code, Gesture, Key, Msg};
 
 mod sequences;
@@ -47,7 +47,7 @@ struct LastWord(Sender<Event>);
 
 impl Drop for LastWord {
     fn drop(&mut self) {
-        drop(self.0.send(Event::Closed));
+        drop(self.0.send(Event::End(LoopEnd::Closed)));
     }
 }
 

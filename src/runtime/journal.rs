@@ -12,7 +12,7 @@ use std::io::{self, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::lines::{FileLine, Lines};
+use super::lines::{FileLine, FileLines};
 use super::new_file::beside;
 use crate::report::scan::RowForm;
 use crate::scan::grid::Scan;
@@ -108,7 +108,7 @@ fn rows(
     points: &Range<usize>,
 ) -> (BTreeMap<usize, String>, u64) {
     let mut found = BTreeMap::new();
-    let mut lines = Lines::new(file);
+    let mut lines = FileLines::new(file);
     let Ok(true) = lines.heading(&heading(scan, form)) else { return (found, 0) };
     while let Ok(FileLine::Whole(line)) = lines.next(usize::MAX) {
         found.extend(String::from_utf8(line).ok().and_then(|line| {

@@ -3,53 +3,28 @@
 
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use crossbeam_channel::unbounded;
 use ratatui::layout::Size;
 use rustix::io::Errno;
 
-use super::application::Application;
+use super::application::{Application, Event, LoopEnd};
 use super::effects::Files;
-use super::event::{Event, LoopEnd};
 use super::new_file::Readers;
-use super::pump::Pump;
-use super::record::RecordingFile;
+use super::pump::{Options, Pump};
 use super::signals::{self, exit_code};
 use super::standard::tell;
-use super::worker::Tell;
+use super::worker::Compute;
 use super::workers::Workers;
 use super::{input, panics};
-use crate::flow::{Limits, Reason};
-use crate::scene::{Answer, Request};
 use crate::session::Notice;
-use crate::session::replay::{Recorder, Script};
 use crate::terminal::{Guard, Screen};
 
 /// The signal that a process receives when its terminal goes away.
 const HANG_UP: i32 = signal_hook::consts::SIGHUP;
-
-/// What the explorer is to do besides exploring.
-#[derive(Debug, Default)]
-pub struct Options {
-    /// Keys to play at the start.
-    pub replay: Option<Script>,
-    /// How the session was started, in words, for the heading of a recording.
-    pub started: String,
-    /// The steps that stand for this start in a recording; the script in `replay` is the last of them.
-    pub recorder: Recorder,
-    /// The file to which the user's actions are recorded.
-    pub record: Option<RecordingFile>,
-    /// File for a session that is interrupted.
-    pub keep: Option<PathBuf>,
-    /// File for a session that the user quits.
-    pub last: Option<PathBuf>,
-    /// Whether the terminal reports the mouse at the start.
-    pub mouse: bool,
-    /// Destination of copies besides the clipboard.
-    pub files: Files,
-}
 
 /// Runs an application in the terminal at standard input and output; [`crate::terminal::Environment::admit`]
 /// says whether there is one. Returns the exit code: 0 if the user quit, 128 + n after signal n.
@@ -58,7 +33,7 @@ pub struct Options {
 /// Fails if the terminal cannot be used, or goes away while it is written to.
 pub fn launch(
     application: impl Application,
-    answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync + 'static,
+    answer: Arc<Compute>,
     options: Options,
 ) -> io::Result<ExitCode> {
     let guard = Guard::new()?;
@@ -68,18 +43,16 @@ pub fn launch(
     guard.mouse(options.mouse)?;
     guard.enter()?;
     input::start(send.clone())?;
-    let report = move |msg| drop(send.send(Event::Session(msg)));
+    let report = Arc::new(move |msg| drop(send.send(Event::Session(msg))));
     let workers = Workers::start(answer, notes.clone(), report)?;
     let screen = Screen::new(guard.out(), terminal_size())?;
-    let mut pump = Pump::new(application, screen, workers, events, options.files, terminal_size)
-        .playing(options.replay)
-        .started(options.started, options.recorder, options.record);
+    let mut pump = Pump::new(application, screen, workers, events, options, terminal_size);
     pump.repaint()?;
     // A panic has already been reported and the terminal given back; the panic still ends the program.
     let conducted = catch_unwind(AssertUnwindSafe(|| conduct(&mut pump, &guard)));
     pump.close_record();
     let left = matches!(conducted, Ok(Ok(LoopEnd::Quit)));
-    let place = if left { &options.last } else { &options.keep };
+    let place = if left { &pump.options.last } else { &pump.options.keep };
     let kept = keep(&pump, place.as_deref());
     let ended = match conducted.unwrap_or_else(|panic| resume_unwind(panic)) {
         // If the terminal is gone, writing to it fails before the signal arrives.
@@ -120,7 +93,7 @@ fn keep<M: Application, W: io::Write>(
 
 /// Runs the loop through all pauses until it ends.
 fn conduct<M: Application>(
-    pump: &mut Pump<M, std::sync::Arc<std::fs::File>>,
+    pump: &mut Pump<M, Arc<std::fs::File>>,
     guard: &Guard,
 ) -> io::Result<LoopEnd> {
     // A stop from here is followed by an event that the process continues, which needs no further reaction.

@@ -55,7 +55,7 @@ impl fmt::Display for LineRefusal {
 const LONGEST: u64 = 1 << 20;
 
 /// The lines of a file, with their numbers.
-pub(super) struct Lines<R> {
+pub(super) struct FileLines<R> {
     reader: BufReader<R>,
     /// Number of the line read last, from 1.
     number: usize,
@@ -69,9 +69,9 @@ pub(super) enum FileLine {
     Cut(Vec<u8>),
 }
 
-impl<R: Read> Lines<R> {
+impl<R: Read> FileLines<R> {
     pub(super) fn new(file: R) -> Self {
-        Lines { reader: BufReader::new(file), number: 0, bytes: 0 }
+        FileLines { reader: BufReader::new(file), number: 0, bytes: 0 }
     }
 
     /// Number of the line read last, from 1.

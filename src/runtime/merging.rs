@@ -10,7 +10,7 @@ use std::io;
 use std::ops::Range;
 use std::path::PathBuf;
 
-use super::lines::{FileLine, LineRefusal, Lines};
+use super::lines::{FileLine, FileLines, LineRefusal};
 use super::scan_file::compare;
 use crate::flow::Limits;
 use crate::report::scan::RowForm;
@@ -19,7 +19,7 @@ use crate::words::provenance::Checksum;
 
 /// A file with some of the rows of a scan.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Part {
+pub struct ScanPart {
     pub path: PathBuf,
     pub points: Range<usize>,
     /// Whether its rows are preceded by a line of column names.
@@ -62,11 +62,11 @@ impl fmt::Display for Conflict {
 pub fn merge(
     scan: &Scan,
     form: RowForm,
-    parts: &[Part],
+    parts: &[ScanPart],
     recheck: Option<&Limits>,
     write: &mut dyn FnMut(&[u8]) -> io::Result<()>,
 ) -> Result<Vec<Range<usize>>, Conflict> {
-    let mut parts: Vec<&Part> = parts.iter().collect();
+    let mut parts: Vec<&ScanPart> = parts.iter().collect();
     parts.sort_by_key(|part| part.points.start);
     let mut waiting = parts.into_iter().peekable();
     let mut reading: Vec<Reader> = Vec::new();
@@ -77,7 +77,7 @@ pub fn merge(
     loop {
         let first = reading.iter().enumerate().min_by_key(|(_, reader)| reader.index);
         let next = first.map(|(place, reader)| (place, reader.index));
-        let due = |part: &&Part| next.is_none_or(|(_, index)| part.points.start <= index);
+        let due = |part: &&ScanPart| next.is_none_or(|(_, index)| part.points.start <= index);
         if let Some(part) = waiting.next_if(due) {
             let refused = |refusal| Conflict::Part(part.path.clone(), refusal);
             reading.extend(Reader::open(&task, part).map_err(refused)?);
@@ -114,8 +114,8 @@ struct MergeTask<'a> {
 
 /// An open part, with its next row that is not written yet.
 struct Reader<'a> {
-    part: &'a Part,
-    lines: Lines<File>,
+    part: &'a ScanPart,
+    lines: FileLines<File>,
     /// The checksum of the rows read so far.
     checksum: Checksum,
     /// The point of this row.
@@ -125,8 +125,8 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// Opens a part at its first row; `None` if it has none.
-    fn open(task: &MergeTask, part: &'a Part) -> Result<Option<Self>, LineRefusal> {
-        let mut lines = Lines::new(File::open(&part.path)?);
+    fn open(task: &MergeTask, part: &'a ScanPart) -> Result<Option<Self>, LineRefusal> {
+        let mut lines = FileLines::new(File::open(&part.path)?);
         if part.headed && !lines.heading(&task.form.heading(task.scan))? {
             return Ok(None);
         }

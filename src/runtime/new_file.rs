@@ -2,11 +2,12 @@
 //! the file is at any moment complete, as it was or as it is to be, also on a full disk.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufRead, BufReader, ErrorKind, Read, Write};
+use std::io::{self, BufReader, ErrorKind, Read, Write};
 use std::os::unix::fs::{FileTypeExt, MetadataExt, OpenOptionsExt, PermissionsExt, fchown};
 use std::path::{Path, PathBuf};
 
 use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
+use tempfile::TempPath;
 
 /// Maximum number of symbolic links that are followed one after the other, as in the system.
 const LINKS: usize = 40;
@@ -33,7 +34,7 @@ pub struct NewFile {
     /// The file that is replaced, behind all symbolic links.
     path: PathBuf,
     /// The temporary file; `None` for a device or a pipe, which is written to directly.
-    beside: Option<PathBuf>,
+    beside: Option<TempPath>,
     file: File,
 }
 
@@ -55,7 +56,7 @@ impl NewFile {
             OpenOptions::new().write(true).open(&path)?;
         }
         let mode = if old.is_none() && readers == Readers::Usual { 0o666 } else { 0o600 };
-        let (beside, file) = temporary(&path, mode)?;
+        let (file, beside) = temporary(&path, mode)?;
         let this = NewFile { path, beside: Some(beside), file };
         if let Some(old) = old {
             // Only the superuser can give a file away; otherwise it becomes the user's.
@@ -68,13 +69,12 @@ impl NewFile {
     /// Gives the content its name. Fails with [`ErrorKind::AlreadyExists`] if the file holds something else and
     /// may not be replaced.
     pub fn end(mut self, replace: bool) -> io::Result<()> {
-        let Some(beside) = &self.beside else { return self.file.flush() };
-        if !replace && !is_free(&self.path, beside)? {
+        let Some(beside) = self.beside.take() else { return self.file.flush() };
+        if !replace && !is_free(&self.path, &beside)? {
             return Err(ErrorKind::AlreadyExists.into());
         }
         self.file.sync_all()?;
-        fs::rename(beside, &self.path)?;
-        self.beside = None;
+        beside.persist(&self.path)?;
         // The file is complete under either name; a folder that cannot be synced is no error.
         drop(File::open(folder(&self.path)).and_then(|folder| folder.sync_all()));
         Ok(())
@@ -88,14 +88,6 @@ impl Write for NewFile {
 
     fn flush(&mut self) -> io::Result<()> {
         self.file.flush()
-    }
-}
-
-impl Drop for NewFile {
-    fn drop(&mut self) {
-        if let Some(beside) = &self.beside {
-            drop(fs::remove_file(beside));
-        }
     }
 }
 
@@ -154,20 +146,15 @@ fn folder(path: &Path) -> &Path {
 }
 
 /// Creates a file beside this one, under a name that is free and short enough.
-fn temporary(path: &Path, mode: u32) -> io::Result<(PathBuf, File)> {
+fn temporary(path: &Path, mode: u32) -> io::Result<(File, TempPath)> {
     if path.file_name().is_none() {
         return Err(ErrorKind::IsADirectory.into());
     }
-    let mut number = 0;
-    loop {
-        let name = format!(".hopfscope.{}.{number}.new", std::process::id());
-        let beside = folder(path).join(name);
-        match OpenOptions::new().write(true).create_new(true).mode(mode).open(&beside) {
-            Ok(file) => return Ok((beside, file)),
-            Err(why) if why.kind() == ErrorKind::AlreadyExists => number += 1,
-            Err(why) => return Err(why),
-        }
-    }
+    let create =
+        |path: &Path| OpenOptions::new().write(true).create_new(true).mode(mode).open(path);
+    let mut names = tempfile::Builder::new();
+    names.prefix(".hopfscope.").suffix(".new");
+    Ok(names.make_in(folder(path), create)?.into_parts())
 }
 
 /// Whether nothing is lost when the new content takes this path: the file is missing, empty, or holds the same.
@@ -182,23 +169,9 @@ fn is_free(path: &Path, beside: &Path) -> io::Result<bool> {
     if old.len() != fs::metadata(beside)?.len() {
         return Ok(false);
     }
-    let old = BufReader::new(File::open(path)?.take(old.len()));
-    is_same(old, BufReader::new(File::open(beside)?))
-}
-
-fn is_same(mut old: impl BufRead, mut new: impl BufRead) -> io::Result<bool> {
-    loop {
-        let (one, other) = (old.fill_buf()?, new.fill_buf()?);
-        let length = one.len().min(other.len());
-        if one[..length] != other[..length] {
-            return Ok(false);
-        }
-        if length == 0 {
-            return Ok(one.is_empty() && other.is_empty());
-        }
-        old.consume(length);
-        new.consume(length);
-    }
+    let old = BufReader::new(File::open(path)?.take(old.len())).bytes();
+    let mut pairs = old.zip(BufReader::new(File::open(beside)?).bytes());
+    pairs.try_fold(true, |same, (old, new)| Ok(same && old? == new?))
 }
 
 #[cfg(test)]

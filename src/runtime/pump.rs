@@ -14,13 +14,12 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, RecvTimeoutError};
 use ratatui::layout::Size;
 
-use super::application::{Application, EffectOutcome, Host};
+use super::application::{Application, EffectOutcome, Event, Host, LoopEnd};
 use super::effects::Files;
-use super::event::{Event, LoopEnd};
 use super::new_file::Readers;
 use super::record::RecordingFile;
+use super::scan_file;
 use super::workers::Workers;
-use super::{picture, scan_file};
 use crate::scene::Request;
 use crate::session::replay::{LONGEST, Recorder, Script};
 use crate::session::{Effect, Msg, Notice, Pointed};
@@ -36,7 +35,36 @@ use play::Playing;
 /// How long a frame waits for the worker before it shows the old answers, marked as old.
 const ANSWER_TIME: Duration = Duration::from_millis(8);
 
-#[derive(Debug)]
+/// What the explorer is to do besides exploring.
+#[derive(Debug, Default)]
+pub struct Options {
+    /// Keys to play at the start: each is given once the answers to the last one are on the screen.
+    pub replay: Option<Script>,
+    /// How the session was started, in words, for the heading of a recording.
+    pub started: String,
+    /// The steps that stand for this start in a recording, to which the user's actions are added; the script in
+    /// `replay` is the last of them.
+    pub recorder: Recorder,
+    /// The file to which the user's actions are recorded.
+    pub record: Option<RecordingFile>,
+    /// File for a session that is interrupted.
+    pub keep: Option<PathBuf>,
+    /// File for a session that the user quits.
+    pub last: Option<PathBuf>,
+    /// Whether the terminal reports the mouse at the start.
+    pub mouse: bool,
+    /// Destination of copies besides the clipboard.
+    pub files: Files,
+}
+
+impl Options {
+    /// Writes what was recorded since the last call, if there is a file for it. Fails with one line if it cannot
+    /// be written.
+    fn keep_record(&mut self) -> Result<(), String> {
+        self.record.as_mut().map_or(Ok(()), |record| record.keep(&mut self.recorder))
+    }
+}
+
 pub struct Pump<M, W: Write> {
     application: M,
     screen: Screen<W>,
@@ -44,7 +72,7 @@ pub struct Pump<M, W: Write> {
     events: Receiver<Event>,
     /// Events that arrived while something else was awaited.
     missed: VecDeque<Event>,
-    files: Files,
+    pub(super) options: Options,
     /// Time since which the state differs from the screen.
     changed: Option<Instant>,
     /// Time at which the session was last told how much time has passed, while something in it moves.
@@ -56,10 +84,6 @@ pub struct Pump<M, W: Write> {
     held_back: VecDeque<Event>,
     /// Whether a figure is being written.
     writing: bool,
-    /// The user's actions so far, how the session was started, and the file to which the actions are recorded.
-    recorder: Recorder,
-    started: String,
-    record: Option<RecordingFile>,
     terminal_size: fn() -> Size,
 }
 
@@ -70,48 +94,25 @@ impl<M: Application, W: Write> Pump<M, W> {
         screen: Screen<W>,
         workers: Workers,
         events: Receiver<Event>,
-        files: Files,
+        mut options: Options,
         terminal_size: fn() -> Size,
     ) -> Pump<M, W> {
+        let playing = options.replay.take().map(|script| Playing::new(script, 1));
         Pump {
             application,
             screen,
             workers,
             events,
             missed: VecDeque::new(),
-            files,
+            options,
             changed: Some(Instant::now()),
             beat: None,
             held: false,
-            playing: None,
+            playing,
             held_back: VecDeque::new(),
             writing: false,
-            recorder: Recorder::default(),
-            started: String::new(),
-            record: None,
             terminal_size,
         }
-    }
-
-    /// Plays a keystroke file: each key is given once the answers to the last one are on the screen.
-    pub fn playing(mut self, script: Option<Script>) -> Self {
-        self.playing = script.map(|script| Playing::new(script, 0));
-        self
-    }
-
-    /// Sets how the session was started. The recording begins with the steps that stand for this start; the
-    /// script that is played at the start is the last of them.
-    pub fn started(
-        mut self,
-        started: String,
-        recorder: Recorder,
-        record: Option<RecordingFile>,
-    ) -> Self {
-        if let Some(playing) = &mut self.playing {
-            playing.asked = 1;
-        }
-        (self.started, self.recorder, self.record) = (started, recorder, record);
-        self
     }
 
     /// The application that runs in the loop.
@@ -152,7 +153,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             Ok(event) => Ok(Some(event)),
             Err(RecvTimeoutError::Timeout) => self.draw().map(|()| None),
             // All threads are gone; the one that reads the keys reports that before.
-            Err(RecvTimeoutError::Disconnected) => Ok(Some(Event::Closed)),
+            Err(RecvTimeoutError::Disconnected) => Ok(Some(Event::End(LoopEnd::Closed))),
         }
     }
 
@@ -212,10 +213,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                 self.resized()?;
                 Ok(None)
             }
-            Event::Suspend => Ok(Some(LoopEnd::Suspended)),
-            Event::Continued => Ok(Some(LoopEnd::Continued)),
-            Event::Ended { signal } => Ok(Some(LoopEnd::Ended { signal })),
-            Event::Closed => Ok(Some(LoopEnd::Closed)),
+            Event::End(end) => Ok(Some(end)),
         }
     }
 
@@ -225,7 +223,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         self.screen.repaint((self.terminal_size)())?;
         let Size { width, height } = self.screen.size();
         let msg = Msg::Resize { width, height };
-        self.recorder.note(&msg);
+        self.options.recorder.note(&msg);
         // A resize has no effects.
         drop(self.application.update(msg));
         self.changed.get_or_insert_with(Instant::now);
@@ -240,7 +238,7 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     fn copy(&mut self, text: &str) -> io::Result<Notice> {
         self.screen.control(&Files::clipboard(text))?;
-        Ok(self.files.copy(text))
+        Ok(self.options.files.copy(text))
     }
 
     /// Begins to write a figure; if that fails, the outcome tells the session why.
@@ -260,9 +258,9 @@ impl<M: Application, W: Write> Pump<M, W> {
         if let Err(text) = RecordingFile::admit(path, replace, "! behind the command replaces it") {
             return Notice { error: true, text };
         }
-        let mut recorder = self.recorder.clone();
+        let mut recorder = self.options.recorder.clone();
         recorder.forget(if self.playing.is_none() { forget } else { 0 });
-        Files::write(path, recorder.text(&self.started), true, Readers::Owner)
+        Files::write(path, recorder.text(&self.options.started), true, Readers::Owner)
     }
 
     /// When to draw; `None` if the screen is up to date and nothing moves.
@@ -339,7 +337,7 @@ impl<M: Application, W: Write> Host for Pump<M, W> {
             Effect::Play(script) => return self.begin(script),
             Effect::Copy(text) => self.copy(&text)?,
             Effect::CopyScreen => {
-                let picture = picture::of(&self.application, self.screen.size());
+                let picture = self.application.picture(self.screen.size());
                 self.copy(&view::screen::text(&picture))?
             }
             Effect::SaveScan { path, scan, rows } => scan_file::save(&path, &scan, &rows),

@@ -133,12 +133,10 @@ mod tests {
     use super::*;
     use crate::flow::Problem;
     use crate::model::Parameters;
-    use crate::question;
 
     fn cycles(d: f64) -> Request {
-        Request::Cycles(question::cycles::Inputs {
-            parameters: Parameters { d, d2: 0.0, d3: 0.0, r: 0.1 },
-        })
+        let parameters = Parameters { d, d2: 0.0, d3: 0.0, r: 0.1 };
+        Request::Cycles { parameters, machine: None, whole: false }
     }
 
     #[test]
@@ -170,7 +168,8 @@ mod tests {
     fn a_refinement_waits_for_whatever_has_no_picture_yet() {
         let mut queue = Queue::default();
         let parameters = Parameters { d: -0.1, d2: 0.0, d3: 0.5, r: 0.1 };
-        let full = Request::Trajectory(Problem { parameters, ..Problem::default() });
+        let problem = Problem { parameters, ..Problem::default() };
+        let full = Request::Trajectory { problem, machine: None };
         let draft = full.draft().unwrap();
         queue.want(vec![draft.clone(), full.clone(), cycles(1.0)]);
         assert_eq!(queue.begin(), Some((draft.clone(), 1)));

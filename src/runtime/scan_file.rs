@@ -15,7 +15,7 @@ use std::path::Path;
 use super::effects::at_home;
 use super::journal::Journal;
 pub use super::lines::LineRefusal;
-use super::lines::{FileLine, Lines};
+use super::lines::{FileLine, FileLines};
 use super::new_file::{self, Readers};
 use super::provenance_file::{self, RunningChecksum};
 use crate::flow::{Limits, Reason};
@@ -165,7 +165,7 @@ fn kept(
     known: Option<Checksum>,
     limits: &Limits,
 ) -> Result<Option<KeptRows>, LineRefusal> {
-    let mut lines = Lines::new(file);
+    let mut lines = FileLines::new(file);
     if !lines.heading(heading)? {
         return Ok(None);
     }

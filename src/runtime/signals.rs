@@ -14,7 +14,7 @@ use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SI
 use signal_hook::iterator::Signals;
 use signal_hook::low_level::emulate_default_handler;
 
-use super::event::Event;
+use super::application::{Event, LoopEnd};
 use crate::terminal::Guard;
 
 /// How long the loop may take to end after the first such signal.
@@ -30,14 +30,14 @@ pub fn start(events: Sender<Event>, guard: Guard) -> io::Result<()> {
         let mut ending = false;
         for signal in signals.forever() {
             let event = match signal {
-                SIGTSTP => Event::Suspend,
-                SIGCONT => Event::Continued,
+                SIGTSTP => Event::End(LoopEnd::Suspended),
+                SIGCONT => Event::End(LoopEnd::Continued),
                 SIGWINCH => Event::Resized,
                 _ if ending => end_at_once(&guard, signal),
                 _ => {
                     ending = true;
                     end_after(GRACE, guard.clone(), signal);
-                    Event::Ended { signal }
+                    Event::End(LoopEnd::Ended { signal })
                 }
             };
             drop(events.send(event));
@@ -73,7 +73,7 @@ pub fn can_be_continued() -> bool {
 }
 
 /// Asks all processes of the job to stop, as the terminal does for Ctrl-Z: one of them may be a wrapper for
-/// which the shell waits. This process gets [`Event::Suspend`]. Fails if the system refuses.
+/// which the shell waits. This process gets [`LoopEnd::Suspended`]. Fails if the system refuses.
 pub fn suspend_job() -> io::Result<()> {
     Ok(kill_current_process_group(Signal::TSTP)?)
 }

@@ -15,7 +15,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::panics::{self, Notes};
-use super::queue::{self, Queue};
+use super::queue::Queue;
 use crate::flow::{Limits, Reason};
 use crate::question::NoAnswer;
 use crate::scene::{Answer, Answered, Request};
@@ -23,6 +23,12 @@ use crate::session::Msg;
 
 /// Called by a job with its results so far; its return value is the last piece.
 pub type Tell<'a> = dyn Fn(Answer) + 'a;
+
+/// Computes the answer to a request.
+pub type Compute = dyn Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync;
+
+/// Takes the messages for the session.
+pub type Report = dyn Fn(Msg) + Send + Sync;
 
 /// The handle of the worker thread; dropping it ends the thread at the next step of its job.
 #[derive(Debug)]
@@ -72,22 +78,14 @@ impl Shared {
 }
 
 impl Worker {
-    /// Starts the thread. `answer` computes; `report` gets a message for every answer that is still wanted, and
-    /// [`Msg::Idle`] when there is nothing left to do. Fails if the system provides no thread.
+    /// Starts the thread; `turn` is the length of a request's first turn. `answer` computes; `report` gets a message
+    /// for every answer that is still wanted, and [`Msg::Idle`] when there is nothing left to do. Fails if the
+    /// system provides no thread.
     pub fn start(
-        answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + 'static,
-        notes: Notes,
-        report: impl Fn(Msg) + Send + 'static,
-    ) -> std::io::Result<Worker> {
-        Worker::start_with(queue::TURN, answer, notes, report)
-    }
-
-    /// Starts the thread with another length of a request's first turn.
-    fn start_with(
         turn: Duration,
-        answer: impl Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + 'static,
+        answer: Arc<Compute>,
         notes: Notes,
-        report: impl Fn(Msg) + Send + 'static,
+        report: Arc<Report>,
     ) -> std::io::Result<Worker> {
         let shared = Arc::new(Shared::default());
         let theirs = Arc::clone(&shared);
@@ -175,17 +173,17 @@ mod tests {
     use crate::flow::Cost;
     use crate::model::Parameters;
     use crate::portrait::{Border, Cycles};
-    use crate::question;
+    use crate::runtime::queue::TURN;
 
     /// A request that can be told apart from others by its number.
     fn request(number: f64) -> Request {
         let parameters = Parameters { d: number, d2: 0.0, d3: 0.0, r: 0.1 };
-        Request::Cycles(question::cycles::Inputs { parameters })
+        Request::Cycles { parameters, machine: None, whole: false }
     }
 
     fn number(request: &Request) -> f64 {
         match request {
-            Request::Cycles(question::cycles::Inputs { parameters, .. }) => parameters.d,
+            Request::Cycles { parameters, .. } => parameters.d,
             other => unreachable!("{other:?}"),
         }
     }
@@ -241,7 +239,8 @@ mod tests {
             Err(Reason::Interrupted)
         };
         let report = move |msg| drop(message.send(msg));
-        let worker = Worker::start_with(turn, job, Notes::default(), report).unwrap();
+        let worker =
+            Worker::start(turn, Arc::new(job), Notes::default(), Arc::new(report)).unwrap();
         Bench { worker, started, finish, messages }
     }
 
@@ -268,17 +267,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn requests_are_answered_in_their_order_and_then_the_worker_is_idle() {
-        let bench = bench();
-        bench.worker.submit(vec![request(1.0), request(2.0)]);
-        for wanted in [1.0, 2.0] {
-            assert_eq!(bench.started.recv(), Ok(wanted));
-            bench.finishes(wanted);
-        }
-        bench.idle();
-    }
-
     /// By the order of events: with turns of zero length, the request with the fewest turns goes first.
     #[test]
     fn a_request_that_takes_long_does_not_hold_up_the_others() {
@@ -300,18 +288,6 @@ mod tests {
         bench.worker.submit(vec![request(2.0)]);
         assert_eq!(bench.started.recv(), Ok(2.0));
         bench.finishes(2.0);
-        bench.idle();
-    }
-
-    #[test]
-    fn a_request_that_never_started_is_dropped_when_nobody_wants_it() {
-        let bench = bench();
-        bench.worker.submit(vec![request(1.0), request(2.0)]);
-        assert_eq!(bench.started.recv(), Ok(1.0));
-        bench.worker.submit(vec![request(1.0), request(3.0)]);
-        bench.finishes(1.0);
-        assert_eq!(bench.started.recv(), Ok(3.0));
-        bench.finishes(3.0);
         bench.idle();
     }
 
@@ -380,8 +356,8 @@ mod tests {
             tell(nothing(request));
             Ok(nothing(request))
         };
-        let worker =
-            Worker::start(job, Notes::default(), move |msg| drop(message.send(msg))).unwrap();
+        let report = Arc::new(move |msg| drop(message.send(msg)));
+        let worker = Worker::start(TURN, Arc::new(job), Notes::default(), report).unwrap();
         worker.submit(vec![request(1.0)]);
         assert_eq!(started.recv(), Ok(1.0));
         worker.submit(vec![request(2.0)]);

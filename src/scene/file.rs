@@ -79,9 +79,18 @@ fn scene(name: &str, read: SceneFile) -> Result<Scene, Complaint> {
         (Some(_), Some(_)) => return Err(either("terms and a machine")),
         (None, None) => return Err(either("neither terms nor a machine")),
     };
-    let problem = match &scaled {
+    let own = match &scaled {
         Some(scaled) => of_machine(scaled, &read)?,
-        None => problem(&read, &terms)?,
+        None => of_values(&read, &terms)?,
+    };
+    let until = read.until.as_ref();
+    let problem = Problem {
+        until: until.map_or(Ok(own.until), |given| checked(Knob::Until, given))?,
+        method: read.method,
+        tolerance: within(Knob::Tolerance, read.tolerance.as_ref())?,
+        step: within(Knob::Step, read.step.as_ref())?,
+        epsilon: within(Knob::Epsilon, read.epsilon.as_ref())?,
+        ..own
     };
     let mut families = Vec::new();
     let plot_setups = read.plot.iter().map(|plot| plot_setup(plot, &mut families));
@@ -135,22 +144,13 @@ fn scaled(
     ScaledMachine::new(machine).map(Box::new).map_err(|error| complain(error.to_string()))
 }
 
-/// The motion of a machine, with the accuracy that the file sets.
+/// The motion of a machine.
 fn of_machine(scaled: &ScaledMachine, read: &SceneFile) -> Result<Problem, Complaint> {
     if let Some((symbol, given)) = read.values.iter().next() {
         let message = format!("{symbol} comes from the machine; leave its value out");
         return Err(Complaint { at: given.span(), message });
     }
-    let problem = scaled.problem();
-    Ok(Problem {
-        until: read
-            .until
-            .as_ref()
-            .map_or(Ok(problem.until), |given| checked(Knob::Until, given))?,
-        method: read.method,
-        tolerance: within(Knob::Tolerance, read.tolerance.as_ref())?,
-        ..problem
-    })
+    Ok(scaled.problem())
 }
 
 /// A plot of a scene. Axes may be given only where the view leaves a choice; a window needs both directions or
@@ -222,8 +222,8 @@ fn variant(read: &BTreeMap<Knob, Spanned<f64>>) -> Result<Variant, Complaint> {
     Ok(Variant { held: read.iter().map(held).collect::<Result<_, _>>()? })
 }
 
-/// The motion of a scene: a declared term has its value from the file or its default, all others are zero.
-fn problem(read: &SceneFile, terms: &BTreeSet<Knob>) -> Result<Problem, Complaint> {
+/// The motion with the values of the file: a declared term has its value or its default, all others are zero.
+fn of_values(read: &SceneFile, terms: &BTreeSet<Knob>) -> Result<Problem, Complaint> {
     let mut parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
     let mut initial = State { q: 0.0, v: 0.0 };
     for knob in Knob::MOTION {
@@ -241,15 +241,7 @@ fn problem(read: &SceneFile, terms: &BTreeSet<Knob>) -> Result<Problem, Complain
         };
         knob.set(&mut parameters, &mut initial, value);
     }
-    Ok(Problem {
-        parameters,
-        initial,
-        until: within(Knob::Until, read.until.as_ref())?,
-        method: read.method,
-        tolerance: within(Knob::Tolerance, read.tolerance.as_ref())?,
-        step: within(Knob::Step, read.step.as_ref())?,
-        epsilon: within(Knob::Epsilon, read.epsilon.as_ref())?,
-    })
+    Ok(Problem { parameters, initial, until: Knob::Until.usual(), ..Problem::default() })
 }
 
 /// A number from the file, checked against its range, or its default.

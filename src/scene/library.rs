@@ -3,6 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use super::file::parse;
+use super::misread::built_in;
 use super::scene::Scene;
 use crate::numerics::similar::similar;
 
@@ -83,17 +84,9 @@ impl SceneGroup {
 }
 
 /// The built-in scenes, in the order in which they are listed.
-///
-/// # Panics
-/// Never: a test reads every file.
 pub fn library() -> &'static [Arc<Scene>] {
-    static SCENES: LazyLock<Vec<Arc<Scene>>> = LazyLock::new(|| {
-        let read = |(name, text): (&str, &str)| match parse(name, &format!("{name}.toml"), text) {
-            Ok(scene) => Arc::new(scene),
-            Err(error) => unreachable!("a scene of the program is broken: {error}"),
-        };
-        FILES.into_iter().map(read).collect()
-    });
+    static SCENES: LazyLock<Vec<Arc<Scene>>> =
+        LazyLock::new(|| built_in(&FILES, parse).into_iter().map(Arc::new).collect());
     &SCENES
 }
 

@@ -59,3 +59,18 @@ pub fn toml<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, Misread> {
         Complaint { at: error.span().unwrap_or(0..0), message }.in_file(file, text)
     })
 }
+
+/// What files of the program hold, by their names and texts.
+///
+/// # Panics
+/// Never: tests read every file.
+pub fn built_in<T>(
+    files: &[(&str, &str)],
+    parse: impl Fn(&str, &str, &str) -> Result<T, Misread>,
+) -> Vec<T> {
+    let read = |(name, text): &(&str, &str)| match parse(name, &format!("{name}.toml"), text) {
+        Ok(found) => found,
+        Err(error) => unreachable!("a file of the program is broken: {error}"),
+    };
+    files.iter().map(read).collect()
+}

@@ -4,6 +4,7 @@ pub mod file;
 pub mod library;
 pub mod machine;
 pub mod misread;
+mod opened;
 pub mod ordinate;
 pub mod plot_setup;
 pub mod said;
@@ -12,7 +13,7 @@ pub mod scene;
 pub mod views;
 pub mod window;
 
-pub use crate::question::{Answer, Answered, Fit, Fitted, Recording, Request, TOPICS, Topic};
+pub use crate::question::{Answer, Answered, Fit, Recording, Request, ShownFit, TOPICS, Topic};
 pub use library::{find, library, plain};
 pub use machine::{Machine, Running, ScaledMachine, Setting};
 pub use misread::Misread;

@@ -64,77 +64,56 @@ pub struct OrdinateSpec {
     pub from_zero: bool,
 }
 
+/// A row without a harmonic answer whose values are no lengths.
+const fn row(
+    ordinate: Ordinate,
+    name: &'static str,
+    meaning: &'static str,
+    read: fn(&Cycle) -> f64,
+) -> OrdinateSpec {
+    let (label, ratio, harmonic) = (name, None, None);
+    OrdinateSpec { ordinate, name, label, ratio, meaning, read, harmonic, from_zero: true }
+}
+
 /// Every property, in the order in which the key visits them.
 pub const ORDINATES: [OrdinateSpec; 7] = [
     OrdinateSpec {
-        ordinate: Ordinate::QMax,
-        name: "q_max",
-        label: "q_max",
         ratio: Some("A_q/r"),
-        meaning: "right turning point of the cycles",
-        read: |cycle| cycle.q_max,
         harmonic: Some(|mean, amplitude| mean + amplitude),
-        from_zero: true,
+        ..row(Ordinate::QMax, "q_max", "right turning point of the cycles", |cycle| cycle.q_max)
     },
     OrdinateSpec {
-        ordinate: Ordinate::QMin,
-        name: "q_min",
-        label: "q_min",
         ratio: Some("q_min/r"),
-        meaning: "left turning point of the cycles",
-        read: |cycle| cycle.q_min,
         harmonic: Some(|mean, amplitude| mean - amplitude),
-        from_zero: true,
+        ..row(Ordinate::QMin, "q_min", "left turning point of the cycles", |cycle| cycle.q_min)
     },
     OrdinateSpec {
-        ordinate: Ordinate::VMax,
-        name: "v_max",
-        label: "v_max",
         ratio: Some("A_v/r"),
-        meaning: "largest velocity of the cycles",
-        read: |cycle| cycle.v_max,
         harmonic: Some(|_, amplitude| amplitude),
-        from_zero: true,
+        ..row(Ordinate::VMax, "v_max", "largest velocity of the cycles", |cycle| cycle.v_max)
     },
     OrdinateSpec {
-        ordinate: Ordinate::Amplitude,
-        name: "amplitude",
-        label: "amplitude",
         ratio: Some("amplitude/r"),
         meaning: "half of the distance between the turning points",
-        read: |cycle| 0.5 * (cycle.q_max - cycle.q_min),
         harmonic: Some(|_, amplitude| amplitude),
-        from_zero: true,
+        ..row(Ordinate::Amplitude, "amplitude", "", |cycle| 0.5 * (cycle.q_max - cycle.q_min))
     },
     OrdinateSpec {
-        ordinate: Ordinate::Mean,
-        name: "mean",
-        label: "mean",
         ratio: Some("mean/r"),
         meaning: "middle between the turning points",
-        read: |cycle| 0.5 * (cycle.q_max + cycle.q_min),
         harmonic: Some(|mean, _| mean),
         from_zero: false,
+        ..row(Ordinate::Mean, "mean", "", |cycle| 0.5 * (cycle.q_max + cycle.q_min))
     },
     OrdinateSpec {
-        ordinate: Ordinate::Period,
-        name: "period",
-        label: "period",
-        ratio: None,
-        meaning: "period of the cycles",
-        read: |cycle| cycle.period,
         harmonic: Some(|_, _| TAU),
         from_zero: false,
+        ..row(Ordinate::Period, "period", "period of the cycles", |cycle| cycle.period)
     },
     OrdinateSpec {
-        ordinate: Ordinate::Multiplier,
-        name: "multiplier",
         label: "lg multiplier",
-        ratio: None,
         meaning: "decimal logarithm of the Floquet multiplier; below 0 stable",
-        read: |cycle| cycle.log_multiplier / LN_10,
-        harmonic: None,
-        from_zero: true,
+        ..row(Ordinate::Multiplier, "multiplier", "", |cycle| cycle.log_multiplier / LN_10)
     },
 ];
 

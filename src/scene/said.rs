@@ -4,6 +4,9 @@
 //! the conditions before its colon hold. A condition is one of [`CONDITIONS`], a comparison such as `D<0`, or the
 //! name of a layer, which must be on show. Text outside of brackets always holds.
 
+use std::ops::Bound::{self, Excluded, Included, Unbounded};
+use std::ops::RangeBounds;
+
 use super::scene::Scene;
 use super::views::Layer;
 use crate::model::{Group, Knob};
@@ -31,42 +34,10 @@ pub enum TextCondition {
     Grows,
     /// A cycle of the whole model sticks to the belt.
     Sticks,
-    /// A number of the motion on show compares so with this one.
-    Compares(Knob, Relation, f64),
+    /// A number of the motion on show lies within these bounds.
+    Compares(Knob, (Bound<f64>, Bound<f64>)),
     /// The layer is on, in a plot on show.
     Shows(Layer),
-}
-
-/// How two numbers compare.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Relation {
-    AtMost,
-    AtLeast,
-    Less,
-    Greater,
-    Equal,
-}
-
-/// The relations by their signs; one that begins with another stands before it.
-const RELATIONS: [(&str, Relation); 5] = [
-    ("<=", Relation::AtMost),
-    (">=", Relation::AtLeast),
-    ("<", Relation::Less),
-    (">", Relation::Greater),
-    ("=", Relation::Equal),
-];
-
-impl Relation {
-    #[expect(clippy::float_cmp, reason = "a text speaks of exactly this value")]
-    pub fn holds(self, value: f64, other: f64) -> bool {
-        match self {
-            Relation::AtMost => value <= other,
-            Relation::AtLeast => value >= other,
-            Relation::Less => value < other,
-            Relation::Greater => value > other,
-            Relation::Equal => value == other,
-        }
-    }
 }
 
 /// The conditions by their names in scene files; `two` means a cycle of each kind.
@@ -117,10 +88,7 @@ pub fn said_by(scene: &Scene, text: &str) -> String {
     said(text, |condition| match condition {
         TextCondition::Here | TextCondition::Path | TextCondition::Opened => true,
         TextCondition::Shows(layer) => scene.layers.contains(&layer),
-        TextCondition::Compares(symbol, relation, number) => {
-            let problem = &scene.problem;
-            relation.holds(problem.get(symbol), number)
-        }
+        TextCondition::Compares(symbol, bounds) => bounds.contains(&scene.problem.get(symbol)),
         _ => false,
     })
 }
@@ -138,13 +106,19 @@ fn conditions(names: &str) -> Option<Vec<TextCondition>> {
 
 /// A comparison such as `D<0`.
 fn comparison(text: &str) -> Option<TextCondition> {
-    let split = |(sign, relation)| Some((text.split_once(sign)?, relation));
-    let ((name, number), relation) = RELATIONS.into_iter().find_map(split)?;
-    Some(TextCondition::Compares(
-        Knob::named(name, &[Group::Motion]).ok()?,
-        relation,
-        number.parse().ok()?,
-    ))
+    // One that begins with another stands before it.
+    let signs = ["<=", ">=", "<", ">", "="];
+    let split = |sign| Some((sign, text.split_once(sign)?));
+    let (sign, (name, number)) = signs.into_iter().find_map(split)?;
+    let number = number.parse().ok()?;
+    let bounds = match sign {
+        "<=" => (Unbounded, Included(number)),
+        ">=" => (Included(number), Unbounded),
+        "<" => (Unbounded, Excluded(number)),
+        ">" => (Excluded(number), Unbounded),
+        _ => (Included(number), Included(number)),
+    };
+    Some(TextCondition::Compares(Knob::named(name, &[Group::Motion]).ok()?, bounds))
 }
 
 #[cfg(test)]
@@ -165,7 +139,7 @@ mod tests {
         let at = |d: f64| {
             said(text, |condition| match condition {
                 TextCondition::Compares(Knob::D3, ..) => true,
-                TextCondition::Compares(_, relation, number) => relation.holds(d, number),
+                TextCondition::Compares(_, bounds) => bounds.contains(&d),
                 condition => condition == TextCondition::Shows(Layer::Bands),
             })
         };

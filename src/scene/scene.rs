@@ -10,8 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::machine::ScaledMachine;
 use super::plot_setup::{Arrangement, PlotSetup};
-use super::views::{Layer, View};
-use crate::fit::{Signal, length_in_metres};
+use super::views::Layer;
 use crate::flow::Problem;
 use crate::model::Knob;
 use crate::question::Recording;
@@ -78,99 +77,5 @@ impl Scene {
     /// Whether a parameter belongs to this scene; initial values always do.
     pub fn declares(&self, symbol: Knob) -> bool {
         !symbol.is_parameter() || self.terms.contains(&symbol)
-    }
-}
-
-impl ScaledMachine {
-    /// A scene of the machine: the mass on its belt and the phase plane.
-    pub fn scene(self) -> Scene {
-        let layers = [
-            Layer::Whole,
-            Layer::Mass,
-            Layer::Belt,
-            Layer::Trajectory,
-            Layer::Sticking,
-            Layer::Cycles,
-            Layer::Basin,
-            Layer::Branch,
-            Layer::Special,
-        ];
-        Scene {
-            name: self.machine.name.clone(),
-            also: None,
-            title: self.machine.title.clone(),
-            watch: self.machine.watch.clone(),
-            press: "{play-motion} plays the motion and holds it, {motion-pace} changes the pace; {step-up} on D adds damping, on r friction."
-                .to_owned(),
-            terms: self.terms(),
-            problem: self.problem(),
-            steps: BTreeMap::new(),
-            layers: layers.into(),
-            plots: [View::Phase, View::Belt].map(PlotSetup::from).to_vec(),
-            families: Vec::new(),
-            arrangement: Arrangement::Rows,
-            machine: Some(Box::new(self)),
-            recording: None,
-        }
-    }
-}
-
-impl Recording {
-    /// A scene of the record: decrements, time series, phase plane and the distribution of the margin, with the
-    /// motion that the fit will find.
-    pub fn scene(self) -> Scene {
-        let signal = self.record.signal;
-        let shown = match signal {
-            Signal::Velocity => Layer::Velocity,
-            Signal::Displacement | Signal::Acceleration => Layer::Position,
-        };
-        let layers = [
-            Layer::Damping,
-            Layer::Residuals,
-            Layer::Spread,
-            Layer::Record,
-            Layer::Recorded,
-            shown,
-            Layer::Trajectory,
-            Layer::Sticking,
-            Layer::Cycles,
-            Layer::Basin,
-        ];
-        let unit = self.record.unit.clone().unwrap_or_else(|| "the file's unit".to_owned());
-        let reduced = format!("lengths are in {unit} and times in 1/omega0");
-        let units = match self.record.unit.as_deref().and_then(length_in_metres) {
-            Some(_) if self.record.t.is_some() => {
-                format!("axes are in units of length and seconds; with units off {reduced}")
-            }
-            _ => reduced,
-        };
-        let seen = match signal {
-            Signal::Displacement => "Dots are what was measured,",
-            Signal::Velocity => "Dots are the velocities measured,",
-            Signal::Acceleration => "The accelerations measured are seen in the residuals only;",
-        };
-        Scene {
-            name: self.name.clone(),
-            also: None,
-            title: format!("{}, fitted", self.name),
-            watch: format!(
-                "{seen} the line is the motion that fits best; {units}. \
-                 A number whose error is as large as itself is not known from this record."
-            ),
-            press: "{step-up} and {step-down} hold a number beside its best value, and all others are fitted again; \
-                    {reset-row} lets it go, {reset-scene} all. {views} picks what a plot shows: residuals too."
-                .to_owned(),
-            terms: Knob::PARAMETERS.into(),
-            problem: Problem::default(),
-            steps: BTreeMap::new(),
-            layers: layers.into(),
-            plots: [View::Damping, View::TimeSeries, View::Phase, View::Spread]
-                .map(PlotSetup::from)
-                .to_vec(),
-            families: Vec::new(),
-            arrangement: Arrangement::Auto,
-            machine: None,
-            recording: Some(self),
-        }
     }
 }

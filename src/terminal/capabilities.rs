@@ -3,8 +3,6 @@
 //! Nothing here reads the environment: [`Environment`] holds the relevant values, so that every decision is a
 //! function of them and can be tested.
 
-use std::fmt;
-
 use crate::session::settings::{Colors, DisplaySettings, Glyphs, Theme};
 
 /// The environment variables that describe the terminal; an empty one counts as unset.
@@ -32,31 +30,6 @@ pub struct Environment {
     pub is_light: Option<bool>,
 }
 
-/// Why the explorer cannot run here.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Refusal {
-    /// Standard input or output, as named here, is not a terminal.
-    NotATerminal(&'static str),
-    /// `TERM=dumb`: the cursor cannot be moved.
-    Dumb,
-}
-
-impl fmt::Display for Refusal {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Refusal::NotATerminal(stream) => write!(out, "{stream} is not a terminal")?,
-            Refusal::Dumb => write!(out, "TERM=dumb is a terminal without cursor movement")?,
-        }
-        write!(
-            out,
-            "; the explorer needs one. Without a terminal: hopfscope trajectory, cycles, scenes, \
-             replay FILE (hopfscope --help lists all)"
-        )
-    }
-}
-
-impl std::error::Error for Refusal {}
-
 impl Environment {
     pub fn of_process() -> Environment {
         use std::io::IsTerminal;
@@ -83,17 +56,21 @@ impl Environment {
         }
     }
 
-    /// Whether the explorer can run here. Fails with the [`Refusal`] to show; the exit code is 2.
-    pub fn admit(&self) -> Result<(), Refusal> {
-        if !self.input_is_terminal {
-            Err(Refusal::NotATerminal("standard input"))
+    /// Whether the explorer can run here. Fails with one line that says why it cannot; the exit code is 2.
+    pub fn admit(&self) -> Result<(), String> {
+        let why = if !self.input_is_terminal {
+            "standard input is not a terminal"
         } else if !self.output_is_terminal {
-            Err(Refusal::NotATerminal("standard output"))
+            "standard output is not a terminal"
         } else if self.term.as_deref() == Some("dumb") {
-            Err(Refusal::Dumb)
+            "TERM=dumb is a terminal without cursor movement"
         } else {
-            Ok(())
-        }
+            return Ok(());
+        };
+        Err(format!(
+            "{why}; the explorer needs one. Without a terminal: hopfscope trajectory, cycles, scenes, \
+             replay FILE (hopfscope --help lists all)"
+        ))
     }
 
     /// The user's wishes, with every `Auto` replaced by what suits this terminal.
@@ -153,9 +130,7 @@ impl Environment {
             Colors::Sixteen
         }
     }
-}
 
-impl Environment {
     /// The finest colours that the terminal claims to have; `Auto` if it claims none beyond sixteen.
     fn fine(&self) -> Colors {
         let term = self.term.as_deref().unwrap_or_default();
@@ -269,10 +244,10 @@ mod tests {
         let terminal = environment(&[("TERM", "xterm")]);
         assert_eq!(terminal.admit(), Ok(()));
         let piped = Environment { output_is_terminal: false, ..terminal.clone() };
-        let line = piped.admit().unwrap_err().to_string();
+        let line = piped.admit().unwrap_err();
         assert!(line.contains("standard output") && line.contains("trajectory"), "{line}");
         let piped = Environment { input_is_terminal: false, ..terminal };
-        assert_eq!(piped.admit(), Err(Refusal::NotATerminal("standard input")));
-        assert_eq!(environment(&[("TERM", "dumb")]).admit(), Err(Refusal::Dumb));
+        assert!(piped.admit().unwrap_err().starts_with("standard input"));
+        assert!(environment(&[("TERM", "dumb")]).admit().unwrap_err().starts_with("TERM=dumb"));
     }
 }

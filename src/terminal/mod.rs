@@ -15,6 +15,6 @@ pub mod pen;
 pub mod screen;
 mod strokes;
 
-pub use capabilities::{Environment, Refusal};
+pub use capabilities::Environment;
 pub use guard::Guard;
 pub use screen::Screen;

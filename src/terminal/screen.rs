@@ -17,16 +17,6 @@ const UNKNOWN: Size = Size { width: 80, height: 24 };
 pub struct Screen<W: Write> {
     terminal: Terminal<Painter<W>>,
     pacing: Pacing,
-    frames: u64,
-}
-
-/// What was sent so far, for tests and for the diagnostics on the screen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Traffic {
-    /// Frames that changed something.
-    pub frames: u64,
-    /// Bytes of frames and other sequences.
-    pub bytes: u64,
 }
 
 impl<W: Write> Screen<W> {
@@ -34,7 +24,7 @@ impl<W: Write> Screen<W> {
     /// `Result`.
     pub fn new(out: W, size: Size) -> io::Result<Screen<W>> {
         let terminal = Terminal::new(Painter::new(out, known(size)))?;
-        Ok(Screen { terminal, pacing: Pacing::default(), frames: 0 })
+        Ok(Screen { terminal, pacing: Pacing::default() })
     }
 
     /// Asks a terminal that was just taken whether it answers, and for its background colour if `background`. The
@@ -63,13 +53,12 @@ impl<W: Write> Screen<W> {
 
     /// Draws a frame; one that looks like the last one sends nothing.
     pub fn draw(&mut self, now: Instant, picture: impl FnOnce(&mut Frame)) -> io::Result<()> {
-        let before = self.traffic().bytes;
+        let before = self.terminal.backend().written();
         let asks = self.pacing.asks();
         self.terminal.backend_mut().ask(asks);
         self.terminal.draw(picture)?;
-        if self.traffic().bytes > before {
+        if self.terminal.backend().written() > before {
             self.pacing.sent(now, asks);
-            self.frames += 1;
         }
         Ok(())
     }
@@ -93,11 +82,6 @@ impl<W: Write> Screen<W> {
     /// Writes a sequence that draws nothing, such as one for the clipboard.
     pub fn control(&mut self, sequence: &str) -> io::Result<()> {
         self.terminal.backend_mut().control(sequence)
-    }
-
-    /// What was sent so far.
-    pub fn traffic(&self) -> Traffic {
-        Traffic { frames: self.frames, bytes: self.terminal.backend().written() }
     }
 }
 

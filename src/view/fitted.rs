@@ -3,7 +3,7 @@
 use super::{Look, pane};
 use crate::fit::{OMEGA0, named, rows};
 use crate::model::Knob;
-use crate::scene::Fitted;
+use crate::scene::ShownFit;
 use crate::session::{Row, Session};
 use crate::words::{number::significant, quantity::with_unit, statement::signed};
 
@@ -62,7 +62,7 @@ fn stands_for(symbol: Knob) -> &'static str {
 /// Where the smallest shift from rest that is not survived lies with 95 %, with numbers held how much worse the fit is,
 /// and the frequency of a record.
 pub fn spread(session: &Session, width: usize, look: &Look) -> Vec<String> {
-    let Some(Fitted { fit, rise, drawn, .. }) = session.fitted() else { return Vec::new() };
+    let Some(ShownFit { fit, rise, drawn, .. }) = session.fitted() else { return Vec::new() };
     let estimate = &fit.estimate;
     let hertz = |value: f64| value / std::f64::consts::TAU;
     let error = hertz(estimate.covariance.error(OMEGA0));

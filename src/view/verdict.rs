@@ -6,7 +6,7 @@ use crate::flow::{Fate, Outcome, Trajectory};
 use crate::model::belt::Units;
 use crate::picture::{Role, units};
 use crate::portrait::{Border, Cycle};
-use crate::question::whole::Course;
+use crate::question::whole::WholeMotion;
 use crate::scene::{Answer, Layer, Topic};
 use crate::session::fate::{End, MotionVerdict, SideOfBorder};
 use crate::session::{BranchStop, Session};
@@ -111,7 +111,7 @@ fn verdict(fate: &MotionVerdict, motion: &Trajectory, writing: Writing) -> Strin
 }
 
 /// What becomes of the motion of a machine, in its own units, by the whole model.
-fn of_machine(course: &Course, units: &Units, motion: &Trajectory) -> String {
+fn of_machine(course: &WholeMotion, units: &Units, motion: &Trajectory) -> String {
     const PLACES: usize = 4;
     let within = match course.border {
         Border::Cycle => " (inside the unstable cycle)",

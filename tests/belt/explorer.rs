@@ -11,8 +11,7 @@ fn screen(scene: Scene, keys: &str) -> (Session, String) {
     let size = Size { width: 100, height: 30 };
     let session = Session::new(Arc::new(scene), size);
     let script = parse(keys).unwrap_or_else(|error| panic!("{keys}: {error}"));
-    let size = layout::Size { width: size.width, height: size.height };
-    let played = replay(session, Environment::default(), script, size).unwrap();
+    let played = play(session, Environment::default(), script, false).unwrap();
     assert_eq!(played.unmet, None, "{keys}");
     (played.application.session().clone(), hopfscope::view::screen::text(&played.screen))
 }

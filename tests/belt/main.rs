@@ -14,13 +14,12 @@ use std::sync::Arc;
 
 use hopfscope::flow::Outcome;
 use hopfscope::numerics::elementary::tanh;
-use hopfscope::runtime::replay;
+use hopfscope::runtime::play;
 use hopfscope::scene::{ScaledMachine, Scene};
 use hopfscope::session::replay::parse;
 use hopfscope::session::{Session, Size};
 use hopfscope::terminal::Environment;
 use program::{json, number, run};
-use ratatui::layout;
 use serde_json::Value;
 
 /// Runs a command line whose words may contain blanks.

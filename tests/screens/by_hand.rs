@@ -1,6 +1,7 @@
 //! Answers made by hand, so that pictures of them are always the same, and sessions that have them.
 
 use hopfscope::accuracy::harmonic_error::HarmonicBalance;
+use hopfscope::accuracy::trade::Trade;
 use hopfscope::branch::chart::{Band, Chart, ChartLine, Plane};
 use hopfscope::branch::regime::Regime;
 use hopfscope::branch::{Branch, BranchPoint, Special, SpecialKind};
@@ -14,9 +15,8 @@ use hopfscope::portrait::{
 use hopfscope::proof::cycles::ProvedCycle;
 use hopfscope::proof::{ParameterBox, Proof};
 use hopfscope::question;
-use hopfscope::question::kicks::{LostShare, Share};
+use hopfscope::question::LostShare;
 use hopfscope::question::speeds::Speeds;
-use hopfscope::question::trade::Trade;
 use hopfscope::question::zones::{Extent, Zones};
 use hopfscope::question::{Borders, Rows};
 use hopfscope::scan::grid::ScanRow;
@@ -81,12 +81,10 @@ pub fn drawn_over(layer: Layer) -> bool {
 
 pub fn by_hand(request: &Request) -> Answer {
     match request {
-        Request::Trajectory(problem)
-        | Request::Machine(question::machine::Inputs { problem, .. }) => {
+        Request::Trajectory(problem) | Request::Machine { problem, .. } => {
             Answer::Trajectory(spiral(*problem))
         }
-        Request::Cycles(question::cycles::Inputs { parameters })
-        | Request::Portrait(question::portrait::Inputs { parameters, .. }) => {
+        Request::Cycles { parameters } | Request::Portrait { parameters, .. } => {
             let cycles = vec![cycle(0.5, false), cycle(1.2, true)];
             let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];
             Answer::Cycles(Cycles {
@@ -98,7 +96,7 @@ pub fn by_hand(request: &Request) -> Answer {
                 picture: Some(picture(curves[0].clone(), curves)),
             })
         }
-        Request::Scan(question::scan::Inputs { scan, from }) => {
+        Request::Scan { scan, from } => {
             let measured = scan.measured().len();
             let row = |index: usize| ScanRow {
                 // A slope with a hole in it.
@@ -128,18 +126,12 @@ pub fn by_hand(request: &Request) -> Answer {
             curves: vec![circle(0.2), circle(0.35)],
             cost: Cost { evaluations: 800, steps: 40, rejected: 0 },
         }),
-        Request::Branch(question::branch::Inputs { parameter, .. }) => {
-            Answer::Branch(folded(*parameter))
-        }
-        Request::ReturnMap(question::return_map::Inputs { parameters, .. }) => {
-            Answer::ReturnMap(halving(*parameters))
-        }
-        Request::Regimes(question::regimes::Inputs { plane, .. }) => {
-            Answer::Regimes(parted(*plane))
-        }
+        Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
+        Request::ReturnMap { parameters, .. } => Answer::ReturnMap(halving(*parameters)),
+        Request::Regimes { plane, .. } => Answer::Regimes(parted(*plane)),
         Request::Trade(_) => Answer::Trade(compared()),
         // Of the cycles made up above.
-        Request::Proof(question::proof::Inputs { parameters }) => {
+        Request::Proof { parameters } => {
             let known = |low, high, stable| ProvedCycle {
                 within: Interval::new(low, high),
                 stable,
@@ -158,19 +150,17 @@ pub fn by_hand(request: &Request) -> Answer {
             let share = Share { part: 0.125, error: 1e-11 };
             Answer::Kicks(LostShare { share, cost: CHEAP })
         }
-        Request::Balance(question::balance::Inputs { parameters, harmonics }) => {
-            Answer::Balance(HarmonicBalance {
-                parameters: *parameters,
-                harmonics: *harmonics,
-                balanced: Vec::new(),
-                unknown: None,
-                cost: CHEAP,
-            })
-        }
+        Request::Balance { parameters, harmonics } => Answer::Balance(HarmonicBalance {
+            parameters: *parameters,
+            harmonics: *harmonics,
+            balanced: Vec::new(),
+            unknown: None,
+            cost: CHEAP,
+        }),
         Request::Speeds(_) => {
             Answer::Speeds(Speeds { points: Vec::new(), special: Vec::new(), cost: CHEAP })
         }
-        Request::Claims(question::claims::Inputs) => Answer::Claims(Vec::new()),
+        Request::Claims => Answer::Claims(Vec::new()),
         // There is no reference for made-up answers.
         Request::Reference(_) => Answer::Reference(Err(Reason::OutOfRange)),
         Request::Fit(_) | Request::Refit(_) => {

@@ -8,7 +8,14 @@ use hopfscope::model::{Belt, Body, Modal, Subject};
 use hopfscope::numerics::elementary::exp;
 use hopfscope::portrait::return_map::machine_return::MachineReturn;
 use hopfscope::portrait::{Border, Cycle, Portrait};
+use hopfscope::scene::Machine;
 use hopfscope::scene::machine::file::parse;
+
+/// The mass on a belt that the text of a file describes.
+fn belt(text: &str) -> Belt {
+    let described = parse("x", "x.toml", text, |_| Err(String::new())).unwrap();
+    Machine::try_from(described).unwrap().belt
+}
 
 /// A clutch whose friction feeds a small swing: without static friction an unstable cycle borders rest, from
 /// -5.4195 mm to 5.4989 mm.
@@ -114,7 +121,7 @@ fn where_the_law_ends_it_is_not_said_that_every_kick_is_survived() {
     // The guide brakes so strongly that slip ends at once; the law falls below zero at a slip of 0.4086 m/s.
     let text = "m = 0.415\nc = 1.735\nd1 = 0.25665\nd3 = 0.233634\nF = 0.1876\nR = 0.008091\nv0 = 0.1379\n\
                 friction.polynomial.coefficients = [0.62, -1.11435, -0.98584]\n";
-    let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
+    let found = portrait(&belt(text));
     let margin = found.reach.unwrap();
     assert!(
         matches!(found.stop, Some(LostMotion::OutsideLaw { .. })) && found.incomplete().is_some()
@@ -136,7 +143,7 @@ fn where_the_law_ends_it_is_not_said_that_every_kick_is_survived() {
 fn where_motions_take_too_many_steps_the_margin_is_what_was_followed() {
     let text = "m = 0.767\nc = 3.325\nd3 = 97.188237\nF = 7.9579\nv0 = 0.0539\nfriction.static = 0.982\n\
                 friction.polynomial.coefficients = [0.437, 2.72777, 2.16231, 57.38058, 272.78022]\n";
-    let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
+    let found = portrait(&belt(text));
     let margin = found.reach.unwrap();
     assert_eq!((found.stop, margin.displacement.0), (Some(LostMotion::Steps), found.known));
     assert!(margin.displacement.0 > 10.0 && margin.velocity.1 > 10.0, "{margin:?}");
@@ -155,7 +162,7 @@ fn measured(damping: f64, velocity: f64, end: f64) -> Belt {
         "m = 0.25\nc = 100\nd1 = {damping}\nF = 6\nv0 = 0.02\nfriction.table.points = [{}]",
         points.join(", ")
     );
-    parse("measured", "measured.toml", &text, |_| Err(String::new())).unwrap().belt
+    belt(&text)
 }
 
 #[test]
@@ -250,7 +257,7 @@ fn in_one_turn_of_a_cycle_the_belt_gives_what_damper_and_guide_take() {
 fn where_motions_run_away_the_search_for_cycles_settles() {
     let text = "m = 1\nc = 1\nd1 = 0.1\nd3 = -0.05\nF = 1\nv0 = 1.5\n\
                 friction.stribeck = { rest = 1, kinetic = 0.5, velocity = 0.5 }\n";
-    let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
+    let found = portrait(&belt(text));
     assert_eq!(found.unresolved, []);
     let outermost = found.cycles.last().unwrap().q_max;
     assert_eq!(found.fate(outermost * (1.0 + 1e-9), 0.0), Ok(Fate::Escapes));
@@ -262,7 +269,7 @@ fn carried_off(damping: f64, guide: f64) -> Portrait {
     let text = format!(
         "m = 1\nc = 1\nd1 = {damping:?}\nF = 1\nR = {guide:?}\nv0 = 0.5\nfriction.constant.mu = 0.3"
     );
-    portrait(&parse("x", "x.toml", &text, |_| Err(String::new())).unwrap().belt)
+    portrait(&belt(&text))
 }
 
 #[test]
@@ -308,7 +315,7 @@ fn what_static_friction_alone_holds_survives_no_kick_along_the_belt() {
     // Rest is a repelling node: no motion that moves upwards from it turns before it reaches the belt.
     let text = "m = 1\nc = 1\nd1 = 0.08\nF = 4.7\nv0 = 0.06\nR_static = 0.05\n\
                 friction.stribeck = { rest = 0.5, kinetic = 0.2, velocity = 0.1 }\n";
-    let found = portrait(&parse("x", "x.toml", text, |_| Err(String::new())).unwrap().belt);
+    let found = portrait(&belt(text));
     let margin = found.reach.unwrap();
     assert!(margin.velocity.1 == 0.0 && margin.velocity.0 < 1e-9, "{margin:?}");
     for displacement in [margin.displacement.0, margin.displacement.1] {

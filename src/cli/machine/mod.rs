@@ -11,35 +11,28 @@ use super::timing::timed;
 use crate::flow::Method;
 use crate::flow::machine::stepped::ALLOWED;
 use crate::model::unit::WithTolerance;
-use crate::model::{Body, Group, Knob, MachineProblem, Tolerances};
+use crate::model::{Group, Knob, MachineProblem};
 use crate::portrait::{Portrait, Trouble};
 use crate::report::belt::Head;
 use crate::report::machine::MachineReport;
 use crate::report::page::Source;
 use crate::runtime::standard::tell;
 use crate::runtime::{bounded, source_file};
+use crate::scene::machine::Description;
 use crate::scene::machine::file::parse;
 use crate::scene::machine::library::{find, machines};
-use crate::scene::machine::mode;
-use crate::scene::machine::mode::{Mode, is_mode};
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Machine, ScaledMachine, Scene};
 
-/// What the name on the command line refers to.
-enum MachineOrMode {
-    Belt(Machine),
-    Mode(Mode),
-}
-
 /// The machine or mode in a file, or a built-in machine, and the files that were read.
-fn named(name: &str) -> Result<(MachineOrMode, Vec<Source>), Failure> {
+fn named(name: &str) -> Result<(Description, Vec<Source>), Failure> {
     let path = Path::new(name);
     // Read once: it may be a pipe.
     let text = match bounded::text(path) {
         Ok(text) => text,
         Err(error) => {
-            let found = find(name).cloned().map(|machine| (MachineOrMode::Belt(machine), vec![]));
-            return found.ok_or_else(|| {
+            let found = find(name).map(Machine::described);
+            return found.map(|described| (described, vec![])).ok_or_else(|| {
                 let known: Vec<&str> =
                     machines().iter().map(|machine| machine.name.as_str()).collect();
                 Failure::Usage(format!(
@@ -50,29 +43,21 @@ fn named(name: &str) -> Result<(MachineOrMode, Vec<Source>), Failure> {
         }
     };
     let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-    let refused = |error: &dyn std::fmt::Display| Failure::Usage(error.to_string());
     let mut sources = vec![source_file::of(path, text.as_bytes())];
-    if is_mode(&text) {
-        let mode = mode::parse(&title, name, &text).map_err(|error| refused(&error))?;
-        return Ok((MachineOrMode::Mode(mode), sources));
-    }
     let fetch = |table: &str| {
         let beside = path.with_file_name(table);
         let text = bounded::text(&beside).map_err(|why| format!("{}: {why}", beside.display()))?;
         sources.push(source_file::of(&beside, text.as_bytes()));
         Ok(text)
     };
-    let machine = parse(&title, name, &text, fetch).map_err(|error| refused(&error))?;
-    Ok((MachineOrMode::Belt(machine), sources))
+    let described = parse(&title, name, &text, fetch);
+    Ok((described.map_err(|error| Failure::Usage(error.to_string()))?, sources))
 }
 
 /// The scene of a machine in a file or a built-in machine, for the explorer.
 pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
     let refused = |error: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {error}"));
-    let machine = match named(name)?.0 {
-        MachineOrMode::Belt(machine) => machine,
-        MachineOrMode::Mode(_) => return Err(refused(&mode::NO_BELT)),
-    };
+    let machine = named(name)?.0.try_into().map_err(|error: &str| refused(&error))?;
     let scaled = ScaledMachine::new(machine).map_err(|error| refused(&error))?;
     Ok(Arc::new(scaled.scene()))
 }
@@ -84,33 +69,15 @@ pub struct MachineCase {
     pub problem: MachineProblem,
     /// The files that it was read from.
     pub sources: Vec<Source>,
-    /// The machine as it was read; `None` for a mode.
-    read: Option<Machine>,
+    /// What its file says of it.
+    watch: String,
 }
 
 impl MachineCase {
     /// The case that a file describes, or a built-in machine.
     pub fn named(name: &str) -> Result<Self, Failure> {
-        let (found, sources) = named(name)?;
-        Ok(match found {
-            MachineOrMode::Belt(machine) => MachineCase {
-                name: machine.name.clone(),
-                title: machine.title.clone(),
-                problem: MachineProblem {
-                    subject: Body::Belt(Box::new(machine.belt.clone())).into(),
-                    tolerances: machine.tolerances.clone(),
-                    start: (machine.displacement, machine.velocity),
-                    until: machine.until,
-                },
-                sources,
-                read: Some(machine),
-            },
-            MachineOrMode::Mode(Mode { name, title, numbers, start, until }) => {
-                let (subject, tolerances) = (Body::Mode(numbers).into(), Tolerances::default());
-                let problem = MachineProblem { subject, tolerances, start, until };
-                MachineCase { name, title, problem, sources, read: None }
-            }
-        })
+        let (Description { name, title, watch, problem }, sources) = named(name)?;
+        Ok(MachineCase { name, title, problem, sources, watch })
     }
 
     /// The heading of an answer about it.
@@ -156,17 +123,9 @@ impl MachineCase {
 
     /// The scene of the machine with its present numbers; `None` for a mode.
     pub fn scene(&self) -> Result<Option<Scene>, Failure> {
-        let MachineProblem { subject, tolerances, start, .. } = &self.problem;
-        let Some((read, belt)) = self.read.as_ref().zip(subject.of_belt()) else {
-            return Ok(None);
-        };
-        let machine = Machine {
-            belt: belt.clone(),
-            tolerances: tolerances.clone(),
-            displacement: start.0,
-            velocity: start.1,
-            ..read.clone()
-        };
+        let (name, title, watch) = (self.name.clone(), self.title.clone(), self.watch.clone());
+        let described = Description { name, title, watch, problem: self.problem.clone() };
+        let Ok(machine) = Machine::try_from(described) else { return Ok(None) };
         let scaled = ScaledMachine::new(machine);
         let scaled = scaled.map_err(|why| Failure::Usage(format!("{}: {why}", self.name)))?;
         Ok(Some(scaled.scene()))

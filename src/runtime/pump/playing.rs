@@ -8,8 +8,8 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::play::{Pause, Playing};
-use super::{Application, EffectOutcome, Files, Pump, picture};
-use crate::runtime::event::{Event, LoopEnd};
+use super::{Application, EffectOutcome, Files, Pump};
+use crate::runtime::application::{Event, LoopEnd};
 use crate::runtime::headless::unasked;
 use crate::session::read::waiting::forgets;
 use crate::session::replay::{Action, Script};
@@ -38,16 +38,16 @@ impl<M: Application, W: Write> Pump<M, W> {
                     return Ok(None);
                 }
                 // The waiting command has not been carried out, and never will be.
-                self.recorder.forget(1);
+                self.options.recorder.forget(1);
                 self.held_back.clear();
                 if forgets(&msg) {
                     return self.update(msg);
                 }
             }
-            self.recorder.note(&msg);
+            self.options.recorder.note(&msg);
             let stop = self.update(msg)?;
             if stop == Some(LoopEnd::Quit) {
-                self.recorder.forget(1);
+                self.options.recorder.forget(1);
             }
             return Ok(stop);
         };
@@ -86,7 +86,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                 playing.timed = true;
                 playing.given.note(msg);
             }
-            None => self.recorder.note(msg),
+            None => self.options.recorder.note(msg),
         }
     }
 
@@ -101,9 +101,9 @@ impl<M: Application, W: Write> Pump<M, W> {
                 Some(playing) => {
                     let asked = self.application.asked();
                     playing.given.embed(&path.display().to_string(), text, asked);
-                    (&mut self.recorder, playing.asked)
+                    (&mut self.options.recorder, playing.asked)
                 }
-                None => (&mut self.recorder, self.application.asked()),
+                None => (&mut self.options.recorder, self.application.asked()),
             };
             recorder.embed(&path.display().to_string(), text, asked);
         }
@@ -126,7 +126,7 @@ impl<M: Application, W: Write> Pump<M, W> {
     /// The refusal of an effect that writes a file, if a file that may not do so is played.
     pub(super) fn refusal(&mut self, effect: &Effect) -> Option<Msg> {
         let playing = self.playing.as_mut()?;
-        let notice = unasked(effect).filter(|_| !self.files.may_play_write)?;
+        let notice = unasked(effect).filter(|_| !self.options.files.may_play_write)?;
         playing.unwritten.get_or_insert(notice.text.clone());
         let is_figure = matches!(effect, Effect::Figure { .. });
         Some(if is_figure { Msg::Written(notice) } else { Msg::Told(notice) })
@@ -145,7 +145,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
         let (application, size) = (&self.application, self.screen.size());
         let idle = application.wants().is_empty() && !self.writing;
-        let screen = || view::screen::text(&picture::of(application, size));
+        let screen = || view::screen::text(&application.picture(size));
         let Some(playing) = self.playing.as_mut().filter(|it| it.pause == Pause::Not) else {
             return Ok(None);
         };
@@ -196,16 +196,16 @@ impl<M: Application, W: Write> Pump<M, W> {
     fn settle(&mut self, whole: bool) {
         let Some(playing) = self.playing.take() else { return };
         if !whole || playing.timed {
-            self.recorder.forget(playing.asked);
-            playing.given.steps().iter().for_each(|step| self.recorder.add(step.clone()));
+            self.options.recorder.forget(playing.asked);
+            playing.given.steps().iter().for_each(|step| self.options.recorder.add(step.clone()));
         }
     }
 
     /// Writes what was recorded since the last call, if there is a file for it.
     pub(super) fn keep_record(&mut self) -> io::Result<()> {
-        let kept = self.record.as_mut().map_or(Ok(()), |record| record.keep(&mut self.recorder));
+        let kept = self.options.keep_record();
         if let Err(text) = kept {
-            self.record = None;
+            self.options.record = None;
             self.tell(Notice { error: true, text })?;
         }
         Ok(())
@@ -215,9 +215,9 @@ impl<M: Application, W: Write> Pump<M, W> {
     pub fn close_record(&mut self) {
         self.settle(false);
         if self.application.is_waiting() {
-            self.recorder.forget(1);
+            self.options.recorder.forget(1);
         }
         // It is too late to tell the user about an error.
-        drop(self.record.as_mut().map(|record| record.keep(&mut self.recorder)));
+        drop(self.options.keep_record());
     }
 }

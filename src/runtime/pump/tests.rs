@@ -1,13 +1,15 @@
 //! The loop with an application that counts.
 
+use std::sync::Arc;
+
 use crossbeam_channel::{Sender, unbounded};
 use ratatui::Frame;
 
 use super::*;
 use crate::flow::Reason;
-use crate::runtime::figure_writer::Work;
 use crate::runtime::panics::Notes;
 use crate::runtime::worker::Tell;
+use crate::runtime::workers::Work;
 use crate::session::{Code, Key, replay};
 use crate::terminal::pacing::{FRAME_TIME, Pacing};
 
@@ -100,15 +102,24 @@ struct Bench {
 }
 
 fn bench() -> Bench {
+    bench_with(Options::default())
+}
+
+/// A loop that plays a file.
+fn playing(file: &str) -> Bench {
+    bench_with(Options { replay: Some(replay::parse(file).unwrap()), ..Options::default() })
+}
+
+fn bench_with(options: Options) -> Bench {
     let (write, written) = unbounded();
     let (events, received) = unbounded();
     let screen = Screen::new(Wire(write), size()).unwrap();
     let job = |_: &Request, _: &crate::flow::Limits, _: &Tell| Err(Reason::OutOfRange);
     let report = events.clone();
     let report = move |msg| drop(report.send(Event::Session(msg)));
-    let workers = Workers::start(job, Notes::default(), report).unwrap();
+    let workers = Workers::start(Arc::new(job), Notes::default(), Arc::new(report)).unwrap();
     let application = Counter::default();
-    let pump = Pump::new(application, screen, workers, received, Files::default(), size);
+    let pump = Pump::new(application, screen, workers, received, options, size);
     Bench { pump, events, written }
 }
 
@@ -204,14 +215,13 @@ fn a_size_that_changes_there_and_back_before_a_frame_is_drawn_is_a_full_frame() 
 
 /// Plays a file and returns what is on the screen at its end.
 fn play(file: &str) -> String {
-    let Bench { pump, events, written } = bench();
-    let mut pump = pump.playing(Some(replay::parse(file).unwrap()));
+    let Bench { mut pump, events, written } = playing(file);
     let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
     while !written.recv().unwrap().contains("replay") {}
     events.send(key("q")).unwrap();
     let (stop, pump) = running.join().unwrap();
     assert_eq!(stop, LoopEnd::Quit);
-    view::screen::text(&picture::of(&pump.application, size()))
+    view::screen::text(&pump.application.picture(size()))
 }
 
 #[test]
@@ -226,11 +236,10 @@ fn a_replay_goes_on_without_a_file_that_it_may_not_write_and_says_so_at_the_end(
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.toml");
     for may_play_write in [false, true] {
-        let Bench { mut pump, events, written } = bench();
+        let Bench { mut pump, events, written } = playing("<enter> <right>");
         let (path, text) = (path.clone(), "text".to_owned());
         pump.application.asks = Some(Effect::Write { path, text, replace: false });
-        pump.files.may_play_write = may_play_write;
-        let mut pump = pump.playing(Some(replay::parse("<enter> <right>").unwrap()));
+        pump.options.files.may_play_write = may_play_write;
         let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
         while !written.recv().unwrap().contains("done") {}
         events.send(key("q")).unwrap();
@@ -279,20 +288,6 @@ fn a_figure_that_may_not_be_written_is_not_begun() {
     assert_eq!(std::fs::read(path).unwrap(), b"mine");
 }
 
-#[test]
-fn what_concerns_the_process_stops_the_loop() {
-    let Bench { mut pump, events, .. } = bench();
-    for (event, stop) in [
-        (Event::Suspend, LoopEnd::Suspended),
-        (Event::Continued, LoopEnd::Continued),
-        (Event::Ended { signal: 15 }, LoopEnd::Ended { signal: 15 }),
-        (Event::Closed, LoopEnd::Closed),
-    ] {
-        events.send(event).unwrap();
-        assert_eq!(pump.run().unwrap(), stop);
-    }
-}
-
 /// A tour, the keys pressed at each text that appears, and the number of steps at the end.
 type Tour<'a> = (&'a str, &'a [(&'a str, &'a [&'a str])], u32);
 
@@ -316,8 +311,7 @@ const TOURS: [Tour; 4] = [
 #[test]
 fn a_tour_waits_at_captions_goes_back_lets_keys_be_tried_and_is_left_by_escape() {
     for (file, pressed, count) in TOURS {
-        let Bench { pump, events, written } = bench();
-        let mut pump = pump.playing(Some(replay::parse(file).unwrap()));
+        let Bench { mut pump, events, written } = playing(file);
         let running = std::thread::spawn(move || (pump.run().unwrap(), pump));
         for (seen, names) in pressed {
             while !written.recv().unwrap().contains(seen) {}
@@ -334,8 +328,8 @@ fn a_tour_waits_at_captions_goes_back_lets_keys_be_tried_and_is_left_by_escape()
 fn what_was_pressed_is_written_without_what_asks_for_it() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("walk.keys");
-    let Bench { pump, .. } = bench();
-    let mut pump = pump.started("hopfscope basin".to_owned(), Recorder::default(), None);
+    let started = "hopfscope basin".to_owned();
+    let Bench { mut pump, .. } = bench_with(Options { started, ..Options::default() });
     for name in ["<right>", "<right>", ":"] {
         pump.handle(key(name)).unwrap();
     }
@@ -347,18 +341,16 @@ fn what_was_pressed_is_written_without_what_asks_for_it() {
 
 /// The recorded steps, without the comments.
 fn recorded(pump: &Pump<Counter, Wire>) -> String {
-    replay::text("", pump.recorder.steps())
+    replay::text("", pump.options.recorder.steps())
 }
 
 #[test]
 fn the_users_keys_stop_hold_or_leave_a_replay_and_are_no_part_of_it() {
-    let file = || Some(replay::parse("<right*3>").unwrap());
     let step = |pump: &mut Pump<Counter, Wire>| {
         pump.draw().unwrap();
         pump.play().unwrap()
     };
-    let Bench { pump, .. } = bench();
-    let mut pump = pump.playing(file());
+    let Bench { mut pump, .. } = playing("<right*3>");
     step(&mut pump);
     for ignored in ["<right>", "x", "<enter>"] {
         assert_eq!(pump.handle(key(ignored)).unwrap(), None);

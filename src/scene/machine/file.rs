@@ -1,4 +1,7 @@
-//! Machine files: reads TOML into a [`Machine`], or reports the first mistake and its place in one line.
+//! Machine files: reads TOML into a [`Description`], or reports the first mistake and its place in one line.
+//!
+//! Most files describe a mass on a belt. Any other self-excited vibration mode is described by its frequency, its
+//! modal mass and a damping ratio that depends on velocity.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -8,11 +11,11 @@ use serde::Deserialize;
 use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};
 use toml::Spanned;
 
-use super::Machine;
+use super::Description;
 use super::table::table;
 use crate::model::belt::FrictionLaw;
 use crate::model::unit::quantity;
-use crate::model::{Belt, Group, Knob, Model, Tolerances, unknown};
+use crate::model::{Belt, Body, Group, Knob, MachineProblem, Modal, Subject, Tolerances, unknown};
 use crate::numerics::decimal::shortest;
 use crate::numerics::spline::SmoothingSpline;
 use crate::scene::misread;
@@ -26,23 +29,37 @@ const MOST_POINTS: usize = 10_000;
 struct MachineFile {
     title: String,
     look: String,
-    /// The numbers of the machine, without those of its friction.
+    /// The numbers that stand by themselves.
     numbers: BTreeMap<Knob, Spanned<Number>>,
     friction: Option<Spanned<Friction>>,
-    /// Bound on a disturbing force.
-    disturbance: Option<Spanned<Number>>,
+    damping_ratio: Option<Spanned<Vec<Spanned<Number>>>>,
     start: StartTable,
-    until: Option<Spanned<Number>>,
-    /// The first key that means nothing.
-    unknown: Option<Spanned<String>>,
+    /// The keys of all of these.
+    keys: Vec<Spanned<String>>,
 }
 
-/// The keys that are not numbers of the machine.
-const OTHER_KEYS: [&str; 6] = ["title", "look", "friction", "disturbance", "start", "until"];
+/// Whether a text describes a mode: only modes have a modal mass.
+pub fn is_mode(text: &str) -> bool {
+    text.lines().any(|line| line.trim_start().starts_with("modal_mass"))
+}
 
-/// The numbers of a machine, without those of its friction.
-fn numbers() -> impl Iterator<Item = Knob> {
-    Group::Machine.knobs().chain([Knob::StaticGuide])
+/// The numbers of a machine without those of its friction, or those of a mode without its damping ratio.
+fn numbers(is_mode: bool) -> impl Iterator<Item = Knob> + Clone {
+    let mode = [Knob::Frequency, Knob::ModalMass, Knob::Friction];
+    let belt = Group::Machine.knobs().filter(move |_| !is_mode);
+    belt.chain(mode.into_iter().filter(move |_| is_mode)).chain([Knob::StaticGuide])
+}
+
+/// What a file may tell of the motion besides its start.
+const COURSE: [Knob; 2] = [Knob::DisturbingForce, Knob::Duration];
+
+/// The keys that are not such numbers.
+fn other_keys(is_mode: bool) -> &'static [&'static str] {
+    if is_mode {
+        &["title", "look", "damping_ratio", "start", "until"]
+    } else {
+        &["title", "look", "friction", "disturbance", "start", "until"]
+    }
 }
 
 impl<'de> Deserialize<'de> for MachineFile {
@@ -56,24 +73,24 @@ impl<'de> Deserialize<'de> for MachineFile {
             }
 
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<MachineFile, A::Error> {
+                let all = numbers(false).chain(numbers(true)).chain(COURSE);
                 let mut file = MachineFile::default();
                 while let Some(key) = map.next_key::<Spanned<String>>()? {
                     match key.get_ref().as_str() {
                         "title" => file.title = map.next_value()?,
                         "look" => file.look = map.next_value()?,
                         "friction" => file.friction = Some(map.next_value()?),
-                        "disturbance" => file.disturbance = Some(map.next_value()?),
+                        "damping_ratio" => file.damping_ratio = Some(map.next_value()?),
                         "start" => file.start = map.next_value()?,
-                        "until" => file.until = Some(map.next_value()?),
                         name => {
-                            if let Some(knob) = numbers().find(|knob| knob.spec().name == name) {
+                            if let Some(knob) = all.clone().find(|knob| knob.spec().name == name) {
                                 file.numbers.insert(knob, map.next_value()?);
                             } else {
                                 map.next_value::<IgnoredAny>()?;
-                                file.unknown.get_or_insert(key);
                             }
                         }
                     }
+                    file.keys.push(key);
                 }
                 Ok(file)
             }
@@ -82,30 +99,31 @@ impl<'de> Deserialize<'de> for MachineFile {
     }
 }
 
+impl MachineFile {
+    /// Fails where the file has a key that has no meaning for what it describes.
+    fn has_only_known_keys(&self, is_mode: bool) -> Result<(), Complaint> {
+        let known: Vec<&str> = numbers(is_mode)
+            .map(|knob| knob.spec().name)
+            .chain(other_keys(is_mode).to_vec())
+            .collect();
+        let stray = self.keys.iter().find(|key| !known.contains(&key.get_ref().as_str()));
+        stray.map_or(Ok(()), |key| {
+            Err(Complaint { at: key.span(), message: unknown(key.get_ref(), &known) })
+        })
+    }
+}
+
 /// The start of the motion.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct StartTable {
+struct StartTable {
     x: Option<Spanned<Number>>,
     v: Option<Spanned<Number>>,
 }
 
-impl StartTable {
-    /// Displacement and velocity at the start, in SI units.
-    pub fn read(&self) -> Result<(f64, f64), Complaint> {
-        Ok((or_usual(Knob::X, self.x.as_ref())?, or_usual(Knob::V, self.v.as_ref())?))
-    }
-}
-
-/// Duration of a motion in s: the one from the file, or `PERIODS` periods of the free oscillation.
-pub(super) fn duration(given: Option<&Spanned<Number>>, period: f64) -> Result<f64, Complaint> {
-    const PERIODS: f64 = 20.0;
-    given.map_or(Ok(PERIODS * period), |given| exact(Knob::Duration, given))
-}
-
 /// The coefficients of a polynomial in the velocity, the constant one first; each is read as the number of its
 /// `name` and power, or by its unit where the table ends.
-pub(super) fn polynomial(
+fn polynomial(
     name: &str,
     given: &[Spanned<Number>],
     mut read: impl FnMut(Knob, &Spanned<Number>) -> Result<f64, Complaint>,
@@ -165,7 +183,7 @@ struct FrictionTable {
 /// A number, or a number with a unit as text.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged, expecting = "expected a number, or a text such as \"2 kg\"")]
-pub(super) enum Number {
+enum Number {
     Plain(f64),
     Text(String),
 }
@@ -181,7 +199,7 @@ impl Number {
 }
 
 /// A number that has no tolerance.
-pub(super) fn exact(knob: Knob, given: &Spanned<Number>) -> Result<f64, Complaint> {
+fn exact(knob: Knob, given: &Spanned<Number>) -> Result<f64, Complaint> {
     let read = match given.get_ref() {
         Number::Plain(value) => knob.check(*value).map_err(|refused| refused.to_string()),
         Number::Text(text) => knob.parse(text),
@@ -190,7 +208,7 @@ pub(super) fn exact(knob: Knob, given: &Spanned<Number>) -> Result<f64, Complain
 }
 
 /// The same, or its default.
-pub(super) fn or_usual(knob: Knob, given: Option<&Spanned<Number>>) -> Result<f64, Complaint> {
+fn or_usual(knob: Knob, given: Option<&Spanned<Number>>) -> Result<f64, Complaint> {
     given.map_or(Ok(knob.usual()), |given| exact(knob, given))
 }
 
@@ -216,38 +234,80 @@ impl HalfWidths {
     }
 }
 
-/// Reads a machine; `name` is the name by which it is opened, `file` the one in error messages. `fetch` returns
-/// the text of a table that the file names, or why it cannot. Fails with [`Misread`], which names the place and
-/// what is allowed there.
+/// Reads a machine or a mode; `name` is the name by which it is opened, `file` the one in error messages. `fetch`
+/// returns the text of a table that the file names, or why it cannot. Fails with [`Misread`], which names the place
+/// and what is allowed there.
 pub fn parse(
     name: &str,
     file: &str,
     text: &str,
     fetch: impl FnOnce(&str) -> Result<String, String>,
-) -> Result<Machine, Misread> {
+) -> Result<Description, Misread> {
     let read: MachineFile = misread::toml(file, text)?;
-    machine(name, read, fetch).map_err(|complaint| complaint.in_file(file, text))
+    described(name, read, is_mode(text), fetch).map_err(|complaint| complaint.in_file(file, text))
 }
 
-fn machine(
+fn described(
     name: &str,
-    read: MachineFile,
+    mut read: MachineFile,
+    is_mode: bool,
     fetch: impl FnOnce(&str) -> Result<String, String>,
-) -> Result<Machine, Complaint> {
-    if let Some(key) = &read.unknown {
-        let known = numbers().map(|knob| knob.spec().name).chain(OTHER_KEYS);
-        let message = unknown(key.get_ref(), &known.collect::<Vec<_>>());
-        return Err(Complaint { at: key.span(), message });
+) -> Result<Description, Complaint> {
+    /// Periods of the free oscillation for which a motion is followed where nothing is said.
+    const PERIODS: f64 = 20.0;
+    read.has_only_known_keys(is_mode)?;
+    let mut half_widths = HalfWidths::default();
+    let (body, section) = if is_mode {
+        mode(read.damping_ratio.take())?
+    } else {
+        belt(read.friction.take(), &mut half_widths, fetch)?
+    };
+    let mut subject = Subject::from(body);
+    set_numbers(&mut subject, numbers(is_mode), &read.numbers, &mut half_widths)?;
+    let unfit = |message| Complaint { at: section.clone(), message };
+    let period = match &subject.body {
+        Body::Belt(belt) => {
+            let reduced = belt.reduce().map_err(|error| unfit(error.to_string()))?;
+            std::f64::consts::TAU * reduced.units.time
+        }
+        Body::Mode(mode) => 1.0 / mode.frequency,
+    };
+    subject.model().map_err(|error| unfit(error.to_string()))?;
+    let number = |knob| or_usual(knob, read.numbers.get(&knob));
+    let tolerances =
+        Tolerances { half_widths: half_widths.0, disturbance: number(Knob::DisturbingForce)? };
+    if let Some(belt) = subject.of_belt() {
+        tolerances.check(belt).map_err(unfit)?;
     }
-    let lacks = |message: String| Complaint { at: 0..0, message };
-    let friction = read.friction.ok_or_else(|| lacks("friction is missing".to_owned()))?;
+    let start =
+        (or_usual(Knob::X, read.start.x.as_ref())?, or_usual(Knob::V, read.start.v.as_ref())?);
+    let until = read.numbers.get(&Knob::Duration);
+    let until = until.map_or(Ok(PERIODS * period), |given| exact(Knob::Duration, given))?;
+    Ok(Description {
+        name: name.to_owned(),
+        title: if read.title.is_empty() { name.to_owned() } else { read.title },
+        watch: read.look,
+        problem: MachineProblem { subject, tolerances, start, until },
+    })
+}
+
+fn lacks(message: String) -> Complaint {
+    Complaint { at: 0..0, message }
+}
+
+/// A mass on a belt with this friction and no other numbers yet, and the place of the friction in the file.
+fn belt(
+    friction: Option<Spanned<Friction>>,
+    half_widths: &mut HalfWidths,
+    fetch: impl FnOnce(&str) -> Result<String, String>,
+) -> Result<(Body, Range<usize>), Complaint> {
+    let friction = friction.ok_or_else(|| lacks("friction is missing".to_owned()))?;
     let section = friction.span();
     let friction = friction.into_inner();
-    let mut half_widths = HalfWidths::default();
     let at_rest = friction.at_rest.as_ref();
     let static_coefficient =
         at_rest.map(|given| half_widths.read(Knob::StaticCoefficient, given)).transpose()?;
-    let mut belt = Belt {
+    let belt = Belt {
         mass: 0.0,
         stiffness: 0.0,
         damping: 0.0,
@@ -255,39 +315,33 @@ fn machine(
         normal_force: 0.0,
         friction: 0.0,
         belt_speed: 0.0,
-        law: law(friction, &section, &mut half_widths, fetch)?,
+        law: law(friction, &section, half_widths, fetch)?,
         static_coefficient,
         static_guide: None,
     };
-    set_numbers(&mut belt, &read.numbers, &mut half_widths)?;
-    let unfit = |message| Complaint { at: section.clone(), message };
-    let reduced = belt.reduce().map_err(|error| unfit(error.to_string()))?;
-    Model::new(&belt).map_err(|error| unfit(error.to_string()))?;
-    let disturbance = or_usual(Knob::DisturbingForce, read.disturbance.as_ref())?;
-    let tolerances = Tolerances { half_widths: half_widths.0, disturbance };
-    tolerances.check(&belt).map_err(unfit)?;
-    let (displacement, velocity) = read.start.read()?;
-    Ok(Machine {
-        name: name.to_owned(),
-        title: if read.title.is_empty() { name.to_owned() } else { read.title },
-        watch: read.look,
-        belt,
-        tolerances,
-        displacement,
-        velocity,
-        until: duration(read.until.as_ref(), std::f64::consts::TAU * reduced.units.time)?,
-    })
+    Ok((Body::Belt(Box::new(belt)), section))
 }
 
-/// Sets the numbers of a machine that its file gives, and the defaults of the others.
+/// A mode with this damping ratio and no other numbers yet, and the place of the ratio in the file.
+fn mode(ratio: Option<Spanned<Vec<Spanned<Number>>>>) -> Result<(Body, Range<usize>), Complaint> {
+    let ratio = ratio.ok_or_else(|| lacks("damping_ratio is missing".to_owned()))?;
+    let damping_ratio = polynomial("ratio", ratio.get_ref(), exact)?;
+    let (frequency, mass, friction) = (0.0, 0.0, 0.0);
+    let mode = Modal { frequency, mass, damping_ratio, friction, static_guide: None };
+    Ok((Body::Mode(mode), ratio.span()))
+}
+
+/// Sets the numbers that the file gives, and the defaults of the others.
 fn set_numbers(
-    belt: &mut Belt,
+    subject: &mut Subject,
+    knobs: impl Iterator<Item = Knob>,
     given: &BTreeMap<Knob, Spanned<Number>>,
     half_widths: &mut HalfWidths,
 ) -> Result<(), Complaint> {
-    let lacks = |message: String| Complaint { at: 0..0, message };
-    for knob in numbers() {
+    for knob in knobs {
         let value = match (given.get(&knob), knob.spec().default) {
+            // The guaranteed margins of a mode are not computed.
+            (Some(given), _) if subject.of_belt().is_none() => exact(knob, given)?,
             (Some(given), _) => half_widths.read(knob, given)?,
             (None, Some(default)) => default,
             (None, None) if knob == Knob::StaticGuide => continue,
@@ -299,7 +353,7 @@ fn set_numbers(
                 )));
             }
         };
-        knob.set_in_belt(belt, value).map_err(lacks)?;
+        subject.set(knob, value).map_err(lacks)?;
     }
     Ok(())
 }

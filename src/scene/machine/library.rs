@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use super::Machine;
 use super::file::parse;
+use crate::scene::misread::built_in;
 
 /// The machine that is used unless another is named.
 pub const TEXTBOOK: &str = "textbook";
@@ -30,21 +31,10 @@ const TABLES: [(&str, &str); 1] =
     [("slideway.csv", include_str!("../../../assets/belts/slideway.csv"))];
 
 /// The built-in machines, in the order in which they are listed.
-///
-/// # Panics
-/// Never: a test reads every file.
 pub fn machines() -> &'static [Machine] {
     static MACHINES: LazyLock<Vec<Machine>> = LazyLock::new(|| {
-        let read = |(name, text): (&str, &str)| match parse(
-            name,
-            &format!("{name}.toml"),
-            text,
-            table_named,
-        ) {
-            Ok(machine) => machine,
-            Err(error) => unreachable!("a machine of the program is broken: {error}"),
-        };
-        FILES.into_iter().map(read).collect()
+        let read = built_in(&FILES, |name, file, text| parse(name, file, text, table_named));
+        read.into_iter().filter_map(|described| described.try_into().ok()).collect()
     });
     &MACHINES
 }
@@ -84,7 +74,7 @@ mod tests {
         for machine in machines() {
             assert!(machine.title.chars().count() <= 52, "{}: a short title", machine.name);
             assert!(machine.watch.ends_with('.') && machine.watch.len() > 20, "{}", machine.name);
-            let reduced = machine.reduce().unwrap();
+            let reduced = machine.belt.reduce().unwrap();
             assert!(reduced.parameters.d.abs() < 1.0, "{}", machine.name);
             assert!(reduced.sticking_velocity > 0.0);
         }

@@ -2,7 +2,7 @@
 //!
 //! Everything here is a formula of the friction law: a path costs a few hundred evaluations and no motion.
 
-use super::running::Running;
+use super::Running;
 use crate::model::Parameters;
 use crate::numerics::elementary::{exp, ln, log10};
 

@@ -10,8 +10,8 @@ use crate::fit::{
 };
 use crate::model::Knob;
 use crate::question::Opened;
-use crate::scene::machine::file;
-use crate::scene::machine::mode::{NO_BELT, is_mode};
+use crate::scene::machine::NO_BELT;
+use crate::scene::machine::file::{self, is_mode};
 use crate::scene::{Recording, ScaledMachine};
 use crate::session::act::{history, inform, lists, prompt, warn_of_units, with_keys};
 use crate::session::replay;
@@ -144,7 +144,7 @@ fn open_machine(
         session.effects.push(Effect::Read { path: table, purpose });
         return Ok(());
     }
-    let machine = found.map_err(|error| error.to_string())?;
+    let machine = found.map_err(|error| error.to_string())?.try_into()?;
     let scaled = ScaledMachine::new(machine).map_err(|error| format!("{file}: {error}"))?;
     history::open_scene(session, Arc::new(scaled.scene()));
     warn_of_units(session);

@@ -11,11 +11,10 @@ use crate::model::belt::Units;
 use crate::paper::ClaimResult;
 use crate::portrait::{Cycles, ReturnMap};
 use crate::proof::Proof;
-use crate::question;
 use crate::question::fit::Unsure;
 use crate::question::speeds::Speeds;
-use crate::question::zones::Zones;
-use crate::question::{Borders, Fit, Fitted, NoAnswer};
+use crate::question::zones::CertainZones;
+use crate::question::{Borders, Fit, NoAnswer, ShownFit};
 use crate::scene::{Answer, Axes, Request, Topic};
 use crate::session::{AnswerState, Session, Uncertainty};
 
@@ -54,7 +53,7 @@ impl Session {
         last!(self, Balance, self.plot)
     }
 
-    pub fn zones(&self) -> Option<&Zones> {
+    pub fn zones(&self) -> Option<&CertainZones> {
         last!(self, Zones, self.plot)
     }
 
@@ -89,7 +88,7 @@ impl Session {
 
 impl Session {
     /// The fit of the record on show with the held numbers; until it is there, the most similar one.
-    pub fn fitted(&self) -> Option<&Fitted> {
+    pub fn fitted(&self) -> Option<&ShownFit> {
         // With the distribution of the margin once that is there.
         let held = self.refit(true).filter(|drawn| drawn.is_fresh()).or_else(|| self.refit(false));
         let held = match held.and_then(AnswerState::answer) {
@@ -100,12 +99,12 @@ impl Session {
     }
 
     /// The fit only if the distribution of its margin is that for the held numbers and for what is unsure.
-    pub fn drawn(&self) -> Option<&Fitted> {
+    pub fn drawn(&self) -> Option<&ShownFit> {
         self.fitted().filter(|_| self.refit(true).is_none_or(AnswerState::is_fresh))
     }
 
     /// The fit only if it is up to date with the held numbers.
-    pub(crate) fn followed(&self) -> Option<&Fitted> {
+    pub(crate) fn followed(&self) -> Option<&ShownFit> {
         self.fitted().filter(|_| self.refit(false).is_none_or(AnswerState::is_fresh))
     }
 
@@ -132,7 +131,7 @@ impl Session {
         let fit = self.fit_of_all().filter(|_| asks)?.clone();
         let Uncertainty { half_widths, disturbance, .. } = self.doubt;
         let drawn = drawn.then_some(Unsure { disturbance, half_widths });
-        Some(Request::Refit(question::refit::Inputs { fit, held, drawn }))
+        Some(Request::Refit { fit, held, drawn })
     }
 
     /// Whether the record on show is being fitted.

@@ -4,11 +4,13 @@
 //! from unstable cycles towards stable ones. So the first of them decides, by its position relative to the
 //! cycles. The end time limits how far a motion is followed, but not what is known of it.
 
+use std::ops::RangeBounds;
+
 use crate::flow::{Fate, Outcome, Sample, Trajectory};
 use crate::model::Parameters;
 use crate::numerics::elementary::hypot;
 use crate::portrait::{Border, Cycle, Cycles};
-use crate::question::whole::Course;
+use crate::question::whole::WholeMotion;
 use crate::scene::said;
 use crate::scene::said::TextCondition;
 use crate::session::{Session, Setup};
@@ -158,7 +160,7 @@ fn beside_separatrix(found: &Cycles, motion: &Trajectory) -> Option<MotionVerdic
 }
 
 /// The verdict by the whole model.
-fn of_course(course: &Course, motion: &Trajectory) -> Option<MotionVerdict> {
+fn of_course(course: &WholeMotion, motion: &Trajectory) -> Option<MotionVerdict> {
     let end = match course.fate {
         Fate::Rest => End::Rests,
         Fate::Cycle(_) => {
@@ -213,9 +215,7 @@ impl Session {
                     && self.cycles().is_some_and(|found| found.parameters.r > 0.0)
             }
             TextCondition::Sticks => any(&Cycle::sticks),
-            TextCondition::Compares(symbol, relation, number) => {
-                relation.holds(self.value(symbol), number)
-            }
+            TextCondition::Compares(symbol, bounds) => bounds.contains(&self.value(symbol)),
             TextCondition::Shows(layer) => self.shows(layer),
             TextCondition::Rests => matches!(end(), Some(End::Rests)),
             TextCondition::Grows => {

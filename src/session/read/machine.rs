@@ -8,9 +8,9 @@ use std::sync::Arc;
 
 use crate::flow::Problem;
 use crate::model::{Belt, Body, Knob, Parameters, State};
-use crate::question;
 use crate::question::Whole;
-use crate::question::whole::{Course, WholeCycles};
+use crate::question::whole::{WholeCycles, WholeMotion};
+use crate::question::zones::UncertainSubject;
 use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Answer, Layer, Request, Running, ScaledMachine, Setting, Topic, View};
 use crate::session::state::setup::{ON_A_MACHINE, symbol_of};
@@ -66,7 +66,7 @@ impl Session {
     }
 
     /// The whole model's answer about the motion on show; `None` while it is not drawn or not known.
-    pub fn course(&self) -> Option<&Course> {
+    pub fn course(&self) -> Option<&WholeMotion> {
         self.whole(Topic::Trajectory)?.motion.as_ref()
     }
 
@@ -163,15 +163,15 @@ impl Session {
     /// drawn. `None` if something uncertain corresponds to no part of the machine.
     pub(crate) fn zones_request(&self, parameters: &Parameters) -> Option<Request> {
         let running = self.running().filter(|_| self.draws_whole());
-        Some(match running.zip(self.machine()) {
-            Some((running, belt)) => Request::MachineZones(question::machine_zones::Inputs {
+        Some(Request::Zones(match running.zip(self.machine()) {
+            Some((running, belt)) => UncertainSubject::Machine {
                 tolerances: self.doubt.on_machine(&running, &belt).ok()?,
                 belt: Arc::new(belt),
-            }),
-            None => Request::Zones(question::zones::Inputs {
+            },
+            None => UncertainSubject::Parameters {
                 known: self.doubt.known(parameters),
                 disturbance: self.doubt.disturbance,
-            }),
-        })
+            },
+        }))
     }
 }

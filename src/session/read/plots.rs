@@ -8,7 +8,6 @@ use crate::branch::Branch;
 use crate::flow::Problem;
 use crate::model::Knob;
 use crate::numerics::elementary::hypot;
-use crate::question;
 use crate::scene::{
     Answer, Height, Layer, Needs, PlotSetup, Point, Request, Topic, Variant, View, Window,
 };
@@ -213,7 +212,7 @@ impl Session {
         let standing = asked.map(|(_, request)| self.answers.standing(&request));
         let answered = standing.and_then(AnswerState::answered);
         let friction = match answered.map(|found| &found.request) {
-            Some(Request::Branch(question::branch::Inputs { parameters, .. })) => parameters.r,
+            Some(Request::Branch { parameters, .. }) => parameters.r,
             _ => self.problem.parameters.r,
         };
         self.plots.get(plot).map(|plot| plot.axes).unwrap_or_default().height(friction)

@@ -11,7 +11,7 @@ use crate::branch::chart::Plane;
 use crate::flow::Problem;
 use crate::model::{Belt, Knob, Parameters, State};
 use crate::numerics::elementary::{exp2, hypot, log2};
-use crate::question::{self, Motion};
+use crate::question::TimedMotion;
 use crate::scene::{Answer, Axes, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::{AnswerState, Framing, List, Listed, Overlay, Pane, Row, Session};
 
@@ -58,7 +58,7 @@ impl Session {
         let awaited = self.waiting.iter().map(|waiting| waiting.request.clone());
         let all = awaited
             .chain(self.refit_request(false))
-            .chain(claims.then_some(Request::Claims(question::claims::Inputs)))
+            .chain(claims.then_some(Request::Claims))
             .chain(each.map(|each| each.1));
         let mut asked = Vec::new();
         let proof = || self.request(Topic::Proof, self.plot);
@@ -143,75 +143,56 @@ impl Session {
         let own = |view: View| self.plots.get(plot).filter(|plot| plot.view == view);
         let motion = || {
             let Problem { initial, until, .. } = self.problem;
-            Motion { parameters, initial, until }
+            TimedMotion { parameters, initial, until }
         };
         Some(match topic {
-            Topic::Claims => Request::Claims(question::claims::Inputs),
-            Topic::Fit => {
-                Request::Fit(question::fit::Inputs { recording: self.scene.recording.clone()? })
-            }
+            Topic::Claims => Request::Claims,
+            Topic::Fit => Request::Fit { recording: self.scene.recording.clone()? },
             Topic::Refit => self.refit_request(false)?,
-            Topic::Trajectory => match self.machine().filter(|_| self.draws_whole()) {
-                Some(belt) => {
-                    Request::Machine(question::machine::Inputs { belt: Arc::new(belt), problem })
-                }
-                None => Request::Trajectory(problem),
-            },
+            Topic::Trajectory => {
+                let machine = self.machine().filter(|_| self.draws_whole()).map(Arc::new);
+                Request::Trajectory { problem, machine }
+            }
             Topic::Scan => return self.scan_request(),
-            Topic::Cycles => match self.machine() {
+            Topic::Cycles => {
                 // The error of the expansion is stated beside it.
-                Some(belt) => {
-                    let cubic = !self.draws_whole();
-                    Request::Portrait(question::portrait::Inputs {
-                        belt: Arc::new(belt),
-                        parameters,
-                        cubic,
-                    })
-                }
-                None => Request::Cycles(question::cycles::Inputs { parameters }),
-            },
-            Topic::Balance => Request::Balance(question::balance::Inputs {
-                parameters,
-                harmonics: self.harmonics,
-            }),
-            Topic::Trade => Request::Trade(question::trade::Inputs(motion())),
-            Topic::Reference => Request::Reference(question::reference::Inputs(motion())),
+                let machine = self.machine().map(Arc::new);
+                Request::Cycles { parameters, machine, whole: self.draws_whole() }
+            }
+            Topic::Balance => Request::Balance { parameters, harmonics: self.harmonics },
+            Topic::Trade => Request::Trade(motion()),
+            Topic::Reference => Request::Reference(motion()),
             // The whole model of a machine has no proof, and its basin is no graph over which kicks could be
             // integrated.
             Topic::Proof | Topic::Kicks if self.draws_whole() => return None,
-            Topic::Proof => Request::Proof(question::proof::Inputs { parameters }),
+            Topic::Proof => Request::Proof { parameters },
             Topic::Zones => self.zones_request(&parameters)?,
-            Topic::Kicks => {
-                Request::Kicks(question::kicks::Inputs { parameters, kicks: self.kicks })
-            }
+            Topic::Kicks => Request::Kicks { parameters, kicks: self.kicks },
             Topic::Capture if parameters.r == 0.0 => return None,
             Topic::Capture => {
                 let reach = reach(own(View::Phase)?.window);
-                Request::Capture(question::capture::Inputs { parameters, reach, most: MOST_BANDS })
+                Request::Capture { parameters, reach, most: MOST_BANDS }
             }
             Topic::Branch => {
                 let plot = own(View::Diagram)?;
                 let parameter = plot.axes.abscissa;
-                Request::Branch(question::branch::Inputs {
+                Request::Branch {
                     parameters: without(parameters, &[parameter]),
                     parameter,
                     range: within(parameter, plot.window.x)?,
                     tolerance,
-                })
+                }
             }
             Topic::Speeds => {
                 let range = within(Knob::BeltSpeed, own(View::Speeds)?.window.x)?;
                 let belt = Arc::new(Belt { belt_speed: 1.0, ..self.machine()? });
-                Request::Speeds(question::speeds::Inputs { belt, range, rough: false })
+                Request::Speeds { belt, range, rough: false }
             }
             Topic::ReturnMap => {
                 // Until the window is known, there is nothing to ask.
                 let plot = own(View::ReturnMap)?;
                 let range = (plot.framing != Framing::Fitting).then_some(plot.window.x)?;
-                Request::ReturnMap(question::return_map::Inputs {
-                    parameters,
-                    range: (range.from(), range.to()),
-                })
+                Request::ReturnMap { parameters, range: (range.from(), range.to()) }
             }
             Topic::Regimes => {
                 let plot = own(View::Regimes)?;
@@ -223,7 +204,7 @@ impl Session {
                     up_range: within(against, plot.window.y)?,
                 };
                 let parameters = without(parameters, &[abscissa, against]);
-                Request::Regimes(question::regimes::Inputs { parameters, plane, rough: false })
+                Request::Regimes { parameters, plane, rough: false }
             }
         })
     }

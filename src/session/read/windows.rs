@@ -8,7 +8,7 @@ use crate::model::parameters::energy;
 use crate::model::{Knob, State};
 use crate::numerics::count::{real, truncated};
 use crate::numerics::elementary::hypot;
-use crate::question::fit::Measured;
+use crate::question::fit::RecordPoint;
 use crate::scene::ordinate::usual_values;
 use crate::scene::{Answer, Axes, Layer, Point, Request, Span, Topic, View, Window};
 use crate::session::{Framing, ScanOnShow, Session};
@@ -226,10 +226,10 @@ fn time_series(session: &Session, plot: usize) -> Option<Window> {
     let end = motions.iter().map(|(_, motion)| end(motion)).fold(0.0, f64::max);
     let record = session.fitted().filter(|_| shown(Layer::Record));
     let signal = record.map_or(Signal::default(), |fitted| fitted.fit.record.signal);
-    let record: &[Measured] = record.map_or(&[], |fitted| &fitted.points);
+    let record: &[RecordPoint] = record.map_or(&[], |fitted| &fitted.points);
     let swinging = values.iter().fold(r, |far, value| far.max(value.abs()));
     // Outliers far away are shown at the edge.
-    let near = |at: &Measured| {
+    let near = |at: &RecordPoint| {
         let y = at.shown(signal)?;
         (at.dropped != Some(Dropped::Outlier) || y.abs() < ESCAPE * swinging).then_some(y)
     };

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use crate::numerics::count::real;
 use crate::numerics::elementary::log10;
-use crate::question;
 use crate::scan::grid::{Scan, ScanRow};
 use crate::scan::measure::Value;
 use crate::scan::sweep::{Spacing, Sweep};
@@ -66,7 +65,7 @@ impl ScanOnShow {
     pub fn request(&self) -> Option<Request> {
         match self.progress {
             ScanProgress::Running { from } => {
-                Some(Request::Scan(question::scan::Inputs { scan: Arc::clone(&self.scan), from }))
+                Some(Request::Scan { scan: Arc::clone(&self.scan), from })
             }
             ScanProgress::Stopped | ScanProgress::Done => None,
         }

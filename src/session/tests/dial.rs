@@ -77,7 +77,7 @@ fn what_took_long_is_answered_by_a_draft_first_and_refined_then() {
         [(Topic::Trajectory, true), (Topic::Trajectory, false), (Topic::Cycles, false)]
     );
     let draft = trial.session.wants()[0].clone();
-    let Request::Trajectory(problem) = &draft else { panic!("{draft:?}") };
+    let Request::Trajectory { problem, .. } = &draft else { panic!("{draft:?}") };
     assert_eq!(problem.quality().unwrap().name, "draft");
     update(&mut trial.session, costly(draft.clone(), 1_000));
     let is_draft = |trial: &Trial| {

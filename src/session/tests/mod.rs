@@ -41,10 +41,9 @@ use crate::numerics::twofold::Twofold;
 use crate::portrait::basin::stability::Share;
 use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, ReturnMap};
 use crate::proof::{ParameterBox, Proof};
-use crate::question;
 use crate::question::speeds::Speeds;
-use crate::question::zones::{Extent, Zones};
-use crate::question::{Borders, Rows};
+use crate::question::zones::{CertainZones, Extent};
+use crate::question::{Borders, LostShare, Rows};
 use crate::scene::{Answer, Fit, Request, Scene, Topic, find};
 
 /// A session whose questions are answered as soon as they are asked.
@@ -204,10 +203,10 @@ fn trade(cost: Cost) -> Trade {
 }
 
 /// Made-up zones: a nominal margin, and half of it as the guaranteed one.
-fn zones() -> Zones {
+fn zones() -> CertainZones {
     let margin =
         |part: f64| Margin { displacement: Some(part), impulse: Some(part), ..Margin::ENDLESS };
-    Zones {
+    CertainZones {
         safe: Extent::Within(Vec::new()),
         hopeful: Extent::Everything,
         nominal: margin(0.5),
@@ -226,8 +225,7 @@ fn answered(request: Request) -> Msg {
 pub fn by_hand(request: &Request) -> Answer {
     let cost = Cost { evaluations: COST, steps: 1, rejected: 0 };
     match request {
-        Request::Trajectory(problem)
-        | Request::Machine(question::machine::Inputs { problem, .. }) => {
+        Request::Trajectory { problem, .. } => {
             let Problem { initial: State { q, v }, until, .. } = *problem;
             Answer::Trajectory(Trajectory {
                 problem: *problem,
@@ -240,79 +238,67 @@ pub fn by_hand(request: &Request) -> Answer {
                 cost,
             })
         }
-        Request::Cycles(question::cycles::Inputs { parameters })
-        | Request::Portrait(question::portrait::Inputs { parameters, .. }) => {
-            Answer::Cycles(Cycles {
-                parameters: *parameters,
-                cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
-                harmonic: Vec::new(),
-                border: Border::Cycle,
-                picture: Some(BasinPicture {
-                    curves: Vec::new(),
-                    works: vec![Ledger { linear: 1.0, friction: -1.0, ..Ledger::default() }; 2],
-                    border: Vec::new(),
-                    margin: Margin::ENDLESS,
-                    area: None,
-                    lyapunov_share: None,
-                }),
-                cost,
-            })
-        }
+        Request::Cycles { parameters, .. } => Answer::Cycles(Cycles {
+            parameters: *parameters,
+            cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
+            harmonic: Vec::new(),
+            border: Border::Cycle,
+            picture: Some(BasinPicture {
+                curves: Vec::new(),
+                works: vec![Ledger { linear: 1.0, friction: -1.0, ..Ledger::default() }; 2],
+                border: Vec::new(),
+                margin: Margin::ENDLESS,
+                area: None,
+                lyapunov_share: None,
+            }),
+            cost,
+        }),
         Request::Trade(_) => Answer::Trade(Box::new(trade(cost))),
         // There is no reference for made-up answers.
         Request::Reference(_) => Answer::Reference(Err(Reason::OutOfRange)),
-        Request::Zones(_) | Request::MachineZones(_) => Answer::Zones(zones()),
-        Request::Kicks(_) => {
+        Request::Zones(_) => Answer::Zones(zones()),
+        Request::Kicks { .. } => {
             let share = Share { part: 0.125, error: 1e-11 };
-            Answer::Kicks(question::kicks::LostShare { share, cost })
+            Answer::Kicks(LostShare { share, cost })
         }
-        Request::Capture(_) => Answer::Capture(Borders { curves: Vec::new(), cost }),
-        Request::Balance(question::balance::Inputs { parameters, harmonics }) => {
-            Answer::Balance(HarmonicBalance {
-                parameters: *parameters,
-                harmonics: *harmonics,
-                balanced: Vec::new(),
-                unknown: None,
-                cost,
-            })
-        }
-        Request::ReturnMap(question::return_map::Inputs { parameters, .. }) => {
-            Answer::ReturnMap(ReturnMap {
-                parameters: *parameters,
-                sides: [Vec::new(), Vec::new()],
-                cost,
-            })
-        }
-        Request::Proof(question::proof::Inputs { parameters }) => Answer::Proof(Proof {
+        Request::Capture { .. } => Answer::Capture(Borders { curves: Vec::new(), cost }),
+        Request::Balance { parameters, harmonics } => Answer::Balance(HarmonicBalance {
+            parameters: *parameters,
+            harmonics: *harmonics,
+            balanced: Vec::new(),
+            unknown: None,
+            cost,
+        }),
+        Request::ReturnMap { parameters, .. } => Answer::ReturnMap(ReturnMap {
+            parameters: *parameters,
+            sides: [Vec::new(), Vec::new()],
+            cost,
+        }),
+        Request::Proof { parameters } => Answer::Proof(Proof {
             parameters: ParameterBox::from(parameters),
             theorem: None,
             cycles: Vec::new(),
             open: Vec::new(),
             swings: 0,
         }),
-        Request::Claims(question::claims::Inputs) => Answer::Claims(Vec::new()),
-        Request::Fit(question::fit::Inputs { recording }) => {
+        Request::Claims => Answer::Claims(Vec::new()),
+        Request::Fit { recording } => {
             Answer::Fit(Fit::of(recording, &Limits::PATIENT, &|_| ()).expect("nobody interrupts"))
         }
-        Request::Refit(question::refit::Inputs { fit, held, drawn }) => {
+        Request::Refit { fit, held, drawn } => {
             Answer::Refit(fit.held(*held, *drawn, &Limits::PATIENT).expect("nobody interrupts"))
         }
-        Request::Speeds(_) => {
+        Request::Speeds { .. } => {
             Answer::Speeds(Speeds { points: Vec::new(), special: Vec::new(), cost })
         }
-        Request::Regimes(question::regimes::Inputs { plane, .. }) => {
+        Request::Regimes { plane, .. } => {
             let along = plane.along();
             Answer::Regimes(Chart { plane: *plane, along, lines: Vec::new(), cost })
         }
-        Request::Scan(question::scan::Inputs { scan, from }) => {
+        Request::Scan { scan, from } => {
             Answer::Scan(Rows { first: *from, rows: scan::rows(scan, *from..scan.points()) })
         }
-        Request::Branch(question::branch::Inputs {
-            parameter,
-            range: (from, to),
-            parameters,
-            ..
-        }) => {
+        Request::Branch { parameter, range: (from, to), parameters, .. } => {
             let fold = Cycle { q_max: 1.5, log_multiplier: 0.0, ..cycle(false, parameters.r) };
             let point = |stable| BranchPoint { value: *from, cycle: cycle(stable, parameters.r) };
             Answer::Branch(Branch {

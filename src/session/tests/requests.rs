@@ -133,7 +133,9 @@ fn a_late_answer_never_replaces_the_one_that_is_asked_for() {
     // While something else is still being computed, this is the newest answer.
     update(&mut trial.session, Msg::Key("<left>".parse().unwrap()));
     update(&mut trial.session, answered(superseded.clone()));
-    let Request::Trajectory(problem) = superseded else { panic!("a trajectory was asked for") };
+    let Request::Trajectory { problem, .. } = superseded else {
+        panic!("a trajectory was asked for")
+    };
     assert_eq!(trial.session.trajectory().unwrap().problem, problem);
     assert!(trial.session.is_stale(Topic::Trajectory, 1));
 }

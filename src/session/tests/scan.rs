@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use super::Trial;
 use crate::flow::Cost;
-use crate::question;
 use crate::question::Rows;
 use crate::scan::grid::{Scan, ScanRow};
 use crate::scan::measure::Value;
@@ -29,7 +28,7 @@ fn scanned(session: &Session) -> &ScanOnShow {
 
 /// Gives rows to the session as the worker does.
 fn piece(session: &mut Session, request: &Request, points: Range<usize>) {
-    let Request::Scan(question::scan::Inputs { scan, .. }) = request else { panic!("{request:?}") };
+    let Request::Scan { scan, .. } = request else { panic!("{request:?}") };
     let complete = points.end == scan.points();
     let rows = Rows { first: points.start, rows: rows(scan, points) };
     let (request, result) = (request.clone(), Ok(Answer::Scan(rows)));
@@ -135,13 +134,7 @@ fn escape_stops_a_scan_and_keeps_what_is_done_and_a_key_goes_on() {
     assert_eq!(scanned(&session).rows.len(), 4);
     press(&mut session, "P");
     let again = session.scan_request().expect("a question");
-    assert_eq!(
-        again,
-        Request::Scan(question::scan::Inputs {
-            scan: Arc::clone(&scanned(&session).scan),
-            from: 4
-        })
-    );
+    assert_eq!(again, Request::Scan { scan: Arc::clone(&scanned(&session).scan), from: 4 });
     piece(&mut session, &again, 4..6);
     assert_eq!(scanned(&session).progress, ScanProgress::Done);
     assert_eq!(scanned(&session).rows, rows(&scanned(&session).scan, 0..6));

@@ -3,7 +3,6 @@
 use proptest::prelude::*;
 
 use super::Trial;
-use crate::question;
 use crate::scene::{Request, library};
 use crate::session::commands;
 use crate::session::{Effect, Key, Msg, Plot, Session, update};
@@ -40,9 +39,7 @@ pub(super) fn check(session: &Session) {
         assert_eq!(knob.check(value), Ok(value));
     }
     for request in session.wants() {
-        if let Request::Branch(question::branch::Inputs { range: (from, to), parameter, .. }) =
-            request
-        {
+        if let Request::Branch { range: (from, to), parameter, .. } = request {
             let spec = parameter.spec();
             assert!(from < to && spec.min <= from && to <= spec.max);
         }

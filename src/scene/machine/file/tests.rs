@@ -1,4 +1,5 @@
 use super::*;
+use crate::scene::Machine;
 
 const GOOD: &str = r#"title = "A test"
 m = "250 g"
@@ -15,7 +16,7 @@ fn nothing(_: &str) -> Result<String, String> {
 }
 
 fn read(text: &str) -> Result<Machine, Misread> {
-    parse("test", "test.toml", text, nothing)
+    Ok(parse("test", "test.toml", text, nothing)?.try_into().unwrap())
 }
 
 #[test]
@@ -51,7 +52,8 @@ fn a_table_may_stand_in_a_file_of_its_own() {
         assert_eq!(name, "mu.csv");
         Ok(csv.to_owned())
     });
-    let FrictionLaw::Table(spline) = machine.unwrap().belt.law else { panic!("a table") };
+    let machine = Machine::try_from(machine.unwrap()).unwrap();
+    let FrictionLaw::Table(spline) = machine.belt.law else { panic!("a table") };
     assert_eq!((spline.points(), spline.range()), (4, (0.0, 0.4)));
     let missing = read(&text).unwrap_err().to_string();
     assert_eq!(missing, "test.toml:7:27: no file");

@@ -1,0 +1,272 @@
+//! Answers, and how they are computed.
+
+use super::fit::Fit;
+use super::request::Request;
+use super::resources::{Fineness, Resources, Rows};
+use super::speeds::Speeds;
+use super::whole::{self, WholeCycles, WholeMotion};
+use super::zones::{self, CertainZones, UncertainSubject};
+use crate::accuracy::harmonic_error::{HarmonicBalance, harmonic_balance};
+use crate::accuracy::reference::Reference;
+use crate::accuracy::trade::Trade;
+use crate::branch::Branch;
+use crate::branch::along::{Points, branch};
+use crate::branch::chart::{Chart, Plane, Resolution, chart};
+use crate::flow::quality::DRAFT;
+use crate::flow::trajectory::trajectory;
+use crate::flow::{Cost, Detail, Limits, Problem, Reason, Trajectory};
+use crate::model::{Belt, Parameters, State};
+use crate::paper::{ClaimResult, examine_all};
+use crate::portrait::basin::basin;
+use crate::portrait::basin::capture::bands;
+use crate::portrait::basin::cycle::cycles_drawn;
+use crate::portrait::basin::stability::Share;
+use crate::portrait::closing::return_map::return_map;
+use crate::portrait::{Cycles, ReturnMap};
+use crate::proof::{ParameterBox, Proof, prove};
+use crate::scan::grid::Scan;
+
+/// The answer of the worker.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    Fit(Fit),
+    Refit(Fit),
+    Trajectory(Trajectory),
+    Cycles(Cycles),
+    Zones(CertainZones),
+    Kicks(LostShare),
+    Capture(Borders),
+    Branch(Branch),
+    Balance(HarmonicBalance),
+    ReturnMap(ReturnMap),
+    Regimes(Chart),
+    Speeds(Speeds),
+    Trade(Box<Trade>),
+    Scan(Rows),
+    Claims(Vec<ClaimResult>),
+    Proof(Proof),
+    /// The error says why there is no reference, for example because it would take too long.
+    Reference(Result<Box<Reference>, Reason>),
+    /// A motion or cycles by the whole model.
+    Whole(Box<Whole>),
+}
+
+/// An answer by the whole model, with what has no counterpart in the paper's oscillator.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Whole {
+    /// The motion or the cycles in the form that views draw.
+    pub drawn: Answer,
+    /// Fate of the motion, and where it rides on the belt.
+    pub motion: Option<WholeMotion>,
+    /// Properties of the cycles; `None` where the whole model has no answer and its expansion is drawn.
+    pub cycles: Option<WholeCycles>,
+}
+
+/// The fraction of the kicks that lead out of the basin of the sticking set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LostShare {
+    /// The fraction and its error.
+    pub share: Share,
+    /// Cost of computing the basin.
+    pub cost: Cost,
+}
+
+/// The borders between bands of capture, as curves to draw.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Borders {
+    /// The curves of `v > 0` and then those of `v < 0`, innermost first in each.
+    pub curves: Vec<Vec<State>>,
+    /// Cost of computing them.
+    pub cost: Cost,
+}
+
+impl Answer {
+    /// Counted cost of the computation.
+    pub fn cost(&self) -> Cost {
+        match self {
+            Answer::Trajectory(found) => found.cost,
+            Answer::Cycles(found) => found.cost,
+            Answer::Zones(found) => found.cost,
+            Answer::Kicks(found) => found.cost,
+            Answer::Capture(found) => found.cost,
+            Answer::Branch(found) => found.cost,
+            Answer::Balance(found) => found.cost,
+            Answer::ReturnMap(found) => found.cost,
+            Answer::Regimes(found) => found.cost,
+            Answer::Speeds(found) => found.cost,
+            Answer::Trade(found) => found.cost(),
+            Answer::Scan(found) => found.cost(),
+            Answer::Reference(Ok(found)) => found.cost,
+            Answer::Whole(whole) => whole.drawn.cost(),
+            Answer::Fit(_)
+            | Answer::Refit(_)
+            | Answer::Claims(_)
+            | Answer::Proof(_)
+            | Answer::Reference(Err(_)) => Cost::default(),
+        }
+    }
+}
+
+/// An answer with its question and its computing time, as the worker returns it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answered {
+    /// The question.
+    pub request: Request,
+    /// The answer, or why there is none.
+    pub result: Result<Answer, NoAnswer>,
+    /// Wall-clock seconds taken so far.
+    pub seconds: f64,
+    /// Whether the answer is final; a long question is answered in pieces.
+    pub complete: bool,
+}
+
+/// Why a request has no answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoAnswer {
+    /// The computation gave up.
+    Reason(Reason),
+    /// The computation panicked with this message: a defect of the program.
+    Panic(String),
+}
+
+impl std::fmt::Display for NoAnswer {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            NoAnswer::Reason(reason) => write!(out, "{reason}"),
+            NoAnswer::Panic(message) => write!(out, "internal error: {message}"),
+        }
+    }
+}
+
+/// Answers a request on this thread, with the fineness of the screen.
+pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
+    answer_for(request, Fineness::SCREEN, limits)
+}
+
+/// Answers a request on this thread, with curves of this fineness.
+pub fn answer_for(
+    request: &Request,
+    fineness: Fineness,
+    limits: &Limits,
+) -> Result<Answer, Reason> {
+    let rows = |scan: &Scan, first: usize| {
+        let rows = (first..scan.points()).map(|index| scan.row(index, limits));
+        Ok(Rows { first, rows: rows.collect::<Result<_, _>>()? })
+    };
+    answer_by(request, &Resources { fineness, limits, rows: &rows })
+}
+
+/// Maximum number of evaluations for a row of the trade on the screen; the command line allows more.
+const ROW: u64 = 1_000_000;
+
+/// Maximum number of evaluations for a reference in the explorer; beyond it, the energy ledger must do.
+const REFERENCE: u64 = 4_000_000;
+
+/// Answers a request: the only place where a question becomes a computation.
+pub fn answer_by(request: &Request, means: &Resources) -> Result<Answer, Reason> {
+    let Resources { fineness, limits, rows } = *means;
+    let points = fineness.points_per_step();
+    let up_to = |most: u64| Limits { evaluations: limits.evaluations.min(most), ..*limits };
+    Ok(match request {
+        Request::Fit { recording } => Answer::Fit(Fit::of(recording, limits, &|_| ())?),
+        Request::Refit { fit, held, drawn } => Answer::Refit(fit.held(*held, *drawn, limits)?),
+        Request::Trajectory { problem, machine } => {
+            motion(problem, machine.as_deref(), fineness.points(16), limits)?
+        }
+        Request::Cycles { parameters, machine, whole } => {
+            cycles(parameters, machine.as_deref(), *whole, means)?
+        }
+        Request::Zones(UncertainSubject::Parameters { known, disturbance }) => {
+            Answer::Zones(zones::of_oscillator(known, *disturbance, points, limits)?)
+        }
+        Request::Zones(UncertainSubject::Machine { belt, tolerances }) => {
+            Answer::Zones(zones::of_machine(belt, tolerances, points)?)
+        }
+        Request::Kicks { parameters, kicks } => {
+            let found = basin(parameters, kicks.reach(), limits)?;
+            Answer::Kicks(LostShare { share: kicks.lost(&found), cost: found.cost })
+        }
+        Request::Capture { parameters, reach, most } => {
+            let found = bands(parameters, *reach, *most, limits)?;
+            Answer::Capture(Borders { curves: found.curves(points), cost: found.cost })
+        }
+        Request::Branch { parameters, parameter, range, tolerance } => {
+            let rough = *tolerance >= DRAFT.tolerance;
+            let points =
+                if rough { Points::Followed } else { Points::Even(fineness.points(160).into()) };
+            Answer::Branch(branch(parameters, *parameter, *range, points, *tolerance, limits)?)
+        }
+        Request::Balance { parameters, harmonics } => {
+            let points = fineness.points(240).into();
+            Answer::Balance(harmonic_balance(parameters, *harmonics, points, limits)?)
+        }
+        Request::ReturnMap { parameters, range } => {
+            Answer::ReturnMap(return_map(parameters, *range, fineness.points(128), limits)?)
+        }
+        Request::Regimes { parameters, plane, rough } => {
+            Answer::Regimes(regimes(parameters, *plane, *rough, means)?)
+        }
+        Request::Speeds { belt, range, rough } => {
+            Answer::Speeds(Speeds::of(belt, *range, *rough, limits)?)
+        }
+        Request::Trade(motion) => {
+            Answer::Trade(Box::new(Trade::of(&motion.problem(), &up_to(ROW))?))
+        }
+        Request::Scan { scan, from } => Answer::Scan(rows(scan, *from)?),
+        Request::Claims => Answer::Claims(examine_all(limits)?),
+        Request::Proof { parameters } => Answer::Proof(prove(&ParameterBox::from(parameters), &[])),
+        Request::Reference(motion) => match Reference::of(&motion.problem(), &up_to(REFERENCE)) {
+            Err(Reason::Interrupted) => return Err(Reason::Interrupted),
+            found => Answer::Reference(found.map(Box::new)),
+        },
+    })
+}
+
+/// A motion, with `points` on each step: of the paper's oscillator, or of a machine by the whole model.
+fn motion(
+    problem: &Problem,
+    machine: Option<&Belt>,
+    points: u16,
+    limits: &Limits,
+) -> Result<Answer, Reason> {
+    let Some(belt) = machine else {
+        // Without friction, nothing happens at v = 0, so crossings are not located.
+        let crossings = problem.parameters.r > 0.0;
+        let detail = Detail { crossings, samples_per_step: points.into(), energy: true };
+        return Ok(Answer::Trajectory(trajectory(problem, detail, limits)));
+    };
+    let (drawn, motion) = whole::motion(belt, problem, points.into())?;
+    let drawn = Answer::Trajectory(drawn);
+    Ok(Answer::Whole(Box::new(Whole { drawn, motion: Some(motion), cycles: None })))
+}
+
+/// The cycles of the paper's oscillator, or those of a machine: by the `whole` model, or by its cubic expansion.
+fn cycles(
+    parameters: &Parameters,
+    machine: Option<&Belt>,
+    whole: bool,
+    Resources { fineness, limits, .. }: &Resources,
+) -> Result<Answer, Reason> {
+    let points = fineness.points_per_step();
+    let Some(belt) = machine else {
+        return Ok(Answer::Cycles(cycles_drawn(parameters, points, limits)?));
+    };
+    let (drawn, cycles) = whole::portrait(belt, parameters, whole, points, limits)?;
+    let drawn = Answer::Cycles(drawn);
+    Ok(Answer::Whole(Box::new(Whole { drawn, motion: None, cycles })))
+}
+
+/// The chart over two parameters, of a few lines if it is a `rough` draft.
+fn regimes(
+    parameters: &Parameters,
+    plane: Plane,
+    rough: bool,
+    means: &Resources,
+) -> Result<Chart, Reason> {
+    /// Boundaries are interpolated between the evenly spaced lines; the tolerance is the relative error of clearances
+    /// at boundaries.
+    const DRAFT: Resolution = Resolution { lines: 4, chord: f64::INFINITY, tolerance: 1e-3 };
+    let chord = means.fineness.chord();
+    let fine = Resolution { lines: 40, chord, tolerance: 1e-13 };
+    chart(parameters, plane, if rough { DRAFT } else { fine }, means.limits)
+}
