@@ -53,14 +53,3 @@ pub fn text(path: &Path) -> io::Result<String> {
 fn refused(line: &str) -> io::Error {
     io::Error::new(ErrorKind::InvalidData, line)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_endless_file_is_refused() {
-        let why = bytes(Path::new("/dev/zero")).unwrap_err();
-        assert_eq!(why.to_string(), "longer than 64 MB, the most that is read");
-    }
-}

@@ -20,7 +20,6 @@ pub mod panics;
 pub mod print;
 pub mod provenance_file;
 pub mod pump;
-mod queue;
 pub mod record;
 pub mod scan_file;
 pub mod scanning;

@@ -5,7 +5,7 @@ use std::io::{self, Read};
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
-use super::effects::at_home;
+use super::effects::{Files, at_home};
 use super::new_file::{self, Readers};
 use crate::session::replay::{HEADER, Recorder, comment, heading, lines};
 
@@ -44,20 +44,18 @@ impl RecordingFile {
     /// Whether a recording may be written to a file: it does not exist, is empty, or is a recording itself.
     /// Fails with one line; `how` tells how to replace the file all the same.
     pub fn admit(path: &Path, replace: bool, how: &str) -> Result<(), String> {
+        Files::admit(path, true)?;
         let path = at_home(path);
         let name = path.display();
-        match std::fs::metadata(&path) {
+        let begin = match File::open(&path) {
+            _ if replace => return Ok(()),
             Err(why) if why.kind() == io::ErrorKind::NotFound => return Ok(()),
-            Err(why) => return Err(format!("{name}: {why}")),
-            Ok(found) if !found.is_file() => return Err(format!("{name} is not a file")),
-            Ok(found) if found.len() == 0 || replace => return Ok(()),
-            Ok(_) => {}
-        }
+            begin => begin.map_err(|why| format!("{name}: {why}"))?,
+        };
         let mut head = String::new();
-        let begin = File::open(&path).map_err(|why| format!("{name}: {why}"))?;
         // A file that is not text is not a recording.
         let read = begin.take(HEADER.len() as u64).read_to_string(&mut head);
-        if read.is_ok() && head == HEADER {
+        if read.is_ok() && (head.is_empty() || head == HEADER) {
             return Ok(());
         }
         Err(format!("{name} is there already and is not a recording; {how}"))

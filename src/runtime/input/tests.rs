@@ -267,6 +267,23 @@ fn pressed() -> impl Strategy<Value = (Vec<u8>, String)> {
 }
 
 proptest! {
+    /// Any bytes in any pieces: no panic, and the end of input is noticed.
+    #[test]
+    fn any_bytes_are_survived(pieces in prop::collection::vec(
+        prop_oneof![
+            prop::collection::vec(any::<u8>(), 0..12),
+            "(\x1b[\\[O\\]P]|[0-9;:<?>=]|[A-Za-z~]|\x1b){0,8}".prop_map(String::into_bytes),
+        ],
+        0..8,
+    )) {
+        let mut keyboard = keyboard();
+        for piece in pieces {
+            keyboard.types(&piece);
+        }
+        let heard = keyboard.all();
+        prop_assert_eq!(heard.last().map(String::as_str), Some("Closed"));
+    }
+
     /// Whatever arrived before, every key is heard that follows at the pace of a person.
     #[test]
     fn a_key_behind_any_bytes_is_heard(

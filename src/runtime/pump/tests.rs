@@ -11,7 +11,6 @@ use crate::runtime::panics::Notes;
 use crate::runtime::worker::Tell;
 use crate::runtime::workers::Work;
 use crate::session::{Code, Key, replay};
-use crate::terminal::pacing::{FRAME_TIME, Pacing};
 
 /// An application that counts right-arrow keys, shows the last notice, moves for a while after `p`, and quits
 /// at `q`.
@@ -128,31 +127,6 @@ fn key(name: &str) -> Event {
 }
 
 #[test]
-fn five_hundred_keys_at_once_are_one_frame_of_the_newest_state() {
-    let Bench { mut pump, events, written } = bench();
-    for _ in 0..500 {
-        events.send(key("<right>")).unwrap();
-    }
-    let running = std::thread::spawn(move || pump.run().unwrap());
-    assert!(written.recv().unwrap().contains("500"));
-    events.send(key("q")).unwrap();
-    assert_eq!(running.join().unwrap(), LoopEnd::Quit);
-    assert!(written.is_empty());
-}
-
-#[test]
-fn when_the_screen_shows_everything_there_is_nothing_to_wait_for() {
-    let Bench { mut pump, .. } = bench();
-    assert!(pump.due().is_some());
-    pump.draw().unwrap();
-    assert_eq!(pump.due(), None);
-    pump.handle(key("x")).unwrap();
-    assert!(pump.due().is_some());
-    pump.hold();
-    assert_eq!(pump.due(), None);
-}
-
-#[test]
 fn what_moves_is_told_the_time_and_what_stands_still_costs_nothing() {
     let Bench { mut pump, .. } = bench();
     pump.draw().unwrap();
@@ -170,20 +144,6 @@ fn what_moves_is_told_the_time_and_what_stands_still_costs_nothing() {
 }
 
 #[test]
-fn the_next_frame_waits_until_the_terminal_has_shown_the_last() {
-    let Bench { mut pump, .. } = bench();
-    pump.repaint().unwrap();
-    pump.handle(Event::Shown).unwrap();
-    let drawn = Instant::now();
-    pump.draw().unwrap();
-    pump.handle(key("<right>")).unwrap();
-    assert!(pump.due().unwrap() >= drawn + Pacing::PATIENCE);
-    pump.handle(Event::Shown).unwrap();
-    let shown = Instant::now();
-    assert!(pump.due().unwrap() <= shown + FRAME_TIME);
-}
-
-#[test]
 fn after_a_stop_no_frame_waits_for_the_terminal() {
     let Bench { mut pump, .. } = bench();
     pump.repaint().unwrap();
@@ -192,25 +152,6 @@ fn after_a_stop_no_frame_waits_for_the_terminal() {
     pump.hold();
     pump.repaint().unwrap();
     assert!(pump.due().unwrap() <= Instant::now() + FRAME_TIME);
-}
-
-#[test]
-fn a_size_that_changes_there_and_back_before_a_frame_is_drawn_is_a_full_frame() {
-    let Bench { mut pump, written, .. } = bench();
-    pump.draw().unwrap();
-    let first = written.recv().unwrap();
-    assert!(first.contains("\x1b[m0"), "{first:?}");
-    for signals in 1..=3 {
-        for _ in 0..signals {
-            pump.handle(Event::Resized).unwrap();
-        }
-        pump.draw().unwrap();
-        let again = written.recv().unwrap();
-        let erased = again.find("\x1b[2J").unwrap();
-        assert!(again[erased..].contains("\x1b[H0"), "{again:?}");
-        assert_eq!(again.matches("\x1b[2J").count(), 1, "{again:?}");
-        assert!(written.is_empty());
-    }
 }
 
 /// Plays a file and returns what is on the screen at its end.
@@ -271,21 +212,6 @@ fn keys_are_answered_while_a_figure_is_written() {
     assert_eq!(std::fs::read(path).unwrap(), b"curves");
     events.send(key("q")).unwrap();
     assert_eq!(running.join().unwrap(), LoopEnd::Quit);
-}
-
-#[test]
-fn a_figure_that_may_not_be_written_is_not_begun() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.svg");
-    std::fs::write(&path, "mine").unwrap();
-    let Bench { mut pump, .. } = bench();
-    // The gate stays closed: unless it is stopped, the figure is never finished.
-    let (_open, gate) = unbounded();
-    let asks = Effect::Figure { path: path.clone(), plot: None, replace: false };
-    (pump.application.asks, pump.application.gate) = (Some(asks), Some(gate));
-    pump.handle(key("<enter>")).unwrap();
-    assert!(pump.application.notice.contains("is there already"), "{}", pump.application.notice);
-    assert_eq!(std::fs::read(path).unwrap(), b"mine");
 }
 
 /// A tour, the keys pressed at each text that appears, and the number of steps at the end.
