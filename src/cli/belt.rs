@@ -5,13 +5,9 @@ use std::sync::Arc;
 
 use clap::Args;
 
-use super::failure::Failure;
 use super::figure::completed;
-use super::input::{method, page_file, tolerance};
-use super::machine::input::{StartOverride, assignment, disturbance, margin, start, window};
-use super::machine::{MachineCase, second, troubled};
-use super::output::{Format, Output, write};
-use super::timing::timed;
+use super::input::{self, assignment, page_file, physical_window, tolerance};
+use super::{Failure, MachineCase, Output, second, timed, troubled, write};
 use crate::figure::panels;
 use crate::flow::{Limits, Method};
 use crate::model::unit::WithTolerance;
@@ -21,8 +17,8 @@ use crate::portrait::design::Kick;
 use crate::portrait::design::friction_of_guide;
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::{Course, CubicExpansion, Portrait, Trouble};
-use crate::report::belt;
-use crate::report::belt::{DesignAnswer, Head, MachineAnswer, OnBelt, RestShare};
+use crate::report::About;
+use crate::report::machine::{DesignAnswer, MachineAnswer, OnBelt, RestShare, machine, page};
 use crate::runtime::print::figure;
 use crate::runtime::provenance_file;
 use crate::scene::machine::library::{TEXTBOOK, machines};
@@ -30,7 +26,7 @@ use crate::scene::machine::library::{TEXTBOOK, machines};
 /// Analyses a mass on a belt in physical units
 #[derive(Debug, Args)]
 #[command(long_about = long_about())]
-pub struct Arguments {
+pub struct BeltCommand {
     /// Machine file, or the name of a built-in machine
     #[arg(value_name = "FILE", default_value = TEXTBOOK)]
     machine: String,
@@ -39,23 +35,24 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     set: Vec<(Knob, WithTolerance)>,
     /// Bound on a force that disturbs the mass in any way, such as "0.1 N": also reports the margin that is guaranteed under it
-    #[arg(long, value_name = "FORCE", value_parser = disturbance, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORCE", value_parser = |text: &str| Knob::DisturbingForce.parse(text), allow_hyphen_values = true)]
     disturbance: Option<f64>,
     /// Start of the motion, such as "x=1 mm,v=0 m/s"
-    #[arg(long, value_name = "x=..,v=..", value_parser = start, allow_hyphen_values = true)]
-    start: Option<StartOverride>,
+    #[arg(long, value_name = "x=..,v=..", value_parser = input::start, value_delimiter = ',',
+          allow_hyphen_values = true)]
+    start: Vec<(Knob, WithTolerance)>,
     /// Window "XMIN:XMAX,VMIN:VMAX": reports the share of its starts that come to rest
-    #[arg(long, value_name = "WINDOW", value_parser = window, allow_hyphen_values = true)]
+    #[arg(long, value_name = "WINDOW", value_parser = physical_window, allow_hyphen_values = true)]
     window: Option<Window>,
     /// Measures the window's displacements from the relaxed spring instead of the steady position
     #[arg(long, requires = "window")]
     elongation: bool,
     /// Finds the friction R that a margin needs: a displacement ("2 mm") or an impulse ("0.1 N s")
-    #[arg(long, value_name = "MARGIN", value_parser = margin, allow_hyphen_values = true)]
+    #[arg(long, value_name = "MARGIN", value_parser = input::physical_margin, allow_hyphen_values = true)]
     design: Option<(Kick, f64)>,
     /// Integration method: auto or taylor (Taylor series); with dop853 or dopri5 the motion is computed a second
     /// time and the difference reported
-    #[arg(long, value_name = "NAME", value_parser = method)]
+    #[arg(long, value_name = "NAME", value_parser = input::method)]
     method: Option<Method>,
     /// Size of the last terms of a step, relative to the state, 1e-15 .. 0.01 (default: below rounding)
     #[arg(long, value_name = "X", value_parser = tolerance, allow_hyphen_values = true)]
@@ -83,14 +80,13 @@ fn long_about() -> String {
     )
 }
 
-impl Arguments {
+impl BeltCommand {
     /// The machine and the motion, with the values set on the command line.
     fn case(&self) -> Result<MachineCase, Failure> {
         let mut case = MachineCase::named(&self.machine)?;
         case.set(&self.set)?;
-        let MachineProblem { tolerances, start, .. } = &mut case.problem;
-        let StartOverride { x, v } = self.start.unwrap_or_default();
-        *start = (x.unwrap_or(start.0), v.unwrap_or(start.1));
+        case.set(&self.start)?;
+        let tolerances = &mut case.problem.tolerances;
         tolerances.disturbance = self.disturbance.unwrap_or(tolerances.disturbance);
         case.checked()
     }
@@ -109,20 +105,16 @@ impl Arguments {
         let second = second(self.method)?;
         let mut case = self.case()?;
         case.problem.subject.tolerance = self.own(second);
-        let head = case.head();
+        let about = case.about();
         let (found, seconds) =
-            timed(self.output.repeat, || self.answer(&case.problem, &head, second));
+            timed(self.output.repeat, || self.answer(&case.problem, &about, second));
         let answer = MachineAnswer { seconds, ..found.map_err(troubled)? };
         if let Some(path) = &self.report {
             let (pictures, provenance) = (pictures(&case)?, provenance_file::of_process());
-            let page = belt::page(&answer, &pictures, &provenance, &case.sources);
+            let page = page(&answer, &pictures, &provenance, &case.sources);
             write(path, page.as_bytes(), self.force)?;
         }
-        self.output.print(&match self.output.format {
-            Format::Table => belt::table(&answer),
-            Format::Json => belt::json(&answer),
-            Format::Csv => belt::csv(&answer),
-        })?;
+        self.output.print(machine(&answer))?;
         let incomplete = answer.course.portrait.incomplete();
         incomplete.map_or(Ok(()), |stop| Err(troubled(stop)))
     }
@@ -131,7 +123,7 @@ impl Arguments {
     fn answer<'a>(
         &self,
         problem: &'a MachineProblem,
-        head: &'a Head,
+        about: &'a About,
         second: Option<Method>,
     ) -> Result<MachineAnswer<'a>, Trouble> {
         let MachineProblem { subject, tolerances, start, until } = problem;
@@ -147,16 +139,21 @@ impl Arguments {
         }
         let rest_share = self.share(&course.portrait);
         let design = self.designed(subject, tolerances)?;
-        Ok(MachineAnswer { head, start: *start, course, rest_share, design, on_belt, seconds: 0.0 })
+        Ok(MachineAnswer {
+            about,
+            start: *start,
+            course,
+            rest_share,
+            design,
+            on_belt,
+            seconds: 0.0,
+        })
     }
 
-    fn share(&self, portrait: &Portrait) -> RestShare {
-        let Some(Window { q: (from, to), v }) = self.window else {
-            return RestShare::NotAsked;
-        };
+    fn share(&self, portrait: &Portrait) -> Option<RestShare> {
+        let Window { q: (from, to), v } = self.window?;
         let steady = if self.elongation { portrait.model.pull } else { 0.0 };
-        let known = portrait.rest_share((from - steady, to - steady), v);
-        known.map_or(RestShare::Unknown, RestShare::Is)
+        Some(portrait.rest_share((from - steady, to - steady), v))
     }
 
     /// The friction needed for the margin, if asked for.

@@ -1,22 +1,24 @@
-//! `hopfscope branch`: the limit cycles along a parameter.
+//! `hopfscope branch` and `hopfscope border`: the limit cycles along a number, and where the basin changes its kind along
+//! D, or along a number of a machine, while another one varies.
 
 use clap::Args;
+use rayon::prelude::*;
 
-use super::failure::Failure;
-use super::input::{self, Over, read};
-use super::machine::input as of_machine;
-use super::machine::{MachineCase, print};
-use super::output::{Certify, Format, Output};
-use super::source::SourceOptions;
-use super::timing::timed;
+use super::input::{self, Over, physical_over};
+use super::{Certify, Failure, MachineCase, Output, SourceOptions, given, read, timed};
 use crate::branch::along::{Points, branch};
+use crate::branch::fold::{Boundary, BoundaryPoint, border};
 use crate::flow::Limits;
-use crate::proof::{self, ParameterBox};
-use crate::report::{branch as report, certified, machine_branch};
+use crate::model::{Belt, Knob, State};
+use crate::proof::ParameterBox;
+use crate::proof::bifurcation::{enclose_escape, enclose_fold};
+use crate::proof::range::{change_near, range};
+use crate::report::certified::BorderProof;
+use crate::report::{About, branch as report};
 
 /// Follows the limit cycles along a parameter, with folds and other special points
 #[derive(Debug, Args)]
-pub struct Arguments {
+pub struct BranchCommand {
     #[command(flatten)]
     source: SourceOptions,
     #[command(flatten)]
@@ -38,39 +40,134 @@ fn parameter(text: &str) -> Result<Over, String> {
     Ok(over)
 }
 
-impl Arguments {
+impl BranchCommand {
     pub fn run(&self) -> Result<(), Failure> {
         if let Some(case) = self.source.portrayed()? {
             return self.of_machine(&case);
         }
         let over = read("--over", &self.over, parameter)?;
-        let problem = self.source.start.problem()?;
+        let problem = self.source.start.scene(None)?.problem;
         let (base, tolerance) = (&problem.parameters, problem.tolerance);
         let Over { knob: symbol, count, .. } = over;
-        let range = over.range();
+        let ends = over.range();
         let follow =
-            || branch(base, symbol, range, Points::Even(count), tolerance, &Limits::PATIENT);
+            || branch(base, symbol, ends, Points::Even(count), tolerance, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the branch could not be completed", follow)?;
-        let decide = || proof::range::range(&ParameterBox::from(base), symbol, range);
-        let certified = self.certify.ask(decide);
-        let decided = certified.as_ref().map(|it| certified::range_table(it, symbol));
-        self.output.print(&match self.output.format {
-            Format::Table => {
-                report::table(&found, base, tolerance, seconds) + &decided.unwrap_or_default()
-            }
-            Format::Json => report::json(&found, certified.as_ref(), seconds),
-            Format::Csv => report::csv(&found, certified.as_ref()),
-        })
+        let certified = self.certify.ask(|| range(&ParameterBox::from(base), symbol, ends));
+        let about = About::oscillator(base).but(&[symbol]);
+        let certified = certified.as_ref();
+        self.output.print(report::branch(&about, &found, certified, tolerance, seconds))
     }
 
     fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
-        let Over { knob, ends, count } = read("--over", &self.over, of_machine::range)?;
+        let Over { knob, ends, count } = read("--over", &self.over, physical_over)?;
         let subject = &case.problem.subject;
         let (found, seconds) = timed(self.output.repeat, || {
             crate::branch::machine::branch(subject.clone(), knob, ends, count)
         });
         let found = found.map_err(Failure::Usage)?;
-        let head = case.head();
-        print(&self.output, machine_branch::branch(&head, subject, (knob, &found), seconds))
+        let about = case.about().but(&[knob]);
+        self.output.print(report::of_machine(&about, knob, &found, seconds))
     }
+}
+
+/// Continues the fold `D_F` and the escape point `D_c` in a second parameter
+#[derive(Debug, Args)]
+pub struct BorderCommand {
+    #[command(flatten)]
+    source: SourceOptions,
+    #[command(flatten)]
+    output: Output,
+    #[command(flatten)]
+    certify: Certify,
+    /// The second parameter (D2, D3 or r, or a number of the machine), its range, and the number of values
+    #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
+    over: String,
+    /// The number of the machine along which changes are located, in place of D, its range, and the number of
+    /// portraits between which they are sought (default: 60 belt speeds from a tenth of its own to three times)
+    #[arg(
+        long,
+        value_name = "NAME=FROM:TO:COUNT",
+        requires = "machine",
+        allow_hyphen_values = true
+    )]
+    along: Option<String>,
+}
+
+/// Reads the second parameter. The border is located along D and does not depend on the start of a motion.
+fn second(text: &str) -> Result<Over, String> {
+    let over = input::over(text)?;
+    let name = over.knob.spec().name;
+    match over.knob {
+        Knob::D2 | Knob::D3 | Knob::R => Ok(over),
+        _ => Err(format!(
+            "the border is a value of D over another parameter, not over {name}: D2, D3 or r"
+        )),
+    }
+}
+
+impl BorderCommand {
+    pub fn run(&self) -> Result<(), Failure> {
+        if let Some(case) = self.source.portrayed()? {
+            return self.of_machine(&case);
+        }
+        let parameters = self.source.start.scene(None)?.problem.parameters;
+        let over = read("--over", &self.over, second)?;
+        let Over { knob: symbol, count, .. } = over;
+        let range = over.range();
+        let follow = || border(&parameters, symbol, range, count, &Limits::PATIENT);
+        let (found, seconds) = self.output.timed("the boundary could not be completed", follow)?;
+        let certified = self.certify.ask(|| enclosed(&found));
+        let about = About::oscillator(&parameters).but(&[symbol]);
+        self.output.print(report::border(&about, &found, certified.as_deref(), seconds))
+    }
+
+    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
+        let over = read("--over", &self.over, physical_over)?;
+        let along = given("--along", self.along.as_ref(), physical_over)?;
+        let subject = &case.problem.subject;
+        let own = |belt: &Belt| {
+            let ends = (0.1 * belt.belt_speed, 3.0 * belt.belt_speed);
+            Over { knob: Knob::BeltSpeed, ends, count: 60 }
+        };
+        let along = along.or_else(|| subject.of_belt().map(own)).ok_or_else(|| {
+            Failure::Usage(
+                "a mode has no belt speed: along what? --along NAME=FROM:TO:COUNT".into(),
+            )
+        })?;
+        if along.knob == over.knob {
+            let line = format!("{} is varied twice, by --along and by --over", over.knob);
+            return Err(Failure::Usage(line));
+        }
+        let three = |Over { knob, ends, count }: Over| (knob, ends, count);
+        let (found, seconds) = timed(self.output.repeat, || {
+            crate::branch::machine::borders(subject, three(along), three(over))
+        });
+        let found = found.map_err(Failure::Usage)?;
+        let knobs = (along.knob, over.knob);
+        let about = case.about().but(&[along.knob, over.knob]);
+        self.output.print(report::border_of_machine(&about, knobs, &found, seconds))
+    }
+}
+
+/// The fold and the escape point in D at each point of a border, enclosed.
+fn enclosed(found: &Boundary) -> Vec<BorderProof> {
+    let nowhere = State { q: 0.0, v: 0.0 };
+    let at = |point: &BoundaryPoint| {
+        let mut parameters = found.parameters;
+        found.second.set(&mut parameters, &mut nowhere.clone(), point.value);
+        let known = ParameterBox::from(&parameters);
+        // Where two cycles do not merge smoothly, as at a grazing, only the change in the number of cycles can be
+        // enclosed.
+        let changes = |d: f64| Some(change_near(&known, Knob::D, d)?.between);
+        let fold = point.fold.and_then(|fold| {
+            let clearance = fold.q_max - parameters.r;
+            let met = enclose_fold(&known, Knob::D, fold.d, clearance).map(|met| met.value);
+            met.or_else(|| changes(fold.d))
+        });
+        let escape =
+            point.escape.and_then(|d| enclose_escape(&known, Knob::D, d).or_else(|| changes(d)));
+        BorderProof::new(point, fold, escape)
+    };
+    found.points.par_iter().map(at).collect()
 }

@@ -1,16 +1,13 @@
-//! `hopfscope cycles`: every limit cycle.
+//! `hopfscope cycles` and `hopfscope check`: every limit cycle, and whether a proof of them holds.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::failure::Failure;
-use super::input;
-use super::machine::{MachineCase, print, troubled};
-use super::output::{Format, Output, write, write_source};
-use super::source::SourceOptions;
-use super::timing::timed;
-use crate::accuracy::harmonic_error::{HarmonicBalance, convergence};
+use super::output::write_source;
+use super::{Failure, MachineCase, Output, SourceOptions, input, print, timed, troubled, write};
+use crate::accuracy::harmonic_error::HarmonicBalance;
+use crate::accuracy::harmonic_error::convergence;
 use crate::check::check;
 use crate::closed_form::harmonics::MOST;
 use crate::flow::{Limits, Reason};
@@ -19,11 +16,13 @@ use crate::portrait::basin::cycle::cycles;
 use crate::portrait::proved::proved;
 use crate::proof::certificate::{certificate, text};
 use crate::proof::{ParameterBox, Proof, prove};
-use crate::report::{certified, cycles as report, harmonic_balance, json, machine_motion};
+use crate::report::proof::{boxed, certificate_table};
+use crate::report::{About, cycles as report};
+use crate::runtime::bounded;
 
 /// Finds every limit cycle, proves that there are no others, and names the border of the basin
 #[derive(Debug, Args)]
-pub struct Arguments {
+pub struct CyclesCommand {
     #[command(flatten)]
     source: SourceOptions,
     #[command(flatten)]
@@ -44,7 +43,7 @@ fn harmonics(text: &str) -> Result<usize, String> {
     input::whole(text, 1..=MOST)
 }
 
-impl Arguments {
+impl CyclesCommand {
     pub fn run(&self) -> Result<(), Failure> {
         if let Some(case) = self.source.portrayed()? {
             return self.of_machine(&case);
@@ -53,26 +52,18 @@ impl Arguments {
         if !known.is_point() {
             return self.run_box(&known);
         }
-        let problem = self.source.start.problem()?;
+        let problem = self.source.start.scene(None)?.problem;
         let (found, seconds) = timed(self.output.repeat, || self.find(&problem.parameters));
         let CyclesAnswer { found, proof, rungs } = found?;
         self.certify(&proof)?;
-        let rungs = rungs.as_deref();
-        self.output.print(&match self.output.format {
-            Format::Table => {
-                report::table(&found, &proof, seconds)
-                    + &rungs.map(harmonic_balance::table).unwrap_or_default()
-            }
-            Format::Json => report::json(&found, &proof, rungs, seconds),
-            Format::Csv => rungs.map_or_else(|| report::csv(&found, &proof), harmonic_balance::csv),
-        })
+        let about = About::oscillator(&problem.parameters);
+        self.output.print(report::cycles(&about, &found, &proof, rungs.as_deref(), seconds))
     }
 
     /// Answers about a machine; fails where its friction law ends before all motions are known.
     fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
         let (found, seconds) = case.portrait(&self.output)?;
-        let head = case.head();
-        print(&self.output, machine_motion::cycles(&head, &case.problem.subject, &found, seconds))?;
+        self.output.print(report::of_machine(&case.about(), &found, seconds))?;
         found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop)))
     }
 
@@ -84,11 +75,7 @@ impl Arguments {
         }
         let proof = prove(known, &[]);
         self.certify(&proof)?;
-        self.output.print(&match self.output.format {
-            Format::Json => json::text(&certified::boxed(&proof)),
-            Format::Table => certified::box_table(&proof),
-            Format::Csv => certified::box_csv(&proof),
-        })
+        self.output.print(boxed(&proof))
     }
 
     /// Writes the certificate, if asked for.
@@ -119,4 +106,20 @@ struct CyclesAnswer {
     found: crate::portrait::basin::cycle::Cycles,
     proof: Proof,
     rungs: Option<Vec<HarmonicBalance>>,
+}
+
+/// Verifies, step by step, a certificate written by `cycles --certificate`
+#[derive(Debug, Args)]
+pub struct CheckCommand {
+    /// The certificate
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+}
+
+impl CheckCommand {
+    pub fn run(&self) -> Result<(), Failure> {
+        let text = bounded::text(&self.file).map_err(|error| Failure::file(&self.file, &error))?;
+        let refused = |why| Failure::Unanswered(format!("{}: refused, {why}", self.file.display()));
+        print(&certificate_table(&check(&text).map_err(refused)?))
+    }
 }

@@ -1,4 +1,4 @@
-//! `hopfscope [SCENE]`: the explorer in this terminal.
+//! `hopfscope [SCENE]` and `hopfscope tour`: the explorer in this terminal.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -7,18 +7,15 @@ use std::time::SystemTime;
 
 use clap::Args;
 
-use super::config::Settings;
-use super::failure::Failure;
-use super::look::Looks;
-use super::machine;
 use super::places::Memory;
 use super::replay::script;
-use super::start::StartOptions;
+use super::settings::{Looks, Settings};
+use super::{Failure, StartOptions, machine};
 use crate::numerics::similar::similar;
 use crate::runtime::effects::Files;
 use crate::runtime::{Options, RecordingFile, explore};
-use crate::scene::find;
 use crate::scene::library::{PLAIN, names};
+use crate::scene::{find, plain};
 use crate::session::opening::opening;
 use crate::session::replay::{Instruction, Recorder, Script};
 use crate::session::{Kept, Key, Msg, Notice, Session, Size, save};
@@ -26,7 +23,7 @@ use crate::terminal::Environment;
 
 /// Opens the explorer.
 #[derive(Debug, Args)]
-pub struct Explore {
+pub struct ExploreCommand {
     /// Scene to open; `hopfscope scenes` lists them
     #[arg(value_name = "SCENE", conflicts_with = "scene")]
     named: Option<String>,
@@ -59,18 +56,19 @@ pub struct Explore {
     force: bool,
 }
 
-impl Explore {
+impl ExploreCommand {
     pub fn run(&self) -> Result<ExitCode, Failure> {
         let config = self.settings.read()?;
         let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
         let name = named.map_or(PLAIN, String::as_str);
         let scene = match &self.belt {
             Some(file) => self.start.applied(machine::scene(file)?)?,
-            None if self.named.is_some() => {
-                find(name).map_err(|_| neither_scene_nor_command(name))?;
-                self.start.scene_named(name)?
+            None => {
+                if self.named.is_some() {
+                    find(name).map_err(|_| neither_scene_nor_command(name))?;
+                }
+                self.start.scene(Some(name))?
             }
-            None => self.start.scene_named(name)?,
         };
         let play = self.play.as_deref().map(played).transpose()?.unwrap_or_default();
         // The terminal reports its size before the first picture is drawn.
@@ -86,6 +84,25 @@ impl Explore {
         }
         let record = self.record.as_deref().map(|path| (path, self.force));
         go(session, &play, record, self.allow_write)
+    }
+}
+
+/// Guided tour of the explorer: the keys named in a caption work, any other key continues, Esc leaves
+#[derive(Debug, Args)]
+pub struct TourCommand {
+    #[command(flatten)]
+    looks: Looks,
+    #[command(flatten)]
+    settings: Settings,
+}
+
+impl TourCommand {
+    pub fn run(&self) -> Result<ExitCode, Failure> {
+        let config = self.settings.read()?;
+        let mut session = Session::new(plain(), Size { width: 80, height: 24 });
+        session.display = self.looks.wishes(&config);
+        session.keymap = Arc::new(config.keymap);
+        go(session, &[Instruction::Give(Msg::Run("tour".to_owned()))], None, false)
     }
 }
 

@@ -5,11 +5,8 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 
-use super::failure::Failure;
-use super::input;
-use super::output::{print, write};
-use super::source::SourceOptions;
 use super::wrapped::columns;
+use super::{Failure, SourceOptions, input, print, write};
 use crate::figure::{self as forms, FileForm};
 use crate::flow::Limits;
 use crate::question::Fineness;
@@ -23,7 +20,7 @@ use crate::view::{self, Look};
 
 /// Writes the plots of a scene as SVG, PNG, CSV or JSON, or draws them in the terminal
 #[derive(Debug, Args)]
-pub struct Arguments {
+pub struct FigureCommand {
     /// Scene to show; each of its plots becomes a panel
     #[arg(value_name = "NAME", conflicts_with_all = ["scene", "machine"])]
     named: Option<String>,
@@ -60,7 +57,7 @@ const PANEL: (u16, u16) = (100, 30);
 /// Fewest columns in which a panel is readable.
 const NARROWEST: u16 = 40;
 
-impl Arguments {
+impl FigureCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let (mut session, plots) = completed(self.scene()?)?;
         let mut drawn =
@@ -78,7 +75,7 @@ impl Arguments {
     }
 }
 
-impl Arguments {
+impl FigureCommand {
     /// The scene to show: that of a machine, or one that is named.
     fn scene(&self) -> Result<Arc<Scene>, Failure> {
         if let Some(case) = self.source.machine()? {
@@ -91,7 +88,7 @@ impl Arguments {
                 "which figure? Every scene has one, such as fig17; hopfscope scenes lists them";
             return Err(Failure::Usage(line.to_owned()));
         };
-        start.scene_named(name)
+        start.scene(Some(name))
     }
 }
 

@@ -6,11 +6,8 @@ use std::sync::Mutex;
 
 use clap::{ArgGroup, Args};
 
-use super::failure::Failure;
-use super::input;
-use super::output::{Format, Output, write};
 use super::progress::{Outlet, StatusLine};
-use super::timing::timed;
+use super::{Failure, Output, input, timed, write};
 use crate::figure::{self, Figure, FileForm};
 use crate::fit::{
     Choice, Column, Curves, D, DRAWS, Estimate, Fitted, Inertia, LENGTHS, LossName, MarginQuestion,
@@ -27,7 +24,7 @@ use crate::words::fit::broken;
 /// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("written").args(["pictures", "report"]).multiple(true))]
-pub struct Arguments {
+pub struct FitCommand {
     /// Record: a column of times and one of displacements, as instruments write them
     #[arg(value_name = "FILE")]
     file: PathBuf,
@@ -67,11 +64,11 @@ pub struct Arguments {
     half_width: Vec<(&'static NameSpec, f64)>,
     /// Probability with which the kicks of the statement are survived (default: 0.95)
     #[arg(long, value_name = "P", default_value_t = 0.95, hide_default_value = true,
-          value_parser = confidence)]
+          value_parser = |text: &str| Knob::Confidence.parse(text))]
     confidence: f64,
     /// Least number of draws from the estimate, for the distribution of the margin; a confidence above 0.975 takes more
     #[arg(long, value_name = "N", default_value_t = DRAWS, hide_default_value = true,
-          value_parser = draws)]
+          value_parser = |text: &str| input::whole(text, 40..=1_000_000))]
     draws: usize,
     /// Also writes figures: record and residuals, damping over amplitude, phase plane, margin; the extension sets the
     /// format: .svg, .png, .csv or .json
@@ -132,10 +129,6 @@ fn half_width(text: &str) -> Result<(&'static NameSpec, f64), String> {
     }
 }
 
-fn confidence(text: &str) -> Result<f64, String> {
-    Knob::Confidence.parse(text)
-}
-
 fn unit(text: &str) -> Result<String, String> {
     let known = || {
         let lengths = LENGTHS.map(|it| it.0).join(", ");
@@ -146,11 +139,7 @@ fn unit(text: &str) -> Result<String, String> {
     quantity(text).map(|_| text.to_owned()).ok_or_else(known)
 }
 
-fn draws(text: &str) -> Result<usize, String> {
-    input::whole(text, 40..=1_000_000)
-}
-
-impl Arguments {
+impl FitCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let bytes =
             bounded::bytes(&self.file).map_err(|error| Failure::file(&self.file, &error))?;
@@ -167,11 +156,7 @@ impl Arguments {
             let page = forms::page(&fitted, &pictures, &provenance, &source);
             write(path, page.as_bytes(), self.force)?;
         }
-        self.output.print(&match self.output.format {
-            Format::Table => forms::table(&fitted),
-            Format::Json => forms::json(&fitted),
-            Format::Csv => forms::csv(&fitted),
-        })?;
+        self.output.print(forms::fit(&fitted))?;
         let failure = |line| Err(Failure::Unanswered(format!("{}: {line}", fitted.name)));
         broken(&fitted).map_or(Ok(()), failure)
     }
@@ -236,7 +221,7 @@ impl Arguments {
         }
         let disturbance =
             self.disturbance.map_or(Ok(0.0), |it| disturbance(it, inertia, record))?;
-        let Arguments { draws, confidence, .. } = *self;
+        let FitCommand { draws, confidence, .. } = *self;
         Ok(MarginQuestion { draws, confidence, disturbance, half_widths, inertia })
     }
 

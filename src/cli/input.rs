@@ -1,5 +1,6 @@
 //! Reading the values of options. Every error names the value and what is allowed.
 
+use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -7,9 +8,11 @@ use std::str::FromStr;
 use super::failure::Failure;
 use crate::figure::FileForm;
 use crate::flow::{METHODS, Method};
-use crate::model::{Group, Interval, Knob};
+use crate::model::unit::{Dimension, WithTolerance, measured, quantity};
+use crate::model::{Group, Interval, Knob, MachineProblem};
 use crate::portrait::basin::Window;
 use crate::portrait::design::Kick;
+use crate::portrait::kicks::RandomKick;
 use crate::scan::sweep::ends;
 
 /// Reads the text of an option whose numbers depend on what the command is about.
@@ -31,6 +34,11 @@ pub fn given<T>(
     text.map(|text| read(option, text, of_text)).transpose()
 }
 
+/// Reads a number if it is given.
+pub fn number(option: &str, text: Option<&String>, knob: Knob) -> Result<Option<f64>, Failure> {
+    given(option, text, |text| knob.parse(text))
+}
+
 /// A whole number within a range.
 pub fn whole(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> {
     let (least, most) = (range.start(), range.end());
@@ -42,11 +50,6 @@ pub fn whole(text: &str, range: RangeInclusive<usize>) -> Result<usize, String> 
 pub fn pair<T: FromStr>(text: &str, separator: char) -> Option<(T, T)> {
     let (one, other) = text.split_once(separator)?;
     Some((one.parse().ok()?, other.parse().ok()?))
-}
-
-/// An end time.
-pub fn until(text: &str) -> Result<f64, String> {
-    Knob::Until.parse(text)
 }
 
 /// The relative error of a step.
@@ -65,11 +68,6 @@ pub fn assigned(text: &str) -> Result<(Knob, Interval), String> {
     let form = "expected NAME=VALUE, such as D=-0.3 or r=0.10+-0.01";
     let (knob, value) = named(text, &[Group::Motion], form)?;
     Ok((knob, knob.parse_toleranced(value)?.ends))
-}
-
-/// A bound on a disturbing force.
-pub fn disturbance(text: &str) -> Result<f64, String> {
-    Knob::Disturbance.parse(text)
 }
 
 /// `NAME=HALFWIDTH` of D, D2, D3 or r.
@@ -160,32 +158,35 @@ pub fn window(text: &str) -> Result<Window, String> {
     Ok(Window { q, v })
 }
 
-/// `WxH` starts.
-pub fn grid(text: &str) -> Result<(usize, usize), String> {
-    /// Maximum number of starts on a side.
-    const MOST: usize = 100_000;
-    let allowed = 1..=MOST;
+/// `WxH` of this kind, such as the one given.
+fn rectangle<T: FromStr + PartialOrd + Display>(
+    text: &str,
+    (kind, such): (&str, &str),
+    [least, most]: [T; 2],
+) -> Result<(T, T), String> {
+    let allowed = least..=most;
     let sides =
         pair(text, 'x').filter(|(one, other)| allowed.contains(one) && allowed.contains(other));
+    let (least, most) = allowed.into_inner();
     sides.ok_or_else(|| {
-        format!("{text:?} is not a grid; expected WxH, such as 320x384, 1 .. {MOST} each")
+        format!("{text:?} is not a {kind}; expected WxH, such as {such}, {least} .. {most} each")
     })
+}
+
+/// `WxH` starts.
+pub fn grid(text: &str) -> Result<(usize, usize), String> {
+    rectangle(text, ("grid", "320x384"), [1, 100_000])
+}
+
+/// `WxH` in cells.
+pub fn size(text: &str) -> Result<(u16, u16), String> {
+    rectangle(text, ("size", "120x40"), [1, 1000])
 }
 
 pub fn method(name: &str) -> Result<Method, String> {
     Method::named(name).ok_or_else(|| {
         let names: Vec<_> = METHODS.iter().map(|row| row.name).collect();
         format!("there is no method {name:?}; there are {}", names.join(", "))
-    })
-}
-
-/// `WIDTHxHEIGHT` in cells.
-pub fn size(text: &str) -> Result<(u16, u16), String> {
-    let allowed = 1..=1000;
-    let sides =
-        pair(text, 'x').filter(|(one, other)| allowed.contains(one) && allowed.contains(other));
-    sides.ok_or_else(|| {
-        format!("{text:?} is not a size; expected WxH, such as 120x40, 1 .. 1000 each")
     })
 }
 
@@ -200,6 +201,61 @@ pub fn page_file(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let is_page = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html"));
     if is_page { Ok(path) } else { Err("a page ends in .html".to_owned()) }
+}
+
+/// `NAME=VALUE`, the value with or without a unit.
+pub fn assignment(text: &str) -> Result<(Knob, WithTolerance), String> {
+    let (knob, value) =
+        named(text, MachineProblem::GROUPS, "expected NAME=VALUE, such as \"v0=0.2 m/s\"")?;
+    let read = knob.parse_toleranced(value)?;
+    if read.half_width > 0.0 && knob.spec().group == Group::Course {
+        return Err(format!("{text:?}: a start has no tolerance"));
+    }
+    Ok((knob, read))
+}
+
+/// A part of `x=..,v=..`.
+pub fn start(text: &str) -> Result<(Knob, WithTolerance), String> {
+    let start = assignment(text)?;
+    match start.0 {
+        Knob::X | Knob::V => Ok(start),
+        _ => Err(format!("{text:?} is not a start; expected x=.. and v=..")),
+    }
+}
+
+/// `XMIN:XMAX,VMIN:VMAX`, in m and m/s.
+pub fn physical_window(text: &str) -> Result<Window, String> {
+    let form =
+        format!("{text:?} is not a window; expected XMIN:XMAX,VMIN:VMAX, such as -2mm:2mm,0:1");
+    let read = |unit| move |text: &str| quantity(text, unit);
+    let [q, v] = sides(text, &form, [&read("m"), &read("m/s")])?;
+    Ok(Window { q, v })
+}
+
+/// Random kicks, in m and m/s.
+pub fn physical_kicks(text: &str) -> Result<RandomKick, String> {
+    RandomKick::read(text, ["m", "m/s"])
+}
+
+/// `NAME=FROM:TO:COUNT`.
+pub fn physical_over(text: &str) -> Result<Over, String> {
+    over_of(text, Group::SOURCE, "such as \"v0=0.1 m/s:0.5 m/s:21\"", 100_000)
+}
+
+/// A margin: the unit decides whether it is a displacement or an impulse.
+pub fn physical_margin(text: &str) -> Result<(Kick, f64), String> {
+    let read = measured(text)?;
+    let kick = match read.dimension {
+        Some(Dimension::LENGTH) => Kick::Displacement,
+        Some(Dimension::IMPULSE) => Kick::Impulse,
+        _ => {
+            return Err(format!(
+                "{text:?} is not a margin; expected a displacement, such as \"2 mm\", or an impulse, such as \
+                 \"0.1 N s\""
+            ));
+        }
+    };
+    if read.value > 0.0 { Ok((kick, read.value)) } else { Err(format!("{text:?} is not positive")) }
 }
 
 #[cfg(test)]
@@ -248,6 +304,47 @@ mod tests {
         assert!(page_file("a/Page.HTML").is_ok());
         for wrong in ["page", "page.htm", ".html", ""] {
             assert!(page_file(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn assignments_take_units_and_refuse_others() {
+        for (text, name, value, half_width) in [
+            ("m=250 g", Knob::Mass, 0.25, 0.0),
+            ("v0=0.2", Knob::BeltSpeed, 0.2, 0.0),
+            ("R=1 N+-0.2 N", Knob::Friction, 1.0, 0.2),
+            ("x=-2mm", Knob::X, -0.002, 0.0),
+        ] {
+            let (found, read) = assignment(text).unwrap();
+            assert_eq!((found, read.middle.value, read.half_width), (name, value, half_width));
+        }
+        for (text, words) in [
+            ("m", "expected NAME=VALUE"),
+            ("M=1", "there are m, c, d1, d3, F, R, v0, mu_s, R_static"),
+            ("m=2 N", "m = 2 N has the wrong unit; it takes one such as kg"),
+            ("R=-1", "R = -1 N is outside its range 0 .."),
+            ("x=1e9", "x = 1000000000 m is outside its range -1e6 .. 1e6 m"),
+            ("v=two", "\"two\" is not a number"),
+            ("x=1 mm+-1 mm", "a start has no tolerance"),
+        ] {
+            let refused = assignment(text).unwrap_err();
+            assert!(refused.contains(words), "{text}: {refused}");
+        }
+    }
+
+    #[test]
+    fn sweeps_and_margins_are_read() {
+        let expected = Over { knob: Knob::BeltSpeed, ends: (0.1, 0.5), count: 5 };
+        assert_eq!(physical_over("v0=10 cm/s:50 cm/s:5"), Ok(expected));
+        for text in ["v0", "v0=1:2", "v0=1 m/s:2:5", "v0=1:2:1", "v9=1:2:3", "v0=0:1:3", "v0=1:1:3"]
+        {
+            assert!(physical_over(text).is_err(), "{text}");
+        }
+        assert_eq!(physical_margin("2 mm"), Ok((Kick::Displacement, 0.002)));
+        assert_eq!(physical_margin("0.5 N s"), Ok((Kick::Impulse, 0.5)));
+        assert_eq!(physical_margin("0.5 kg m/s"), Ok((Kick::Impulse, 0.5)));
+        for text in ["2", "2 kg", "-2 mm", "0 mm", ""] {
+            assert!(physical_margin(text).is_err(), "{text}");
         }
     }
 }

@@ -1,22 +1,27 @@
-//! `hopfscope margin`: the size up to which kicks are survived for certain.
+//! `hopfscope margin`, `hopfscope basin` and `hopfscope kicks`: how large a kick is survived.
 
 use clap::Args;
 
-use super::failure::Failure;
-use super::input::{self, given};
-use super::machine::input as of_machine;
-use super::machine::{MachineCase, print, troubled};
-use super::output::{Format, Output};
-use super::source::SourceOptions;
-use super::timing::timed;
+use super::input::{self, WINDOW};
+use super::{
+    Certify, Failure, MachineCase, Output, SourceOptions, given, number, read, timed, troubled,
+};
 use crate::flow::Limits;
-use crate::model::MachineProblem;
+use crate::model::{Knob, MachineProblem};
+use crate::portrait::basin::SurveyedBasin;
 use crate::portrait::guarantee::machine::guaranteed;
-use crate::report::{guarantee, machine_motion};
+use crate::portrait::guarantee::oscillator::guarantee;
+use crate::portrait::kicks::RandomKick;
+use crate::portrait::kicks::repeated::{repeated, repeated_by};
+use crate::portrait::proved::agreed;
+use crate::proof;
+use crate::proof::{ParameterBox, prove};
+use crate::report::About;
+use crate::report::margin::{BasinAnswer, MarginAnswer, kicks};
 
 /// Finds how large a kick is survived under every bounded disturbance, at all parameters in a box
 #[derive(Debug, Args)]
-pub struct Arguments {
+pub struct MarginCommand {
     #[command(flatten)]
     source: SourceOptions,
     /// Bound on the disturbing force, in the units of r; of a machine a force, such as "0.1 N"
@@ -26,25 +31,21 @@ pub struct Arguments {
     output: Output,
 }
 
-impl Arguments {
+impl MarginCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let disturbance = self.disturbance.as_ref();
         if let Some(mut case) = self.source.portrayed()? {
-            let force = given("--disturbance", disturbance, of_machine::disturbance)?;
+            let force = number("--disturbance", disturbance, Knob::DisturbingForce)?;
             let known = &mut case.problem.tolerances;
             known.disturbance = force.unwrap_or(known.disturbance);
             return self.of_machine(&case.checked()?);
         }
         let known = self.source.start.known()?;
-        let bound = given("--disturbance", disturbance, input::disturbance)?.unwrap_or(0.0);
-        let ask =
-            || crate::portrait::guarantee::oscillator::guarantee(&known, bound, &Limits::PATIENT);
+        let bound = number("--disturbance", disturbance, Knob::Disturbance)?.unwrap_or(0.0);
+        let ask = || guarantee(&known, bound, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the margin could not be computed", ask)?;
-        self.output.print(&match self.output.format {
-            Format::Table => guarantee::table(&found, seconds),
-            Format::Json => guarantee::json(&found, seconds),
-            Format::Csv => guarantee::csv(&found),
-        })
+        let about = About::oscillator(&known.middle());
+        self.output.print(MarginAnswer::from(&found).answer(&about, seconds))
     }
 
     /// Answers about a machine; what is known exactly has its own margin for certain.
@@ -59,8 +60,93 @@ impl Arguments {
                 certain.map_err(troubled)?
             }
         };
-        let head = case.head();
-        let answer = machine_motion::margin(&head, &case.problem, &found, certain, seconds);
-        print(&self.output, answer)
+        let answer = MarginAnswer::of_machine(&case.problem, &found, certain);
+        self.output.print(answer.answer(&case.about(), seconds))
+    }
+}
+
+/// Shows where the starts in a window end, and how large a kick is survived
+#[derive(Debug, Args)]
+pub struct BasinCommand {
+    #[command(flatten)]
+    source: SourceOptions,
+    #[command(flatten)]
+    output: Output,
+    #[command(flatten)]
+    certify: Certify,
+    /// Displacements and velocities of the starts (default: -3:3,-3:3; of a machine one and a half times its largest
+    /// cycle, or its margin)
+    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", allow_hyphen_values = true)]
+    window: Option<String>,
+    /// Number of starts, evenly spaced, including both ends of the window
+    #[arg(long, value_name = "WxH", default_value = "320x384", value_parser = input::grid)]
+    grid: (usize, usize),
+}
+
+impl BasinCommand {
+    pub fn run(&self) -> Result<(), Failure> {
+        if let Some(case) = self.source.portrayed()? {
+            return self.of_machine(&case);
+        }
+        let parameters = self.source.start.scene(None)?.problem.parameters;
+        let window = given("--window", self.window.as_ref(), input::window)?.unwrap_or(WINDOW);
+        let survey = || SurveyedBasin::of(&parameters, &window, self.grid, &Limits::PATIENT);
+        let (found, seconds) = self.output.timed("the basin could not be completed", survey)?;
+        let enclose = || {
+            let proof = prove(&ParameterBox::from(&parameters), &[]);
+            let margin = &found.margin;
+            let hints = [margin.displacement, margin.impulse, margin.from_rest.impulse];
+            agreed(proof::kicks::kicks(&proof, hints), &found)
+        };
+        let certified = self.certify.ask(enclose);
+        let about = About::oscillator(&parameters);
+        self.output.print(BasinAnswer::new(&found, certified.as_ref()).answer(&about, seconds))
+    }
+
+    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
+        let window = given("--window", self.window.as_ref(), input::physical_window)?;
+        let (found, before) = case.portrait(&self.output)?;
+        let window = window.unwrap_or_else(|| found.surroundings());
+        let (counts, seconds) = timed(self.output.repeat, || found.count(&window, self.grid));
+        let captured = found.rest_share(window.q, window.v);
+        let answer = BasinAnswer::of_machine(&found, counts, captured);
+        self.output.print(answer.answer(&case.about(), before + seconds))
+    }
+}
+
+/// Finds the share of random kicks that is lost, and how many in a row are survived
+#[derive(Debug, Args)]
+pub struct KicksCommand {
+    #[command(flatten)]
+    source: SourceOptions,
+    #[command(flatten)]
+    output: Output,
+    /// Displacement and velocity of a kick, mean and standard deviation; with uniform: before them, mean and
+    /// half width
+    #[arg(
+        long = "kicks",
+        value_name = "q=MEAN+-SPREAD,v=MEAN+-SPREAD",
+        allow_hyphen_values = true
+    )]
+    law: String,
+}
+
+impl KicksCommand {
+    pub fn run(&self) -> Result<(), Failure> {
+        const FAILED: &str = "the kicks could not be followed";
+        if let Some(case) = self.source.portrayed()? {
+            let law = read("--kicks", &self.law, input::physical_kicks)?;
+            let (portrait, before) = case.portrait(&self.output)?;
+            let follow = || repeated_by(&portrait, &law);
+            let (found, seconds) = self.output.timed(FAILED, follow)?;
+            let (about, held) = (case.about(), portrait.model.guide_static);
+            return self.output.print(kicks(&about, &law, &found, held, before + seconds));
+        }
+        let law: RandomKick = read("--kicks", &self.law, str::parse)?;
+        let parameters = self.source.start.scene(None)?.problem.parameters;
+        let follow = || repeated(&parameters, &law, &Limits::PATIENT);
+        let (found, seconds) = self.output.timed(FAILED, follow)?;
+        let about = About::oscillator(&parameters);
+        self.output.print(kicks(&about, &law, &found, parameters.r, seconds))
     }
 }

@@ -7,12 +7,12 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::failure::Failure;
+use super::Failure;
 use super::output::{unwritten, without};
 use super::part::Shard;
 use super::scan::{ScanCommand, ScanRequest};
 use crate::flow::Limits;
-use crate::report::scan::RowForm;
+use crate::report::Format;
 use crate::runtime::merging::{Conflict, ScanPart, merge};
 use crate::runtime::new_file::{NewFile, Readers};
 use crate::runtime::provenance_file;
@@ -21,7 +21,7 @@ use crate::words::provenance::{Checksum, Provenance};
 
 /// Merges the parts of a scan, or lists the rows that are missing and how to compute them
 #[derive(Debug, Args)]
-pub struct Arguments {
+pub struct MergeCommand {
     /// Files written by scan --output, each with its .provenance beside it, or directories of them
     #[arg(required = true, value_name = "PART")]
     parts: Vec<PathBuf>,
@@ -54,7 +54,7 @@ struct PartSource {
     asked: ScanRequest,
 }
 
-impl Arguments {
+impl MergeCommand {
     /// Merges; exit code 1 if rows are missing.
     pub fn run(&self) -> Result<ExitCode, Failure> {
         let (sources, absent) = self.sources()?;
@@ -147,7 +147,7 @@ impl PartSource {
             return Err(Failure::Usage(format!("{beside}: {command:?} is not a scan")));
         };
         let asked = command.asked()?;
-        if asked.form == RowForm::Table {
+        if asked.form == Format::Table {
             let line =
                 format!("{}: a table rounds its numbers; merge needs csv or json", path.display());
             return Err(Failure::Usage(line));
@@ -217,16 +217,16 @@ fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[PartSo
     let (from, to) = (piece.start + 1, piece.end);
     let mut arguments = without(&first.arguments, &OWN);
     arguments.extend(["--rows".to_owned(), format!("{from}:{to}")]);
-    let ending = if first.asked.form == RowForm::Json { "json" } else { "csv" };
+    let ending = if first.asked.form == Format::Json { "json" } else { "csv" };
     let path = first.path.with_file_name(format!("rows-{from}-{to}.{ending}"));
     command(arguments, first.asked.form, &path)
 }
 
 /// The command line that writes rows of this form to a file, whatever its extension.
-fn command(mut arguments: Vec<String>, form: RowForm, path: &Path) -> String {
-    if form != RowForm::of_file(path) {
+fn command(mut arguments: Vec<String>, form: Format, path: &Path) -> String {
+    if form != Format::of_file(path) {
         arguments = without(&arguments, &[("--format", true)]);
-        let name = if form == RowForm::Json { "json" } else { "csv" };
+        let name = if form == Format::Json { "json" } else { "csv" };
         arguments.extend(["--format", name].map(str::to_owned));
     }
     arguments.extend(["--output".to_owned(), path.to_string_lossy().into_owned()]);

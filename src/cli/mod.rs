@@ -4,27 +4,20 @@
 //! and ends. What a command prints to standard output is its answer and nothing else; notes and errors
 //! go to standard error, one line each. Exit codes: 0 answered, 1 could not be computed or written, 2 bad input.
 
-mod basin;
 mod belt;
-mod border;
 mod branch;
-mod check;
-mod config;
 mod cycles;
 mod explore;
-mod extremes;
 mod failure;
 mod figure;
 mod fit;
 mod input;
-mod keys;
-mod kicks;
-mod look;
+mod lists;
 mod machine;
 mod margin;
 mod merge;
+mod motion;
 mod output;
-mod paper;
 mod part;
 mod places;
 mod plan;
@@ -32,14 +25,10 @@ mod progress;
 mod replay;
 mod scan;
 mod scene_cost;
-mod scenes;
+mod settings;
 mod shell;
 mod source;
-mod start;
 mod timing;
-mod tour;
-mod trade;
-mod trajectory;
 mod wrapped;
 
 use std::ffi::OsString;
@@ -50,7 +39,12 @@ use clap::{Parser, Subcommand};
 use signal_hook::consts::SIGXFSZ;
 use signal_hook::flag;
 
-use failure::Failure;
+pub(super) use failure::Failure;
+pub(super) use input::{given, number, read};
+pub(super) use machine::{MachineCase, second, troubled};
+pub(super) use output::{Certify, Output, print, write};
+pub(super) use source::{SourceOptions, StartOptions};
+pub(super) use timing::{in_turn, timed};
 
 /// Commands for a first try, below the help text.
 const EXAMPLES: &str = "\
@@ -76,64 +70,64 @@ Examples:
 )]
 struct Cli {
     #[command(subcommand)]
-    command: Option<Command>,
+    command: Option<HeadlessCommand>,
     #[command(flatten)]
-    explore: explore::Explore,
+    explore: explore::ExploreCommand,
 }
 
 /// The commands that need no terminal.
 #[derive(Debug, Subcommand)]
-enum Command {
-    Tour(tour::Arguments),
-    Scenes(scenes::Arguments),
-    Keys(keys::Arguments),
-    Trajectory(trajectory::Arguments),
-    Cycles(cycles::Arguments),
-    Branch(branch::Arguments),
-    Border(border::Arguments),
-    Basin(basin::Arguments),
-    Margin(margin::Arguments),
-    Kicks(kicks::Arguments),
+enum HeadlessCommand {
+    Tour(explore::TourCommand),
+    Scenes(lists::ScenesCommand),
+    Keys(lists::KeysCommand),
+    Trajectory(motion::TrajectoryCommand),
+    Cycles(cycles::CyclesCommand),
+    Branch(branch::BranchCommand),
+    Border(branch::BorderCommand),
+    Basin(margin::BasinCommand),
+    Margin(margin::MarginCommand),
+    Kicks(margin::KicksCommand),
     Scan(scan::ScanCommand),
-    Merge(merge::Arguments),
-    Belt(belt::Arguments),
-    Fit(fit::Arguments),
-    Figure(figure::Arguments),
-    Replay(replay::Arguments),
-    Check(check::Arguments),
-    Paper(paper::Arguments),
-    Trade(trade::Arguments),
-    Extremes(extremes::Arguments),
-    Completions(shell::Completions),
+    Merge(merge::MergeCommand),
+    Belt(belt::BeltCommand),
+    Fit(fit::FitCommand),
+    Figure(figure::FigureCommand),
+    Replay(replay::ReplayCommand),
+    Check(cycles::CheckCommand),
+    Paper(lists::PaperCommand),
+    Trade(motion::TradeCommand),
+    Extremes(lists::ExtremesCommand),
+    Completions(shell::CompletionsCommand),
     #[command(name = "man")]
-    Manual(shell::Manual),
+    Manual(shell::ManualCommand),
 }
 
-impl Command {
+impl HeadlessCommand {
     fn run(&self) -> Result<ExitCode, Failure> {
         let answered = match self {
-            Command::Scan(command) => return command.run(),
-            Command::Merge(command) => return command.run(),
-            Command::Tour(command) => return command.run(),
-            Command::Trajectory(command) => command.run(),
-            Command::Cycles(command) => command.run(),
-            Command::Check(command) => command.run(),
-            Command::Branch(command) => command.run(),
-            Command::Basin(command) => command.run(),
-            Command::Margin(command) => command.run(),
-            Command::Kicks(command) => command.run(),
-            Command::Border(command) => command.run(),
-            Command::Paper(command) => command.run(),
-            Command::Belt(command) => command.run(),
-            Command::Trade(command) => command.run(),
-            Command::Figure(command) => command.run(),
-            Command::Fit(command) => command.run(),
-            Command::Scenes(command) => command.run(),
-            Command::Keys(command) => command.run(),
-            Command::Extremes(command) => command.run(),
-            Command::Replay(command) => command.run(),
-            Command::Completions(command) => command.run(),
-            Command::Manual(command) => command.run(),
+            HeadlessCommand::Tour(command) => return command.run(),
+            HeadlessCommand::Scan(command) => return command.run(),
+            HeadlessCommand::Merge(command) => return command.run(),
+            HeadlessCommand::Scenes(command) => command.run(),
+            HeadlessCommand::Keys(command) => command.run(),
+            HeadlessCommand::Trajectory(command) => command.run(),
+            HeadlessCommand::Cycles(command) => command.run(),
+            HeadlessCommand::Branch(command) => command.run(),
+            HeadlessCommand::Border(command) => command.run(),
+            HeadlessCommand::Basin(command) => command.run(),
+            HeadlessCommand::Margin(command) => command.run(),
+            HeadlessCommand::Kicks(command) => command.run(),
+            HeadlessCommand::Belt(command) => command.run(),
+            HeadlessCommand::Fit(command) => command.run(),
+            HeadlessCommand::Figure(command) => command.run(),
+            HeadlessCommand::Replay(command) => command.run(),
+            HeadlessCommand::Check(command) => command.run(),
+            HeadlessCommand::Paper(command) => command.run(),
+            HeadlessCommand::Trade(command) => command.run(),
+            HeadlessCommand::Extremes(command) => command.run(),
+            HeadlessCommand::Completions(command) => command.run(),
+            HeadlessCommand::Manual(command) => command.run(),
         };
         answered.map(|()| ExitCode::SUCCESS)
     }
@@ -163,7 +157,7 @@ pub fn main() -> ExitCode {
         Ok(Cli { command: Some(command), .. }) => command.run(),
         Ok(Cli { command: None, explore }) => explore.run(),
         Err(error) if error.use_stderr() => Err(Failure::from_parser(&error)),
-        Err(help) => output::print(&help.render().to_string()).map(|()| ExitCode::SUCCESS),
+        Err(help) => print(&help.render().to_string()).map(|()| ExitCode::SUCCESS),
     };
     result.unwrap_or_else(|failure| failure.report())
 }

@@ -3,12 +3,12 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use super::failure::Failure;
-use super::timing::timed;
 use super::wrapped::on_terminal;
+use super::{Failure, timed};
 use crate::flow::Reason;
+use crate::report::{Answer, Format};
 use crate::runtime::new_file::{self, Readers};
 use crate::runtime::{provenance_file, standard};
 use crate::words::printable;
@@ -44,18 +44,18 @@ impl Output {
     }
 
     /// Prints a list whose last column is text, wrapped to the width of a terminal.
-    pub fn print_list(&self, answer: &str) -> Result<(), Failure> {
+    pub fn print_list(&self, answer: Answer) -> Result<(), Failure> {
         if self.write.is_none() && self.format == Format::Table {
-            return print(&on_terminal(answer));
+            return print(&on_terminal(&answer.told(self.format)));
         }
         self.print(answer)
     }
 
     /// Prints an answer or writes it to a file. The provenance is part of a JSON document, and beside any other
     /// file.
-    pub fn print(&self, answer: &str) -> Result<(), Failure> {
-        let Some(path) = &self.write else { return print(&sourced(self.format, answer)) };
-        let content = sourced(self.format, answer);
+    pub fn print(&self, answer: Answer) -> Result<(), Failure> {
+        let content = sourced(self.format, &answer.told(self.format));
+        let Some(path) = &self.write else { return print(&content) };
         let written = new_file::write(path, content.as_bytes(), Readers::Usual, false);
         written.map_err(|error| unwritten(path, &error, "--write replaces nothing"))?;
         if self.format == Format::Json {
@@ -92,17 +92,6 @@ impl Certify {
     pub fn ask<T>(self, ask: impl FnOnce() -> T) -> Option<T> {
         self.certify.then(ask)
     }
-}
-
-/// The form of an answer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
-    /// Aligned columns for reading.
-    Table,
-    /// One JSON document, all digits.
-    Json,
-    /// One row per result, all digits.
-    Csv,
 }
 
 /// Prints an answer in printable characters. A closed pipe is not an error: its reader has seen enough.

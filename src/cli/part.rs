@@ -4,13 +4,13 @@ use std::ops::Range;
 
 use clap::Args;
 
-use super::failure::Failure;
+use super::Failure;
 use super::input::pair;
 
 /// The options that choose rows; at most one of them is given.
 #[derive(Clone, Copy, Debug, Default, Args)]
 #[group(id = "part", multiple = false)]
-pub struct Part {
+pub struct RowChoice {
     /// Computes only part K of N (1 <= K <= N); the parts in order make up the whole scan
     #[arg(long, value_name = "K/N", value_parser = shard)]
     shard: Option<Shard>,
@@ -22,7 +22,7 @@ pub struct Part {
     rows: Option<RowRange>,
 }
 
-/// Part `number` of `of`, counted from 1.
+/// RowChoice `number` of `of`, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: usize,
@@ -81,7 +81,7 @@ impl std::fmt::Display for Shard {
     }
 }
 
-impl Part {
+impl RowChoice {
     /// The shard asked for, if any.
     pub fn shard(self) -> Option<Shard> {
         self.shard.or(self.shard_index0)
@@ -132,7 +132,8 @@ mod tests {
         for text in ["0:3", "4:3", "1", "1:", "a:b"] {
             assert!(rows(text).unwrap_err().contains("FIRST:LAST"), "{text}");
         }
-        let beyond = Part { rows: Some(RowRange { first: 3, last: 8 }), ..Part::default() };
+        let beyond =
+            RowChoice { rows: Some(RowRange { first: 3, last: 8 }), ..RowChoice::default() };
         assert!(beyond.points(7).is_err());
         assert_eq!(beyond.points(8).unwrap(), 2..8);
     }

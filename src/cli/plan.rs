@@ -5,11 +5,10 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
-use super::failure::Failure;
-use super::input;
-use super::output::{print, without, write};
+use super::output::without;
 use super::part::MOST;
-use crate::report::scan::RowForm;
+use super::{Failure, input, print, write};
+use crate::report::Format;
 use crate::words::provenance::{Provenance, quoted};
 
 /// The options that ask for a recipe.
@@ -120,7 +119,7 @@ fn recipe(
         return Err(Failure::Usage(line));
     }
     let parts = format!("{rows}.parts");
-    let ending = if RowForm::of_file(Path::new(&rows)) == RowForm::Json { "json" } else { "csv" };
+    let ending = if Format::of_file(Path::new(&rows)) == Format::Json { "json" } else { "csv" };
     let fields = [
         ("@version@", env!("CARGO_PKG_VERSION").to_owned()),
         ("@scan@", Provenance::of(&scan).command),

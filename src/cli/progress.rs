@@ -4,7 +4,8 @@ use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
 use crate::numerics::count::real;
-use crate::words::number::{remaining, significant};
+use crate::words::number::remaining;
+use crate::words::significant;
 
 /// Where progress is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,11 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use ratatui::buffer::Buffer;
 
-use super::failure::Failure;
-use super::input;
-use super::look::Looks;
-use super::output::print;
-use super::start::StartOptions;
+use super::settings::Looks;
+use super::{Failure, StartOptions, input, print};
 use crate::runtime::new_file::{self, Readers};
 use crate::runtime::{bounded, play};
 use crate::session::config::Config;
@@ -21,7 +18,7 @@ use crate::view::screen::{self, Paper};
 
 /// Runs a keystroke file without a terminal and prints the last screen
 #[derive(Debug, Args)]
-pub struct Arguments {
+pub struct ReplayCommand {
     /// Keystroke file
     #[arg(value_name = "FILE")]
     file: PathBuf,
@@ -52,27 +49,11 @@ enum ScreenFormat {
     Svg,
 }
 
-impl ScreenFormat {
-    fn extension(self) -> &'static str {
-        match self {
-            ScreenFormat::Text => "txt",
-            ScreenFormat::Svg => "svg",
-        }
-    }
-
-    fn write(self, screen: &Buffer, paper: Paper) -> String {
-        match self {
-            ScreenFormat::Text => screen::text(screen),
-            ScreenFormat::Svg => screen::svg(screen, paper),
-        }
-    }
-}
-
-impl Arguments {
+impl ReplayCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let script = script(&self.file)?;
         let (width, height) = self.size;
-        let mut session = Session::new(self.start.scene()?, Size { width, height });
+        let mut session = Session::new(self.start.scene(None)?, Size { width, height });
         // With the user's own settings the same file could show different screens.
         session.display = self.looks.wishes(&Config::default());
         let theme = session.display.theme;
@@ -116,8 +97,11 @@ fn write(
 ) -> Result<(), Failure> {
     std::fs::create_dir_all(directory).map_err(|error| Failure::unwritten(directory, &error))?;
     for (name, screen) in screens {
-        let path = directory.join(format!("{name}.{}", format.extension()));
-        let content = format.write(screen, paper);
+        let (ending, content) = match format {
+            ScreenFormat::Text => ("txt", screen::text(screen)),
+            ScreenFormat::Svg => ("svg", screen::svg(screen, paper)),
+        };
+        let path = directory.join(format!("{name}.{ending}"));
         new_file::write(&path, content.as_bytes(), Readers::Usual, true)
             .map_err(|error| Failure::unwritten(&path, &error))?;
     }

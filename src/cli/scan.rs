@@ -11,18 +11,15 @@ use clap::{Args, FromArgMatches, ValueEnum};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
 
-use super::failure::Failure;
-use super::input::{self, WINDOW, given, read};
-use super::machine::MachineCase;
-use super::machine::input as of_machine;
+use super::input::{self, WINDOW};
 use super::output::holds_something;
-use super::part::{Part, Shard};
+use super::part::{RowChoice, Shard};
 use super::plan::Plan;
 use super::progress::{Outlet, Progress};
-use super::source::SourceOptions;
+use super::{Failure, MachineCase, SourceOptions, given, number, read};
 use crate::flow::Limits;
 use crate::model::{Knob, MachineProblem};
-use crate::report::scan::RowForm;
+use crate::report::Format;
 use crate::runtime::scan_file::{LineRefusal, ScanFile};
 use crate::runtime::scanning::{Processors, Taker, rows};
 use crate::runtime::signals::exit_code;
@@ -48,8 +45,13 @@ pub struct ScanCommand {
     /// Also measures `proved`, which is the same as naming it
     #[arg(long)]
     certify: bool,
-    #[command(flatten)]
-    starts: Starts,
+    /// Displacements and velocities of the starts of `stability`, `settling` and `finite-time` (default: -3:3,-3:3;
+    /// none for a machine)
+    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", allow_hyphen_values = true)]
+    window: Option<String>,
+    /// Measures the window's displacements from the relaxed spring of a machine instead of the steady position
+    #[arg(long, requires_all = ["window", "machine"])]
+    elongation: bool,
     /// The margin of `design`: a displacement, such as q=0.3, or an impulse, such as v=0.3; of a machine "2 mm" or
     /// "0.1 N s"
     #[arg(long, value_name = "MARGIN", allow_hyphen_values = true)]
@@ -73,7 +75,7 @@ pub struct ScanCommand {
     jobs: Option<u16>,
     /// Output format; json writes one object per line (default: the extension of FILE, or csv)
     #[arg(long, value_enum, value_name = "FORMAT")]
-    format: Option<RowForm>,
+    format: Option<Format>,
     /// Writes the rows to FILE instead of standard output
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -84,24 +86,12 @@ pub struct ScanCommand {
     #[arg(long, requires = "output", conflicts_with = "resume")]
     force: bool,
     #[command(flatten)]
-    part: Part,
+    part: RowChoice,
     /// Which parts begin with the header line; merge accepts both
     #[arg(long, value_enum, value_name = "WHEN", default_value_t = HeaderWhen::First)]
     header: HeaderWhen,
     #[command(flatten)]
     plan: Plan,
-}
-
-/// The starts over which some measures are taken.
-#[derive(Clone, Debug, Args)]
-struct Starts {
-    /// Displacements and velocities of the starts of `stability`, `settling` and `finite-time` (default: -3:3,-3:3;
-    /// none for a machine)
-    #[arg(long, value_name = "QMIN:QMAX,VMIN:VMAX", allow_hyphen_values = true)]
-    window: Option<String>,
-    /// Measures the window's displacements from the relaxed spring of a machine instead of the steady position
-    #[arg(long, requires_all = ["window", "machine"])]
-    elongation: bool,
 }
 
 /// Which parts begin with the header line.
@@ -129,7 +119,7 @@ pub struct ScanRequest {
     /// The whole scan.
     pub scan: Scan,
     /// The form of its rows.
-    pub form: RowForm,
+    pub form: Format,
     /// The points to compute.
     pub points: Range<usize>,
     /// Whether the line of names comes before the rows.
@@ -140,7 +130,7 @@ pub struct ScanRequest {
 
 /// Where the rows go.
 enum Sink {
-    Standard(RowForm),
+    Standard(Format),
     File(ScanFile),
 }
 
@@ -267,8 +257,7 @@ impl ScanCommand {
 
     /// The scan and the points to compute, after checking the options.
     pub fn asked(&self) -> Result<ScanRequest, Failure> {
-        let machine = self.source.machine()?;
-        let (base, conditions) = match machine {
+        let (base, conditions) = match self.source.machine()? {
             Some(case) => self.of_machine(case)?,
             None => self.of_scene()?,
         };
@@ -288,11 +277,11 @@ impl ScanCommand {
 
     /// The motion of the scene, and what its measures depend on.
     fn of_scene(&self) -> Result<(ScanSource, Conditions), Failure> {
-        let mut problem = self.source.start.problem()?;
-        let until = given("--until", self.until.as_ref(), input::until)?;
+        let mut problem = self.source.start.scene(None)?.problem;
+        let until = number("--until", self.until.as_ref(), Knob::Until)?;
         problem.until = until.unwrap_or(problem.until);
-        let window = given("--window", self.starts.window.as_ref(), input::window)?;
-        let disturbance = given("--disturbance", self.disturbance.as_ref(), input::disturbance)?;
+        let window = given("--window", self.window.as_ref(), input::window)?;
+        let disturbance = number("--disturbance", self.disturbance.as_ref(), Knob::Disturbance)?;
         let conditions = Conditions {
             half_widths: self.half_width.clone(),
             disturbance: disturbance.unwrap_or(0.0),
@@ -305,25 +294,25 @@ impl ScanCommand {
 
     /// The motion of the machine, and what its measures depend on.
     fn of_machine(&self, mut case: MachineCase) -> Result<(ScanSource, Conditions), Failure> {
-        let until = given("--until", self.until.as_ref(), |text| Knob::Duration.parse(text))?;
-        let window = given("--window", self.starts.window.as_ref(), of_machine::window)?;
+        let until = number("--until", self.until.as_ref(), Knob::Duration)?;
+        let window = given("--window", self.window.as_ref(), input::physical_window)?;
         if let Some(over) = self.measure.iter().find(|it| it.is_over_window() && window.is_none()) {
             let line = format!("{} of a machine needs a --window", over.spec().name);
             return Err(Failure::Usage(line));
         }
-        let kicks = given("--kicks", self.kicks.as_ref(), of_machine::kicks)?;
+        let kicks = given("--kicks", self.kicks.as_ref(), input::physical_kicks)?;
         if let Some(of) = self.measure.iter().find(|it| it.is_of_kicks() && kicks.is_none()) {
             return Err(Failure::Usage(format!("{} of a machine needs --kicks", of.spec().name)));
         }
         let MachineProblem { until: end, tolerances, .. } = &mut case.problem;
         *end = until.unwrap_or(*end);
         let disturbance = self.disturbance.as_ref();
-        let disturbance = given("--disturbance", disturbance, of_machine::disturbance)?;
+        let disturbance = number("--disturbance", disturbance, Knob::DisturbingForce)?;
         tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
         let conditions = Conditions {
-            elongation: self.starts.elongation,
+            elongation: self.elongation,
             kicks: kicks.unwrap_or_default(),
-            wanted: given("--design", self.design.as_ref(), of_machine::margin)?,
+            wanted: given("--design", self.design.as_ref(), input::physical_margin)?,
             ..window.unwrap_or(WINDOW).into()
         };
         Ok((ScanSource::Machine(Box::new(case.checked()?.problem)), conditions))
@@ -379,10 +368,10 @@ impl ScanCommand {
         Ok((Sink::File(file), done))
     }
 
-    fn form(&self) -> Result<RowForm, Failure> {
-        let of_file = || self.output.as_deref().map_or(RowForm::Csv, RowForm::of_file);
+    fn form(&self) -> Result<Format, Failure> {
+        let of_file = || self.output.as_deref().map_or(Format::Csv, Format::of_file);
         let form = self.format.unwrap_or_else(of_file);
-        if form == RowForm::Table && self.resume {
+        if form == Format::Table && self.resume {
             let line = "--format table rounds its numbers; --resume needs csv or json";
             return Err(Failure::Usage(line.to_owned()));
         }

@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use super::failure::Failure;
-use super::timing::timed;
+use super::{Failure, timed};
 use crate::flow::Limits;
 use crate::question::answer;
-use crate::report::scene_cost::{QuestionCost, SceneCost, StepCost};
+use crate::report::scenes::{QuestionCost, SceneCost, StepCost};
 use crate::scene::{Scene, library};
 use crate::session::{self, Msg, Row, Session, Size, update};
 

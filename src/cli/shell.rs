@@ -7,22 +7,20 @@ use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 use clap_mangen::Man;
 
-use super::Cli;
-use super::failure::Failure;
-use super::output::{print, write};
+use super::{Cli, Failure, print, write};
 
 /// Date of the manual pages, that of the version.
 const DATE: &str = "2026-11-23";
 
 /// Prints shell completions
 #[derive(Debug, Args)]
-pub struct Completions {
+pub struct CompletionsCommand {
     /// The shell
     #[arg(value_enum)]
     shell: Shell,
 }
 
-impl Completions {
+impl CompletionsCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut Cli::command(), "hopfscope", &mut script);
@@ -32,7 +30,7 @@ impl Completions {
 
 /// Writes manual pages: one for the program, one for each command
 #[derive(Debug, Args)]
-pub struct Manual {
+pub struct ManualCommand {
     /// Existing directory for the pages
     #[arg(value_name = "DIR")]
     folder: PathBuf,
@@ -41,7 +39,7 @@ pub struct Manual {
     force: bool,
 }
 
-impl Manual {
+impl ManualCommand {
     pub fn run(&self) -> Result<(), Failure> {
         if !self.folder.is_dir() {
             return Err(Failure::Usage(format!("{}: no such directory", self.folder.display())));

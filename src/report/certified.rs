@@ -1,23 +1,15 @@
-//! Enclosures and proofs, for tables and documents.
+//! Enclosures of motions, kicks, ranges and borders, for tables and documents.
 
-use super::columns::{Columns, bounds};
-use super::cycle_numbers::NUMBERS;
-use super::json::Document;
-use super::proof::{CycleBounds, certain, count, cycle_columns, sentence, uncertain};
+use super::columns::bounds;
+use super::proof::{PLACES, certain};
+use super::{Columns, Document};
 use crate::branch::fold::BoundaryPoint;
-use crate::check::{Bounds, Certificate, StepKind};
 use crate::model::Knob;
 use crate::numerics::Interval;
-use crate::numerics::elementary::{log10, pow};
-use crate::proof::Proof;
-use crate::proof::cycles::ProvedCycle;
 use crate::proof::kicks::{ProvedEdge, ProvedKicks};
 use crate::proof::motion::{ProvedFate, ProvedMotion, ProvedTurn};
 use crate::proof::range::{CountChange, MOST_STEPS, Range, RangePiece};
-use crate::words::number::significant;
-use crate::words::{counted, stability};
-
-const PLACES: usize = 12;
+use crate::words::{counted, significant};
 
 /// The enclosure of a point of a motion.
 #[derive(Clone, Copy)]
@@ -77,7 +69,7 @@ pub(super) fn followed(motion: &ProvedMotion, until: f64) -> Document {
         .and(&point_columns().object(&end))
 }
 
-pub fn motion_line(motion: &ProvedMotion, until: f64) -> String {
+pub(super) fn motion_line(motion: &ProvedMotion, until: f64) -> String {
     let number = |it| certain(it, PLACES);
     let swings = counted(motion.turns.len(), "half swing");
     let sentence = match motion.fate {
@@ -128,7 +120,7 @@ pub(super) fn named<T>(sizes: [T; 4]) -> impl Iterator<Item = (&'static str, T)>
     NAMES.into_iter().zip(sizes)
 }
 
-pub fn kicks_lines(kicks: &ProvedKicks) -> String {
+pub(super) fn kicks_lines(kicks: &ProvedKicks) -> String {
     let edge = match kicks.edge {
         Some(ProvedEdge::None) => "proved: every start is captured\n".to_owned(),
         Some(edge) => format!("proved: the border of the basin is a {}\n", name(edge)),
@@ -181,7 +173,7 @@ pub(super) fn decided(range: &Range) -> Document {
         .with("exhausted", range.exhausted)
 }
 
-pub fn range_table(range: &Range, symbol: Knob) -> String {
+pub(super) fn range_table(range: &Range, symbol: Knob) -> String {
     let name = symbol.spec().name;
     let count = |cycles: &Vec<bool>| format!("{}, proved", cycles.len());
     let columns = Columns::default()
@@ -205,11 +197,11 @@ pub fn range_table(range: &Range, symbol: Knob) -> String {
 
 /// A value of a second parameter, and the values of D at which the cycles change there.
 pub struct BorderProof {
-    pub(super) value: f64,
-    pub(super) fold: Option<Interval>,
-    pub(super) escape: Option<Interval>,
+    value: f64,
+    fold: Option<Interval>,
+    escape: Option<Interval>,
     /// What the search found and is not proved.
-    pub(super) open: Vec<&'static str>,
+    open: Vec<&'static str>,
 }
 
 impl BorderProof {
@@ -222,121 +214,31 @@ impl BorderProof {
         let open = missing.into_iter().filter_map(|(what, open)| open.then_some(what)).collect();
         BorderProof { value: point.value, fold, escape, open }
     }
+
+    pub(super) fn document(&self) -> Document {
+        Document::default()
+            .with("value", self.value)
+            .with("fold", self.fold.map(bounds))
+            .with("escape", self.escape.map(bounds))
+            .with("proved", self.open.is_empty())
+            .with("open", &self.open)
+    }
 }
 
-pub fn border_lines(points: &[BorderProof], symbol: Knob) -> String {
+/// The columns of what is proved of a border.
+pub(super) fn border_columns<'a>() -> Columns<'a, &'a BorderProof> {
+    Columns::default()
+        .bounds("D_F", |proof: &&BorderProof| proof.fold)
+        .bounds("D_c", |proof| proof.escape)
+        .file("proved", |proof| proof.open.is_empty())
+        .file("open", |proof| proof.open.join(", "))
+}
+
+pub(super) fn border_lines(points: &[BorderProof], symbol: Knob) -> String {
     let cell = |it: Option<Interval>| it.map_or("-".to_owned(), |it| certain(it, PLACES));
     let columns = Columns::default()
         .text(symbol.spec().name, |point: &&BorderProof| significant(point.value, 10))
         .text("D_F, proved", |point| cell(point.fold))
         .text("D_c, proved", |point| cell(point.escape));
     format!("\n{}", columns.table(points))
-}
-
-/// The cycles that exist for all parameters in a box, as a table.
-pub fn box_table(proof: &Proof) -> String {
-    let ends = |it: Interval| {
-        if !it.is_finite() {
-            return certain(it, PLACES);
-        }
-        let [lower, upper] = outward(it);
-        format!("{lower} .. {upper}")
-    };
-    let kind = |cycle: &&ProvedCycle| stability(cycle.stable).to_owned();
-    // Without the clearance, which is q_max but for r.
-    let table = NUMBERS[..6].iter().fold(Columns::default().text("cycle", kind), |all, number| {
-        all.text(number.name, move |cycle| {
-            cycle.enclosure.map_or("?".to_owned(), |it| ends((number.bounds)(&it)))
-        })
-    });
-    let table = table.table(&proof.cycles);
-    let p = proof.parameters;
-    let parameters = [("D", p.d), ("D2", p.d2), ("D3", p.d3), ("r", p.r)];
-    let heading = parameters.map(|(name, it)| {
-        if it.is_point() {
-            format!("{name} = {}", it.lower())
-        } else {
-            format!("{name} = {} .. {}", it.lower(), it.upper())
-        }
-    });
-    let table = table.aligned_left();
-    let text = if proof.cycles.is_empty() {
-        String::new()
-    } else {
-        format!("{table}\n{}", uncertain(&table))
-    };
-    let line = sentence(proof.cycles.len(), proof);
-    let line = line.replace("for the parameters as doubles", "for all of these parameters");
-    format!("{}\n\n{text}{line}", heading.join(", "))
-}
-
-/// The ends of an interval, rounded outward to six digits.
-fn outward(it: Interval) -> [String; 2] {
-    let step = |value: f64| {
-        let digits = pow(10.0, log10(value.abs()).floor() - 5.0);
-        if digits.is_finite() { digits } else { 0.0 }
-    };
-    let end = |value: f64, sign: f64| {
-        let near = significant(value, 6);
-        let read: f64 = near.parse().unwrap_or(f64::NAN);
-        let inside = sign * (value - read) > 0.0;
-        if inside { significant(value + sign * step(value), 6) } else { near }
-    };
-    [end(it.lower(), -1.0), end(it.upper(), 1.0)]
-}
-
-/// The same for a document.
-pub fn boxed(proof: &Proof) -> Document {
-    let cycle = |cycle: &ProvedCycle| {
-        Document::default()
-            .with("stable", cycle.stable)
-            .with("proved", true)
-            .with_any("enclosure", cycle.enclosure)
-    };
-    Document::default()
-        .with("cycles", proof.cycles.iter().map(cycle).collect::<Vec<_>>())
-        .with("count", count(proof))
-}
-
-/// The same as rows.
-pub fn box_csv(proof: &Proof) -> String {
-    type BoxRow<'a> = (Option<bool>, CycleBounds<'a>);
-    let columns = Columns::default().file("stable", |(stable, _): &BoxRow| *stable).part(
-        "certified",
-        cycle_columns(),
-        |(_, bounds)| Some(*bounds),
-    );
-    let cycles = proof.cycles.iter();
-    let cycles = cycles.map(|cycle| (Some(cycle.stable), CycleBounds::Cycle(cycle.enclosure)));
-    let open = proof.open.iter().map(|open| (None, CycleBounds::Open(open)));
-    columns.csv(cycles.chain(open))
-}
-
-/// The statement of a certificate that has been checked.
-pub fn certificate_table(certificate: &Certificate) -> String {
-    let interval = |[lower, upper]: Bounds| Interval::new(lower, upper);
-    let value = |(name, it): (&str, Bounds)| {
-        if it[0] == it[1] {
-            format!("{name} = {:?}", it[0])
-        } else {
-            format!("{name} in {}", interval(it))
-        }
-    };
-    let proved = certificate.steps.iter().filter_map(|step| Some((step.kind, step.clearance?)));
-    let table = Columns::default()
-        .text("cycle", |(kind, _): &(StepKind, Bounds)| {
-            stability(*kind == StepKind::Stable).to_owned()
-        })
-        .text("right clearance", |(_, clearance)| certain(interval(*clearance), PLACES))
-        .table(proved);
-    let count = match certificate.cycles {
-        0 => "no limit cycle".to_owned(),
-        1 => "1 limit cycle".to_owned(),
-        more => format!("{more} limit cycles"),
-    };
-    let table = if table.is_empty() { String::new() } else { format!("{table}\n") };
-    let steps = certificate.steps.len();
-    let values = ["D", "D2", "D3", "r"].into_iter().zip(certificate.parameters).map(value);
-    let values = values.collect::<Vec<_>>().join(", ");
-    format!("{values}\n\n{table}{count} and no other, at any amplitude: {steps} steps checked\n")
 }

@@ -1,11 +1,9 @@
 //! The claims of the paper compared with computation: one row for each claim.
 
-use super::columns::{Columns, Quantity};
-use super::json::Document;
+use super::{Answer, Columns, Document, Quantity};
 use crate::numerics::Interval;
 use crate::paper::{Certainty, ClaimResult, Finding, Sense, Verdict};
-use crate::words::claim;
-use crate::words::number::duration;
+use crate::words::{claim, duration};
 
 fn sense(sense: Sense) -> &'static str {
     match sense {
@@ -57,25 +55,20 @@ fn columns<'a>() -> Columns<'a, &'a ClaimResult> {
         .text("claim", |it| sentence(it))
 }
 
-/// One document with every claim, and the reason if nothing could be computed.
-pub fn json(examined: &[ClaimResult], seconds: f64) -> String {
-    let columns =
-        columns().field("reason", |it| it.finding.as_ref().err().map(ToString::to_string));
-    Document::default()
-        .with("claims", columns.objects(examined))
-        .cost(&Document::default(), seconds)
-        .text()
-}
-
-/// One row for each claim.
-pub fn csv(examined: &[ClaimResult]) -> String {
-    columns().csv(examined)
-}
-
-/// A table with words at the left and numbers at the right.
-pub fn table(examined: &[ClaimResult], seconds: f64) -> String {
-    let table = columns().table(examined).aligned(|column| !(5..8).contains(&column));
-    format!("{table}\n{}, {}\n", claim::summary(examined), duration(seconds))
+/// Every claim, and the reason if nothing could be computed; in text words stand at the left and numbers at the right.
+pub fn claims(examined: &[ClaimResult], seconds: f64) -> Answer<'_> {
+    let json = move || {
+        let reason = |it: &&ClaimResult| it.finding.as_ref().err().map(ToString::to_string);
+        Document::default()
+            .with("claims", columns().field("reason", reason).objects(examined))
+            .cost(&Document::default(), seconds)
+            .text()
+    };
+    let text = move || {
+        let table = columns().table(examined).aligned(|column| !(5..8).contains(&column));
+        format!("{table}\n{}, {}\n", claim::summary(examined), duration(seconds))
+    };
+    Answer::new(json, move || columns().csv(examined), text)
 }
 
 /// What is certain: `proved`, `refuted` or `enclosed`.
@@ -84,7 +77,7 @@ fn proof(examined: &ClaimResult) -> Option<&'static str> {
 }
 
 /// The claim, and where it was tested.
-pub fn sentence(examined: &ClaimResult) -> String {
+fn sentence(examined: &ClaimResult) -> String {
     let statement = examined.claim.statement;
     match &examined.finding {
         Ok(finding) if finding.place.is_empty() => statement.to_owned(),

@@ -3,14 +3,15 @@
 
 use std::rc::Rc;
 
+use csv::Writer;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use super::csv;
 use super::json::{self, Document};
 use super::table::Table;
 use crate::numerics::Interval;
-use crate::words::quantity::with_unit;
+use crate::numerics::elementary::powi;
+use crate::words::with_unit;
 
 /// What the numbers of a column measure, and how text shows them; files have all their digits, in SI units.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +37,12 @@ impl Quantity {
         Quantity { absent, ..self }
     }
 
+    /// A number that is not above `value` however text rounds it.
+    pub fn below(self, value: f64) -> f64 {
+        let digits = i32::try_from(self.digits).unwrap_or(i32::MAX);
+        value * (1.0 - 0.5 * powi(10.0, 1 - digits))
+    }
+
     /// The number as text shows it.
     pub fn text(self, value: impl Into<Option<f64>>) -> String {
         let shown = |value| with_unit(value, self.digits, self.unit);
@@ -52,13 +59,14 @@ pub struct Columns<'a, R> {
 /// What a row tells.
 type Part<'a, R, T> = Box<dyn Fn(&R) -> T + 'a>;
 
+/// What a row has in columns of a file: a value for each name, none for a row without them; and the same as fields of
+/// an object, in which records stay whole.
+type Told = (Vec<Value>, Document);
+
 /// Columns of a file that are filled together.
 struct FileColumns<'a, R> {
     names: Vec<String>,
-    /// A value for each name; none for a row without them.
-    cells: Part<'a, R, Vec<Value>>,
-    /// The same as fields of an object, in which records stay whole.
-    fields: Part<'a, R, Document>,
+    told: Part<'a, R, Told>,
 }
 
 struct TextColumn<'a, R> {
@@ -75,19 +83,18 @@ impl<R> Default for Columns<'_, R> {
 impl<'a, R: 'a> Columns<'a, R> {
     /// A column of files alone.
     pub fn file<V: Serialize>(self, name: &str, value: impl Fn(&R) -> V + 'a) -> Self {
-        let (value, field) = (Rc::new(value), name.to_owned());
-        let same = Rc::clone(&value);
-        self.together(
-            vec![name.to_owned()],
-            move |row| vec![json::value(&value(row))],
-            move |row| Document::default().with(&field, same(row)),
-        )
+        let field = name.to_owned();
+        self.together(vec![name.to_owned()], move |row| {
+            let value = json::value(&value(row));
+            (vec![value.clone()], Document::default().with(&field, value))
+        })
     }
 
     /// A field of documents alone.
     pub fn field<V: Serialize>(self, name: &'static str, value: impl Fn(&R) -> V + 'a) -> Self {
-        let field = move |row: &R| Document::default().with(name, value(row));
-        self.together(Vec::new(), |_| Vec::new(), field)
+        self.together(Vec::new(), move |row| {
+            (Vec::new(), Document::default().with(name, value(row)))
+        })
     }
 
     /// A column of text alone.
@@ -114,7 +121,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         let exact = Rc::clone(&value);
         self.file(name, move |row| exact(row)).text(name, move |row| match value(row) {
             Value::Null => "-".to_owned(),
-            value => csv::cell(&value),
+            value => cell(&value),
         })
     }
 
@@ -128,30 +135,23 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// Both ends of an interval, as `name_lower` and `name_upper`, in files alone.
     pub fn bounds(self, name: &str, value: impl Fn(&R) -> Option<Interval> + 'a) -> Self {
-        let (value, field) = (Rc::new(value), name.to_owned());
-        let same = Rc::clone(&value);
-        self.together(
-            ENDS.map(|end| format!("{name}_{end}")).to_vec(),
-            move |row| value(row).map_or(vec![], |it| vec![it.lower().into(), it.upper().into()]),
-            move |row| Document::default().with(&field, same(row).map(bounds)),
-        )
+        let field = name.to_owned();
+        self.together(ENDS.map(|end| format!("{name}_{end}")).to_vec(), move |row| {
+            let value = value(row);
+            let cells = value.map_or(vec![], |it| vec![it.lower().into(), it.upper().into()]);
+            (cells, Document::default().with(&field, value.map(bounds)))
+        })
     }
 
     /// A column of files for each field of records like `example` that is neither a record nor a list.
     pub fn fields<T: Serialize>(self, example: &T, record: impl Fn(&R) -> Option<T> + 'a) -> Self {
         let names: Vec<String> = singles(example).into_iter().map(|(name, _)| name).collect();
-        let (record, wanted) = (Rc::new(record), names.clone());
-        let same = Rc::clone(&record);
-        let cells = move |row: &R| {
-            let record = record(row)?;
-            let mut fields = singles(&record);
-            Some(wanted.iter().map(|name| fields.remove(name).unwrap_or_default()).collect())
-        };
-        self.together(
-            names,
-            move |row| cells(row).unwrap_or_default(),
-            move |row| same(row).iter().fold(Document::default(), Document::and),
-        )
+        self.together(names.clone(), move |row| {
+            let record = record(row);
+            let mut fields = record.as_ref().map(singles).unwrap_or_default();
+            let cells = names.iter().map(|name| fields.remove(name).unwrap_or_default());
+            (cells.collect(), record.iter().fold(Document::default(), Document::and))
+        })
     }
 
     /// The columns of files that describe a part of a row; in a document they are the field `name`, which is left
@@ -162,17 +162,12 @@ impl<'a, R: 'a> Columns<'a, R> {
         columns: Columns<'a, P>,
         part: impl Fn(&R) -> Option<P> + 'a,
     ) -> Self {
-        let names = columns.names();
-        let (columns, part) = (Rc::new(columns), Rc::new(part));
-        let (same, whole) = (Rc::clone(&columns), Rc::clone(&part));
-        self.together(
-            names,
-            move |row| part(row).map(|part| columns.cells(&part)).unwrap_or_default(),
-            move |row| {
-                let part = whole(row).map(|part| same.object(&part));
-                Document::default().with_any(name, part)
-            },
-        )
+        self.together(columns.names(), move |row| {
+            let part = part(row);
+            let object = part.as_ref().map(|part| columns.object(part));
+            let cells = part.map(|part| columns.cells(&part)).unwrap_or_default();
+            (cells, Document::default().with_any(name, object))
+        })
     }
 
     /// The columns of `more` after these, if there are any.
@@ -183,14 +178,8 @@ impl<'a, R: 'a> Columns<'a, R> {
         self
     }
 
-    fn together(
-        mut self,
-        names: Vec<String>,
-        cells: impl Fn(&R) -> Vec<Value> + 'a,
-        fields: impl Fn(&R) -> Document + 'a,
-    ) -> Self {
-        let (cells, fields) = (Box::new(cells), Box::new(fields));
-        self.files.push(FileColumns { names, cells, fields });
+    fn together(mut self, names: Vec<String>, told: impl Fn(&R) -> Told + 'a) -> Self {
+        self.files.push(FileColumns { names, told: Box::new(told) });
         self
     }
 
@@ -203,13 +192,13 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// The rows below a line of names.
     pub fn csv(&self, rows: impl IntoIterator<Item = R>) -> String {
-        let cells = |row| self.cells(&row).iter().map(csv::cell).collect();
-        csv::lines(std::iter::once(self.names()).chain(rows.into_iter().map(cells)))
+        let cells = |row| self.cells(&row).iter().map(cell).collect();
+        lines(std::iter::once(self.names()).chain(rows.into_iter().map(cells)))
     }
 
     /// A row as an object.
     pub fn object(&self, row: &R) -> Document {
-        let fields = self.files.iter().map(|columns| (columns.fields)(row));
+        let fields = self.files.iter().map(|columns| (columns.told)(row).1);
         fields.fold(Document::default(), |object, fields| object.and(&fields))
     }
 
@@ -224,7 +213,7 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     fn cells(&self, row: &R) -> Vec<Value> {
         let filled = |columns: &FileColumns<R>| {
-            let mut cells = (columns.cells)(row);
+            let mut cells = (columns.told)(row).0;
             cells.resize(columns.names.len(), Value::Null);
             cells
         };
@@ -244,6 +233,29 @@ pub fn bounds(it: Interval) -> Document {
 fn singles(record: &impl Serialize) -> Map<String, Value> {
     let Value::Object(fields) = json::value(record) else { return Map::new() };
     fields.into_iter().filter(|(_, value)| !value.is_object() && !value.is_array()).collect()
+}
+
+/// A value with all its digits: the shortest decimal that reads back as the same double, as `0.1`, `-3.0`, `1e-300`;
+/// an empty cell for one that does not exist.
+fn cell(value: &Value) -> String {
+    match value {
+        Value::Number(number) if number.is_f64() => {
+            number.as_f64().map_or_else(String::new, |value| format!("{value:?}"))
+        }
+        Value::Number(_) | Value::Bool(_) => value.to_string(),
+        Value::String(text) => text.clone(),
+        Value::Null | Value::Array(_) | Value::Object(_) => String::new(),
+    }
+}
+
+/// Comma-separated values: a line for each row of cells; a cell that contains a separator or a quote is quoted.
+pub(super) fn lines(rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    let mut out = Writer::from_writer(Vec::new());
+    for cells in rows {
+        // Cannot fail: a vector accepts every write, and all rows have the same length.
+        let _ = out.write_record(&cells);
+    }
+    String::from_utf8(out.into_inner().unwrap_or_default()).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -277,5 +289,18 @@ mod tests {
             "\n"
         );
         assert_eq!(json::text(&columns.objects(rows())), objects);
+    }
+
+    #[test]
+    fn numbers_have_all_their_digits() {
+        let values = [Value::from(0.1 + 0.2), Value::from(-3.0), Value::from(5e-5)];
+        assert_eq!(values.map(|value| cell(&value)), ["0.30000000000000004", "-3.0", "5e-5"]);
+        assert_eq!([Value::from(2), Value::from(f64::NAN)].map(|value| cell(&value)), ["2", ""]);
+    }
+
+    #[test]
+    fn cells_with_separators_are_quoted() {
+        let cells = ["a,b", "say \"x\"", "plain"].map(str::to_owned);
+        assert_eq!(lines([cells.to_vec()]), "\"a,b\",\"say \"\"x\"\"\",plain\n");
     }
 }

@@ -1,7 +1,7 @@
 //! An answer as a page that can be kept, printed and signed: one file of HTML that needs no other file, no network
 //! and no script, and is well-formed as XML.
 
-use super::table::Table;
+use super::Table;
 use crate::numerics::count::real;
 use crate::words::printable::xml;
 use crate::words::provenance::Provenance;
@@ -24,11 +24,11 @@ pub struct Page<'a> {
 pub struct Section<'a> {
     /// Empty for what stands below the title.
     pub heading: &'static str,
-    pub parts: Vec<Part<'a>>,
+    pub parts: Vec<PagePart<'a>>,
 }
 
 /// What a section consists of.
-pub enum Part<'a> {
+pub enum PagePart<'a> {
     /// The sentence that is signed, and whether all that it rests on holds.
     Statement {
         text: String,
@@ -48,7 +48,7 @@ pub enum Part<'a> {
 
 /// A file that an answer was computed from.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Source {
+pub struct SourceFile {
     pub name: String,
     /// When it was last changed; `None` for a pipe and for a file of the program.
     pub changed: Option<String>,
@@ -57,7 +57,7 @@ pub struct Source {
 }
 
 /// What computed an answer, and from which files.
-pub fn origin<'a>(provenance: &Provenance, sources: &[Source]) -> Section<'a> {
+pub fn origin<'a>(provenance: &Provenance, sources: &[SourceFile]) -> Section<'a> {
     let mut facts = vec![("program", provenance.build()), ("command", provenance.command.clone())];
     if sources.is_empty() {
         facts.push(("file", "none, a part of the program".to_owned()));
@@ -67,7 +67,7 @@ pub fn origin<'a>(provenance: &Provenance, sources: &[Source]) -> Section<'a> {
         facts.extend(source.changed.clone().map(|date| ("last changed", date)));
         facts.push(("SHA-256", source.sha256.clone()));
     }
-    Section { heading: "Origin", parts: vec![Part::Facts(facts), Part::Signature] }
+    Section { heading: "Origin", parts: vec![PagePart::Facts(facts), PagePart::Signature] }
 }
 
 impl Page<'_> {
@@ -99,7 +99,7 @@ impl Page<'_> {
 
 impl Section<'_> {
     fn html(&self) -> String {
-        let parts: String = self.parts.iter().map(Part::html).collect();
+        let parts: String = self.parts.iter().map(PagePart::html).collect();
         if parts.is_empty() {
             return parts;
         }
@@ -109,31 +109,31 @@ impl Section<'_> {
     }
 }
 
-impl Part<'_> {
+impl PagePart<'_> {
     fn html(&self) -> String {
         let all = |name: &str, texts: &[String]| -> String {
             texts.iter().map(|text| element(name, &xml(text))).collect()
         };
         match self {
-            Part::Statement { text, holds } => {
+            PagePart::Statement { text, holds } => {
                 let class = if *holds { "statement" } else { "statement broken" };
                 element(&format!("p class=\"{class}\""), &xml(text))
             }
-            Part::Text(text) => element("p", &xml(text)),
-            Part::List(texts) if texts.is_empty() => String::new(),
-            Part::List(texts) => element("ul", &all("li", texts)),
-            Part::Table(caption, table) => table_html(caption, table),
-            Part::Facts(facts) => {
+            PagePart::Text(text) => element("p", &xml(text)),
+            PagePart::List(texts) if texts.is_empty() => String::new(),
+            PagePart::List(texts) => element("ul", &all("li", texts)),
+            PagePart::Table(caption, table) => table_html(caption, table),
+            PagePart::Facts(facts) => {
                 let fact = |(name, value): &(&str, String)| {
                     element("dt", &xml(name)) + &element("dd", &xml(value))
                 };
                 element("dl", &facts.iter().map(fact).collect::<String>())
             }
-            Part::Pictures(pictures) => {
+            PagePart::Pictures(pictures) => {
                 let pictures = pictures.iter().map(|picture| element("figure", picture));
                 element("div class=\"pictures\"", &pictures.collect::<String>())
             }
-            Part::Signature => {
+            PagePart::Signature => {
                 let lines = ["Name", "Date", "Signature"].map(|line| element("span", line));
                 element("p class=\"signature\"", &lines.concat())
             }
@@ -149,7 +149,8 @@ fn element(open: &str, inside: &str) -> String {
 
 /// A table whose numbers stand below each other at their points, units and words at their beginnings.
 fn table_html(caption: &str, table: &Table) -> String {
-    let columns: Vec<Column> = (0..table.titles.len()).map(|at| Column::of(table, at)).collect();
+    let columns: Vec<CellStyle> =
+        (0..table.titles.len()).map(|at| CellStyle::of(table, at)).collect();
     let titles = table.titles.iter().zip(&columns);
     let titles = titles.map(|(title, column)| {
         element(&("th scope=\"col\"".to_owned() + column.wide()), &xml(title))
@@ -169,7 +170,7 @@ fn table_html(caption: &str, table: &Table) -> String {
 }
 
 /// How the cells of a column are set.
-enum Column {
+enum CellStyle {
     Words,
     Numbers {
         /// Largest number of characters from the decimal point on.
@@ -187,32 +188,32 @@ fn parts(cell: &str) -> Option<(&str, &str, &str)> {
     Some((whole, after, unit))
 }
 
-impl Column {
+impl CellStyle {
     fn of(table: &Table, at: usize) -> Self {
         let cells = || table.rows.iter().filter_map(|row| row.get(at));
         let numbers = || cells().filter_map(|cell| parts(cell));
         // The words for a number that does not exist.
         let is_gap = |cell: &String| ["", "-", "none", "any"].contains(&cell.as_str());
         if !cells().all(|cell| is_gap(cell) || parts(cell).is_some()) {
-            return Column::Words;
+            return CellStyle::Words;
         }
-        numbers().map(|(_, after, _)| after.len()).max().map_or(Column::Words, |after| {
-            Column::Numbers { after, units: numbers().any(|(.., unit)| !unit.is_empty()) }
+        numbers().map(|(_, after, _)| after.len()).max().map_or(CellStyle::Words, |after| {
+            CellStyle::Numbers { after, units: numbers().any(|(.., unit)| !unit.is_empty()) }
         })
     }
 
     /// The attributes of a cell that is as wide as the column.
     fn wide(&self) -> &'static str {
         match self {
-            Column::Words => "",
-            Column::Numbers { units: false, .. } => " class=\"number\"",
-            Column::Numbers { units: true, .. } => " class=\"number\" colspan=\"2\"",
+            CellStyle::Words => "",
+            CellStyle::Numbers { units: false, .. } => " class=\"number\"",
+            CellStyle::Numbers { units: true, .. } => " class=\"number\" colspan=\"2\"",
         }
     }
 
     fn cell(&self, cell: &str) -> String {
         match (self, parts(cell)) {
-            (Column::Numbers { after: most, units }, Some((whole, after, unit))) => {
+            (CellStyle::Numbers { after: most, units }, Some((whole, after, unit))) => {
                 // A point is about half as wide as a digit.
                 let width = |length: usize| real(length) - if length > 0 { 0.5 } else { 0.0 };
                 let room = width(*most) - width(after.len());

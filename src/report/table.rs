@@ -2,10 +2,7 @@
 
 use std::fmt;
 
-use crate::flow::{Cost, Problem};
-use crate::model::{Knob, Parameters, State};
 use crate::numerics::elementary::powi;
-use crate::words::number::{duration, exact};
 
 /// A table: titles, and rows with at most as many cells. Numbers are aligned at their decimal points.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -81,26 +78,6 @@ pub(super) fn digits(tolerance: f64) -> usize {
     (3..16)
         .find(|&digits| powi(10.0, -digits) <= tolerance * 1.5)
         .map_or(16, |digits| usize::try_from(digits).unwrap_or(16))
-}
-
-/// `D = -0.1, D2 = 0, ...`, without the parameter `but`.
-pub(super) fn parameters(parameters: &Parameters, but: Option<Knob>) -> String {
-    let initial = State { q: 0.0, v: 0.0 };
-    let shown = Knob::PARAMETERS.into_iter().filter(|knob| Some(*knob) != but);
-    let one = |knob: Knob| format!("{knob} = {}", exact(knob.get(parameters, &initial), 24));
-    shown.map(one).collect::<Vec<_>>().join(", ")
-}
-
-/// What an answer cost, in a line.
-pub(super) fn cost(counted: Cost, seconds: f64) -> String {
-    format!("{} evaluations, {}\n", counted.evaluations, duration(seconds))
-}
-
-/// The parameters and the start of a motion.
-pub(super) fn motion(problem: &Problem) -> String {
-    let State { q, v } = problem.initial;
-    let parameters = parameters(&problem.parameters, None);
-    format!("{parameters}; from q = {}, v = {}", exact(q, 24), exact(v, 24))
 }
 
 #[cfg(test)]

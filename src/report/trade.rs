@@ -1,16 +1,17 @@
 //! Error against cost, in every form of output: one row for each method and accuracy.
 
-use super::columns::Columns;
-use super::json::Document;
-use super::table::motion;
+use super::motion::question;
+use super::{About, Answer, Columns, Document, Quantity};
+use crate::accuracy::machine_trade::MachineTrade;
 use crate::accuracy::reference::{Deviation, Reference, ReferenceSource};
 use crate::accuracy::trade;
 use crate::accuracy::trade::{Trade, TradePoint};
 use crate::flow::method::Dial;
-use crate::flow::{METHODS, Method, MethodSpec, Outcome};
+use crate::flow::{METHODS, MachineMotion, Method, MethodSpec, Outcome};
+use crate::model::MachineProblem;
 use crate::numerics::elementary::{log10, pow};
-use crate::words::counted;
-use crate::words::number::{count, duration, significant};
+use crate::words::number::count;
+use crate::words::{counted, duration, significant};
 
 /// A trade-off with the time of each row, measured by the caller.
 #[derive(Clone, Debug)]
@@ -125,7 +126,7 @@ impl TimedTrade {
 }
 
 /// The source of the reference and its accuracy, in a sentence.
-pub fn reference(trade: &Trade) -> String {
+fn reference(trade: &Trade) -> String {
     let reference = &trade.reference;
     let (first, second) = match reference.source {
         ReferenceSource::TwicePrecision => (
@@ -148,40 +149,46 @@ pub fn reference(trade: &Trade) -> String {
     format!("{first}; {second} {differs}{closed}")
 }
 
-pub fn json(timed: &TimedTrade) -> String {
-    let Trade { problem, reference: known, .. } = &timed.trade;
-    let (rows, unanswered) = timed.rows();
-    let without_error = Columns::default()
-        .file("method", |row: &TradeRow| row.point.problem.method)
-        .and(dial_columns())
-        .file("reason", TradeRow::reason)
-        .file("evaluations", |row| row.point.cost.evaluations);
-    Document::default()
-        .with("parameters", problem.parameters)
-        .with("initial", problem.initial)
-        .with("until", problem.until)
-        .with("reference", reference(&timed.trade))
-        .with("reference_error", known.error)
-        .with("scale", known.scale)
-        .with("turns", known.turns.len())
-        .with("rows", columns().objects(rows))
-        .with("unanswered", without_error.objects(unanswered))
-        .text()
+/// The trade-off of the oscillator of the paper, with a plot of it below the text: one line for each method and accuracy;
+/// those without an error come last.
+pub fn trade<'a>(
+    about: &'a About,
+    timed: &'a TimedTrade,
+    plot: impl FnOnce() -> String + 'a,
+) -> Answer<'a> {
+    let json = || {
+        let Trade { problem, reference: known, .. } = &timed.trade;
+        let (rows, unanswered) = timed.rows();
+        let without_error = Columns::default()
+            .file("method", |row: &TradeRow| row.point.problem.method)
+            .and(dial_columns())
+            .file("reason", TradeRow::reason)
+            .file("evaluations", |row| row.point.cost.evaluations);
+        Document::default()
+            .with("parameters", problem.parameters)
+            .with("initial", problem.initial)
+            .with("until", problem.until)
+            .with("reference", reference(&timed.trade))
+            .with("reference_error", known.error)
+            .with("scale", known.scale)
+            .with("turns", known.turns.len())
+            .with("rows", columns().objects(rows))
+            .with("unanswered", without_error.objects(unanswered))
+            .text()
+    };
+    let csv = || {
+        let (rows, unanswered) = timed.rows();
+        columns().file("reason", TradeRow::reason).csv(rows.into_iter().chain(unanswered))
+    };
+    Answer::new(json, csv, move || text(about, timed) + &plot() + "\n" + &digits(timed))
 }
 
-/// One line for each method and accuracy; those without an error come last.
-pub fn csv(timed: &TimedTrade) -> String {
-    let (rows, unanswered) = timed.rows();
-    columns().file("reason", TradeRow::reason).csv(rows.into_iter().chain(unanswered))
-}
-
-/// A table of all rows, and a plot of them below it. The best choices are marked with `*`, the method in use
-/// with `<`.
-pub fn table(timed: &TimedTrade, plot: &str) -> String {
+/// A table of all rows. The best choices are marked with `*`, the method in use with `<`.
+fn text(about: &About, timed: &TimedTrade) -> String {
     let Trade { problem, reference: known, .. } = &timed.trade;
     let mut out = format!(
         "{}; until tau = {}\n{}\nreference: {}\n\n",
-        motion(problem),
+        question(about, problem),
         significant(problem.until, 6),
         ending(known),
         reference(&timed.trade)
@@ -193,9 +200,7 @@ pub fn table(timed: &TimedTrade, plot: &str) -> String {
         let reason = row.reason().unwrap_or_default();
         out += &format!("{}{setting}: {reason}\n", row.point.problem.method);
     }
-    out += "\n*: nothing else is better for less time; <: the method in use\n\n";
-    out += &format!("{plot}\n");
-    out + &digits(timed)
+    out + "\n*: nothing else is better for less time; <: the method in use\n\n"
 }
 
 /// How the motion ends, in a sentence.
@@ -230,7 +235,7 @@ const LEVELS: [(f64, &str); 5] =
     [(1e-2, "1e-2"), (1e-4, "1e-4"), (1e-6, "1e-6"), (1e-9, "1e-9"), (1e-12, "1e-12")];
 
 /// The cost of accuracy: for each method the cheapest row within each error, and the factor for one more digit.
-pub fn digits(timed: &TimedTrade) -> String {
+fn digits(timed: &TimedTrade) -> String {
     type MethodRows<'a> = (&'a MethodSpec, Vec<TradeRow<'a>>);
     let (mut rows, _) = timed.rows();
     let of = |spec: &'static MethodSpec| {
@@ -279,4 +284,46 @@ fn growth(rows: &[TradeRow]) -> Option<f64> {
     #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
     let factor = most as f64 / least as f64;
     (digits >= 1.0).then(|| pow(factor, 1.0 / digits))
+}
+
+/// Error against cost of every method on one motion of a machine; `seconds` has the time of each row.
+pub fn of_machine<'a>(
+    about: &'a About,
+    MachineProblem { start: (q, v), until, .. }: &'a MachineProblem,
+    found: &'a MachineTrade,
+    seconds: &'a [f64],
+) -> Answer<'a> {
+    type TimedRow<'a> = (&'a MachineMotion, f64, f64);
+    const REFERENCE: &str = "Taylor series whose last terms are below rounding";
+    let columns = || {
+        Columns::default()
+            .word("method", |(motion, ..): &TimedRow| motion.method)
+            .number("tolerance", Quantity::pure(3), |(motion, ..)| motion.tolerance)
+            .number("error", Quantity::pure(3), |(_, error, _)| *error)
+            .word("evaluations", |(motion, ..)| motion.cost.evaluations)
+            .number("seconds", Quantity::of("s", 3), |(.., seconds)| *seconds)
+            .word("steps", |(motion, ..)| motion.cost.steps)
+    };
+    let rows = move || {
+        let timed = found.points.iter().zip(seconds);
+        timed.filter_map(|(point, &seconds)| Some((&point.motion, point.error?, seconds)))
+    };
+    let document = move || {
+        Document::default()
+            .with("initial", Document::default().with("q", q).with("v", v))
+            .with("until", until)
+            .with("reference", REFERENCE)
+            .with("rows", columns().objects(rows()))
+    };
+    let text = move || {
+        let lost = found.points.iter().filter(|point| point.error.is_none()).map(|point| {
+            let MachineMotion { method, tolerance, .. } = point.motion;
+            format!("{method} at {tolerance:e}: not the same standstills\n")
+        });
+        let lost: String = lost.collect();
+        let table = columns().table(rows()).aligned_left();
+        format!("{}\n\n{table}\nerrors against {REFERENCE}\n{lost}", about.heading(&[]))
+    };
+    let (cost, seconds) = (found.reference.cost, seconds.iter().sum());
+    about.answer(cost, seconds, document, move || columns().csv(rows()), text)
 }

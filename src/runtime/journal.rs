@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 use super::lines::{FileLine, FileLines};
 use super::new_file::beside;
-use crate::report::scan::RowForm;
+use crate::report::Format;
 use crate::scan::grid::Scan;
 use crate::words::provenance::Checksum;
 
@@ -45,7 +45,7 @@ impl Journal {
     pub fn resume(
         path: &Path,
         scan: &Scan,
-        form: RowForm,
+        form: Format,
         points: &Range<usize>,
     ) -> (Self, BTreeMap<usize, String>) {
         let open = OpenOptions::new().read(true).append(true).open(beside(path, ENDING));
@@ -61,7 +61,7 @@ impl Journal {
     pub fn note(
         &mut self,
         scan: &Scan,
-        form: RowForm,
+        form: Format,
         (index, row): (usize, &str),
     ) -> io::Result<()> {
         let file = match &mut self.file {
@@ -104,7 +104,7 @@ impl Journal {
 fn rows(
     file: &File,
     scan: &Scan,
-    form: RowForm,
+    form: Format,
     points: &Range<usize>,
 ) -> (BTreeMap<usize, String>, u64) {
     let mut found = BTreeMap::new();
@@ -124,6 +124,6 @@ fn rows(
 }
 
 /// The first line: the form, and the columns as comma-separated values.
-fn heading(scan: &Scan, form: RowForm) -> String {
-    format!("{form:?},{}", RowForm::Csv.heading(scan))
+fn heading(scan: &Scan, form: Format) -> String {
+    format!("{form:?},{}", Format::Csv.heading(scan))
 }

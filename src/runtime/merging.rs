@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use super::lines::{FileLine, FileLines, LineRefusal};
 use super::scan_file::compare;
 use crate::flow::Limits;
-use crate::report::scan::RowForm;
+use crate::report::Format;
 use crate::scan::grid::Scan;
 use crate::words::provenance::Checksum;
 
@@ -61,7 +61,7 @@ impl fmt::Display for Conflict {
 /// With `recheck`, the first and the last row of each part are computed again within these limits and compared.
 pub fn merge(
     scan: &Scan,
-    form: RowForm,
+    form: Format,
     parts: &[ScanPart],
     recheck: Option<&Limits>,
     write: &mut dyn FnMut(&[u8]) -> io::Result<()>,
@@ -108,7 +108,7 @@ pub fn merge(
 /// The scan that is merged, and whether rows are computed again.
 struct MergeTask<'a> {
     scan: &'a Scan,
-    form: RowForm,
+    form: Format,
     recheck: Option<&'a Limits<'a>>,
 }
 

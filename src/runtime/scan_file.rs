@@ -19,7 +19,7 @@ use super::lines::{FileLine, FileLines};
 use super::new_file::{self, Readers};
 use super::provenance_file::{self, RunningChecksum};
 use crate::flow::{Limits, Reason};
-use crate::report::scan::RowForm;
+use crate::report::Format;
 use crate::scan::grid::{Scan, ScanRow};
 use crate::session::Notice;
 use crate::words::provenance::{Checksum, Provenance};
@@ -28,7 +28,7 @@ use crate::words::provenance::{Checksum, Provenance};
 #[derive(Debug)]
 pub struct ScanFile {
     file: File,
-    form: RowForm,
+    form: Format,
     /// Neither the journal nor the checksum exists beside a device or a pipe.
     journal: Option<Journal>,
     checksum: Option<RunningChecksum>,
@@ -46,7 +46,7 @@ impl ScanFile {
     pub fn create(
         path: &Path,
         scan: &Scan,
-        form: RowForm,
+        form: Format,
         headed: bool,
         points: Range<usize>,
         provenance: Provenance,
@@ -77,7 +77,7 @@ impl ScanFile {
     pub fn resume(
         path: &Path,
         scan: &Scan,
-        form: RowForm,
+        form: Format,
         headed: bool,
         points: Range<usize>,
         provenance: Provenance,
@@ -158,7 +158,7 @@ impl ScanFile {
 /// The part of the file that belongs to this scan, up to the last row of the `known` checksum; `None` if not even
 /// the heading is complete. A file that is shorter than that is taken as it is.
 fn kept(
-    (file, form): (&mut File, RowForm),
+    (file, form): (&mut File, Format),
     scan: &Scan,
     heading: &str,
     points: &Range<usize>,
@@ -214,7 +214,7 @@ fn kept(
 /// scan.
 pub(super) fn compare(
     scan: &Scan,
-    form: RowForm,
+    form: Format,
     (index, line): (usize, &[u8]),
     number: usize,
     limits: &Limits,
@@ -246,7 +246,7 @@ fn opened(path: &Path) -> Result<File, LineRefusal> {
 /// alone. A new file is complete or not there at all.
 pub fn save(path: &Path, scan: &Scan, rows: &[ScanRow]) -> Notice {
     let path = &at_home(path);
-    let form = RowForm::of_file(path);
+    let form = Format::of_file(path);
     let is_new = !path.exists();
     let points = 0..scan.points();
     let provenance = provenance_file::read(path).unwrap_or_else(|_| provenance_file::of_process());

@@ -6,12 +6,12 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use crate::report::page::Source;
+use crate::report::page::SourceFile;
 
 /// The file that held these bytes when it was read.
-pub fn of(path: &Path, bytes: &[u8]) -> Source {
+pub fn of(path: &Path, bytes: &[u8]) -> SourceFile {
     let regular = fs::metadata(path).ok().filter(fs::Metadata::is_file);
-    Source {
+    SourceFile {
         name: path.display().to_string(),
         changed: regular.map(|file| date(file.mtime())),
         sha256: sha256(bytes),

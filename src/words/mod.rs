@@ -10,6 +10,9 @@ pub mod provenance;
 pub mod quantity;
 pub mod statement;
 
+pub use number::{duration, significant};
+pub use quantity::with_unit;
+
 use std::borrow::Cow;
 
 use textwrap::{Options, WordSplitter};

@@ -1,13 +1,12 @@
 //! A fit as a page that can be signed.
 
-use super::table::{NUMBERS, correlations, draws, forces, margins, numbers, start, subject};
+use super::{NUMBERS, correlations, draws, forces, margins, numbers, start, subject};
 use crate::fit::{Condition, Fitted, LeftOut, left_out};
-use crate::report::columns::Columns;
-use crate::report::page::{Page, Part, Section, Source, origin};
-use crate::report::table::Table;
+use crate::report::page::{Page, PagePart, Section, SourceFile, origin};
+use crate::report::{Columns, Table};
 use crate::words::fit::{broken, left_out as counts, sentences};
-use crate::words::number::significant;
 use crate::words::provenance::Provenance;
+use crate::words::significant;
 use crate::words::statement::{SignedStatement, signed};
 
 /// The page of a fit: with its pictures, what computed it, and the file of the record.
@@ -15,7 +14,7 @@ pub fn page(
     fitted: &Fitted,
     pictures: &[String],
     provenance: &Provenance,
-    source: &Source,
+    source: &SourceFile,
 ) -> String {
     let SignedStatement { statement, conditions } = signed(fitted);
     let broken = broken(fitted);
@@ -24,13 +23,14 @@ pub fn page(
         .into_iter()
         .filter(|it| Some(it) != broken.as_ref() && *it != statement.text && !counts.contains(it))
         .collect();
-    let statement = Part::Statement { holds: broken.is_none(), text: statement.text };
+    let statement = PagePart::Statement { holds: broken.is_none(), text: statement.text };
     let section = |heading, parts| Section { heading, parts };
-    let table = |caption, table: Table| (!table.is_empty()).then_some(Part::Table(caption, table));
+    let table =
+        |caption, table: Table| (!table.is_empty()).then_some(PagePart::Table(caption, table));
     let known = [
         table(NUMBERS, numbers(fitted)),
         table("in SI units, with standard errors", forces(fitted)),
-        Some(Part::Text(start(fitted))),
+        Some(PagePart::Text(start(fitted))),
     ];
     let draws = draws(fitted);
     Page {
@@ -40,14 +40,14 @@ pub fn page(
         sections: vec![
             section(
                 "",
-                vec![statement, Part::Table("what the sentence rests on", tested(&conditions))],
+                vec![statement, PagePart::Table("what the sentence rests on", tested(&conditions))],
             ),
             section("Numbers", known.into_iter().flatten().collect()),
-            section("Margin", vec![Part::Table(&draws, margins(fitted))]),
-            section("Record and fit", vec![Part::Pictures(pictures)]),
+            section("Margin", vec![PagePart::Table(&draws, margins(fitted))]),
+            section("Record and fit", vec![PagePart::Pictures(pictures)]),
             section("Correlations", table("", correlations(fitted)).into_iter().collect()),
-            section("Left out", vec![Part::List(counts), Part::Text(places(fitted))]),
-            section("Remarks", vec![Part::List(remarks)]),
+            section("Left out", vec![PagePart::List(counts), PagePart::Text(places(fitted))]),
+            section("Remarks", vec![PagePart::List(remarks)]),
             origin(provenance, std::slice::from_ref(source)),
         ],
     }

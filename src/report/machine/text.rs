@@ -1,21 +1,139 @@
 //! The answer about a machine as readable text, and as rows of comma-separated values.
 
-use super::cycle::{NUMBERS, described, number_columns};
-use super::{MachineAnswer, OnBelt, PLACES, expansion};
+use super::expansion;
 use crate::flow::machine::motion::MachineState;
 use crate::flow::{Fate, MachineMotion};
 use crate::model::belt::{Derivatives, FrictionLaw};
-use crate::model::{Interval, Knob};
+use crate::model::{Interval, Knob, Tolerances};
+use crate::portrait::design::{FrictionNeeded, Kick};
 use crate::portrait::guarantee::machine::MachineUncertain;
-use crate::portrait::{Border, Course, CubicExpansion, Cycle, Margin, Portrait};
-use crate::report::columns::{Columns, Quantity};
-use crate::report::table::Table;
-use crate::words::number::{duration, significant};
-use crate::words::quantity::with_unit;
-use crate::words::stability;
+use crate::portrait::{Course, CubicExpansion, Cycle, Margin, Portrait};
+use crate::report::answer::{PLACES, interval};
+use crate::report::cycles::{NO_CYCLE, NUMBERS, known, machine_cycles};
+use crate::report::{About, Columns, Quantity, Table};
+use crate::words::{significant, stability, with_unit};
 
-/// What stands in place of an empty table of cycles.
-pub(super) const NO_CYCLE: &str = "no cycle";
+/// A part of a window; `None` if it is not known.
+pub type RestShare = Option<f64>;
+
+/// The whole answer about a mass on a belt or a vibration mode.
+pub struct MachineAnswer<'a> {
+    pub about: &'a About,
+    /// Displacement (m) and velocity (m/s) at the start.
+    pub start: (f64, f64),
+    pub course: Course,
+    /// The fraction of the starts in a window from which the mass comes to rest, if asked for; of that `None` where motions
+    /// from the window leave the range that is known.
+    pub rest_share: Option<RestShare>,
+    /// The friction needed for a margin, if asked for.
+    pub design: Option<DesignAnswer>,
+    /// `None` for a mode.
+    pub on_belt: Option<OnBelt<'a>>,
+    pub seconds: f64,
+}
+
+/// The part of the answer that only a mass on a belt has.
+pub struct OnBelt<'a> {
+    pub expansion: CubicExpansion,
+    pub tolerances: &'a Tolerances,
+    /// The kicks that are survived for certain, or why none is; `None` if not asked for.
+    pub certain: Option<Result<Margin, MachineUncertain>>,
+}
+
+impl OnBelt<'_> {
+    /// The numbers that are not known exactly, each with its interval in SI units.
+    pub(super) fn uncertain(&self) -> Vec<(Knob, Interval)> {
+        self.tolerances.intervals(&self.expansion.belt)
+    }
+}
+
+/// The friction needed for a margin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DesignAnswer {
+    /// The kick that is to be survived.
+    pub kick: Kick,
+    /// Its size: m for a displacement, N s for an impulse.
+    pub wanted: f64,
+    /// The friction needed, in N.
+    pub needed: FrictionNeeded,
+    /// Speed of the belt in m/s; `None` for a mode.
+    pub at: Option<f64>,
+    /// The friction that the machine has, in N.
+    pub has: f64,
+}
+
+impl MachineAnswer<'_> {
+    /// The numbers, the margins, the cycles, the motion, and what else was asked for.
+    pub(super) fn text(&self) -> String {
+        let portrait = &self.course.portrait;
+        let known: String = known(portrait).iter().map(|line| format!("{line}\n")).collect();
+        let mut out = format!("{}\n", self.about.heading(&[]));
+        if let Some(OnBelt { expansion, .. }) = &self.on_belt {
+            let mu = friction(&expansion.belt.law, &expansion.reduced.mu);
+            out += &format!("{mu}\n\n{}", quantities(expansion, portrait));
+        }
+        let certain = self.on_belt.as_ref().filter(|belt| belt.certain.is_some());
+        if certain.is_some() || self.on_belt.is_none() {
+            out += &format!("\n{}", margins(certain, portrait));
+        }
+        out += &format!("\n{known}\n");
+        let cycles = cycles(&portrait.cycles);
+        out += &if cycles.is_empty() { NO_CYCLE.to_owned() } else { cycles.to_string() };
+        out + &self.remarks().iter().map(|line| format!("{line}\n")).collect::<String>()
+    }
+
+    /// The motion, and what else was asked for, a line each.
+    pub(super) fn remarks(&self) -> Vec<String> {
+        let fate = fate(self.start, &self.course);
+        let mut all: Vec<String> = fate.lines().map(str::to_owned).collect();
+        all.extend(self.rest_share.map(|share| match share {
+            Some(share) => format!("of the window, {} comes to rest", significant(share, 10)),
+            None => "of the window, the part that comes to rest is not known: motions from its corners leave what \
+                     is known"
+                .to_owned(),
+        }));
+        let expansion = self.on_belt.as_ref().map(|belt| &belt.expansion);
+        all.extend(expansion.map(|it| expansion::sentence(it, &self.course.portrait)));
+        all.extend(self.design.as_ref().map(DesignAnswer::sentence));
+        all
+    }
+}
+
+impl DesignAnswer {
+    /// The friction needed, in N; `None` if any suffices.
+    pub(super) fn force(&self) -> Option<f64> {
+        match self.needed {
+            FrictionNeeded::Any => None,
+            FrictionNeeded::Friction { r } | FrictionNeeded::Fold { r, .. } => Some(r),
+        }
+    }
+
+    /// The answer in a sentence.
+    pub(super) fn sentence(&self) -> String {
+        let (name, unit) = match self.kick {
+            Kick::Displacement => ("displacement", "m"),
+            Kick::Impulse => ("impulse", "N s"),
+        };
+        let wanted = with_unit(self.wanted, PLACES, unit);
+        let at = self.at.map(|v0| format!(" at v0 = {}", with_unit(v0, PLACES, "m/s")));
+        let has = with_unit(self.has, PLACES, "N");
+        let lead = format!("for a margin of {wanted} ({name}){}: ", at.unwrap_or_default());
+        let force = self.force().map(|force| with_unit(force, 10, "N")).unwrap_or_default();
+        lead + &match self.needed {
+            FrictionNeeded::Any => {
+                "any R suffices, however small; damping alone keeps it".to_owned()
+            }
+            FrictionNeeded::Friction { .. } => {
+                format!("R = {force} is needed (the machine has {has})")
+            }
+            FrictionNeeded::Fold { below, .. } => format!(
+                "R above {force} is needed (the machine has {has}); every kick is survived then, while just \
+                 below the margin is {}",
+                with_unit(below, PLACES, unit)
+            ),
+        }
+    }
+}
 
 /// A number of the answer: a label, the dimensionless value, and the physical value with its SI unit.
 struct QuantityRow {
@@ -81,55 +199,6 @@ fn rows(
     ]
 }
 
-/// The whole answer about a machine as text.
-pub fn table(answer: &MachineAnswer) -> String {
-    let (head, portrait) = (answer.head, &answer.course.portrait);
-    let mut out = format!("{}: {}\n{}\n", head.name, head.title, head.numbers_without(&[]));
-    out += &answer.on_belt.as_ref().map_or_else(
-        || survived(portrait),
-        |OnBelt { expansion, .. }| {
-            let mu = friction(&expansion.belt.law, &expansion.reduced.mu);
-            format!("{mu}\n\n{}\n", quantities(expansion, portrait))
-        },
-    );
-    out += &format!("{}\n\n", border(portrait));
-    if let Some((belt, certain)) =
-        answer.on_belt.as_ref().and_then(|it| Some((it, it.certain.as_ref()?)))
-    {
-        out += &format!("{}\n", guaranteed(belt, portrait, certain));
-    }
-    let cycles = cycles(&portrait.cycles);
-    out += &if cycles.is_empty() { NO_CYCLE.to_owned() + "\n" } else { cycles.to_string() };
-    for gap in gaps(portrait) {
-        out += &format!("{gap}\n");
-    }
-    out += &format!("{}\n", fate(answer.start, &answer.course));
-    out += &answer.rest_share.line();
-    if let Some(OnBelt { expansion, .. }) = &answer.on_belt {
-        out += &format!("{}\n", expansion::sentence(expansion, portrait));
-    }
-    if let Some(designed) = &answer.design {
-        out += &format!("{}\n", designed.sentence());
-    }
-    out + &format!("{} steps, {}\n", portrait.steps, duration(answer.seconds))
-}
-
-/// The kicks that are survived, a line each.
-fn survived(portrait: &Portrait) -> String {
-    let Margin { displacement, impulse, from_rest } = portrait.margin;
-    let line = |(from, kick, unit, size): (&str, &str, &'static str, Option<f64>)| {
-        let size = Quantity::of(unit, PLACES).or("every one").text(size);
-        format!("from {from}, survives {kick} up to: {size}\n")
-    };
-    let lines = [
-        ("any rest position", "displacements", "m", from_rest.displacement),
-        ("any rest position", "impulses", "N s", from_rest.impulse),
-        ("the steady position", "displacements", "m", displacement),
-        ("the steady position", "impulses", "N s", impulse),
-    ];
-    format!("\n{}", lines.map(line).concat())
-}
-
 /// The table of these numbers.
 pub(super) fn quantities(expansion: &CubicExpansion, portrait: &Portrait) -> Table {
     quantity_columns().table(rows(expansion, portrait))
@@ -156,71 +225,38 @@ pub(super) fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
     )
 }
 
-/// The border of the basin of rest, in a sentence.
-pub(in crate::report) fn border(portrait: &Portrait) -> &'static str {
-    match portrait.border {
-        Border::Unknown(_) => "every kick within the margin is survived; larger ones are not known",
-        Border::None => "every kick is survived: whatever happens, the mass comes to rest",
-        Border::NoBasin => "no kick is survived, however small: rest repels",
-        Border::Separatrix => "beyond the margin motions grow without bound",
-        Border::Cycle => "beyond the margin an unstable cycle is crossed",
-        Border::Grazing | Border::Capture if portrait.neutral => {
-            "within the margin every motion is periodic; beyond it the mass sticks to the belt"
-        }
-        Border::Grazing => "beyond the margin the mass comes to stick to the belt",
-        Border::Capture => {
-            "beyond the margin the guide catches the mass no more, and it is carried off"
-        }
-    }
+/// The table of cycles.
+pub(super) fn cycles(cycles: &[Cycle]) -> Table {
+    machine_cycles(|cycle: &Cycle| Some(*cycle)).table(cycles.iter().copied())
 }
 
-/// Margins as text: nominal or guaranteed, from where the kick comes, displacement and impulse.
-pub(super) struct MarginRow {
-    pub what: &'static str,
-    pub from: &'static str,
-    pub displacement: String,
-    pub impulse: String,
-}
-
-/// The two rows of a margin.
-fn margin_rows(what: &'static str, margin: Margin) -> [MarginRow; 2] {
+/// The nominal margins, the guaranteed ones rounded down, and the uncertainties for which these hold.
+fn margins(certain: Option<&OnBelt>, portrait: &Portrait) -> String {
     let size = |value, unit| Quantity::of(unit, PLACES).or("any").text(value);
-    let row = |from, displacement: Option<f64>, impulse: Option<f64>| MarginRow {
-        what,
-        from,
-        displacement: size(displacement, "m"),
-        impulse: size(impulse, "N s"),
+    let lines = |Margin { displacement, impulse, from_rest }: Margin| {
+        let line = |from, displacement: Option<f64>, impulse: Option<f64>| {
+            let (displacement, impulse) = (size(displacement, "m"), size(impulse, "N s"));
+            format!("{from:11} displacement {displacement}, impulse {impulse}\n")
+        };
+        let steady = line("from x = 0", displacement, impulse);
+        format!(
+            "{}            {steady}",
+            line("from rest", from_rest.displacement, from_rest.impulse)
+        )
     };
-    let Margin { displacement, impulse, from_rest } = margin;
-    [
-        row("from rest", from_rest.displacement, from_rest.impulse),
-        row("from x = 0", displacement, impulse),
-    ]
-}
-
-/// The rows of the nominal margins.
-pub(super) fn nominal(portrait: &Portrait) -> [MarginRow; 2] {
-    margin_rows("nominal", portrait.margin)
-}
-
-/// The rows of the guaranteed margins, rounded down.
-pub(super) fn certain(margin: Margin) -> [MarginRow; 2] {
-    let below = |value: f64| value * (1.0 - 5e-5);
-    margin_rows("guaranteed", margin.map(below, below))
+    let nominal = format!("nominal     {}", lines(portrait.margin));
+    let Some((belt, found)) = certain.and_then(|belt| Some((belt, belt.certain?))) else {
+        return nominal;
+    };
+    let below = |value| Quantity::pure(PLACES).below(value);
+    let found = found.map(|margin| lines(margin.map(below, below)));
+    let found = found.unwrap_or_else(|reason| format!("nothing: {reason}\n"));
+    format!("{nominal}guaranteed  {found}            for {}\n", allowed(belt))
 }
 
 /// The numbers that are not known exactly, each with its interval.
 pub(super) fn varying(belt: &OnBelt) -> Vec<String> {
-    let unit = |varied: Knob, value| with_unit(value, 12, varied.spec().unit);
-    let number = |(varied, interval): (Knob, Interval)| {
-        format!(
-            "{} in {} .. {}",
-            varied.spec().name,
-            unit(varied, interval.lower()),
-            unit(varied, interval.upper())
-        )
-    };
-    belt.uncertain().into_iter().map(number).collect()
+    belt.uncertain().iter().map(interval).collect()
 }
 
 /// The largest force of a disturbance, if there is one.
@@ -235,50 +271,8 @@ pub(super) fn allowed(belt: &OnBelt) -> String {
     varying(belt).into_iter().chain(disturbance).collect::<Vec<_>>().join(", ")
 }
 
-/// The nominal margins, the guaranteed ones, and the uncertainties for which these hold.
-fn guaranteed(
-    belt: &OnBelt,
-    portrait: &Portrait,
-    certain: &Result<Margin, MachineUncertain>,
-) -> String {
-    let lines = |rows: [MarginRow; 2]| {
-        rows.map(|MarginRow { from, displacement, impulse, .. }| {
-            format!("{from:11} displacement {displacement}, impulse {impulse}")
-        })
-        .join("\n            ")
-    };
-    let certain = match certain {
-        Ok(margin) => lines(self::certain(*margin)),
-        Err(reason) => format!("nothing: {reason}"),
-    };
-    format!(
-        "nominal     {}\nguaranteed  {certain}\n            for {}\n",
-        lines(nominal(portrait)),
-        allowed(belt)
-    )
-}
-
-/// What is not known about the motions, one line each.
-pub(in crate::report) fn gaps(portrait: &Portrait) -> Vec<String> {
-    let length = |x| with_unit(x, PLACES, "m");
-    let limit = portrait.stop.map(|stop| {
-        format!("motions that turn beyond x = {} are not known: {stop}", length(portrait.known))
-    });
-    let unresolved = portrait.unresolved.iter().map(|(from, to)| {
-        let (from, to) = (length(*from), length(*to));
-        format!("between x = {from} and {to} the search for cycles did not settle")
-    });
-    limit.into_iter().chain(unresolved).collect()
-}
-
-/// The table of cycles.
-pub(super) fn cycles(cycles: &[Cycle]) -> Table {
-    number_columns(Columns::default().text("", described), |cycle| Some(*cycle))
-        .table(cycles.iter().copied())
-}
-
 /// How the motion ends, in a sentence.
-pub(super) fn fate((x, v): (f64, f64), course: &Course) -> String {
+fn fate((x, v): (f64, f64), course: &Course) -> String {
     let length = |x| with_unit(x, PLACES, "m");
     let from = format!("from x = {}, v = {}: ", length(x), with_unit(v, PLACES, "m/s"));
     let end = &course.motion.end;
@@ -320,7 +314,7 @@ fn by(second: &MachineMotion, course: &Course) -> String {
 }
 
 /// One row for each number, in SI units.
-pub fn csv(answer: &MachineAnswer) -> String {
+pub(super) fn csv(answer: &MachineAnswer) -> String {
     let portrait = &answer.course.portrait;
     let mut rows = Vec::new();
     if let Some(OnBelt { expansion, certain, .. }) = &answer.on_belt {
@@ -338,14 +332,14 @@ pub fn csv(answer: &MachineAnswer) -> String {
     }
     for (index, cycle) in portrait.cycles.iter().enumerate() {
         let lead = format!("{} {} cycle {index}", stability(cycle.stable), cycle.kind());
-        rows.extend(NUMBERS.iter().map(|number| {
-            let what = format!("{lead}: {}", number.name);
+        let shown = NUMBERS.iter().filter(|number| !number.title.is_empty());
+        rows.extend(shown.map(|number| {
+            let what = format!("{lead}: {}", number.physical_name());
             QuantityRow::physical(&what, (number.value)(cycle), number.unit)
         }));
     }
-    if !answer.rest_share.is_not_asked() {
-        rows.push(QuantityRow::pure("rest share of the window", answer.rest_share.known()));
-    }
+    let share = |share| QuantityRow::pure("rest share of the window", share);
+    rows.extend(answer.rest_share.map(share));
     if let Some(designed) = &answer.design {
         rows.push(QuantityRow::physical("R for the margin", designed.force(), "N"));
     }

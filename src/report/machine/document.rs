@@ -2,37 +2,34 @@
 
 use std::collections::BTreeMap;
 
-use super::cycle::cycle_document;
-use super::{DesignAnswer, MachineAnswer, OnBelt, expansion};
-use crate::flow::machine::motion::{Leg, MachineState};
-use crate::flow::machine::turn::ContactState;
+use super::expansion;
+use super::text::{DesignAnswer, MachineAnswer, OnBelt};
+use crate::flow::machine::motion::MachineState;
 use crate::flow::{Fate, MachineMotion};
 use crate::model::Group;
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::portrait::guarantee::machine::MachineUncertain;
-use crate::portrait::{Course, CubicExpansion, Margin, Portrait};
-use crate::report::json::Document;
+use crate::portrait::{Course, CubicExpansion, Cycle, Margin, Portrait};
+use crate::report::Document;
+use crate::report::cycles::NUMBERS;
+use crate::report::motion::{energy, phases};
 
 /// The whole answer about a machine as a document.
-pub fn json(answer: &MachineAnswer) -> String {
+pub(super) fn document(answer: &MachineAnswer) -> Document {
     let MachineAnswer { course, on_belt, rest_share, .. } = answer;
     let on_belt = on_belt.as_ref();
     let certain = |belt: &OnBelt| Some(guaranteed(belt, belt.certain.as_ref()?));
     let expanded = |belt: &OnBelt| expansion::document(&belt.expansion, &course.portrait);
     let quantities = on_belt.map(|belt| quantities(&belt.expansion));
-    let share = (!rest_share.is_not_asked()).then(|| rest_share.known());
     Document::default()
-        .with("machine", answer.head.name)
         .with("model", "whole")
         .and(&quantities.unwrap_or_default())
         .and(&motions(&course.portrait))
         .with("motion", motion(answer.start, course))
         .with_any("guaranteed", on_belt.and_then(certain))
-        .with_any("rest_share", share)
+        .with_any("rest_share", *rest_share)
         .with_any("design", answer.design.as_ref().map(design))
         .with_any("expansion", on_belt.map(expanded))
-        .cost(&Document::default().with("steps", course.portrait.steps), answer.seconds)
-        .text()
 }
 
 /// The numbers of a mass on a belt, and its dimensionless form.
@@ -102,17 +99,6 @@ fn motions(portrait: &Portrait) -> Document {
 /// The motion from a start.
 fn motion((x, v): (f64, f64), course: &Course) -> Document {
     let motion = &course.motion;
-    let phase = |leg: &Leg| {
-        let phase = match leg.place {
-            ContactState::Sticks => "stick",
-            ContactState::Rests => "rest",
-            ContactState::Slips(_) => "slip",
-        };
-        Document::default().with("t", leg.t).with("x", leg.x).with("phase", phase)
-    };
-    let energy = motion
-        .ledger
-        .map(|ledger| Document::default().and(&ledger).with("residual", ledger.residual()));
     let second = course.second.as_ref().map(|second| by_second(second, motion.end));
     Document::default()
         .with("start", Document::default().with("x", x).with("v", v))
@@ -120,8 +106,8 @@ fn motion((x, v): (f64, f64), course: &Course) -> Document {
         .with("until", motion.end.t)
         .with("displacement", motion.x)
         .with("velocity", motion.v)
-        .with("phases", motion.legs.iter().map(phase).collect::<Vec<_>>())
-        .with("energy", energy)
+        .with("phases", phases(&motion.legs, ["t", "x"]))
+        .with("energy", motion.ledger.as_ref().map(energy))
         .with("end", motion.end)
         .with_any("second", second)
 }
@@ -166,4 +152,17 @@ fn design(designed: &DesignAnswer) -> Document {
         .with("R", designed.force())
         .with("needed", designed.needed)
         .with("message", designed.sentence())
+}
+
+/// A cycle as an object.
+fn cycle_document(cycle: &Cycle) -> Document {
+    let document = Document::default()
+        .with("kind", cycle.kind())
+        .with("overtakes", cycle.overtakes)
+        .with("stable", cycle.stable);
+    let shown = NUMBERS.iter().filter(|number| !number.title.is_empty());
+    shown
+        .fold(document, |all, number| all.with(&number.physical_name(), (number.value)(cycle)))
+        // Null for a multiplier of 0.
+        .with("log_multiplier", cycle.log_multiplier)
 }

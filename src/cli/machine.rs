@@ -1,21 +1,16 @@
 //! The machine that the command line names, the files that it comes from, and what is set in it.
 
-pub mod input;
-
 use std::path::Path;
 use std::sync::Arc;
 
-use super::failure::Failure;
-use super::output::{Format, Output};
-use super::timing::timed;
+use super::{Failure, Output, timed};
 use crate::flow::Method;
 use crate::flow::machine::stepped::ALLOWED;
 use crate::model::unit::WithTolerance;
 use crate::model::{Group, Knob, MachineProblem};
 use crate::portrait::{Portrait, Trouble};
-use crate::report::belt::Head;
-use crate::report::machine::MachineReport;
-use crate::report::page::Source;
+use crate::report::About;
+use crate::report::page::SourceFile;
 use crate::runtime::standard::tell;
 use crate::runtime::{bounded, source_file};
 use crate::scene::machine::Description;
@@ -25,7 +20,7 @@ use crate::scene::machine::unlikely::unlikely;
 use crate::scene::{Machine, ScaledMachine, Scene};
 
 /// The machine or mode in a file, or a built-in machine, and the files that were read.
-fn named(name: &str) -> Result<(Description, Vec<Source>), Failure> {
+fn named(name: &str) -> Result<(Description, Vec<SourceFile>), Failure> {
     let path = Path::new(name);
     // Read once: it may be a pipe.
     let text = match bounded::text(path) {
@@ -68,7 +63,7 @@ pub struct MachineCase {
     pub title: String,
     pub problem: MachineProblem,
     /// The files that it was read from.
-    pub sources: Vec<Source>,
+    pub sources: Vec<SourceFile>,
     /// What its file says of it.
     watch: String,
 }
@@ -80,9 +75,9 @@ impl MachineCase {
         Ok(MachineCase { name, title, problem, sources, watch })
     }
 
-    /// The heading of an answer about it.
-    pub fn head(&self) -> Head<'_> {
-        Head::new(&self.name, &self.title, &self.problem.subject.body)
+    /// What an answer is about.
+    pub fn about(&self) -> About {
+        About::machine(&self.name, &self.title, &self.problem.subject)
     }
 
     /// All of its motions, and the median time to find them.
@@ -130,15 +125,6 @@ impl MachineCase {
         let scaled = scaled.map_err(|why| Failure::Usage(format!("{}: {why}", self.name)))?;
         Ok(Some(scaled.scene()))
     }
-}
-
-/// Prints an answer about a machine.
-pub fn print<R>(output: &Output, answer: MachineReport<R>) -> Result<(), Failure> {
-    output.print(&match output.format {
-        Format::Table => answer.table(),
-        Format::Json => answer.json(),
-        Format::Csv => answer.csv(),
-    })
 }
 
 /// Why a machine has no answer; an error in the machine itself counts as bad input.

@@ -3,9 +3,9 @@
 
 use crate::portrait::on_belt::PhysicalMargin;
 use crate::portrait::{CubicExpansion, Cycle, Margin, Portrait};
-use crate::report::json::Document;
-use crate::words::number::significant;
-use crate::words::quantity::with_unit;
+use crate::report::Document;
+use crate::report::answer::PLACES;
+use crate::words::{significant, with_unit};
 
 /// The margins of the expansion: dimensionless, physical, and by how much its displacement and its impulse exceed those
 /// of the whole model, where both exist.
@@ -49,7 +49,7 @@ impl ExpandedMargin {
             }
             _ => String::new(),
         };
-        format!("margin {}{judged}", with_unit(own, super::PLACES, "m"))
+        format!("margin {}{judged}", with_unit(own, PLACES, "m"))
     }
 }
 

@@ -1,0 +1,151 @@
+//! `hopfscope scenes`, `keys`, `paper` and `extremes`: what there is, what of the paper holds, and how exact the extremes are.
+
+use clap::Args;
+use rayon::prelude::*;
+
+use super::output::sourced;
+use super::scene_cost::measured;
+use super::settings::Settings;
+use super::wrapped::on_terminal;
+use super::{Failure, Output, input, print};
+use crate::accuracy::extremes::verdict::TOLERANCE;
+use crate::accuracy::extremes::{Case, cases, judge, judge_set, named, sets};
+use crate::flow::Limits;
+use crate::model::Parameters;
+use crate::paper::examine_all;
+use crate::report::columns::Columns;
+use crate::report::extremes::{extreme_cycles, extremes};
+use crate::report::scenes::{costs, scenes};
+use crate::report::{Format, claims, json};
+use crate::runtime::standard::tell;
+use crate::scene::library;
+use crate::session::commands;
+use crate::session::state::context::{ContextSpec, contexts};
+
+/// How a list is printed.
+#[derive(Debug, Args)]
+struct ListFormat {
+    /// Output format
+    #[arg(long, value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
+    format: Format,
+}
+
+/// Lists the scenes
+#[derive(Debug, Args)]
+pub struct ScenesCommand {
+    #[command(flatten)]
+    list: ListFormat,
+    /// Shows what each scene computes, what that costs, and what a step of each number recomputes
+    #[arg(long)]
+    cost: bool,
+}
+
+impl ScenesCommand {
+    pub fn run(&self) -> Result<(), Failure> {
+        let format = self.list.format;
+        if self.cost {
+            return print(&costs(&measured()?).told(format));
+        }
+        print(&scenes(library()).told(format))
+    }
+}
+
+/// Lists the keys of the explorer, as the settings file changes them
+#[derive(Debug, Args)]
+pub struct KeysCommand {
+    #[command(flatten)]
+    settings: Settings,
+    #[command(flatten)]
+    list: ListFormat,
+}
+
+/// A command in a context.
+struct KeyRow {
+    context: &'static str,
+    command: &'static str,
+    keys: Vec<String>,
+    meaning: &'static str,
+}
+
+impl KeysCommand {
+    pub fn run(&self) -> Result<(), Failure> {
+        let keymap = self.settings.read()?.keymap;
+        let mut rows = Vec::new();
+        for ContextSpec { context, name, .. } in contexts() {
+            let here = commands().filter(|row| row.keys.iter().any(|(at, _)| *at == context));
+            rows.extend(here.map(|command| KeyRow {
+                context: name,
+                command: command.name,
+                keys: keymap.keys_in(context, command).map(|key| key.to_string()).collect(),
+                meaning: command.doc,
+            }));
+        }
+        let columns = Columns::default()
+            .word("context", |row: &KeyRow| row.context)
+            .word("command", |row| row.command)
+            .word("keys", |row| row.keys.join(" "))
+            // A document lists them.
+            .field("keys", |row| row.keys.clone())
+            .word("meaning", |row| row.meaning);
+        print(&match self.list.format {
+            Format::Table => on_terminal(&columns.table(rows).aligned_left()),
+            Format::Json => json::text(&columns.objects(rows)),
+            Format::Csv => columns.csv(rows),
+        })?;
+        if let (Some(path), Format::Table) = (self.settings.path(), self.list.format) {
+            let there = if path.exists() { "" } else { " (not there)" };
+            tell(format!("settings file: {}{there}", path.display()));
+        }
+        Ok(())
+    }
+}
+
+/// Tests every equation and claim of the paper that can be tested
+#[derive(Debug, Args)]
+pub struct PaperCommand {
+    #[command(flatten)]
+    output: Output,
+}
+
+impl PaperCommand {
+    pub fn run(&self) -> Result<(), Failure> {
+        let examine = || examine_all(&Limits::PATIENT);
+        let (examined, seconds) = self.output.timed("the examination gave up", examine)?;
+        self.output.print_list(claims::claims(&examined, seconds))
+    }
+}
+
+/// Tests every method at the extremes of all parameters, and reports its accuracy
+///
+/// With --cycles, finds the limit cycles there instead.
+#[derive(Debug, Args)]
+pub struct ExtremesCommand {
+    #[command(flatten)]
+    list: ListFormat,
+    /// Every motion of the lattice instead of every eleventh; every set of parameters instead of every seventh
+    #[arg(long)]
+    long: bool,
+    /// The limit cycles at these parameters: their number, how well they close, or why the search gave up
+    #[arg(long, conflicts_with = "tol")]
+    cycles: bool,
+    /// Relative error per step, 1e-15 .. 0.01 (default: 1e-10)
+    #[arg(long, value_name = "X", value_parser = input::tolerance, default_value_t = TOLERANCE, hide_default_value = true)]
+    tol: f64,
+}
+
+impl ExtremesCommand {
+    pub fn run(&self) -> Result<(), Failure> {
+        let (limits, format) = (&Limits::PATIENT, self.list.format);
+        let told = if self.cycles {
+            let sets: Vec<Parameters> = sets(!self.long).collect();
+            let verdicts: Vec<_> = sets.par_iter().map(|set| judge_set(set, limits)).collect();
+            extreme_cycles(&verdicts).told(format)
+        } else {
+            let cases: Vec<Case> = cases(!self.long).collect();
+            let judge = |case| judge(case, self.tol, limits);
+            let verdicts: Vec<_> = cases.par_iter().map(judge).collect();
+            extremes(&verdicts, || named(limits), self.tol).told(format)
+        };
+        print(&sourced(format, &told))
+    }
+}

@@ -1,0 +1,153 @@
+//! `hopfscope trajectory` and `hopfscope trade`: one motion, and what its accuracy costs.
+
+use clap::Args;
+
+use super::{
+    Certify, Failure, MachineCase, Output, SourceOptions, in_turn, number, second, timed, troubled,
+};
+use crate::accuracy::machine_trade::MachineTrade;
+use crate::accuracy::trade::Trade;
+use crate::flow::trajectory::trajectory;
+use crate::flow::{Detail, Fate, Limits, LostMotion, MachineMotion, Method, Outcome, Problem};
+use crate::model::{Knob, MachineProblem, State};
+use crate::numerics::Interval;
+use crate::proof::ParameterBox;
+use crate::proof::motion::follow as enclosed;
+use crate::report::{About, motion, trade};
+use crate::view::trade_plot::in_letters;
+
+/// Which motion, how far, and how the answer is printed.
+#[derive(Debug, Args)]
+struct MotionOptions {
+    #[command(flatten)]
+    source: SourceOptions,
+    #[command(flatten)]
+    output: Output,
+    /// Time at which to stop, 0 .. 1e9 (default: the scene's)
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    until: Option<String>,
+}
+
+impl MotionOptions {
+    /// The motion of a machine, if it is about one.
+    fn of_machine(&self) -> Result<Option<MachineCase>, Failure> {
+        let Some(mut case) = self.source.machine()? else { return Ok(None) };
+        let end = number("--until", self.until.as_ref(), Knob::Duration)?;
+        case.problem.until = end.unwrap_or(case.problem.until);
+        case.checked().map(Some)
+    }
+
+    /// The motion of the scene with this name, or of the one among the options.
+    fn problem(&self, named: Option<&str>) -> Result<Problem, Failure> {
+        let mut problem = self.source.start.scene(named)?.problem;
+        let end = number("--until", self.until.as_ref(), Knob::Until)?;
+        problem.until = end.unwrap_or(problem.until);
+        Ok(problem)
+    }
+}
+
+/// Computes one motion: its turning points, how it ends, where its energy goes
+#[derive(Debug, Args)]
+pub struct TrajectoryCommand {
+    #[command(flatten)]
+    asked: MotionOptions,
+    #[command(flatten)]
+    certify: Certify,
+}
+
+impl TrajectoryCommand {
+    pub fn run(&self) -> Result<(), Failure> {
+        if let Some(case) = self.asked.of_machine()? {
+            return self.of_machine(&case);
+        }
+        let output = &self.asked.output;
+        let problem = self.asked.problem(None)?;
+        let follow = |energy| {
+            let detail = Detail { energy, ..Detail::default() };
+            trajectory(&problem, detail, &Limits::PATIENT)
+        };
+        // The energy ledger only checks the motion and is no part of its cost, so it is computed in a second run.
+        let (mut found, seconds) = timed(output.repeat, || follow(false));
+        if !matches!(found.outcome, Outcome::GaveUp { .. }) {
+            found = follow(true);
+        }
+        let State { q, v } = problem.initial;
+        let enclose = || {
+            let start = [q, v].map(Interval::point);
+            enclosed(&ParameterBox::from(&problem.parameters), start, problem.until)
+        };
+        let certified = self.certify.ask(enclose);
+        let about = About::oscillator(&problem.parameters);
+        output.print(motion::motion(&about, &found, certified.as_ref(), seconds))?;
+        match found.outcome {
+            Outcome::GaveUp { tau, reason } => {
+                let Problem { until, .. } = problem;
+                Err(Failure::Unanswered(format!("gave up at tau = {tau:?} of {until:?}: {reason}")))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
+        let MotionOptions { source, output, .. } = &self.asked;
+        let MachineProblem { subject, start, until, .. } = &case.problem;
+        let model = subject.model().map_err(troubled)?;
+        let way = second(source.start.method)?;
+        let own = if way.is_some() { Knob::Tolerance.usual() } else { model.tolerance };
+        let asked = (way.unwrap_or(Method::Taylor), source.start.tol.unwrap_or(own));
+        let detail = Detail { energy: true, ..Detail::default() };
+        let follow = || MachineMotion::by(&model, asked, *start, *until, detail);
+        let (found, seconds) = timed(output.repeat, follow);
+        output.print(motion::of_machine(&case.about(), &case.problem, &found, seconds))?;
+        known(found.outcome)
+    }
+}
+
+/// Fails where the motion of a machine could not be followed.
+fn known(outcome: Fate<LostMotion>) -> Result<(), Failure> {
+    if let Fate::Unknown(stop) = outcome { Err(troubled(stop)) } else { Ok(()) }
+}
+
+/// Shows what accuracy costs: every method at all its tolerances on the same motion
+#[derive(Debug, Args)]
+pub struct TradeCommand {
+    /// Scene whose motion is computed
+    #[arg(value_name = "SCENE", conflicts_with_all = ["scene", "machine"])]
+    named: Option<String>,
+    #[command(flatten)]
+    asked: MotionOptions,
+}
+
+impl TradeCommand {
+    pub fn run(&self) -> Result<(), Failure> {
+        if let Some(case) = self.asked.of_machine()? {
+            return self.of_machine(&case);
+        }
+        let problem = self.asked.problem(self.named.as_deref())?;
+        let found = Trade::of(&problem, &Limits::PATIENT).map_err(|reason| {
+            Failure::Unanswered(format!("there is nothing to measure errors against: {reason}"))
+        })?;
+        let seconds = in_turn(self.asked.output.repeat, found.rows.len(), |index| {
+            // A row that was given up used its whole budget; it is not repeated.
+            let row = &found.rows[index];
+            row.error().map(|_| trajectory(&row.problem, Detail::default(), &Limits::PATIENT))
+        });
+        let timed = trade::TimedTrade { trade: found, seconds };
+        let about = About::oscillator(&problem.parameters);
+        let plot = || in_letters(&timed.trade, &timed.seconds);
+        self.asked.output.print(trade::trade(&about, &timed, plot))
+    }
+
+    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
+        let MachineProblem { subject, start, until, .. } = &case.problem;
+        let model = subject.model().map_err(troubled)?;
+        let found = MachineTrade::new(&model, *start, *until);
+        let output = &self.asked.output;
+        let seconds = in_turn(output.repeat, found.points.len(), |index| {
+            let motion = &found.points[index].motion;
+            MachineTrade::follow(&model, (motion.method, motion.tolerance), *start, *until)
+        });
+        output.print(trade::of_machine(&case.about(), &case.problem, &found, &seconds))?;
+        known(found.reference.outcome)
+    }
+}
