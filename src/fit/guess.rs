@@ -85,7 +85,9 @@ pub fn guess(t: &[f64], x: &[f64], noise: &Noise, signal: Signal) -> Option<Gues
     let unknowns = |averaged: &Unknowns, q0: f64, last: f64| {
         let mut p = *averaged;
         // The middles of the swings of a velocity are not shifted.
-        p[D2] = if is_displacement { averaged[D2] } else { 0.0 };
+        if !is_displacement {
+            p[D2] = 0.0;
+        }
         (p[OMEGA0], p[Q0], p[LAST]) = (2.0 * PI / period, q0, last);
         p
     };

@@ -4,10 +4,10 @@
 //! decrements of averaging ([`decrements`]). [`motion`] follows a motion with its exact derivatives, half swing by
 //! half swing ([`half_swing`]); [`observation`] compares it with the record. [`task`] says what is estimated,
 //! [`levenberg_marquardt`] minimizes the loss, and [`search`] finds the right [`valley`] for it. [`mod@samples`] and
-//! [`mod@peaks`] combine these steps. [`mod@estimate`] assesses the result: covariance, also for correlated noise ([`uncertainty`], [`residuals`]);
-//! intervals where the loss is not quadratic ([`profile`]); numbers of which only combinations are known
-//! ([`separable`]); and the resulting uncertainty of the margin ([`margin`]). What all of this rests on is tested by the
-//! record itself ([`mod@conditions`]).
+//! [`mod@peaks`] combine these steps. [`mod@estimate`] assesses the result: covariance, also for correlated noise
+//! ([`uncertainty`], [`residuals`]); intervals where the loss is not quadratic ([`profile`]); numbers of which only
+//! combinations are known ([`separable`]); and the resulting uncertainty of the margin ([`margin`]). What all of this
+//! rests on is tested by the record itself ([`mod@conditions`]).
 //!
 //! Nothing here reads or writes files: text goes in, estimates come out.
 //!
@@ -145,23 +145,13 @@ pub fn estimate(
     question: &Question,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<Estimate, Unfit> {
-    let motions = std::cell::Cell::new(0);
-    let stops = || {
-        motions.set(motions.get() + 1);
-        motions.get() > MOST_MOTIONS || interrupted()
-    };
-    let mut runs = Runs::new(&stops);
+    let mut runs = Runs { most: MOST_MOTIONS, ..Runs::new(interrupted) };
     let fit = if question.peaks { peaks } else { samples };
-    match fit(record, question, &mut runs) {
-        // What is known to be wrong need not be tested again.
-        Ok(found) if !found.whiteness.systematic && motions.get() <= MOST_MOTIONS => {
-            let mut runs = Runs::new(interrupted);
-            let repeated = Some(repeated(&found, question, &mut runs)?);
-            Ok(Estimate { repeated, ..found })
-        }
-        Err(Unfit::Interrupted) if motions.get() > MOST_MOTIONS => {
-            Err(Unfit::GaveUp { motions: MOST_MOTIONS, closest: runs.closest })
-        }
-        other => other,
+    let found = fit(record, question, &mut runs)?;
+    // What is known to be wrong need not be tested again.
+    if found.whiteness.systematic {
+        return Ok(found);
     }
+    let repeated = Some(repeated(&found, question, &mut Runs::new(interrupted))?);
+    Ok(Estimate { repeated, ..found })
 }

@@ -37,9 +37,8 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
     const ROUND: usize = 150;
     const ROUNDS: usize = 40;
     const MOST: f64 = 1e7;
-    let free = |place: &usize| estimate.free[*place];
-    let quadratic =
-        [D, D2, D3, R].iter().filter(|it| free(it)).all(|&it| estimate.intervals[it].quadratic);
+    let is_bent = |place: usize| estimate.free[place] && !estimate.intervals[place].quadratic;
+    let quadratic = ![D, D2, D3, R].into_iter().any(is_bent);
     let interrupted = || Err(Reason::Interrupted);
     let Ok(frame) = Frame::of(estimate, &mut Runs::new(limits.interrupted)) else {
         return interrupted();
@@ -47,7 +46,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
     if quadratic || estimate.whiteness.systematic {
         // Negative friction is physically impossible and counts as zero.
         let draw = |index: usize| {
-            let mut p = frame.straight(&estimate.p, &(-frame.errors(index)));
+            let mut p = frame.straight(&(-frame.errors(index)));
             p[R] = p[R].max(0.0);
             p
         };
@@ -153,9 +152,9 @@ impl<'a> Frame<'a> {
     }
 
     /// The point to which the linear model leads from the estimate for a change of what is seen.
-    fn straight(&self, p: &Unknowns, change: &DVector<f64>) -> Unknowns {
+    fn straight(&self, change: &DVector<f64>) -> Unknowns {
         let step = self.upper.solve_upper_triangular(change);
-        self.stepped(p, &step.unwrap_or_else(|| DVector::zeros(self.columns.len())))
+        self.stepped(&self.estimate.p, &step.unwrap_or_else(|| DVector::zeros(self.columns.len())))
     }
 
     fn stepped(&self, p: &Unknowns, step: &DVector<f64>) -> Unknowns {
@@ -208,11 +207,8 @@ impl<'a> Frame<'a> {
         const NEGATIVE: usize = 3;
         /// How far the residuals may be from the errors, squared, in units of the noise.
         const NEAR: f64 = 1e-4;
-        let mut at = if *from == self.estimate.p {
-            self.straight(from, &(&self.center - errors))
-        } else {
-            *from
-        };
+        let mut at =
+            if *from == self.estimate.p { self.straight(&(&self.center - errors)) } else { *from };
         let mut before: Option<(Unknowns, DVector<f64>, f64)> = None;
         let mut negative = 0;
         for _ in 0..ROUNDS {

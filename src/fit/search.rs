@@ -212,9 +212,9 @@ const WAYS: [Descent; 4] = [
     |task, guess, runs| task.growing(task.without(guess, &[R]), runs),
 ];
 
-/// The minima from guesses that release the held mass so that it comes into the motion after its first swings. Such as
-/// those of a growth from near an unstable cycle, these say little about the motion: it is fitted without them, and then
-/// followed from the hold.
+/// The minima from guesses that release the held mass so that it comes into the motion after its first swings. Those of a
+/// growth from near an unstable cycle say little about the motion: it is fitted without them, and then followed from the
+/// hold.
 ///
 /// `extremes` are the hold and the turning points. `None` if there is no such motion, or if the
 /// signal does not show where the mass was held; fails with [`Unfit::Interrupted`].

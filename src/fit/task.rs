@@ -14,6 +14,8 @@ pub struct Runs<'a> {
     pub with_derivatives: u64,
     /// Number of motions computed without derivatives.
     pub plain: u64,
+    /// Number of motions after which the computation ends.
+    pub most: u64,
     /// Called before each motion; `true` ends the computation.
     pub interrupted: &'a dyn Fn() -> bool,
     /// The smallest root mean square of residuals that a descent has reached.
@@ -21,19 +23,32 @@ pub struct Runs<'a> {
 }
 
 impl<'a> Runs<'a> {
-    /// Counters at zero.
+    /// Counters at zero, without an end.
     pub fn new(interrupted: &'a dyn Fn() -> bool) -> Self {
-        Runs { with_derivatives: 0, plain: 0, interrupted, closest: f64::INFINITY }
+        let (most, closest) = (u64::MAX, f64::INFINITY);
+        Runs { with_derivatives: 0, plain: 0, most, interrupted, closest }
+    }
+
+    /// Counts a motion.
+    fn begin(&mut self, derivatives: bool) -> Result<(), Unfit> {
+        if (self.interrupted)() {
+            return Err(Unfit::Interrupted);
+        }
+        if self.with_derivatives + self.plain >= self.most {
+            return Err(Unfit::GaveUp { motions: self.most, closest: self.closest });
+        }
+        *(if derivatives { &mut self.with_derivatives } else { &mut self.plain }) += 1;
+        Ok(())
     }
 }
 
-/// Turns an interruption into an error; passes on every other result.
+/// The result, if there is one. The end of the computation remains an error.
 ///
 /// # Errors
-/// [`Unfit::Interrupted`].
+/// [`Unfit::Interrupted`] and [`Unfit::GaveUp`].
 pub fn interrupted<T>(result: Result<T, Unfit>) -> Result<Option<T>, Unfit> {
     match result {
-        Err(Unfit::Interrupted) => Err(Unfit::Interrupted),
+        Err(end @ (Unfit::Interrupted | Unfit::GaveUp { .. })) => Err(end),
         other => Ok(other.ok()),
     }
 }
@@ -188,10 +203,7 @@ impl<'a> Task<'a> {
         derivatives: bool,
         runs: &mut Runs,
     ) -> Result<Seen, Unfit> {
-        if (runs.interrupted)() {
-            return Err(Unfit::Interrupted);
-        }
-        *(if derivatives { &mut runs.with_derivatives } else { &mut runs.plain }) += 1;
+        runs.begin(derivatives)?;
         let linear = !self.free[D2] && !self.free[D3];
         let observation = Observation { linear, ..self.observation };
         observation.compare(p, derivatives).map_err(|_| Unfit::NoMotion)
