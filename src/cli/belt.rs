@@ -1,7 +1,6 @@
 //! `hopfscope belt`: a machine in physical units.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use clap::Args;
 
@@ -173,6 +172,6 @@ impl BeltCommand {
 /// The plots of a mass on a belt in the explorer; none of a mode.
 fn pictures(case: &MachineCase) -> Result<Vec<String>, Failure> {
     let Some(scene) = case.scene()? else { return Ok(Vec::new()) };
-    let (mut session, plots) = completed(Arc::new(scene))?;
+    let (mut session, plots) = completed(scene)?;
     Ok(panels(&figure(&mut session, &plots, &Limits::PATIENT)))
 }

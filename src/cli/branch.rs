@@ -43,7 +43,12 @@ fn parameter(text: &str) -> Result<Over, String> {
 impl BranchCommand {
     pub fn run(&self) -> Result<(), Failure> {
         if let Some(case) = self.source.portrayed()? {
-            return self.of_machine(&case);
+            let Over { knob, ends, count } = read("--over", &self.over, physical_over)?;
+            let subject = &case.problem.subject;
+            let follow = || crate::branch::machine::branch(subject.clone(), knob, ends, count);
+            let (found, seconds) = timed(self.output.repeat, follow);
+            let (found, about) = (found.map_err(Failure::Usage)?, case.about().but(&[knob]));
+            return self.output.print(report::of_machine(&about, knob, &found, seconds));
         }
         let over = read("--over", &self.over, parameter)?;
         let problem = self.source.start.scene(None)?.problem;
@@ -57,17 +62,6 @@ impl BranchCommand {
         let about = About::oscillator(base).but(&[symbol]);
         let certified = certified.as_ref();
         self.output.print(report::branch(&about, &found, certified, tolerance, seconds))
-    }
-
-    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
-        let Over { knob, ends, count } = read("--over", &self.over, physical_over)?;
-        let subject = &case.problem.subject;
-        let (found, seconds) = timed(self.output.repeat, || {
-            crate::branch::machine::branch(subject.clone(), knob, ends, count)
-        });
-        let found = found.map_err(Failure::Usage)?;
-        let about = case.about().but(&[knob]);
-        self.output.print(report::of_machine(&about, knob, &found, seconds))
     }
 }
 

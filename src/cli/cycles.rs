@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::output::write_source;
-use super::{Failure, MachineCase, Output, SourceOptions, input, print, timed, troubled, write};
+use super::{Failure, Output, SourceOptions, input, print, timed, troubled, write};
 use crate::accuracy::harmonic_error::HarmonicBalance;
 use crate::accuracy::harmonic_error::convergence;
 use crate::check::check;
@@ -46,7 +46,10 @@ fn harmonics(text: &str) -> Result<usize, String> {
 impl CyclesCommand {
     pub fn run(&self) -> Result<(), Failure> {
         if let Some(case) = self.source.portrayed()? {
-            return self.of_machine(&case);
+            // Fails where the friction law ends before all motions are known.
+            let (found, seconds) = case.portrait(&self.output)?;
+            self.output.print(report::of_machine(&case.about(), &found, seconds))?;
+            return found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop.into())));
         }
         let known = self.source.start.known()?;
         if !known.is_point() {
@@ -58,13 +61,6 @@ impl CyclesCommand {
         self.certify(&proof)?;
         let about = About::oscillator(&problem.parameters);
         self.output.print(report::cycles(&about, &found, &proof, rungs.as_deref(), seconds))
-    }
-
-    /// Answers about a machine; fails where its friction law ends before all motions are known.
-    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
-        let (found, seconds) = case.portrait(&self.output)?;
-        self.output.print(report::of_machine(&case.about(), &found, seconds))?;
-        found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop)))
     }
 
     /// Answers for all parameters in a box.

@@ -10,11 +10,12 @@ use clap::Args;
 use super::places::Memory;
 use super::replay::script;
 use super::settings::{Looks, Settings};
-use super::{Failure, StartOptions, machine};
+use super::{Failure, MachineCase, StartOptions};
 use crate::numerics::similar::similar;
 use crate::runtime::effects::Files;
 use crate::runtime::{Options, RecordingFile, explore};
 use crate::scene::library::{PLAIN, names};
+use crate::scene::machine::mode::NO_BELT;
 use crate::scene::{find, plain};
 use crate::session::opening::opening;
 use crate::session::replay::{Instruction, Recorder, Script};
@@ -62,7 +63,11 @@ impl ExploreCommand {
         let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
         let name = named.map_or(PLAIN, String::as_str);
         let scene = match &self.belt {
-            Some(file) => self.start.applied(machine::scene(file)?)?,
+            Some(file) => {
+                let scene = MachineCase::named(file)?.scene()?;
+                let no_belt = || Failure::Usage(format!("{file}: {NO_BELT}"));
+                self.start.applied(scene.ok_or_else(no_belt)?)?
+            }
             None => {
                 if self.named.is_some() {
                     find(name).map_err(|_| neither_scene_nor_command(name))?;

@@ -73,14 +73,11 @@ impl FigureCommand {
             PrintForm::Svg => forms::svg(&drawn()),
         })
     }
-}
 
-impl FigureCommand {
     /// The scene to show: that of a machine, or one that is named.
     fn scene(&self) -> Result<Arc<Scene>, Failure> {
         if let Some(case) = self.source.machine()? {
-            let scene = case.checked()?.scene()?;
-            return scene.map(Arc::new).ok_or_else(|| Failure::Usage(NO_BELT.to_owned()));
+            return case.checked()?.scene()?.ok_or_else(|| Failure::Usage(NO_BELT.to_owned()));
         }
         let start = &self.source.start;
         let Some(name) = self.named.as_deref().or(start.scene.as_deref()) else {

@@ -117,13 +117,13 @@ impl MachineCase {
     }
 
     /// The scene of the machine with its present numbers; `None` for a mode.
-    pub fn scene(&self) -> Result<Option<Scene>, Failure> {
+    pub fn scene(&self) -> Result<Option<Arc<Scene>>, Failure> {
         let (name, title, watch) = (self.name.clone(), self.title.clone(), self.watch.clone());
         let described = Description { name, title, watch, problem: self.problem.clone() };
         let Ok(machine) = Machine::try_from(described) else { return Ok(None) };
         let scaled = ScaledMachine::new(machine);
         let scaled = scaled.map_err(|why| Failure::Usage(format!("{}: {why}", self.name)))?;
-        Ok(Some(scaled.scene()))
+        Ok(Some(Arc::new(scaled.scene())))
     }
 }
 

@@ -86,7 +86,13 @@ pub struct BasinCommand {
 impl BasinCommand {
     pub fn run(&self) -> Result<(), Failure> {
         if let Some(case) = self.source.portrayed()? {
-            return self.of_machine(&case);
+            let window = given("--window", self.window.as_ref(), input::physical_window)?;
+            let (found, before) = case.portrait(&self.output)?;
+            let window = window.unwrap_or_else(|| found.surroundings());
+            let (counts, seconds) = timed(self.output.repeat, || found.count(&window, self.grid));
+            let captured = found.rest_share(window.q, window.v);
+            let answer = BasinAnswer::of_machine(&found, counts, captured);
+            return self.output.print(answer.answer(&case.about(), before + seconds));
         }
         let parameters = self.source.start.scene(None)?.problem.parameters;
         let window = given("--window", self.window.as_ref(), input::window)?.unwrap_or(WINDOW);
@@ -101,16 +107,6 @@ impl BasinCommand {
         let certified = self.certify.ask(enclose);
         let about = About::oscillator(&parameters);
         self.output.print(BasinAnswer::new(&found, certified.as_ref()).answer(&about, seconds))
-    }
-
-    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
-        let window = given("--window", self.window.as_ref(), input::physical_window)?;
-        let (found, before) = case.portrait(&self.output)?;
-        let window = window.unwrap_or_else(|| found.surroundings());
-        let (counts, seconds) = timed(self.output.repeat, || found.count(&window, self.grid));
-        let captured = found.rest_share(window.q, window.v);
-        let answer = BasinAnswer::of_machine(&found, counts, captured);
-        self.output.print(answer.answer(&case.about(), before + seconds))
     }
 }
 

@@ -16,7 +16,7 @@ use super::output::holds_something;
 use super::part::{RowChoice, Shard};
 use super::plan::Plan;
 use super::progress::{Outlet, Progress};
-use super::{Failure, MachineCase, SourceOptions, given, number, read};
+use super::{Failure, MachineCase, SourceOptions, given, number, print, read};
 use crate::flow::Limits;
 use crate::model::{Knob, MachineProblem};
 use crate::report::Format;
@@ -128,33 +128,12 @@ pub struct ScanRequest {
     pub shard: Option<Shard>,
 }
 
-/// Where the rows go.
-enum Sink {
-    Standard(Format),
-    File(ScanFile),
-}
-
-impl Sink {
-    /// Number of rows that wait in a journal for the rows before them.
-    fn ahead(&self) -> usize {
-        match self {
-            Sink::Standard(_) => 0,
-            Sink::File(file) => file.ahead(),
-        }
-    }
-
-    fn add(&mut self, scan: &Scan, index: usize, row: &ScanRow) -> io::Result<()> {
-        match self {
-            Sink::Standard(form) => standard::print(&form.line(scan, index, row)),
-            Sink::File(file) => file.add(scan, index, row),
-        }
-    }
-}
-
 /// Writes rows and counts them.
 struct Writer<'a> {
     scan: &'a Scan,
-    sink: Sink,
+    form: Format,
+    /// Where the rows go; `None` for standard output.
+    file: Option<ScanFile>,
     tally: Tally,
     progress: Progress,
     /// The error that stopped the writing.
@@ -170,17 +149,20 @@ impl Writer<'_> {
 
 impl Taker for Writer<'_> {
     fn has(&self, index: usize) -> bool {
-        matches!(&self.sink, Sink::File(file) if file.has(index))
+        self.file.as_ref().is_some_and(|file| file.has(index))
     }
 
     fn keep(&mut self, index: usize, row: &ScanRow) -> ControlFlow<()> {
-        let Sink::File(file) = &mut self.sink else { return ControlFlow::Continue(()) };
+        let Some(file) = &mut self.file else { return ControlFlow::Continue(()) };
         let kept = file.keep(self.scan, index, row);
         self.goes_on(kept)
     }
 
     fn take(&mut self, index: usize, row: ScanRow) -> ControlFlow<()> {
-        let added = self.sink.add(self.scan, index, &row);
+        let added = match &mut self.file {
+            Some(file) => file.add(self.scan, index, &row),
+            None => standard::print(&self.form.line(self.scan, index, &row)),
+        };
         if added.is_ok() {
             self.tally.rows += 1;
             self.tally.given_up += usize::from(row.reason.is_some());
@@ -212,10 +194,11 @@ impl ScanCommand {
         }
         let stop = StopSignal::listen()?;
         let interrupted = || stop.signal().is_some();
-        let (sink, done) = self.sink(&asked, &interrupted)?;
-        let ScanRequest { scan, mut points, .. } = asked;
+        let (file, done) = self.opened(&asked, &interrupted)?;
+        let ScanRequest { scan, form, mut points, .. } = asked;
         points.start += done;
-        let ahead = sink.ahead();
+        // Rows that wait in a journal for the rows before them.
+        let ahead = file.as_ref().map_or(0, ScanFile::ahead);
 
         let mut processors = Processors::all();
         processors.jobs = self.jobs.map_or(processors.jobs, usize::from);
@@ -227,7 +210,8 @@ impl ScanCommand {
         };
         let mut writer = Writer {
             scan: &scan,
-            sink,
+            form,
+            file,
             tally: Tally { wanted, ..Tally::default() },
             progress: Progress::new(wanted, done + ahead, place),
             broken: None,
@@ -318,16 +302,16 @@ impl ScanCommand {
         Ok((ScanSource::Machine(Box::new(case.checked()?.problem)), conditions))
     }
 
-    /// Where the rows go, and how many of them are already there.
-    fn sink(
+    /// The file to which the rows go, if they do not go to standard output, and how many of them are already there.
+    fn opened(
         &self,
         asked: &ScanRequest,
         interrupted: &(dyn Fn() -> bool + Sync),
-    ) -> Result<(Sink, usize), Failure> {
+    ) -> Result<(Option<ScanFile>, usize), Failure> {
         let &ScanRequest { ref scan, form, ref points, headed, .. } = asked;
         let Some(path) = &self.output else {
-            super::output::print(&if headed { form.heading(scan) } else { String::new() })?;
-            return Ok((Sink::Standard(form), 0));
+            print(&if headed { form.heading(scan) } else { String::new() })?;
+            return Ok((None, 0));
         };
         let name = path.display();
         if !self.resume && !self.force && holds_something(path) {
@@ -365,7 +349,7 @@ impl ScanCommand {
                 "note: {name}: no checksum says whether {rows} rows are as they were written"
             ));
         }
-        Ok((Sink::File(file), done))
+        Ok((Some(file), done))
     }
 
     fn form(&self) -> Result<Format, Failure> {

@@ -10,6 +10,7 @@ use crate::portrait::guarantee::machine::MachineUncertain;
 use crate::portrait::{Course, CubicExpansion, Cycle, Margin, Portrait};
 use crate::report::answer::{PLACES, interval};
 use crate::report::cycles::{NO_CYCLE, NUMBERS, known, machine_cycles};
+use crate::report::margin::margin_table;
 use crate::report::{About, Columns, Quantity, Table};
 use crate::words::{significant, stability, with_unit};
 
@@ -72,9 +73,8 @@ impl MachineAnswer<'_> {
             let mu = friction(&expansion.belt.law, &expansion.reduced.mu);
             out += &format!("{mu}\n\n{}", quantities(expansion, portrait));
         }
-        let certain = self.on_belt.as_ref().filter(|belt| belt.certain.is_some());
-        if certain.is_some() || self.on_belt.is_none() {
-            out += &format!("\n{}", margins(certain, portrait));
+        if self.on_belt.as_ref().is_none_or(|belt| belt.certain.is_some()) {
+            out += &format!("\n{}", margins(self));
         }
         out += &format!("\n{known}\n");
         let cycles = cycles(&portrait.cycles);
@@ -231,27 +231,17 @@ pub(super) fn cycles(cycles: &[Cycle]) -> Table {
 }
 
 /// The nominal margins, the guaranteed ones rounded down, and the uncertainties for which these hold.
-fn margins(certain: Option<&OnBelt>, portrait: &Portrait) -> String {
-    let size = |value, unit| Quantity::of(unit, PLACES).or("any").text(value);
-    let lines = |Margin { displacement, impulse, from_rest }: Margin| {
-        let line = |from, displacement: Option<f64>, impulse: Option<f64>| {
-            let (displacement, impulse) = (size(displacement, "m"), size(impulse, "N s"));
-            format!("{from:11} displacement {displacement}, impulse {impulse}\n")
-        };
-        let steady = line("from x = 0", displacement, impulse);
-        format!(
-            "{}            {steady}",
-            line("from rest", from_rest.displacement, from_rest.impulse)
-        )
-    };
-    let nominal = format!("nominal     {}", lines(portrait.margin));
-    let Some((belt, found)) = certain.and_then(|belt| Some((belt, belt.certain?))) else {
-        return nominal;
-    };
-    let below = |value| Quantity::pure(PLACES).below(value);
-    let found = found.map(|margin| lines(margin.map(below, below)));
-    let found = found.unwrap_or_else(|reason| format!("nothing: {reason}\n"));
-    format!("{nominal}guaranteed  {found}            for {}\n", allowed(belt))
+fn margins(answer: &MachineAnswer) -> String {
+    let certain = answer.on_belt.as_ref().and_then(|belt| Some((belt, belt.certain?)));
+    let guaranteed = certain.and_then(|(_, found)| found.ok());
+    let title = "smallest kick that is not survived";
+    let nominal = answer.course.portrait.margin;
+    let table = margin_table(title, answer.about.kicks(PLACES), nominal, guaranteed);
+    let known = certain.map(|(belt, found)| match found {
+        Ok(_) => format!("guaranteed for {}\n", allowed(belt)),
+        Err(reason) => format!("nothing is guaranteed for {}: {reason}\n", allowed(belt)),
+    });
+    format!("{table}{}", known.unwrap_or_default())
 }
 
 /// The numbers that are not known exactly, each with its interval.
