@@ -1,12 +1,10 @@
 //! A machine as a page that can be signed.
 
 use super::text::{
-    MachineAnswer, OnBelt, allowed, cycles, disturbance, friction, quantities, varying,
+    MachineAnswer, OnBelt, allowed, cycles, disturbance, friction, margins, quantities, varying,
 };
 use crate::report::Columns;
-use crate::report::answer::PLACES;
 use crate::report::cycles::{NO_CYCLE, gaps, machine_border};
-use crate::report::margin::margin_table;
 use crate::report::page::{Page, PagePart, Section, SourceFile, origin};
 use crate::words::number::rounded_down;
 use crate::words::provenance::Provenance;
@@ -23,17 +21,8 @@ pub fn page(
     let (name, title) = about.machine.as_ref().map_or(("", ""), |(name, title)| (name, title));
     let portrait = &course.portrait;
     let section = |heading, parts| Section { heading, parts };
-    let mut known = String::new();
-    let mut guaranteed = None;
-    if let Some(belt) = &answer.on_belt
-        && let Some(Ok(margin)) = belt.certain
-    {
-        guaranteed = Some(margin);
-        known = format!("guaranteed for {}", allowed(belt));
-    }
-    let lost = "smallest kick not survived";
-    let kicks = about.kicks(PLACES);
-    let margins = margin_table(lost, kicks, portrait.margin, guaranteed);
+    let (margins, known) = margins(answer);
+    let known = known.unwrap_or_default();
     let numbers = Columns::default()
         .text("number", |(name, _): &&(String, String)| name.clone())
         .text("value", |(_, value)| value.clone())

@@ -74,7 +74,8 @@ impl MachineAnswer<'_> {
             out += &format!("{mu}\n\n{}", quantities(expansion, portrait));
         }
         if self.on_belt.as_ref().is_none_or(|belt| belt.certain.is_some()) {
-            out += &format!("\n{}", margins(self));
+            let (table, known) = margins(self);
+            out += &format!("\n{table}{}", known.map(|line| line + "\n").unwrap_or_default());
         }
         out += &format!("\n{known}\n");
         let cycles = cycles(&portrait.cycles);
@@ -231,17 +232,17 @@ pub(super) fn cycles(cycles: &[Cycle]) -> Table {
 }
 
 /// The nominal margins, the guaranteed ones rounded down, and the uncertainties for which these hold.
-fn margins(answer: &MachineAnswer) -> String {
+pub(super) fn margins(answer: &MachineAnswer) -> (Table, Option<String>) {
     let certain = answer.on_belt.as_ref().and_then(|belt| Some((belt, belt.certain?)));
     let guaranteed = certain.and_then(|(_, found)| found.ok());
     let title = "smallest kick that is not survived";
     let nominal = answer.course.portrait.margin;
     let table = margin_table(title, answer.about.kicks(PLACES), nominal, guaranteed);
     let known = certain.map(|(belt, found)| match found {
-        Ok(_) => format!("guaranteed for {}\n", allowed(belt)),
-        Err(reason) => format!("nothing is guaranteed for {}: {reason}\n", allowed(belt)),
+        Ok(_) => format!("guaranteed for {}", allowed(belt)),
+        Err(reason) => format!("nothing is guaranteed for {}: {reason}", allowed(belt)),
     });
-    format!("{table}{}", known.unwrap_or_default())
+    (table, known)
 }
 
 /// The numbers that are not known exactly, each with its interval.
