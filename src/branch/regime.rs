@@ -125,8 +125,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::portrait::Border;
-    use crate::portrait::basin::cycle::{Cycles, cycles};
+    use crate::portrait::basin::cycle::cycles;
+    use crate::portrait::{Border, Cycles};
 
     fn oscillator(d: f64, d2: f64, d3: f64, r: f64) -> Parameters {
         Parameters { d, d2, d3, r }

@@ -49,7 +49,7 @@ impl CyclesCommand {
             // Fails where the friction law ends before all motions are known.
             let (found, seconds) = case.portrait(&self.output)?;
             self.output.print(report::of_machine(&case.about(), &found, seconds))?;
-            return found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop.into())));
+            return found.incomplete().map_or(Ok(()), |stop| Err(troubled(stop)));
         }
         let known = self.source.start.known()?;
         if !known.is_point() {

@@ -15,7 +15,7 @@ use crate::numerics::similar::similar;
 use crate::runtime::effects::Files;
 use crate::runtime::{Options, RecordingFile, explore};
 use crate::scene::library::{PLAIN, names};
-use crate::scene::machine::mode::NO_BELT;
+use crate::scene::machine::NO_BELT;
 use crate::scene::{find, plain};
 use crate::session::opening::opening;
 use crate::session::replay::{Instruction, Recorder, Script};

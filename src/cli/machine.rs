@@ -49,14 +49,6 @@ fn named(name: &str) -> Result<(Description, Vec<SourceFile>), Failure> {
     Ok((described.map_err(|error| Failure::Usage(error.to_string()))?, sources))
 }
 
-/// The scene of a machine in a file or a built-in machine, for the explorer.
-pub fn scene(name: &str) -> Result<Arc<Scene>, Failure> {
-    let refused = |error: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {error}"));
-    let machine = named(name)?.0.try_into().map_err(|error: &str| refused(&error))?;
-    let scaled = ScaledMachine::new(machine).map_err(|error| refused(&error))?;
-    Ok(Arc::new(scaled.scene()))
-}
-
 /// A machine or mode, and the motion to compute.
 pub struct MachineCase {
     pub name: String,

@@ -216,8 +216,7 @@ fn straight(lower: &[FillRun], middle: &[FillRun], upper: &[FillRun]) -> bool {
 mod tests {
     use super::*;
     use crate::numerics::elementary::hypot;
-    use crate::picture::items::Pattern;
-    use crate::picture::role::Role;
+    use crate::picture::{Pattern, Role};
     use crate::scene::Span;
 
     const WINDOW: Window = Window { x: Span::known(-1.0, 1.0), y: Span::known(-1.0, 1.0) };

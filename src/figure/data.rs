@@ -2,7 +2,8 @@
 
 use super::{Area, Figure, FigureCurve, MarkedPoint, Panel};
 use crate::picture::{MapCell, ScanMap};
-use crate::report::{columns::Columns, json::text};
+use crate::report::Columns;
+use crate::report::json::text;
 use crate::words::printable;
 
 /// One document; what is not a number is `null`.

@@ -6,7 +6,8 @@ use super::paper::{Frame, PLOT, Spot, shading};
 use crate::numerics::count::{real, truncated};
 use crate::picture::{Danger, MapCell, Role, ScanMap};
 use crate::scene::Point;
-use crate::words::{number::significant, printable::xml};
+use crate::words::printable::xml;
+use crate::words::significant;
 
 /// Height of the scale of a map with its name and its numbers, in pixels.
 pub(super) const SCALE: f64 = 54.0;

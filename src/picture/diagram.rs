@@ -19,8 +19,7 @@ use crate::numerics::root::bisect;
 use crate::scene::{Axes, Height, Layer, Ordinate, Point};
 use crate::session;
 use crate::session::{Session, ShownMotion};
-use crate::words::number::significant;
-use crate::words::stability;
+use crate::words::{significant, stability};
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     let diagram = &session.plots[index];

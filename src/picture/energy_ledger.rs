@@ -7,7 +7,7 @@ use crate::numerics::count::real;
 use crate::scene::{Point, Span};
 use crate::session::Session;
 use crate::session::ledger::{LedgerLine, Owner};
-use crate::words::number::significant;
+use crate::words::significant;
 
 /// The ledger in a figure: a bar for each work, with its name and number.
 pub fn draw(picture: &mut Picture, session: &Session) {

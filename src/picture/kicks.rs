@@ -4,7 +4,7 @@ use super::{Dash, LineStyle, Picture, Role, ellipse};
 use crate::portrait::kicks::{Distribution, RandomKick};
 use crate::scene::{Answer, Layer, Topic, rectangle};
 use crate::session::Session;
-use crate::words::number::significant;
+use crate::words::significant;
 
 /// Lines of equal density: their names, their distances from the mean in spreads, and their dashes.
 const NORMAL: [(&str, f64, Dash); 3] = [

@@ -8,9 +8,10 @@ use super::{Dash, Fill, Item, LineStyle, Mark, Marks, Pattern, Picture, Role};
 use crate::branch::chart::{BoundaryKind, Chart};
 use crate::branch::regime::{REGIMES, Regime};
 use crate::model::{Knob, Parameters, State};
-use crate::scene::{Axes, Layer, Point, Running, Window, machine::path::Station};
+use crate::scene::machine::path::Station;
+use crate::scene::{Axes, Layer, Point, Running, Window};
 use crate::session::Session;
-use crate::words::quantity::with_unit;
+use crate::words::with_unit;
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     let Axes { abscissa, against, .. } = session.plots[index].axes;

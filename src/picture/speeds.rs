@@ -3,13 +3,12 @@
 //! stable state ends, the jump to the one that is left.
 
 use super::{Dash, LineStyle, Picture, Role, phase_plane::AT_REST};
-use crate::branch::machine_special::Jump;
-use crate::branch::machine_special::{MachineSpecial, MachineSpecialKind};
+use crate::branch::machine_special::{Jump, MachineSpecial, MachineSpecialKind};
 use crate::portrait::Cycle;
 use crate::question::speeds::SpeedPoint;
 use crate::scene::{Layer, Point};
 use crate::session::Session;
-use crate::words::quantity::with_unit;
+use crate::words::with_unit;
 
 /// A kind of cycle: what it is called, also by the legend of the screen, how it is drawn, and which cycles are of it.
 type CycleKind = ([&'static str; 2], Role, Dash, fn(&Cycle) -> bool);

@@ -4,7 +4,8 @@ use super::answer::PLACES;
 use super::certified::{
     BorderProof, border_columns, border_lines, decided, piece_columns, range_table,
 };
-use super::cycles::{cycle_fields, machine_cycles, number_columns, steps};
+use super::cycle_numbers::{cycle_fields, number_columns};
+use super::cycles::{machine_cycles, steps};
 use super::table::digits;
 use super::{About, Answer, Columns, Document, Quantity};
 use crate::branch::fold::{Boundary, BoundaryPoint};

@@ -1,7 +1,7 @@
 //! The lattice of extremes: one row for each motion with the answers of all methods, or for each set of parameters with
 //! its limit cycles, and a summary.
 
-use super::cycles::cycle_fields;
+use super::cycle_numbers::cycle_fields;
 use super::motion::ending;
 use super::{Answer, Columns, Document, Quantity};
 use crate::accuracy::extremes::sets::{

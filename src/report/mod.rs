@@ -8,6 +8,7 @@ pub mod branch;
 pub mod certified;
 pub mod claims;
 pub mod columns;
+mod cycle_numbers;
 pub mod cycles;
 pub mod extremes;
 pub mod fit;

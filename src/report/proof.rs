@@ -1,6 +1,6 @@
 //! Proofs about limit cycles, for tables and documents.
 
-use super::cycles::NUMBERS;
+use super::cycle_numbers::NUMBERS;
 use super::{Answer, Columns, Document};
 use crate::check::{Bounds, Certificate, StepKind};
 use crate::numerics::Interval;

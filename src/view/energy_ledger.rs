@@ -15,7 +15,7 @@ use crate::picture::energy_ledger::{middle, reading};
 use crate::picture::{CycleStyle, Dash, Mark, Picture, Role, Tick, Ticks, cycle_style};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::ledger::{LedgerLine, Owner};
-use crate::words::number::significant;
+use crate::words::significant;
 
 const DIGITS: usize = 4;
 

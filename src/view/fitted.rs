@@ -5,7 +5,8 @@ use crate::fit::{OMEGA0, named, rows};
 use crate::model::Knob;
 use crate::scene::ShownFit;
 use crate::session::{Row, Session};
-use crate::words::{number::significant, quantity::with_unit, statement::signed};
+use crate::words::statement::signed;
+use crate::words::{significant, with_unit};
 
 /// What a fitted number stands for with its standard error, and the error alone; or that it is held.
 pub fn fitted(session: &Session, row: Row, look: &Look) -> Vec<String> {

@@ -1,8 +1,8 @@
 //! How keys are named on the screen: arrows as arrows, other keys by name, without brackets.
 
 use super::Look;
-use crate::session::key::{Code, Key};
-use crate::session::{Keymap, settings::Glyphs};
+use crate::session::settings::Glyphs;
+use crate::session::{Code, Key, Keymap};
 
 pub fn name(key: Key, look: &Look) -> String {
     let arrow = match key.code {

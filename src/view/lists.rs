@@ -8,10 +8,13 @@ use ratatui::text::Line;
 use super::list::{ListContent, TEXT};
 use super::{Look, keys, paper};
 use crate::picture::Role;
-use crate::scene::{Answer, Answered, Layer, Topic, letters, library::SceneGroup, said::said_by};
+use crate::scene::library::SceneGroup;
+use crate::scene::said::said_by;
+use crate::scene::{Answer, Answered, Layer, Topic, letters};
 use crate::session::wants::{CostRow, Requirement, named};
 use crate::session::{AnswerState, List, Listed, Overlay, PaletteRow, Session};
-use crate::words::number::{count, duration};
+use crate::words::duration;
+use crate::words::number::count;
 
 /// Columns of keys in the help.
 const KEYS: usize = 16;

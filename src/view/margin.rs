@@ -6,8 +6,8 @@ use crate::model::Knob;
 use crate::portrait::{Border, Margin};
 use crate::scene::Topic;
 use crate::session::Session;
-use crate::words::number::{rounded_down, significant};
-use crate::words::quantity::with_unit;
+use crate::words::number::rounded_down;
+use crate::words::{significant, with_unit};
 
 /// Columns of a screen that has room for margins as forces too.
 const WIDE: u16 = 110;

@@ -7,7 +7,7 @@ use super::list::{ListContent, TEXT};
 use crate::paper::{Claim, ClaimResult, UNSAID, Verdict};
 use crate::picture::Role;
 use crate::session::{List, Session};
-use crate::words::{claim, number::significant};
+use crate::words::{claim, significant};
 
 /// The list, section by section.
 pub(super) fn content(session: &Session, list: &List, look: &Look) -> ListContent {

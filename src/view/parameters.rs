@@ -16,9 +16,8 @@ use crate::portrait::proved::compare;
 use crate::portrait::{Border, Cycle, Cycles};
 use crate::scene::Layer;
 use crate::session::{Pane, Row, Session, Setup};
-use crate::words::cycles as cycles_in_words;
-use crate::words::number::{exact, significant};
-use crate::words::quantity::with_unit;
+use crate::words::number::exact;
+use crate::words::{cycles as cycles_in_words, significant, with_unit};
 
 /// Columns up to the end of the values.
 const VALUES: usize = 17;

@@ -16,7 +16,8 @@ use crate::scan::measure::Value;
 use crate::scene::{Point, View};
 use crate::session::scan::{ScanOnShow, ScanProgress, WORDS};
 use crate::words::measured::rounded;
-use crate::words::number::{remaining, significant};
+use crate::words::number::remaining;
+use crate::words::significant;
 
 /// Digits of a value, as many as fit; the first are those of a table.
 const DIGITS: [usize; 5] = [8, 6, 5, 4, 3];

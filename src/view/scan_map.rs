@@ -13,7 +13,7 @@ use crate::picture::{Danger, Dangerous, MapCell, Role, ScanMap};
 use crate::scene::Point;
 use crate::session::scan::{ScanOnShow, WORDS};
 use crate::session::settings::Glyphs;
-use crate::words::number::significant;
+use crate::words::significant;
 
 /// Shades from the weakest to the strongest, and the letters that do without colour.
 const SHADES: &str = "\u{b7}\u{2591}\u{2592}\u{2593}\u{2588}";

@@ -11,7 +11,8 @@ use crate::picture::Role;
 use crate::scan::measure::Value;
 use crate::scan::sweep::Sweep;
 use crate::session::scan::ScanOnShow;
-use crate::words::{measured::rounded, number::significant};
+use crate::words::measured::rounded;
+use crate::words::significant;
 
 const DIGITS: usize = 8;
 

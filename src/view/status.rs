@@ -5,12 +5,15 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::{Look, fitted::UNRELIABLE, keys, margin, pane, verdict};
-use crate::flow::{Outcome, trajectory::choice};
+use crate::flow::Outcome;
+use crate::flow::trajectory::choice;
 use crate::picture::{Mark, Role};
 use crate::scene::Topic;
-use crate::session::{Session, wants::named};
+use crate::session::Session;
+use crate::session::wants::named;
 use crate::words::motion::swings;
-use crate::words::number::{count, duration, significant};
+use crate::words::number::count;
+use crate::words::{duration, significant};
 
 /// Draws the title line: what the scene is, and its name.
 pub fn title(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {

@@ -11,9 +11,7 @@ use crate::scene::{Answer, Layer, Topic};
 use crate::session::fate::{End, MotionVerdict, SideOfBorder};
 use crate::session::{BranchStop, Session};
 use crate::words::motion::{Writing, sentence, swings};
-use crate::words::number::significant;
-use crate::words::quantity::with_unit;
-use crate::words::stability;
+use crate::words::{significant, stability, with_unit};
 
 /// What became of the motion, in a sentence.
 pub fn outcome(session: &Session) -> (String, Role) {

@@ -2,13 +2,11 @@
 //! where the motions of the machine leave the end of a stable state.
 
 use hopfscope::branch::machine::branch;
-use hopfscope::branch::machine_special::Jump;
-use hopfscope::branch::machine_special::{MachineSpecial, MachineSpecialKind};
+use hopfscope::branch::machine_special::{Jump, MachineSpecial, MachineSpecialKind};
 use hopfscope::flow::{Fate, Limits};
-use hopfscope::model::Belt;
 use hopfscope::model::belt::FrictionLaw;
-use hopfscope::model::{Group, Knob};
-use hopfscope::picture::items::Item;
+use hopfscope::model::{Belt, Group, Knob};
+use hopfscope::picture::Item;
 use hopfscope::portrait::Cycle;
 use hopfscope::portrait::survey::portrait;
 use hopfscope::question::answer;

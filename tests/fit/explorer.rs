@@ -4,7 +4,7 @@ use super::explorer_session::{Trial, reopened};
 use hopfscope::fit::Signal;
 use hopfscope::model::Knob;
 use hopfscope::numerics::elementary::{cos, exp, sin};
-use hopfscope::picture::items::Item;
+use hopfscope::picture::Item;
 use hopfscope::scene::{Topic, View};
 use hopfscope::session::{Code, Effect, Key, Msg, Purpose, save, update};
 

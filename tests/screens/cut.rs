@@ -15,7 +15,7 @@ use hopfscope::session::{Session, Size};
 use hopfscope::view::layout::layout;
 use hopfscope::view::plot::shown;
 use hopfscope::view::screen::text;
-use hopfscope::words::number::significant;
+use hopfscope::words::significant;
 
 /// A screen on which everything has room.
 const WIDEST: Size = Size { width: 320, height: 110 };

@@ -11,7 +11,7 @@ use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::portrait::guarantee::machine::MachineUncertain;
 use crate::portrait::{Course, CubicExpansion, Cycle, Margin, Portrait};
 use crate::report::Document;
-use crate::report::cycles::NUMBERS;
+use crate::report::cycle_numbers::NUMBERS;
 use crate::report::motion::{energy, phases};
 
 /// The whole answer about a machine as a document.

@@ -8,7 +8,7 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Outcome, Problem, Reason, Trajectory};
 use crate::model::State;
 use crate::numerics::Interval;
-use crate::portrait::basin::cycle::{Cycles, cycles_and_closings};
+use crate::portrait::basin::cycle::cycles_and_closings;
 use crate::portrait::basin::stability::Share;
 use crate::portrait::basin::{Basin, Window};
 use crate::portrait::closing::all::{STEP, innermost_closing};
@@ -18,7 +18,7 @@ use crate::portrait::design::{FrictionNeeded, friction_for};
 use crate::portrait::guarantee::oscillator::{Uncertain, guaranteed};
 use crate::portrait::kicks::repeated::{Repeated, repeated};
 use crate::portrait::proved::proved;
-use crate::portrait::{Border, Cycle, Margin, RestMargin};
+use crate::portrait::{Border, Cycle, Cycles, Margin, RestMargin};
 use crate::proof::Proof;
 
 /// What was computed at a point; `None` for what no measure needed.

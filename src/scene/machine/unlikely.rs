@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::model::Body;
 use crate::numerics::decimal::shortest;
-use crate::words::number::significant;
+use crate::words::significant;
 
 /// What is looked at: name, meaning, SI unit, and the smallest and largest likely size.
 type Likely = (&'static str, &'static str, &'static str, [f64; 2]);

@@ -3,7 +3,8 @@
 use super::Trial;
 use super::saved::reopened;
 use crate::flow::Limits;
-use crate::picture::{self, items::Item};
+use crate::picture;
+use crate::picture::Item;
 use crate::portrait::kicks::repeated::repeated;
 use crate::question::{Answer, Request, answer};
 use crate::scene::{Layer, Topic};

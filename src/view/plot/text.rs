@@ -5,8 +5,9 @@
 use super::Canvas;
 use crate::picture::{Caption, Role};
 use crate::scene::Point;
-use crate::view::{dots::Covering, pane};
-use crate::words::number::significant;
+use crate::view::dots::Covering;
+use crate::view::pane;
+use crate::words::significant;
 
 /// What a text may hide anywhere, the best first.
 const FREE: [Covering; 2] = [Covering::Texture, Covering::Guide];
