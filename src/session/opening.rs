@@ -40,7 +40,11 @@ fn run(line: String) -> Instruction {
 
 /// The steps that set the user's wishes for the screen, where they differ from the defaults.
 fn display_lines(display: DisplaySettings) -> Vec<Instruction> {
-    fn line<T: PartialEq + Default>(name: &str, table: &[(T, &str)], value: T) -> Option<String> {
+    fn line<T: Copy + PartialEq + Default>(
+        name: &str,
+        table: &[(T, &str)],
+        value: T,
+    ) -> Option<String> {
         let row = table.iter().find(|row| row.0 == value && value != T::default());
         row.map(|row| format!("{name} {}", row.1))
     }

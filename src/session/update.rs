@@ -250,7 +250,7 @@ fn letter(session: &mut Session, what: Letter, key: Key) {
     match (what, name) {
         (Letter::Mark, Some(name)) => history::set_mark(session, name),
         (Letter::GoTo, Some(name)) => {
-            attempt(session, |session| history::go_to_mark(session, name))
+            attempt(session, |session| history::go_to_mark(session, name));
         }
         (Letter::GoTo, None) if asks("go-to-mark") => attempt(session, history::go_back),
         (_, None) if session.keymap.command(&[Context::Always], key).is_some() => act(session, key),

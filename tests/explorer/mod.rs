@@ -1,4 +1,5 @@
-//! A session for tests: keys are pressed, and of its questions only those for fits are answered.
+//! A session for tests: keys are pressed, and of its questions only those for fits are answered, and for the motion and
+//! the cycles of a fitted record.
 
 // Each test program compiles this file and uses only a part of it.
 #![allow(dead_code)]
@@ -46,10 +47,12 @@ impl Trial {
     }
 
     fn settle(&mut self) {
-        settle(&mut self.session, |_, request| {
+        settle(&mut self.session, |session, request| {
             let topic = request.topic();
             let of_fit = matches!(topic, Topic::Fit | Topic::Refit);
-            of_fit.then(|| {
+            let of_record = matches!(topic, Topic::Trajectory | Topic::Cycles);
+            let answers = of_fit || (of_record && session.scene.recording.is_some());
+            answers.then(|| {
                 self.asked.push(topic);
                 let result = answer(request, &Limits::PATIENT).unwrap();
                 Msg::answered(request.clone(), Ok(result), 0.0)

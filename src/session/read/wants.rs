@@ -219,7 +219,9 @@ fn within(knob: Knob, span: Span) -> Option<(f64, f64)> {
 /// These parameters with zero in place of those over which an answer goes.
 fn without(mut parameters: Parameters, over: &[Knob]) -> Parameters {
     let mut start = State { q: 0.0, v: 0.0 };
-    over.iter().for_each(|symbol| symbol.set(&mut parameters, &mut start, 0.0));
+    for symbol in over {
+        symbol.set(&mut parameters, &mut start, 0.0);
+    }
     parameters
 }
 

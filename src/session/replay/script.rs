@@ -190,7 +190,7 @@ fn written(message: &Msg) -> String {
         Msg::Run(line) => format!("<run {}>", quoted(line)),
         Msg::Say(text, _) => format!("<say {}>", quoted(text)),
         Msg::Start(names) => {
-            let names: String = names.iter().map(|knob| format!(" {knob}")).collect();
+            let names: String = names.iter().flat_map(|knob| [" ", knob.spec().name]).collect();
             format!("<start{names}>")
         }
         _ => String::new(),
