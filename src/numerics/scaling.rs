@@ -1,7 +1,15 @@
 //! Powers of two as units: multiplication by one of them is exact.
 
 /// `value * 2^k` for every `k`, rounded at most once.
-pub use libm::scalbn as times_power;
+#[inline]
+pub fn times_power(value: f64, k: i32) -> f64 {
+    // A power that is itself a normal number needs no call.
+    if (-1022..=1023).contains(&k) {
+        value * f64::from_bits(u64::from((k + 1023).unsigned_abs()) << 52)
+    } else {
+        libm::scalbn(value, k)
+    }
+}
 
 /// The exponent `k` with `2^k <= abs(value) < 2^(k + 1)`; 0 for zero.
 pub fn exponent(value: f64) -> i32 {
@@ -51,6 +59,7 @@ mod tests {
         }
         assert_eq!(times_power(1.0, -1074), 5e-324);
         assert_eq!(times_power(1.0, -1100), 0.0);
+        assert_eq!(times_power(f64::MAX, -2381), 0.0);
         assert_eq!(times_power(1.0, 1024), f64::INFINITY);
         assert_eq!(times_power(5e-324, 2097), f64::MAX / (2.0 - f64::EPSILON));
     }

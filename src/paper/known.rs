@@ -108,12 +108,14 @@ impl From<bool> for Certain<bool> {
     }
 }
 
-impl<T: PartialEq> Certain<T> {
+impl<T> Certain<T> {
     /// The answer to a question that this one decides.
     pub fn map<A>(&self, decide: impl FnOnce(&T) -> A) -> Certain<A> {
         Certain { value: decide(&self.value), certain: self.certain }
     }
+}
 
+impl<T: Copy + PartialEq> Certain<T> {
     /// Whether it is as expected.
     pub fn is(&self, expected: T) -> Certain<bool> {
         self.map(|value| *value == expected)

@@ -26,7 +26,7 @@ use crate::proof::{Enclosure, ParameterBox, kicks, prove};
 const ROUNDED: f64 = 1e-14;
 
 /// A cycle of the search, and bounds of its numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct BoundedCycle {
     cycle: Cycle,
     /// Where it is proved.

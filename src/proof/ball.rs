@@ -129,23 +129,23 @@ impl Ball {
 /// it the acceleration is at least `P(v) + v`. So if P is not negative from v on, motions above the line and
 /// faster than v stay so.
 pub fn never_returns(field: &FieldBox, x: f64, v: f64) -> bool {
-    let m = Interval::point(v) - Interval::point(x);
+    let at = Interval::point(v);
+    let m = at - x;
     if !(field.c.upper() <= 0.0 && m.lower() > 0.0 && v >= 0.0) {
         return false;
     }
     let [a, b, c] = [field.a, field.b, field.c].map(|it| Interval::point(it.upper()));
-    let (at, two, three) = (Interval::point(v), Interval::point(2.0), Interval::point(3.0));
-    let linear = a + two;
+    let linear = a + 2.0;
     // Coefficients of P in powers of the velocity in excess of v.
     let p0 = m - at * (linear + at * (b + at * c));
-    let p1 = -(linear + at * (b * two + at * c * three));
-    let p2 = -(b + at * c * three);
+    let p1 = -(linear + at * (b * 2.0 + at * c * 3.0));
+    let p2 = -(b + at * c * 3.0);
     let p3 = -c;
     let holds = |it: Interval| it.lower() >= 0.0;
     if holds(p1) && holds(p2) {
         return holds(p0);
     }
-    if p2.lower() > 0.0 && holds(Interval::point(4.0) * p0 * p2 - p1.square()) {
+    if p2.lower() > 0.0 && holds(p0 * 4.0 * p2 - p1.square()) {
         return true;
     }
     if !(p3.lower() > 0.0) {
@@ -153,13 +153,13 @@ pub fn never_returns(field: &FieldBox, x: f64, v: f64) -> bool {
     }
     // Half of the cubic term compensates the square by u^3 >= 2 t u^2 - t^2 u, the other half the remaining
     // linear term by u^3 >= 3 t^2 u - 2 t^3; both hold for all u, t >= 0.
-    let half = p3 / two;
-    let linear = if holds(p2) { p1 } else { p1 - p2.square() / (p3 * two) };
+    let half = p3 / 2.0;
+    let linear = if holds(p2) { p1 } else { p1 - p2.square() / (p3 * 2.0) };
     if holds(linear) {
         return holds(p0);
     }
-    let t = Interval::point((-linear / (half * three)).sqrt().upper());
-    holds(p0 - half * two * t * t * t) && holds(linear + half * three * t * t)
+    let t = Interval::point((-linear / (half * 3.0)).sqrt().upper());
+    holds(p0 - half * 2.0 * t * t * t) && holds(linear + half * 3.0 * t * t)
 }
 
 #[cfg(test)]

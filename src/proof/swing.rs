@@ -158,7 +158,7 @@ impl SwingRun {
         let (h, reached) = ball.reach(ahead)?;
         let last = last && h == ahead.0;
         if self.wants_fastest && self.fastest.is_none() {
-            self.fastest = self.turn_of_speed(h, &reached)?;
+            self.turn_of_speed(h, &reached)?;
         }
         self.time += h;
         self.time_error += UNIT * self.time;
@@ -206,19 +206,19 @@ impl SwingRun {
         Some(Arrival::Now { end, lag })
     }
 
-    /// The largest velocity, if it is reached within this step; `None` where its bounds are not certain enough.
+    /// Notes the largest velocity if it is reached within this step; `None` where its bounds are not certain enough.
     ///
     /// Where the acceleration vanishes its derivative is `-v < 0`, so there is one such moment in a half swing.
     /// Near it, with acceleration at most `d` in magnitude at velocity v, the remaining rise is at most
     /// `d^2/(v - d f)`, where f bounds the slope of the damping.
-    fn turn_of_speed(&self, h: f64, end: &StepEnd) -> Option<Option<Interval>> {
+    fn turn_of_speed(&mut self, h: f64, end: &StepEnd) -> Option<()> {
         /// An error in the moment costs only its square.
         const NEAR: f64 = 1e-10;
         let (ball, field) = (&self.ball, self.ball.local.field);
         let rough =
             |x: f64, v: f64| field.acceleration(Interval::point(x), Interval::point(v)).middle();
         if rough(end.x, end.v) > 0.0 {
-            return Some(None);
+            return Some(());
         }
         let acceleration = |at: f64| ball.series.velocity(at).1;
         let ends = [0.0, h].map(|at| (at, acceleration(at)));
@@ -236,7 +236,8 @@ impl SwingRun {
         }
         let rise = (unbalanced.square() / bend).upper();
         let top = (Interval::point(v.upper()) + rise).upper();
-        (top <= cap).then_some(Some(Interval::new(v.lower(), top)))
+        self.fastest = (top <= cap).then_some(Interval::new(v.lower(), top));
+        self.fastest.map(|_| ())
     }
 
     /// The swing from the position `start` to its end, in the units of the question.
