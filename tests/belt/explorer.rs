@@ -113,7 +113,7 @@ fn a_machine_of_a_file_opens_in_the_explorer_only_if_it_is_one() {
 fn at(speed: f64) -> ReducedBelt {
     let mut machine = hopfscope::scene::machine::library::find("textbook").unwrap().clone();
     machine.belt.belt_speed = speed;
-    machine.reduce().unwrap()
+    machine.belt.reduce().unwrap()
 }
 
 /// Checks that the session shows the machine at this speed, with all its numbers.
@@ -284,7 +284,7 @@ fn numbers_of_the_friction_law_are_set_like_those_of_the_machine() {
         knob.set_in_belt(&mut machine.belt, value).unwrap();
     }
     let session = &trial.session;
-    assert_eq!(session.problem.parameters, machine.reduce().unwrap().parameters);
+    assert_eq!(session.problem.parameters, machine.belt.reduce().unwrap().parameters);
     assert_eq!(session.machine().unwrap(), machine.belt);
     assert_eq!(session.value(Knob::StaticCoefficient), 0.45, "at rest it is that of the law");
     let rows = session.rows().into_iter().filter_map(Row::stepped);
@@ -316,7 +316,7 @@ fn numbers_of_a_machine_are_typed_with_units_stepped_undone_and_saved() {
     trial.press(":set<space>R=2<space>N<space>m=1.5kg<enter>");
     let mut machine = hopfscope::scene::machine::library::find("textbook").unwrap().clone();
     (machine.belt.friction, machine.belt.mass) = (2.0, 1.5);
-    let expected = machine.reduce().unwrap();
+    let expected = machine.belt.reduce().unwrap();
     let session = &trial.session;
     assert_eq!(session.problem.parameters, expected.parameters);
     assert_eq!(session.is_on_the_belt(), Some(true));

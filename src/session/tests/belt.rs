@@ -10,7 +10,7 @@ use crate::session::{Msg, save};
 fn at(speed: f64) -> ReducedBelt {
     let mut machine = crate::scene::machine::library::find("textbook").unwrap().clone();
     machine.belt.belt_speed = speed;
-    machine.reduce().unwrap()
+    machine.belt.reduce().unwrap()
 }
 
 /// Checks that the session shows the machine at this speed, with all its numbers.
