@@ -4,7 +4,6 @@
 
 use divan::{Bencher, black_box};
 use hopfscope::branch::along::{Points, branch};
-use hopfscope::flow::method::Dial;
 use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
 use hopfscope::model::{Knob, Parameters, State};
@@ -46,22 +45,15 @@ const METHODS_AND_DIALS: [(Method, f64); 26] = [
 ];
 
 fn w1(method: Method, dial: f64) -> Problem {
-    let (mut tolerance, mut step, mut epsilon) = (1e-8, Knob::Step.usual(), Knob::Epsilon.usual());
-    match method.spec().dial {
-        Dial::Nothing => {}
-        Dial::Tolerance => tolerance = dial,
-        Dial::Step => step = dial,
-        Dial::Epsilon => epsilon = dial,
-    }
-    Problem {
+    let problem = Problem {
         parameters: Parameters { d: -0.1, d2: 0.0, d3: 0.05, r: 0.1 },
         initial: State { q: 3.0, v: 0.0 },
         until: 200.0,
         method,
-        tolerance,
-        step,
-        epsilon,
-    }
+        tolerance: 1e-8,
+        ..Problem::default()
+    };
+    problem.with_setting(dial)
 }
 
 fn follow(bencher: Bencher, problem: Problem, detail: Detail) {

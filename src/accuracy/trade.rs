@@ -4,9 +4,9 @@
 //! added by the caller that has a clock. The front are the rows that no other row beats in both.
 
 use super::reference::{Deviation, NoComparison, Reference};
-use crate::flow::method::Dial;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, METHODS, Method, Outcome, Problem, Reason, Trajectory};
+use crate::model::Knob;
 use crate::numerics::elementary::{ln, log10};
 
 /// Tolerances, one for each digit.
@@ -56,9 +56,9 @@ pub struct Trade {
 /// The problem by a method at an accuracy.
 fn rung(problem: &Problem, method: Method, number: f64) -> Problem {
     let rung = Problem { method, ..*problem }.with_setting(number);
-    match method.spec().dial {
-        Dial::Epsilon => Problem { tolerance: INTEGRATION * number, ..rung },
-        Dial::Nothing | Dial::Tolerance | Dial::Step => rung,
+    match method.dial() {
+        Knob::Epsilon => Problem { tolerance: INTEGRATION * number, ..rung },
+        _ => rung,
     }
 }
 
@@ -67,11 +67,10 @@ fn ladder(problem: &Problem, method: Method) -> Vec<Problem> {
     let closed = method == Method::Auto && problem.parameters.is_piecewise_linear();
     let numbers: &[f64] = match method.spec().dial {
         // The closed form has no tolerance, whatever chose it.
-        Dial::Tolerance if closed => &[problem.tolerance],
-        Dial::Nothing => &[problem.tolerance],
-        Dial::Tolerance => &TOLERANCES,
-        Dial::Step => &STEPS,
-        Dial::Epsilon => &EPSILONS,
+        Some(Knob::Step) => &STEPS,
+        Some(Knob::Epsilon) => &EPSILONS,
+        Some(_) if !closed => &TOLERANCES,
+        _ => &[problem.tolerance],
     };
     let mut rungs: Vec<Problem> =
         numbers.iter().map(|number| rung(problem, method, *number)).collect();

@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use super::exact::Exact;
 use super::limits::Reason;
+use super::motion::Cost;
 use super::step::{Field, Powers, Step, StepPoint, Stepper};
 use super::stiff::Stiff;
 use super::taylor::Taylor;
@@ -247,13 +248,11 @@ impl Stepper for Auto {
         self.taken().powers()
     }
 
-    fn evaluations(&self) -> u64 {
-        let explicit = self.taylor.evaluations() + self.exact.evaluations();
-        explicit + self.stiff.as_ref().map_or(0, |stiff| stiff.evaluations())
-    }
-
-    fn rejected(&self) -> u64 {
-        self.taylor.rejected() + self.stiff.as_ref().map_or(0, |stiff| stiff.rejected())
+    fn cost(&self) -> Cost {
+        let mut cost = self.taylor.cost();
+        cost += self.exact.cost();
+        cost += self.stiff.as_ref().map(|stiff| stiff.cost()).unwrap_or_default();
+        cost
     }
 }
 

@@ -1,6 +1,7 @@
 //! The closed form of the piecewise linear oscillator as a stepper: one step is a whole half swing.
 
 use super::limits::Reason;
+use super::motion::Cost;
 use super::step::{Powers, Step, StepPoint, Stepper};
 use crate::closed_form::linear::Linear;
 use crate::model::HalfPlane;
@@ -17,7 +18,7 @@ pub struct Exact {
     linear: Linear,
     start: StepPoint,
     duration: f64,
-    evaluations: u64,
+    cost: Cost,
 }
 
 /// A step, unless it leaves the range of numbers.
@@ -33,7 +34,7 @@ impl Exact {
             linear: Linear::new(0.0),
             start: StepPoint { x: 0.0, v: 0.0 },
             duration: 0.0,
-            evaluations: 0,
+            cost: Cost::default(),
         }
     }
 
@@ -59,14 +60,14 @@ impl Stepper for Exact {
             return self.pass(from, longest);
         };
         (self.start, self.duration) = (from, arrival.time);
-        self.evaluations += 1;
+        self.cost.evaluations += 1;
         let end = StepPoint { x: arrival.x, v: 0.0 };
         finite(Step { duration: arrival.time, end, crossed: true })
     }
 
     fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
         (self.start, self.duration) = (from, longest);
-        self.evaluations += 1;
+        self.cost.evaluations += 1;
         finite(Step { duration: longest, end: self.at(longest), crossed: false })
     }
 
@@ -83,11 +84,7 @@ impl Stepper for Exact {
         truncated(self.duration.clamp(1.0, MOST_PIECES).ceil())
     }
 
-    fn evaluations(&self) -> u64 {
-        self.evaluations
-    }
-
-    fn rejected(&self) -> u64 {
-        0
+    fn cost(&self) -> Cost {
+        self.cost
     }
 }

@@ -5,6 +5,7 @@
 //! on its length until it ends there, so a crossing is as accurate as a step.
 
 use super::limits::Reason;
+use super::motion::Cost;
 use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
 use super::tableau::{ErrorEstimate, Scheme, dop853, dopri5, rk4};
 use crate::model::HalfPlane;
@@ -44,8 +45,7 @@ pub struct Explicit<const S: usize, const R: usize, F: Field = HalfPlane> {
     errors: [(f64, f64); 2],
     /// Coefficients of the dense output of x and v.
     dense: [[f64; MOST_DENSE]; 2],
-    evaluations: u64,
-    rejected: u64,
+    cost: Cost,
 }
 
 pub type Dop853<F = HalfPlane> = Explicit<12, 16, F>;
@@ -90,8 +90,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
             acceleration: [0.0; S],
             errors: [(0.0, 0.0); 2],
             dense: [[0.0; MOST_DENSE]; 2],
-            evaluations: 0,
-            rejected: 0,
+            cost: Cost::default(),
         }
     }
 
@@ -104,7 +103,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
         let slope = if self.scheme.last_is_end && from == self.end {
             self.acceleration[S - 1]
         } else {
-            self.evaluations += 1;
+            self.cost.evaluations += 1;
             self.field.acceleration(from.x, from.v)
         };
         (self.start, self.velocity[0], self.acceleration[0]) = (from, from.v, slope);
@@ -127,7 +126,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
                 sum_v[i] += column[i] * acceleration;
             }
         }
-        self.evaluations += S as u64 - 1;
+        self.cost.evaluations += S as u64 - 1;
         for (error, i) in self.errors.iter_mut().zip(S..R) {
             *error = (sum_x[i], sum_v[i]);
         }
@@ -184,7 +183,7 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
                 }
                 return Ok((length, end));
             }
-            self.rejected += 1;
+            self.cost.rejected += 1;
             if self.is_fixed() && !error.is_finite() {
                 return Err(Reason::OutOfRange);
             }
@@ -264,7 +263,7 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
             if arrival.is_possible() {
                 return Ok(arrival);
             }
-            self.rejected += 1;
+            self.cost.rejected += 1;
             longest = 0.5 * duration;
         }
     }
@@ -282,7 +281,7 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
         velocity[..S].copy_from_slice(&self.velocity);
         acceleration[..S].copy_from_slice(&self.acceleration);
         let last_slope = self.field.acceleration(self.end.x, self.end.v);
-        self.evaluations += 1;
+        self.cost.evaluations += 1;
         if !self.scheme.extra.is_empty() {
             (velocity[S], acceleration[S]) = (self.end.v, last_slope);
         }
@@ -294,7 +293,7 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
             let v = self.start.v + h * sum(row, &acceleration);
             velocity[index] = v;
             acceleration[index] = self.field.acceleration(x, v);
-            self.evaluations += 1;
+            self.cost.evaluations += 1;
         }
         let components = [
             (self.start.x, self.end.x, self.start.v, self.end.v, velocity),
@@ -328,18 +327,10 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
 
     /// The quadrature of the method: its stages are the nodes.
     fn powers(&self) -> Powers {
-        let mut powers = Powers::default();
-        for (weight, &v) in self.scheme.weights.iter().zip(&self.velocity) {
-            powers.add_node(weight * self.duration, v);
-        }
-        powers
+        Powers::of_stages(self.duration, &self.scheme.weights, &self.velocity)
     }
 
-    fn evaluations(&self) -> u64 {
-        self.evaluations
-    }
-
-    fn rejected(&self) -> u64 {
-        self.rejected
+    fn cost(&self) -> Cost {
+        self.cost
     }
 }

@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::model::Knob;
+
 /// An integration method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -30,19 +32,6 @@ pub enum Method {
     TimeStepping,
 }
 
-/// The number that sets the accuracy of a method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dial {
-    /// None: it is exact.
-    Nothing,
-    /// The relative error of a step.
-    Tolerance,
-    /// The length of the fixed step.
-    Step,
-    /// The velocity over which friction is smoothed.
-    Epsilon,
-}
-
 /// One row of [`METHODS`].
 #[derive(Clone, Copy, Debug)]
 pub struct MethodSpec {
@@ -50,8 +39,9 @@ pub struct MethodSpec {
     pub method: Method,
     /// Its name on the command line and on the screen.
     pub name: &'static str,
-    /// The number that sets its accuracy.
-    pub dial: Dial,
+    /// The number that sets its accuracy: the relative error or the length of a step, or the velocity over which
+    /// friction is smoothed; `None` if it is exact.
+    pub dial: Option<Knob>,
     /// Whether it locates the arrivals at `v = 0`, and hence where a motion rests.
     pub events: bool,
     /// Order of accuracy, in words.
@@ -67,7 +57,7 @@ pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::Auto,
         name: "auto",
-        dial: Dial::Tolerance,
+        dial: Some(Knob::Tolerance),
         events: true,
         order: "that of the method chosen",
         guarantee: "exact where D2 = D3 = 0, else taylor, stiff while stability limits its steps",
@@ -76,7 +66,7 @@ pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::Exact,
         name: "exact",
-        dial: Dial::Nothing,
+        dial: None,
         events: true,
         order: "closed form",
         guarantee: "rounding error only; D2 = D3 = 0",
@@ -85,7 +75,7 @@ pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::Taylor,
         name: "taylor",
-        dial: Dial::Tolerance,
+        dial: Some(Knob::Tolerance),
         events: true,
         order: "8 to 26 with the tolerance",
         guarantee: "relative error of a step below the tolerance; crossings are roots of its polynomial",
@@ -94,7 +84,7 @@ pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::Dop853,
         name: "dop853",
-        dial: Dial::Tolerance,
+        dial: Some(Knob::Tolerance),
         events: true,
         order: "8, error estimates 5 and 3",
         guarantee: "relative error of a step below the tolerance",
@@ -103,7 +93,7 @@ pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::Dopri5,
         name: "dopri5",
-        dial: Dial::Tolerance,
+        dial: Some(Knob::Tolerance),
         events: true,
         order: "5, error estimate 4",
         guarantee: "relative error of a step below the tolerance",
@@ -112,7 +102,7 @@ pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::Rk4,
         name: "rk4",
-        dial: Dial::Step,
+        dial: Some(Knob::Step),
         events: true,
         order: "4, no error estimate",
         guarantee: "crossings as good as its steps; refuses steps that are unstable",
@@ -121,7 +111,7 @@ pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::Stiff,
         name: "stiff",
-        dial: Dial::Tolerance,
+        dial: Some(Knob::Tolerance),
         events: true,
         order: "5, 9 or 13 with the tolerance",
         guarantee: "relative error of a step near the tolerance; L-stable, analytic Jacobian",
@@ -130,7 +120,7 @@ pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::Smoothed,
         name: "smoothed",
-        dial: Dial::Epsilon,
+        dial: Some(Knob::Epsilon),
         events: false,
         order: "1 in epsilon",
         guarantee: "never sticks: it creeps at a speed of order epsilon; cost grows as 1/epsilon (dop853)",
@@ -139,7 +129,7 @@ pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::SignRk4,
         name: "sign-rk4",
-        dial: Dial::Step,
+        dial: Some(Knob::Step),
         events: false,
         order: "1: each passage of v = 0 costs the rest",
         guarantee: "none: it chatters across v = 0 and rests nowhere",
@@ -148,7 +138,7 @@ pub const METHODS: &[MethodSpec] = &[
     MethodSpec {
         method: Method::TimeStepping,
         name: "time-stepping",
-        dial: Dial::Step,
+        dial: Some(Knob::Step),
         events: false,
         order: "2 within a half swing, 1 across v = 0",
         guarantee: "sticks where the balance of one step says so; no crossing is located",
@@ -164,6 +154,12 @@ impl Method {
     #[must_use]
     pub fn spec(self) -> &'static MethodSpec {
         &METHODS[self as usize]
+    }
+
+    /// The number that sets its accuracy; for the closed form the tolerance, which has no effect.
+    #[must_use]
+    pub fn dial(self) -> Knob {
+        self.spec().dial.unwrap_or(Knob::Tolerance)
     }
 
     /// The method with this name.

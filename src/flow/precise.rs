@@ -10,7 +10,7 @@ use super::method::Method;
 use super::motion::{Cost, Detail, Problem, Trajectory};
 use super::run::MotionRun;
 use super::step::{StepPoint, Stepper};
-use super::swing::{Failed, Swing, SwingEnd, swing};
+use super::swing::{SwingEnd, swing};
 use super::taylor::Taylor;
 use crate::model::HalfPlane;
 use crate::numerics::twofold::Twofold;
@@ -70,13 +70,11 @@ pub fn half_swing(
     let point = StepPoint { x: start.opposite(), v: Twofold::default() };
     let watch = |_: &mut Taylor<Twofold>, _, _, _: &_| ControlFlow::Continue(());
     let found = swing(&mut stepper, &field, (point, 0), Twofold::of(PATIENCE), limits, watch);
-    let (Ok(Swing { steps, .. }) | Err(Failed { steps, .. })) = found;
-    let (evaluations, rejected) = (stepper.evaluations(), stepper.rejected());
-    *cost += Cost { evaluations, steps, rejected };
-    match found {
-        Ok(Swing { end: SwingEnd::Crossing { x }, duration, .. }) => Ok(Some((x, duration))),
-        Ok(_) => Ok(None),
-        Err(Failed { reason, .. }) => Err(reason),
+    *cost += Cost { steps: found.steps, ..stepper.cost() };
+    match found.end {
+        SwingEnd::Crossing { x } => Ok(Some((x, found.duration))),
+        SwingEnd::Failed(reason) => Err(reason),
+        SwingEnd::Stopped { .. } | SwingEnd::Escape => Ok(None),
     }
 }
 

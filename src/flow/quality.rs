@@ -3,7 +3,6 @@
 //! Which number it is depends on the method: the error of a step, its length, or the velocity over which
 //! friction is smoothed. [`Problem::setting`] returns it for any method.
 
-use super::method::Dial;
 use super::motion::Problem;
 use crate::model::Knob;
 
@@ -57,26 +56,14 @@ pub const QUALITIES: [Quality; 4] = [
 /// The coarsest setting, computed first where the desired quality takes long.
 pub const DRAFT: Quality = QUALITIES[0];
 
-impl Dial {
-    /// The number itself.
-    #[must_use]
-    pub fn knob(self) -> Knob {
-        match self {
-            Dial::Nothing | Dial::Tolerance => Knob::Tolerance,
-            Dial::Step => Knob::Step,
-            Dial::Epsilon => Knob::Epsilon,
-        }
-    }
-}
-
 impl Quality {
     /// The value of this setting on a dial.
     #[must_use]
-    pub fn setting(&self, dial: Dial) -> f64 {
+    pub fn setting(&self, dial: Knob) -> f64 {
         match dial {
-            Dial::Nothing | Dial::Tolerance => self.tolerance,
-            Dial::Step => self.step,
-            Dial::Epsilon => self.epsilon,
+            Knob::Step => self.step,
+            Knob::Epsilon => self.epsilon,
+            _ => self.tolerance,
         }
     }
 }
@@ -85,13 +72,13 @@ impl Problem {
     /// The number that sets the accuracy of the method. For the closed form it is the tolerance, which has no effect.
     #[must_use]
     pub fn setting(&self) -> f64 {
-        self.get(self.method.spec().dial.knob())
+        self.get(self.method.dial())
     }
 
     /// The same motion by the same method, with another value of [`Problem::setting`].
     #[must_use]
     pub fn with_setting(mut self, number: f64) -> Self {
-        self.set(self.method.spec().dial.knob(), number);
+        self.set(self.method.dial(), number);
         self
     }
 
@@ -105,14 +92,14 @@ impl Problem {
     /// The current named setting, if the dial is at one.
     #[must_use]
     pub fn quality(&self) -> Option<&'static Quality> {
-        let dial = self.method.spec().dial;
+        let dial = self.method.dial();
         QUALITIES.iter().find(|quality| quality.setting(dial) == self.setting())
     }
 
     /// The next named setting on the finer or the coarser side; `None` beyond the last.
     #[must_use]
     pub fn next_quality(&self, finer: bool) -> Option<&'static Quality> {
-        let (dial, here) = (self.method.spec().dial, self.setting());
+        let (dial, here) = (self.method.dial(), self.setting());
         if finer {
             QUALITIES.iter().find(|quality| quality.setting(dial) < here)
         } else {
@@ -128,10 +115,10 @@ mod tests {
 
     #[test]
     fn the_stops_go_from_coarse_to_fine_within_every_range() {
-        for dial in [Dial::Tolerance, Dial::Step, Dial::Epsilon] {
+        for dial in [Knob::Tolerance, Knob::Step, Knob::Epsilon] {
             let numbers = QUALITIES.map(|quality| quality.setting(dial));
             assert!(numbers.windows(2).all(|pair| pair[0] > pair[1]), "{numbers:?}");
-            assert!(numbers.iter().all(|number| dial.knob().check(*number).is_ok()), "{numbers:?}");
+            assert!(numbers.iter().all(|number| dial.check(*number).is_ok()), "{numbers:?}");
         }
         assert_eq!(Problem::default().quality().map(|quality| quality.name), Some("normal"));
     }
@@ -142,7 +129,7 @@ mod tests {
             [(Method::Auto, "tolerance"), (Method::Rk4, "step"), (Method::Smoothed, "epsilon")]
         {
             let problem = Problem { method, ..Problem::default() };
-            assert_eq!(method.spec().dial.knob().spec().name, name);
+            assert_eq!(method.dial().spec().name, name);
             assert_eq!(problem.with_setting(0.003).setting(), 0.003);
             let fine = problem.at(problem.next_quality(true).unwrap());
             assert_eq!(fine.quality().unwrap().name, "fine");

@@ -7,7 +7,7 @@ use super::method::Method;
 use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
 use super::step::{Field, PlaneField, Powers, Step, StepPoint, Stepper};
 use super::stop::ComingToRest;
-use super::swing::{Failed, Swing, SwingEnd, glide, swing};
+use super::swing::{Swing, SwingEnd, glide, swing};
 use crate::model::parameters::energy;
 use crate::model::parameters::rests;
 use crate::model::{HalfPlane, Ledger, Side, State};
@@ -83,15 +83,14 @@ impl<N: Scalar> MotionRun<N> {
             }
             Some(side) => self.half_swings(side, stepper, limits),
         };
-        self.close(outcome, stepper.evaluations(), stepper.rejected())
+        self.close(outcome, stepper.cost())
     }
 
     /// The motion with its outcome, cost and energy ledger.
-    fn close(mut self, outcome: Outcome<N>, evaluations: u64, rejected: u64) -> Trajectory<N> {
+    fn close(mut self, outcome: Outcome<N>, cost: Cost) -> Trajectory<N> {
         let Problem { parameters, initial, .. } = self.found.problem;
         self.found.outcome = outcome;
-        self.found.cost.evaluations = evaluations;
-        self.found.cost.rejected = rejected;
+        self.found.cost += cost;
         if self.detail.energy
             && let Some((q, v)) = outcome.state()
         {
@@ -139,9 +138,9 @@ impl<N: Scalar> MotionRun<N> {
             glide(stepper, field, point, until, limits, watch)
         };
         match self.book(result) {
-            Err(failed) => failed,
-            Ok(SwingEnd::Stopped { point }) => ended.unwrap_or_else(|| self.stopped(point)),
-            Ok(_) => Outcome::Escaped { tau: self.time.value() },
+            SwingEnd::Failed(reason) => self.gives_up(reason),
+            SwingEnd::Stopped { point } => ended.unwrap_or_else(|| self.stopped(point)),
+            _ => Outcome::Escaped { tau: self.time.value() },
         }
     }
 
@@ -170,7 +169,7 @@ impl<N: Scalar> MotionRun<N> {
             let stop = stop.filter(|stop| N::of(stop.duration) < remaining);
             let result = if let Some(ComingToRest { duration, .. }) = stop {
                 let end = SwingEnd::Crossing { x: point.x };
-                Ok(Swing { end, duration: N::of(duration), steps: 0 })
+                Swing { end, duration: N::of(duration), steps: 0 }
             } else {
                 let mut keep = self.keeper::<HalfPlane, S>(side, r, field);
                 let watch = |stepper: &mut S, at: f64, unit: i32, step: &Step<N>| {
@@ -179,12 +178,10 @@ impl<N: Scalar> MotionRun<N> {
                 };
                 swing(stepper, &field, (point, unit), remaining, limits, watch)
             };
-            let end = match self.book(result) {
-                Err(failed) => return failed,
-                Ok(end) => end,
-            };
+            let end = self.book(result);
             let tau = self.time.value();
             match end {
+                SwingEnd::Failed(reason) => return self.gives_up(reason),
                 SwingEnd::Escape => return Outcome::Escaped { tau },
                 SwingEnd::Stopped { point: end } => {
                     self.works.path += (end.x - point.x).value();
@@ -247,18 +244,11 @@ impl<N: Scalar> MotionRun<N> {
         }
     }
 
-    /// Records steps and time; returns how the piece ended, or the outcome where it failed.
-    fn book(&mut self, result: Result<Swing<N>, Failed<N>>) -> Result<SwingEnd<N>, Outcome<N>> {
-        let (duration, steps) = match &result {
-            Ok(swing) => (swing.duration, swing.steps),
-            Err(failed) => (failed.duration, failed.steps),
-        };
-        self.found.cost.steps += steps;
-        self.time.add(duration);
-        match result {
-            Ok(swing) => Ok(swing.end),
-            Err(failed) => Err(self.gives_up(failed.reason)),
-        }
+    /// Records steps and time; returns how the piece ended.
+    fn book(&mut self, piece: Swing<N>) -> SwingEnd<N> {
+        self.found.cost.steps += piece.steps;
+        self.time.add(piece.duration);
+        piece.end
     }
 
     /// The motion at its end time.
@@ -319,7 +309,7 @@ impl MotionRun {
         };
         self.found.crossings = crossings;
         self.works.path = path;
-        self.close(outcome, stepper.evaluations(), stepper.rejected())
+        self.close(outcome, stepper.cost())
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 
 use super::limits::Reason;
+use super::motion::Cost;
 use crate::model::HalfPlane;
 use crate::numerics::count::real;
 use crate::numerics::quadrature::GAUSS;
@@ -158,6 +159,15 @@ impl Powers {
         powers
     }
 
+    /// The integrals over `duration` by the quadrature of a method, whose stages are the nodes.
+    pub fn of_stages(duration: f64, weights: &[f64], velocity: &[f64]) -> Self {
+        let mut powers = Powers::default();
+        for (weight, &v) in weights.iter().zip(velocity) {
+            powers.add_node(weight * duration, v);
+        }
+        powers
+    }
+
     /// Adds `weight * (v^2, v^3, v^4)`: one node of a quadrature.
     pub fn add_node(&mut self, weight: f64, v: f64) {
         let square = v * v;
@@ -197,9 +207,6 @@ pub trait Stepper<F: Field = HalfPlane, N: Scalar = f64>: Debug {
         1
     }
 
-    /// Evaluations so far; a Taylor series of order N counts as N.
-    fn evaluations(&self) -> u64;
-
-    /// Rejected steps so far.
-    fn rejected(&self) -> u64;
+    /// Evaluations and rejected steps so far; accepted steps are not counted.
+    fn cost(&self) -> Cost;
 }

@@ -19,6 +19,7 @@ mod arrival;
 use algebra::{MOST, differences, interpolated, solve, weighted};
 
 use super::limits::Reason;
+use super::motion::Cost;
 use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
 use super::tableau::radau::{Collocation, FIVE, SEVEN, THREE};
 use crate::model::HalfPlane;
@@ -72,8 +73,7 @@ pub struct Stiff<F: Field = HalfPlane> {
     acceleration: [f64; MOST],
     /// Divided differences of x and v over the start and the nodes; those of x only after [`Stepper::prepare_dense`].
     dense: [[f64; MOST + 1]; 2],
-    evaluations: u64,
-    rejected: u64,
+    cost: Cost,
 }
 
 impl<F: Field> Stiff<F> {
@@ -101,8 +101,7 @@ impl<F: Field> Stiff<F> {
             velocity: [0.0; MOST],
             acceleration: [0.0; MOST],
             dense: [[0.0; MOST + 1]; 2],
-            evaluations: 0,
-            rejected: 0,
+            cost: Cost::default(),
         }
     }
 
@@ -131,7 +130,7 @@ impl<F: Field> Stiff<F> {
 
     fn start_at(&mut self, from: StepPoint) {
         self.slope = self.field.acceleration(from.x, from.v);
-        self.evaluations += 1;
+        self.cost.evaluations += 1;
         // The last polynomial gives an initial guess only where this step continues it.
         if from != self.end {
             self.duration = 0.0;
@@ -174,7 +173,7 @@ impl<F: Field> Stiff<F> {
                 acceleration[j] = self.field.acceleration(x, velocity[j]);
                 rate[j] = self.field.divergence(velocity[j]);
             }
-            self.evaluations += stages as u64;
+            self.cost.evaluations += stages as u64;
             let mut matrix = [[0.0; MOST]; MOST];
             let mut change = [0.0; MOST];
             for i in 0..stages {
@@ -267,7 +266,7 @@ impl<F: Field> Stiff<F> {
         // On a first or repeated step, the error of a start off the slow manifold is filtered once more.
         let v = self.start.v + error.v;
         let slope = self.field.acceleration(self.start.x + error.x, v);
-        self.evaluations += 1;
+        self.cost.evaluations += 1;
         norm(filtered(part * v + sums.x, part * slope + sums.v))
     }
 }
@@ -307,7 +306,7 @@ impl<F: Field> Stiff<F> {
                     if error.is_finite() { factor.clamp(0.1, 0.9) } else { 0.1 }
                 }
             };
-            self.rejected += 1;
+            self.cost.rejected += 1;
             (grow, first) = (1.0, true);
             length *= shrink;
             self.next = length;
@@ -365,7 +364,7 @@ impl<F: Field> Stepper<F> for Stiff<F> {
             {
                 return Ok(arrival);
             }
-            self.rejected += 1;
+            self.cost.rejected += 1;
             (self.end, self.duration) = (last, 0.0);
             longest = arrival.map_or(0.5 * duration, |arrival| SHORT_OF * arrival.duration);
         }
@@ -394,20 +393,12 @@ impl<F: Field> Stepper<F> for Stiff<F> {
 
     /// The quadrature of the collocation scheme, exact for polynomials of degree below its order.
     fn powers(&self) -> Powers {
-        let mut powers = Powers::default();
         let weights = self.scheme.integrals[self.scheme.nodes.len() - 1];
-        for (weight, &v) in weights.iter().zip(&self.velocity) {
-            powers.add_node(weight * self.duration, v);
-        }
-        powers
+        Powers::of_stages(self.duration, weights, &self.velocity)
     }
 
-    fn evaluations(&self) -> u64 {
-        self.evaluations
-    }
-
-    fn rejected(&self) -> u64 {
-        self.rejected
+    fn cost(&self) -> Cost {
+        self.cost
     }
 }
 

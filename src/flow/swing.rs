@@ -35,6 +35,8 @@ pub enum SwingEnd<N = f64> {
     },
     /// The velocity becomes infinite before the end time.
     Escape,
+    /// It could not be completed.
+    Failed(Reason),
 }
 
 /// A half swing and how long it took.
@@ -42,18 +44,7 @@ pub enum SwingEnd<N = f64> {
 pub struct Swing<N = f64> {
     /// How it ended.
     pub end: SwingEnd<N>,
-    /// Duration (until the blow-up where it escaped).
-    pub duration: N,
-    /// Accepted steps.
-    pub steps: u64,
-}
-
-/// A half swing that could not be completed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Failed<N = f64> {
-    /// Why it failed.
-    pub reason: Reason,
-    /// The time reached.
+    /// Duration (until the blow-up where it escaped), or the time reached.
     pub duration: N,
     /// Accepted steps.
     pub steps: u64,
@@ -63,8 +54,7 @@ pub struct Failed<N = f64> {
 /// `longest`.
 ///
 /// `watch` is called after each accepted step with the stepper that holds it, the time at which it began, the
-/// exponent of its unit, and the step; it may stop the swing there. Errors are [`Failed`], with the reason and
-/// the time reached.
+/// exponent of its unit, and the step; it may stop the swing there.
 pub fn swing<N: Scalar, S: Stepper<HalfPlane, N>>(
     stepper: &mut S,
     field: &HalfPlane,
@@ -72,7 +62,7 @@ pub fn swing<N: Scalar, S: Stepper<HalfPlane, N>>(
     longest: N,
     limits: &Limits,
     watch: impl FnMut(&mut S, f64, i32, &Step<N>) -> ControlFlow<()>,
-) -> Result<Swing<N>, Failed<N>> {
+) -> Swing<N> {
     drive(stepper, S::advance, field, (start, unit), longest, limits, watch)
 }
 
@@ -86,7 +76,7 @@ pub fn glide<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
     longest: N,
     limits: &Limits,
     watch: impl FnMut(&mut S, f64, i32, &Step<N>) -> ControlFlow<()>,
-) -> Result<Swing<N>, Failed<N>> {
+) -> Swing<N> {
     drive(stepper, S::pass, field, (start, 0), longest, limits, watch)
 }
 
@@ -99,7 +89,7 @@ fn drive<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
     longest: N,
     limits: &Limits,
     mut watch: impl FnMut(&mut S, f64, i32, &Step<N>) -> ControlFlow<()>,
-) -> Result<Swing<N>, Failed<N>> {
+) -> Swing<N> {
     let size = exponent(start.size());
     let mut point = start.times_power(-size);
     let mut unit = unit + size;
@@ -109,40 +99,44 @@ fn drive<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
     stepper.begin(&scaled);
     loop {
         let time = clock.value();
-        let failed = |reason| Failed { reason, duration: time, steps };
+        let failed = |reason| Swing { end: SwingEnd::Failed(reason), duration: time, steps };
         if (limits.interrupted)() {
-            return Err(failed(Reason::Interrupted));
+            return failed(Reason::Interrupted);
         }
-        if stepper.evaluations() > limits.evaluations {
-            return Err(failed(Reason::Budget { evaluations: stepper.evaluations() }));
+        let evaluations = stepper.cost().evaluations;
+        if evaluations > limits.evaluations {
+            return failed(Reason::Budget { evaluations });
         }
         let smooth = scaled.frictionless();
         if !(smooth.d2.is_finite() && smooth.d3.is_finite()) {
-            return Err(failed(Reason::OutOfRange));
+            return failed(Reason::OutOfRange);
         }
         let remaining = longest - time;
-        let step = advance(stepper, point, remaining).map_err(failed)?;
+        let step = match advance(stepper, point, remaining) {
+            Ok(step) => step,
+            Err(reason) => return failed(reason),
+        };
         steps += 1;
         let goes_on = watch(stepper, time.value(), unit, &step).is_continue();
         let step = progress(step, point, remaining);
         clock.add(step.duration);
         let time = clock.value();
         point = step.end;
-        let done = |end| Ok(Swing { end, duration: time, steps });
         if step.crossed {
-            return done(SwingEnd::Crossing { x: point.x.times_power(unit) });
+            let end = SwingEnd::Crossing { x: point.x.times_power(unit) };
+            return Swing { end, duration: time, steps };
         }
         let in_time = step.duration < remaining;
         if !(in_time && goes_on) {
             let end = SwingEnd::Stopped { point: point.times_power(unit) };
-            return Ok(Swing { end, duration: if in_time { time } else { longest }, steps });
+            return Swing { end, duration: if in_time { time } else { longest }, steps };
         }
         let error = BLOW_UP_ERROR * N::NEGLIGIBLE * time.value();
         if let Some(rest) = time_to_blow_up(&smooth, point.rounded(), error)
             && time + N::of(rest) <= longest
         {
             let duration = time + N::of(rest);
-            return Ok(Swing { end: SwingEnd::Escape, duration, steps });
+            return Swing { end: SwingEnd::Escape, duration, steps };
         }
         let drift = exponent(point.size());
         if drift.abs() > FAR {

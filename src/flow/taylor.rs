@@ -9,6 +9,7 @@
 //! `e h/(rho - h)` of the state.
 
 use super::limits::Reason;
+use super::motion::Cost;
 use super::step::{LONGEST, Powers, Step, StepPoint, Stepper};
 use crate::model::HalfPlane;
 use crate::numerics::count::real;
@@ -64,8 +65,7 @@ pub struct Taylor<N = f64> {
     /// Unit of time for the next step, near the length of the last one.
     next_time_exponent: i32,
     duration: f64,
-    evaluations: u64,
-    rejected: u64,
+    cost: Cost,
 }
 
 impl<N: Scalar> Taylor<N> {
@@ -88,8 +88,7 @@ impl<N: Scalar> Taylor<N> {
             time_exponent: 0,
             next_time_exponent: 0,
             duration: 0.0,
-            evaluations: 0,
-            rejected: 0,
+            cost: Cost::default(),
         }
     }
 
@@ -108,7 +107,7 @@ impl<N: Scalar> Taylor<N> {
         let two = N::of(2.0);
         let unit = N::of(times_power(1.0, self.time_exponent));
         let order = self.order.min(MOST);
-        self.evaluations += order as u64;
+        self.cost.evaluations += order as u64;
         let v0 = from.v;
         let force0 = v0 * (d2 + d3 * v0);
         let v1 = unit * (-from.x - v0 * (d + force0));
@@ -336,7 +335,7 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
                     return Ok(self.accept(duration, StepPoint { x, v }));
                 }
             }
-            self.rejected += 1;
+            self.cost.rejected += 1;
             scaled = scaled.times_power(-1);
         }
     }
@@ -359,11 +358,7 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
         Powers::over(self.duration, 1, |time| self.at(time).v)
     }
 
-    fn evaluations(&self) -> u64 {
-        self.evaluations
-    }
-
-    fn rejected(&self) -> u64 {
-        self.rejected
+    fn cost(&self) -> Cost {
+        self.cost
     }
 }

@@ -9,6 +9,7 @@
 //! Mechanics and Engineering 177, 1999).
 
 use super::limits::Reason;
+use super::motion::Cost;
 use super::regularized::SmoothField;
 use super::step::{Powers, Step, StepPoint, Stepper};
 
@@ -27,19 +28,19 @@ pub struct TimeStepping {
     start: StepPoint,
     end: StepPoint,
     duration: f64,
-    evaluations: u64,
+    cost: Cost,
 }
 
 impl TimeStepping {
     /// A stepper with steps of this length.
     pub fn new(field: SmoothField, length: f64) -> Self {
         let start = StepPoint { x: 0.0, v: 0.0 };
-        TimeStepping { field, length, start, end: start, duration: length, evaluations: 0 }
+        TimeStepping { field, length, start, end: start, duration: length, cost: Cost::default() }
     }
 
     /// The impulse still needed from friction if the step is to end with velocity `v`.
     fn missing(&mut self, h: f64, v: f64) -> f64 {
-        self.evaluations += 1;
+        self.cost.evaluations += 1;
         let StepPoint { x, v: before } = self.start;
         let middle = 0.5 * (before + v);
         let position = x + 0.5 * h * middle;
@@ -108,16 +109,10 @@ impl Stepper<SmoothField> for TimeStepping {
     }
 
     fn powers(&self) -> Powers {
-        let mut powers = Powers::default();
-        powers.add_node(self.duration, 0.5 * (self.start.v + self.end.v));
-        powers
+        Powers::of_stages(self.duration, &[1.0], &[0.5 * (self.start.v + self.end.v)])
     }
 
-    fn evaluations(&self) -> u64 {
-        self.evaluations
-    }
-
-    fn rejected(&self) -> u64 {
-        0
+    fn cost(&self) -> Cost {
+        self.cost
     }
 }

@@ -6,9 +6,8 @@ use crate::accuracy::machine_trade::MachineTrade;
 use crate::accuracy::reference::{Deviation, Reference, ReferenceSource};
 use crate::accuracy::trade;
 use crate::accuracy::trade::{Trade, TradePoint};
-use crate::flow::method::Dial;
 use crate::flow::{METHODS, MachineMotion, Method, MethodSpec, Outcome};
-use crate::model::MachineProblem;
+use crate::model::{Knob, MachineProblem};
 use crate::numerics::elementary::{log10, pow};
 use crate::words::number::count;
 use crate::words::{counted, duration, significant};
@@ -61,9 +60,9 @@ impl<'a> TradeRow<'a> {
 fn dials(row: &TradePoint) -> [Option<f64>; 3] {
     let problem = &row.problem;
     let dial = problem.method.spec().dial;
-    let number = |wanted: Dial, value: f64| (dial == wanted).then_some(value);
-    let tolerance = matches!(dial, Dial::Tolerance | Dial::Epsilon).then_some(problem.tolerance);
-    [tolerance, number(Dial::Step, problem.step), number(Dial::Epsilon, problem.epsilon)]
+    let number = |wanted: Knob| (dial == Some(wanted)).then(|| problem.get(wanted));
+    let [tolerance, step, epsilon] = [Knob::Tolerance, Knob::Step, Knob::Epsilon].map(number);
+    [tolerance.or(epsilon.map(|_| problem.tolerance)), step, epsilon]
 }
 
 /// The columns of files for what the accuracy of a method is set to.

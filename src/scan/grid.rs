@@ -8,7 +8,6 @@ use super::measure::{
     Conditions, MachinePoint, Measure, MeasureNeed, OF_THE_PAPER, Value, measure, needs_of,
 };
 use super::sweep::Sweep;
-use crate::flow::method::Dial;
 use crate::flow::{Cost, Limits, Problem, Reason};
 use crate::model::belt::FrictionLaw;
 use crate::model::{Group, Interval, Knob, MachineProblem, ParameterBox, Parameters, State};
@@ -216,7 +215,7 @@ impl Scan {
     }
 
     fn inputs_of_motion(&self, problem: &Problem) -> Vec<(String, Value)> {
-        let Problem { parameters, initial, until, method, tolerance, step, epsilon } = *problem;
+        let Problem { parameters, initial, until, method, .. } = *problem;
         let Parameters { d, d2, d3, r } = parameters;
         let mut inputs: Vec<_> = named([("D", d), ("D2", d2), ("D3", d3), ("r", r)]).collect();
         let needs = needs_of(&self.measures);
@@ -227,12 +226,10 @@ impl Scan {
         if needs.contains(&MeasureNeed::Motion) || needs.contains(&MeasureNeed::Settling) {
             inputs.extend(named([("until", until)]));
             inputs.push(("method".to_owned(), Value::Word(method.spec().name)));
-            inputs.extend(match method.spec().dial {
-                Dial::Nothing => None,
-                Dial::Tolerance => Some(("tolerance".to_owned(), tolerance.into())),
-                Dial::Step => Some(("step".to_owned(), step.into())),
-                Dial::Epsilon => Some(("epsilon".to_owned(), epsilon.into())),
-            });
+            let dial = method.spec().dial;
+            inputs.extend(
+                dial.into_iter().flat_map(|dial| named([(dial.spec().name, problem.get(dial))])),
+            );
         }
         if self.measures.contains(&Measure::Guaranteed) {
             let ParameterBox { d, d2, d3, r } = self.conditions.around(&parameters);

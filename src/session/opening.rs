@@ -3,7 +3,6 @@
 //! A built-in scene with other numbers is described by lines that could be typed. Anything else, such as a
 //! machine or a saved session, is described by a saved session embedded in the file.
 
-use crate::flow::method::Dial;
 use crate::flow::{METHODS, Problem};
 use crate::model::Knob;
 use crate::numerics::decimal::shortest;
@@ -86,13 +85,13 @@ fn numbers(from: &Problem, to: &Problem) -> Vec<String> {
         given.map(|knob| format!("{knob}={}", shortest(to.get(knob)))).collect();
     let mut method = from.method;
     for (dial, before, after) in [
-        (Dial::Tolerance, from.tolerance, to.tolerance),
-        (Dial::Step, from.step, to.step),
-        (Dial::Epsilon, from.epsilon, to.epsilon),
+        (Knob::Tolerance, from.tolerance, to.tolerance),
+        (Knob::Step, from.step, to.step),
+        (Knob::Epsilon, from.epsilon, to.epsilon),
     ] {
-        let by_it = METHODS.iter().find(|row| row.dial == dial).filter(|_| before != after);
+        let by_it = METHODS.iter().find(|row| row.dial == Some(dial)).filter(|_| before != after);
         if let Some(row) = by_it {
-            if method.spec().dial != dial {
+            if method.spec().dial != Some(dial) {
                 method = row.method;
                 words.push(format!("method={method}"));
             }

@@ -234,7 +234,8 @@ impl MachineMotion {
         let end = recorder.state_at(0.0, recorder.state);
         let MotionRecorder { works, samples, steps, state, .. } = recorder;
         let scaled = |(low, high): (f64, f64)| (low * omega_0, high * omega_0);
-        let of_series = steps * ORDER as u64;
+        let evaluations =
+            stepper.as_ref().map_or(steps * ORDER as u64, |stepper| stepper.cost().evaluations);
         MachineMotion {
             method: if stepper.is_some() { method } else { Method::Taylor },
             tolerance: model.tolerance,
@@ -245,11 +246,7 @@ impl MachineMotion {
             x: recorder.x,
             v: scaled(recorder.y),
             ledger: detail.energy.then(|| works.ledger(model, start, state)),
-            cost: Cost {
-                evaluations: stepper.map_or(of_series, |stepper| stepper.evaluations()),
-                steps,
-                ..Cost::default()
-            },
+            cost: Cost { evaluations, steps, ..Cost::default() },
         }
     }
 

@@ -68,7 +68,6 @@ fn run<S: Stepper>(stepper: &mut S, field: &HalfPlane, start: StepPoint) -> Swin
         &Limits::PATIENT,
         |_, _, _, _| ControlFlow::Continue(()),
     )
-    .unwrap()
 }
 
 #[test]

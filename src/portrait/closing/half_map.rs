@@ -15,7 +15,7 @@ use super::roundoff::{Errors, Roundoff};
 use crate::closed_form::linear::Linear;
 use crate::flow::auto::Auto;
 use crate::flow::step::{Step, StepPoint, Stepper};
-use crate::flow::swing::{Failed, SwingEnd, is_escaping, swing};
+use crate::flow::swing::{SwingEnd, is_escaping, swing};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::HalfPlane;
 use crate::numerics::elementary::{atan2, exp, hypot, ln, ln_1p, sin_cos};
@@ -149,11 +149,7 @@ impl HalfMap {
 
     /// What the swings so far cost.
     pub fn cost(&self) -> Cost {
-        Cost {
-            evaluations: self.stepper.evaluations(),
-            steps: self.steps,
-            rejected: self.stepper.rejected(),
-        }
+        Cost { steps: self.steps, ..self.stepper.cost() }
     }
 
     /// Swings from `(-start, 0)`, handing each step to `watch` as (stepper, unit exponent, duration). Fails with
@@ -180,7 +176,7 @@ impl HalfMap {
         if (limits.interrupted)() {
             return Err(NoEnd::Failed(Reason::Interrupted));
         }
-        let spent = self.stepper.evaluations() + self.swings;
+        let spent = self.stepper.cost().evaluations + self.swings;
         if spent > limits.evaluations {
             return Err(NoEnd::Failed(Reason::Budget { evaluations: spent }));
         }
@@ -225,24 +221,13 @@ impl HalfMap {
             }
             ControlFlow::Continue(())
         };
-        let done = match swing(
-            &mut self.stepper,
-            &self.field,
-            (leg.point, 0),
-            LONGEST,
-            limits,
-            &mut see,
-        ) {
-            Ok(done) => done,
-            Err(Failed { reason, steps, .. }) => {
-                self.steps += steps;
-                return Err(NoEnd::Failed(reason));
-            }
-        };
+        let stepper = &mut self.stepper;
+        let done = swing(stepper, &self.field, (leg.point, 0), LONGEST, limits, &mut see);
         self.steps += done.steps;
         let duration = leg.duration + done.duration;
         let (end, rest) = match done.end {
             SwingEnd::Crossing { x } => (Length::new(x), 0.0),
+            SwingEnd::Failed(reason) => return Err(NoEnd::Failed(reason)),
             SwingEnd::Escape => return Err(NoEnd::Escapes),
             SwingEnd::Stopped { .. } if escapes => return Err(NoEnd::Escapes),
             SwingEnd::Stopped { point } if point.size() < small => {

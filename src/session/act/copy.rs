@@ -2,7 +2,6 @@
 //! command.
 
 use crate::flow::Problem;
-use crate::flow::method::Dial;
 use crate::model::Knob;
 use crate::numerics::decimal::shortest;
 use crate::scan::measure::Value;
@@ -136,9 +135,9 @@ pub fn command_line(session: &Session) -> String {
     } else {
         line += &format!(" --until {} --method {method}", shortest(until));
     }
-    line + &match method.spec().dial {
-        Dial::Step if diagram.is_none() => format!(" --step {}", shortest(step)),
-        Dial::Epsilon if diagram.is_none() => format!(" --epsilon {}", shortest(epsilon)),
+    line + &match method.dial() {
+        Knob::Step if diagram.is_none() => format!(" --step {}", shortest(step)),
+        Knob::Epsilon if diagram.is_none() => format!(" --epsilon {}", shortest(epsilon)),
         _ => format!(" --tol {}", shortest(tolerance)),
     }
 }

@@ -145,7 +145,7 @@ fn end_of_dial(finer: bool) -> String {
 
 /// Multiplies the number that sets the accuracy by a power of ten.
 fn turn(session: &mut Session, decades: i32) -> Done {
-    let knob = session.problem.method.spec().dial.knob();
+    let knob = session.problem.method.dial();
     let KnobSpec { min, max, .. } = *knob.spec();
     let exponent = log10(session.problem.setting()).round() + f64::from(decades);
     // Parsed, because the power of ten must be exact to the last bit, which powi does not guarantee.

@@ -46,7 +46,7 @@ impl Row {
     pub fn knob_in(self, problem: &Problem) -> Knob {
         match self {
             Row::Number(knob) => knob,
-            Row::Method | Row::Tolerance => problem.method.spec().dial.knob(),
+            Row::Method | Row::Tolerance => problem.method.dial(),
         }
     }
 
