@@ -152,7 +152,7 @@ fn mistakes_are_named_with_their_place_before_anything_runs() {
 
 /// The actions of the player, on a screen that shows `screen`; the session is idle whenever the player
 /// waits.
-fn play(text: &str, screen: &str) -> Vec<String> {
+fn actions(text: &str, screen: &str) -> Vec<String> {
     let mut player = Player::new(parse(text).unwrap());
     let (mut acts, mut idle) = (Vec::new(), true);
     loop {
@@ -175,15 +175,15 @@ fn play(text: &str, screen: &str) -> Vec<String> {
 
 #[test]
 fn it_waits_after_each_key_unless_told_otherwise() {
-    assert_eq!(play("<right*2>x", ""), ["<right>", "wait", "<right>", "wait", "x", "wait"]);
-    assert_eq!(play("<async><right*2>x", ""), ["<right>", "<right>", "x", "wait"]);
-    assert_eq!(play("<async>x<wait>y", ""), ["x", "wait", "y", "wait"]);
+    assert_eq!(actions("<right*2>x", ""), ["<right>", "wait", "<right>", "wait", "x", "wait"]);
+    assert_eq!(actions("<async><right*2>x", ""), ["<right>", "<right>", "x", "wait"]);
+    assert_eq!(actions("<async>x<wait>y", ""), ["x", "wait", "y", "wait"]);
 }
 
 #[test]
 fn the_first_unmet_expectation_ends_it_with_its_place() {
     assert_eq!(
-        play("<expect \"here\">\n  <screen a> <expect \"there\"> x", "I am\nhere"),
+        actions("<expect \"here\">\n  <screen a> <expect \"there\"> x", "I am\nhere"),
         ["keep a", "wait", "line 2, column 14: the screen does not show \"there\""]
     );
 }

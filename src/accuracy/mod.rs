@@ -7,4 +7,5 @@ pub mod harmonic_error;
 #[doc(hidden)]
 pub mod machine_trade;
 pub(crate) mod reference;
-pub(crate) mod trade;
+#[doc(hidden)]
+pub mod trade;

@@ -9,6 +9,7 @@ use hopfscope::flow::{Cost, Crossing, Limits, Outcome, Problem, Reason, Sample, 
 use hopfscope::model::{Knob, Ledger, Parameters, State};
 use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::{cos, exp, ln, sin, sin_cos};
+use hopfscope::portrait::basin::stability::Share;
 use hopfscope::portrait::{
     BasinPicture, Border, Cycle, Cycles, Margin, RestMargin, Return, ReturnMap,
 };
@@ -17,7 +18,7 @@ use hopfscope::proof::{ParameterBox, Proof};
 use hopfscope::question;
 use hopfscope::question::LostShare;
 use hopfscope::question::speeds::Speeds;
-use hopfscope::question::zones::{Extent, Zones};
+use hopfscope::question::zones::{CertainZones, Extent};
 use hopfscope::question::{Borders, Rows};
 use hopfscope::scan::grid::ScanRow;
 use hopfscope::scan::measure::Value;
@@ -81,10 +82,8 @@ pub fn drawn_over(layer: Layer) -> bool {
 
 pub fn by_hand(request: &Request) -> Answer {
     match request {
-        Request::Trajectory(problem) | Request::Machine { problem, .. } => {
-            Answer::Trajectory(spiral(*problem))
-        }
-        Request::Cycles { parameters } | Request::Portrait { parameters, .. } => {
+        Request::Trajectory { problem, .. } => Answer::Trajectory(spiral(*problem)),
+        Request::Cycles { parameters, .. } => {
             let cycles = vec![cycle(0.5, false), cycle(1.2, true)];
             let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];
             Answer::Cycles(Cycles {
@@ -115,14 +114,14 @@ pub fn by_hand(request: &Request) -> Answer {
             let rows = (*from..scan.points()).map(row).collect();
             Answer::Scan(Rows { first: *from, rows })
         }
-        Request::Zones(_) | Request::MachineZones(_) => Answer::Zones(Zones {
+        Request::Zones(_) => Answer::Zones(CertainZones {
             safe: Extent::Within(circle(0.4)),
             hopeful: Extent::Within(circle(0.6)),
             nominal: margin(0.5),
             guaranteed: Ok(margin(0.4)),
             cost: Cost { evaluations: 400, steps: 20, rejected: 0 },
         }),
-        Request::Capture(_) => Answer::Capture(Borders {
+        Request::Capture { .. } => Answer::Capture(Borders {
             curves: vec![circle(0.2), circle(0.35)],
             cost: Cost { evaluations: 800, steps: 40, rejected: 0 },
         }),
@@ -146,7 +145,7 @@ pub fn by_hand(request: &Request) -> Answer {
             })
         }
         // Of these the pictures show little more than that they were answered.
-        Request::Kicks(_) => {
+        Request::Kicks { .. } => {
             let share = Share { part: 0.125, error: 1e-11 };
             Answer::Kicks(LostShare { share, cost: CHEAP })
         }
@@ -157,13 +156,13 @@ pub fn by_hand(request: &Request) -> Answer {
             unknown: None,
             cost: CHEAP,
         }),
-        Request::Speeds(_) => {
+        Request::Speeds { .. } => {
             Answer::Speeds(Speeds { points: Vec::new(), special: Vec::new(), cost: CHEAP })
         }
         Request::Claims => Answer::Claims(Vec::new()),
         // There is no reference for made-up answers.
         Request::Reference(_) => Answer::Reference(Err(Reason::OutOfRange)),
-        Request::Fit(_) | Request::Refit(_) => {
+        Request::Fit { .. } | Request::Refit { .. } => {
             question::answer(request, &Limits::PATIENT).expect("records can be fitted")
         }
     }

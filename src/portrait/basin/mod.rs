@@ -22,7 +22,8 @@ pub mod capture;
 #[warn(clippy::missing_errors_doc)]
 pub mod cycle;
 pub(crate) mod orbit;
-pub(crate) mod stability;
+#[doc(hidden)]
+pub mod stability;
 
 use arc::Arc;
 use orbit::{Orbit, POINTS, filled, inner_radius};
