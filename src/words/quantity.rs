@@ -11,14 +11,17 @@ const LEAST: f64 = 0.1;
 
 /// A value given in an SI unit with at most `digits` significant digits: `5.47 mm`, `27.4 N`.
 ///
-/// Pure numbers, and units that already have a prefix (kg), get none.
+/// Pure numbers, units that already have a prefix (kg), and those that begin with a power (s^2/m^2), of which the prefix
+/// would be a part, get none.
 pub fn with_unit(value: f64, digits: usize, unit: &str) -> String {
     let plain = |value: f64| significant(value, digits);
     if unit.is_empty() {
         return plain(value);
     }
     let fits = |scale: f64| value.abs() >= scale * LEAST;
-    let (prefix, scale) = if value == 0.0 || !value.is_finite() || unit.starts_with("kg") {
+    let begins_with_power = unit.split(['/', ' ']).next().is_some_and(|first| first.contains('^'));
+    let takes_none = unit.starts_with("kg") || begins_with_power;
+    let (prefix, scale) = if value == 0.0 || !value.is_finite() || takes_none {
         ("", 1.0)
     } else {
         let found =
@@ -45,6 +48,7 @@ mod tests {
             (-2.5e-5, "m", "-25 um"),
             (1e-9, "m", "0.001 um"),
             (0.002, "kg", "0.002 kg"),
+            (0.002, "s^2/m^2", "0.002 s^2/m^2"),
             (2.5, "", "2.5"),
             (0.0547, "N s", "54.7 mN s"),
         ] {
@@ -55,7 +59,7 @@ mod tests {
     #[test]
     fn what_is_written_can_be_typed_in_again() {
         for value in [1.5e-7, 0.0234, -0.7, 5.0, 12_345.0, 2e7] {
-            for unit in ["m", "m/s", "N s", "N", "s", "kg", "N/m"] {
+            for unit in ["m", "m/s", "N s", "N", "s", "kg", "N/m", "s^2/m^2"] {
                 let text = with_unit(value, 15, unit);
                 let back = measured(&text).unwrap().value;
                 assert!((back / value - 1.0).abs() < 1e-14, "{text}: {back}");
