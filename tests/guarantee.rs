@@ -11,8 +11,8 @@ use hopfscope::numerics::random::Random;
 use hopfscope::portrait::basin::basin;
 use hopfscope::portrait::guarantee::oscillator::{TwoSided, guarantee, zones};
 use hopfscope::portrait::{Border, Margin};
-use hopfscope::question;
 use hopfscope::question::answer;
+use hopfscope::question::zones::UncertainSubject;
 use hopfscope::scene::{Answer, Request, Topic};
 use hopfscope::session::{Row, Uncertainty};
 
@@ -417,7 +417,11 @@ fn what_is_certain_is_asked_with_the_box_and_answers_the_reference() {
     assert!((margin - 0.1743).abs() < 5e-5, "{margin}");
     assert!((found.nominal.displacement.unwrap() - 0.2190).abs() < 5e-5);
     trial.press(":set<space>D3=0.5+-0.1<enter>");
-    let Some(Request::Zones { known, disturbance }) = certainty(&trial) else { panic!() };
+    let Some(Request::Zones(UncertainSubject::Parameters { known, disturbance })) =
+        certainty(&trial)
+    else {
+        panic!()
+    };
     assert_eq!((known.d3, disturbance), (Interval::around(0.5, 0.1), 0.02));
     // However close to 0 its ends are: a tolerance that were left out would promise too much.
     for (d2, half) in [(0.2, 0.2), (3e-150, 2.5e-150)] {
@@ -444,5 +448,8 @@ fn a_machine_brings_its_tolerances_and_keeps_them_in_newtons_at_another_speed() 
     assert!((after.0 / before.0 - 1.0).abs() < 1e-12, "{before:?} {after:?}");
     assert!((after.1 / before.1 - 1.0).abs() < 1e-12, "{before:?} {after:?}");
     trial.press(":layer<space>whole<space>on<enter>");
-    assert!(matches!(certainty(&trial), Some(Request::MachineZones(_))), "by the whole model");
+    assert!(
+        matches!(certainty(&trial), Some(Request::Zones(UncertainSubject::Machine { .. }))),
+        "by the whole model"
+    );
 }

@@ -62,18 +62,15 @@ impl ExploreCommand {
         let config = self.settings.read()?;
         let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
         let name = named.map_or(PLAIN, String::as_str);
-        let scene = match &self.belt {
-            Some(file) => {
-                let scene = MachineCase::named(file)?.scene()?;
-                let no_belt = || Failure::Usage(format!("{file}: {NO_BELT}"));
-                self.start.applied(scene.ok_or_else(no_belt)?)?
+        let scene = if let Some(file) = &self.belt {
+            let scene = MachineCase::named(file)?.scene()?;
+            let no_belt = || Failure::Usage(format!("{file}: {NO_BELT}"));
+            self.start.applied(scene.ok_or_else(no_belt)?)?
+        } else {
+            if self.named.is_some() {
+                find(name).map_err(|_| neither_scene_nor_command(name))?;
             }
-            None => {
-                if self.named.is_some() {
-                    find(name).map_err(|_| neither_scene_nor_command(name))?;
-                }
-                self.start.scene(Some(name))?
-            }
+            self.start.scene(Some(name))?
         };
         let play = self.play.as_deref().map(played).transpose()?.unwrap_or_default();
         // The terminal reports its size before the first picture is drawn.

@@ -22,7 +22,7 @@ pub struct RowChoice {
     rows: Option<RowRange>,
 }
 
-/// RowChoice `number` of `of`, counted from 1.
+/// Part `number` of `of`, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: usize,

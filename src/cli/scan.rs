@@ -32,6 +32,7 @@ use crate::scan::sweep::Sweep;
 /// Measures at every point of a line or grid of parameters, on all cores, one row per point
 #[derive(Debug, Args)]
 #[command(name = "scan")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct ScanCommand {
     #[command(flatten)]
     source: SourceOptions,

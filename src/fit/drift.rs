@@ -110,18 +110,21 @@ pub fn without_drift(t: &[f64], x: &[f64], [slope, bend]: [f64; 2]) -> Vec<f64> 
     t.iter().zip(x).map(|(&t, x)| x - at(t)).collect()
 }
 
+/// Minima with a drift of the zero, and which unknowns are then free.
+pub(crate) type Drifting = (Vec<Optimum>, [bool; UNKNOWNS]);
+
 impl Task<'_> {
     /// The minima with a drift of the zero, and which unknowns are then free, if it is real; `guessed` makes first
     /// guesses with a drift.
     ///
     /// Asked are records that may show a drift or are not explained without one. With it they must be explained, and
     /// chi-squared must fall by more than chance allows. Fails with [`Unfit::Interrupted`].
-    pub fn drifting(
+    pub(crate) fn drifting(
         &self,
         found: &[Optimum],
         guessed: impl FnOnce() -> Vec<Beginning>,
         runs: &mut Runs,
-    ) -> Result<Option<(Vec<Optimum>, [bool; UNKNOWNS])>, Unfit> {
+    ) -> Result<Option<Drifting>, Unfit> {
         /// Fall of chi-squared below which a line does as well as a parabola.
         const NOTHING: f64 = 4.0;
         /// Evidence by the linear model, which chance exceeds once in ten records, from which a drift is tried: motions
@@ -167,7 +170,9 @@ impl Task<'_> {
         let bend = Covariance::white(&wider, least).map_or(0.0, |it| it.of(BEND, BEND));
         if powi(least.p[BEND], 2) <= NOTHING * bend / independent(&values) {
             wider.free[BEND] = false;
-            drifting.iter_mut().for_each(|minimum| minimum.p[BEND] = 0.0);
+            for minimum in &mut drifting {
+                minimum.p[BEND] = 0.0;
+            }
             wider.polish(&mut drifting, runs)?;
         }
         Ok(Some((drifting, wider.free)))

@@ -125,7 +125,7 @@ pub struct RestSpreads {
 }
 
 impl KickSpreads {
-    fn of<'a>(margins: impl Iterator<Item = &'a Margin> + Clone) -> Self {
+    fn of<'a>(margins: &(impl Iterator<Item = &'a Margin> + Clone)) -> Self {
         let of = |pick: fn(&Margin) -> Option<f64>| Spread::of(margins.clone().map(pick));
         KickSpreads {
             displacement: of(|it| it.displacement),
@@ -236,12 +236,12 @@ pub fn margins(
     let sure = computed.iter().map(|it| it.as_ref().map_or(Margin::ZERO, |(_, sure)| *sure));
     let each: Vec<(f64, Margin)> = drawn.iter().map(|p| p[OMEGA0]).zip(sure).collect();
     let known: Vec<MarginOfDraw> = computed.into_iter().flatten().map(|(found, _)| found).collect();
-    let kicks = KickSpreads::of(known.iter().map(|it| &it.margin));
+    let kicks = KickSpreads::of(&known.iter().map(|it| &it.margin));
     Ok(Margins {
         kicks,
         guaranteed: question
             .is_disturbed()
-            .then(|| KickSpreads::of(each.iter().map(|(_, margin)| margin))),
+            .then(|| KickSpreads::of(&each.iter().map(|(_, margin)| margin))),
         question: *question,
         cycle: Spread::of(known.iter().map(|it| it.cycle)),
         fold: Spread::of(known.iter().map(|it| it.fold)),

@@ -105,13 +105,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
         }
     }
     let mut estimate = judged(&Task { used: &used, ..task }, &found, runs)?;
-    let why = |index: usize| match (smooth[index], alike[index], used[index]) {
-        (false, ..) => Some(Dropped::Jump),
-        (_, true, _) => Some(Dropped::Alike),
-        (.., false) => Some(Dropped::Outlier),
-        _ => None,
-    };
-    estimate.dropped = (0..x.len()).map(why).collect();
+    estimate.dropped = dropped(&smooth, &alike, &used);
     estimate = of_part(estimate, 0..x.len(), &within);
     let scale = (signal.as_displacement(estimate.p[OMEGA0]) / factor).abs();
     for extreme in &mut extremes {
@@ -120,6 +114,17 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     (estimate.choice, estimate.extremes, estimate.noise) =
         (question.choice.clone(), extremes, noise);
     Ok(estimate)
+}
+
+/// Why each sample does not count: next to a jump, at rest as its neighbours, or impossible.
+fn dropped(smooth: &[bool], alike: &[bool], used: &[bool]) -> Vec<Option<Dropped>> {
+    let why = |((smooth, alike), used): ((&bool, &bool), &bool)| match (smooth, alike, used) {
+        (false, ..) => Some(Dropped::Jump),
+        (_, true, _) => Some(Dropped::Alike),
+        (.., false) => Some(Dropped::Outlier),
+        _ => None,
+    };
+    smooth.iter().zip(alike).zip(used).map(why).collect()
 }
 
 /// The answer for a range of the samples within the scale as one for the whole record.

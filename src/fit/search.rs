@@ -23,7 +23,11 @@ impl Task<'_> {
     /// Descends from the closest guess of each way of beginning, trying one way of descent after the other,
     /// until a minimum explains the record; otherwise the best minimum found is taken. The minima of all regions
     /// follow, the lowest first. Fails with [`Unfit`] if no descent succeeds.
-    pub fn search(&self, guesses: &[Beginning], runs: &mut Runs) -> Result<Vec<Optimum>, Unfit> {
+    pub(crate) fn search(
+        &self,
+        guesses: &[Beginning],
+        runs: &mut Runs,
+    ) -> Result<Vec<Optimum>, Unfit> {
         let mut best: Option<Optimum> = None;
         let mut starts = self.ranked(guesses, runs)?;
         for (round, way) in WAYS.into_iter().enumerate() {
@@ -111,7 +115,7 @@ impl Task<'_> {
 
     /// Fits every minimum again with the residuals that now count. Fails with [`Unfit`] when interrupted, or if
     /// the motion is lost.
-    pub fn polish(&self, found: &mut [Optimum], runs: &mut Runs) -> Result<(), Unfit> {
+    pub(crate) fn polish(&self, found: &mut [Optimum], runs: &mut Runs) -> Result<(), Unfit> {
         for minimum in &mut *found {
             *minimum = self.starting(minimum.start).around(&minimum.seen).solve(minimum.p, runs)?;
         }
@@ -120,7 +124,7 @@ impl Task<'_> {
     }
 
     /// Seeks the minima again with the residuals that now count, from the best one. Fails as [`Task::polish`].
-    pub fn renew(&self, found: &mut Vec<Optimum>, runs: &mut Runs) -> Result<(), Unfit> {
+    pub(crate) fn renew(&self, found: &mut Vec<Optimum>, runs: &mut Runs) -> Result<(), Unfit> {
         let task = self.starting(found[0].start);
         let optimum = task.solve(found[0].p, runs)?;
         *found = task.valleys(vec![optimum], runs)?;
@@ -138,7 +142,7 @@ impl Task<'_> {
 
     /// For each way of beginning, the guess that is closest to the record before any descent. Guesses without D2 and
     /// D3 are also tried, since with wrong values of these every motion may escape.
-    pub fn ranked(
+    pub(crate) fn ranked(
         &self,
         guesses: &[Beginning],
         runs: &mut Runs,

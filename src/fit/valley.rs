@@ -34,7 +34,11 @@ impl Task<'_> {
     /// its region, and from the closest points to the record along a change of r that the other unknowns follow.
     /// Each descent is confined to the region in which it starts, so that what is best there is found even if
     /// it lies on a rim. This is repeated until no other minimum is found. Fails with [`Unfit::Interrupted`].
-    pub fn valleys(&self, optima: Vec<Optimum>, runs: &mut Runs) -> Result<Vec<Optimum>, Unfit> {
+    pub(crate) fn valleys(
+        &self,
+        optima: Vec<Optimum>,
+        runs: &mut Runs,
+    ) -> Result<Vec<Optimum>, Unfit> {
         /// Maximum number of minima around which others are searched for.
         const MOST: usize = 8;
         /// Rise of chi-squared up to which a minimum may be the right one.
@@ -71,7 +75,9 @@ impl Task<'_> {
                     continue;
                 };
                 let found = interrupted(self.around(&seen).solve(guess, runs))?;
-                found.into_iter().for_each(|found| keep(&mut valleys, found));
+                if let Some(found) = found {
+                    keep(&mut valleys, found);
+                }
             }
         }
         Ok(valleys)

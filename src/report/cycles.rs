@@ -122,7 +122,7 @@ pub fn of_machine<'a>(about: &'a About, found: &'a Portrait, seconds: f64) -> An
     about.answer(steps(found), seconds, document, csv, move || {
         let cycles = columns().table(found.cycles.clone());
         let cycles = if cycles.is_empty() { NO_CYCLE.to_owned() } else { cycles.aligned_left() };
-        let known: String = known(found).iter().map(|line| format!("{line}\n")).collect();
+        let known: String = known(found).into_iter().map(|line| line + "\n").collect();
         format!("{}\n\n{cycles}\n{known}", about.heading(&[]))
     })
 }

@@ -101,7 +101,7 @@ impl MarginAnswer {
         let guaranteed = nothing.is_none().then_some(self.guaranteed);
         let title = "smallest kick that is not survived";
         let table = margin_table(title, about.kicks(12), self.nominal, guaranteed);
-        let notes: String = self.notes.iter().map(|note| format!("{note}\n")).collect();
+        let notes: String = self.notes.iter().flat_map(|note| [note.as_str(), "\n"]).collect();
         format!(
             "{}; disturbance {}\n\n{table}{}\n{notes}",
             about.heading(&self.known),

@@ -40,9 +40,8 @@ impl Workers {
     /// Starts the workers; see [`Worker::start`]. Each reports [`Msg::Idle`] separately; [`Workers::is_idle`]
     /// says whether both are idle. Fails if the system provides no threads.
     pub fn start(answer: Arc<Compute>, notes: Notes, report: Arc<Report>) -> io::Result<Workers> {
-        let worker =
-            || Worker::start(TURN, Arc::clone(&answer), notes.clone(), Arc::clone(&report));
-        let (quick, long) = (worker()?, worker()?);
+        let worker = |answer| Worker::start(TURN, answer, notes.clone(), Arc::clone(&report));
+        let (quick, long) = (worker(Arc::clone(&answer))?, worker(answer)?);
         let (asked, stop) = (Vec::new(), Arc::default());
         Ok(Workers { quick, long, asked, report, notes, figure: None, stop })
     }

@@ -68,7 +68,7 @@ impl MachineAnswer<'_> {
     /// The numbers, the margins, the cycles, the motion, and what else was asked for.
     pub(super) fn text(&self) -> String {
         let portrait = &self.course.portrait;
-        let known: String = known(portrait).iter().map(|line| format!("{line}\n")).collect();
+        let known: String = known(portrait).into_iter().map(|line| line + "\n").collect();
         let mut out = format!("{}\n", self.about.heading(&[]));
         if let Some(OnBelt { expansion, .. }) = &self.on_belt {
             let mu = friction(&expansion.belt.law, &expansion.reduced.mu);
@@ -81,7 +81,7 @@ impl MachineAnswer<'_> {
         out += &format!("\n{known}\n");
         let cycles = cycles(&portrait.cycles);
         out += &if cycles.is_empty() { NO_CYCLE.to_owned() } else { cycles.to_string() };
-        out + &self.remarks().iter().map(|line| format!("{line}\n")).collect::<String>()
+        out + &self.remarks().into_iter().map(|line| line + "\n").collect::<String>()
     }
 
     /// The motion, and what else was asked for, a line each.

@@ -9,7 +9,6 @@ mod screen_setup;
 
 mod entries;
 mod facts;
-pub(crate) mod fitting;
 mod kicks;
 mod language;
 mod motions;
