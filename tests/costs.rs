@@ -15,7 +15,6 @@ use hopfscope::flow::{Limits, Method};
 use hopfscope::model::{Knob, Parameters};
 use hopfscope::numerics::elementary::hypot;
 use hopfscope::portrait::basin::cycle::cycles;
-use hopfscope::question;
 use hopfscope::question::{NoAnswer, answer};
 use hopfscope::scene::{Answer, Request, TOPICS, Topic, library};
 use hopfscope::session::{Msg, Row, Session, Size, update};
