@@ -1,7 +1,7 @@
 //! A recorded motion: opened, fitted, with numbers held, and stopped.
 
 use super::explorer_session::{Trial, reopened};
-use hopfscope::fit::Signal;
+use hopfscope::fit::{Dropped, Signal};
 use hopfscope::model::Knob;
 use hopfscope::numerics::elementary::{cos, exp, sin};
 use hopfscope::picture::Item;
