@@ -1,6 +1,7 @@
 //! The rows of the lists over the panes, and the search in them: synonyms, and the order of the rows found.
 
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::sync::{Arc, LazyLock};
 
 use crate::paper::{Claim, ClaimResult, Verdict, claims};
 use crate::scene::library::SceneGroup;
@@ -90,71 +91,15 @@ impl Session {
 }
 
 /// Synonyms for names of commands, lines, scenes, views and layers.
-pub(crate) const ALIASES: &[(&str, &[&str])] = &[
-    ("walk-to-next", &["fold", "special point", "limit point", "jump"]),
-    ("walk", &["continuation", "follow"]),
-    ("save-figure", &["export", "picture", "svg", "png", "pdf", "print"]),
-    ("figure", &["export", "picture", "svg", "png", "pdf", "print", "data"]),
-    ("save-scan", &["export", "data", "csv"]),
-    ("scan-form", &["scan", "sweep", "grid", "batch"]),
-    ("scan", &["sweep", "grid", "batch"]),
-    ("play-motion", &["play", "animate", "animation", "movie", "pause", "time"]),
-    ("motion-pace", &["speed of playing", "faster", "slower"]),
-    ("start-inside", &["kick", "capture"]),
-    ("start-outside", &["kick", "escape"]),
-    ("start-here", &["initial condition", "simulate"]),
-    ("drop-motion", &["delete", "remove"]),
-    ("drop-other-motions", &["clear", "delete", "remove"]),
-    ("edit", &["change", "value", "number"]),
-    ("undo", &["back", "revert", "history"]),
-    ("reset-scene", &["restart", "restore"]),
-    ("tol", &["tolerance", "accuracy", "precision"]),
-    ("coarser", &["accuracy", "fast", "draft"]),
-    ("finer", &["accuracy", "precise", "exact"]),
-    ("next-method", &["method", "integrator", "solver"]),
-    ("method", &["integrator", "solver"]),
-    ("costs", &["performance", "time", "evaluations", "telemetry"]),
-    ("views", &["plot type", "kind"]),
-    ("add-plot", &["new plot", "split"]),
-    ("remove-plot", &["close plot"]),
-    ("enlarge", &["maximize", "full screen"]),
-    ("equal", &["aspect", "circle", "square", "isometric"]),
-    ("axes", &["axis", "period", "property"]),
-    ("copy-number", &["copy", "yank", "clipboard", "value"]),
-    ("copy-row", &["yank", "clipboard", "values"]),
-    ("copy-screen", &["screenshot"]),
-    ("theme", &["colour", "dark", "light", "contrast"]),
-    ("color", &["colour", "depth"]),
-    ("glyphs", &["braille", "ascii", "characters"]),
-    ("write", &["save", "session"]),
-    ("open", &["load", "session", "restore"]),
-    ("restore", &["resume", "recover"]),
-    ("quit", &["exit", "leave", "close"]),
-    ("set-mark", &["mark", "bookmark", "compare"]),
-    ("ghost", &["compare"]),
-    ("fit", &["import", "data", "csv", "measurement"]),
-    ("kicks", &["noise", "random"]),
-    ("wider", &["uncertainty", "half width", "interval"]),
-    ("safe", &["robust", "guaranteed"]),
-    ("lyapunov", &["proof", "energy"]),
-    ("explain", &["what is this", "about"]),
-    ("help", &["keys", "shortcuts", "bindings", "manual"]),
-    ("palette", &["search", "find"]),
-    ("paper", &["equations", "theorems", "claims"]),
-    ("tour", &["tutorial", "introduction", "demo"]),
-    ("drop-cursor", &["cancel", "abort"]),
-    ("diagram", &["branch", "continuation", "amplitude"]),
-    ("regimes", &["stability chart", "two parameters"]),
-    ("boundaries", &["border", "borders"]),
-    ("harmonic-fold", &["harmonic-border"]),
-    ("return-map", &["poincare", "cobweb"]),
-    ("cycles", &["stable", "unstable", "orbit"]),
-    ("groan", &["brake", "squeal", "chatter"]),
-];
+pub(crate) static SYNONYMS: LazyLock<BTreeMap<&str, Vec<&str>>> = LazyLock::new(|| {
+    let lines = include_str!("../../../assets/synonyms.txt").lines();
+    let rows = lines.filter_map(|line| line.split_once(": "));
+    rows.map(|(name, words)| (name, words.split(", ").collect())).collect()
+});
 
 /// The synonyms for this name.
 pub(crate) fn aliases(name: &str) -> &'static [&'static str] {
-    ALIASES.iter().find(|(known, _)| *known == name).map_or(&[], |(_, words)| words)
+    SYNONYMS.get(name).map_or(&[], Vec::as_slice)
 }
 
 /// The rank of a row in a search, by its names and its meaning; 0 is best. Rows whose name is the searched text
