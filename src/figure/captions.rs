@@ -3,8 +3,8 @@
 
 use std::fmt::Write;
 
-use super::Panel;
 use super::paper::{Frame, PLOT, Spot, ink};
+use super::{FigureCurve, MarkedPoint, Panel};
 use crate::numerics::{count::real, elementary::hypot};
 use crate::picture::{Caption, Dash};
 use crate::scene::Point;
@@ -49,62 +49,51 @@ struct Surroundings {
     marks: Vec<Spot>,
 }
 
+/// The places along a curve that lie in the plot.
+fn followed(points: impl IntoIterator<Item = Point>, frame: Frame) -> Vec<Spot> {
+    let inside = |spot: &Spot| {
+        (frame.left..=frame.left + PLOT.0).contains(&spot.0)
+            && (frame.top..=frame.top + PLOT.1).contains(&spot.1)
+    };
+    let mut spots: Vec<Spot> = Vec::new();
+    let mut last: Option<Spot> = None;
+    for here in points.into_iter().map(|point| frame.spot(point)) {
+        let from = last.replace(here).unwrap_or(here);
+        let length = hypot(here.0 - from.0, here.1 - from.1);
+        if !length.is_finite() {
+            last = None;
+            continue;
+        }
+        // A chord from far outside is examined in this many places only.
+        let parts = (length / SPACING).ceil().clamp(1.0, 1000.0);
+        let mut part = 0.0;
+        while part < parts {
+            part += 1.0;
+            let share = part / parts;
+            let spot = (from.0 + share * (here.0 - from.0), from.1 + share * (here.1 - from.1));
+            let apart = |other: &Spot| hypot(other.0 - spot.0, other.1 - spot.1);
+            if inside(&spot) && spots.last().is_none_or(|last| apart(last) >= 0.5 * SPACING) {
+                spots.push(spot);
+            }
+        }
+    }
+    spots
+}
+
 impl Surroundings {
     fn of(panel: &Panel, frame: Frame) -> Self {
-        let spots = |points: &mut dyn Iterator<Item = Point>| -> Vec<Spot> {
-            let inside = |spot: &Spot| {
-                (frame.left..=frame.left + PLOT.0).contains(&spot.0)
-                    && (frame.top..=frame.top + PLOT.1).contains(&spot.1)
-            };
-            let mut spots: Vec<Spot> = Vec::new();
-            let mut last: Option<Spot> = None;
-            for point in points {
-                let here = frame.spot(point);
-                let from = last.replace(here).unwrap_or(here);
-                let length = hypot(here.0 - from.0, here.1 - from.1);
-                if !length.is_finite() {
-                    last = None;
-                    continue;
-                }
-                // A chord from far outside is examined in this many places only.
-                let parts = (length / SPACING).ceil().clamp(1.0, 1000.0);
-                let mut part = 0.0;
-                while part < parts {
-                    part += 1.0;
-                    let share = part / parts;
-                    let spot =
-                        (from.0 + share * (here.0 - from.0), from.1 + share * (here.1 - from.1));
-                    let apart = |other: &Spot| hypot(other.0 - spot.0, other.1 - spot.1);
-                    if inside(&spot) && spots.last().is_none_or(|last| apart(last) >= 0.5 * SPACING)
-                    {
-                        spots.push(spot);
-                    }
-                }
-            }
-            spots
-        };
-        let of_pairs = |points: &Vec<[f64; 2]>| spots(&mut points.iter().copied().map(Point::from));
-        // Asymptotes and the line of the present value are there to be read against too.
-        let sparse = panel.curves.iter().filter(|curve| curve.style == Dash::Sparse);
+        // A bar may run through its own name. Asymptotes and the line of the present value are there to be read
+        // against.
+        let thin = panel.curves.iter().filter(|curve| curve.style != Dash::Thick);
+        let (sparse, curves): (Vec<_>, Vec<_>) = thin.partition(|it| it.style == Dash::Sparse);
+        let spots =
+            |curve: &FigureCurve| followed(curve.points.iter().copied().map(Point::from), frame);
+        let guides = panel.guides.iter().map(|guide| followed(guide.iter().copied(), frame));
+        let mark = |mark: &MarkedPoint| frame.spot(Point { x: mark.x, y: mark.y });
         Surroundings {
-            // A bar may run through its own name.
-            curves: panel
-                .curves
-                .iter()
-                .filter(|curve| !matches!(curve.style, Dash::Thick | Dash::Sparse))
-                .map(|curve| of_pairs(&curve.points))
-                .collect(),
-            guides: panel
-                .guides
-                .iter()
-                .map(|guide| spots(&mut guide.iter().copied()))
-                .chain(sparse.map(|curve| of_pairs(&curve.points)))
-                .collect(),
-            marks: panel
-                .marks
-                .iter()
-                .map(|mark| frame.spot(Point { x: mark.x, y: mark.y }))
-                .collect(),
+            curves: curves.into_iter().map(spots).collect(),
+            guides: guides.chain(sparse.into_iter().map(spots)).collect(),
+            marks: panel.marks.iter().map(mark).collect(),
         }
     }
 

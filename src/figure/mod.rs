@@ -12,7 +12,6 @@ mod content;
 mod data;
 mod lines;
 mod map;
-mod panel;
 mod paper;
 #[cfg(feature = "png")]
 mod png;
@@ -43,21 +42,17 @@ pub enum FileForm {
     Json,
 }
 
-/// The endings of files, and the forms that they ask for.
-const ENDINGS: [(&str, FileForm); 4] = [
-    ("svg", FileForm::Svg),
-    ("png", FileForm::Png),
-    ("csv", FileForm::Csv),
-    ("json", FileForm::Json),
-];
-
 impl FileForm {
     /// The form that the ending of a file asks for. Fails with one line with the endings that there are.
     pub fn of_file(path: &Path) -> Result<FileForm, String> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-        let form = ENDINGS.iter().find(|(known, _)| known.eq_ignore_ascii_case(ending));
-        form.map(|(_, form)| *form)
-            .ok_or_else(|| "a figure ends in .svg, .png, .csv or .json".to_owned())
+        match ending.to_ascii_lowercase().as_str() {
+            "svg" => Ok(FileForm::Svg),
+            "png" => Ok(FileForm::Png),
+            "csv" => Ok(FileForm::Csv),
+            "json" => Ok(FileForm::Json),
+            _ => Err("a figure ends in .svg, .png, .csv or .json".to_owned()),
+        }
     }
 }
 

@@ -1,18 +1,19 @@
-//! The whole screen: layout, panes, and what lies over them.
+//! The whole screen: layout, panes, and what lies over them; and from a cell of it to what stands there, for the mouse.
 
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 
 use super::layout::{Layout, SMALLEST, layout};
 use super::pane::{self, Heading};
+use super::plot::{point_at, shown};
 use super::{
-    Look, caption, energy_ledger, footer, keys, legend, lists, paint::paint, parameters,
-    plot::shown, prose, scan, scan_form, signs, status,
+    Look, caption, energy_ledger, footer, keys, legend, lists, paint::paint, parameters, prose,
+    scan, scan_form, signs, status,
 };
 use crate::picture::{self, Picture, Role};
 use crate::scene::View;
-use crate::session::{Overlay, Pane, Session, settings::Glyphs};
+use crate::session::{Overlay, Pane, PointerTarget, Session, settings::Glyphs};
 
 /// Draws a session. Nothing is decided or computed here except what a visible cell shows.
 pub fn draw(frame: &mut Frame, session: &Session, look: &Look) {
@@ -132,4 +133,28 @@ pub fn panels(session: &Session, (width, height): (u16, u16), look: &Look) -> Ve
         buffer
     };
     (0..session.plots.len()).map(panel).collect()
+}
+
+/// What a cell of the screen stands for, if anything: a row of the parameter pane or a point of a plot.
+pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<PointerTarget> {
+    let parts = layout(screen, session)?;
+    if parts.parameters.contains(cell) {
+        // The first line is the title.
+        let line = (cell.y - parts.parameters.y).checked_sub(1).map(usize::from);
+        let first = parameters::first(session, parts.parameters.height);
+        return line.map(|line| PointerTarget::Row(first + line));
+    }
+    let index = parts.plots.iter().position(|area| area.contains(cell))?;
+    let area = parts.plots[index];
+    let scales = picture::scales(session, index);
+    let window = shown(area, session, index, scales);
+    let point = match session.plots[index].view {
+        View::EnergyLedger => {
+            let (window, marks) = energy_ledger::marks(area, &session.ledger(), window);
+            point_at(area, window, scales, Some(marks), cell)
+        }
+        View::Scan => point_at(scan::body(area), window, scales, None, cell),
+        _ => point_at(area, window, scales, None, cell),
+    };
+    point.map(|point| PointerTarget::Plot(index, point))
 }

@@ -5,7 +5,6 @@
 //! decided in [`look`] alone.
 
 pub mod caption;
-mod colour;
 pub mod dots;
 pub mod energy_ledger;
 mod fitted;
@@ -22,19 +21,16 @@ pub mod paint;
 pub mod pane;
 pub mod paper;
 pub mod parameters;
-pub mod place;
 pub mod plot;
 mod prose;
 pub mod scan;
 pub mod scan_form;
 mod scan_map;
-pub mod scan_table;
 pub mod screen;
 mod signs;
 pub mod status;
 pub mod trade_plot;
 mod verdict;
 
-pub use frame::{draw, panels};
+pub use frame::{draw, panels, place};
 pub use look::Look;
-pub use place::place;

@@ -8,7 +8,7 @@ use ratatui::symbols::border;
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Clear, Widget};
 
-use super::look::{Look, Symbols};
+use super::{Look, look::Symbols};
 use crate::picture::Role;
 use crate::session::{AnswerState, Pane, Session};
 

@@ -49,11 +49,11 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         let role = if failed { Role::Warning } else { Role::Quiet };
         return pane::line(area, 1, look.span(format!(" {text}"), role), look, buffer);
     }
-    let line = |words| (work(session, look, words), price(session, look, words));
+    let line = |shorter| (work(session, look, shorter), price(session, look, shorter));
     let fits = |(left, right): &(String, String)| {
         left.chars().count() + right.chars().count() + 4 <= usize::from(area.width)
     };
-    let (left, right) = WORDS.iter().map(line).find(fits).unwrap_or_else(|| line(&WORDS[3]));
+    let (left, right) = (0..SHORTEST).map(line).find(fits).unwrap_or_else(|| line(SHORTEST));
     pane::both_ends(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")), look, buffer);
 }
 
@@ -91,50 +91,20 @@ fn shorter(session: &Session, mut text: String, room: usize) -> String {
     }
 }
 
-/// The words of the second line.
-#[derive(Clone, Copy)]
-struct StatusWords {
-    evaluations: &'static str,
-    error: &'static str,
-    /// The same beside a dial at which another error would be measured.
-    energy: &'static str,
-    measured: &'static str,
-    /// Why that is not the measured error: the tighter run gave up, the motion did, they end differently.
-    unmeasured: [&'static str; 3],
-    recomputed: &'static str,
-    duration: bool,
-    /// Whether the choice of `auto` is explained.
-    choice: bool,
-}
+/// How often the words of the second line can be shortened, for narrow screens.
+const SHORTEST: usize = 3;
 
-/// The words in full, and shorter for narrow screens.
-const WORDS: [StatusWords; 4] = {
-    let full = StatusWords {
-        evaluations: "evaluations",
-        error: "energy error",
-        energy: "energy error",
-        measured: "measured error",
-        unmeasured: [
-            "the tighter run gave up",
-            "no tighter run: this one gave up",
-            "the tighter run ends otherwise",
-        ],
-        recomputed: "recomputed ",
-        duration: true,
-        choice: true,
-    };
-    let short = StatusWords {
-        evaluations: "ev",
-        error: "error",
-        measured: "measured",
-        recomputed: "",
-        ..full
-    };
-    let unmeasured = ["tighter run gave up", "gave up", "tighter run ends otherwise"];
-    let shorter = StatusWords { unmeasured, choice: false, ..short };
-    let unmeasured = ["gave up", "gave up", "ends otherwise"];
-    [full, short, shorter, StatusWords { unmeasured, duration: false, ..shorter }]
-};
+/// Why an error is not the measured one, in shorter and shorter words: the tighter run gave up, the motion did, they
+/// end differently.
+const UNMEASURED: [[&str; 3]; SHORTEST] = [
+    [
+        "the tighter run gave up",
+        "no tighter run: this one gave up",
+        "the tighter run ends otherwise",
+    ],
+    ["tighter run gave up", "gave up", "tighter run ends otherwise"],
+    ["gave up", "gave up", "ends otherwise"],
+];
 
 /// The mark at the end of the motion in the phase plane.
 fn symbol(session: &Session, look: &Look) -> String {
@@ -147,36 +117,33 @@ fn symbol(session: &Session, look: &Look) -> String {
     format!("{} ", look.symbols().mark(mark))
 }
 
-/// How the motion was computed, what it cost, and its error: measured while the dial is in use, else
-/// that of the energy.
-fn work(session: &Session, look: &Look, words: &StatusWords) -> String {
+/// How the motion was computed while the dial is in use, what it cost, and its error: the measured one, else that of
+/// the energy.
+fn work(session: &Session, look: &Look, shorter: usize) -> String {
     let Some(motion) = session.trajectory() else { return String::new() };
+    let full = shorter == 0;
     let seconds = session.standing(Topic::Trajectory, session.plot).answered();
     let seconds = seconds.map_or(0.0, |answered| answered.seconds);
-    let chosen = choice(motion).filter(|_| session.measures() && words.choice);
+    let quality = session.problem.quality().map_or("typed", |quality| quality.name);
+    let chosen = choice(motion).filter(|_| shorter < 2);
+    let evaluations = if full { "evaluations" } else { "ev" };
     let mut parts = vec![
+        quality.to_owned(),
         chosen.unwrap_or_else(|| motion.method.to_string()),
-        format!("{} {}", count(motion.cost.evaluations), words.evaluations),
+        format!("{} {evaluations}", count(motion.cost.evaluations)),
     ];
-    if words.duration {
-        parts.push(duration(seconds));
-    }
-    if session.measures() {
-        parts.insert(
-            0,
-            session.problem.quality().map_or("typed", |quality| quality.name).to_owned(),
-        );
-    }
-    let why = session.unmeasured().map(|why| words.unmeasured[why as usize]);
+    parts.extend((shorter < SHORTEST).then(|| duration(seconds)));
+    let why = session.unmeasured();
+    let why = why.map(|why| UNMEASURED[shorter.saturating_sub(1)][why as usize]);
     if let Some((deviation, reference)) = session.measured() {
         let least = deviation.error.max(reference.error);
-        parts.push(format!("{} {}", words.measured, significant(least, 2)));
+        let measured = if full { "measured error" } else { "measured" };
+        parts.push(format!("{measured} {}", significant(least, 2)));
     } else if let Some(ledger) = motion.ledger {
         let largest = ledger.start.max(ledger.end);
         let error = if largest > 0.0 { (ledger.residual / largest).abs() } else { 0.0 };
-        let name = if session.measures() { words.energy } else { words.error };
         let why = why.map_or(String::new(), |why| format!(" ({why})"));
-        parts.push(format!("{name} {}{why}", significant(error, 1)));
+        parts.push(format!("energy error {}{why}", significant(error, 1)));
     } else if let Some(why) = why {
         parts.push(why.to_owned());
     }
@@ -184,14 +151,14 @@ fn work(session: &Session, look: &Look, words: &StatusWords) -> String {
 }
 
 /// What the last key recomputed, and what that cost.
-fn price(session: &Session, look: &Look, words: &StatusWords) -> String {
+fn price(session: &Session, look: &Look, shorter: usize) -> String {
     let price = &session.price;
     if price.recomputed.is_empty() {
         return String::new();
     }
     let topics: Vec<Topic> = price.recomputed.iter().map(|part| part.topic).collect();
     let key = price.key.map_or_else(|| "open".into(), |key| keys::name(key, look));
-    let (recomputed, evaluations) = (words.recomputed, count(price.evaluations()));
-    let names = named(&topics, "+");
+    let recomputed = if shorter == 0 { "recomputed " } else { "" };
+    let (names, evaluations) = (named(&topics, "+"), count(price.evaluations()));
     format!("{key}: {recomputed}{names} {evaluations} ev {}", duration(price.seconds()))
 }

@@ -3,8 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::plot::Canvas;
-use super::{Look, pane::Heading, screen};
+use super::{Look, pane::Heading, plot::Canvas, screen};
 use crate::accuracy::trade::Trade;
 use crate::flow::Method;
 use crate::numerics::elementary::log10;

@@ -18,7 +18,7 @@ use crate::numerics::root::{TO_ROUNDING, bisect};
 /// A fraction, and a bound on its error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Share {
-    /// The fraction.
+    /// The fraction, from 0 to 1.
     pub part: f64,
     /// Estimated absolute error.
     pub error: f64,
