@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::areas::polygons;
-use super::lines::{graph, lattice};
+use super::lines::{graph, kept, lattice, missed};
 use crate::model::{Knob, Parameters, State};
 use crate::picture::{
     self, Caption, Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap, VariantTag,
@@ -315,4 +315,35 @@ fn join(kind: &str, name: &mut String, parameters: &mut Held, others: &Held) {
 
 fn pairs(points: &[Point]) -> Vec<[f64; 2]> {
     points.iter().map(|point| (*point).into()).collect()
+}
+
+impl Panel {
+    /// The largest distance between a curve and its chords within the window, in pixels; an estimate.
+    pub fn chord(&self) -> f64 {
+        self.lines().map(|line| missed(line, self.window)).fold(0.0, f64::max)
+    }
+
+    /// The lines that were computed.
+    fn lines(&self) -> impl Iterator<Item = &[[f64; 2]]> {
+        let curves = self.curves.iter().map(|curve| curve.points.as_slice());
+        curves.chain(self.areas.iter().map(|area| area.edge.as_slice()))
+    }
+}
+
+impl Figure {
+    /// Keeps only one of `times` points outside the windows, so that files stay small.
+    pub fn thinned(mut self, times: usize) -> Self {
+        if times > 1 {
+            for panel in &mut self.panels {
+                let window = panel.window;
+                for curve in &mut panel.curves {
+                    curve.points = kept(&curve.points, window, times);
+                }
+                for area in &mut panel.areas {
+                    area.edge = kept(&area.edge, window, times);
+                }
+            }
+        }
+        self
+    }
 }

@@ -4,7 +4,7 @@
 //! Between neighbours of a smooth curve the chord misses it by an eighth of the second difference. What
 //! turns by more than [`CORNER`] at a point is a corner that is meant.
 
-use super::{Figure, Panel, paper::PLOT};
+use super::paper::PLOT;
 use crate::numerics::elementary::{atan2, hypot};
 use crate::scene::{Point, Window};
 
@@ -71,37 +71,6 @@ pub const FAINT: f64 = 0.05;
 /// An angle between two chords, in radians, that is not a bend of a curve sampled for print.
 const CORNER: f64 = 0.3;
 
-impl Panel {
-    /// The largest distance between a curve and its chords within the window, in pixels; an estimate.
-    pub fn chord(&self) -> f64 {
-        self.lines().map(|line| missed(line, self.window)).fold(0.0, f64::max)
-    }
-
-    /// The lines that were computed.
-    fn lines(&self) -> impl Iterator<Item = &[[f64; 2]]> {
-        let curves = self.curves.iter().map(|curve| curve.points.as_slice());
-        curves.chain(self.areas.iter().map(|area| area.edge.as_slice()))
-    }
-}
-
-impl Figure {
-    /// Keeps only one of `times` points outside the windows, so that files stay small.
-    pub fn thinned(mut self, times: usize) -> Self {
-        if times > 1 {
-            for panel in &mut self.panels {
-                let window = panel.window;
-                for curve in &mut panel.curves {
-                    curve.points = kept(&curve.points, window, times);
-                }
-                for area in &mut panel.areas {
-                    area.edge = kept(&area.edge, window, times);
-                }
-            }
-        }
-        self
-    }
-}
-
 /// Where a point stands on the paper, in pixels from the lower left corner of its panel.
 fn place([x, y]: [f64; 2], window: Window) -> (f64, f64) {
     (PLOT.0 * window.x.fraction(x), PLOT.1 * window.y.fraction(y))
@@ -117,7 +86,7 @@ fn in_sight(points: &[[f64; 2]], window: Window) -> bool {
     touches(0, (window.x.from(), window.x.to())) && touches(1, (window.y.from(), window.y.to()))
 }
 
-fn missed(line: &[[f64; 2]], window: Window) -> f64 {
+pub(super) fn missed(line: &[[f64; 2]], window: Window) -> f64 {
     let bend = |three: &[[f64; 2]]| {
         let [before, here, after] = [0, 1, 2].map(|index| place(three[index], window));
         let (one, other) =
@@ -133,7 +102,7 @@ fn missed(line: &[[f64; 2]], window: Window) -> f64 {
 }
 
 /// The points around the window, and every nth of the others.
-fn kept(line: &[[f64; 2]], window: Window, times: usize) -> Vec<[f64; 2]> {
+pub(super) fn kept(line: &[[f64; 2]], window: Window, times: usize) -> Vec<[f64; 2]> {
     let around = |index: usize| {
         let near = &line[index.saturating_sub(times)..(index + times + 1).min(line.len())];
         in_sight(near, window)

@@ -238,7 +238,7 @@ fn without_a_cycle_the_list_is_empty_and_the_basin_has_no_edge() {
 fn a_branch_document_has_its_fields_and_finds_the_fold() {
     let line = "branch --over D=-0.95:0:60 --set r=0.1 --set D2=0.2 --set D3=0.5 --tol 1e-10";
     let answer = json(line);
-    assert_eq!(keys(&answer), "cost parameter points provenance special vague");
+    assert_eq!(keys(&answer), "cost parameter parameters points provenance special vague");
     assert_eq!(answer["parameter"], "D");
     let points = answer["points"].as_array().unwrap();
     assert!(points.len() >= 60, "{}", points.len());
