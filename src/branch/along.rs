@@ -8,7 +8,7 @@
 //! ```
 //! use hopfscope::flow::Limits;
 //! use hopfscope::model::{Parameters, Knob};
-//! use hopfscope::branch::special::SpecialKind;
+//! use hopfscope::branch::SpecialKind;
 //! use hopfscope::branch::along::{Points, branch};
 //!
 //! let parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.01, r: 0.1 };

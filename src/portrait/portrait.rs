@@ -337,7 +337,7 @@ impl Portrait {
         gap.map_or(Fate::Rest, |gap| if x == gap.to { gap.end } else { gap.fate })
     }
 
-    /// The area of the basin of rest, in m^2/s; `None` where it is infinite, or where there is no basin.
+    /// The area within [`Self::border`], in m^2/s; `None` where it is infinite, or where there is no basin.
     #[must_use]
     pub fn area(&self) -> Option<f64> {
         let area = match &self.traced {
@@ -348,8 +348,8 @@ impl Portrait {
         area.map(|area| area * self.model.omega_0)
     }
 
-    /// The radius, in m, of the largest circle about the origin that lies within the basin of rest, velocities being
-    /// divided by the natural frequency; `None` where nothing borders it.
+    /// The radius, in m, of the largest circle about the origin that lies within [`Self::border`], velocities being
+    /// divided by the natural frequency; `None` where there is none.
     #[must_use]
     pub fn inner_radius(&self) -> Option<f64> {
         let speed = self.model.speed;
