@@ -186,15 +186,15 @@ impl MachineCurve {
         self.area_within(&PhaseWindow { x: all, y: all }, speed)
     }
 
-    /// Its points, `between` + 1 on each piece that slips; velocities divided by the natural frequency.
+    /// Its points, `between` + 1 on each piece; velocities divided by the natural frequency.
     pub fn points(&self, between: u16, speed: f64) -> Vec<State> {
-        let on = |piece: &CurvePiece| match piece {
-            CurvePiece::Slip(slip) => {
-                let part = |point: u16| f64::from(point) / f64::from(between.max(1));
-                let at = |point: u16| slip.at(slip.duration * part(point));
-                (0..=between).map(at).map(|(q, v)| State { q, v }).collect()
-            }
-            CurvePiece::Line { from, to } => [*from, *to].map(|q| State { q, v: speed }).to_vec(),
+        let part = |point: u16| f64::from(point) / f64::from(between.max(1));
+        let on = |piece: &CurvePiece| -> Vec<State> {
+            let at = |point: u16| match piece {
+                CurvePiece::Slip(slip) => slip.at(slip.duration * part(point)),
+                CurvePiece::Line { from, to } => (from + part(point) * (to - from), speed),
+            };
+            (0..=between).map(at).map(|(q, v)| State { q, v }).collect()
         };
         self.pieces.iter().flat_map(on).collect()
     }
