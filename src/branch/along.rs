@@ -101,7 +101,7 @@ pub fn branch(
     }
     let (pieces, special, vague) = Default::default();
     let found = Branch { parameter, pieces, special, vague, cost: Cost::default() };
-    let mut tracer = Tracer { curve, parameter, points, found };
+    let mut tracer = CurveTracer { curve, parameter, points, found };
     if parameter == Knob::D && parameters.is_piecewise_linear() {
         tracer.found.pieces.extend(linear_branch(parameters.r, from, to, points));
         tracer.hopf(parameters.r, from, to);
@@ -160,7 +160,7 @@ const DEEPEST: f64 = -600.0;
 const SHALLOW: f64 = 28.0;
 
 /// A branch in progress.
-struct Tracer<'a> {
+struct CurveTracer<'a> {
     curve: CycleCurve<'a>,
     parameter: Knob,
     points: Points,
@@ -170,7 +170,7 @@ struct Tracer<'a> {
 /// Amplitudes beyond this, in units of friction and of the natural scale, are not followed.
 const LOG_FAR: f64 = 25.0;
 
-impl Tracer<'_> {
+impl CurveTracer<'_> {
     /// Follows every curve that passes one of the probing values.
     fn trace(&mut self, from: f64, to: f64) -> Result<(), Reason> {
         /// Fractions of the range at which cycles are sought: both ends, and between for curves that

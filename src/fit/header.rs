@@ -1,6 +1,6 @@
 //! The header lines above the numbers: names of columns and their units.
 
-use super::{Quantity, Signal, quantity};
+use super::{Signal, UnitMeaning, quantity};
 
 /// Units of time and their values in seconds.
 pub const TIME_UNITS: [(&str, f64); 7] = [
@@ -154,7 +154,7 @@ impl Header {
         let columns = || (0..self.columns.len()).filter(|column| Some(*column) != time);
         let has_unit = |column: &usize| {
             let unit = self.unit(*column).and_then(|unit| quantity(&unit));
-            matches!(unit, Some(Quantity::Signal(known, ..)) if known == signal)
+            matches!(unit, Some(UnitMeaning::Signal(known, ..)) if known == signal)
         };
         let by_name = || columns().find(|column| self.suggested(*column) == Some(signal));
         columns().find(has_unit).or_else(by_name)

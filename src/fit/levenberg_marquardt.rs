@@ -51,7 +51,7 @@ impl Task<'_> {
     pub fn followed(&self, from: &Optimum, unknown: usize, by: f64) -> Option<Unknowns> {
         let (columns, factor) = (self.columns(), self.factor(&from.seen));
         let norms = norms(&factor);
-        let step = Step { factor: &factor, norms: &norms, damping: 1e-12, columns: &columns };
+        let step = DampedStep { factor: &factor, norms: &norms, damping: 1e-12, columns: &columns };
         let (step, _) = step.within(&self.bounds(&from.p, &from.seen), Some((unknown, by)))?;
         let mut p = moved(&from.p, 1.0, &step);
         p[unknown] = from.p[unknown] + by;
@@ -98,7 +98,8 @@ impl Task<'_> {
             }
             let taken = loop {
                 let bounds = self.bounds(&p, &seen);
-                let step = Step { factor: &factor, norms: &largest, damping, columns: &columns };
+                let step =
+                    DampedStep { factor: &factor, norms: &largest, damping, columns: &columns };
                 let Some((step, predicted)) = step.within(&bounds, None) else { break None };
                 if predicted <= enough * cost {
                     break None;
@@ -137,7 +138,7 @@ fn norms(factor: &DMatrix<f64>) -> Vec<f64> {
 }
 
 /// A damped step from a point.
-struct Step<'a> {
+struct DampedStep<'a> {
     /// The triangular factor of the gradients, with the residuals as its last column.
     factor: &'a DMatrix<f64>,
     /// The scales of the unknowns.
@@ -146,7 +147,7 @@ struct Step<'a> {
     columns: &'a [usize],
 }
 
-impl Step<'_> {
+impl DampedStep<'_> {
     /// The step that violates no bound, and the reduction of the loss predicted by the linear model; with one
     /// of the unknowns moved by a given amount, if `moved` says so.
     fn within(&self, bounds: &[Bound], moved: Option<(usize, f64)>) -> Option<(Unknowns, f64)> {

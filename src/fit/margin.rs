@@ -75,7 +75,7 @@ impl MarginQuestion {
 
 /// Quantiles of a quantity that may not exist, such as the margin if every kick is survived.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Spread {
+pub struct MarginSpread {
     /// The median; `None` if the quantity does not exist in at least half of the draws.
     pub median: Option<f64>,
     /// The 2.5 % quantile.
@@ -86,13 +86,13 @@ pub struct Spread {
     pub none: f64,
 }
 
-impl Spread {
+impl MarginSpread {
     fn of(values: impl Iterator<Item = Option<f64>>) -> Self {
         let sorted = sorted(values);
         let at = |part: f64| quantile(&sorted, part);
         let none = sorted.iter().filter(|it| it.is_infinite()).count();
         let share = real(none) / real(sorted.len().max(1));
-        Spread { median: at(0.5), lower: at(0.025), upper: at(0.975), none: share }
+        MarginSpread { median: at(0.5), lower: at(0.025), upper: at(0.975), none: share }
     }
 
     /// The same in another unit.
@@ -100,7 +100,7 @@ impl Spread {
     pub fn scaled(&self, by: f64) -> Self {
         let [median, lower, upper] =
             [self.median, self.lower, self.upper].map(|it| it.map(|value| value * by));
-        Spread { median, lower, upper, none: self.none }
+        MarginSpread { median, lower, upper, none: self.none }
     }
 }
 
@@ -108,9 +108,9 @@ impl Spread {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct KickSpreads {
     /// The smallest displacement from the middle of the sticking set.
-    pub displacement: Spread,
+    pub displacement: MarginSpread,
     /// The smallest impulse from there, as `velocity/omega0`.
-    pub impulse: Spread,
+    pub impulse: MarginSpread,
     /// Those from the worst rest position.
     pub from_rest: RestSpreads,
 }
@@ -119,14 +119,14 @@ pub struct KickSpreads {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct RestSpreads {
     /// The smallest change of position.
-    pub displacement: Spread,
+    pub displacement: MarginSpread,
     /// The smallest impulse, as `velocity/omega0`.
-    pub impulse: Spread,
+    pub impulse: MarginSpread,
 }
 
 impl KickSpreads {
     fn of<'a>(margins: &(impl Iterator<Item = &'a Margin> + Clone)) -> Self {
-        let of = |pick: fn(&Margin) -> Option<f64>| Spread::of(margins.clone().map(pick));
+        let of = |pick: fn(&Margin) -> Option<f64>| MarginSpread::of(margins.clone().map(pick));
         KickSpreads {
             displacement: of(|it| it.displacement),
             impulse: of(|it| it.impulse),
@@ -167,10 +167,10 @@ pub struct Margins {
     #[serde(skip)]
     pub question: MarginQuestion,
     /// The right turning point of the smallest stable cycle; `none` is the fraction of draws without one.
-    pub cycle: Spread,
+    pub cycle: MarginSpread,
     /// The damping `D_F` of the fold, above which every motion is captured; `none` is the fraction of draws
     /// without a fold.
-    pub fold: Spread,
+    pub fold: MarginSpread,
     /// Whether the median displacement lies outside the amplitudes measured.
     pub extrapolated: bool,
     /// The smallest displacement not survived with D2 or D3 at an end of its interval and all other numbers following:
@@ -243,8 +243,8 @@ pub fn margins(
             .is_disturbed()
             .then(|| KickSpreads::of(&each.iter().map(|(_, margin)| margin))),
         question: *question,
-        cycle: Spread::of(known.iter().map(|it| it.cycle)),
-        fold: Spread::of(known.iter().map(|it| it.fold)),
+        cycle: MarginSpread::of(known.iter().map(|it| it.cycle)),
+        fold: MarginSpread::of(known.iter().map(|it| it.fold)),
         extrapolated: kicks.displacement.median.is_none_or(|at| at > largest || at < smallest),
         allowed: allowed(estimate, ask),
         failed: draws - known.len(),
@@ -313,7 +313,7 @@ mod tests {
 
     #[test]
     fn quantiles_of_margins_that_may_be_infinite() {
-        let found = Spread::of((1..=60).map(|it| Some(f64::from(it))).chain([None; 40]));
+        let found = MarginSpread::of((1..=60).map(|it| Some(f64::from(it))).chain([None; 40]));
         assert_eq!((found.lower, found.median, found.upper), (Some(3.0), Some(51.0), None));
         assert_eq!(found.none, 0.4);
     }

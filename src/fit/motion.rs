@@ -138,7 +138,7 @@ pub fn follow(
         if next >= times.len() || followed.turns.len() >= way.turns {
             return Ok(followed);
         }
-        let swing = HalfSwing::new(parameters, side, (x, v), &chain);
+        let swing = FittedSwing::new(parameters, side, (x, v), &chain);
         let (turn, end) = swing.follow(tau, times, &mut next, way, &mut see)?;
         let Some(turn) = turn else { return Ok(followed) };
         followed.turns.push(turn);
@@ -163,7 +163,7 @@ pub fn follow(
 }
 
 /// A half swing: its start with the derivatives of the start.
-struct HalfSwing<'a> {
+struct FittedSwing<'a> {
     parameters: &'a Parameters,
     side: Side,
     field: HalfPlane,
@@ -175,7 +175,7 @@ struct HalfSwing<'a> {
     chain: &'a StartGradient,
 }
 
-impl<'a> HalfSwing<'a> {
+impl<'a> FittedSwing<'a> {
     fn new(
         parameters: &'a Parameters,
         side: Side,
@@ -193,7 +193,7 @@ impl<'a> HalfSwing<'a> {
             along[p] = (ux * chain.x[p] + uv * chain.v[p]) / norm;
             across[p] = ux * chain.v[p] - uv * chain.x[p];
         }
-        HalfSwing { parameters, side, field, start, along, across, chain }
+        FittedSwing { parameters, side, field, start, along, across, chain }
     }
 
     /// The derivatives with respect to all numbers from the solutions of the variational equation: across the

@@ -40,7 +40,7 @@ pub fn drawn(estimate: &Estimate, draws: usize, limits: &Limits) -> Result<Drawn
     let is_bent = |place: usize| estimate.free[place] && !estimate.intervals[place].quadratic;
     let quadratic = ![D, D2, D3, R].into_iter().any(is_bent);
     let interrupted = || Err(Reason::Interrupted);
-    let Ok(frame) = Frame::of(estimate, &mut Runs::new(limits.interrupted)) else {
+    let Ok(frame) = PosteriorFrame::of(estimate, &mut Runs::new(limits.interrupted)) else {
         return interrupted();
     };
     if quadratic || estimate.whiteness.systematic {
@@ -107,7 +107,7 @@ fn resampled(points: &[(Unknowns, f64)], weights: &[f64], draws: usize) -> Vec<U
 }
 
 /// The residuals of all motions as seen along the gradients of the estimate.
-struct Frame<'a> {
+struct PosteriorFrame<'a> {
     task: Task<'a>,
     estimate: &'a Estimate,
     columns: Vec<usize>,
@@ -123,7 +123,7 @@ struct Frame<'a> {
     unit: f64,
 }
 
-impl<'a> Frame<'a> {
+impl<'a> PosteriorFrame<'a> {
     fn of(estimate: &'a Estimate, runs: &mut Runs) -> Result<Self, Unfit> {
         let task = estimate.task(&[]);
         let columns = estimate.covariance.columns.clone();
@@ -135,7 +135,8 @@ impl<'a> Frame<'a> {
         let (width, unit) = (columns.len(), estimate.unit(runs)?);
         let root = root.unwrap_or_else(|| unit.sqrt() * DMatrix::identity(width, width));
         let center = DVector::zeros(width);
-        let mut frame = Frame { task, estimate, columns, along, upper, root, center, unit };
+        let mut frame =
+            PosteriorFrame { task, estimate, columns, along, upper, root, center, unit };
         frame.center = frame.seen_along(&seen).0;
         Ok(frame)
     }

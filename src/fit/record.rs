@@ -8,8 +8,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Cell, Header, Measure, NumberedLine, Signal, TIME_UNITS, cells, clock_seconds, lines, measure,
-    read, seconds_in, separator,
+    Cell, Header, NumberedLine, Signal, SignalUnit, TIME_UNITS, cells, clock_seconds, lines,
+    measure, read, seconds_in, separator,
 };
 
 /// A column of a file.
@@ -152,7 +152,7 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
     };
     let written = header.unit(displacement);
     let suggested = header.suggested(displacement);
-    let Measure { signal, length, scale } =
+    let SignalUnit { signal, length, scale } =
         measure(written.as_deref(), reading.unit.as_deref(), reading.signal, suggested)
             .map_err(|problem| bad(displacement, problem))?;
     if reading.peaks && !signal.is_displacement() {

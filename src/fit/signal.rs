@@ -111,7 +111,7 @@ pub fn length_in_metres(unit: &str) -> Option<f64> {
 
 /// What a unit says about a column.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Quantity {
+pub enum UnitMeaning {
     /// A signal, the unit of length that belongs to it, and the value of the unit in units of that.
     Signal(Signal, String, f64),
     /// Another quantity, by its name.
@@ -120,27 +120,27 @@ pub enum Quantity {
 
 /// The quantity that a unit belongs to; `None` for unknown units.
 #[must_use]
-pub fn quantity(unit: &str) -> Option<Quantity> {
+pub fn quantity(unit: &str) -> Option<UnitMeaning> {
     let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u").replace(' ', "");
     if plain == "g" {
-        return Some(Quantity::Signal(Signal::Acceleration, "m".into(), GRAVITY));
+        return Some(UnitMeaning::Signal(Signal::Acceleration, "m".into(), GRAVITY));
     }
     for (signal, _, endings) in SIGNALS {
         for ending in endings {
             if let Some(length) = plain.strip_suffix(ending)
                 && length_in_metres(length).is_some()
             {
-                return Some(Quantity::Signal(signal, length.to_owned(), 1.0));
+                return Some(UnitMeaning::Signal(signal, length.to_owned(), 1.0));
             }
         }
     }
     let found = OTHERS.iter().find(|(_, units)| units.contains(&plain.as_str()));
-    found.map(|(quantity, _)| Quantity::Other(quantity))
+    found.map(|(quantity, _)| UnitMeaning::Other(quantity))
 }
 
 /// What the column of a record holds.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Measure {
+pub struct SignalUnit {
     /// The signal.
     pub signal: Signal,
     /// The unit of length that belongs to its unit, if that is known; for a displacement the unit as it is written.
@@ -159,25 +159,25 @@ pub fn measure(
     said: Option<&str>,
     signal: Option<Signal>,
     suggested: Option<Signal>,
-) -> Result<Measure, String> {
-    let mut found = Measure { signal: signal.unwrap_or_default(), length: None, scale: 1.0 };
+) -> Result<SignalUnit, String> {
+    let mut found = SignalUnit { signal: signal.unwrap_or_default(), length: None, scale: 1.0 };
     let mut certain = signal.is_some();
     for unit in [written, said].into_iter().flatten() {
         match quantity(unit) {
-            Some(Quantity::Other(other)) => {
+            Some(UnitMeaning::Other(other)) => {
                 return Err(format!(
                     "{unit:?} is a unit of {other}; expected one of {}, such as mm, mm/s or m/s^2",
                     Signal::names()
                 ));
             }
-            Some(Quantity::Signal(known, ..)) if certain && known != found.signal => {
+            Some(UnitMeaning::Signal(known, ..)) if certain && known != found.signal => {
                 return Err(format!("{unit:?} is a unit of {known}, not of {}", found.signal));
             }
-            Some(Quantity::Signal(known, length, scale)) => {
+            Some(UnitMeaning::Signal(known, length, scale)) => {
                 certain = true;
                 // The unit of a displacement stays as it is written.
                 let length = if known.is_displacement() { unit.to_owned() } else { length };
-                found = Measure { signal: known, length: Some(length), scale };
+                found = SignalUnit { signal: known, length: Some(length), scale };
             }
             None => found.length = Some(unit.to_owned()),
         }
@@ -204,9 +204,9 @@ mod tests {
             ("mm / s^2", Signal::Acceleration, "mm", 1.0),
             ("g", Signal::Acceleration, "m", 9.806_65),
         ] {
-            assert_eq!(quantity(unit), Some(Quantity::Signal(signal, length.into(), scale)));
+            assert_eq!(quantity(unit), Some(UnitMeaning::Signal(signal, length.into(), scale)));
         }
-        assert_eq!(quantity("mV"), Some(Quantity::Other("voltage")));
+        assert_eq!(quantity("mV"), Some(UnitMeaning::Other("voltage")));
         assert_eq!(quantity("counts"), None);
     }
 

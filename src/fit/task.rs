@@ -99,7 +99,7 @@ pub struct Task<'a> {
 
 /// What the residuals of a minimum may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum FitVerdict {
     /// White and small.
     Noise,
     /// Small, with short-range correlation: filtered noise, or a minimum next to the right one.
@@ -250,8 +250,8 @@ impl<'a> Task<'a> {
     }
 
     /// Whether the residuals look like noise.
-    pub fn verdict(&self, optimum: &Optimum) -> Verdict {
-        let Data::Samples { t, .. } = self.observation.data else { return Verdict::Unexplained };
+    pub fn verdict(&self, optimum: &Optimum) -> FitVerdict {
+        let Data::Samples { t, .. } = self.observation.data else { return FitVerdict::Unexplained };
         let residuals = self.values(&optimum.seen);
         let deviation = robust_deviation(residuals.iter().copied());
         // Outliers that a robust loss tolerates must not look like an oscillation.
@@ -261,11 +261,11 @@ impl<'a> Task<'a> {
         let is_far = |value: &f64| value.abs() > IMPOSSIBLE * deviation;
         let runs_off = longest_run(residuals.iter().map(is_far)) >= RUN;
         if found.systematic || runs_off || !self.is_small(deviation) {
-            Verdict::Unexplained
+            FitVerdict::Unexplained
         } else if found.white {
-            Verdict::Noise
+            FitVerdict::Noise
         } else {
-            Verdict::Correlated
+            FitVerdict::Correlated
         }
     }
 
@@ -281,7 +281,7 @@ impl<'a> Task<'a> {
 
     /// Whether the residuals may be noise.
     pub fn explains(&self, optimum: &Optimum) -> bool {
-        self.verdict(optimum) != Verdict::Unexplained
+        self.verdict(optimum) != FitVerdict::Unexplained
     }
 }
 

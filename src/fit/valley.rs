@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use nalgebra::DVector;
 
 use super::{
-    Bound, Covariance, D2, D3, Data, Optimum, R, Region, Runs, Task, Unfit, Unknowns, Verdict,
+    Bound, Covariance, D2, D3, Data, FitVerdict, Optimum, R, Region, Runs, Task, Unfit, Unknowns,
     interrupted, moved, scattered,
 };
 
@@ -64,7 +64,7 @@ impl Task<'_> {
             let verdict = self.verdict(&from);
             let mut guesses = beyond_the_rim(self, &from, &covariance, verdict, runs)?;
             if from.cost == least && from.seen.rests && !self.observation.data.has_peaks() {
-                guesses.extend(if verdict == Verdict::Noise {
+                guesses.extend(if verdict == FitVerdict::Noise {
                     along_the_valley(self, &from, &covariance, &valleys, runs)?
                 } else {
                     through_the_valley(self, &from, FINE, &valleys, runs)?
@@ -106,7 +106,7 @@ fn beyond_the_rim(
     task: &Task,
     optimum: &Optimum,
     covariance: &Covariance,
-    verdict: Verdict,
+    verdict: FitVerdict,
     runs: &mut Runs,
 ) -> Result<Vec<Unknowns>, Unfit> {
     /// How much further to go while a point still lies in the same region.
@@ -122,7 +122,7 @@ fn beyond_the_rim(
         let lean = &covariance.white * &by;
         let variance = by.dot(&lean);
         let error = variance.sqrt();
-        let is_near = verdict != Verdict::Noise || value <= FAR * error;
+        let is_near = verdict != FitVerdict::Noise || value <= FAR * error;
         let size = (value * (1.0 + BEYOND) + ERRORS * error) / variance;
         is_near.then(|| scattered(columns, &(-size * lean)))
     };

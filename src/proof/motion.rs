@@ -152,14 +152,14 @@ fn end(map: &mut ProvedMap, field: &FieldBox, start: &StartBox, whole: &ProvedSw
 }
 
 /// A ball of motions on its way, and the time since the start.
-struct Ride {
+struct ProvedRide {
     ball: Ball,
     elapsed: Interval,
 }
 
-impl Ride {
+impl ProvedRide {
     fn new(field: &FieldBox, start: &StartBox) -> Option<Self> {
-        Some(Ride { ball: Ball::new(field, start)?, elapsed: Interval::point(0.0) })
+        Some(ProvedRide { ball: Ball::new(field, start)?, elapsed: Interval::point(0.0) })
     }
 
     /// One step, at most `most` long. The velocity vanishes neither during the step nor at its end (lemma 5).
@@ -211,7 +211,7 @@ pub fn state_at(
     start: &StartBox,
     time: Interval,
 ) -> Option<(Interval, Interval)> {
-    let mut ride = Ride::new(field, start)?;
+    let mut ride = ProvedRide::new(field, start)?;
     let target = time.middle();
     for _ in 0..MOST_STEPS {
         let left = target - ride.elapsed.middle();
@@ -246,7 +246,7 @@ fn about(field: &FieldBox, (x, v): (Interval, Interval), off: f64) -> Option<(In
 pub fn blow_up(field: &FieldBox, start: &StartBox) -> Option<Interval> {
     /// Relative uncertainty of the time at which the bound is good enough.
     const GOOD: f64 = 1e-12;
-    let mut ride = Ride::new(field, start)?;
+    let mut ride = ProvedRide::new(field, start)?;
     let mut best: Option<Interval> = None;
     for _ in 0..2 * MOST_STEPS {
         if let Some(remaining) = ride.remaining() {

@@ -33,7 +33,7 @@ pub struct MotionSeries<T = f64> {
 }
 
 /// The type of the coefficients: doubles, or in the tests numbers that count their rounding errors.
-pub trait Scalar:
+pub trait SeriesScalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
     /// 0.
@@ -45,7 +45,7 @@ pub trait Scalar:
     fn taken(self) -> Self;
 }
 
-impl Scalar for f64 {
+impl SeriesScalar for f64 {
     const ZERO: f64 = 0.0;
 
     fn inverse(k: usize) -> f64 {
@@ -63,7 +63,7 @@ impl Scalar for f64 {
 /// Each of these `k - 3` products passes at most `k/4 + 2` roundings: one as a product, two where the lanes are
 /// combined, the others along its lane. Adding zeros is exact. Nothing is read that was written in the last two
 /// iterations, because waiting for memory would take longer than the sum.
-fn inner<T: Scalar>(both: [&[T; LENGTH]; 2], other: &[T; 2 * LENGTH], k: usize) -> [T; 2] {
+fn inner<T: SeriesScalar>(both: [&[T; LENGTH]; 2], other: &[T; 2 * LENGTH], k: usize) -> [T; 2] {
     let mut lanes = [[T::ZERO; LANES]; 2];
     if k < 4 {
         return [T::ZERO; 2];
@@ -80,7 +80,7 @@ fn inner<T: Scalar>(both: [&[T; LENGTH]; 2], other: &[T; 2 * LENGTH], k: usize) 
     lanes.map(|lanes| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]))
 }
 
-impl<T: Scalar> MotionSeries<T> {
+impl<T: SeriesScalar> MotionSeries<T> {
     /// An empty series to be filled.
     pub const EMPTY: MotionSeries<T> =
         MotionSeries { x: [T::ZERO; LENGTH], v: [T::ZERO; LENGTH], square: [T::ZERO; LENGTH] };

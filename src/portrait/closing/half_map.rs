@@ -180,7 +180,7 @@ impl HalfMap {
         if spent > limits.evaluations {
             return Err(NoEnd::Failed(Reason::Budget { evaluations: spent }));
         }
-        let mut leg = Leg { point: StepPoint { x: -start.value, v: 0.0 }, duration: 0.0 };
+        let mut leg = SwingLeg { point: StepPoint { x: -start.value, v: 0.0 }, duration: 0.0 };
         if self.linear_below > 0.0 && self.field.d < 1.0 {
             match Spiral::of(self.field.d).grow(start, self.linear_below) {
                 Growth::Whole(end, duration) => {
@@ -268,7 +268,7 @@ impl HalfMap {
 }
 
 /// A state and when it was reached.
-struct Leg {
+struct SwingLeg {
     point: StepPoint,
     duration: f64,
 }
@@ -278,7 +278,7 @@ enum Growth {
     /// To its end: position and duration.
     Whole(Length, f64),
     /// Until the state is no longer small.
-    Until(Leg),
+    Until(SwingLeg),
 }
 
 /// The linear spiral about the centre of a half plane, `abs(D) < 1`.
@@ -303,7 +303,7 @@ impl Spiral {
         // The spiral scales as e^(-D t); beside this factor it is at most 1 + t in size.
         let room = ln(bound) - start.log - ln_1p(half_turn);
         if room <= 0.0 {
-            return Growth::Until(Leg {
+            return Growth::Until(SwingLeg {
                 point: StepPoint { x: -start.value, v: 0.0 },
                 duration: 0.0,
             });
@@ -316,7 +316,7 @@ impl Spiral {
         let size = exp(start.log + room);
         let velocity = sine / self.omega;
         let point = StepPoint { x: -size * (cosine + self.d * velocity), v: size * velocity };
-        Growth::Until(Leg { point, duration: time })
+        Growth::Until(SwingLeg { point, duration: time })
     }
 
     /// Follows the spiral from a point with `v > 0` to `v = 0`: position there, and duration.

@@ -143,7 +143,7 @@ impl Chain {
         let mut cost = Cost::default();
         let mut steps = DMatrix::zeros(cells, cells);
         let rest = kicked.rest;
-        let of = |column: &Column| {
+        let of = |column: &StartColumn| {
             let rests = rows.iter().map(|&(v, share)| Ok((rest(State { q: column.q, v })?, share)));
             rests.collect::<Result<Vec<_>, Reason>>()
         };
@@ -214,16 +214,18 @@ impl Chain {
 }
 
 /// A column of starts, and with which weight kicks from each cell lead to it.
-struct Column {
+struct StartColumn {
     q: f64,
     weights: Vec<(usize, f64)>,
 }
 
-fn columns(kicks: &RandomKick, centres: &[f64], fineness: f64) -> Vec<Column> {
+fn columns(kicks: &RandomKick, centres: &[f64], fineness: f64) -> Vec<StartColumn> {
     let (mean, spread) = kicks.q;
     if spread == 0.0 {
-        let column =
-            |(cell, centre): (usize, &f64)| Column { q: centre + mean, weights: vec![(cell, 1.0)] };
+        let column = |(cell, centre): (usize, &f64)| StartColumn {
+            q: centre + mean,
+            weights: vec![(cell, 1.0)],
+        };
         return centres.iter().enumerate().map(column).collect();
     }
     let far = kicks.law.reach().min(FAR) * spread;
@@ -233,7 +235,7 @@ fn columns(kicks: &RandomKick, centres: &[f64], fineness: f64) -> Vec<Column> {
         .map(|q| {
             let weight = |centre: &f64| kicks.law.density(q - mean - centre, spread);
             let weights = centres.iter().map(weight).enumerate();
-            Column { q, weights: weights.filter(|(_, weight)| *weight > 0.0).collect() }
+            StartColumn { q, weights: weights.filter(|(_, weight)| *weight > 0.0).collect() }
         })
         .collect()
 }

@@ -5,7 +5,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 use super::*;
 use crate::numerics::elementary::{exp, sin_cos};
 use crate::numerics::twofold::Twofold;
-use crate::proof::series::Scalar;
+use crate::proof::series::SeriesScalar;
 
 /// A magnitude, and its possible error in units of roundoff.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +63,7 @@ thread_local! {
     static PLANTED: std::cell::RefCell<Vec<f64>> = const { std::cell::RefCell::new(Vec::new()) };
 }
 
-impl Scalar for Counted {
+impl SeriesScalar for Counted {
     const ZERO: Counted = Counted { size: 0.0, roundings: 0.0 };
 
     fn inverse(k: usize) -> Counted {

@@ -8,8 +8,8 @@ pub use page::page;
 
 use super::{Answer, Columns, Document, Table};
 use crate::fit::{
-    Combination, Condition, Data, Dropped, EstimatedNumber, Fitted, KickSpreads, LAST, NAMES,
-    NameSpec, Q0, Spread, StartKind, combinations, kicks, left_out, rows,
+    Combination, Condition, Data, Dropped, EstimatedNumber, Fitted, KickSpreads, LAST,
+    MarginSpread, NAMES, NameSpec, Q0, StartKind, combinations, kicks, left_out, rows,
 };
 use crate::words::fit::{broken, sentences};
 use crate::words::number::resolved;
@@ -139,7 +139,7 @@ impl EstimateRow {
 
     /// A margin from its draws.
     fn of_kick(lead: &str, kick: &KickRow) -> Self {
-        let Spread { median: value, lower, upper, .. } = kick.spread;
+        let MarginSpread { median: value, lower, upper, .. } = kick.spread;
         let name = format!("{lead} {}", kick.name);
         EstimateRow { name, value, standard_error: None, lower, upper, quadratic: false }
     }
@@ -151,7 +151,7 @@ struct KickRow<'a> {
     name: &'static str,
     kind: &'static str,
     from: &'static str,
-    spread: Spread,
+    spread: MarginSpread,
     scale: f64,
     unit: &'a str,
 }
@@ -332,7 +332,7 @@ fn states(conditions: &[Condition]) -> String {
 fn margins(fitted: &Fitted) -> Table {
     struct SpreadRow<'a> {
         what: String,
-        spread: Spread,
+        spread: MarginSpread,
         scale: f64,
         unit: &'a str,
     }

@@ -48,9 +48,9 @@ impl Session {
         {
             let picture = found.picture.iter().filter(|_| !whole);
             let works = picture.flat_map(|picture| &picture.works);
-            let works = works.map(|ledger| Works::of(ledger, &found.parameters));
+            let works = works.map(|ledger| WorkTable::of(ledger, &found.parameters));
             let kinds = self.kinds().into_iter().filter(|_| whole);
-            let by_machine = kinds.flat_map(|kinds| &kinds.works).map(Works::of_machine);
+            let by_machine = kinds.flat_map(|kinds| &kinds.works).map(WorkTable::of_machine);
             for (cycle, works) in found.cycles.iter().zip(works.chain(by_machine)) {
                 works.add_to(&mut lines, Owner::Cycle(*cycle), None);
             }
@@ -58,15 +58,15 @@ impl Session {
         if self.layers.contains(&Layer::MotionWorks) {
             let owner = |place| Owner::Motion(place, self.number(place));
             if let Some(course) = self.course().filter(|_| whole) {
-                Works::of_machine(&course.ledger).add_to(&mut lines, owner(0), None);
+                WorkTable::of_machine(&course.ledger).add_to(&mut lines, owner(0), None);
             }
             for (place, found) in self.motions().into_iter().filter(|_| !whole) {
                 let Some(ledger) = &found.ledger else { continue };
                 let parameters = &found.problem.parameters;
                 let head = self.head().filter(|_| place == 0);
                 let until = head.and_then(|head| works_until(found, head.tau));
-                let until = until.map(|until| Works::of(&until, parameters));
-                Works::of(ledger, parameters).add_to(&mut lines, owner(place), until);
+                let until = until.map(|until| WorkTable::of(&until, parameters));
+                WorkTable::of(ledger, parameters).add_to(&mut lines, owner(place), until);
             }
         }
         lines
@@ -92,7 +92,7 @@ impl Session {
 }
 
 /// The works of one owner.
-struct Works {
+struct WorkTable {
     /// The sources of energy that the model has, each with the energy that it supplied.
     sources: Vec<(&'static str, f64)>,
     /// The energy gained.
@@ -101,7 +101,7 @@ struct Works {
     residual: f64,
 }
 
-impl Works {
+impl WorkTable {
     fn of(ledger: &Ledger, parameters: &Parameters) -> Self {
         let Parameters { d, d2, d3, r } = *parameters;
         let sources = [
@@ -111,7 +111,7 @@ impl Works {
             (r, "friction", ledger.friction),
         ];
         let there = sources.into_iter().filter(|(strength, ..)| *strength != 0.0);
-        Works {
+        WorkTable {
             sources: there.map(|(_, source, work)| (source, work)).collect(),
             stored: ledger.end - ledger.start,
             residual: ledger.residual,
@@ -122,7 +122,7 @@ impl Works {
     fn of_machine(ledger: &MachineLedger) -> Self {
         let MachineLedger { start, end, belt, damper, guide } = *ledger;
         let sources = [("belt", belt), ("damper", -damper), ("guide", -guide)];
-        Works {
+        WorkTable {
             sources: sources.into_iter().filter(|(_, work)| *work != 0.0).collect(),
             stored: end - start,
             residual: end - start - (belt - damper - guide),
@@ -130,7 +130,7 @@ impl Works {
     }
 
     /// Adds the lines of the owner, with the works until the present moment if these are given.
-    fn add_to(mut self, lines: &mut Vec<LedgerLine>, owner: Owner, until: Option<Works>) {
+    fn add_to(mut self, lines: &mut Vec<LedgerLine>, owner: Owner, until: Option<WorkTable>) {
         let so_far = until.iter().flat_map(|until| &until.sources).map(|(_, work)| *work);
         let mut so_far: Vec<f64> = so_far.collect();
         if matches!(owner, Owner::Motion(..)) {
