@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::machine_special::{MachineSpecial, between};
-use crate::model::{Knob, Subject};
+use crate::model::{Knob, Source};
 use crate::portrait::basin::between as evenly;
 use crate::portrait::{Portrait, Trouble};
 
@@ -26,7 +26,7 @@ pub struct MachineBranch {
 /// Follows the cycles of a machine along one of its numbers, through `count` values. Fails with one line, where the
 /// machine's law has no such number.
 pub fn branch(
-    subject: impl Into<Subject>,
+    subject: impl Into<Source>,
     varied: Knob,
     range: (f64, f64),
     count: usize,
@@ -37,7 +37,7 @@ pub fn branch(
 /// The same as long as it is wanted, on all cores: a branch that is not ends early. Fails with one line, where the
 /// machine's law has no such number.
 pub fn branch_while(
-    subject: &Subject,
+    subject: &Source,
     varied: Knob,
     range: (f64, f64),
     count: usize,
@@ -60,7 +60,7 @@ pub fn branch_while(
 /// What a machine does at values of one of its numbers, on all cores and as long as that is wanted. Fails with one
 /// line, where the machine's law has no such number.
 pub fn points_while(
-    subject: &Subject,
+    subject: &Source,
     varied: Knob,
     values: Vec<f64>,
     wanted: &(dyn Fn() -> bool + Sync),
@@ -73,7 +73,7 @@ pub fn points_while(
 /// The special values along one number, at each value of another. Fails with one line, where the machine's law has
 /// no such numbers.
 pub fn borders(
-    subject: &Subject,
+    subject: &Source,
     (along, range, count): (Knob, (f64, f64), usize),
     (against, values, rows): (Knob, (f64, f64), usize),
 ) -> Result<Vec<(f64, Vec<MachineSpecial>)>, String> {

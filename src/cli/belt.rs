@@ -10,7 +10,7 @@ use super::{Failure, MachineCase, Output, second, timed, troubled, write};
 use crate::figure::panels;
 use crate::flow::{Limits, Method};
 use crate::model::unit::WithTolerance;
-use crate::model::{Belt, Knob, MachineProblem, Subject, Tolerances};
+use crate::model::{Belt, Knob, MachineProblem, Source, Tolerances};
 use crate::portrait::basin::Window;
 use crate::portrait::design::Kick;
 use crate::portrait::design::friction_of_guide;
@@ -158,7 +158,7 @@ impl BeltCommand {
     /// The friction needed for the margin, if asked for.
     fn designed(
         &self,
-        subject: &Subject,
+        subject: &Source,
         known: &Tolerances,
     ) -> Result<Option<DesignAnswer>, Trouble> {
         let Some((kick, wanted)) = self.design else { return Ok(None) };

@@ -31,7 +31,7 @@ pub(crate) mod force;
 #[expect(clippy::module_inception, reason = "the model itself, beside what belongs to it")]
 pub(crate) mod model;
 pub(crate) mod reach;
-pub(crate) mod subject;
+pub(crate) mod source;
 
 pub mod belt;
 pub(crate) mod half_plane;
@@ -51,6 +51,6 @@ pub use modal::Modal;
 pub use model::{Lines, Model, NoModel, Phase};
 pub use parameters::Ledger;
 pub use parameters::{Parameters, State};
-pub use subject::MachineProblem;
-pub use subject::Tolerances;
-pub use subject::{Body, Subject};
+pub use source::MachineProblem;
+pub use source::Tolerances;
+pub use source::{Body, Source};

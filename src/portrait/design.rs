@@ -8,7 +8,7 @@
 use serde::Serialize;
 
 use crate::flow::{Cost, Limits, Reason};
-use crate::model::{Body, Parameters, Subject, Tolerances};
+use crate::model::{Body, Parameters, Source, Tolerances};
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::{PlaceTolerance, illinois};
 use crate::portrait::basin::basin;
@@ -208,7 +208,7 @@ fn smallest(
 
 /// The logarithm of the guaranteed margin of this kind, as a fraction of `wanted`.
 fn guaranteed_excess(
-    subject: &Subject,
+    subject: &Source,
     known: &Tolerances,
     kick: Kick,
     wanted: f64,
@@ -223,7 +223,7 @@ fn guaranteed_excess(
 /// `wanted` (m or N s) or more; `None` where no bracket of it was found. Fails with [`Trouble`] where a machine on
 /// the way has no portrait.
 pub fn friction_of_guide(
-    subject: &Subject,
+    subject: &Source,
     known: &Tolerances,
     kick: Kick,
     wanted: f64,

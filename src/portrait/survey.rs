@@ -5,7 +5,7 @@ use std::fmt;
 
 use crate::flow::{Detail, Fate, Flow, Limits, LostMotion, MachineMotion, Method, Reason};
 use crate::model::belt::{BeltError, ReducedBelt};
-use crate::model::{Belt, Model, NoModel, Subject};
+use crate::model::{Belt, Model, NoModel, Source};
 use crate::portrait::Portrait;
 use crate::portrait::basin::cycle::{Cycles, cycles};
 
@@ -126,7 +126,7 @@ pub fn portrait(belt: &Belt) -> Result<Portrait, Trouble> {
     Ok(Portrait::of(&Model::new(belt)?)?)
 }
 
-impl Subject {
+impl Source {
     /// What it does.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use crate::branch::machine_special::MachineSpecial;
 use crate::flow::machine::series::ORDER;
 use crate::flow::quality::DRAFT;
 use crate::flow::{Cost, Limits, Reason};
-use crate::model::{Belt, Knob, Subject};
+use crate::model::{Belt, Knob, Source};
 use crate::portrait::basin::between;
 use crate::portrait::{Border, Cycle};
 
@@ -48,9 +48,9 @@ fn followed(
     rough: bool,
     go: &(dyn Fn() -> bool + Sync),
 ) -> Result<MachineBranch, String> {
-    let subject = Subject::from(belt);
+    let subject = Source::from(belt);
     if rough {
-        let subject = Subject { tolerance: Some(DRAFT.tolerance), ..subject };
+        let subject = Source { tolerance: Some(DRAFT.tolerance), ..subject };
         let values = (0..FEW).map(|index| between((from, to), index, FEW)).collect();
         let points = points_while(&subject, VARIED, values, go)?;
         return Ok(MachineBranch { points, special: Vec::new() });

@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use super::columns::Quantity;
 use super::json::Document;
 use crate::flow::Cost;
-use crate::model::{Body, Group, Interval, Knob, Parameters, State, Subject};
+use crate::model::{Body, Group, Interval, Knob, Parameters, Source, State};
 use crate::words::number::exact;
 use crate::words::{duration, with_unit};
 
@@ -84,7 +84,7 @@ impl About {
     }
 
     /// A machine, by the name under which it is opened, and its title.
-    pub fn machine(name: &str, title: &str, subject: &Subject) -> Self {
+    pub fn machine(name: &str, title: &str, subject: &Source) -> Self {
         // The numbers of the friction law are left out, and those for a mass at rest unless they are given.
         let is_own = |knob: Knob| match (knob, &subject.body) {
             (Knob::StaticCoefficient, Body::Belt(belt)) => belt.static_coefficient.is_some(),

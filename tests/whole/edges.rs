@@ -4,7 +4,7 @@
 use super::portrait;
 use hopfscope::flow::{Fate, Flow, LostMotion};
 use hopfscope::model::belt::FrictionLaw;
-use hopfscope::model::{Belt, Body, Modal, Subject};
+use hopfscope::model::{Belt, Body, Modal, Source};
 use hopfscope::numerics::elementary::exp;
 use hopfscope::portrait::return_map::machine_return::MachineReturn;
 use hopfscope::portrait::{Border, Cycle, Portrait};
@@ -205,7 +205,7 @@ fn what_the_belt_releases_is_on_its_cycle_even_where_all_beyond_is_unknown() {
 fn tool(friction: f64) -> Portrait {
     let damping_ratio = vec![-0.02, 0.002, 0.3];
     let mode = Modal { frequency: 250.0, mass: 4.0, damping_ratio, friction, static_guide: None };
-    Subject::from(Body::Mode(mode)).portrait().unwrap()
+    Source::from(Body::Mode(mode)).portrait().unwrap()
 }
 
 #[test]
@@ -222,7 +222,7 @@ fn a_loosened_tolerance_changes_no_margin_by_more_than_it_allows() {
         let belt = Belt { belt_speed: speed, ..textbook.belt.clone() };
         let exact = portrait(&belt).reach.unwrap();
         for tolerance in [1e-12, 1e-8, 1e-6, 1e-4] {
-            let subject = Subject { tolerance: Some(tolerance), ..(&belt).into() };
+            let subject = Source { tolerance: Some(tolerance), ..(&belt).into() };
             let margin = subject.portrait().unwrap().reach.unwrap();
             for (one, other) in [
                 (margin.displacement.0, exact.displacement.0),
@@ -290,7 +290,7 @@ fn relaxing(ratio: f64) -> Portrait {
     let damping_ratio = vec![ratio, 0.0, 2000.0];
     let (frequency, mass, friction, static_guide) = (120.0, 0.2, 0.03, None);
     let mode = Modal { frequency, mass, damping_ratio, friction, static_guide };
-    Subject::from(Body::Mode(mode)).portrait().unwrap()
+    Source::from(Body::Mode(mode)).portrait().unwrap()
 }
 
 #[test]
@@ -345,7 +345,7 @@ fn a_mode_that_asymmetric_damping_drives_away_survives_what_the_paper_says() {
                 friction: mass * omega * omega * r,
                 static_guide: Some(mass * omega * omega * held),
             };
-            let found = Subject::from(Body::Mode(mode)).portrait().unwrap();
+            let found = Source::from(Body::Mode(mode)).portrait().unwrap();
             assert_eq!(found.border, Border::Separatrix, "{d} {d2} {r}");
             let parameters = Parameters { d, d2, d3: 0.0, r };
             let paper = basin(&parameters, 20.0 / d2.abs(), &Limits::PATIENT).unwrap();

@@ -11,7 +11,7 @@
 
 use std::fmt;
 
-use crate::model::subject::{MONOTONE, set};
+use crate::model::source::{MONOTONE, set};
 use crate::model::{Belt, Knob, Model, Phase, Tolerances};
 use crate::numerics::root::try_bisect;
 use crate::portrait::survey::{Trouble, portrait};

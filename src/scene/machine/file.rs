@@ -15,7 +15,7 @@ use super::Description;
 use super::table::table;
 use crate::model::belt::FrictionLaw;
 use crate::model::unit::quantity;
-use crate::model::{Belt, Body, Group, Knob, MachineProblem, Modal, Subject, Tolerances, unknown};
+use crate::model::{Belt, Body, Group, Knob, MachineProblem, Modal, Source, Tolerances, unknown};
 use crate::numerics::decimal::shortest;
 use crate::numerics::spline::SmoothingSpline;
 use crate::scene::misread;
@@ -262,7 +262,7 @@ fn described(
     } else {
         belt(read.friction.take(), &mut half_widths, fetch)?
     };
-    let mut subject = Subject::from(body);
+    let mut subject = Source::from(body);
     set_numbers(&mut subject, numbers(is_mode), &read.numbers, &mut half_widths)?;
     let unfit = |message| Complaint { at: section.clone(), message };
     let period = match &subject.body {
@@ -333,7 +333,7 @@ fn mode(ratio: Option<Spanned<Vec<Spanned<Number>>>>) -> Result<(Body, Range<usi
 
 /// Sets the numbers that the file gives, and the defaults of the others.
 fn set_numbers(
-    subject: &mut Subject,
+    subject: &mut Source,
     knobs: impl Iterator<Item = Knob>,
     given: &BTreeMap<Knob, Spanned<Number>>,
     half_widths: &mut HalfWidths,

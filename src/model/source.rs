@@ -18,26 +18,26 @@ pub enum Body {
 
 /// The subject of a question, and how exactly it is computed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Subject {
+pub struct Source {
     /// What it is.
     pub body: Body,
     /// Size of the last terms of each Taylor step, relative to the state; `None`: below rounding.
     pub tolerance: Option<f64>,
 }
 
-impl From<Body> for Subject {
+impl From<Body> for Source {
     fn from(body: Body) -> Self {
-        Subject { body, tolerance: None }
+        Source { body, tolerance: None }
     }
 }
 
-impl From<&Belt> for Subject {
+impl From<&Belt> for Source {
     fn from(belt: &Belt) -> Self {
         Body::Belt(Box::new(belt.clone())).into()
     }
 }
 
-impl Subject {
+impl Source {
     /// Gives a number a value in SI units.
     ///
     /// # Errors
@@ -198,7 +198,7 @@ pub fn set(belt: &mut Belt, varied: Knob, value: f64) {
 #[derive(Clone, Debug, PartialEq)]
 pub struct MachineProblem {
     /// What moves.
-    pub subject: Subject,
+    pub subject: Source,
     /// How exactly its numbers are known, and what disturbs it.
     pub tolerances: Tolerances,
     /// Displacement (m) and velocity (m/s) at the start.
