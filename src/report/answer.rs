@@ -15,10 +15,10 @@ use crate::words::{duration, with_unit};
 pub enum Format {
     /// Aligned columns for reading.
     Table,
-    /// One JSON document, all digits.
+    /// One JSON document, of a scan an object on each line; all digits.
     #[value(alias = "jsonl")]
     Json,
-    /// One row per result, all digits.
+    /// One row per result after a line of names, all digits.
     Csv,
 }
 

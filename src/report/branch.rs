@@ -290,7 +290,15 @@ pub fn border_of_machine<'a>(
         seconds,
         document,
         move || columns().csv(rows()),
-        move || format!("{}\n\n{}\n", about.heading(&[]), columns().table(rows()).aligned_left()),
+        move || {
+            let table = columns().table(rows());
+            let table = if table.is_empty() {
+                format!("nothing changes along {along_name}\n")
+            } else {
+                table.aligned_left().to_string()
+            };
+            format!("{}\n\n{table}\n", about.heading(&[]))
+        },
     )
 }
 
