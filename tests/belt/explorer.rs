@@ -4,7 +4,7 @@ use super::explorer_session::{Trial, refuses, reopened};
 use super::*;
 use hopfscope::model::belt::ReducedBelt;
 use hopfscope::model::{Group, Knob};
-use hopfscope::session::{Effect, Msg, Purpose, Row, run_line};
+use hopfscope::session::{Effect, Msg, Purpose, Row, run_line, save};
 
 /// Plays keys on a scene, without a terminal; returns the session and the last screen.
 fn screen(scene: Scene, keys: &str) -> (Session, String) {
@@ -363,4 +363,15 @@ fn tolerance_and_disturbance_of_a_machine_are_typed_in_newtons() {
             ("set R=-1", "R = -1 N is outside its range"),
         ],
     );
+}
+
+#[test]
+fn a_session_of_an_earlier_version_opens_with_its_whole_history() {
+    let mut trial = Trial::open("plain");
+    save::open(&mut trial.session, include_str!("../data/earlier-session.toml")).unwrap();
+    let (d2, speed) = (trial.session.value(Knob::D2), trial.session.setting.unwrap().speed);
+    assert_eq!((d2, speed), (0.050_526_149_830_783_7, 1.2));
+    trial.press("uuuuuu");
+    let start = Trial::open("benchmark").session;
+    assert_eq!(trial.session.problem, start.problem);
 }
