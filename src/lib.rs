@@ -47,6 +47,7 @@
     not(feature = "explorer"),
     allow(
         dead_code,
+        unused_imports,
         reason = "the explorer uses more of the inner rings than their public surface"
     )
 )]

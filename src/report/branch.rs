@@ -291,13 +291,11 @@ pub fn border_of_machine<'a>(
         document,
         move || columns().csv(rows()),
         move || {
-            let table = columns().table(rows());
-            let table = if table.is_empty() {
-                format!("nothing changes along {along_name}\n")
-            } else {
-                table.aligned_left().to_string()
-            };
-            format!("{}\n\n{table}\n", about.heading(&[]))
+            let (heading, table) = (about.heading(&[]), columns().table(rows()));
+            if table.is_empty() {
+                return format!("{heading}\n\nnothing changes along {along_name}\n\n");
+            }
+            format!("{heading}\n\n{}\n", table.aligned_left())
         },
     )
 }
