@@ -89,8 +89,6 @@ pub(crate) const VANISHING: Cycle = Cycle {
     overtakes: false,
 };
 
-// What is known about a fold of limit cycles.
-
 /// The fold at given D2, D3 and r.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FoldPoint {

@@ -1,4 +1,5 @@
-//! The subject of a question: a mass on a belt or a vibration mode, whose numbers are set and varied alike.
+//! What yields a model: a mass on a belt or a vibration mode, whose numbers are set and varied alike; how exactly these
+//! are known; and a motion of it.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +17,7 @@ pub enum Body {
     Mode(Modal),
 }
 
-/// The subject of a question, and how exactly it is computed.
+/// What yields a model, and how exactly it is computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     /// What it is.

@@ -203,7 +203,7 @@ fn smallest(
 
 // How much friction of the guide a margin needs, by the whole model.
 //
-// As for the oscillator of the paper ([`crate::portrait::design`]): more friction of the guide turns the field
+// As for the oscillator of the paper, more friction of the guide turns the field
 // inwards wherever the mass moves, so that the basin of rest grows with it.
 
 /// The logarithm of the guaranteed margin of this kind, as a fraction of `wanted`.

@@ -351,8 +351,6 @@ fn root(
     Err(Reason::NoConvergence { sought: "a boundary", change: (other.0 - best.0).abs() })
 }
 
-// A line of a chart: the boundaries on it and the bands between them.
-
 /// A part of a line in which one regime holds; `None` where it could not be found out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {

@@ -120,8 +120,6 @@ fn stretched_exponential(u: f64, exponent: f64) -> Derivatives {
     }
 }
 
-// The mass on the belt.
-
 /// A mass on a moving belt.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Belt {
