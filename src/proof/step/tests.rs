@@ -225,6 +225,22 @@ fn every_coefficient_obeys_the_equation_to_rounding() {
 
 /// Growth is at least that of every member: the largest eigenvalue of the symmetric part in the norm, on a grid.
 #[test]
+fn errors_of_a_linear_spiral_grow_as_it_does() {
+    for a in [-1.9, -0.4, 0.0, 0.7, 1.9, -3.0, 3.0] {
+        let (low, high) = if f64::abs(a) < 2.0 {
+            (-0.5 * a, -0.5 * a)
+        } else {
+            let root = (a * a / 4.0 - 1.0_f64).sqrt();
+            (-0.5 * a + root, -0.5 * a + root)
+        };
+        let point = Interval::point;
+        let field = FieldBox { a: point(a), b: point(0.0), c: point(0.0) };
+        let rate = StepField::new(&field).growth(Norm::fitting(a), Interval::new(0.9, 1.1));
+        assert!(rate >= low && rate <= high + 1e-9, "{a}: {rate} {high}");
+    }
+}
+
+#[test]
 fn growth_bounds_every_direction_and_every_slope() {
     let point = Interval::point;
     for skew in [-1.9, -0.5, 0.0, 0.8, 1.99] {
