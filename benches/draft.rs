@@ -13,7 +13,6 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::{Receiver, Sender, unbounded};
 use hopfscope::flow::quality::DRAFT;
 use hopfscope::runtime::explorer::answer;
-use hopfscope::runtime::panics::Notes;
 use hopfscope::runtime::workers::Workers;
 use hopfscope::runtime::{Application, Event, Explorer, Options, Pump};
 use hopfscope::scene::{Request, Scene, Topic, library};
@@ -148,7 +147,7 @@ fn costliest(scene: &Arc<Scene>, (width, height): (u16, u16)) -> (Duration, Stri
     let size = ratatui::layout::Size { width, height };
     let report = events.clone();
     let report = Arc::new(move |msg| drop(report.send(Event::Session(msg))));
-    let workers = Workers::start(Arc::new(answer), Notes::default(), report).expect("threads");
+    let workers = Workers::new(Arc::new(answer), report);
     let screen = Screen::new(line, size).expect("a screen");
     let explorer = Explorer::new(session, Environment::default());
     let application = Watched { explorer, complete, idle: Arc::clone(&idle) };

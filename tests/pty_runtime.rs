@@ -11,7 +11,7 @@ use std::time::Duration;
 use hopfscope::flow::{Cost, Limits, Reason};
 use hopfscope::model::Parameters;
 use hopfscope::portrait::{Border, Cycles};
-use hopfscope::runtime::worker::Tell;
+use hopfscope::runtime::workers::Tell;
 use hopfscope::runtime::{Application, Options, launch};
 use hopfscope::scene::{Answer, Answered, Request};
 use hopfscope::session::{Code, Effect, Key, Msg};

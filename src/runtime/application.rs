@@ -93,7 +93,7 @@ pub enum Event {
 }
 
 /// Why the loop ended or paused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LoopEnd {
     /// The user has left.
     Quit,
@@ -109,6 +109,8 @@ pub enum LoopEnd {
     Ended { signal: i32 },
     /// The terminal is gone.
     Closed,
+    /// The thread that reads the terminal has panicked, with this message.
+    Deaf(String),
 }
 
 /// The outcome of an effect.

@@ -14,7 +14,6 @@ use super::application::{Application, EffectOutcome, Host, LoopEnd};
 use super::effects::Files;
 use super::explorer::{Explorer, answer};
 use super::new_file::Readers;
-use super::panics::Notes;
 use super::scan_file;
 use super::workers::Workers;
 use crate::flow::Limits;
@@ -41,7 +40,7 @@ pub struct ReplayResult {
 /// Plays a file on a session at its size, until the file ends, an expectation is not met, or the session quits.
 ///
 /// Effects outside the program are not carried out: a replay copies nothing, and writes files only if it may. It
-/// does read the files that the session asks for. Fails if the system provides no thread for the worker.
+/// does read the files that the session asks for.
 pub fn play(
     session: Session,
     environment: Environment,
@@ -53,7 +52,7 @@ pub fn play(
     let application = Explorer::new(session, environment);
     let (send, messages) = unbounded();
     let report = Arc::new(move |msg| drop(send.send(msg)));
-    let mut workers = Workers::start(Arc::new(answer), Notes::default(), report)?;
+    let mut workers = Workers::new(Arc::new(answer), report);
     let player = Player::new(script);
     let mut replay = Replay { application, player, may_write, unmet: None, unwritten: None };
     let mut kept = Vec::new();
@@ -74,12 +73,12 @@ pub fn play(
             continue;
         }
         let Replay { application, player, .. } = &mut replay;
-        workers.ask(application.wants());
+        workers.ask(&application.wants());
         let screen = || view::screen::text(&application.picture(size));
         let next = if application.is_waiting() {
             Ok(Action::Wait)
         } else {
-            player.next(workers.asked().is_empty(), screen)
+            player.next(workers.asked().next().is_none(), screen)
         };
         match next {
             Ok(Action::Give(msg)) => given = Some(msg),

@@ -22,6 +22,7 @@ use termina::event::{
 use termina::style::RgbColor;
 
 use super::application::{Event, LoopEnd};
+use super::panics::caught;
 use crate::session::{Code, Gesture, Key, Msg};
 
 mod sequences;
@@ -34,21 +35,17 @@ const BUFFER: usize = 4096;
 /// Starts the thread that reads the terminal at standard input until it is gone. Fails if the system provides
 /// no thread.
 pub fn start(events: Sender<Event>) -> io::Result<()> {
-    thread::Builder::new().name("input".to_owned()).spawn(move || {
-        let last = LastWord(events);
-        read(&io::stdin(), |event| drop(last.0.send(event)));
-    })?;
-    Ok(())
+    thread::Builder::new()
+        .name("input".to_owned())
+        .spawn(move || listen(&io::stdin(), &events))
+        .map(drop)
 }
 
-/// Reports the end of input, however the reading thread ends: a program that cannot be quit by a key must not
-/// continue.
-struct LastWord(Sender<Event>);
-
-impl Drop for LastWord {
-    fn drop(&mut self) {
-        drop(self.0.send(Event::End(LoopEnd::Closed)));
-    }
+/// Sends what is read, and the end of the input however that comes: a program that cannot be quit by a key must
+/// not continue.
+fn listen(terminal: &impl AsFd, events: &Sender<Event>) {
+    let read = caught(|| read(terminal, |event| drop(events.send(event))));
+    drop(events.send(Event::End(read.map_or_else(LoopEnd::Deaf, |()| LoopEnd::Closed))));
 }
 
 /// Reads until the input ends.

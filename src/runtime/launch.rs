@@ -17,8 +17,7 @@ use super::new_file::Readers;
 use super::pump::{Options, Pump};
 use super::signals::{self, exit_code};
 use super::standard::tell;
-use super::worker::Compute;
-use super::workers::Workers;
+use super::workers::{Compute, Workers};
 use super::{input, panics};
 use crate::session::Notice;
 use crate::terminal::{Guard, Screen};
@@ -37,14 +36,14 @@ pub fn launch(
     options: Options,
 ) -> io::Result<ExitCode> {
     let guard = Guard::new()?;
-    let notes = panics::install(guard.clone(), std::thread::current().id());
+    panics::install(guard.clone(), std::thread::current().id());
     let (send, events) = unbounded();
     signals::start(send.clone(), guard.clone())?;
     guard.mouse(options.mouse)?;
     guard.enter()?;
     input::start(send.clone())?;
     let report = Arc::new(move |msg| drop(send.send(Event::Session(msg))));
-    let workers = Workers::start(answer, notes.clone(), report)?;
+    let workers = Workers::new(answer, report);
     let screen = Screen::new(guard.out(), terminal_size())?;
     let mut pump = Pump::new(application, screen, workers, events, options, terminal_size);
     pump.repaint()?;
@@ -59,7 +58,7 @@ pub fn launch(
         Err(error) if error.raw_os_error() == Some(Errno::IO.raw_os_error()) => Ok(LoopEnd::Closed),
         ended => ended,
     };
-    if !matches!(ended, Ok(LoopEnd::Closed) | Err(_)) {
+    if !matches!(ended, Ok(LoopEnd::Closed | LoopEnd::Deaf(_)) | Err(_)) {
         pump.await_terminal();
     }
     guard.leave();
@@ -68,11 +67,8 @@ pub fn launch(
     }
     match ended? {
         LoopEnd::Ended { signal } => Ok(exit_code(signal).into()),
-        LoopEnd::Closed => match notes.take() {
-            // A listening thread has panicked; without it, there is no point in continuing.
-            Some(note) => Err(io::Error::other(note)),
-            None => Ok(exit_code(HANG_UP).into()),
-        },
+        LoopEnd::Closed => Ok(exit_code(HANG_UP).into()),
+        LoopEnd::Deaf(why) => Err(io::Error::other(why)),
         _ => Ok(ExitCode::SUCCESS),
     }
 }
@@ -126,7 +122,7 @@ fn conduct<M: Application>(
                 guard.enter()?;
                 pump.repaint()?;
             }
-            ended @ (LoopEnd::Quit | LoopEnd::Ended { .. } | LoopEnd::Closed) => return Ok(ended),
+            ended => return Ok(ended),
         }
     }
 }

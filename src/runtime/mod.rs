@@ -1,8 +1,8 @@
 //! The running program: the loop, the workers, and the threads that listen to keyboard and signals.
 //!
 //! Everything that happens arrives as an [`Event`] in one channel. Several threads send into it, each blocked
-//! in one place while nothing happens: [`input`] reads the terminal, [`signals`] waits for signals, and two
-//! threads of [`worker`] compute; a figure is written on a further one. The [`pump`] takes events out, hands
+//! in one place while nothing happens: [`input`] reads the terminal, [`signals`] waits for signals, and those of
+//! [`workers`] compute, or write a figure. The [`pump`] takes events out, hands
 //! them to the session, passes the session's requests to the workers, and draws.
 
 pub mod application;
@@ -26,7 +26,6 @@ pub mod scanning;
 pub mod signals;
 pub mod source_file;
 pub mod standard;
-pub mod worker;
 pub mod workers;
 
 pub use application::{Application, Event, LoopEnd};
@@ -35,4 +34,3 @@ pub use headless::play;
 pub use launch::launch;
 pub use pump::{Options, Pump};
 pub use record::RecordingFile;
-pub use worker::Worker;

@@ -1,34 +1,24 @@
-//! Panics: one of the interface ends the program, one of a worker does not.
+//! Panics: one of the interface ends the program, one of another thread does not.
 
 use std::any::Any;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::ThreadId;
 
 use crate::terminal::Guard;
 
-/// Messages and places of panics, noted by the hook: the code that catches a panic does not know the place.
-#[derive(Clone, Debug, Default)]
-pub struct Notes(Arc<Mutex<Option<String>>>);
-
-impl Notes {
-    fn put(&self, note: String) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(note);
-    }
-
-    /// Takes the note of the last panic.
-    pub fn take(&self) -> Option<String> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
-    }
+thread_local! {
+    /// Message and place of the last panic of this thread, noted by the hook: the code that catches a panic does not
+    /// know the place.
+    static NOTE: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
 /// Installs a hook by which a panic of the thread `interface` gives the terminal back before it is reported as
 /// usual.
 ///
 /// A panic in any other thread is not reported and leaves the terminal alone, because the interface continues
-/// and shows it; the returned notes contain what to show.
-pub fn install(guard: Guard, interface: ThreadId) -> Notes {
-    let notes = Notes::default();
-    let kept = notes.clone();
+/// and shows what [`caught`] tells.
+pub fn install(guard: Guard, interface: ThreadId) {
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         if std::thread::current().id() == interface {
@@ -36,14 +26,19 @@ pub fn install(guard: Guard, interface: ThreadId) -> Notes {
             report(panic);
         } else {
             let place = panic.location().map(|place| format!(" ({place})"));
-            kept.put(message(panic.payload()) + &place.unwrap_or_default());
+            NOTE.set(Some(message(panic.payload()) + &place.unwrap_or_default()));
         }
     }));
-    notes
+}
+
+/// What `work` returns. Fails with the message of its panic, and the place if the hook is installed.
+pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    let told = |panic: Box<dyn Any + Send>| NOTE.take().unwrap_or_else(|| message(&*panic));
+    catch_unwind(AssertUnwindSafe(work)).map_err(told)
 }
 
 /// The message of a panic.
-pub fn message(payload: &(dyn Any + Send)) -> String {
+fn message(payload: &(dyn Any + Send)) -> String {
     let text = payload.downcast_ref::<&str>().copied();
     let owned = || payload.downcast_ref::<String>().map(String::as_str);
     text.or_else(owned).unwrap_or("no message").to_owned()

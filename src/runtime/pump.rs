@@ -126,7 +126,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             if let Some(stop) = self.play()? {
                 return Ok(stop);
             }
-            self.workers.ask(self.application.wants());
+            self.workers.ask(&self.application.wants());
             self.keep_record()?;
             let mut next = self.wait()?;
             while let Some(event) = next {
@@ -188,7 +188,6 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     fn handle(&mut self, event: Event) -> io::Result<Option<LoopEnd>> {
         match event {
-            Event::Session(Msg::Idle) if !self.workers.is_idle() => Ok(None),
             Event::Session(msg) if is_users(&msg) => self.users(msg),
             Event::Session(msg) => {
                 self.writing &= !matches!(msg, Msg::Written(_));
@@ -273,7 +272,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             let beat = self.beat.filter(|_| self.application.is_moving())?;
             return Some((beat + FRAME_TIME).max(self.screen.next(beat)));
         };
-        let answer = if self.workers.asked().iter().all(Request::is_long) {
+        let answer = if self.workers.asked().all(Request::is_long) {
             changed
         } else {
             changed + ANSWER_TIME

@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::ops::{ControlFlow, Range};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
@@ -11,8 +10,8 @@ use std::time::{Duration, Instant};
 use crossbeam_channel::unbounded;
 use rayon::ThreadPoolBuilder;
 
-use super::panics;
-use super::worker::Tell;
+use super::panics::caught;
+use super::workers::Tell;
 use crate::flow::{Limits, Reason};
 use crate::question::Rows;
 use crate::scan::grid::{Scan, ScanRow};
@@ -155,9 +154,9 @@ fn computed(scan: &Scan, index: usize, limits: &Limits) -> Option<ScanRow> {
     if (limits.interrupted)() {
         return None;
     }
-    match catch_unwind(AssertUnwindSafe(|| scan.row(index, limits))) {
+    match caught(|| scan.row(index, limits)) {
         Ok(row) => row.ok(),
-        Err(panic) => Some(scan.failed(format!("internal error: {}", panics::message(&*panic)))),
+        Err(why) => Some(scan.failed(format!("internal error: {why}"))),
     }
 }
 

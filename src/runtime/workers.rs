@@ -1,65 +1,132 @@
-//! Two workers and a writer of figures: one worker for what the next picture needs, one for what takes long.
+//! The computations in progress: a thread for each request that is wanted now, and one that writes a figure.
 //!
-//! A scan of minutes must not come between a key and its picture. So long requests have a separate worker,
-//! which continues while the other one answers. One figure at a time is computed and written on a thread of its
-//! own.
+//! [`Workers::ask`] replaces the set of wanted requests. A job whose request is no longer among them is told to
+//! stop, notices that at its next step, and tells nothing any more. The system divides the processors among the
+//! threads, so that neither a scan of minutes nor a slow layer comes between a key and its picture. A request that
+//! merely refines a draft begins when the draft is there. A long job reports its results in pieces: each is reported at
+//! once, with `complete: false`, and only the last one completes the answer. An answer on its way is not computed
+//! again: its job counts as in progress until [`Workers::arrived`] says that the session has it. A request that panics
+//! becomes a [`NoAnswer::Panic`].
 
 use std::io;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
+use std::time::Instant;
 
 use super::effects::Files;
 use super::new_file::Readers;
-use super::panics::{self, Notes};
-use super::worker::{Compute, Report, TURN, Worker};
-use crate::flow::Limits;
-use crate::scene::Request;
+use super::panics::caught;
+use crate::flow::{Limits, Reason};
+use crate::question::NoAnswer;
+use crate::scene::{Answer, Answered, Request};
 use crate::session::{Msg, Notice};
+
+/// Called by a job with its results so far; its return value is the last piece.
+pub type Tell<'a> = dyn Fn(Answer) + 'a;
+
+/// Computes the answer to a request.
+pub type Compute = dyn Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync;
+
+/// Takes the messages for the session.
+pub type Report = dyn Fn(Msg) + Send + Sync;
 
 /// Makes the content of a file, or says in one line why it cannot.
 pub type Work = Box<dyn FnOnce(&Limits) -> Result<Vec<u8>, String> + Send>;
 
-/// Both workers, used as one, and the writer of figures. Dropping it stops the figure in progress and waits for
-/// its thread to end, so that no file is left incomplete.
+/// The jobs in progress. Dropping it stops them, and waits for the end of the figure that is being written, so that no
+/// file is left incomplete.
 pub struct Workers {
-    quick: Worker,
-    long: Worker,
-    asked: Vec<Request>,
+    answer: Arc<Compute>,
     report: Arc<Report>,
-    notes: Notes,
-    /// The thread that writes a figure, or has written the last one.
-    figure: Option<JoinHandle<()>>,
-    /// Set when the figure in progress is to be stopped.
-    stop: Arc<AtomicBool>,
+    jobs: Vec<Job>,
+    /// The thread that writes a figure, or has written the last one, unless it is to stop.
+    figure: Option<Stop>,
+    writer: Option<JoinHandle<()>>,
+}
+
+/// A request in progress.
+struct Job {
+    request: Request,
+    _stop: Stop,
+}
+
+/// Tells a thread to stop once it is dropped.
+#[derive(Default)]
+struct Stop(Arc<AtomicBool>);
+
+impl Drop for Stop {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Starts a thread, whose limits say when the returned [`Stop`] was dropped.
+fn start(
+    name: &str,
+    work: impl FnOnce(&Limits) + Send + 'static,
+) -> io::Result<(Stop, JoinHandle<()>)> {
+    let stop = Stop::default();
+    let is_over = Arc::clone(&stop.0);
+    let thread = thread::Builder::new().name(name.to_owned()).spawn(move || {
+        let interrupted = || is_over.load(Ordering::Relaxed);
+        work(&Limits { interrupted: &interrupted, ..Limits::PATIENT });
+    })?;
+    Ok((stop, thread))
 }
 
 impl Workers {
-    /// Starts the workers; see [`Worker::start`]. Each reports [`Msg::Idle`] separately; [`Workers::is_idle`]
-    /// says whether both are idle. Fails if the system provides no threads.
-    pub fn start(answer: Arc<Compute>, notes: Notes, report: Arc<Report>) -> io::Result<Workers> {
-        let worker = |answer| Worker::start(TURN, answer, notes.clone(), Arc::clone(&report));
-        let (quick, long) = (worker(Arc::clone(&answer))?, worker(answer)?);
-        let (asked, stop) = (Vec::new(), Arc::default());
-        Ok(Workers { quick, long, asked, report, notes, figure: None, stop })
+    /// No job yet. `answer` computes; `report` gets a message for every answer that is still wanted.
+    pub fn new(answer: Arc<Compute>, report: Arc<Report>) -> Workers {
+        Workers { answer, report, jobs: Vec::new(), figure: None, writer: None }
     }
 
-    /// Sets the requests that are wanted now and not answered yet, the most urgent first.
-    pub fn ask(&mut self, wanted: Vec<Request>) {
-        if wanted == self.asked {
-            return;
+    /// Sets the requests that are wanted now and not answered yet.
+    pub fn ask(&mut self, wanted: &[Request]) {
+        self.jobs.retain(|job| wanted.contains(&job.request));
+        for request in wanted {
+            let refines = request.draft().is_some_and(|draft| wanted.contains(&draft));
+            if !refines && self.asked().all(|asked| asked != request) {
+                self.begin(request.clone());
+            }
         }
-        self.asked.clone_from(&wanted);
-        let (long, quick) = wanted.into_iter().partition(Request::is_long);
-        self.quick.submit(quick);
-        self.long.submit(long);
     }
 
-    /// The requests asked last that are not answered yet.
-    pub fn asked(&self) -> &[Request] {
-        &self.asked
+    /// Begins to compute an answer. Where the system provides no thread, that is the answer.
+    fn begin(&mut self, request: Request) {
+        let (answer, report) = (Arc::clone(&self.answer), Arc::clone(&self.report));
+        let asked = request.clone();
+        let begun = start("worker", move |limits| {
+            let started = Instant::now();
+            let tell = |result, complete| {
+                if !(limits.interrupted)() {
+                    let (request, seconds) = (asked.clone(), started.elapsed().as_secs_f64());
+                    report(Msg::Answered(Box::new(Answered {
+                        request,
+                        result,
+                        seconds,
+                        complete,
+                    })));
+                }
+            };
+            let piece = |piece| tell(Ok(piece), false);
+            let found = caught(|| answer(&asked, limits, &piece));
+            let found = found.map_err(NoAnswer::Panic);
+            tell(found.and_then(|found| found.map_err(NoAnswer::Reason)), true);
+        });
+        match begun {
+            Ok((stop, _)) => self.jobs.push(Job { request, _stop: stop }),
+            Err(_) => {
+                let why = Reason::NotApplicable { needs: "a thread, and the system gives none" };
+                (self.report)(Msg::answered(request, Err(NoAnswer::Reason(why)), 0.0));
+            }
+        }
+    }
+
+    /// The requests in progress, and those whose answers are on their way.
+    pub fn asked(&self) -> impl Iterator<Item = &Request> {
+        self.jobs.iter().map(|job| &job.request)
     }
 
     /// Notes a message that has arrived at the session: the request that it answers completely is no longer
@@ -68,58 +135,37 @@ impl Workers {
         if let Msg::Answered(answered) = msg
             && answered.complete
         {
-            let request = &answered.request;
-            let worker = if request.is_long() { &self.long } else { &self.quick };
-            worker.taken(request);
-            self.asked.retain(|asked| asked != request);
+            self.jobs.retain(|job| job.request != answered.request);
         }
-    }
-
-    /// Whether nothing is in progress and nothing waits.
-    pub fn is_idle(&self) -> bool {
-        self.quick.is_idle() && self.long.is_idle()
     }
 
     /// Begins to write a figure; [`Msg::Written`] reports the result. Fails with one line if another one is being
     /// written, or the system provides no thread.
     pub fn write(&mut self, path: PathBuf, replace: bool, work: Work) -> Result<(), String> {
-        let name = path.display().to_string();
-        if self.is_writing() {
-            return Err(format!("{name} not written: another file still is"));
+        let failed = format!("{} not written", path.display());
+        if self.writer.as_ref().is_some_and(|thread| !thread.is_finished()) {
+            return Err(format!("{failed}: another file still is"));
         }
-        self.stop = Arc::default();
-        let (stop, report, notes) =
-            (Arc::clone(&self.stop), Arc::clone(&self.report), self.notes.clone());
-        let failed = format!("{name} not written");
-        let writes = move || {
-            let stopped = || stop.load(Ordering::Relaxed);
-            let limits = Limits { interrupted: &stopped, ..Limits::PATIENT };
-            let made = catch_unwind(AssertUnwindSafe(|| work(&limits)));
+        let (report, told) = (Arc::clone(&self.report), failed.clone());
+        let begun = start("figures", move |limits| {
+            let made = caught(|| work(limits));
             report(Msg::Written(match made {
-                _ if stopped() => {
-                    Notice { error: false, text: format!("{name} not written: stopped") }
+                _ if (limits.interrupted)() => {
+                    Notice { error: false, text: format!("{told}: stopped") }
                 }
                 Ok(Ok(content)) => Files::write(&path, &content, replace, Readers::Usual),
                 Ok(Err(text)) => Notice { error: true, text },
-                Err(panic) => {
-                    let why = notes.take().unwrap_or_else(|| panics::message(&*panic));
-                    let text = format!("{name} not written: internal error: {why}");
-                    Notice { error: true, text }
-                }
+                Err(why) => Notice { error: true, text: format!("{told}: internal error: {why}") },
             }));
-        };
-        let thread = thread::Builder::new().name("figures".to_owned()).spawn(writes);
-        self.figure = Some(thread.map_err(|why| format!("{failed}: {why}"))?);
+        });
+        let (stop, thread) = begun.map_err(|why| format!("{failed}: {why}"))?;
+        (self.figure, self.writer) = (Some(stop), Some(thread));
         Ok(())
     }
 
     /// Stops the figure in progress, if any; [`Msg::Written`] follows.
-    pub fn stop_writing(&self) {
-        self.stop.store(true, Ordering::Relaxed);
-    }
-
-    fn is_writing(&self) -> bool {
-        self.figure.as_ref().is_some_and(|thread| !thread.is_finished())
+    pub fn stop_writing(&mut self) {
+        self.figure = None;
     }
 }
 
@@ -127,70 +173,9 @@ impl Drop for Workers {
     fn drop(&mut self) {
         self.stop_writing();
         // The thread has already reported its result.
-        drop(self.figure.take().map(JoinHandle::join));
+        drop(self.writer.take().map(JoinHandle::join));
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use crossbeam_channel::{Receiver, bounded, unbounded};
-
-    use super::*;
-    use crate::flow::Reason;
-    use crate::runtime::worker::Tell;
-
-    fn workers() -> (Workers, Receiver<Msg>) {
-        let (send, messages) = unbounded();
-        let report = Arc::new(move |msg| drop(send.send(msg)));
-        let nothing = Arc::new(|_: &Request, _: &Limits, _: &Tell| Err(Reason::OutOfRange));
-        (Workers::start(nothing, Notes::default(), report).unwrap(), messages)
-    }
-
-    fn notice(messages: &Receiver<Msg>) -> Notice {
-        match messages.recv().unwrap() {
-            Msg::Written(notice) => notice,
-            other => panic!("{other:?}"),
-        }
-    }
-
-    #[test]
-    fn a_figure_that_cannot_be_made_leaves_its_file_as_it_was() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("figure.svg");
-        std::fs::write(&path, b"curves").unwrap();
-        for (work, why) in [
-            (Box::new(|_: &Limits| Err("no curves".to_owned())) as Work, "no curves"),
-            (Box::new(|_: &Limits| panic!("a defect")), "internal error: a defect"),
-        ] {
-            let (mut workers, messages) = workers();
-            workers.write(path.clone(), true, work).unwrap();
-            let told = notice(&messages);
-            assert!(told.error && told.text.contains(why), "{told:?}");
-        }
-        assert_eq!(std::fs::read(&path).unwrap(), b"curves");
-    }
-
-    #[test]
-    fn a_figure_that_is_stopped_writes_nothing_and_one_is_written_at_a_time() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("figure.svg");
-        let (mut workers, messages) = workers();
-        let (start, started) = bounded(0);
-        let endless = move |limits: &Limits| {
-            start.send(()).unwrap();
-            while !(limits.interrupted)() {
-                thread::yield_now();
-            }
-            Ok(b"half of the curves".to_vec())
-        };
-        workers.write(path.clone(), false, Box::new(endless)).unwrap();
-        started.recv().unwrap();
-        let other = workers.write(folder.path().join("other.svg"), false, Box::new(|_| Ok(vec![])));
-        assert!(other.unwrap_err().contains("other.svg not written: another"));
-        workers.stop_writing();
-        let told = notice(&messages);
-        assert!(!told.error && told.text.contains("stopped"), "{told:?}");
-        drop(workers);
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
-    }
-}
+mod tests;

@@ -20,7 +20,7 @@ pub enum Msg {
     Resize { width: u16, height: u16 },
     /// The worker answered a request, or failed to.
     Answered(Box<Answered>),
-    /// The worker has nothing left to do (sent after the last answer).
+    /// Nothing but what follows from the state: for programs that change it themselves.
     Idle,
     /// A line of the command line, run without opening it: `<run "set D=-0.3">` in a keystroke file.
     Run(String),

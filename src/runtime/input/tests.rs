@@ -17,10 +17,7 @@ struct Keyboard {
 fn keyboard() -> Keyboard {
     let (terminal, end) = UnixStream::pair().unwrap();
     let (send, events) = unbounded();
-    thread::spawn(move || {
-        let last = LastWord(send);
-        read(&end, |event| drop(last.0.send(event)));
-    });
+    thread::spawn(move || listen(&end, &send));
     Keyboard { terminal, events }
 }
 

@@ -7,9 +7,7 @@ use ratatui::Frame;
 
 use super::*;
 use crate::flow::Reason;
-use crate::runtime::panics::Notes;
-use crate::runtime::worker::Tell;
-use crate::runtime::workers::Work;
+use crate::runtime::workers::{Tell, Work};
 use crate::session::{Code, Key, replay};
 
 /// An application that counts right-arrow keys, shows the last notice, moves for a while after `p`, and quits
@@ -116,7 +114,7 @@ fn bench_with(options: Options) -> Bench {
     let job = |_: &Request, _: &crate::flow::Limits, _: &Tell| Err(Reason::OutOfRange);
     let report = events.clone();
     let report = move |msg| drop(report.send(Event::Session(msg)));
-    let workers = Workers::start(Arc::new(job), Notes::default(), Arc::new(report)).unwrap();
+    let workers = Workers::new(Arc::new(job), Arc::new(report));
     let application = Counter::default();
     let pump = Pump::new(application, screen, workers, received, options, size);
     Bench { pump, events, written }
