@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::output::write_source;
 use super::{Failure, Output, SourceOptions, input, print, timed, troubled, write};
 use crate::accuracy::harmonic_error::HarmonicBalance;
 use crate::accuracy::harmonic_error::convergence;
@@ -18,7 +17,7 @@ use crate::proof::certificate::{certificate, text};
 use crate::proof::{ParameterBox, Proof, prove};
 use crate::report::proof::{boxed, certificate_table};
 use crate::report::{About, cycles as report};
-use crate::runtime::bounded;
+use crate::runtime::{bounded, provenance_file};
 
 /// Finds every limit cycle, proves that there are no others, and names the border of the basin
 #[derive(Debug, Args)]
@@ -82,7 +81,7 @@ impl CyclesCommand {
         let text = text(&made).map_err(|error| unwritten(error.to_string()))?;
         check(&text).map_err(unwritten)?;
         write(path, text.as_bytes(), self.force)?;
-        write_source(path)
+        provenance_file::write(path, &provenance_file::of_process())
     }
 
     /// The cycles, their proof, and the harmonic balance if asked for.
@@ -114,7 +113,7 @@ pub struct CheckCommand {
 
 impl CheckCommand {
     pub fn run(&self) -> Result<(), Failure> {
-        let text = bounded::text(&self.file).map_err(|error| Failure::file(&self.file, &error))?;
+        let text = bounded::text(&self.file)?;
         let refused = |why| Failure::Unanswered(format!("{}: refused, {why}", self.file.display()));
         print(&certificate_table(&check(&text).map_err(refused)?))
     }

@@ -1,59 +1,11 @@
-//! Why a command has no answer: one line for the user, and an exit code.
+//! What the parser of the command line says, as one line.
 
-use std::fmt;
-use std::io;
-use std::process::ExitCode;
-
-use crate::runtime::standard::tell;
-
-/// Why a command has no answer.
-#[derive(Debug)]
-pub enum Failure {
-    /// The input is wrong; exit code 2.
-    Usage(String),
-    /// The answer could not be computed or shown; exit code 1.
-    Unanswered(String),
-}
+use crate::runtime::failure::Failure;
 
 impl Failure {
     /// An error of the command-line parser, as one line.
     pub fn from_parser(error: &clap::Error) -> Self {
         Failure::Usage(first_paragraphs(&error.render().to_string()))
-    }
-
-    /// A file that cannot be read.
-    pub fn file(path: &std::path::Path, error: &io::Error) -> Self {
-        Failure::Usage(format!("{}: {error}", path.display()))
-    }
-
-    /// A file that cannot be written: wrong input if no file can have this path.
-    pub fn unwritten(path: &std::path::Path, error: &io::Error) -> Self {
-        let line = format!("{} not written: {error}", path.display());
-        match error.kind() {
-            io::ErrorKind::NotFound
-            | io::ErrorKind::AlreadyExists
-            | io::ErrorKind::NotADirectory
-            | io::ErrorKind::IsADirectory
-            | io::ErrorKind::InvalidFilename => Failure::Usage(line),
-            _ => Failure::Unanswered(line),
-        }
-    }
-
-    /// Prints the line to standard error.
-    pub fn report(&self) -> ExitCode {
-        tell(self);
-        match self {
-            Failure::Usage(_) => ExitCode::from(2),
-            Failure::Unanswered(_) => ExitCode::FAILURE,
-        }
-    }
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Failure::Usage(line) | Failure::Unanswered(line) => out.write_str(line),
-        }
     }
 }
 

@@ -141,8 +141,7 @@ fn unit(text: &str) -> Result<String, String> {
 
 impl FitCommand {
     pub fn run(&self) -> Result<(), Failure> {
-        let bytes =
-            bounded::bytes(&self.file).map_err(|error| Failure::file(&self.file, &error))?;
+        let bytes = bounded::bytes(&self.file)?;
         let fitted = self.fitted(&bytes)?;
         let provenance = provenance_file::of_process();
         if let Some((path, form)) = &self.pictures {

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use super::failure::Failure;
+use super::Failure;
 use crate::figure::FileForm;
 use crate::flow::{METHODS, Method};
 use crate::model::unit::{Dimension, WithTolerance, measured, quantity};

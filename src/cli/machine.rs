@@ -31,7 +31,7 @@ fn named(name: &str) -> Result<(Description, Vec<SourceFile>), Failure> {
                 let known: Vec<&str> =
                     machines().iter().map(|machine| machine.name.as_str()).collect();
                 Failure::Usage(format!(
-                    "{name}: {error}; the machines of the program are {}",
+                    "{error}; the machines of the program are {}",
                     known.join(", ")
                 ))
             });
@@ -41,7 +41,7 @@ fn named(name: &str) -> Result<(Description, Vec<SourceFile>), Failure> {
     let mut sources = vec![source_file::of(path, text.as_bytes())];
     let fetch = |table: &str| {
         let beside = path.with_file_name(table);
-        let text = bounded::text(&beside).map_err(|why| format!("{}: {why}", beside.display()))?;
+        let text = bounded::text(&beside).map_err(|why| why.to_string())?;
         sources.push(source_file::of(&beside, text.as_bytes()));
         Ok(text)
     };

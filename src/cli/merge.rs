@@ -8,12 +8,12 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::Failure;
-use super::output::{unwritten, without};
+use super::output::without;
 use super::part::Shard;
 use super::scan::{ScanCommand, ScanRequest};
 use crate::flow::Limits;
 use crate::report::Format;
-use crate::runtime::merging::{Conflict, ScanPart, merge};
+use crate::runtime::merging::{PartFile, merge};
 use crate::runtime::new_file::{NewFile, Readers};
 use crate::runtime::provenance_file;
 use crate::runtime::standard::tell;
@@ -48,10 +48,10 @@ const OWN: [(&str, bool); 6] = [
 
 /// A part, and the scan to which it belongs according to its provenance.
 struct PartSource {
-    path: PathBuf,
+    file: PartFile,
+    shard: Option<Shard>,
     provenance: Provenance,
     arguments: Vec<String>,
-    asked: ScanRequest,
 }
 
 impl MergeCommand {
@@ -62,27 +62,22 @@ impl MergeCommand {
         for other in &sources[1..] {
             other.must_belong_with(first)?;
         }
-        let parts: Vec<ScanPart> = sources.iter().map(PartSource::part).collect();
-        let ScanRequest { scan, form, .. } = &first.asked;
+        let parts: Vec<&PartFile> = sources.iter().map(|source| &source.file).collect();
         let recheck = self.check.then_some(&Limits::PATIENT);
-        let begun = |path: &PathBuf| {
+        let mut output = None;
+        if let Some(path) = &self.output {
             let file = NewFile::begin(path, Readers::Usual);
-            file.map(BufWriter::new).map_err(|error| Failure::unwritten(path, &error))
-        };
-        let mut output = self.output.as_ref().map(begun).transpose()?;
+            let file = file.map_err(|error| Failure::unwritten(path, &error))?;
+            output = Some((BufWriter::new(file), path));
+        }
         // The first line is the heading.
         let mut checksum: Option<Checksum> = None;
         let mut write = |line: &[u8]| {
             checksum = Some(checksum.map_or(Checksum::NONE, |checksum| checksum.and(line)));
-            output.as_mut().map_or(Ok(()), |output| output.write_all(line))
+            let Some((output, path)) = &mut output else { return Ok(()) };
+            output.write_all(line).map_err(|error| Failure::unwritten(path, &error))
         };
-        let missing =
-            merge(scan, *form, &parts, recheck, &mut write).map_err(|conflict| {
-                match (&conflict, &self.output) {
-                    (Conflict::Output(error), Some(path)) => Failure::unwritten(path, error),
-                    _ => Failure::Usage(conflict.to_string()),
-                }
-            })?;
+        let missing = merge(&parts, recheck, &mut write)?;
         if !missing.is_empty() {
             for gap in &missing {
                 report(gap, &missing, &sources);
@@ -93,15 +88,15 @@ impl MergeCommand {
             let error = io::Error::from(io::ErrorKind::NotFound);
             return Err(Failure::file(path, &error));
         }
-        if let (Some(output), Some(path)) = (output, &self.output) {
+        if let Some((output, path)) = output {
             let written = output.into_inner().map_err(io::IntoInnerError::into_error);
+            let how = Some("--force replaces it");
             written
                 .and_then(|file| file.end(self.force))
-                .map_err(|error| unwritten(path, &error, "--force replaces it"))?;
-            let command = command(without(&first.arguments, &OWN), *form, path);
+                .map_err(|error| Failure::not_replaced(path, &error, how))?;
+            let command = command(without(&first.arguments, &OWN), first.file.part.form, path);
             let provenance = Provenance { command, checksum, ..first.provenance.clone() };
-            provenance_file::write(path, &provenance)
-                .map_err(|error| Failure::unwritten(path, &error))?;
+            provenance_file::write(path, &provenance)?;
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -111,9 +106,7 @@ impl MergeCommand {
         let (mut sources, mut absent) = (Vec::new(), Vec::new());
         for path in &self.parts {
             if path.is_dir() {
-                let files =
-                    provenance_file::files_in(path).map_err(|error| Failure::file(path, &error))?;
-                for file in files {
+                for file in provenance_file::files_in(path)? {
                     sources.push(PartSource::read(file)?);
                 }
             } else if path.exists() && !path.is_file() {
@@ -136,42 +129,36 @@ impl PartSource {
     fn read(path: PathBuf) -> Result<Self, Failure> {
         let beside = provenance_file::beside(&path);
         let provenance = provenance_file::read(&path).map_err(|error| {
-            let (path, beside) = (path.display(), beside.display());
-            Failure::Usage(format!(
-                "{path}: {beside} should say which scan it is a part of: {error}"
-            ))
+            let path = path.display();
+            Failure::Usage(format!("{path}: of which scan is it a part? {error}"))
         })?;
         let arguments = provenance.arguments().unwrap_or_default();
         let Some(command) = ScanCommand::of_line(&arguments) else {
             let (beside, command) = (beside.display(), &provenance.command);
             return Err(Failure::Usage(format!("{beside}: {command:?} is not a scan")));
         };
-        let asked = command.asked()?;
-        if asked.form == Format::Table {
+        let ScanRequest { part, shard } = command.asked()?;
+        if part.form == Format::Table {
             let line =
                 format!("{}: a table rounds its numbers; merge needs csv or json", path.display());
             return Err(Failure::Usage(line));
         }
-        Ok(PartSource { path, provenance, arguments, asked })
-    }
-
-    fn part(&self) -> ScanPart {
-        let ScanRequest { points, headed, .. } = &self.asked;
-        let (path, checksum) = (self.path.clone(), self.provenance.checksum);
-        ScanPart { path, points: points.clone(), headed: *headed, checksum }
+        let file = PartFile { path, part, checksum: provenance.checksum };
+        Ok(PartSource { file, shard, provenance, arguments })
     }
 
     /// Refuses a part of another scan or from another version.
     fn must_belong_with(&self, first: &Self) -> Result<(), Failure> {
         let refused = |what: &str, [own, other]: [&str; 2]| {
-            let (path, first) = (self.path.display(), first.path.display());
+            let (path, first) = (self.file.path.display(), first.file.path.display());
             Err(Failure::Usage(format!("{path} and {first} {what}: {own}, and {other}")))
         };
         let builds = [self.provenance.build(), first.provenance.build()];
         if builds[0] != builds[1] {
             return refused("are from different versions", [&builds[0], &builds[1]]);
         }
-        if self.asked.scan != first.asked.scan || self.asked.form != first.asked.form {
+        let (own, other) = (&self.file.part, &first.file.part);
+        if own.scan != other.scan || own.form != other.form {
             let commands = [&self.provenance.command, &first.provenance.command];
             return refused("are parts of different scans", [commands[0], commands[1]]);
         }
@@ -182,8 +169,8 @@ impl PartSource {
 /// Reports the missing rows of a gap, one line for each shard that it overlaps, with the command that computes
 /// them.
 fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[PartSource]) {
-    let all = sources[0].asked.scan.points();
-    let shard = sources.iter().find_map(|source| source.asked.shard);
+    let all = sources[0].file.part.scan.points();
+    let shard = sources.iter().find_map(|source| source.shard);
     let shards = shard.into_iter().flat_map(Shard::siblings);
     let named = shards.map(|shard| (format!("shard {shard}: "), shard.points(all)));
     let pieces: Vec<_> =
@@ -202,24 +189,24 @@ fn report(gap: &Range<usize>, missing: &[Range<usize>], sources: &[PartSource]) 
 /// missing, else one with `--rows`.
 fn command_for(piece: &Range<usize>, missing: &[Range<usize>], sources: &[PartSource]) -> String {
     let stopped_here = |source: &&PartSource| {
-        let points = &source.asked.points;
+        let points = &source.file.part.points;
         let earlier = |gap: &Range<usize>| {
             gap.start.max(points.start) < piece.start && gap.end > points.start
         };
         points.end == piece.end && points.start <= piece.start && !missing.iter().any(earlier)
     };
-    let first = &sources[0];
+    let (first, form) = (&sources[0], sources[0].file.part.form);
     if let Some(source) = sources.iter().find(stopped_here) {
         let mut arguments = without(&source.arguments, &OWN[3..]);
         arguments.push("--resume".to_owned());
-        return command(arguments, first.asked.form, &source.path);
+        return command(arguments, form, &source.file.path);
     }
     let (from, to) = (piece.start + 1, piece.end);
     let mut arguments = without(&first.arguments, &OWN);
     arguments.extend(["--rows".to_owned(), format!("{from}:{to}")]);
-    let ending = if first.asked.form == Format::Json { "json" } else { "csv" };
-    let path = first.path.with_file_name(format!("rows-{from}-{to}.{ending}"));
-    command(arguments, first.asked.form, &path)
+    let ending = if form == Format::Json { "json" } else { "csv" };
+    let path = first.file.path.with_file_name(format!("rows-{from}-{to}.{ending}"));
+    command(arguments, form, &path)
 }
 
 /// The command line that writes rows of this form to a file, whatever its extension.

@@ -39,7 +39,7 @@ use clap::{Parser, Subcommand};
 use signal_hook::consts::SIGXFSZ;
 use signal_hook::flag;
 
-pub(super) use failure::Failure;
+use crate::runtime::failure::Failure;
 pub(super) use input::{given, number, read};
 pub(super) use machine::{MachineCase, second, troubled};
 pub(super) use output::{Certify, Output, print, write};

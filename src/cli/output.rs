@@ -56,19 +56,13 @@ impl Output {
     pub fn print(&self, answer: Answer) -> Result<(), Failure> {
         let content = sourced(self.format, &answer.told(self.format));
         let Some(path) = &self.write else { return print(&content) };
-        let written = new_file::write(path, content.as_bytes(), Readers::Usual, false);
-        written.map_err(|error| unwritten(path, &error, "--write replaces nothing"))?;
+        let keep = Some("--write replaces nothing");
+        new_file::write(path, content.as_bytes(), Readers::Usual, keep)?;
         if self.format == Format::Json {
             return Ok(());
         }
-        write_source(path)
+        provenance_file::write(path, &provenance_file::of_process())
     }
-}
-
-/// Writes the provenance of a file beside it.
-pub fn write_source(path: &Path) -> Result<(), Failure> {
-    provenance_file::write(path, &provenance_file::of_process())
-        .map_err(|error| Failure::unwritten(&provenance_file::beside(path), &error))
 }
 
 /// The answer in printable characters; with its provenance if it is a JSON document.
@@ -97,25 +91,19 @@ impl Certify {
 /// Prints an answer in printable characters. A closed pipe is not an error: its reader has seen enough.
 pub fn print(text: &str) -> Result<(), Failure> {
     match standard::print(text) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::Unanswered(format!("cannot write to standard output: {error}")))
-        }
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(unprinted(error)),
         _ => Ok(()),
     }
 }
 
-/// Writes a whole file. Fails without `force` if the file has other content.
-pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
-    new_file::write(path, content, Readers::Usual, force)
-        .map_err(|error| unwritten(path, &error, "--force replaces it"))
+/// An answer that cannot be printed.
+pub fn unprinted(error: io::Error) -> Failure {
+    Failure::Unanswered(format!("cannot write to standard output: {error}"))
 }
 
-/// A file that cannot be written; `how` says how it can be replaced if it holds something else.
-pub fn unwritten(path: &Path, error: &io::Error, how: &str) -> Failure {
-    if error.kind() == io::ErrorKind::AlreadyExists {
-        return Failure::Usage(format!("{} holds something else; {how}", path.display()));
-    }
-    Failure::unwritten(path, error)
+/// Writes a whole file. Fails without `force` if the file has other content.
+pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
+    new_file::write(path, content, Readers::Usual, (!force).then_some("--force replaces it"))
 }
 
 /// A command line without these options, each given with whether it takes a value.

@@ -85,8 +85,8 @@ fn anywhere() -> Environment {
 
 /// A keystroke file, parsed completely before anything runs.
 pub fn script(file: &Path) -> Result<Script, Failure> {
-    let text = bounded::text(file).map_err(|error| Failure::file(file, &error))?;
-    parse(&text).map_err(|error| Failure::Usage(format!("{}: {error}", file.display())))
+    parse(&bounded::text(file)?)
+        .map_err(|error| Failure::Usage(format!("{}: {error}", file.display())))
 }
 
 /// Writes each screen that a replay kept to a file with its name.
@@ -102,8 +102,7 @@ fn write(
             ScreenFormat::Svg => ("svg", screen::svg(screen, paper)),
         };
         let path = directory.join(format!("{name}.{ending}"));
-        new_file::write(&path, content.as_bytes(), Readers::Usual, true)
-            .map_err(|error| Failure::unwritten(&path, &error))?;
+        new_file::write(&path, content.as_bytes(), Readers::Usual, None)?;
     }
     Ok(())
 }

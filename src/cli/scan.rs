@@ -1,7 +1,7 @@
 //! `hopfscope scan`: the same measures at every point of a line or grid of parameters.
 
 use std::io::{self, IsTerminal};
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -12,20 +12,21 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use super::input::{self, WINDOW};
-use super::output::holds_something;
+use super::output::{holds_something, unprinted};
 use super::part::{RowChoice, Shard};
 use super::plan::Plan;
 use super::progress::{Outlet, Progress};
-use super::{Failure, MachineCase, SourceOptions, given, number, print, read};
+use super::{Failure, MachineCase, SourceOptions, given, number, read};
 use crate::flow::Limits;
 use crate::model::{Knob, MachineProblem};
 use crate::report::Format;
-use crate::runtime::scan_file::{LineRefusal, ScanFile};
-use crate::runtime::scanning::{Processors, Taker, rows};
+use crate::runtime::provenance_file;
+use crate::runtime::scan_file::ScanFile;
+use crate::runtime::scan_part::ScanPart;
+use crate::runtime::scanning::{Processors, rows};
 use crate::runtime::signals::exit_code;
 use crate::runtime::standard::tell;
-use crate::runtime::{provenance_file, standard};
-use crate::scan::grid::{Scan, ScanRow, ScanSource};
+use crate::scan::grid::{Scan, ScanSource};
 use crate::scan::measure::{Conditions, MEASURES, Measure};
 use crate::scan::sweep::Sweep;
 
@@ -117,60 +118,9 @@ fn measures_list() -> String {
 /// A scan as requested on a command line.
 #[derive(Clone, Debug)]
 pub struct ScanRequest {
-    /// The whole scan.
-    pub scan: Scan,
-    /// The form of its rows.
-    pub form: Format,
-    /// The points to compute.
-    pub points: Range<usize>,
-    /// Whether the line of names comes before the rows.
-    pub headed: bool,
-    /// The shard that consists of these points, if one was asked for.
+    pub part: ScanPart,
+    /// The shard that the part is, if one was asked for.
     pub shard: Option<Shard>,
-}
-
-/// Writes rows and counts them.
-struct Writer<'a> {
-    scan: &'a Scan,
-    form: Format,
-    /// Where the rows go; `None` for standard output.
-    file: Option<ScanFile>,
-    tally: Tally,
-    progress: Progress,
-    /// The error that stopped the writing.
-    broken: Option<io::Error>,
-}
-
-impl Writer<'_> {
-    fn goes_on(&mut self, written: io::Result<()>) -> ControlFlow<()> {
-        self.broken = written.err();
-        if self.broken.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
-}
-
-impl Taker for Writer<'_> {
-    fn has(&self, index: usize) -> bool {
-        self.file.as_ref().is_some_and(|file| file.has(index))
-    }
-
-    fn keep(&mut self, index: usize, row: &ScanRow) -> ControlFlow<()> {
-        let Some(file) = &mut self.file else { return ControlFlow::Continue(()) };
-        let kept = file.keep(self.scan, index, row);
-        self.goes_on(kept)
-    }
-
-    fn take(&mut self, index: usize, row: ScanRow) -> ControlFlow<()> {
-        let added = match &mut self.file {
-            Some(file) => file.add(self.scan, index, &row),
-            None => standard::print(&self.form.line(self.scan, index, &row)),
-        };
-        if added.is_ok() {
-            self.tally.rows += 1;
-            self.tally.given_up += usize::from(row.reason.is_some());
-            self.progress.step();
-        }
-        self.goes_on(added)
-    }
 }
 
 impl ScanCommand {
@@ -195,49 +145,46 @@ impl ScanCommand {
         }
         let stop = StopSignal::listen()?;
         let interrupted = || stop.signal().is_some();
-        let (file, done) = self.opened(&asked, &interrupted)?;
-        let ScanRequest { scan, form, mut points, .. } = asked;
-        points.start += done;
-        // Rows that wait in a journal for the rows before them.
-        let ahead = file.as_ref().map_or(0, ScanFile::ahead);
-
+        let all = asked.part.points.len();
+        let scan = asked.part.scan.clone();
+        let mut file = self.opened(asked.part, &interrupted)?;
+        let (left, open) = (file.left(), file.open());
+        let done = all - file.open().count();
         let mut processors = Processors::all();
         processors.jobs = self.jobs.map_or(processors.jobs, usize::from);
-        let wanted = points.len() - ahead;
         let place = match (io::stderr().is_terminal(), &self.output) {
             (true, None) if io::stdout().is_terminal() => Outlet::Nowhere,
             (true, _) => Outlet::Line,
             (false, _) => Outlet::Log,
         };
-        let mut writer = Writer {
-            scan: &scan,
-            form,
-            file,
-            tally: Tally { wanted, ..Tally::default() },
-            progress: Progress::new(wanted, done + ahead, place),
-            broken: None,
-        };
-        let took = rows(&scan, points, processors, &interrupted, &mut writer);
-        let Writer { tally, progress, broken, .. } = writer;
+        let mut progress = Progress::new(all - done, done, place);
+        let (mut given_up, mut broken) = (0, None);
+        let took = rows(&scan, open, processors, &interrupted, &mut |index, row| {
+            broken = file.add(index, &row).err();
+            if broken.is_some() {
+                return ControlFlow::Break(());
+            }
+            given_up += usize::from(row.reason.is_some());
+            progress.step();
+            ControlFlow::Continue(())
+        });
         progress.end();
         took.map_err(|error| {
             Failure::Unanswered(format!("cannot start threads for the scan: {error}"))
         })?;
+        let tally = Tally { wanted: left, rows: left - file.left(), given_up };
         match broken {
             // A closed pipe is not an error: its reader has seen enough.
             Some(error) if self.output.is_none() && error.kind() == io::ErrorKind::BrokenPipe => {
-                return Ok(ExitCode::SUCCESS);
+                Ok(ExitCode::SUCCESS)
             }
             Some(error) => {
-                let to = self
-                    .output
-                    .as_ref()
-                    .map_or("standard output".into(), |path| path.display().to_string());
-                return Err(Failure::Unanswered(format!("{to}: {error}; {tally}")));
+                let path = self.output.as_ref().map(|path| path.display().to_string());
+                let to = path.unwrap_or_else(|| "standard output".to_owned());
+                Err(Failure::Unanswered(format!("{to}: {error}; {tally}")))
             }
-            None => {}
+            None => Ok(self.report(&tally, stop.signal().filter(|_| file.left() > 0))),
         }
-        Ok(self.report(&tally, stop.signal().filter(|_| tally.rows < tally.wanted)))
     }
 
     /// The scan and the points to compute, after checking the options.
@@ -257,7 +204,8 @@ impl ScanCommand {
         let points = self.part.points(scan.points())?;
         // By default only the first part has a heading, so that `cat` can join the parts.
         let headed = points.start == 0 || self.header == HeaderWhen::Always;
-        Ok(ScanRequest { scan, form: self.form()?, points, headed, shard: self.part.shard() })
+        let part = ScanPart { scan, form: self.form()?, points, headed };
+        Ok(ScanRequest { part, shard: self.part.shard() })
     }
 
     /// The motion of the scene, and what its measures depend on.
@@ -303,54 +251,42 @@ impl ScanCommand {
         Ok((ScanSource::Machine(Box::new(case.checked()?.problem)), conditions))
     }
 
-    /// The file to which the rows go, if they do not go to standard output, and how many of them are already there.
+    /// Where the rows go, with those that are already there.
     fn opened(
         &self,
-        asked: &ScanRequest,
+        part: ScanPart,
         interrupted: &(dyn Fn() -> bool + Sync),
-    ) -> Result<(Option<ScanFile>, usize), Failure> {
-        let &ScanRequest { ref scan, form, ref points, headed, .. } = asked;
+    ) -> Result<ScanFile, Failure> {
         let Some(path) = &self.output else {
-            print(&if headed { form.heading(scan) } else { String::new() })?;
-            return Ok((None, 0));
+            return ScanFile::standard(part).map_err(unprinted);
         };
         let name = path.display();
+        let refused = |line| Err(Failure::Usage(line));
         if !self.resume && !self.force && holds_something(path) {
-            let line = format!("{name} is not empty; --resume continues it, --force starts over");
-            return Err(Failure::Usage(line));
+            return refused(format!(
+                "{name} is not empty; --resume continues it, --force starts over"
+            ));
         }
         let provenance = provenance_file::of_process();
-        let earlier =
-            provenance_file::read(path).ok().filter(|_| self.resume && holds_something(path));
-        if let Some(earlier) = earlier.filter(|earlier| earlier.build() != provenance.build()) {
-            let (earlier, now) = (earlier.build(), provenance.build());
-            let line =
-                format!("{name} was begun by {earlier}, and this is {now}; --force starts over");
-            return Err(Failure::Usage(line));
+        if !self.resume {
+            return ScanFile::create(path, part, provenance);
+        }
+        let earlier = provenance_file::read(path).ok().filter(|_| holds_something(path));
+        let builds = earlier.map(|earlier| (earlier.build(), provenance.build()));
+        if let Some((earlier, now)) = builds.filter(|(earlier, now)| earlier != now) {
+            return refused(format!(
+                "{name} was begun by {earlier}, and this is {now}; --force starts over"
+            ));
         }
         let limits = Limits { interrupted, ..Limits::PATIENT };
-        let points = points.clone();
-        let opened = if self.resume {
-            ScanFile::resume(path, scan, form, headed, points, provenance, &limits)
-        } else {
-            ScanFile::create(path, scan, form, headed, points, provenance).map(|file| (file, 0))
-        };
-        let (file, done) = opened.map_err(|refusal| match refusal {
-            LineRefusal::Io(error) => match error.kind() {
-                io::ErrorKind::InvalidData | io::ErrorKind::InvalidInput => {
-                    Failure::file(path, &error)
-                }
-                _ => Failure::unwritten(path, &error),
-            },
-            other => Failure::Usage(format!("{name}: {other}")),
-        })?;
+        let file = ScanFile::resume(path, part, provenance, &limits)?;
         if file.unchecked > 0 {
             let rows = file.unchecked;
             tell(format!(
                 "note: {name}: no checksum says whether {rows} rows are as they were written"
             ));
         }
-        Ok((Some(file), done))
+        Ok(file)
     }
 
     fn form(&self) -> Result<Format, Failure> {

@@ -34,14 +34,11 @@ impl Settings {
                 None => return Ok(Config::default()),
             },
         };
-        match bounded::text(&path) {
-            Ok(text) => parse(&path.display().to_string(), &text)
-                .map_err(|misread| Failure::Usage(misread.to_string())),
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound && !named => {
-                Ok(Config::default())
-            }
-            Err(error) => Err(Failure::Usage(format!("{}: {error}", path.display()))),
+        if !named && !path.exists() {
+            return Ok(Config::default());
         }
+        parse(&path.display().to_string(), &bounded::text(&path)?)
+            .map_err(|misread| Failure::Usage(misread.to_string()))
     }
 
     /// The file that is read, whether it exists or not.

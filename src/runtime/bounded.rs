@@ -7,6 +7,7 @@ use std::path::Path;
 
 use rustix::fs::OFlags;
 
+use super::failure::Failure;
 use super::new_file::block;
 
 /// Longest file that is read, in bytes.
@@ -14,7 +15,11 @@ const LONGEST: u64 = 64 << 20;
 
 /// The content of a file or a pipe. Fails if it cannot be read or is too long, if nothing writes to the pipe,
 /// and for a terminal: it would wait there for an end that the user does not know about.
-pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+pub fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    read(path).map_err(|error| Failure::file(path, &error))
+}
+
+fn read(path: &Path) -> io::Result<Vec<u8>> {
     let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
     let flags = i32::try_from(flags.bits()).unwrap_or(0);
     let mut file = OpenOptions::new().read(true).custom_flags(flags).open(path)?;
@@ -45,9 +50,10 @@ pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 /// The content of a file as text. Fails like [`bytes`], and if the file is not UTF-8.
-pub fn text(path: &Path) -> io::Result<String> {
-    String::from_utf8(bytes(path)?)
-        .map_err(|_| refused("not a text: it holds bytes that are not UTF-8"))
+pub fn text(path: &Path) -> Result<String, Failure> {
+    let text = String::from_utf8(bytes(path)?)
+        .map_err(|_| refused("not a text: it holds bytes that are not UTF-8"));
+    text.map_err(|error| Failure::file(path, &error))
 }
 
 fn refused(line: &str) -> io::Error {

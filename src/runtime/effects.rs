@@ -68,22 +68,20 @@ impl Files {
             return Notice { error: true, text };
         }
         let path = at_home(path);
-        let name = path.display();
-        match new_file::write(&path, content.as_ref(), readers, true) {
-            Ok(()) => Notice { error: false, text: format!("written to {name}") },
-            Err(why) => Notice { error: true, text: format!("{name} not written: {why}") },
+        match new_file::write(&path, content.as_ref(), readers, None) {
+            Ok(()) => Notice { error: false, text: format!("written to {}", path.display()) },
+            Err(why) => Notice { error: true, text: why.to_string() },
         }
     }
 
     /// The text of a file. Fails with one line that names the file and says why there is no text.
     pub fn read(path: &Path) -> Result<String, String> {
         let path = at_home(path);
-        let told = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
         // A pipe without a writer would block the loop.
-        if !std::fs::metadata(&path).map_err(|why| told(&why))?.is_file() {
-            return Err(told(&"not a file"));
+        if std::fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
+            return Err(format!("{}: not a file", path.display()));
         }
-        bounded::bytes(&path).map(|bytes| decoded(&bytes)).map_err(|why| told(&why))
+        bounded::bytes(&path).map(|bytes| decoded(&bytes)).map_err(|why| why.to_string())
     }
 
     /// Puts a kept session aside: it is not offered again, but remains until the next one is put aside.

@@ -6,6 +6,7 @@ use std::io::{self, BufReader, ErrorKind, Read, Write};
 use std::os::unix::fs::{FileTypeExt, MetadataExt, OpenOptionsExt, PermissionsExt, fchown};
 use std::path::{Path, PathBuf};
 
+use super::failure::Failure;
 use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
 use tempfile::TempPath;
 
@@ -91,11 +92,17 @@ impl Write for NewFile {
     }
 }
 
-/// Writes a whole file; see [`NewFile::begin`] and [`NewFile::end`].
-pub fn write(path: &Path, content: &[u8], readers: Readers, replace: bool) -> io::Result<()> {
-    let mut file = NewFile::begin(path, readers)?;
-    file.write_all(content)?;
-    file.end(replace)
+/// Writes a whole file. If `keep` is given, fails where the file holds something else: `keep` says how that can be
+/// replaced. Also fails if the file cannot be written.
+pub fn write(
+    path: &Path,
+    content: &[u8],
+    readers: Readers,
+    keep: Option<&str>,
+) -> Result<(), Failure> {
+    let written = NewFile::begin(path, readers)
+        .and_then(|mut file| file.write_all(content).and_then(|()| file.end(keep.is_none())));
+    written.map_err(|error| Failure::not_replaced(path, &error, keep))
 }
 
 /// Opens a device or a pipe for writing, without waiting for a reader of the pipe.
@@ -188,38 +195,38 @@ mod tests {
     fn a_file_keeps_its_mode_and_a_link_stays_a_link() {
         let folder = tempfile::tempdir().unwrap();
         let [file, link] = ["file", "link"].map(|name| folder.path().join(name));
-        write(&file, b"one", Readers::Owner, false).unwrap();
+        write(&file, b"one", Readers::Owner, Some("no")).unwrap();
         assert_eq!(mode(&file), 0o600);
         fs::set_permissions(&file, PermissionsExt::from_mode(0o644)).unwrap();
         symlink("file", &link).unwrap();
-        write(&link, b"two", Readers::Owner, true).unwrap();
+        write(&link, b"two", Readers::Owner, None).unwrap();
         assert_eq!((fs::read(&file).unwrap(), mode(&file)), (b"two".to_vec(), 0o644));
         assert_eq!(fs::read_link(&link).unwrap(), Path::new("file"));
         // A link to nothing leads to a new file.
         fs::remove_file(&file).unwrap();
-        write(&link, b"three", Readers::Owner, false).unwrap();
+        write(&link, b"three", Readers::Owner, Some("no")).unwrap();
         assert_eq!((fs::read(&file).unwrap(), mode(&file)), (b"three".to_vec(), 0o600));
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
         fs::remove_file(&file).unwrap();
         symlink("link", &file).unwrap();
-        assert!(write(&link, b"", Readers::Usual, true).is_err(), "a circle of links");
+        assert!(write(&link, b"", Readers::Usual, None).is_err(), "a circle of links");
     }
 
     #[test]
     fn what_is_dropped_or_not_free_leaves_the_file_as_it_was() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file");
-        write(&path, b"old", Readers::Usual, false).unwrap();
+        write(&path, b"old", Readers::Usual, Some("no")).unwrap();
         NewFile::begin(&path, Readers::Usual).unwrap().write_all(b"new").unwrap();
-        let refused = write(&path, b"new", Readers::Usual, false).unwrap_err();
-        assert_eq!(refused.kind(), ErrorKind::AlreadyExists);
+        let refused = write(&path, b"new", Readers::Usual, Some("no")).unwrap_err();
+        assert!(refused.to_string().ends_with("holds something else; no"), "{refused}");
         assert_eq!(fs::read(&path).unwrap(), b"old");
-        write(&path, b"old", Readers::Usual, false).unwrap();
-        write(&path, b"new", Readers::Usual, true).unwrap();
+        write(&path, b"old", Readers::Usual, Some("no")).unwrap();
+        write(&path, b"new", Readers::Usual, None).unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"new");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
-        write(Path::new("/dev/null"), b"new", Readers::Usual, false).unwrap();
-        assert!(write(Path::new("/dev/full"), b"new", Readers::Usual, false).is_err());
-        assert!(write(folder.path(), b"new", Readers::Usual, true).is_err());
+        write(Path::new("/dev/null"), b"new", Readers::Usual, Some("no")).unwrap();
+        assert!(write(Path::new("/dev/full"), b"new", Readers::Usual, Some("no")).is_err());
+        assert!(write(folder.path(), b"new", Readers::Usual, None).is_err());
     }
 }

@@ -8,6 +8,7 @@ use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
 use super::bounded;
+use super::failure::Failure;
 use super::new_file::{self, Readers};
 use crate::words::provenance::{Checksum, Provenance};
 
@@ -29,12 +30,14 @@ pub fn beside(path: &Path) -> PathBuf {
 }
 
 /// Writes the provenance of a file, unless it is a device or a pipe. Fails if it cannot be written.
-pub fn write(path: &Path, provenance: &Provenance) -> io::Result<()> {
+pub fn write(path: &Path, provenance: &Provenance) -> Result<(), Failure> {
     if !new_file::is_regular(path) {
         return Ok(());
     }
-    let text = serde_json::to_string_pretty(provenance)? + "\n";
-    new_file::write(&beside(path), text.as_bytes(), Readers::Usual, true)
+    let path = beside(path);
+    let text = serde_json::to_string_pretty(provenance);
+    let text = text.map_err(|error| Failure::unwritten(&path, &error.into()))? + "\n";
+    new_file::write(&path, text.as_bytes(), Readers::Usual, None)
 }
 
 /// The checksum in the provenance of a file that grows, renewed with each row: whenever the process is killed, it
@@ -49,13 +52,15 @@ pub struct RunningChecksum {
 
 impl RunningChecksum {
     /// Writes the provenance of a file whose rows have this checksum. Fails if it cannot be written.
-    pub fn begin(path: &Path, provenance: Provenance, checksum: Checksum) -> io::Result<Self> {
+    pub fn begin(path: &Path, provenance: Provenance, checksum: Checksum) -> Result<Self, Failure> {
         let provenance = Provenance { checksum: Some(checksum), ..provenance };
         write(path, &provenance)?;
         let path = beside(path);
-        let at = fs::read_to_string(&path)?.rfind(&checksum.to_string());
-        let at = at.ok_or(io::ErrorKind::InvalidData)? as u64;
-        Ok(RunningChecksum { file: OpenOptions::new().write(true).open(path)?, at, checksum })
+        let unwritten = |error| Failure::unwritten(&path, &error);
+        let at = bounded::text(&path)?.rfind(&checksum.to_string());
+        let at = at.ok_or_else(|| unwritten(io::ErrorKind::InvalidData.into()))? as u64;
+        let file = OpenOptions::new().write(true).open(&path).map_err(unwritten)?;
+        Ok(RunningChecksum { file, at, checksum })
     }
 
     /// Counts a row that has been written. Fails if its checksum cannot be.
@@ -66,19 +71,17 @@ impl RunningChecksum {
 }
 
 /// Reads the provenance of a file. Fails if there is none, or it cannot be read or understood.
-pub fn read(path: &Path) -> io::Result<Provenance> {
-    Ok(serde_json::from_slice(&bounded::bytes(&beside(path))?)?)
+pub fn read(path: &Path) -> Result<Provenance, Failure> {
+    let path = beside(path);
+    serde_json::from_slice(&bounded::bytes(&path)?)
+        .map_err(|error| Failure::file(&path, &error.into()))
 }
 
 /// The files in a folder that have a file of provenance, sorted by name. Fails if the folder cannot be read.
-pub fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        if path.is_file() && beside(&path).is_file() {
-            found.push(path);
-        }
-    }
+pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let entries = fs::read_dir(folder).map_err(|error| Failure::file(folder, &error))?;
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut found: Vec<_> = paths.filter(|path| path.is_file() && beside(path).is_file()).collect();
     found.sort();
     Ok(found)
 }

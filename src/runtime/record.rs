@@ -7,17 +7,16 @@ use std::path::{Path, PathBuf};
 
 use super::effects::{Files, at_home};
 use super::new_file::{self, Readers};
-use crate::session::replay::{HEADER, Recorder, comment, heading, lines};
+use crate::session::replay::{HEADER, Recorder};
 
 /// The file of a recording.
 #[derive(Debug)]
 pub struct RecordingFile {
     path: PathBuf,
     file: File,
-    /// For each line of steps, the index of its first step and its offset in bytes.
-    lines: Vec<(usize, u64)>,
-    /// Length in bytes of the comments at the beginning.
-    heading: u64,
+    started: String,
+    /// What the file holds.
+    text: String,
 }
 
 impl RecordingFile {
@@ -31,14 +30,13 @@ impl RecordingFile {
     ) -> Result<RecordingFile, String> {
         RecordingFile::admit(path, replace, "--force replaces it")?;
         let path = &at_home(path);
-        let told = |why: io::Error| format!("{}: {why}", path.display());
-        let comment = comment(&heading(started));
-        new_file::write(path, comment.as_bytes(), Readers::Owner, true).map_err(told)?;
-        let file = OpenOptions::new().write(true).open(path).map_err(told)?;
-        let heading = comment.len() as u64;
-        let mut record = RecordingFile { path: path.to_owned(), file, lines: Vec::new(), heading };
-        record.keep(recorder)?;
-        Ok(record)
+        recorder.unchanged();
+        let text = recorder.text(started);
+        new_file::write(path, text.as_bytes(), Readers::Owner, None)
+            .map_err(|why| why.to_string())?;
+        let file = OpenOptions::new().write(true).open(path);
+        let file = file.map_err(|why| format!("{}: {why}", path.display()))?;
+        Ok(RecordingFile { path: path.to_owned(), file, started: started.to_owned(), text })
     }
 
     /// Whether a recording may be written to a file: it does not exist, is empty, or is a recording itself.
@@ -63,26 +61,14 @@ impl RecordingFile {
 
     /// Writes the changes since the last call. Fails with one line if the file cannot be written.
     pub fn keep(&mut self, recorder: &mut Recorder) -> Result<(), String> {
-        let (unchanged, count) = (recorder.unchanged(), recorder.steps().len());
-        if unchanged == count && !self.lines.is_empty() {
+        if recorder.unchanged() == recorder.steps().len() {
             return Ok(());
         }
-        // The line with the first change and all lines after it are written again.
-        let whole = self.lines.partition_point(|(first, _)| *first < unchanged);
-        let (first, mut at) = match whole.checked_sub(1) {
-            Some(last) => self.lines[last],
-            None => (0, self.heading),
-        };
-        self.lines.truncate(whole.saturating_sub(1));
-        let mut text = String::new();
-        let begin = at;
-        for (step, line) in lines(recorder.steps().get(first..).unwrap_or_default()) {
-            self.lines.push((first + step, at));
-            at += line.len() as u64;
-            text += &line;
-        }
-        let written = self.file.write_all_at(text.as_bytes(), begin);
-        let written = written.and_then(|()| self.file.set_len(at));
+        let text = recorder.text(&self.started);
+        let same = text.bytes().zip(self.text.bytes()).take_while(|(new, old)| new == old).count();
+        let written = self.file.write_all_at(&text.as_bytes()[same..], same as u64);
+        let written = written.and_then(|()| self.file.set_len(text.len() as u64));
+        self.text = text;
         written.map_err(|why| format!("no longer recorded: {}: {why}", self.path.display()))
     }
 }
@@ -113,8 +99,7 @@ mod tests {
             if round % 3 > 0 {
                 record.keep(&mut recorder).unwrap();
                 let found = std::fs::read_to_string(&path).unwrap();
-                let plain = |text: &str| text.replace('\n', " ");
-                assert_eq!(plain(&found), plain(&recorder.text("hopfscope")));
+                assert_eq!(found, recorder.text("hopfscope"));
             }
         }
     }

@@ -1,8 +1,8 @@
-//! A scan on all cores: rows are computed in parallel and delivered in order.
+//! A scan on all cores: rows are computed in parallel.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
@@ -35,40 +35,19 @@ impl Processors {
     }
 }
 
-/// The receiver of the rows of a scan.
-pub trait Taker {
-    /// Whether this row is known already: it is then neither computed nor delivered.
-    fn has(&self, _index: usize) -> bool {
-        false
-    }
-
-    /// Receives a row before its turn; it is delivered again at its turn.
-    fn keep(&mut self, _index: usize, _row: &ScanRow) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn take(&mut self, index: usize, row: ScanRow) -> ControlFlow<()>;
-}
-
-impl<F: FnMut(usize, ScanRow) -> ControlFlow<()>> Taker for F {
-    fn take(&mut self, index: usize, row: ScanRow) -> ControlFlow<()> {
-        self(index, row)
-    }
-}
-
-/// Computes the rows of these points and delivers each to `taker` in their order, as soon as it and all rows
-/// before it are known, until the taker breaks off or `interrupted` returns true.
+/// Computes the rows of these points, in ascending order, and passes each to `take` as soon as it is known, until that
+/// breaks off or `interrupted` returns true.
 ///
 /// If the computation of a row panics, the row states the panic as its reason. Fails if the system provides no
 /// threads.
 pub fn rows(
     scan: &Scan,
-    points: Range<usize>,
+    points: impl IntoIterator<Item = usize>,
     processors: Processors,
     interrupted: &(dyn Fn() -> bool + Sync),
-    taker: &mut impl Taker,
+    take: &mut dyn FnMut(usize, ScanRow) -> ControlFlow<()>,
 ) -> io::Result<()> {
-    let jobs = processors.jobs.clamp(1, points.len().max(1));
+    let jobs = processors.jobs.clamp(1, scan.points());
     let pool = ThreadPoolBuilder::new()
         .num_threads(jobs)
         .thread_name(|index| format!("scan {index}"))
@@ -91,38 +70,24 @@ pub fn rows(
             });
         }
         drop((tickets, done));
-        let mut next = points.start;
-        let mut given = points.start;
-        let mut waiting = BTreeMap::new();
-        let mut known = BTreeSet::new();
-        while next < points.end {
-            while given < points.end && given < next + AHEAD * jobs {
-                if taker.has(given) {
-                    known.insert(given);
-                } else {
-                    let _ = ticket.send(given);
-                }
-                given += 1;
+        let mut open = BTreeSet::new();
+        let mut next = |open: &mut BTreeSet<usize>| {
+            let Ok((index, row)) = found.recv() else { return ControlFlow::Break(()) };
+            open.remove(&index);
+            take(index, row)
+        };
+        let mut flow = points.into_iter().try_for_each(|index| {
+            while open.first().is_some_and(|first| index >= first + AHEAD * jobs) {
+                next(&mut open)?;
             }
-            if known.remove(&next) {
-                next += 1;
-                continue;
-            }
-            let flow = if let Some(row) = waiting.remove(&next) {
-                next += 1;
-                taker.take(next - 1, row)
-            } else {
-                let Ok((index, row)) = found.recv() else { break };
-                let early = index != next;
-                let flow = if early { taker.keep(index, &row) } else { ControlFlow::Continue(()) };
-                waiting.insert(index, row);
-                flow
-            };
-            if flow.is_break() {
-                stopped.store(true, Ordering::Relaxed);
-                return drop(ticket);
-            }
+            open.insert(index);
+            let _ = ticket.send(index);
+            ControlFlow::Continue(())
+        });
+        while flow.is_continue() && !open.is_empty() {
+            flow = next(&mut open);
         }
+        stopped.store(flow.is_break(), Ordering::Relaxed);
         drop(ticket);
     });
     Ok(())
@@ -135,12 +100,17 @@ pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<
     const EVERY: Duration = Duration::from_millis(60);
     let mut piece = Rows { first: from, rows: Vec::new() };
     let mut told: Option<Instant> = None;
+    // Rows whose turn has not come.
+    let mut ahead = BTreeMap::new();
     let processors = Processors { polite: true, ..Processors::all() };
     rows(scan, from..scan.points(), processors, limits.interrupted, &mut |index, row| {
-        piece.rows.push(row);
-        if told.is_none_or(|told| told.elapsed() >= EVERY) {
+        ahead.insert(index, row);
+        while let Some(row) = ahead.remove(&(piece.first + piece.rows.len())) {
+            piece.rows.push(row);
+        }
+        if !piece.rows.is_empty() && told.is_none_or(|told| told.elapsed() >= EVERY) {
             told = Some(Instant::now());
-            let next = Rows { first: index + 1, rows: Vec::new() };
+            let next = Rows { first: piece.first + piece.rows.len(), rows: Vec::new() };
             tell(Answer::Scan(std::mem::replace(&mut piece, next)));
         }
         ControlFlow::Continue(())

@@ -1,0 +1,63 @@
+//! Why a command has no answer: one line for the user, and an exit code.
+
+use std::path::Path;
+use std::process::ExitCode;
+use std::{fmt, io};
+
+use super::standard::tell;
+
+/// Why a command has no answer.
+#[derive(Debug)]
+pub enum Failure {
+    /// The input is wrong; exit code 2.
+    Usage(String),
+    /// The answer could not be computed or shown; exit code 1.
+    Unanswered(String),
+}
+
+impl Failure {
+    /// A file that cannot be read.
+    pub fn file(path: &Path, error: &io::Error) -> Self {
+        Failure::Usage(format!("{}: {error}", path.display()))
+    }
+
+    /// A file that cannot be written: wrong input if no file can have this path.
+    pub fn unwritten(path: &Path, error: &io::Error) -> Self {
+        let line = format!("{} not written: {error}", path.display());
+        match error.kind() {
+            io::ErrorKind::NotFound
+            | io::ErrorKind::AlreadyExists
+            | io::ErrorKind::NotADirectory
+            | io::ErrorKind::IsADirectory
+            | io::ErrorKind::InvalidFilename => Failure::Usage(line),
+            _ => Failure::Unanswered(line),
+        }
+    }
+
+    /// A file that was not written; `how` says how it can be replaced if it holds something else.
+    pub fn not_replaced(path: &Path, error: &io::Error, how: Option<&str>) -> Self {
+        match how {
+            Some(how) if error.kind() == io::ErrorKind::AlreadyExists => {
+                Failure::Usage(format!("{} holds something else; {how}", path.display()))
+            }
+            _ => Failure::unwritten(path, error),
+        }
+    }
+
+    /// Prints the line to standard error.
+    pub fn report(&self) -> ExitCode {
+        tell(self);
+        match self {
+            Failure::Usage(_) => ExitCode::from(2),
+            Failure::Unanswered(_) => ExitCode::FAILURE,
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Usage(line) | Failure::Unanswered(line) => out.write_str(line),
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Some of the rows of a scan as lines of text, and such lines read back from a file.
+//!
+//! Nothing in a file is trusted: every row is recognized by its beginning, which names everything that it depends on,
+//! and compared with the checksum of the rows up to it where one is known.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::ops::Range;
+use std::path::Path;
+
+use super::failure::Failure;
+use crate::flow::{Limits, Reason};
+use crate::report::Format;
+use crate::scan::grid::{Scan, ScanRow};
+use crate::words::provenance::Checksum;
+
+/// The rows of a scan that stand in one file.
+#[derive(Clone, Debug)]
+pub struct ScanPart {
+    /// The whole scan.
+    pub scan: Scan,
+    /// The form of its rows.
+    pub form: Format,
+    /// The points of these rows.
+    pub points: Range<usize>,
+    /// Whether they are preceded by a line of column names.
+    pub headed: bool,
+}
+
+impl ScanPart {
+    /// The line before the rows; empty if there is none.
+    pub fn heading(&self) -> String {
+        if self.headed { self.form.heading(&self.scan) } else { String::new() }
+    }
+
+    /// The row of a point.
+    pub fn line(&self, index: usize, row: &ScanRow) -> String {
+        self.form.line(&self.scan, index, row)
+    }
+
+    /// The beginning of the row of a point.
+    pub fn beginning(&self, index: usize) -> String {
+        self.form.beginning(&self.scan, index)
+    }
+}
+
+/// A row as it stands in a file.
+#[derive(Clone, Debug)]
+pub struct FileRow {
+    /// The number of its line, from 1.
+    number: usize,
+    /// Its point.
+    pub index: usize,
+    pub line: Vec<u8>,
+}
+
+/// Longest line that is read, in bytes: a row has no more than some thousand.
+const LONGEST: u64 = 1 << 20;
+
+/// The rows in a file, read one at a time.
+pub struct RowReader<'a> {
+    part: &'a ScanPart,
+    path: &'a Path,
+    file: BufReader<File>,
+    /// The checksum that is known of some of its rows.
+    known: Option<Checksum>,
+    /// Number of lines that were read.
+    number: usize,
+    /// The first point of which the next row may be.
+    next: usize,
+    /// The checksum of the rows that were read.
+    pub checksum: Checksum,
+    /// Length in bytes up to the end of the last whole line.
+    pub bytes: u64,
+}
+
+impl<'a> RowReader<'a> {
+    /// Reads the heading, if there is to be one; a file that ends within it has no rows. Fails if it begins with
+    /// anything else, or cannot be read.
+    pub fn new(
+        part: &'a ScanPart,
+        path: &'a Path,
+        file: File,
+        known: Option<Checksum>,
+    ) -> Result<Self, Failure> {
+        let (file, next, checksum) = (BufReader::new(file), part.points.start, Checksum::NONE);
+        let mut this = RowReader { part, path, file, known, number: 0, next, checksum, bytes: 0 };
+        let heading = part.heading();
+        if !heading.is_empty() {
+            let line = this.line(heading.len() as u64)?;
+            if line != heading.as_bytes()
+                && (this.bytes > 0 || !heading.as_bytes().starts_with(&line))
+            {
+                return Err(this.foreign(1, "names other columns"));
+            }
+        }
+        Ok(this)
+    }
+
+    /// The next row, which may be of a later point than the one after the last row; `None` at the end of the file.
+    /// Fails if it is not a row of the part, or the rows up to it have another checksum than those that were written.
+    pub fn next(&mut self) -> Result<Option<FileRow>, Failure> {
+        let line = self.line(LONGEST)?;
+        let part = self.part;
+        if line.last() != Some(&b'\n') {
+            let expected = part.beginning(self.next.min(part.points.end - 1));
+            let common = line.len().min(expected.len());
+            let is_own = line[..common] == expected.as_bytes()[..common];
+            return if is_own {
+                Ok(None)
+            } else {
+                Err(self.foreign(self.number, "is of another point"))
+            };
+        }
+        let mut left = self.next..part.points.end;
+        let why =
+            if left.is_empty() { "is one more than it has points" } else { "is of another point" };
+        let own = left.find(|index| line.starts_with(part.beginning(*index).as_bytes()));
+        let index = own.ok_or_else(|| self.foreign(self.number, why))?;
+        self.next = index + 1;
+        self.checksum = self.checksum.and(&line);
+        let rows = self.checksum.rows;
+        if self.known.is_some_and(|known| known.rows == rows && known != self.checksum) {
+            return Err(self.refused(&format!(
+                "altered: the checksum of its first {rows} rows is another in .provenance"
+            )));
+        }
+        Ok(Some(FileRow { number: self.number, index, line }))
+    }
+
+    /// Computes a row again and compares it: the same program writes the same line for the same scan.
+    pub fn check(&self, row: &FileRow, limits: &Limits) -> Result<(), Failure> {
+        let again = self.part.scan.row(row.index, limits);
+        let again = again.map_err(|_: Reason| self.refused("interrupted"))?;
+        if self.part.line(row.index, &again).as_bytes() == row.line {
+            Ok(())
+        } else {
+            Err(self.foreign(row.number, "is different when computed again"))
+        }
+    }
+
+    /// A line that is of something else than the part.
+    pub fn foreign(&self, number: usize, why: &str) -> Failure {
+        self.refused(&format!("not a part of this scan: line {number} {why}"))
+    }
+
+    /// Whether a point before that of the last row has none.
+    pub fn has_gap(&self) -> bool {
+        self.next > self.part.points.start + self.checksum.rows
+    }
+
+    /// A row of another point than the one that stands there in a file without gaps.
+    pub fn out_of_turn(&self, row: &FileRow) -> Failure {
+        self.foreign(row.number, "is of another point")
+    }
+
+    fn refused(&self, why: &str) -> Failure {
+        Failure::Usage(format!("{}: {why}", self.path.display()))
+    }
+
+    /// The next line, with its end unless it was cut; one that is longer than `most` bytes is cut there. Fails if it is
+    /// longer than any row.
+    fn line(&mut self, most: u64) -> Result<Vec<u8>, Failure> {
+        let mut line = Vec::new();
+        let read = (&mut self.file).take(most.min(LONGEST)).read_until(b'\n', &mut line);
+        read.map_err(|error| Failure::file(self.path, &error))?;
+        self.number += 1;
+        if line.len() as u64 == LONGEST {
+            let (number, most) = (self.number, LONGEST >> 20);
+            return Err(self.refused(&format!("line {number} is longer than {most} MB")));
+        }
+        if line.last() == Some(&b'\n') {
+            self.bytes += line.len() as u64;
+        }
+        Ok(line)
+    }
+}
