@@ -91,14 +91,11 @@ impl Certify {
 /// Prints an answer in printable characters. A closed pipe is not an error: its reader has seen enough.
 pub fn print(text: &str) -> Result<(), Failure> {
     match standard::print(text) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(unprinted(error)),
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::Unanswered(format!("cannot write to standard output: {error}")))
+        }
         _ => Ok(()),
     }
-}
-
-/// An answer that cannot be printed.
-pub fn unprinted(error: io::Error) -> Failure {
-    Failure::Unanswered(format!("cannot write to standard output: {error}"))
 }
 
 /// Writes a whole file. Fails without `force` if the file has other content.

@@ -12,11 +12,11 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use super::input::{self, WINDOW};
-use super::output::{holds_something, unprinted};
+use super::output::holds_something;
 use super::part::{RowChoice, Shard};
 use super::plan::Plan;
 use super::progress::{Outlet, Progress};
-use super::{Failure, MachineCase, SourceOptions, given, number, read};
+use super::{Failure, MachineCase, SourceOptions, given, number, print, read};
 use crate::flow::Limits;
 use crate::model::{Knob, MachineProblem};
 use crate::report::Format;
@@ -258,7 +258,8 @@ impl ScanCommand {
         interrupted: &(dyn Fn() -> bool + Sync),
     ) -> Result<ScanFile, Failure> {
         let Some(path) = &self.output else {
-            return ScanFile::standard(part).map_err(unprinted);
+            print(&part.heading())?;
+            return Ok(ScanFile::standard(part));
         };
         let name = path.display();
         let refused = |line| Err(Failure::Usage(line));

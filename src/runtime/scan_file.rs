@@ -39,11 +39,10 @@ pub struct ScanFile {
 }
 
 impl ScanFile {
-    /// Standard output, with nothing but the heading. Fails if that cannot be written.
-    pub fn standard(part: ScanPart) -> io::Result<Self> {
-        standard::print(&part.heading())?;
+    /// Standard output, on which the heading has been printed.
+    pub fn standard(part: ScanPart) -> Self {
         let journal = Journal::new(None, &part);
-        Ok(ScanFile { part, file: None, journal, checksum: None, unchecked: 0 })
+        ScanFile { part, file: None, journal, checksum: None, unchecked: 0 }
     }
 
     /// A file with nothing but the heading, if there is to be one. Fails if it cannot be written, or another scan
