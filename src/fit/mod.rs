@@ -107,7 +107,7 @@ pub(crate) use {
     drift::{LeftDrift, drift_of_swings, without_drift},
     estimate::judged,
     guess::{Beginning, Guess, guess, period_of},
-    half_swing::{Jet, Stretch},
+    half_swing::{Jet, Stretch, WAYS},
     header::{Header, TIME_UNITS, seconds_in},
     motion::{FittedTurn, Gradient, MotionLost, Way, follow},
     noise::{

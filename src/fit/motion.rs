@@ -6,9 +6,8 @@
 //! saltation matrix at `v = 0`, and it is never singular: a moving mass always stops with `f = -X < 0`.
 //! Inside a half swing a later start only delays the motion: `dq` contains `-v dtau`.
 
-use super::{Jet, Signal, Stretch};
+use super::{Jet, Signal, Stretch, WAYS};
 use crate::model::{HalfPlane, Parameters, Side, State};
-use crate::numerics::elementary::hypot;
 
 /// Number of the quantities on which a motion depends: D, D2, D3, r, q0, v0.
 pub const NUMBERS: usize = 6;
@@ -73,8 +72,6 @@ pub struct FollowedMotion {
 /// How a motion is followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Way {
-    /// Whether D2 and D3 are zero, and derivatives by them not wanted.
-    pub linear: bool,
     /// Whether derivatives are wanted.
     pub with_derivatives: bool,
     /// Displacement or velocity beyond which a motion counts as lost.
@@ -89,21 +86,13 @@ impl Default for Way {
     /// Every displacement, without derivatives.
     fn default() -> Self {
         let (reach, turns, signal) = (f64::MAX, usize::MAX, Signal::Displacement);
-        Way { linear: false, with_derivatives: false, reach, turns, signal }
+        Way { with_derivatives: false, reach, turns, signal }
     }
 }
 
 /// The motion grew beyond its reach, or took too many half swings or steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MotionLost;
-
-/// Derivatives of the start of a half swing.
-#[derive(Clone, Copy, Default)]
-struct StartGradient {
-    x: Gradient,
-    v: Gradient,
-    tau: Gradient,
-}
 
 /// Follows the motion from `start` through the ascending `times` and passes each point to `see`.
 ///
@@ -116,92 +105,79 @@ pub fn follow(
     way: Way,
     mut see: impl FnMut(usize, MotionPoint),
 ) -> Result<FollowedMotion, MotionLost> {
-    let r = parameters.r;
     let mut followed = FollowedMotion::default();
     let mut next = 0;
-    let Some(mut side) = Side::entered_from(start, r) else {
-        let by = [0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-        let point = MotionPoint::resting(start.q, by, way.signal);
-        (0..times.len()).for_each(|index| see(index, point));
-        followed.rests = true;
-        return Ok(followed);
-    };
-    let sign = side.sign();
-    // A velocity of -0 would stand for a motion that has just arrived.
-    let (mut x, mut v) = (sign * start.q + r, start.v.abs());
-    let mut chain = StartGradient::default();
-    chain.x[R] = 1.0;
-    chain.x[4] = sign;
-    chain.v[5] = sign;
-    let mut tau = 0.0;
+    let mut swing = FittedSwing::first(parameters, start);
+    let mut rest = MotionPoint::resting(start.q, [0.0, 0.0, 0.0, 0.0, 1.0, 0.0], way.signal);
     for _ in 0..MOST {
+        let Some(moving) = swing else {
+            (next..times.len()).for_each(|index| see(index, rest));
+            followed.rests = true;
+            return Ok(followed);
+        };
         if next >= times.len() || followed.turns.len() >= way.turns {
             return Ok(followed);
         }
-        let swing = FittedSwing::new(parameters, side, (x, v), &chain);
-        let (turn, end) = swing.follow(tau, times, &mut next, way, &mut see)?;
-        let Some(turn) = turn else { return Ok(followed) };
-        followed.turns.push(turn);
-        tau = turn.tau;
-        x = 2.0 * r - end;
-        v = 0.0;
-        if x >= 0.0 {
-            let point = MotionPoint::resting(turn.q, turn.q_by, way.signal);
-            (next..times.len()).for_each(|index| see(index, point));
-            followed.rests = true;
+        let Some(turn) = moving.follow(times, &mut next, way, &mut see)? else {
             return Ok(followed);
-        }
-        for (p, by) in chain.x.iter_mut().enumerate() {
-            let friction = if p == R { 1.0 } else { 0.0 };
-            *by = friction - side.sign() * turn.q_by[p];
-        }
-        chain.v = [0.0; NUMBERS];
-        chain.tau = turn.tau_by;
-        side = side.opposite();
+        };
+        followed.turns.push(turn);
+        rest = MotionPoint::resting(turn.q, turn.q_by, way.signal);
+        swing = moving.after(parameters, &turn);
     }
     Err(MotionLost)
 }
 
-/// A half swing: its start with the derivatives of the start.
-struct FittedSwing<'a> {
-    parameters: &'a Parameters,
+/// A half swing: its start, with the derivatives of the start.
+struct FittedSwing {
     side: Side,
+    r: f64,
     field: HalfPlane,
     start: Jet,
-    /// Derivatives of the start along the flow, as a delay, for each number.
-    along: Gradient,
-    /// Derivatives of the start across the flow, for each number.
-    across: Gradient,
-    chain: &'a StartGradient,
+    tau: f64,
+    x_by: Gradient,
+    v_by: Gradient,
+    tau_by: Gradient,
 }
 
-impl<'a> FittedSwing<'a> {
-    fn new(
-        parameters: &'a Parameters,
-        side: Side,
-        (x, v): (f64, f64),
-        chain: &'a StartGradient,
-    ) -> Self {
-        let field = HalfPlane::new(parameters, side);
-        let (fx, fv) = (v, field.acceleration(x, v));
-        let norm = hypot(fx, fv);
-        let (ux, uv) = (fx / norm, fv / norm);
-        let mut start = Jet { x, v, ..Jet::default() };
-        (start.y[0], start.w[0]) = (-uv, ux);
-        let (mut along, mut across) = ([0.0; NUMBERS], [0.0; NUMBERS]);
-        for p in 0..NUMBERS {
-            along[p] = (ux * chain.x[p] + uv * chain.v[p]) / norm;
-            across[p] = ux * chain.v[p] - uv * chain.x[p];
-        }
-        FittedSwing { parameters, side, field, start, along, across, chain }
+impl FittedSwing {
+    /// The half swing of a motion from `start`; `None` if it rests there.
+    fn first(parameters: &Parameters, start: State) -> Option<Self> {
+        let side = Side::entered_from(start, parameters.r)?;
+        let mut swing = Self::new(parameters, side, start.q);
+        // A velocity of -0 would stand for a motion that has just arrived.
+        swing.start.v = start.v.abs();
+        (swing.x_by[4], swing.v_by[5]) = (side.sign(), side.sign());
+        Some(swing)
     }
 
-    /// The derivatives with respect to all numbers from the solutions of the variational equation: across the
-    /// flow, and with respect to D, D2 and D3.
+    /// The half swing that follows this one after its turn; `None` if the mass rests there.
+    fn after(&self, parameters: &Parameters, turn: &FittedTurn) -> Option<Self> {
+        let side = self.side.opposite();
+        let mut swing = Self::new(parameters, side, turn.q);
+        for (by, turn_by) in swing.x_by.iter_mut().zip(turn.q_by) {
+            *by += side.sign() * turn_by;
+        }
+        (swing.tau, swing.tau_by) = (turn.tau, turn.tau_by);
+        (swing.start.x < 0.0).then_some(swing)
+    }
+
+    /// The half swing from a displacement at time 0, without velocity.
+    fn new(parameters: &Parameters, side: Side, q: f64) -> Self {
+        let Parameters { r, .. } = *parameters;
+        let mut start = Jet { x: side.position(q, r), ..Jet::default() };
+        (start.y[0], start.w[1]) = (1.0, 1.0);
+        let [mut x_by, v_by, tau_by] = [[0.0; NUMBERS]; 3];
+        x_by[R] = 1.0;
+        let field = HalfPlane::new(parameters, side);
+        FittedSwing { side, r, field, start, tau: 0.0, x_by, v_by, tau_by }
+    }
+
+    /// The derivatives with respect to all numbers from the solutions of the variational equation.
     #[inline]
-    fn combined(&self, ways: &[f64; 4]) -> Gradient {
-        let [across, d, d2, d3] = *ways;
-        let mut by = self.across.map(|share| share * across);
+    fn combined(&self, ways: &[f64; WAYS]) -> Gradient {
+        let [x, v, d, d2, d3] = *ways;
+        let mut by: Gradient = std::array::from_fn(|p| x * self.x_by[p] + v * self.v_by[p]);
         by[0] += d;
         by[1] += self.side.sign() * d2;
         by[2] += d3;
@@ -209,49 +185,42 @@ impl<'a> FittedSwing<'a> {
     }
 
     /// Passes the points at the times within this half swing to `see`; returns the turn that ends it, if it comes
-    /// before the last time, and its position.
+    /// before the last time.
     fn follow(
         &self,
-        tau: f64,
         times: &[f64],
         next: &mut usize,
         way: Way,
         see: &mut impl FnMut(usize, MotionPoint),
-    ) -> Result<(Option<FittedTurn>, f64), MotionLost> {
-        let Way { linear, with_derivatives, reach, .. } = way;
-        let mut stretch =
-            Stretch::new(self.field, self.start, linear, with_derivatives).ok_or(MotionLost)?;
-        let mut passed = 0.0;
+    ) -> Result<Option<FittedTurn>, MotionLost> {
+        let (mut start, mut from) = (self.start, self.tau);
         for _ in 0..STEPS {
-            let until = passed + stretch.duration;
+            let stretch =
+                Stretch::new(&self.field, &start, way.with_derivatives).ok_or(MotionLost)?;
+            let until = from + stretch.duration;
             while let Some(&time) = times.get(*next)
-                && time - tau <= until
+                && time <= until
             {
-                let passing = time - tau - passed;
-                let jet = if with_derivatives && !way.signal.is_displacement() {
-                    stretch.jet(passing)
+                let jet = if way.with_derivatives && !way.signal.is_displacement() {
+                    stretch.jet(time - from)
                 } else {
-                    let (x, v, y) = stretch.at(passing);
-                    Jet { x, v, y, ..Jet::default() }
+                    stretch.at(time - from)
                 };
                 see(*next, self.point(&jet, way));
                 *next += 1;
             }
             if *next >= times.len() {
-                return Ok((None, 0.0));
+                return Ok(None);
             }
-            let end = stretch.jet(stretch.duration);
+            start = stretch.jet(stretch.duration);
             if stretch.arrives {
-                return Ok((Some(self.turn(tau + until, &end)), end.x));
+                return Ok(Some(self.turn(until, &start)));
             }
             // A motion that escapes, or whose steps no longer advance the time, never ends.
-            if !(end.x.abs().max(end.v) <= reach && until > passed) {
+            if !(start.x.abs().max(start.v) <= way.reach && until > from) {
                 return Err(MotionLost);
             }
-            passed = until;
-            if !stretch.advance(end) {
-                return Err(MotionLost);
-            }
+            from = until;
         }
         Err(MotionLost)
     }
@@ -262,7 +231,7 @@ impl<'a> FittedSwing<'a> {
         let force = self.field.acceleration(x, v);
         let slope = self.field.divergence(v);
         let (signal, rate) = match way.signal {
-            Signal::Displacement => (x - self.parameters.r, v),
+            Signal::Displacement => (x - self.r, v),
             Signal::Velocity => (v, force),
             Signal::Acceleration => (force, slope * force - v),
         };
@@ -284,11 +253,11 @@ impl<'a> FittedSwing<'a> {
                     by
                 }
             };
-            for (p, by) in by.iter_mut().enumerate() {
-                *by = sign * (*by + (self.along[p] - self.chain.tau[p]) * rate);
+            for (by, delay) in by.iter_mut().zip(self.tau_by) {
+                *by = sign * (*by - delay * rate);
             }
         }
-        let q = sign * (x - self.parameters.r);
+        let q = self.side.displacement(x, self.r);
         MotionPoint { q, v: sign * v, signal: sign * signal, rate: sign * rate, by }
     }
 
@@ -296,14 +265,10 @@ impl<'a> FittedSwing<'a> {
         let sign = self.side.sign();
         let force = self.field.acceleration(end.x, 0.0);
         let (moved, sped) = (self.combined(&end.y), self.combined(&end.w));
-        let mut turn =
-            FittedTurn { tau, q: sign * (end.x - self.parameters.r), ..FittedTurn::default() };
-        for p in 0..NUMBERS {
-            let friction = if p == R { 1.0 } else { 0.0 };
-            turn.q_by[p] = sign * (moved[p] - friction);
-            turn.tau_by[p] = self.chain.tau[p] - self.along[p] - sped[p] / force;
-        }
-        turn
+        let mut q_by = moved.map(|by| sign * by);
+        q_by[R] -= sign;
+        let tau_by = std::array::from_fn(|p| self.tau_by[p] - sped[p] / force);
+        FittedTurn { tau, q: self.side.displacement(end.x, self.r), tau_by, q_by }
     }
 }
 
@@ -410,23 +375,6 @@ mod tests {
                 let is = if moves { -force - q.q - friction } else { 0.0 };
                 assert!((a.signal - is).abs() < 1e-12 * start.q.abs(), "{parameters:?} {a:?}");
                 assert!(moves || (v.signal, a.by, v.by) == (0.0, [0.0; NUMBERS], [0.0; NUMBERS]));
-            }
-        }
-    }
-
-    #[test]
-    fn the_closed_form_and_the_series_are_one_motion() {
-        let (parameters, moving) = MOTIONS[3];
-        for start in [moving, State { q: 4.0, v: 0.0 }, State { q: -4.0, v: 0.0 }] {
-            let formula = points(&parameters, start, &times(), Way { linear: true, ..way(true) });
-            let series = points(&parameters, start, &times(), way(true));
-            for (formula, series) in formula.iter().zip(&series) {
-                assert!((formula.q - series.q).abs() < 1e-12, "{start:?}");
-                // With respect to D, r, q0 and v0; the closed form leaves out D2 and D3.
-                for p in [0, 3, 4, 5] {
-                    let off = (formula.by[p] - series.by[p]).abs();
-                    assert!(off < 1e-11 * formula.by[p].abs().max(1.0), "number {p}: {off}");
-                }
             }
         }
     }

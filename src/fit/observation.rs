@@ -210,8 +210,6 @@ pub struct Observation<'a> {
     pub data: &'a Data,
     /// How the motion begins.
     pub start: StartKind,
-    /// Whether D2 and D3 are held at zero.
-    pub linear: bool,
     /// Displacement beyond which a motion counts as escaped.
     pub reach: f64,
 }
@@ -226,8 +224,7 @@ impl Observation<'_> {
             return Err(MotionLost);
         }
         let (reach, signal) = (self.reach, self.data.signal());
-        let linear = self.linear && p[D2] == 0.0 && p[D3] == 0.0;
-        let way = Way { linear, with_derivatives, reach, signal, ..Way::default() };
+        let way = Way { with_derivatives, reach, signal, ..Way::default() };
         match self.data {
             Data::Samples { t, x, .. } => self.samples(p, t, x, way),
             Data::Peaks { t, x, ratio } => peaks(p, t.as_deref(), x, *ratio, way),
