@@ -131,7 +131,7 @@ impl Figure {
 
 /// The dimensionless duration of the record.
 fn duration(fitted: &Fitted) -> f64 {
-    let t = fitted.estimate.data.times();
+    let t = &fitted.estimate.data.t;
     let span = t.last().zip(t.first()).map_or(0.0, |(last, first)| last - first);
     fitted.estimate.p[OMEGA0] * span
 }

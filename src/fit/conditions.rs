@@ -162,13 +162,9 @@ fn simulated(estimate: &Estimate) -> Record {
             };
             measured.iter().enumerate().map(value).collect::<Vec<f64>>()
         };
-    let (t, x) = match &estimate.data {
-        Data::Samples { t, x, .. } => (Some(t.clone()), fitted(x, 0, 1.0, &mut noise)),
-        Data::Peaks { t, x, ratio } => {
-            let displacements = fitted(x, 0, 1.0, &mut noise);
-            let times = t.as_ref().map(|t| fitted(t, x.len(), *ratio, &mut noise));
-            (times, displacements)
-        }
-    };
-    Record { t, x, signal: estimate.data.signal(), ..Record::default() }
+    let Data { t, x, signal, peaks } = &estimate.data;
+    let displacements = fitted(x, 0, 1.0, &mut noise);
+    let times = peaks.map_or(t.clone(), |ratio| fitted(t, x.len(), ratio, &mut noise));
+    let t = Some(times).filter(|times| !times.is_empty());
+    Record { t, x: displacements, signal: *signal, ..Record::default() }
 }

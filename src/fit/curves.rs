@@ -60,7 +60,7 @@ impl Curves {
             (Some(seen), _) => seen.motion.iter().map(|[_, q, ..]| q.abs()).fold(0.0, f64::max),
             // What was measured at a peak less its residual is how far the fitted motion goes.
             (None, data) => data
-                .values()
+                .x
                 .iter()
                 .zip(&estimate.residuals)
                 .map(|(x, residual)| (x - residual - estimate.p[OFFSET]).abs())
@@ -73,8 +73,10 @@ impl Curves {
 /// Autocorrelation of the residuals over lags in s, up to two periods.
 pub fn memory(estimate: &Estimate) -> Vec<PlotPoint> {
     const LAGS: usize = 400;
-    let Data::Samples { t, .. } = &estimate.data else { return Vec::new() };
-    let step = 1.0 / rate(t);
+    if estimate.data.has_peaks() {
+        return Vec::new();
+    }
+    let step = 1.0 / rate(&estimate.data.t);
     let kept: Vec<f64> = estimate.kept_residuals().collect();
     let periods = 2.0 * TAU / estimate.p[OMEGA0];
     let most = (truncated(periods / step)).clamp(4, (kept.len() / 2).max(4));
@@ -147,10 +149,7 @@ fn covering(computed: &[f64], mut measured: Vec<f64>) -> [f64; 2] {
 /// The standard error of a measured decrement. Each half peak-to-peak value has the error of two turning points,
 /// each of which is read from the samples of about a sixth of a period.
 fn error_of_decrement(estimate: &Estimate, a: f64) -> f64 {
-    let read = match &estimate.data {
-        Data::Samples { t, .. } => (rate(t) * TAU / estimate.p[OMEGA0] / 6.0).max(1.0),
-        Data::Peaks { .. } => 1.0,
-    };
+    let read = (estimate.data.samples_per_period(estimate.p[OMEGA0]) / 6.0).max(1.0);
     estimate.covariance.deviation / read.sqrt() / (TAU * a)
 }
 
@@ -210,7 +209,10 @@ impl Sampled {
     pub fn of(estimate: &Estimate) -> Option<Self> {
         /// A step longer than the average one by this factor is a gap.
         const GAP: f64 = 6.0;
-        let Data::Samples { t, x, .. } = &estimate.data else { return None };
+        let Data { t, x, .. } = &estimate.data;
+        if estimate.data.has_peaks() {
+            return None;
+        }
         let every = t.len().div_ceil(POINTS);
         let mut points: Vec<[f64; 3]> = Vec::new();
         for (index, why) in estimate.dropped_data().enumerate().step_by(every) {
@@ -236,7 +238,7 @@ fn motion(estimate: &Estimate, t: &[f64]) -> Vec<[f64; 4]> {
     let count = (FINE * (estimate.half_swings + 2)).min(4 * POINTS);
     let at = |index: usize| origin + (last - origin) * real(index) / real(count);
     let taus: Vec<f64> = (0..=count).map(|index| p[OMEGA0] * (at(index) - origin)).collect();
-    let signal = estimate.data.signal();
+    let signal = estimate.data.signal;
     let scale = signal.scale(p[OMEGA0]);
     let mut points = Vec::new();
     if first < origin {

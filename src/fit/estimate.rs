@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::{
     BEND, Choice, Covariance, Data, Extreme, FittedDrift, HIDDEN, Left, LeftDrift, NAMES, NameSpec,
     Noise, OMEGA0, Optimum, Profile, ProfileInterval, R, Record, Runs, SLOPE, Signal, StartKind,
-    Task, UNKNOWNS, Unfit, Unknowns, Whiteness, left_over, rate, whiteness,
+    Task, UNKNOWNS, Unfit, Unknowns, Whiteness, left_over, whiteness,
 };
 use crate::model::State;
 
@@ -132,7 +132,7 @@ impl Estimate {
     #[must_use]
     pub fn measured(&self, t: f64, x: f64, fitted: State) -> Option<State> {
         let seen = x - self.data.zero(&self.p, t);
-        match self.data.signal() {
+        match self.data.signal {
             Signal::Displacement => Some(State { q: seen, ..fitted }),
             Signal::Velocity => Some(State { v: seen / self.p[OMEGA0], ..fitted }),
             Signal::Acceleration => None,
@@ -182,10 +182,7 @@ fn assessed(
     let (data, best) = (task.observation.data, &found[0]);
     let p = best.p;
     let kept = task.values(&best.seen);
-    let samples_per_period = match data {
-        Data::Samples { t, .. } => rate(t) * std::f64::consts::TAU / p[OMEGA0],
-        Data::Peaks { .. } => 2.0,
-    };
+    let samples_per_period = data.samples_per_period(p[OMEGA0]);
     let mut whiteness = whiteness(&kept, samples_per_period);
     if data.has_peaks() {
         // With a few peaks, or two kinds of residuals, correlation cannot be estimated.
@@ -232,7 +229,7 @@ fn assessed(
         whiteness,
         extremes: Vec::new(),
         noise: Noise::default(),
-        dropped: vec![None; data.values().len()],
+        dropped: vec![None; data.x.len()],
         motions: (runs.with_derivatives, runs.plain),
         reach: task.observation.reach,
         left_drift,

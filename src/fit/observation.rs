@@ -6,7 +6,7 @@
 //! offset is that of the signal. It may drift along a parabola, whose two numbers are held at zero unless the
 //! record shows a drift. Turning points, with or without times, are the same motion observed only where `v = 0`.
 
-use super::{FittedTurn, Gradient, MotionLost, Signal, Way, follow};
+use super::{FittedTurn, Gradient, MotionLost, Signal, Way, follow, rate};
 use crate::model::{Parameters, State};
 use crate::numerics::count::real;
 
@@ -59,78 +59,41 @@ impl StartKind {
     }
 }
 
-/// What was measured.
+/// What was measured: a signal at ascending times, or successive turning points.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Data {
-    /// A signal at ascending times.
-    Samples {
-        /// Times in s.
-        t: Vec<f64>,
-        /// The signal.
-        x: Vec<f64>,
-        /// What was measured.
-        signal: Signal,
-    },
-    /// Successive turning points.
-    Peaks {
-        /// Times in s, if they were measured.
-        t: Option<Vec<f64>>,
-        /// Displacements.
-        x: Vec<f64>,
-        /// Ratio of the errors of the times to those of the displacements, in s per unit of length.
-        ratio: f64,
-    },
+pub struct Data {
+    /// Times in s; empty for turning points without times.
+    pub t: Vec<f64>,
+    /// The signal, or the displacements of the turning points.
+    pub x: Vec<f64>,
+    /// What the signal is.
+    pub signal: Signal,
+    /// Of turning points the ratio of the errors of the times to those of the displacements, in s per unit of length.
+    pub peaks: Option<f64>,
 }
 
 impl Data {
     /// Number of residuals: of samples, or of displacements and times of peaks.
     #[must_use]
     pub fn residuals(&self) -> usize {
-        match self {
-            Data::Samples { x, .. } => x.len(),
-            Data::Peaks { t, x, .. } => x.len() * if t.is_some() { 2 } else { 1 },
-        }
+        if self.has_peaks() { self.x.len() + self.t.len() } else { self.x.len() }
     }
 
     /// Whether turning points were measured.
     #[must_use]
     pub fn has_peaks(&self) -> bool {
-        matches!(self, Data::Peaks { .. })
+        self.peaks.is_some()
     }
 
-    /// The displacements, or whatever the signal is.
-    #[must_use]
-    pub fn values(&self) -> &[f64] {
-        match self {
-            Data::Samples { x, .. } | Data::Peaks { x, .. } => x,
-        }
-    }
-
-    /// The times in s; empty for peaks without times.
-    #[must_use]
-    pub fn times(&self) -> &[f64] {
-        match self {
-            Data::Samples { t, .. } => t,
-            Data::Peaks { t, .. } => t.as_deref().unwrap_or_default(),
-        }
-    }
-
-    /// What was measured.
-    #[must_use]
-    pub fn signal(&self) -> Signal {
-        match self {
-            Data::Samples { signal, .. } => *signal,
-            Data::Peaks { .. } => Signal::Displacement,
-        }
+    /// Average number of measurements in a period of the motion.
+    pub(crate) fn samples_per_period(&self, omega0: f64) -> f64 {
+        if self.has_peaks() { 2.0 } else { rate(&self.t) * std::f64::consts::TAU / omega0 }
     }
 
     /// The offset at a time.
     #[must_use]
     pub fn zero(&self, p: &Unknowns, time: f64) -> f64 {
-        match self {
-            Data::Samples { t, .. } => zero(p, drift(t, time)),
-            Data::Peaks { .. } => p[OFFSET],
-        }
+        zero(p, drift(&self.t, time))
     }
 }
 
@@ -223,16 +186,17 @@ impl Observation<'_> {
         if !(p[OMEGA0] > 0.0 && p.iter().all(|value| value.is_finite())) {
             return Err(MotionLost);
         }
-        let (reach, signal) = (self.reach, self.data.signal());
+        let (reach, signal) = (self.reach, self.data.signal);
         let way = Way { with_derivatives, reach, signal, ..Way::default() };
-        match self.data {
-            Data::Samples { t, x, .. } => self.samples(p, t, x, way),
-            Data::Peaks { t, x, ratio } => peaks(p, t.as_deref(), x, *ratio, way),
+        match self.data.peaks {
+            None => self.samples(p, way),
+            Some(ratio) => peaks(p, self.data, ratio, way),
         }
     }
 
     /// The number of samples before the motion, its first state, and the dimensionless times of the others since then.
-    fn begun(&self, p: &Unknowns, t: &[f64]) -> (usize, State, Vec<f64>) {
+    fn begun(&self, p: &Unknowns) -> (usize, State, Vec<f64>) {
+        let t = &self.data.t;
         let (origin, start) = self.start.beginning(p, t);
         let held = t.partition_point(|&t| t < origin);
         (held, start, t[held..].iter().map(|t| p[OMEGA0] * (t - origin)).collect())
@@ -240,8 +204,10 @@ impl Observation<'_> {
 
     /// Displacement and velocity over `omega0` at each sample; none for peaks, or if the motion escapes.
     pub fn states(&self, p: &Unknowns) -> Vec<State> {
-        let Data::Samples { t, .. } = self.data else { return Vec::new() };
-        let (held, start, times) = self.begun(p, t);
+        if self.data.has_peaks() {
+            return Vec::new();
+        }
+        let (held, start, times) = self.begun(p);
         let mut states = vec![State { q: p[Q0], v: 0.0 }; held];
         let way = Way { reach: self.reach, ..Way::default() };
         let followed = follow(&parameters(p), start, &times, way, |_, point| {
@@ -250,8 +216,9 @@ impl Observation<'_> {
         if followed.is_ok() { states } else { Vec::new() }
     }
 
-    fn samples(&self, p: &Unknowns, t: &[f64], x: &[f64], way: Way) -> Result<Seen, MotionLost> {
-        let (held, start, times) = self.begun(p, t);
+    fn samples(&self, p: &Unknowns, way: Way) -> Result<Seen, MotionLost> {
+        let Data { t, x, .. } = self.data;
+        let (held, start, times) = self.begun(p);
         let order = way.signal.order();
         let scale = way.signal.scale(p[OMEGA0]);
         let mut residuals = Vec::with_capacity(x.len());
@@ -287,15 +254,10 @@ fn unknowns(by: &Gradient) -> Unknowns {
 }
 
 /// Compares turning points; residuals of times are divided by `ratio`.
-fn peaks(
-    p: &Unknowns,
-    t: Option<&[f64]>,
-    x: &[f64],
-    ratio: f64,
-    way: Way,
-) -> Result<Seen, MotionLost> {
+fn peaks(p: &Unknowns, data: &Data, ratio: f64, way: Way) -> Result<Seen, MotionLost> {
     /// Upper bound of the duration of a half swing, in a motion that keeps oscillating.
     const SLOWEST: f64 = 50.0;
+    let x = &data.x;
     let patience = [SLOWEST * real(x.len())];
     let way = Way { turns: x.len() - 1, ..way };
     let start = State { q: p[Q0], v: 0.0 };
@@ -318,7 +280,7 @@ fn peaks(
         by[OFFSET] = 1.0;
         residuals.push(Residual { value: x - p[OFFSET] - turn.q, by });
     }
-    for (turn, t) in turns.iter().zip(t.unwrap_or_default()) {
+    for (turn, t) in turns.iter().zip(&data.t) {
         let mut by = unknowns(&turn.tau_by).map(|by| by / (p[OMEGA0] * ratio));
         by[OMEGA0] = -turn.tau / (p[OMEGA0] * p[OMEGA0] * ratio);
         by[LAST] = 1.0 / ratio;

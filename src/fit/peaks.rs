@@ -2,7 +2,7 @@
 
 use super::{
     Beginning, Data, Estimate, Extreme, LAST, OFFSET, OMEGA0, Q0, Question, R, Record, Runs,
-    StartKind, Task, Unfit, judged, period_of, placed, ratio_of_kinds, reach, regressions,
+    Signal, StartKind, Task, Unfit, judged, period_of, placed, ratio_of_kinds, reach, regressions,
 };
 
 /// Fits a list of peaks. The relative weight of displacements and times follows from their residuals.
@@ -48,7 +48,12 @@ pub fn peaks(record: &Record, question: &Question, runs: &mut Runs) -> Result<Es
     if measured <= unknowns {
         return Err(Unfit::TooFew { measured, unknowns });
     }
-    let of = |ratio: f64| Data::Peaks { t: t.clone(), x: x.clone(), ratio };
+    let of = |ratio: f64| Data {
+        t: t.clone().unwrap_or_default(),
+        x: x.clone(),
+        signal: Signal::Displacement,
+        peaks: Some(ratio),
+    };
     let reach = reach(x);
     let mut data = of(ratio);
     let mut found = Task::new(&data, StartKind::Release, free, reach).search(&starts, runs)?;

@@ -72,7 +72,7 @@ pub fn samples(record: &Record, question: &Question, runs: &mut Runs) -> Result<
     }
     let loss = loss_of(question.loss, &noise);
     let reach = reach(&swinging);
-    let data = Data::Samples { t: t.clone(), x: x.clone(), signal };
+    let data = Data { t: t.clone(), x: x.clone(), signal, peaks: None };
     let task = Task::new(&data, beginnings[0].start, free, reach);
     let mut task = Task { loss, noise: noise.deviation, ..task };
     let mut found = task.search(&beginnings, runs)?;
@@ -153,9 +153,10 @@ fn smooth(task: &Task, found: &mut Vec<Optimum>, runs: &mut Runs) -> Result<Vec<
     /// The jumps move as the fit improves.
     const ROUNDS: usize = 2;
     let mut smooth = vec![true; task.observation.data.residuals()];
-    let Data::Samples { t, signal: Signal::Acceleration, .. } = task.observation.data else {
+    let Data { t, signal, .. } = task.observation.data;
+    if *signal != Signal::Acceleration {
         return Ok(smooth);
-    };
+    }
     for _ in 0..ROUNDS {
         smooth = away_from(&jumps(&found[0], t), t, found[0].p[OMEGA0]);
         Task { used: &smooth, ..*task }.renew(found, runs)?;
@@ -215,7 +216,7 @@ fn alike_at_rest(
 /// Selects the samples held and those at rest except for `enough` (at least two) of each, evenly spread.
 fn all_but_some(task: &Task, best: &Optimum, enough: f64) -> Vec<bool> {
     const FEWEST: usize = 2;
-    let t = task.observation.data.times();
+    let t = &task.observation.data.t;
     let (release, _) = best.start.beginning(&best.p, t);
     let held = t.partition_point(|&t| t < release);
     let end = best.seen.turns.last().filter(|_| best.seen.rests);

@@ -2,8 +2,8 @@
 
 use super::{
     Beginning, D2, D3, Data, Extreme, Guess, LAST, Loss, LossName, Noise, OFFSET, OMEGA0,
-    Observation, Optimum, Q0, R, Runs, Signal, StartKind, Task, UNKNOWNS, Unfit, Unknowns, WIDE,
-    Way, by_cost, follow, guess, interrupted, parameters, placed, through_the_valley,
+    Observation, Optimum, Q0, R, Runs, StartKind, Task, UNKNOWNS, Unfit, Unknowns, WIDE, Way,
+    by_cost, follow, guess, interrupted, parameters, placed, through_the_valley,
 };
 use crate::model::State;
 use crate::numerics::count::real;
@@ -176,7 +176,10 @@ impl Task<'_> {
     /// Descends on a growing part of the record, with a robust loss that tolerates samples that are still far off.
     fn growing(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, Unfit> {
         let mut p = guess;
-        let Data::Samples { t, .. } = self.observation.data else { return self.solve(p, runs) };
+        let t = &self.observation.data.t;
+        if self.observation.data.has_peaks() {
+            return self.solve(p, runs);
+        }
         let last = t[t.len() - 1];
         let shortest = real(FEWEST) * std::f64::consts::PI / p[OMEGA0];
         let begin = self.observation.start.beginning(&p, t).0.max(t[0]);
@@ -234,21 +237,21 @@ pub fn released_before(
     const PART: usize = 4;
     /// Number of swings between the release and the fitted motion, at most.
     const SWINGS: usize = 60;
-    let signal = Signal::Displacement;
-    let Data::Samples { t, x, signal: Signal::Displacement } = task.observation.data else {
+    let Data { t, x, signal, .. } = task.observation.data;
+    if !signal.is_displacement() {
         return Ok(None);
-    };
+    }
     let first = extremes[FIRST.min(extremes.len() / PART)];
     let from = t.partition_point(|&t| t < first.t);
     let (later, times) = (&x[from..], &t[from..]);
-    let Some(Guess { mut beginnings, .. }) = guess(times, later, noise, signal) else {
+    let Some(Guess { mut beginnings, .. }) = guess(times, later, noise, *signal) else {
         return Ok(None);
     };
     beginnings.retain(|beginning| beginning.start == StartKind::Moving);
     for guess in beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
         *guess = placed(held, *guess);
     }
-    let data = Data::Samples { t: times.to_vec(), x: later.to_vec(), signal };
+    let data = Data { t: times.to_vec(), x: later.to_vec(), ..*task.observation.data };
     let part = Task { observation: Observation { data: &data, ..task.observation }, ..*task };
     let Some(found) = interrupted(part.search(&beginnings, runs))? else { return Ok(None) };
     let optimum = &found[0];

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{
     BEND, Data, IMPOSSIBLE, Loss, OMEGA0, Observation, Region, Residual, SLOPE, Seen, StartKind,
-    UNKNOWNS, Unfit, Unknowns, rate, robust_deviation, whiteness,
+    UNKNOWNS, Unfit, Unknowns, robust_deviation, whiteness,
 };
 use crate::numerics::count::real;
 
@@ -249,12 +249,14 @@ impl<'a> Task<'a> {
 
     /// Whether the residuals look like noise.
     pub fn verdict(&self, optimum: &Optimum) -> FitVerdict {
-        let Data::Samples { t, .. } = self.observation.data else { return FitVerdict::Unexplained };
+        if self.observation.data.has_peaks() {
+            return FitVerdict::Unexplained;
+        }
         let residuals = self.values(&optimum.seen);
         let deviation = robust_deviation(residuals.iter().copied());
         // Outliers that a robust loss tolerates must not look like an oscillation.
         let within = residuals.iter().map(|value| value.clamp(-4.0 * deviation, 4.0 * deviation));
-        let period = rate(t) * std::f64::consts::TAU / optimum.p[OMEGA0];
+        let period = self.observation.data.samples_per_period(optimum.p[OMEGA0]);
         let found = whiteness(&within.collect::<Vec<_>>(), period);
         let is_far = |value: &f64| value.abs() > IMPOSSIBLE * deviation;
         let runs_off = longest_run(residuals.iter().map(is_far)) >= RUN;

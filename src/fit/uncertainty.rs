@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Data, IMPOSSIBLE, Optimum, Task, Unknowns, mean_square, scattered};
+use super::{IMPOSSIBLE, Optimum, Task, Unknowns, mean_square, scattered};
 use crate::numerics::count::real;
 use crate::numerics::elementary::powi;
 
@@ -62,9 +62,11 @@ impl Covariance {
             (sum + weight * value * value, influence + powi(weight * value, 2))
         });
         let variance = influence / freedom * powi(widening(task, optimum, influence / freedom), 2);
-        let freedoms = match task.observation.data {
-            Data::Peaks { t: Some(_), x, .. } => of_two_kinds(&directions(), x.len(), &inverse),
-            _ => vec![freedom; width],
+        let data = task.observation.data;
+        let freedoms = if data.residuals() > data.x.len() {
+            of_two_kinds(&directions(), data.x.len(), &inverse)
+        } else {
+            vec![freedom; width]
         };
         Some(Covariance {
             columns,

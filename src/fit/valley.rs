@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use nalgebra::DVector;
 
 use super::{
-    Bound, Covariance, D2, D3, Data, FitVerdict, Optimum, R, Region, Runs, Task, Unfit, Unknowns,
+    Bound, Covariance, D2, D3, FitVerdict, Optimum, R, Region, Runs, Task, Unfit, Unknowns,
     interrupted, moved, scattered,
 };
 
@@ -23,7 +23,7 @@ impl Task<'_> {
         let is_loose = |covariance: Covariance| covariance.error(R) > LOOSE * r;
         self.free[R]
             && (self.free[D2] || self.free[D3])
-            && matches!(self.observation.data, Data::Samples { .. })
+            && !self.observation.data.has_peaks()
             && (r == 0.0
                 || optimum.seen.rests && Covariance::white(self, optimum).is_none_or(is_loose))
     }

@@ -53,7 +53,7 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
     curves.extend(band([seen.points.first()?[0], seen.points.last()?[0]], 2.0 * deviation));
     let names = ("t [s]".to_owned(), with_unit("measured - fitted", &fitted.signal_unit()));
     let mut picture = picture("residuals", names, curves, None)?;
-    let all = fitted.estimate.data.times().iter().zip(&fitted.estimate.residuals);
+    let all = fitted.estimate.data.t.iter().zip(&fitted.estimate.residuals);
     let apart = all.zip(fitted.estimate.dropped_data()).filter_map(|((t, e), why)| {
         let why = why.filter(|it| matches!(it, Dropped::Outlier | Dropped::Jump))?;
         Some((at(*t, *e), why))
@@ -169,7 +169,7 @@ fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
             }
         }
         let fit = seen.motion.iter().map(|[_, q, v, _]| at(*q, *v)).collect();
-        let name = match estimate.data.signal() {
+        let name = match estimate.data.signal {
             Signal::Displacement => "record (velocity by the fit)",
             _ => "record (displacement by the fit)",
         };

@@ -229,7 +229,7 @@ fn metric(recording: &Recording) -> Option<(Inertia, f64)> {
 /// The measured points, relative to the fitted motion.
 fn points(record: &Record, estimate: &Estimate) -> Vec<RecordPoint> {
     let p = &estimate.p;
-    let (origin, _) = estimate.start.beginning(p, estimate.data.times());
+    let (origin, _) = estimate.start.beginning(p, &estimate.data.t);
     let mut states = estimate.task(&[]).observation.states(p).into_iter();
     let all = record.t.iter().flatten().zip(&record.x).zip(&estimate.dropped);
     all.map(|((&t, &x), &dropped)| {

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::number::{rounded_down, significant};
 use super::quantity::with_unit;
 use crate::fit::{
-    Condition, D, Data, Fitted, MarginQuestion, Margins, NAMES, Rival, StartKind, conditions,
+    Condition, D, Fitted, MarginQuestion, Margins, NAMES, Rival, StartKind, conditions,
 };
 use crate::numerics::count::real;
 use crate::portrait::Margin;
@@ -227,8 +227,8 @@ fn alternatives(fitted: &Fitted) -> Condition {
     let fitting = listed(&mut estimate.contenders());
     // Normal draws come from the best motion only; those that follow the likelihood visit the others, too.
     let holds = estimate.contenders().count() < 2 || fitted.margins.motions > 0;
-    let releases = match (estimate.start, &estimate.data) {
-        (StartKind::Release, Data::Samples { .. }) => ", and releases some periods off,",
+    let releases = match estimate.start {
+        StartKind::Release if !estimate.data.has_peaks() => ", and releases some periods off,",
         _ => "",
     };
     let detail = format!("{tried} half swings{releases} compared; the record allows {fitting}");

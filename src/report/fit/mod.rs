@@ -48,7 +48,7 @@ fn json(fitted: &Fitted) -> String {
         .with_any("drift", estimate.drift())
         .with("correlations", correlations_by_names(fitted))
         .with("noise", estimate.covariance.deviation)
-        .with("samples", estimate.data.values().len())
+        .with("samples", estimate.data.x.len())
         .with("half_swings", estimate.half_swings)
         .with("rests", estimate.rests)
         .with("separable", combinations(estimate).iter().map(separable).collect::<Vec<_>>())
@@ -249,25 +249,20 @@ fn numbers(fitted: &Fitted) -> Table {
 /// What was measured, and how the motion goes.
 fn subject(fitted: &Fitted) -> String {
     let estimate = &fitted.estimate;
-    let what = match &estimate.data {
-        Data::Samples { t, .. } => {
-            let span = t.last().zip(t.first()).map_or(0.0, |(last, first)| last - first);
-            let begin = match estimate.start {
-                StartKind::Release => "released within it",
-                StartKind::Moving if estimate.count(Dropped::Before) > 0 => {
-                    "since the mass was struck"
-                }
-                StartKind::Moving => "in motion from its beginning",
-            };
-            let signal = fitted.record.signal;
-            let of =
-                if signal.is_displacement() { String::new() } else { format!(" of a {signal}") };
-            format!("{} samples{of} over {} s, {begin}", t.len(), significant(span, 4))
-        }
-        Data::Peaks { t, x, .. } => {
-            let times = if t.is_some() { "with" } else { "without" };
-            format!("{} peaks {times} times", x.len())
-        }
+    let Data { t, x, .. } = &estimate.data;
+    let what = if estimate.data.has_peaks() {
+        let times = if t.is_empty() { "without" } else { "with" };
+        format!("{} peaks {times} times", x.len())
+    } else {
+        let span = t.last().zip(t.first()).map_or(0.0, |(last, first)| last - first);
+        let begin = match estimate.start {
+            StartKind::Release => "released within it",
+            StartKind::Moving if estimate.count(Dropped::Before) > 0 => "since the mass was struck",
+            StartKind::Moving => "in motion from its beginning",
+        };
+        let signal = fitted.record.signal;
+        let of = if signal.is_displacement() { String::new() } else { format!(" of a {signal}") };
+        format!("{} samples{of} over {} s, {begin}", t.len(), significant(span, 4))
     };
     let end = if estimate.rests { ", at rest at its end" } else { "" };
     format!("{what}, {} half swings{end}", estimate.half_swings)
