@@ -7,28 +7,9 @@ const MISSING: [&str; 14] = [
     "overload",
 ];
 
-/// The value of a cell.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cell {
-    /// A number, or a clock time in seconds.
-    Number(f64),
-    /// A missing number, as instruments write it.
-    Missing,
-    /// Anything else.
-    Text,
-}
-
-/// A line that is not empty, with its number.
-#[derive(Clone, Copy)]
-pub struct NumberedLine<'a> {
-    /// Counted from 1.
-    pub number: usize,
-    /// Without leading and trailing blanks.
-    pub text: &'a str,
-}
-
-/// The lines of a text, except empty ones and comments.
-pub fn lines(text: &str) -> Vec<NumberedLine<'_>> {
+/// The lines of a text, except empty ones and comments, with their numbers, counted from 1, and without leading and
+/// trailing blanks.
+pub fn lines(text: &str) -> Vec<(usize, &str)> {
     let mut found = Vec::new();
     let parts = text.split('\n').flat_map(|part| {
         // A carriage return alone also ends a line; before a newline it is part of the line ending.
@@ -38,23 +19,23 @@ pub fn lines(text: &str) -> Vec<NumberedLine<'_>> {
         let text = text.trim_matches(|char| char == ' ' || char == '\0');
         let blank = text.trim().is_empty() || text.chars().all(|char| ";,\t ".contains(char));
         if !(blank || text.starts_with(['#', '%'])) {
-            found.push(NumberedLine { number: index + 1, text });
+            found.push((index + 1, text));
         }
     }
     found
 }
 
 /// The sign that separates the cells in the last rows, which are data in every file; `None` for blanks.
-pub fn separator(lines: &[NumberedLine]) -> Option<char> {
+pub fn separator(lines: &[(usize, &str)]) -> Option<char> {
     /// Number of rows that decide.
     const ROWS: usize = 20;
     let last = &lines[lines.len().saturating_sub(ROWS)..];
     let most = |sign: &dyn Fn(&str) -> bool| {
-        2 * last.iter().filter(|line| sign(line.text)).count() > last.len()
+        2 * last.iter().filter(|(_, text)| sign(text)).count() > last.len()
     };
     let blank = |text: &str| {
         let cells: Vec<&str> = text.split_whitespace().collect();
-        cells.len() > 1 && cells.iter().all(|cell| matches!(read(cell, true), Cell::Number(_)))
+        cells.len() > 1 && cells.iter().all(|cell| read(cell, true).is_some_and(f64::is_finite))
     };
     let is_comma = || most(&|text| text.contains(',')) && !most(&blank);
     let sign = [';', '\t'].into_iter().find(|&sign| most(&|text| text.contains(sign)));
@@ -96,13 +77,14 @@ fn words(text: &str) -> Vec<&str> {
     found
 }
 
-/// The value of a cell.
-pub fn read(cell: &str, comma_is_decimal: bool) -> Cell {
+/// The number in a cell, of a clock time in seconds; NaN where instruments write that it is missing, `None` for anything
+/// else.
+pub fn read(cell: &str, comma_is_decimal: bool) -> Option<f64> {
     if MISSING.contains(&cell.to_ascii_lowercase().as_str()) {
-        return Cell::Missing;
+        return Some(f64::NAN);
     }
     if let Some(seconds) = clock_seconds(cell) {
-        return Cell::Number(seconds);
+        return Some(seconds);
     }
     // A comma at the end of a cell separates it from the next.
     let plain = if comma_is_decimal && cell.contains(',') && !cell.ends_with(',') {
@@ -116,14 +98,9 @@ pub fn read(cell: &str, comma_is_decimal: bool) -> Cell {
         cell.to_owned()
     };
     // Words such as "infinity" are not numbers that an instrument measured.
-    if plain.starts_with(|char: char| char.is_ascii_digit() || "+-.".contains(char)) {
-        return match plain.parse::<f64>() {
-            Ok(value) if value.is_finite() => Cell::Number(value),
-            Ok(_) => Cell::Missing,
-            Err(_) => Cell::Text,
-        };
-    }
-    Cell::Text
+    let is_number = plain.starts_with(|char: char| char.is_ascii_digit() || "+-.".contains(char));
+    let value = plain.parse::<f64>().ok().filter(|_| is_number)?;
+    Some(if value.is_finite() { value } else { f64::NAN })
 }
 
 /// Dates count modulo this many days, so that seconds stay small enough for a resolution of about 15 ns.

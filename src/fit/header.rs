@@ -1,6 +1,6 @@
 //! The header lines above the numbers: names of columns and their units.
 
-use super::{Signal, UnitMeaning, quantity};
+use super::{Signal, quantity, value_of, with_latin_micro};
 
 /// Units of time and their values in seconds.
 pub const TIME_UNITS: [(&str, f64); 7] = [
@@ -53,11 +53,21 @@ struct ColumnHeader {
 
 /// The value of a unit of time in seconds; `None` if it is unknown.
 pub fn seconds_in(unit: &str) -> Option<f64> {
-    let plain = unit.to_lowercase().replace(['\u{b5}', '\u{3bc}'], "u");
-    TIME_UNITS.iter().find(|(name, _)| *name == plain).map(|(_, seconds)| *seconds)
+    value_of(&with_latin_micro(&unit.to_lowercase()), &TIME_UNITS)
 }
 
 impl ColumnHeader {
+    /// Whether one of these parts is in the name.
+    fn name_has(&self, parts: &[&str]) -> bool {
+        let name = self.name.to_lowercase();
+        parts.iter().any(|part| name.contains(part))
+    }
+
+    /// The signal that the name suggests.
+    fn suggested(&self) -> Option<Signal> {
+        SIGNALS.iter().find(|(_, parts)| self.name_has(parts)).map(|(signal, _)| *signal)
+    }
+
     /// `name [unit]`, `name (unit)`, `name / unit`, `name, unit` or `name_unit` for times.
     fn read(cell: &str) -> Self {
         let bracketed = [('[', ']'), ('(', ')')].iter().find_map(|(open, close)| {
@@ -125,47 +135,41 @@ impl Header {
     }
 
     /// The unit of a column.
-    pub fn unit(&self, column: usize) -> Option<String> {
-        self.columns.get(column)?.unit.clone()
+    pub fn unit(&self, column: usize) -> Option<&str> {
+        self.columns.get(column)?.unit.as_deref()
     }
 
-    fn find(&self, fits: impl Fn(&str) -> bool, but: Option<usize>) -> Option<usize> {
-        let mut columns = self.columns.iter().enumerate();
-        columns
-            .find(|(place, column)| Some(*place) != but && fits(&column.name))
-            .map(|(place, _)| place)
+    /// The first column that fits; `time` is the column of times, which is skipped.
+    fn find(&self, time: Option<usize>, fits: impl Fn(&ColumnHeader) -> bool) -> Option<usize> {
+        (0..self.columns.len()).find(|place| Some(*place) != time && fits(&self.columns[*place]))
     }
 
     /// The column of times. A column `T` holds temperatures.
     pub fn time(&self) -> Option<usize> {
-        let called = |name: &str| TIMES.iter().any(|time| name.to_lowercase().contains(time));
-        self.find(called, None).or_else(|| self.find(|name| name == "t", None))
+        let is_called = |it: &ColumnHeader| it.name_has(&TIMES);
+        self.find(None, is_called).or_else(|| self.find(None, |it| it.name == "t"))
     }
 
     /// The signal that the name of a column suggests.
     pub fn suggested(&self, column: usize) -> Option<Signal> {
-        let name = self.columns.get(column)?.name.to_lowercase();
-        let has = |parts: &[&str]| parts.iter().any(|part| name.contains(part));
-        SIGNALS.iter().find(|(_, parts)| has(parts)).map(|(signal, _)| *signal)
+        self.columns.get(column)?.suggested()
     }
 
     /// The first column with a unit of a signal, or else with a name that suggests it.
     pub fn measuring(&self, signal: Signal, time: Option<usize>) -> Option<usize> {
-        let columns = || (0..self.columns.len()).filter(|column| Some(*column) != time);
-        let has_unit = |column: &usize| {
-            let unit = self.unit(*column).and_then(|unit| quantity(&unit));
-            matches!(unit, Some(UnitMeaning::Signal(known, ..)) if known == signal)
-        };
-        let by_name = || columns().find(|column| self.suggested(*column) == Some(signal));
-        columns().find(has_unit).or_else(by_name)
+        let meaning = |it: &ColumnHeader| quantity(it.unit.as_deref()?)?.ok();
+        let has_unit = |it: &ColumnHeader| meaning(it).is_some_and(|unit| unit.signal == signal);
+        let by_name = || self.find(time, |it| it.suggested() == Some(signal));
+        self.find(time, has_unit).or_else(by_name)
     }
 
     /// The column of displacements; `time` is the column of times, which is skipped.
     pub fn displacement(&self, time: Option<usize>) -> Option<usize> {
-        let is = |known: &str, name: &str| {
-            let name = name.to_lowercase();
-            if known.len() > 1 { name.contains(known) } else { name == known }
-        };
-        DISPLACEMENTS.iter().find_map(|known| self.find(|name| is(known, name), time))
+        DISPLACEMENTS.iter().find_map(|known| {
+            let is_whole = known.len() == 1;
+            self.find(time, |it| {
+                if is_whole { it.name.to_lowercase() == *known } else { it.name_has(&[known]) }
+            })
+        })
     }
 }

@@ -101,7 +101,7 @@ pub(crate) use {
 
 // What the files of this ring use of each other.
 pub(crate) use {
-    cells::{Cell, NumberedLine, cells, clock_seconds, lines, read, separator},
+    cells::{cells, clock_seconds, lines, read, separator},
     conditions::repeated,
     decrements::{averaged, regressions, robust},
     drift::{LeftDrift, drift_of_swings, without_drift},
@@ -123,7 +123,7 @@ pub(crate) use {
     residuals::{Whiteness, autocorrelations, whiteness},
     samples::samples,
     search::released_before,
-    signal::{SignalUnit, UnitMeaning, measure},
+    signal::{SignalUnit, measure, value_of, with_latin_micro},
     task::{
         FitVerdict, HIDDEN, Optimum, RUN, interrupted, longest_run, mean_square, moved, scattered,
     },

@@ -8,8 +8,8 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Cell, Header, NumberedLine, Signal, SignalUnit, TIME_UNITS, cells, clock_seconds, lines,
-    measure, read, seconds_in, separator,
+    Header, Signal, SignalUnit, TIME_UNITS, cells, clock_seconds, lines, measure, read, seconds_in,
+    separator,
 };
 
 /// A column of a file.
@@ -95,8 +95,8 @@ pub fn decoded(bytes: &[u8]) -> String {
     }
 }
 
-fn whole(problem: impl Into<String>) -> BadRecord {
-    BadRecord { line: 0, column: 0, problem: problem.into() }
+fn bad(line: usize, column: usize, problem: impl Into<String>) -> BadRecord {
+    BadRecord { line, column, problem: problem.into() }
 }
 
 /// Reads a file.
@@ -105,87 +105,38 @@ fn whole(problem: impl Into<String>) -> BadRecord {
 /// [`BadRecord`] with the line and column of what cannot be parsed.
 pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
     let text = decoded(bytes);
-    let lines = lines(&text);
-    if lines.is_empty() {
-        return Err(whole(
-            "the file holds no rows; expected a column of times and one of displacements",
-        ));
-    }
-    let separator = separator(&lines);
-    // Where it separates cells, a comma is no part of a number.
-    let decimal = separator != Some(',');
-    let cells: Vec<Vec<&str>> = lines.iter().map(|line| cells(line.text, separator)).collect();
-    let numeric = |row: &Vec<&str>| {
-        let kinds: Vec<Cell> = row.iter().map(|cell| read(cell, decimal)).collect();
-        kinds.iter().any(|cell| matches!(cell, Cell::Number(_)))
-            && kinds.iter().filter(|cell| **cell == Cell::Text).count() * 2 < kinds.len()
-    };
-    let Some(first) = cells.iter().position(numeric) else {
-        let NumberedLine { number, .. } = lines[0];
-        return Err(BadRecord {
-            line: number,
-            column: 1,
-            problem: "no row of numbers follows".into(),
-        });
-    };
-    let last = cells.iter().rposition(numeric).unwrap_or(first);
-    let width = cells[first].len();
-    // Blanks cannot separate names that consist of several words.
-    let header = Some(Header::of(&cells[..first]));
-    let header = header.filter(|it| separator.is_some() || it.names().len() <= width);
-    let header = header.unwrap_or_default();
-    let (time, displacement) = columns(reading, &header, &cells[first..=last], width, decimal)
-        .map_err(|problem| BadRecord { line: lines[first].number, column: 0, problem })?;
-    let bad = |column: usize, problem: String| {
-        let line = lines[first.saturating_sub(1)].number;
-        BadRecord { line, column: column + 1, problem }
-    };
-    let first_time = time.and_then(|time| cells[first].get(time));
+    let table = Table::of(&text)?;
+    let (time, displacement) =
+        table.columns(reading).map_err(|problem| bad(table.rows[0].0, 0, problem))?;
+    let in_header = |column: usize, problem: String| bad(table.last_of_header, column + 1, problem);
+    let first_time = time.and_then(|time| table.rows[0].1.get(time));
     let stamps = first_time.is_some_and(|cell| clock_seconds(cell).is_some());
-    let unit_of_time = time.filter(|_| !stamps);
-    let seconds = match unit_of_time.and_then(|time| header.unit(time).map(|unit| (time, unit))) {
-        None => 1.0,
-        Some((time, unit)) => seconds_in(&unit).ok_or_else(|| {
+    let unit = time.filter(|_| !stamps).and_then(|time| Some((time, table.header.unit(time)?)));
+    let seconds = unit.map_or(Ok(1.0), |(time, unit)| {
+        seconds_in(unit).ok_or_else(|| {
             let allowed = TIME_UNITS.map(|(name, _)| name).join(", ");
-            bad(time, format!("times in {unit:?}; allowed are {allowed}"))
-        })?,
-    };
-    let written = header.unit(displacement);
-    let suggested = header.suggested(displacement);
+            in_header(time, format!("times in {unit:?}; allowed are {allowed}"))
+        })
+    })?;
+    let written = table.header.unit(displacement);
+    let suggested = table.header.suggested(displacement);
     let SignalUnit { signal, length, scale } =
-        measure(written.as_deref(), reading.unit.as_deref(), reading.signal, suggested)
-            .map_err(|problem| bad(displacement, problem))?;
+        measure(written, reading.unit.as_deref(), reading.signal, suggested)
+            .map_err(|problem| in_header(displacement, problem))?;
     if reading.peaks && !signal.is_displacement() {
         let problem =
             format!("peaks are turning points, those of a displacement, not of a {signal}");
-        return Err(bad(displacement, problem));
+        return Err(in_header(displacement, problem));
     }
-    let mut record = Record { unit: length, signal, ..Record::default() };
     let mut rows: Vec<(f64, f64)> = Vec::new();
-    for index in first..=last {
-        let cell = |column: usize| -> Result<Cell, BadRecord> {
-            let (line, column_number) = (lines[index].number, column + 1);
-            let Some(text) = cells[index].get(column) else {
-                if index == last {
-                    return Ok(Cell::Missing);
-                }
-                let problem = format!("{} of at least {column_number} cells", cells[index].len());
-                return Err(BadRecord { line, column: column_number, problem });
-            };
-            match read(text, decimal) {
-                Cell::Text => {
-                    let problem =
-                        format!("{text:?} is not a number; a missing one is empty, - or NaN");
-                    Err(BadRecord { line, column: column_number, problem })
-                }
-                cell => Ok(cell),
-            }
-        };
-        match (time.map_or(Ok(Cell::Number(0.0)), &cell)?, cell(displacement)?) {
-            (Cell::Number(t), Cell::Number(x)) => rows.push((seconds * t, scale * x)),
-            _ => record.missing += 1,
-        }
+    for row in 0..table.rows.len() {
+        let t = time.map_or(Ok(0.0), |time| table.number(row, time))?;
+        rows.push((seconds * t, scale * table.number(row, displacement)?));
     }
+    let all = rows.len();
+    rows.retain(|(t, x)| !t.is_nan() && !x.is_nan());
+    let mut record =
+        Record { unit: length, signal, missing: all - rows.len(), ..Record::default() };
     if time.is_some() {
         rows.sort_by(|one, other| one.0.total_cmp(&other.0));
         let before = rows.len();
@@ -198,61 +149,111 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
     Ok(record)
 }
 
-/// The columns of times and displacements that are read, counted from 0.
-fn columns(
-    reading: &Reading,
-    header: &Header,
-    rows: &[Vec<&str>],
-    width: usize,
-    decimal: bool,
-) -> Result<(Option<usize>, usize), String> {
-    let place = |column: &Column| match column {
-        Column::Number(number) if (1..=width).contains(number) => Ok(number - 1),
-        Column::Number(number) => Err(format!("there is no column {number}; there are {width}")),
-        Column::Name(name) => header.named(name).ok_or_else(|| {
-            format!("there is no column {name:?}; there are {}", header.names().join(", "))
-        }),
-    };
-    let mut time = reading.time.as_ref().map(place).transpose()?;
-    let mut displacement = reading.displacement.as_ref().map(place).transpose()?;
-    time = time.or_else(|| header.time().filter(|&column| Some(column) != displacement));
-    let other = reading.signal.filter(|signal| !signal.is_displacement());
-    displacement = displacement
-        .or_else(|| other.and_then(|signal| header.measuring(signal, time)))
-        .or_else(|| header.displacement(time));
-    let free = |taken: Option<usize>| (0..width).find(|&column| Some(column) != taken);
-    if time.is_none() && reading.time.is_none() && (!reading.peaks || header.is_empty()) {
-        let first = if displacement == Some(0) { None } else { Some(0) };
-        time = first
-            .filter(|&column| width > 1 && !(reading.peaks && counts_rows(rows, column, decimal)));
-        let counted = reading.peaks && width > 1 && time.is_none();
-        if counted && displacement.is_none() {
-            displacement = Some(1);
-        }
-    }
-    let displacement = displacement.or_else(|| free(time));
-    match (time, displacement) {
-        (None, _) if !reading.peaks => {
-            Err("one column only; expected times and displacements, or --peaks".into())
-        }
-        (Some(time), Some(displacement)) if time == displacement => {
-            Err(format!("column {} cannot hold both times and displacements", time + 1))
-        }
-        (time, Some(displacement)) => Ok((time, displacement)),
-        (_, None) => Err("one column only; expected times and displacements".into()),
-    }
+/// The cells of a file.
+struct Table<'a> {
+    header: Header,
+    /// The number of the last line before the numbers, or of the first one.
+    last_of_header: usize,
+    /// The rows of numbers, with the numbers of their lines.
+    rows: Vec<(usize, Vec<&'a str>)>,
+    /// Whether a comma may be a decimal sign: not where it separates cells.
+    comma_is_decimal: bool,
 }
 
-/// Whether a column only numbers the rows, starting at 0 or 1.
-fn counts_rows(rows: &[Vec<&str>], column: usize, decimal: bool) -> bool {
-    let value = |row: &Vec<&str>| match row.get(column).map(|cell| read(cell, decimal)) {
-        Some(Cell::Number(value)) => Some(value),
-        _ => None,
-    };
-    let values: Vec<f64> = rows.iter().filter_map(value).collect();
-    matches!(values.first(), Some(0.0 | 1.0))
-        && values.len() == rows.len()
-        && values.windows(2).all(|two| two[1] - two[0] == 1.0)
+impl<'a> Table<'a> {
+    fn of(text: &'a str) -> Result<Self, BadRecord> {
+        let lines = lines(text);
+        let Some(&(first_line, _)) = lines.first() else {
+            let problem =
+                "the file holds no rows; expected a column of times and one of displacements";
+            return Err(bad(0, 0, problem));
+        };
+        let separator = separator(&lines);
+        let comma_is_decimal = separator != Some(',');
+        let rows = lines.iter().map(|(line, text)| (*line, cells(text, separator)));
+        let mut rows: Vec<(usize, Vec<&str>)> = rows.collect();
+        let numeric = |(_, row): &(usize, Vec<&str>)| {
+            let cells = row.iter().map(|cell| read(cell, comma_is_decimal));
+            let cells: Vec<Option<f64>> = cells.collect();
+            cells.iter().flatten().any(|value| value.is_finite())
+                && cells.iter().filter(|cell| cell.is_none()).count() * 2 < cells.len()
+        };
+        let first = rows.iter().position(numeric);
+        let first = first.ok_or_else(|| bad(first_line, 1, "no row of numbers follows"))?;
+        rows.truncate(rows.iter().rposition(numeric).unwrap_or(first) + 1);
+        let last_of_header = rows[first.saturating_sub(1)].0;
+        let numbers = rows.split_off(first);
+        let header: Vec<Vec<&str>> = rows.into_iter().map(|(_, cells)| cells).collect();
+        // Blanks cannot separate names that consist of several words.
+        let header = Some(Header::of(&header));
+        let width = numbers[0].1.len();
+        let header = header.filter(|it| separator.is_some() || it.names().len() <= width);
+        let header = header.unwrap_or_default();
+        Ok(Table { header, last_of_header, rows: numbers, comma_is_decimal })
+    }
+
+    /// The number in a cell; NaN where it is missing, as in a last row that is cut off.
+    fn number(&self, row: usize, column: usize) -> Result<f64, BadRecord> {
+        let (line, cells) = &self.rows[row];
+        let Some(text) = cells.get(column) else {
+            if row + 1 == self.rows.len() {
+                return Ok(f64::NAN);
+            }
+            let problem = format!("{} of at least {} cells", cells.len(), column + 1);
+            return Err(bad(*line, column + 1, problem));
+        };
+        read(text, self.comma_is_decimal).ok_or_else(|| {
+            let problem = format!("{text:?} is not a number; a missing one is empty, - or NaN");
+            bad(*line, column + 1, problem)
+        })
+    }
+
+    /// The columns of times and displacements that are read, counted from 0.
+    fn columns(&self, reading: &Reading) -> Result<(Option<usize>, usize), String> {
+        let (header, width) = (&self.header, self.rows[0].1.len());
+        let place = |column: &Column| match column {
+            Column::Number(number) if (1..=width).contains(number) => Ok(number - 1),
+            Column::Number(number) => {
+                Err(format!("there is no column {number}; there are {width}"))
+            }
+            Column::Name(name) => header.named(name).ok_or_else(|| {
+                format!("there is no column {name:?}; there are {}", header.names().join(", "))
+            }),
+        };
+        let mut time = reading.time.as_ref().map(place).transpose()?;
+        let mut displacement = reading.displacement.as_ref().map(place).transpose()?;
+        time = time.or_else(|| header.time().filter(|&column| Some(column) != displacement));
+        let other = reading.signal.filter(|signal| !signal.is_displacement());
+        displacement = displacement
+            .or_else(|| other.and_then(|signal| header.measuring(signal, time)))
+            .or_else(|| header.displacement(time));
+        let is_open = time.is_none() && (!reading.peaks || header.is_empty());
+        if is_open && width > 1 && displacement != Some(0) {
+            if reading.peaks && self.counts_rows() {
+                displacement = displacement.or(Some(1));
+            } else {
+                time = Some(0);
+            }
+        }
+        let free = (0..width).find(|&column| Some(column) != time);
+        match (time, displacement.or(free)) {
+            (None, _) if !reading.peaks => {
+                Err("one column only; expected times and displacements, or --peaks".into())
+            }
+            (Some(time), Some(displacement)) if time == displacement => {
+                Err(format!("column {} cannot hold both times and displacements", time + 1))
+            }
+            (time, Some(displacement)) => Ok((time, displacement)),
+            (_, None) => Err("one column only; expected times and displacements".into()),
+        }
+    }
+
+    /// Whether the first column only numbers the rows, starting at 0 or 1.
+    fn counts_rows(&self) -> bool {
+        let number = |row: usize| self.number(row, 0).unwrap_or(f64::NAN);
+        let values: Vec<f64> = (0..self.rows.len()).map(number).collect();
+        matches!(values[0], 0.0 | 1.0) && values.windows(2).all(|two| two[1] - two[0] == 1.0)
+    }
 }
 
 #[cfg(test)]

@@ -105,37 +105,17 @@ pub const LENGTHS: [(&str, f64); 8] = [
 /// The value of a unit of length in metres; `None` if it is unknown.
 #[must_use]
 pub fn length_in_metres(unit: &str) -> Option<f64> {
-    let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u");
-    LENGTHS.iter().find(|(name, _)| *name == plain).map(|(_, metres)| *metres)
+    value_of(&with_latin_micro(unit), &LENGTHS)
 }
 
-/// What a unit says about a column.
-#[derive(Clone, Debug, PartialEq)]
-pub enum UnitMeaning {
-    /// A signal, the unit of length that belongs to it, and the value of the unit in units of that.
-    Signal(Signal, String, f64),
-    /// Another quantity, by its name.
-    Other(&'static str),
+/// The unit with the letter u in place of the sign for micro.
+pub fn with_latin_micro(unit: &str) -> String {
+    unit.replace(['\u{b5}', '\u{3bc}'], "u")
 }
 
-/// The quantity that a unit belongs to; `None` for unknown units.
-#[must_use]
-pub fn quantity(unit: &str) -> Option<UnitMeaning> {
-    let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u").replace(' ', "");
-    if plain == "g" {
-        return Some(UnitMeaning::Signal(Signal::Acceleration, "m".into(), GRAVITY));
-    }
-    for (signal, _, endings) in SIGNALS {
-        for ending in endings {
-            if let Some(length) = plain.strip_suffix(ending)
-                && length_in_metres(length).is_some()
-            {
-                return Some(UnitMeaning::Signal(signal, length.to_owned(), 1.0));
-            }
-        }
-    }
-    let found = OTHERS.iter().find(|(_, units)| units.contains(&plain.as_str()));
-    found.map(|(quantity, _)| UnitMeaning::Other(quantity))
+/// The value that a table of units has for this one.
+pub fn value_of(unit: &str, units: &[(&str, f64)]) -> Option<f64> {
+    units.iter().find(|(name, _)| *name == unit).map(|(_, value)| *value)
 }
 
 /// What the column of a record holds.
@@ -147,6 +127,26 @@ pub struct SignalUnit {
     pub length: Option<String>,
     /// What numbers are multiplied by to be in that unit of length and in s.
     pub scale: f64,
+}
+
+/// The signal that a unit belongs to, or else the name of its quantity; `None` for unknown units.
+#[must_use]
+pub fn quantity(unit: &str) -> Option<Result<SignalUnit, &'static str>> {
+    let plain = with_latin_micro(unit).replace(' ', "");
+    let of = |signal, length: &str, scale| {
+        Some(Ok(SignalUnit { signal, length: Some(length.to_owned()), scale }))
+    };
+    if plain == "g" {
+        return of(Signal::Acceleration, "m", GRAVITY);
+    }
+    for (signal, _, endings) in SIGNALS {
+        let lengths = endings.iter().filter_map(|ending| plain.strip_suffix(ending));
+        if let Some(length) = lengths.into_iter().find(|it| length_in_metres(it).is_some()) {
+            return of(signal, length, 1.0);
+        }
+    }
+    let found = OTHERS.iter().find(|(_, units)| units.contains(&plain.as_str()));
+    found.map(|(quantity, _)| Err(*quantity))
 }
 
 /// Combines the unit in the header, the unit and the signal that the user names, and the signal that the name of the
@@ -164,20 +164,24 @@ pub fn measure(
     let mut certain = signal.is_some();
     for unit in [written, said].into_iter().flatten() {
         match quantity(unit) {
-            Some(UnitMeaning::Other(other)) => {
+            Some(Err(other)) => {
                 return Err(format!(
                     "{unit:?} is a unit of {other}; expected one of {}, such as mm, mm/s or m/s^2",
                     Signal::names()
                 ));
             }
-            Some(UnitMeaning::Signal(known, ..)) if certain && known != found.signal => {
-                return Err(format!("{unit:?} is a unit of {known}, not of {}", found.signal));
+            Some(Ok(known)) if certain && known.signal != found.signal => {
+                return Err(format!(
+                    "{unit:?} is a unit of {}, not of {}",
+                    known.signal, found.signal
+                ));
             }
-            Some(UnitMeaning::Signal(known, length, scale)) => {
+            Some(Ok(known)) => {
                 certain = true;
                 // The unit of a displacement stays as it is written.
-                let length = if known.is_displacement() { unit.to_owned() } else { length };
-                found = SignalUnit { signal: known, length: Some(length), scale };
+                let is_plain = known.signal.is_displacement();
+                let length = if is_plain { Some(unit.to_owned()) } else { known.length };
+                found = SignalUnit { length, ..known };
             }
             None => found.length = Some(unit.to_owned()),
         }
@@ -204,9 +208,10 @@ mod tests {
             ("mm / s^2", Signal::Acceleration, "mm", 1.0),
             ("g", Signal::Acceleration, "m", 9.806_65),
         ] {
-            assert_eq!(quantity(unit), Some(UnitMeaning::Signal(signal, length.into(), scale)));
+            let length = Some(length.to_owned());
+            assert_eq!(quantity(unit), Some(Ok(SignalUnit { signal, length, scale })));
         }
-        assert_eq!(quantity("mV"), Some(UnitMeaning::Other("voltage")));
+        assert_eq!(quantity("mV"), Some(Err("voltage")));
         assert_eq!(quantity("counts"), None);
     }
 
