@@ -11,7 +11,6 @@ use nalgebra::{DMatrix, DVector};
 use super::{
     Bound, Optimum, R, Runs, Seen, Task, UNKNOWNS, Unfit, Unknowns, interrupted, moved, scattered,
 };
-use crate::numerics::count::real;
 use crate::numerics::elementary::powi;
 
 /// Maximum number of iterations.
@@ -24,20 +23,13 @@ const FEW: usize = 12;
 const SETTLED: f64 = 1e-10;
 
 impl Task<'_> {
-    /// Whether a descent may come here.
-    fn permits(&self, seen: &Seen) -> bool {
-        self.within.is_none_or(|region| region == seen.region)
-    }
-
     /// What a step must not violate: friction is not negative, and the rims around the region are not crossed. A
     /// step goes only a part of the way to a rim.
     fn bounds(&self, p: &Unknowns, seen: &Seen) -> Vec<Bound> {
         const PART: f64 = 0.9;
         let mut bounds = Vec::new();
         if self.free[R] {
-            let mut by = [0.0; UNKNOWNS];
-            by[R] = 1.0;
-            bounds.push((p[R], by));
+            bounds.push((p[R], unit(R)));
         }
         if self.within.is_some() {
             let rims = seen.clearances(p, self.observation).into_iter();
@@ -49,10 +41,9 @@ impl Task<'_> {
     /// The point that the linear model predicts after one of the unknowns has moved by an amount: the others follow
     /// so that the loss remains as small as possible, and all remain within bounds.
     pub fn followed(&self, from: &Optimum, unknown: usize, by: f64) -> Option<Unknowns> {
-        let (columns, factor) = (self.columns(), self.factor(&from.seen));
-        let norms = norms(&factor);
-        let step = DampedStep { factor: &factor, norms: &norms, damping: 1e-12, columns: &columns };
-        let (step, _) = step.within(&self.bounds(&from.p, &from.seen), Some((unknown, by)))?;
+        let model = LinearModel::of(self, &from.seen);
+        let bounds = self.bounds(&from.p, &from.seen);
+        let (step, _) = model.step(1e-12, &bounds, vec![(-by, unit(unknown))])?;
         let mut p = moved(&from.p, 1.0, &step);
         p[unknown] = from.p[unknown] + by;
         p[R] = p[R].max(0.0);
@@ -72,7 +63,7 @@ impl Task<'_> {
     /// # Errors
     /// As [`Task::solve`].
     pub fn solve_roughly(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, Unfit> {
-        self.solve_within(0.01 / real(self.observation.data.residuals().max(1)), FEW, guess, runs)
+        self.solve_within(self.unit(0.01), FEW, guess, runs)
     }
 
     fn solve_within(
@@ -82,31 +73,26 @@ impl Task<'_> {
         guess: Unknowns,
         runs: &mut Runs,
     ) -> Result<Optimum, Unfit> {
+        // A descent may not leave its region.
+        let permits = |seen: &Seen| self.within.is_none_or(|region| region == seen.region);
         let mut p = guess;
         let mut seen = self.evaluated(&p, true, runs)?;
-        if !self.permits(&seen) {
+        if !permits(&seen) {
             return Err(Unfit::NoMotion);
         }
         let mut cost = self.cost(&seen);
-        let columns = self.columns();
-        let mut largest = vec![0.0_f64; columns.len()];
+        let mut model = LinearModel::of(self, &seen);
         let (mut damping, mut grow) = (1e-4, 2.0);
-        for _ in 0..if columns.is_empty() { 0 } else { most } {
-            let factor = self.factor(&seen);
-            for (largest, norm) in largest.iter_mut().zip(norms(&factor)) {
-                *largest = largest.max(norm);
-            }
+        for _ in 0..most {
+            let bounds = self.bounds(&p, &seen);
             let taken = loop {
-                let bounds = self.bounds(&p, &seen);
-                let step =
-                    DampedStep { factor: &factor, norms: &largest, damping, columns: &columns };
-                let Some((step, predicted)) = step.within(&bounds, None) else { break None };
-                if predicted <= enough * cost {
+                let step = model.step(damping, &bounds, Vec::new());
+                let Some((step, predicted)) = step.filter(|it| it.1 > enough * cost) else {
                     break None;
-                }
+                };
                 let trial = moved(&p, 1.0, &step);
                 let found = interrupted(self.evaluated(&trial, false, runs))?;
-                let found = found.filter(|seen| self.permits(seen)).map(|seen| self.cost(&seen));
+                let found = found.filter(permits).map(|seen| self.cost(&seen));
                 let gain = found.map_or(-1.0, |found| (cost - found) / predicted);
                 if let Some(found) = found.filter(|found| *found < cost) {
                     let bend = 1.0 - powi(2.0 * gain - 1.0, 3);
@@ -127,58 +113,70 @@ impl Task<'_> {
             if settled {
                 break;
             }
+            model.renew(self, &seen);
         }
         Ok(Optimum { start: self.observation.start, p, cost, seen })
     }
 }
 
-/// The scales of the unknowns.
-fn norms(factor: &DMatrix<f64>) -> Vec<f64> {
-    (0..factor.ncols() - 1).map(|column| factor.column(column).norm()).collect()
+/// The direction along which only one of the unknowns changes.
+fn unit(place: usize) -> Unknowns {
+    let mut by = [0.0; UNKNOWNS];
+    by[place] = 1.0;
+    by
 }
 
-/// A damped step from a point.
-struct DampedStep<'a> {
+/// The residuals as linear functions of the free unknowns about a point.
+struct LinearModel {
+    /// The places of the free unknowns.
+    columns: Vec<usize>,
     /// The triangular factor of the gradients, with the residuals as its last column.
-    factor: &'a DMatrix<f64>,
-    /// The scales of the unknowns.
-    norms: &'a [f64],
-    damping: f64,
-    columns: &'a [usize],
+    factor: DMatrix<f64>,
+    /// The scales of the unknowns: the largest norms of their gradients so far.
+    norms: Vec<f64>,
 }
 
-impl DampedStep<'_> {
-    /// The step that violates no bound, and the reduction of the loss predicted by the linear model; with one
-    /// of the unknowns moved by a given amount, if `moved` says so.
-    fn within(&self, bounds: &[Bound], moved: Option<(usize, f64)>) -> Option<(Unknowns, f64)> {
-        let unit = |place: usize| {
-            let mut by = [0.0; UNKNOWNS];
-            by[place] = 1.0;
-            by
-        };
-        let mut fixed: Vec<Bound> =
-            moved.into_iter().map(|(place, by)| (-by, unit(place))).collect();
+impl LinearModel {
+    fn of(task: &Task, seen: &Seen) -> Self {
+        let columns = task.columns();
+        let norms = vec![0.0; columns.len()];
+        let mut model = LinearModel { columns, factor: DMatrix::zeros(0, 0), norms };
+        model.renew(task, seen);
+        model
+    }
+
+    /// The same about another point.
+    fn renew(&mut self, task: &Task, seen: &Seen) {
+        self.factor = task.factor(seen);
+        for (largest, column) in self.norms.iter_mut().zip(self.factor.column_iter()) {
+            *largest = largest.max(column.norm());
+        }
+    }
+
+    /// The damped step that violates no bound and on which those in `fixed` become zero, and the reduction of the loss
+    /// that the linear model predicts; `None` where all unknowns are held.
+    fn step(
+        &self,
+        damping: f64,
+        bounds: &[Bound],
+        mut fixed: Vec<Bound>,
+    ) -> Option<(Unknowns, f64)> {
+        let width = self.columns.len();
         loop {
-            let step = self.solved(&fixed)?;
+            let step = self.solved(damping, &fixed)?;
             let short = |(value, by): &Bound| -> f64 {
-                let size: f64 = by.iter().zip(&step).map(|(by, step)| (by * step).abs()).sum();
-                let change: f64 = by.iter().zip(&step).map(|(by, step)| by * step).sum();
-                if change + value < -1e-9 * size {
-                    (change + value) / (size + value.abs())
-                } else {
-                    0.0
-                }
+                let parts = || by.iter().zip(&step).map(|(by, step)| by * step);
+                let size: f64 = parts().map(f64::abs).sum();
+                let left = parts().sum::<f64>() + value;
+                if left < -1e-9 * size { left / (size + value.abs()) } else { 0.0 }
             };
             let free = bounds.iter().filter(|bound| !fixed.contains(bound));
             let worst = free.min_by(|one, other| short(one).total_cmp(&short(other)));
-            if let Some(bound) = worst
-                && short(bound) < 0.0
-                && fixed.len() < self.columns.len()
-            {
+            let worst = worst.filter(|bound| short(bound) < 0.0 && fixed.len() < width);
+            if let Some(bound) = worst {
                 fixed.push(*bound);
                 continue;
             }
-            let width = self.columns.len();
             let along = self.columns.iter().map(|&column| step[column]);
             let gradients = self.factor.columns(0, width);
             let residuals = self.factor.column(width);
@@ -188,10 +186,13 @@ impl DampedStep<'_> {
     }
 
     /// The step on which these bounds become zero, by rows of overwhelming weight.
-    fn solved(&self, fixed: &[Bound]) -> Option<Unknowns> {
+    fn solved(&self, damping: f64, fixed: &[Bound]) -> Option<Unknowns> {
         const OVERWHELMING: f64 = 1e7;
-        let width = self.columns.len();
-        let rows = 2 * width + 1 + fixed.len();
+        let (width, below) = (self.columns.len(), fixed.len());
+        if width == 0 {
+            return None;
+        }
+        let rows = 2 * width + 1 + below;
         let mut system = DMatrix::zeros(rows, width);
         let mut target = DVector::zeros(rows);
         let scale = |column: usize| Some(self.norms[column]).filter(|it| *it > 0.0).unwrap_or(1.0);
@@ -203,24 +204,18 @@ impl DampedStep<'_> {
             }
             target[row] = -weight * value;
         }
-        let below = fixed.len();
         system.view_mut((below, 0), (width + 1, width)).copy_from(&self.factor.columns(0, width));
         target.rows_mut(below, width + 1).copy_from(&self.factor.column(width));
         for column in 0..width {
-            system[(below + width + 1 + column, column)] = self.damping.sqrt() * scale(column);
+            system[(below + width + 1 + column, column)] = damping.sqrt() * scale(column);
         }
         let qr = system.qr();
         let solution = qr.r().solve_upper_triangular(&(qr.q().transpose() * target))?;
-        let mut step = scattered(self.columns, &solution);
+        let mut step = scattered(&self.columns, &solution);
         // Friction that is set to zero is exactly zero.
-        for (value, _) in fixed.iter().filter(|(_, by)| is_friction(by)) {
+        for (value, _) in fixed.iter().filter(|(_, by)| *by == unit(R)) {
             step[R] = -value;
         }
         step.iter().all(|value| value.is_finite()).then_some(step)
     }
-}
-
-/// Whether a bound is that of friction alone.
-fn is_friction(by: &Unknowns) -> bool {
-    by[R] == 1.0 && by.iter().filter(|by| **by != 0.0).count() == 1
 }

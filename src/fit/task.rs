@@ -28,18 +28,6 @@ impl<'a> Runs<'a> {
         let (most, closest) = (u64::MAX, f64::INFINITY);
         Runs { with_derivatives: 0, plain: 0, most, interrupted, closest }
     }
-
-    /// Counts a motion.
-    fn begin(&mut self, derivatives: bool) -> Result<(), Unfit> {
-        if (self.interrupted)() {
-            return Err(Unfit::Interrupted);
-        }
-        if self.with_derivatives + self.plain >= self.most {
-            return Err(Unfit::GaveUp { motions: self.most, closest: self.closest });
-        }
-        *(if derivatives { &mut self.with_derivatives } else { &mut self.plain }) += 1;
-        Ok(())
-    }
 }
 
 /// The result, if there is one. The end of the computation remains an error.
@@ -203,7 +191,13 @@ impl<'a> Task<'a> {
         derivatives: bool,
         runs: &mut Runs,
     ) -> Result<Seen, Unfit> {
-        runs.begin(derivatives)?;
+        if (runs.interrupted)() {
+            return Err(Unfit::Interrupted);
+        }
+        if runs.with_derivatives + runs.plain >= runs.most {
+            return Err(Unfit::GaveUp { motions: runs.most, closest: runs.closest });
+        }
+        *(if derivatives { &mut runs.with_derivatives } else { &mut runs.plain }) += 1;
         self.observation.compare(p, derivatives).map_err(|_| Unfit::NoMotion)
     }
 
