@@ -27,7 +27,7 @@ fn named(name: &str) -> Result<(Description, Vec<SourceFile>), Failure> {
         Ok(text) => text,
         Err(error) => {
             let found = find(name).map(Machine::described);
-            return found.map(|described| (described, vec![])).ok_or_else(|| {
+            return found.map(|described| (described, vec![])).map_err(|_| {
                 let known: Vec<&str> =
                     machines().iter().map(|machine| machine.name.as_str()).collect();
                 Failure::Usage(format!(

@@ -1,22 +1,22 @@
-//! Scene files: reads TOML into a [`Scene`], or reports the first mistake and its place in one line.
+//! Scene files: reads TOML into a [`Scene`].
+//!
+//! Only the program itself has such files, so that what they say beyond their syntax is examined by tests.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
-use toml::Spanned;
 
 use super::machine::{self, ScaledMachine};
 use super::misread::{self, Complaint, Misread};
 use super::ordinate::{Ordinate, Unit};
-use super::plot_setup::{Arrangement, Axes, MOST_PLOTS, PlotSetup};
+use super::plot_setup::{Arrangement, Axes, PlotSetup};
 use super::scene::{Scene, Variant};
 use super::views::{Layer, View};
 use super::window::{Span, Window};
-use crate::flow::{Method, Problem};
-use crate::model::{Knob, Parameters, State};
-use crate::words::one_of;
+use crate::flow::Problem;
+use crate::model::Knob;
 
-/// The file as it is written.
+/// The file as it is written: a scene has either terms or a machine.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SceneFile {
@@ -24,25 +24,20 @@ struct SceneFile {
     also: Option<String>,
     look: String,
     press: String,
-    terms: Option<BTreeSet<Knob>>,
-    machine: Option<Spanned<String>>,
+    #[serde(default)]
+    terms: BTreeSet<Knob>,
+    machine: Option<String>,
     /// Speed of the machine's belt in m/s, where it differs from the machine's own.
-    belt: Option<Spanned<f64>>,
+    belt: Option<f64>,
     #[serde(default)]
-    values: BTreeMap<Knob, Spanned<f64>>,
+    values: BTreeMap<Knob, f64>,
     #[serde(default)]
-    steps: BTreeMap<Knob, Spanned<f64>>,
-    until: Option<Spanned<f64>>,
-    #[serde(default = "auto")]
-    method: Method,
-    tolerance: Option<Spanned<f64>>,
-    step: Option<Spanned<f64>>,
-    epsilon: Option<Spanned<f64>>,
+    steps: BTreeMap<Knob, f64>,
+    until: Option<f64>,
     layers: BTreeSet<Layer>,
     #[serde(default)]
     arrange: Arrangement,
-    #[serde(default)]
-    plot: Vec<Spanned<PlotTable>>,
+    plot: Vec<PlotTable>,
 }
 
 /// A plot: its view, its axes, and the part to show.
@@ -50,229 +45,91 @@ struct SceneFile {
 #[serde(deny_unknown_fields)]
 struct PlotTable {
     view: View,
-    over: Option<Spanned<Knob>>,
-    ordinate: Option<Spanned<Ordinate>>,
-    unit: Option<Spanned<Unit>>,
-    against: Option<Spanned<Knob>>,
+    over: Option<Knob>,
+    ordinate: Option<Ordinate>,
     #[serde(default)]
-    with: Vec<BTreeMap<Knob, Spanned<f64>>>,
+    unit: Unit,
+    against: Option<Knob>,
+    #[serde(default)]
+    with: Vec<BTreeMap<Knob, f64>>,
     x: Option<Span>,
     y: Option<Span>,
-}
-
-fn auto() -> Method {
-    Method::Auto
 }
 
 /// Reads a scene; `name` is the name by which it is opened, `file` the one in error messages. Fails with
 /// [`Misread`], which names the place and what is allowed there.
 pub fn parse(name: &str, file: &str, text: &str) -> Result<Scene, Misread> {
     let read: SceneFile = misread::toml(file, text)?;
-    scene(name, read).map_err(|complaint| complaint.in_file(file, text))
+    let whole_file = |message| Complaint { at: 0..0, message }.in_file(file, text);
+    scene(name, read).map_err(whole_file)
 }
 
-fn scene(name: &str, read: SceneFile) -> Result<Scene, Complaint> {
-    let scaled = read.machine.as_ref().map(|name| scaled(name, read.belt.as_ref())).transpose()?;
-    let terms = match (&read.terms, &scaled) {
-        (Some(terms), None) => terms.clone(),
-        (None, Some(scaled)) => scaled.terms(),
-        (Some(_), Some(_)) => return Err(either("terms and a machine")),
-        (None, None) => return Err(either("neither terms nor a machine")),
-    };
-    let own = match &scaled {
-        Some(scaled) => of_machine(scaled, &read)?,
-        None => of_values(&read, &terms)?,
-    };
-    let until = read.until.as_ref();
-    let problem = Problem {
-        until: until.map_or(Ok(own.until), |given| checked(Knob::Until, given))?,
-        method: read.method,
-        tolerance: within(Knob::Tolerance, read.tolerance.as_ref())?,
-        step: within(Knob::Step, read.step.as_ref())?,
-        epsilon: within(Knob::Epsilon, read.epsilon.as_ref())?,
-        ..own
+/// The scene of a file. Fails with one line if the machine that it names is none.
+fn scene(name: &str, read: SceneFile) -> Result<Scene, String> {
+    let machine = read.machine.map(|name| scaled(&name, read.belt)).transpose()?;
+    let own = match &machine {
+        Some(scaled) => scaled.problem(),
+        None => motion(&read.values, &read.terms),
     };
     let mut families = Vec::new();
-    let plot_setups = read.plot.iter().map(|plot| plot_setup(plot, &mut families));
-    let plots = plot_setups.collect::<Result<Vec<_>, _>>()?;
-    if plots.is_empty() || plots.len() > MOST_PLOTS {
-        let at = read.plot.get(MOST_PLOTS).map_or(0..0, Spanned::span);
-        let message = format!(
-            "a scene has 1 to {MOST_PLOTS} plots, each as [[plot]]; this one has {}",
-            plots.len()
-        );
-        return Err(Complaint { at, message });
-    }
+    let plots = read.plot.into_iter().map(|plot| plot_setup(plot, &mut families)).collect();
     Ok(Scene {
         name: name.to_owned(),
         also: read.also,
         title: read.title,
         watch: read.look,
         press: read.press,
-        problem,
-        steps: steps(&read.steps)?,
-        terms,
+        problem: Problem { until: read.until.unwrap_or(own.until), ..own },
+        steps: read.steps,
+        terms: machine.as_ref().map_or(read.terms, ScaledMachine::terms),
         layers: read.layers,
         plots,
         families,
         arrangement: read.arrange,
-        machine: scaled,
+        machine: machine.map(Box::new),
         recording: None,
     })
 }
 
-/// The complaint about a scene with both terms and a machine, or with neither.
-fn either(given: &str) -> Complaint {
-    let message =
-        format!("a scene has {given}; it takes one of them: terms = [..] or machine = \"..\"");
-    Complaint { at: 0..0, message }
-}
-
 /// The built-in machine with this name, with its belt at this speed.
-fn scaled(
-    name: &Spanned<String>,
-    speed: Option<&Spanned<f64>>,
-) -> Result<Box<ScaledMachine>, Complaint> {
-    let complain = |message| Complaint { at: name.span(), message };
-    let known = machine::library::machines().iter();
-    let known = known.map(|machine| (machine.name.as_str(), machine));
-    let machine = one_of("machine", name.get_ref(), known).map_err(complain)?;
-    let mut machine = machine.clone();
-    if let Some(speed) = speed {
-        machine.belt.belt_speed = checked(Knob::BeltSpeed, speed)?;
-    }
-    ScaledMachine::new(machine).map(Box::new).map_err(|error| complain(error.to_string()))
+fn scaled(name: &str, speed: Option<f64>) -> Result<ScaledMachine, String> {
+    let mut machine = machine::library::find(name)?.clone();
+    machine.belt.belt_speed = speed.unwrap_or(machine.belt.belt_speed);
+    ScaledMachine::new(machine).map_err(|error| error.to_string())
 }
 
-/// The motion of a machine.
-fn of_machine(scaled: &ScaledMachine, read: &SceneFile) -> Result<Problem, Complaint> {
-    if let Some((symbol, given)) = read.values.iter().next() {
-        let message = format!("{symbol} comes from the machine; leave its value out");
-        return Err(Complaint { at: given.span(), message });
-    }
-    Ok(scaled.problem())
-}
-
-/// A plot of a scene. Axes may be given only where the view leaves a choice; a window needs both directions or
-/// neither.
-fn plot_setup(
-    read: &Spanned<PlotTable>,
-    families: &mut Vec<Vec<Variant>>,
-) -> Result<PlotSetup, Complaint> {
-    let PlotTable { view, over, ordinate, unit, against, with, x, y } = read.get_ref();
-    let title = view.spec().title;
-    let span = |given: &Option<Spanned<Knob>>| given.as_ref().map(Spanned::span);
-    for (given, views) in [
-        (span(over), &[View::Diagram, View::Regimes][..]),
-        (ordinate.as_ref().map(Spanned::span), &[View::Diagram]),
-        (unit.as_ref().map(Spanned::span), &[View::Diagram]),
-        (span(against), &[View::Regimes]),
-    ] {
-        if let Some(at) = given.filter(|_| !views.contains(view)) {
-            let message =
-                format!("a view \"{}\" has no such axis; leave this out", view.spec().name);
-            return Err(Complaint { at, message });
-        }
-    }
-    let usual = Axes::default();
-    let axes = Axes {
-        abscissa: over.as_ref().map_or(usual.abscissa, |over| *over.get_ref()),
-        ordinate: ordinate.as_ref().map_or(usual.ordinate, |ordinate| *ordinate.get_ref()),
-        unit: unit.as_ref().map_or(usual.unit, |unit| *unit.get_ref()),
-        against: against.as_ref().map_or(usual.against, |against| *against.get_ref()),
-    };
-    if let Some(unit) = unit.as_ref().filter(|_| axes.ordinate.spec().ratio.is_none()) {
-        let message = format!("{} is not a length; leave its unit out", axes.ordinate.spec().name);
-        return Err(Complaint { at: unit.span(), message });
-    }
-    for axis in [over, against].into_iter().flatten() {
-        if !axis.get_ref().is_parameter() {
-            let message =
-                format!("no plot over {} exists; D, D2, D3 and r are allowed", axis.get_ref());
-            return Err(Complaint { at: axis.span(), message });
-        }
-    }
-    if *view == View::Regimes && axes.abscissa == axes.against {
-        let at = span(against).or(span(over)).unwrap_or_else(|| read.span());
-        let message = format!("a chart has two different axes; both are {}", axes.against);
-        return Err(Complaint { at, message });
-    }
-    let window = match (*x, *y) {
-        (Some(x), Some(y)) => Some(Window { x, y }),
-        (None, None) => None,
-        (given, _) => {
-            let missing = if given.is_some() { "y" } else { "x" };
-            let message = format!(
-                "the window of this {title} has no {missing}; give x and y, or neither to have it fitted"
-            );
-            return Err(Complaint { at: read.span(), message });
-        }
-    };
-    let variants = with.iter().map(variant).collect::<Result<Vec<_>, _>>()?;
-    let family = (!variants.is_empty()).then(|| {
-        families.push(variants);
-        families.len() - 1
-    });
-    Ok(PlotSetup { view: *view, axes, window, family })
-}
-
-/// The values that a plot holds, each checked against the range of its parameter.
-fn variant(read: &BTreeMap<Knob, Spanned<f64>>) -> Result<Variant, Complaint> {
-    let held = |(knob, value): (&Knob, &Spanned<f64>)| Ok((*knob, checked(*knob, value)?));
-    Ok(Variant { held: read.iter().map(held).collect::<Result<_, _>>()? })
-}
-
-/// The motion with the values of the file: a declared term has its value or its default, all others are zero.
-fn of_values(read: &SceneFile, terms: &BTreeSet<Knob>) -> Result<Problem, Complaint> {
-    let mut parameters = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
-    let mut initial = State { q: 0.0, v: 0.0 };
+/// The motion with these values: a declared term without one has its default, all others are zero.
+fn motion(values: &BTreeMap<Knob, f64>, terms: &BTreeSet<Knob>) -> Problem {
+    let mut problem = Problem::default();
     for knob in Knob::MOTION {
         let declared = !knob.is_parameter() || terms.contains(&knob);
-        let value = match read.values.get(&knob) {
-            Some(given) if !declared => {
-                return Err(Complaint {
-                    at: given.span(),
-                    message: format!("{knob} has a value but is not in terms; add \"{knob}\""),
-                });
-            }
-            Some(given) => checked(knob, given)?,
-            None if declared => knob.usual(),
-            None => 0.0,
-        };
-        knob.set(&mut parameters, &mut initial, value);
+        let usual = if declared { knob.usual() } else { 0.0 };
+        problem.set(knob, values.get(&knob).copied().unwrap_or(usual));
     }
-    Ok(Problem { parameters, initial, until: Knob::Until.usual(), ..Problem::default() })
+    problem
 }
 
-/// A number from the file, checked against its range, or its default.
-fn within(knob: Knob, given: Option<&Spanned<f64>>) -> Result<f64, Complaint> {
-    given.map_or(Ok(knob.usual()), |given| checked(knob, given))
-}
-
-/// A number from the file, checked against its range.
-fn checked(knob: Knob, given: &Spanned<f64>) -> Result<f64, Complaint> {
-    knob.check(*given.get_ref())
-        .map_err(|refused| Complaint { at: given.span(), message: refused.to_string() })
-}
-
-fn steps(given: &BTreeMap<Knob, Spanned<f64>>) -> Result<BTreeMap<Knob, f64>, Complaint> {
-    given
-        .iter()
-        .map(|(symbol, step)| {
-            let value = *step.get_ref();
-            if value > 0.0 && value.is_finite() {
-                Ok((*symbol, value))
-            } else {
-                let message = format!("a step of {symbol} is {value:?}; it must be positive");
-                Err(Complaint { at: step.span(), message })
-            }
-        })
-        .collect()
+/// A plot of a scene, whose variants are added to the families.
+fn plot_setup(read: PlotTable, families: &mut Vec<Vec<Variant>>) -> PlotSetup {
+    let usual = Axes::default();
+    let axes = Axes {
+        abscissa: read.over.unwrap_or(usual.abscissa),
+        ordinate: read.ordinate.unwrap_or(usual.ordinate),
+        unit: read.unit,
+        against: read.against.unwrap_or(usual.against),
+    };
+    let window = read.x.zip(read.y).map(|(x, y)| Window { x, y });
+    let family = (!read.with.is_empty()).then_some(families.len());
+    let variants = read.with.into_iter().map(|held| Variant { held });
+    families.extend(family.map(|_| variants.collect()));
+    PlotSetup { view: read.view, axes, window, family }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{Parameters, State};
+    use crate::scene::{MOST_PLOTS, library};
 
     const GOOD: &str = r#"title = "A test"
 look = "At this."
@@ -322,37 +179,59 @@ plot = [
         for (from, to, place, words) in [
             ("title", "titel", "1:1", "expected one of `title`"),
             ("A test\"", "A test", "1:", ""),
-            ("D = -0.4", "D = nan", "5:16", "D = NaN is outside its range -1e6 .. 1e6"),
-            ("D = -0.4", "D3 = 1", "5:17", "add \"D3\""),
             ("D = -0.4", "D4 = 1", "5:12", "no number \"D4\"; did you mean D"),
             ("D = -0.4", "D = \"a\"", "5:16", "expected f64"),
             ("[-3, 3]", "[3, -3]", "8:25", "the second larger"),
-            ("over = \"D\"", "over = \"q0\"", "9:30", "D, D2, D3 and r are allowed"),
             ("over", "ordinate = \"size\", over", "9:34", "expected one of `q_max`, `q_min`"),
             ("over", "unit = \"m\", over", "9:30", "expected `1` or `r`"),
-            (
-                "over",
-                "ordinate = \"period\", unit = \"r\", over",
-                "9:51",
-                "period is not a length; leave its unit out",
-            ),
             ("\"phase\"", "\"plane\"", "8:12", "unknown variant `plane`"),
-            ("\"diagram\"", "\"phase\"", "9:28", "has no such axis"),
-            (
-                "view = \"diagram\", over",
-                "view = \"regimes\", against = \"D\", over",
-                "9:33",
-                "two different axes; both are D",
-            ),
-            (", y = [0, 2]", "", "9:3", "has no y; give x and y, or neither"),
             ("\"trajectory\"", "\"tail\"", "6:11", "expected one of `trajectory`"),
-            ("layers", "until = -1\nlayers", "6:9", "until = -1 is outside its range 0 .."),
-            ("layers", "steps = { r = 0 }\nlayers", "6:15", "must be positive"),
+            (
+                "title",
+                "machine = \"none\"\ntitle",
+                "1:1",
+                "no machine \"none\"; there are textbook",
+            ),
         ] {
             let error = parse("test", "test.toml", &GOOD.replacen(from, to, 1)).unwrap_err();
             let line = error.to_string();
             assert!(line.starts_with(&format!("test.toml:{place}")), "{to}: {line}");
             assert!(line.contains(words) && !line.contains('\n'), "{to}: {line}");
+        }
+    }
+
+    #[test]
+    fn every_scene_of_the_program_says_only_what_has_a_meaning() {
+        for scene in library() {
+            let name = &scene.name;
+            assert!(scene.machine.is_some() || !scene.terms.is_empty(), "{name}");
+            for knob in Knob::MOTION {
+                let value = scene.problem.get(knob);
+                assert_eq!(knob.check(value), Ok(value), "{name}");
+                assert!(value == 0.0 || scene.declares(knob), "{name}: {knob}");
+            }
+            assert!(Knob::Until.check(scene.problem.until).is_ok(), "{name}");
+            assert!(scene.steps.values().all(|step| *step > 0.0 && step.is_finite()), "{name}");
+            let held = scene.families.iter().flatten().flat_map(|variant| &variant.held);
+            assert!(held.into_iter().all(|(knob, value)| knob.check(*value).is_ok()), "{name}");
+            assert!((1..=MOST_PLOTS).contains(&scene.plots.len()), "{name}");
+            for PlotSetup { view, axes, .. } in &scene.plots {
+                let Axes { abscissa, against, ordinate, unit } = *axes;
+                let usual = Axes::default();
+                assert!(abscissa.is_parameter() && against.is_parameter(), "{name}");
+                let chart = *view == View::Regimes;
+                assert!(chart || against == usual.against, "{name}: upwards only in a chart");
+                assert!(!chart || abscissa != against, "{name}: one axis twice");
+                let diagram = *view == View::Diagram;
+                assert!(chart || diagram || abscissa == usual.abscissa, "{name}");
+                assert!(diagram || (ordinate, unit) == (usual.ordinate, usual.unit), "{name}");
+                assert!(unit == Unit::One || ordinate.spec().ratio.is_some(), "{name}");
+            }
+        }
+        // Both ends of a window or none: a file that has one alone would lose it.
+        for text in ["", ", y = [0, 2]"] {
+            let scene = parse("test", "test.toml", &GOOD.replace(", y = [0, 2]", text)).unwrap();
+            assert_eq!(scene.plots[1].window.is_some(), !text.is_empty());
         }
     }
 }

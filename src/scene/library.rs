@@ -3,55 +3,20 @@
 use std::sync::{Arc, LazyLock};
 
 use super::file::parse;
-use super::misread::built_in;
+use super::misread::{built_in, texts};
 use super::scene::Scene;
 use crate::numerics::similar::similar;
 
 /// The scene that opens unless another is named.
 pub const PLAIN: &str = "plain";
 
-/// Name and text of a scene file.
-macro_rules! scene_file {
-    ($name:literal) => {
-        ($name, include_str!(concat!("../../assets/scenes/", $name, ".toml")))
-    };
-}
-
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 32] = [
-    scene_file!("plain"),
-    scene_file!("capture"),
-    scene_file!("linear"),
-    scene_file!("marginal"),
-    scene_file!("hopf"),
-    scene_file!("supercritical"),
-    scene_file!("subcritical"),
-    scene_file!("asymmetry"),
-    scene_file!("escape"),
-    scene_file!("return-map"),
-    scene_file!("regimes"),
-    scene_file!("energy"),
-    scene_file!("belt-speed"),
-    scene_file!("inside"),
-    scene_file!("benchmark"),
-    scene_file!("groan"),
-    scene_file!("slow-belt"),
-    scene_file!("fig01"),
-    scene_file!("fig02"),
-    scene_file!("fig03"),
-    scene_file!("fig04"),
-    scene_file!("fig05"),
-    scene_file!("fig06"),
-    scene_file!("fig08"),
-    scene_file!("fig09"),
-    scene_file!("fig10"),
-    scene_file!("fig11"),
-    scene_file!("fig12"),
-    scene_file!("fig14"),
-    scene_file!("fig15"),
-    scene_file!("fig16"),
-    scene_file!("fig17"),
-];
+const FILES: [(&str, &str); 32] = texts! { "/assets/scenes/":
+    "plain" "capture" "linear" "marginal" "hopf" "supercritical" "subcritical" "asymmetry" "escape"
+    "return-map" "regimes" "energy" "belt-speed" "inside" "benchmark" "groan" "slow-belt" "fig01"
+    "fig02" "fig03" "fig04" "fig05" "fig06" "fig08" "fig09" "fig10" "fig11" "fig12" "fig14" "fig15"
+    "fig16" "fig17"
+};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SceneGroup {

@@ -37,6 +37,13 @@ pub struct Complaint {
 }
 
 impl Complaint {
+    /// The complaint of the library, joined into one line; it is about `at` unless it has a place itself.
+    pub fn new(error: &toml::de::Error, at: Range<usize>) -> Self {
+        let lines = error.message().lines().map(str::trim).filter(|line| !line.is_empty());
+        let message = lines.collect::<Vec<_>>().join("; ");
+        Complaint { at: error.span().unwrap_or(at), message }
+    }
+
     /// The complaint as a [`Misread`] at the line and column where its range begins.
     pub fn in_file(self, file: &str, text: &str) -> Misread {
         let before = text.get(..self.at.start).unwrap_or(text);
@@ -50,15 +57,18 @@ impl Complaint {
     }
 }
 
-/// Reads a TOML file. Fails with the first mistake as a [`Misread`]; the message of the library is joined into
-/// one line.
+/// Reads a TOML file. Fails with the first mistake as a [`Misread`].
 pub fn toml<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, Misread> {
-    toml::from_str(text).map_err(|error| {
-        let lines = error.message().lines().map(str::trim).filter(|line| !line.is_empty());
-        let message = lines.collect::<Vec<_>>().join("; ");
-        Complaint { at: error.span().unwrap_or(0..0), message }.in_file(file, text)
-    })
+    toml::from_str(text).map_err(|error| Complaint::new(&error, 0..0).in_file(file, text))
 }
+
+/// Names and texts of TOML files of the program in one folder.
+macro_rules! texts {
+    ($folder:literal: $($name:literal)+) => {
+        [$(($name, include_str!(concat!(env!("CARGO_MANIFEST_DIR"), $folder, $name, ".toml")))),+]
+    };
+}
+pub(super) use texts;
 
 /// What files of the program hold, by their names and texts.
 ///

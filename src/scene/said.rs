@@ -1,18 +1,21 @@
 //! Texts of a scene, reduced to the parts that hold for what is on show.
 //!
-//! A text has parts in brackets, `[two grows: The swings grow onto the outer cycle.]`. Such a part holds if all
-//! the conditions before its colon hold. A condition is one of [`CONDITIONS`], a comparison such as `D<0`, or the
+//! A text has parts in brackets, `[unstable stable grows: The swings grow onto the outer cycle.]`. Such a part holds if all
+//! the conditions before its colon hold. A condition is the name of one such as `grows`, a comparison such as `D<0`, or the
 //! name of a layer, which must be on show. Text outside of brackets always holds.
 
 use std::ops::Bound::{self, Excluded, Included, Unbounded};
 use std::ops::RangeBounds;
 
+use strum::EnumString;
+
 use super::scene::Scene;
 use super::views::Layer;
 use crate::model::{Group, Knob};
 
-/// A condition of a part of a text.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A condition of a part of a text, by its name in scene files.
+#[derive(Clone, Copy, Debug, PartialEq, EnumString)]
+#[strum(serialize_all = "lowercase")]
 pub enum TextCondition {
     /// The numbers are those that the scene opens with.
     Here,
@@ -35,25 +38,12 @@ pub enum TextCondition {
     /// A cycle of the whole model sticks to the belt.
     Sticks,
     /// A number of the motion on show lies within these bounds.
+    #[strum(disabled)]
     Compares(Knob, (Bound<f64>, Bound<f64>)),
     /// The layer is on, in a plot on show.
+    #[strum(disabled)]
     Shows(Layer),
 }
-
-/// The conditions by their names in scene files; `two` means a cycle of each kind.
-pub const CONDITIONS: [(&str, &[TextCondition]); 11] = [
-    ("here", &[TextCondition::Here]),
-    ("path", &[TextCondition::Path]),
-    ("opened", &[TextCondition::Opened]),
-    ("unstable", &[TextCondition::Unstable]),
-    ("stable", &[TextCondition::Stable]),
-    ("two", &[TextCondition::Unstable, TextCondition::Stable]),
-    ("separatrix", &[TextCondition::Separatrix]),
-    ("safe", &[TextCondition::Safe]),
-    ("rests", &[TextCondition::Rests]),
-    ("grows", &[TextCondition::Grows]),
-    ("sticks", &[TextCondition::Sticks]),
-];
 
 /// A text without the parts whose conditions do not hold. Brackets without conditions are kept as they are.
 pub fn said(text: &str, holds: impl Fn(TextCondition) -> bool) -> String {
@@ -96,12 +86,11 @@ pub fn said_by(scene: &Scene, text: &str) -> String {
 /// The conditions with these names; `None` if a name is unknown.
 fn conditions(names: &str) -> Option<Vec<TextCondition>> {
     let known = |name: &str| {
-        let row = CONDITIONS.iter().find(|row| row.0 == name).map(|row| row.1.to_vec());
-        row.or_else(|| Some(vec![comparison(name)?]))
-            .or_else(|| Some(vec![TextCondition::Shows(Layer::named(name)?)]))
+        let plain = name.parse().ok().or_else(|| comparison(name));
+        plain.or_else(|| Layer::named(name).map(TextCondition::Shows))
     };
     let found: Option<Vec<_>> = names.split_whitespace().map(known).collect();
-    Some(found?.concat()).filter(|conditions| !conditions.is_empty())
+    found.filter(|conditions| !conditions.is_empty())
 }
 
 /// A comparison such as `D<0`.
@@ -127,7 +116,8 @@ mod tests {
 
     #[test]
     fn parts_stand_where_all_their_conditions_hold() {
-        let text = "Always. [two grows: It grows.] [safe: It rests.] End [0, 1] [x: y].";
+        let text =
+            "Always. [unstable stable grows: It grows.] [safe: It rests.] End [0, 1] [x: y].";
         let with = |conditions: &[TextCondition]| said(text, |one| conditions.contains(&one));
         assert_eq!(with(&[]), "Always. End [0, 1] [x: y].");
         assert_eq!(with(&[TextCondition::Safe]), "Always. It rests. End [0, 1] [x: y].");

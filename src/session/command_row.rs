@@ -1,7 +1,7 @@
 //! A row of the tables of commands: a command and how it is run.
 
 use crate::scene::Layer;
-use crate::session::{Command, Context, Done, Key, NextCommand, Session, WordKind};
+use crate::session::{Candidates, Command, Context, Done, Key, NextCommand, Session};
 
 /// How a command is run.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +40,7 @@ pub(super) const fn line(
     name: &'static str,
     arguments: &'static str,
     doc: &'static str,
-    words: WordKind,
+    words: Candidates,
     run: fn(&mut Session, &str) -> Done,
 ) -> CommandRow {
     let command = Command { name, keys: &[], hint: "", doc, arguments, words: Some(words) };

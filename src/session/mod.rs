@@ -41,7 +41,7 @@ pub use replay::script::{Instruction, Script, ScriptStep};
 pub use state::answers::{AnswerState, Answers};
 pub use state::context::Context;
 pub use state::history::{Before, Bookmark, Bookmarks, History, ScreenSetup, Snapshot};
-pub use state::keymap::{Command, Keymap, NextCommand, WordKind};
+pub use state::keymap::{Candidates, Command, Keymap, NextCommand};
 pub use state::overlay::{
     Completion, Entry, Input, List, Listed, Overlay, Prompt, ScanForm, SessionCaption,
 };

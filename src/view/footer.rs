@@ -141,7 +141,7 @@ fn prompt(prompt: &Prompt, keymap: &Keymap, look: &Look) -> Vec<Span<'static>> {
                 line.extend([Span::raw(" "), Span::styled(word.clone(), style)]);
             }
         }
-        (None, None) => line.push(match described(keymap, prompt.input.text()) {
+        (None, None) => line.push(match described(keymap, &prompt.input.text()) {
             Some((arguments, doc)) => quiet(&format!("{arguments} {doc}")),
             None => quiet("the name of a command; Tab completes"),
         }),
@@ -151,12 +151,11 @@ fn prompt(prompt: &Prompt, keymap: &Keymap, look: &Look) -> Vec<Span<'static>> {
 
 /// Text being typed, with its caret.
 pub(super) fn typed(input: &Input, look: &Look) -> [Span<'static>; 3] {
-    let (before, after) = input.halves();
-    let mut rest = after.chars();
+    let mut rest = input.after.chars();
     let under = rest.next().unwrap_or(' ');
     let style = look.style(Role::Text);
     [
-        Span::styled(before.to_owned(), style),
+        Span::styled(input.before.clone(), style),
         Span::styled(under.to_string(), style.add_modifier(Modifier::REVERSED)),
         Span::styled(rest.collect::<String>(), style),
     ]

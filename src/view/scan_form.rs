@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use super::{Look, footer::typed, pane};
 use crate::picture::Role;
 use crate::scan::measure::MEASURES;
-use crate::session::overlay::{FIELDS, FormField, ScanForm};
+use crate::session::overlay::{FIELDS, ScanForm};
 use crate::session::{Overlay, Session};
 
 const WIDTH: u16 = 74;
@@ -25,17 +25,17 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         return;
     }
     let inner = pane::boxed(area, " scan ", "", look, buffer);
-    for (row, (index, spec)) in (0..inner.height).zip(FIELDS.iter().enumerate()) {
+    for (row, (index, (name, _))) in (0..inner.height).zip(FIELDS.iter().enumerate()) {
         let active = index == form.at;
         let pointer = if active { look.symbols().pointer } else { " " };
-        let name = format!("{pointer} {:<9}", spec.name);
+        let name = format!("{pointer} {name:<9}");
         let role = if active { Role::Focus } else { Role::Quiet };
         let mut line = vec![look.span(name, role)];
         let input = &form.inputs[index];
         if active {
             line.extend(typed(input, look));
         } else {
-            line.push(look.span(input.text().to_owned(), Role::Text));
+            line.push(look.span(input.text(), Role::Text));
         }
         pane::line(inner, row, line, look, buffer);
     }
@@ -49,8 +49,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 
 /// What the field takes, or what the measure in it means.
 fn about(form: &ScanForm) -> String {
-    let spec = FIELDS[form.at];
     let text = form.inputs[form.at].text();
-    let measure = MEASURES.iter().find(|row| spec.field == FormField::Measure && row.name == text);
-    measure.map_or(spec.help, |row| row.meaning).to_owned()
+    let measure = MEASURES.iter().find(|row| form.at == ScanForm::MEASURE && row.name == text);
+    measure.map_or(FIELDS[form.at].1, |row| row.meaning).to_owned()
 }

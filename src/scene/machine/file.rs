@@ -4,43 +4,82 @@
 //! modal mass and a damping ratio that depends on velocity.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::ops::Range;
 
 use serde::Deserialize;
-use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};
+use serde::de::{DeserializeOwned, IntoDeserializer};
 use toml::Spanned;
+use toml::de::DeTable;
 
 use super::Description;
 use super::table::table;
 use crate::model::belt::FrictionLaw;
 use crate::model::unit::quantity;
-use crate::model::{Belt, Body, Group, Knob, MachineProblem, Modal, Source, Tolerances, unknown};
+use crate::model::{
+    Belt, Body, Group, Knob, KnobSpec, MachineProblem, Modal, Source, Tolerances, unknown,
+};
 use crate::numerics::decimal::shortest;
 use crate::numerics::spline::SmoothingSpline;
-use crate::scene::misread;
 use crate::scene::misread::{Complaint, Misread};
 
 /// Maximum number of points of a table.
 const MOST_POINTS: usize = 10_000;
 
-/// The file as it is written.
-#[derive(Default)]
-struct MachineFile {
-    title: String,
-    look: String,
-    /// The numbers that stand by themselves.
-    numbers: BTreeMap<Knob, Spanned<Number>>,
-    friction: Option<Spanned<Friction>>,
-    damping_ratio: Option<Spanned<Vec<Spanned<Number>>>>,
-    start: StartTable,
-    /// The keys of all of these.
-    keys: Vec<Spanned<String>>,
+/// A table of the file, and its place.
+struct Section<'a> {
+    entries: &'a DeTable<'a>,
+    at: Range<usize>,
 }
 
-/// Whether a text describes a mode: only modes have a modal mass.
-pub fn is_mode(text: &str) -> bool {
-    text.lines().any(|line| line.trim_start().starts_with("modal_mass"))
+impl<'a> Section<'a> {
+    /// What stands under a name.
+    fn get<T: DeserializeOwned>(&self, name: &str) -> Result<Option<Spanned<T>>, Complaint> {
+        let Some(given) = self.entries.get(name) else { return Ok(None) };
+        let read = T::deserialize(given.clone().into_deserializer());
+        let refused = |error| Complaint::new(&error, given.span());
+        Ok(Some(Spanned::new(given.span(), read.map_err(refused)?)))
+    }
+
+    /// The text under a name, or an empty one.
+    fn text(&self, name: &str) -> Result<String, Complaint> {
+        Ok(self.get(name)?.map(Spanned::into_inner).unwrap_or_default())
+    }
+
+    /// The table under a name.
+    fn section(&self, name: &str) -> Result<Option<Section<'a>>, Complaint> {
+        let Some(given) = self.entries.get(name) else { return Ok(None) };
+        let (at, found) = (given.span(), given.get_ref());
+        let Some(entries) = found.as_table() else {
+            let message = format!("{name} is a table, not a value of type {}", found.type_str());
+            return Err(Complaint { at, message });
+        };
+        Ok(Some(Section { entries, at }))
+    }
+
+    /// Fails at a name that is not among these.
+    fn has_only(&self, known: &[&str]) -> Result<(), Complaint> {
+        let mut names = self.entries.keys();
+        let stray = names.find(|name| !known.contains(&name.get_ref().as_ref()));
+        stray.map_or(Ok(()), |name| {
+            Err(Complaint { at: name.span(), message: unknown(name.get_ref(), known) })
+        })
+    }
+
+    /// A number as `read` takes it, or its default.
+    fn number(
+        &self,
+        knob: Knob,
+        read: impl FnOnce(Knob, &Spanned<Number>) -> Result<f64, Complaint>,
+    ) -> Result<f64, Complaint> {
+        let KnobSpec { name, meaning, default, .. } = *knob.spec();
+        if let Some(given) = self.get(name)? {
+            return read(knob, &given);
+        }
+        default.ok_or_else(|| {
+            let such = knob.print(1.0);
+            lacks(format!("{knob} ({meaning}) is missing; such as {knob} = \"{such}\""))
+        })
+    }
 }
 
 /// The numbers of a machine without those of its friction, or those of a mode without its damping ratio.
@@ -50,75 +89,13 @@ fn numbers(is_mode: bool) -> impl Iterator<Item = Knob> + Clone {
     belt.chain(mode.into_iter().filter(move |_| is_mode)).chain([Knob::StaticGuide])
 }
 
-/// What a file may tell of the motion besides its start.
-const COURSE: [Knob; 2] = [Knob::DisturbingForce, Knob::Duration];
-
-/// The keys that are not such numbers.
-fn other_keys(is_mode: bool) -> &'static [&'static str] {
+/// The names that are not such numbers.
+fn other_names(is_mode: bool) -> &'static [&'static str] {
     if is_mode {
         &["title", "look", "damping_ratio", "start", "until"]
     } else {
         &["title", "look", "friction", "disturbance", "start", "until"]
     }
-}
-
-impl<'de> Deserialize<'de> for MachineFile {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Keys;
-        impl<'de> Visitor<'de> for Keys {
-            type Value = MachineFile;
-
-            fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-                out.write_str("the numbers of a machine")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<MachineFile, A::Error> {
-                let all = numbers(false).chain(numbers(true)).chain(COURSE);
-                let mut file = MachineFile::default();
-                while let Some(key) = map.next_key::<Spanned<String>>()? {
-                    match key.get_ref().as_str() {
-                        "title" => file.title = map.next_value()?,
-                        "look" => file.look = map.next_value()?,
-                        "friction" => file.friction = Some(map.next_value()?),
-                        "damping_ratio" => file.damping_ratio = Some(map.next_value()?),
-                        "start" => file.start = map.next_value()?,
-                        name => {
-                            if let Some(knob) = all.clone().find(|knob| knob.spec().name == name) {
-                                file.numbers.insert(knob, map.next_value()?);
-                            } else {
-                                map.next_value::<IgnoredAny>()?;
-                            }
-                        }
-                    }
-                    file.keys.push(key);
-                }
-                Ok(file)
-            }
-        }
-        deserializer.deserialize_map(Keys)
-    }
-}
-
-impl MachineFile {
-    /// Fails where the file has a key that has no meaning for what it describes.
-    fn has_only_known_keys(&self, is_mode: bool) -> Result<(), Complaint> {
-        let known: Vec<&str> = numbers(is_mode)
-            .map(|knob| knob.spec().name)
-            .chain(other_keys(is_mode).to_vec())
-            .collect();
-        let stray = self.keys.iter().find(|key| !known.contains(&key.get_ref().as_str()));
-        stray.map_or(Ok(()), |key| {
-            Err(Complaint { at: key.span(), message: unknown(key.get_ref(), &known) })
-        })
-    }
-}
-
-/// The start of the motion.
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct StartTable {
-    x: Option<Spanned<Number>>,
-    v: Option<Spanned<Number>>,
 }
 
 /// The coefficients of a polynomial in the velocity, the constant one first; each is read as the number of its
@@ -136,48 +113,6 @@ fn polynomial(
         number.map_err(|message| Complaint { at: given.span(), message })
     };
     given.iter().enumerate().map(coefficient).collect()
-}
-
-/// One of four friction laws, and the coefficient of static friction.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Friction {
-    #[serde(rename = "static")]
-    at_rest: Option<Spanned<Number>>,
-    constant: Option<Constant>,
-    polynomial: Option<Polynomial>,
-    stribeck: Option<Stribeck>,
-    table: Option<FrictionTable>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Constant {
-    mu: Spanned<Number>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Polynomial {
-    coefficients: Vec<Spanned<Number>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Stribeck {
-    rest: Spanned<Number>,
-    kinetic: Spanned<Number>,
-    velocity: Spanned<Number>,
-    exponent: Option<Spanned<Number>>,
-    viscous: Option<Spanned<Number>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FrictionTable {
-    file: Option<Spanned<String>>,
-    points: Option<Spanned<Vec<(Number, Number)>>>,
-    scatter: Option<Spanned<Number>>,
 }
 
 /// A number, or a number with a unit as text.
@@ -207,11 +142,6 @@ fn exact(knob: Knob, given: &Spanned<Number>) -> Result<f64, Complaint> {
     read.map_err(|message| Complaint { at: given.span(), message })
 }
 
-/// The same, or its default.
-fn or_usual(knob: Knob, given: Option<&Spanned<Number>>) -> Result<f64, Complaint> {
-    given.map_or(Ok(knob.usual()), |given| exact(knob, given))
-}
-
 /// The tolerances of the numbers read so far: half widths in SI units, by name.
 #[derive(Default)]
 struct HalfWidths(BTreeMap<String, f64>);
@@ -227,11 +157,6 @@ impl HalfWidths {
         }
         Ok(read.middle.value)
     }
-
-    /// The same, or its default.
-    fn or_usual(&mut self, knob: Knob, given: Option<&Spanned<Number>>) -> Result<f64, Complaint> {
-        given.map_or(Ok(knob.usual()), |given| self.read(knob, given))
-    }
 }
 
 /// Reads a machine or a mode; `name` is the name by which it is opened, `file` the one in error messages. `fetch`
@@ -243,27 +168,25 @@ pub fn parse(
     text: &str,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<Description, Misread> {
-    let read: MachineFile = misread::toml(file, text)?;
-    described(name, read, is_mode(text), fetch).map_err(|complaint| complaint.in_file(file, text))
+    let read = DeTable::parse(text).map_err(|error| Complaint::new(&error, 0..0));
+    read.and_then(|read| described(name, &Section { entries: read.get_ref(), at: 0..0 }, fetch))
+        .map_err(|complaint| complaint.in_file(file, text))
 }
 
 fn described(
     name: &str,
-    mut read: MachineFile,
-    is_mode: bool,
+    read: &Section,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<Description, Complaint> {
     /// Periods of the free oscillation for which a motion is followed where nothing is said.
     const PERIODS: f64 = 20.0;
-    read.has_only_known_keys(is_mode)?;
+    let is_mode = read.entries.contains_key("modal_mass");
+    let known = numbers(is_mode).map(|knob| knob.spec().name);
+    read.has_only(&known.chain(other_names(is_mode).to_vec()).collect::<Vec<_>>())?;
     let mut half_widths = HalfWidths::default();
-    let (body, section) = if is_mode {
-        mode(read.damping_ratio.take())?
-    } else {
-        belt(read.friction.take(), &mut half_widths, fetch)?
-    };
+    let (body, section) = if is_mode { mode(read)? } else { belt(read, &mut half_widths, fetch)? };
     let mut subject = Source::from(body);
-    set_numbers(&mut subject, numbers(is_mode), &read.numbers, &mut half_widths)?;
+    set_numbers(&mut subject, read, is_mode, &mut half_widths)?;
     let unfit = |message| Complaint { at: section.clone(), message };
     let period = match &subject.body {
         Body::Belt(belt) => {
@@ -273,20 +196,25 @@ fn described(
         Body::Mode(mode) => 1.0 / mode.frequency,
     };
     subject.model().map_err(|error| unfit(error.to_string()))?;
-    let number = |knob| or_usual(knob, read.numbers.get(&knob));
-    let tolerances =
-        Tolerances { half_widths: half_widths.0, disturbance: number(Knob::DisturbingForce)? };
+    let disturbance = read.number(Knob::DisturbingForce, exact)?;
+    let tolerances = Tolerances { half_widths: half_widths.0, disturbance };
     if let Some(belt) = subject.of_belt() {
         tolerances.check(belt).map_err(unfit)?;
     }
-    let start =
-        (or_usual(Knob::X, read.start.x.as_ref())?, or_usual(Knob::V, read.start.v.as_ref())?);
-    let until = read.numbers.get(&Knob::Duration);
-    let until = until.map_or(Ok(PERIODS * period), |given| exact(Knob::Duration, given))?;
+    let start = match read.section("start")? {
+        Some(start) => {
+            start.has_only(&["x", "v"])?;
+            (start.number(Knob::X, exact)?, start.number(Knob::V, exact)?)
+        }
+        None => (0.0, 0.0),
+    };
+    let until = read.get(Knob::Duration.spec().name)?;
+    let until = until.map_or(Ok(PERIODS * period), |given| exact(Knob::Duration, &given))?;
+    let title = read.text("title")?;
     Ok(Description {
         name: name.to_owned(),
-        title: if read.title.is_empty() { name.to_owned() } else { read.title },
-        watch: read.look,
+        title: if title.is_empty() { name.to_owned() } else { title },
+        watch: read.text("look")?,
         problem: MachineProblem { subject, tolerances, start, until },
     })
 }
@@ -295,18 +223,17 @@ fn lacks(message: String) -> Complaint {
     Complaint { at: 0..0, message }
 }
 
-/// A mass on a belt with this friction and no other numbers yet, and the place of the friction in the file.
+/// A mass on a belt with its friction and no other numbers yet, and the place of the friction in the file.
 fn belt(
-    friction: Option<Spanned<Friction>>,
+    read: &Section,
     half_widths: &mut HalfWidths,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<(Body, Range<usize>), Complaint> {
+    let friction = read.section("friction")?;
     let friction = friction.ok_or_else(|| lacks("friction is missing".to_owned()))?;
-    let section = friction.span();
-    let friction = friction.into_inner();
-    let at_rest = friction.at_rest.as_ref();
+    let at_rest = friction.get("static")?;
     let static_coefficient =
-        at_rest.map(|given| half_widths.read(Knob::StaticCoefficient, given)).transpose()?;
+        at_rest.map(|given| half_widths.read(Knob::StaticCoefficient, &given)).transpose()?;
     let belt = Belt {
         mass: 0.0,
         stiffness: 0.0,
@@ -315,15 +242,16 @@ fn belt(
         normal_force: 0.0,
         friction: 0.0,
         belt_speed: 0.0,
-        law: law(friction, &section, half_widths, fetch)?,
+        law: law(&friction, half_widths, fetch)?,
         static_coefficient,
         static_guide: None,
     };
-    Ok((Body::Belt(Box::new(belt)), section))
+    Ok((Body::Belt(Box::new(belt)), friction.at))
 }
 
-/// A mode with this damping ratio and no other numbers yet, and the place of the ratio in the file.
-fn mode(ratio: Option<Spanned<Vec<Spanned<Number>>>>) -> Result<(Body, Range<usize>), Complaint> {
+/// A mode with its damping ratio and no other numbers yet, and the place of the ratio in the file.
+fn mode(read: &Section) -> Result<(Body, Range<usize>), Complaint> {
+    let ratio = read.get::<Vec<_>>("damping_ratio")?;
     let ratio = ratio.ok_or_else(|| lacks("damping_ratio is missing".to_owned()))?;
     let damping_ratio = polynomial("ratio", ratio.get_ref(), exact)?;
     let (frequency, mass, friction) = (0.0, 0.0, 0.0);
@@ -334,77 +262,82 @@ fn mode(ratio: Option<Spanned<Vec<Spanned<Number>>>>) -> Result<(Body, Range<usi
 /// Sets the numbers that the file gives, and the defaults of the others.
 fn set_numbers(
     subject: &mut Source,
-    knobs: impl Iterator<Item = Knob>,
-    given: &BTreeMap<Knob, Spanned<Number>>,
+    read: &Section,
+    is_mode: bool,
     half_widths: &mut HalfWidths,
 ) -> Result<(), Complaint> {
-    for knob in knobs {
-        let value = match (given.get(&knob), knob.spec().default) {
-            // The guaranteed margins of a mode are not computed.
-            (Some(given), _) if subject.of_belt().is_none() => exact(knob, given)?,
-            (Some(given), _) => half_widths.read(knob, given)?,
-            (None, Some(default)) => default,
-            (None, None) if knob == Knob::StaticGuide => continue,
-            (None, None) => {
-                let meaning = knob.spec().meaning;
-                let such = knob.print(1.0);
-                return Err(lacks(format!(
-                    "{knob} ({meaning}) is missing; such as {knob} = \"{such}\""
-                )));
-            }
-        };
+    for knob in numbers(is_mode) {
+        if knob == Knob::StaticGuide && !read.entries.contains_key(knob.spec().name) {
+            continue;
+        }
+        // The guaranteed margins of a mode are not computed.
+        let value = read.number(knob, |knob, given| {
+            if is_mode { exact(knob, given) } else { half_widths.read(knob, given) }
+        })?;
         subject.set(knob, value).map_err(lacks)?;
     }
     Ok(())
 }
 
+/// The friction law: the one table beside the coefficient of static friction.
 fn law(
-    given: Friction,
-    section: &Range<usize>,
+    friction: &Section,
     half_widths: &mut HalfWidths,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<FrictionLaw, Complaint> {
-    match (given.constant, given.polynomial, given.stribeck, given.table) {
-        (Some(law), None, None, None) => {
-            Ok(FrictionLaw::Constant { mu: half_widths.read(Knob::Mu, &law.mu)? })
+    friction.has_only(&["static", "constant", "polynomial", "stribeck", "table"])?;
+    let unfit = |message: &str| Complaint { at: friction.at.clone(), message: message.to_owned() };
+    let mut laws = friction.entries.keys().map(|name| name.get_ref().as_ref());
+    let mut other = || laws.find(|name| *name != "static");
+    let (Some(name), None) = (other(), other()) else {
+        return Err(unfit("friction takes one law: constant, polynomial, stribeck or table"));
+    };
+    let Some(given) = friction.section(name)? else { return Err(unfit("no law")) };
+    let mut read = |knob, number: &Spanned<Number>| half_widths.read(knob, number);
+    let mut number = |knob| given.number(knob, &mut read);
+    match name {
+        "constant" => {
+            given.has_only(&["mu"])?;
+            Ok(FrictionLaw::Constant { mu: number(Knob::Mu)? })
         }
-        (None, Some(law), None, None) => {
-            let read = |knob, given: &Spanned<Number>| half_widths.read(knob, given);
-            Ok(FrictionLaw::Polynomial { coefficients: polynomial("mu", &law.coefficients, read)? })
+        "stribeck" => {
+            given.has_only(&["rest", "kinetic", "velocity", "exponent", "viscous"])?;
+            Ok(FrictionLaw::Stribeck {
+                rest: number(Knob::Rest)?,
+                kinetic: number(Knob::Kinetic)?,
+                velocity: number(Knob::Velocity)?,
+                exponent: number(Knob::Exponent)?,
+                viscous: number(Knob::Viscous)?,
+            })
         }
-        (None, None, Some(law), None) => Ok(FrictionLaw::Stribeck {
-            rest: half_widths.read(Knob::Rest, &law.rest)?,
-            kinetic: half_widths.read(Knob::Kinetic, &law.kinetic)?,
-            velocity: half_widths.read(Knob::Velocity, &law.velocity)?,
-            exponent: half_widths.or_usual(Knob::Exponent, law.exponent.as_ref())?,
-            viscous: half_widths.or_usual(Knob::Viscous, law.viscous.as_ref())?,
-        }),
-        (None, None, None, Some(law)) => spline(law, section, fetch),
-        _ => {
-            let message = "friction takes one law: constant, polynomial, stribeck or table";
-            Err(Complaint { at: section.clone(), message: message.to_owned() })
+        "polynomial" => {
+            given.has_only(&["coefficients"])?;
+            let listed = given.get::<Vec<_>>("coefficients")?;
+            let listed = listed.ok_or_else(|| unfit("coefficients = [..] is missing"))?;
+            Ok(FrictionLaw::Polynomial { coefficients: polynomial("mu", listed.get_ref(), read)? })
         }
+        _ => spline(&given, unfit, fetch),
     }
 }
 
 fn spline(
-    law: FrictionTable,
-    section: &Range<usize>,
+    law: &Section,
+    unfit: impl FnOnce(&str) -> Complaint,
     fetch: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<FrictionLaw, Complaint> {
-    let scatter = or_usual(Knob::Scatter, law.scatter.as_ref())?;
-    let (at, points) = match (law.file, law.points) {
+    law.has_only(&["file", "points", "scatter"])?;
+    let scatter = law.number(Knob::Scatter, exact)?;
+    let (at, points) = match (law.get::<String>("file")?, law.get("points")?) {
         (Some(file), None) => {
-            let at = file.span();
             let name = file.get_ref();
-            let refuse = |message| Complaint { at: at.clone(), message };
-            let text = fetch(name).map_err(refuse)?;
-            (at.clone(), table(name, &text).map_err(refuse)?)
+            let read = fetch(name).and_then(|text| table(name, &text));
+            (file.span(), read.map_err(|message| Complaint { at: file.span(), message })?)
         }
         (None, Some(points)) => (points.span(), listed(&points)?),
         _ => {
-            let message = "a table takes either file = \"NAME.csv\" or points = [[v, mu], ..]";
-            return Err(Complaint { at: section.clone(), message: message.to_owned() });
+            return Err(unfit(
+                "a table takes either file = \"NAME.csv\" or points = [[v, mu], ..]",
+            ));
         }
     };
     if points.len() > MOST_POINTS {

@@ -4,27 +4,16 @@ use std::sync::LazyLock;
 
 use super::Machine;
 use super::file::parse;
-use crate::scene::misread::built_in;
+use crate::scene::misread::{built_in, texts};
+use crate::words::one_of;
 
 /// The machine that is used unless another is named.
 pub const TEXTBOOK: &str = "textbook";
 
-/// Name and text of a machine file.
-macro_rules! machine_file {
-    ($name:literal) => {
-        ($name, include_str!(concat!("../../../assets/belts/", $name, ".toml")))
-    };
-}
-
 /// The files, in the order in which they are listed.
-const FILES: [(&str, &str); 6] = [
-    machine_file!("textbook"),
-    machine_file!("clutch"),
-    machine_file!("slideway"),
-    machine_file!("straight"),
-    machine_file!("bstab"),
-    machine_file!("groan"),
-];
+const FILES: [(&str, &str); 6] = texts! { "/assets/belts/":
+    "textbook" "clutch" "slideway" "straight" "bstab" "groan"
+};
 
 /// The tables that these files refer to.
 const TABLES: [(&str, &str); 1] =
@@ -45,9 +34,9 @@ fn table_named(name: &str) -> Result<String, String> {
     found.map(|(_, text)| (*text).to_owned()).ok_or_else(|| format!("there is no table {name:?}"))
 }
 
-/// The built-in machine with this name.
-pub fn find(name: &str) -> Option<&'static Machine> {
-    machines().iter().find(|machine| machine.name == name)
+/// The built-in machine with this name. Fails with one line that names all.
+pub fn find(name: &str) -> Result<&'static Machine, String> {
+    one_of("machine", name, machines().iter().map(|machine| (machine.name.as_str(), machine)))
 }
 
 #[cfg(test)]

@@ -233,7 +233,7 @@ pub fn begin(session: &mut Session, key: Key) {
 /// Accepts the typed value, or says in the line why it is refused.
 pub fn accept(session: &mut Session) {
     let Some(Overlay::Entry(entry)) = &session.overlay else { return };
-    match read(session, &session.setup(), entry.row, entry.input.text()) {
+    match read(session, &session.setup(), entry.row, &entry.input.text()) {
         Ok(setup) => {
             session.overlay = None;
             put(session, setup);

@@ -70,7 +70,7 @@ pub fn recall(session: &mut Session, by: isize) {
         return;
     }
     if prompt.back == 0 {
-        prompt.input.text().clone_into(&mut prompt.draft);
+        prompt.draft = prompt.input.text();
     }
     let text = match back {
         0 => prompt.draft.clone(),
@@ -88,7 +88,7 @@ pub fn complete(session: &mut Session, by: isize) {
             let next = at.checked_add_signed(by).unwrap_or(words.len() - 1) % words.len();
             Some(Completion { stem: stem.clone(), words: words.clone(), at: next })
         }
-        None => completion(session, prompt.input.halves().0),
+        None => completion(session, &prompt.input.before),
     };
     let Some(Overlay::Prompt(prompt)) = &mut session.overlay else { return };
     let Some(completion) = found else {
@@ -99,10 +99,10 @@ pub fn complete(session: &mut Session, by: isize) {
     let mut text = format!("{stem}{}", words[*at]);
     // A blank follows the only candidate, unless something must follow it directly.
     let only = words.len() == 1;
-    if only && !text.ends_with('=') && !prompt.input.halves().1.starts_with(' ') {
+    if only && !text.ends_with('=') && !prompt.input.after.starts_with(' ') {
         text.push(' ');
     }
-    prompt.input.replace_before(&text);
+    prompt.input.before = text;
     (prompt.refused, prompt.completion) = (None, (!only).then_some(completion));
 }
 
@@ -129,7 +129,7 @@ pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) {
 pub fn insert(session: &mut Session, text: &str) {
     let visible = text.chars().filter(|char| is_printable(*char));
     search_with(session, |search| search.extend(visible.clone()));
-    with(session, |input| visible.for_each(|char| input.insert(char)));
+    with(session, |input| input.before.extend(visible));
 }
 
 /// Ends the search and keeps the rows found; in a picker, picks the selected one at once.

@@ -65,9 +65,8 @@ pub fn sideways(session: &mut Session, by: isize) {
     let Some(form) = form(session) else { return };
     let mut choices = ScanForm::choices(form.at);
     // Both sweeps need different parameters.
-    let other =
-        form.inputs[if form.at == 0 { ScanForm::SECOND } else { 0 }].text().trim().to_owned();
-    choices.retain(|choice| choice.is_empty() || *choice != other);
+    let other = form.inputs[if form.at == 0 { ScanForm::SECOND } else { 0 }].text();
+    choices.retain(|choice| choice.is_empty() || *choice != other.trim());
     if choices.is_empty() {
         form.input_mut().move_caret(by);
         return;

@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use crate::model::{Knob, unknown};
 use crate::portrait::kicks::RandomKick;
-use crate::scene::machine::library::machines;
-use crate::scene::{Axes, LAYERS, Layer, ScaledMachine, Span, VIEWS, View, Window, find};
+use crate::scene::{Axes, LAYERS, Layer, ScaledMachine, Span, VIEWS, View, Window, find, machine};
 use crate::session::act::{
     general, history, inform, parameters, plots, screen_setup, warn_of_units,
 };
@@ -66,9 +65,8 @@ pub fn scene(session: &mut Session, name: &str) -> Done {
 
 /// Opens a built-in machine.
 pub fn belt(session: &mut Session, name: &str) -> Done {
-    let rows = machines().iter().map(|machine| (machine.name.as_str(), machine));
-    let machine = one_of("machine", name, rows)?;
-    let scaled = ScaledMachine::new(machine.clone()).map_err(|error| format!("{name}: {error}"))?;
+    let machine = machine::library::find(name)?.clone();
+    let scaled = ScaledMachine::new(machine).map_err(|error| format!("{name}: {error}"))?;
     history::open_scene(session, Arc::new(scaled.scene()));
     Ok(())
 }

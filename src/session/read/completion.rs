@@ -4,33 +4,33 @@ use crate::flow::METHODS;
 use crate::model::{Group, Knob};
 use crate::numerics::decimal::shortest;
 use crate::scan::measure::MEASURES;
-use crate::scene::machine::library::machines;
-use crate::scene::{LAYERS, ORDINATES, Ordinate, Unit, VIEWS, Window, library};
-use crate::session::settings::{COLORS, GLYPHS, THEMES};
-use crate::session::{Command, Completion, Keymap, Row, Session, Setup, WordKind};
+use crate::scene::{LAYERS, ORDINATES, Ordinate, Unit, Window};
+use crate::session::{Command, Completion, Keymap, Row, Session, Setup};
 
-/// Candidates for the last of these words, which are all words after the name of the command.
-fn complete(session: &Session, kind: WordKind, given: &[&str]) -> Vec<String> {
-    let first = given.len() < 2;
-    let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-    match kind {
-        WordKind::Assignments => assignments(session, given),
-        WordKind::Methods => methods(),
-        WordKind::Scenes => library::names().map(str::to_owned).collect(),
-        WordKind::Machines => machines().iter().map(|machine| machine.name.clone()).collect(),
-        WordKind::Views => owned(&VIEWS.map(|row| row.name)),
-        WordKind::Layers if first => owned(&LAYERS.map(|row| row.name)),
-        WordKind::Layers if given.len() == 2 => owned(&["on", "off"]),
-        WordKind::Switch if first => owned(&["on", "off"]),
-        WordKind::Axes if first => owned(&Knob::PARAMETERS.map(|knob| knob.spec().name)),
-        WordKind::Axes if given.len() == 2 => properties().map(|row| row.0).collect(),
-        WordKind::Window => windows(session),
-        WordKind::Scan => scan(given),
-        WordKind::Marks => session.marks.places.keys().map(char::to_string).collect(),
-        WordKind::Themes => owned(&THEMES.map(|row| row.1)),
-        WordKind::Glyphs => owned(&GLYPHS.map(|row| row.1)),
-        WordKind::Colors => owned(&COLORS.map(|row| row.1)),
-        WordKind::Unknown | WordKind::Layers | WordKind::Switch | WordKind::Axes => Vec::new(),
+/// These names as candidates.
+pub fn all<Name: ToString>(names: impl IntoIterator<Item = Name>) -> Vec<String> {
+    names.into_iter().map(|name| name.to_string()).collect()
+}
+
+/// A layer, then on or off.
+pub fn layers(session: &Session, given: &[&str]) -> Vec<String> {
+    match given {
+        [_] => all(LAYERS.map(|row| row.name)),
+        [_, rest @ ..] => switch(session, rest),
+        [] => Vec::new(),
+    }
+}
+
+pub fn switch(_: &Session, given: &[&str]) -> Vec<String> {
+    if given.len() == 1 { all(["on", "off"]) } else { Vec::new() }
+}
+
+/// A parameter, then a property of the cycles.
+pub fn axes(_: &Session, given: &[&str]) -> Vec<String> {
+    match given.len() {
+        1 => all(Knob::PARAMETERS),
+        2 => properties().map(|row| row.0).collect(),
+        _ => Vec::new(),
     }
 }
 
@@ -48,10 +48,12 @@ pub fn properties() -> impl Iterator<Item = (String, (Ordinate, Unit))> {
 }
 
 /// Candidates for an assignment: names with `=`, or after a name its present value.
-fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
+pub fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
     let word = words.last().copied().unwrap_or_default();
     match word.split_once('=') {
-        Some(("method", _)) => methods().iter().map(|name| format!("method={name}")).collect(),
+        Some(("method", _)) => {
+            methods(session, words).iter().map(|name| format!("method={name}")).collect()
+        }
         Some((name, "")) => {
             let row = rows(session).find(|row| row.name() == name);
             row.map(|row| format!("{name}={}", plain_value(session, row))).into_iter().collect()
@@ -62,19 +64,19 @@ fn assignments(session: &Session, words: &[&str]) -> Vec<String> {
 }
 
 /// The names of the methods.
-fn methods() -> Vec<String> {
-    METHODS.iter().map(|row| row.name.to_owned()).collect()
+pub fn methods(_: &Session, _: &[&str]) -> Vec<String> {
+    all(METHODS.iter().map(|row| row.name))
 }
 
 /// The present window of the plot in use, in a form that can be typed.
-fn windows(session: &Session) -> Vec<String> {
+pub fn window(session: &Session, _: &[&str]) -> Vec<String> {
     let Window { x, y } = session.plots[session.plot].window;
     let [x0, x1, y0, y1] = [x.from(), x.to(), y.from(), y.to()].map(shortest);
     vec![format!("{x0}:{x1},{y0}:{y1}")]
 }
 
 /// Parameters with `=`, and once one of them is given, also measures.
-fn scan(words: &[&str]) -> Vec<String> {
+pub fn scan(_: &Session, words: &[&str]) -> Vec<String> {
     let sweeps = Knob::MOTION.iter().map(|knob| format!("{knob}="));
     let moved = words.iter().any(|word| word.contains('='));
     let measures = MEASURES.iter().filter(|_| moved).map(|row| row.name.to_owned());
@@ -97,7 +99,7 @@ pub fn completion(session: &Session, text: &str) -> Option<Completion> {
         None => names(&session.keymap).map(str::to_owned).collect(),
         Some(name) => {
             let given: Vec<&str> = stem.split_whitespace().skip(1).chain([word]).collect();
-            complete(session, session.keymap.line(name)?.words?, &given)
+            session.keymap.line(name)?.words?(session, &given)
         }
     };
     let fits = |candidate: &String| candidate.starts_with(word) && candidate != word;

@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::session::state::context::chains;
-use crate::session::{Context, Key};
+use crate::session::{Context, Key, Session};
 
 /// Something that a key can do, or a line with words.
 #[derive(Clone, Copy, Debug)]
@@ -25,8 +25,8 @@ pub struct Command {
     pub doc: &'static str,
     /// Syntax of the words after the name, for the help.
     pub arguments: &'static str,
-    /// The kind of its words, for completion; `None` if it takes none.
-    pub words: Option<WordKind>,
+    /// What completes its words; `None` if it takes none.
+    pub words: Option<Candidates>,
 }
 
 impl PartialEq for Command {
@@ -55,34 +55,8 @@ pub fn full_name(word: &str) -> &str {
     OTHER_NAMES.iter().find(|(other, _)| *other == word).map_or(word, |(_, name)| name)
 }
 
-/// Kinds of words that a command takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WordKind {
-    /// Words that cannot be completed, such as a number or the name of a file.
-    Unknown,
-    /// Names of values, each with `=` and a value.
-    Assignments,
-    Methods,
-    Scenes,
-    /// A built-in machine.
-    Machines,
-    Views,
-    /// A layer, then on or off.
-    Layers,
-    Switch,
-    Window,
-    /// A parameter, then a property of the cycles.
-    Axes,
-    /// Parameters with their values, then measures.
-    Scan,
-    /// The letter of a mark.
-    Marks,
-    Themes,
-    /// A set of characters.
-    Glyphs,
-    /// A depth of colour.
-    Colors,
-}
+/// Candidates for the last of the words after the name of a command.
+pub type Candidates = fn(&Session, &[&str]) -> Vec<String>;
 
 /// The result of a command that chooses another one.
 #[derive(Clone, Debug, PartialEq)]

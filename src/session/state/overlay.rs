@@ -151,123 +151,59 @@ impl Prompt {
     }
 }
 
-/// A line of text being typed.
+/// A line of text being typed, in two parts between which the caret stands.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Input {
-    text: String,
-    caret: usize,
+    pub before: String,
+    pub after: String,
 }
 
 impl Input {
     /// A line with this text and the caret at its end.
     pub fn new(text: impl Into<String>) -> Self {
-        let text = text.into();
-        Input { caret: text.chars().count(), text }
+        Input { before: text.into(), after: String::new() }
     }
 
     /// The text typed so far.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// Byte offset of a character.
-    fn byte(&self, index: usize) -> usize {
-        self.text.char_indices().nth(index).map_or(self.text.len(), |(byte, _)| byte)
-    }
-
-    /// The text before the caret and the text after it.
-    pub fn halves(&self) -> (&str, &str) {
-        self.text.split_at(self.byte(self.caret))
-    }
-
-    /// Types a character at the caret.
-    pub fn insert(&mut self, char: char) {
-        let at = self.byte(self.caret);
-        self.text.insert(at, char);
-        self.caret += 1;
-    }
-
-    /// Deletes the character before the caret.
-    pub fn delete_before(&mut self) {
-        if self.caret > 0 {
-            self.caret -= 1;
-            self.delete_after();
-        }
+    pub fn text(&self) -> String {
+        format!("{}{}", self.before, self.after)
     }
 
     /// Deletes the character after the caret.
     pub fn delete_after(&mut self) {
-        let at = self.byte(self.caret);
-        if at < self.text.len() {
-            self.text.remove(at);
-        }
+        self.after = self.after.chars().skip(1).collect();
     }
 
     /// Deletes the word before the caret.
     pub fn delete_word(&mut self) {
-        let word = |char: char| !char.is_whitespace();
-        let kept = self.halves().0.trim_end().trim_end_matches(word).to_owned();
-        self.replace_before(&kept);
-    }
-
-    /// Replaces the text before the caret.
-    pub fn replace_before(&mut self, text: &str) {
-        let after = self.halves().1.to_owned();
-        *self = Input::new(text);
-        self.text += &after;
-    }
-
-    pub fn clear(&mut self) {
-        *self = Input::default();
+        let kept = self.before.trim_end().trim_end_matches(|char: char| !char.is_whitespace());
+        self.before.truncate(kept.len());
     }
 
     /// Moves the caret by `by` characters, within the text.
     pub fn move_caret(&mut self, by: isize) {
-        let last = self.text.chars().count();
-        self.caret = self.caret.saturating_add_signed(by).min(last);
+        let caret = self.before.chars().count().saturating_add_signed(by);
+        let text = self.text();
+        (self.before, self.after) =
+            (text.chars().take(caret).collect(), text.chars().skip(caret).collect());
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FormField {
-    /// The name of a parameter.
-    Parameter,
-    From,
-    To,
-    Count,
-    Measure,
-}
+const FROM: (&str, &str) = ("from", "first value; log: before it for equal ratios");
+const TO: (&str, &str) = ("to", "last value");
+const COUNT: (&str, &str) = ("count", "how many values");
 
-/// One row of [`FIELDS`].
-#[derive(Clone, Copy, Debug)]
-pub struct FieldSpec {
-    pub field: FormField,
-    /// Its name on the screen.
-    pub name: &'static str,
-    /// Explanation of what may be typed.
-    pub help: &'static str,
-}
-
-const fn field(field: FormField, name: &'static str, help: &'static str) -> FieldSpec {
-    FieldSpec { field, name, help }
-}
-
-const FROM: FieldSpec =
-    field(FormField::From, "from", "first value; log: before it for equal ratios");
-const TO: FieldSpec = field(FormField::To, "to", "last value");
-const COUNT: FieldSpec = field(FormField::Count, "count", "how many values");
-
-/// All fields of the form, in their order on the screen.
-pub const FIELDS: [FieldSpec; 9] = [
-    field(FormField::Parameter, "over", "D, D2, D3, r, q0 or v0"),
+/// The fields of the form in their order on the screen: the name, and what may be typed.
+pub const FIELDS: [(&str, &str); 9] = [
+    ("over", "D, D2, D3, r, q0 or v0"),
     FROM,
     TO,
     COUNT,
-    field(FormField::Parameter, "and over", "a second parameter, or nothing"),
+    ("and over", "a second parameter, or nothing"),
     FROM,
     TO,
     COUNT,
-    field(FormField::Measure, "measure", "one or more, with commas between"),
+    ("measure", "one or more, with commas between"),
 ];
 
 /// The form of a scan being typed.
@@ -285,6 +221,9 @@ impl ScanForm {
     /// Index of the field for the second parameter.
     pub const SECOND: usize = 4;
 
+    /// Index of the field for the measures.
+    pub const MEASURE: usize = 8;
+
     /// The form as it opens the first time: for a sweep of this parameter over this range.
     pub fn new(symbol: Knob, (from, to): (f64, f64)) -> Self {
         let (name, from, to) = (symbol.spec().name, format!("{from:?}"), format!("{to:?}"));
@@ -299,13 +238,12 @@ impl ScanForm {
 
     /// The values that a field offers for selection.
     pub fn choices(at: usize) -> Vec<&'static str> {
-        match FIELDS[at].field {
-            FormField::Parameter => {
-                let none = (at > 0).then_some("");
-                none.into_iter().chain(Knob::MOTION.map(|knob| knob.spec().name)).collect()
-            }
-            FormField::Measure => MEASURES.map(|row| row.name).to_vec(),
-            FormField::From | FormField::To | FormField::Count => Vec::new(),
+        let parameters = Knob::MOTION.map(|knob| knob.spec().name);
+        match at {
+            0 => parameters.to_vec(),
+            Self::SECOND => std::iter::once("").chain(parameters).collect(),
+            Self::MEASURE => MEASURES.map(|row| row.name).to_vec(),
+            _ => Vec::new(),
         }
     }
 }
@@ -325,10 +263,10 @@ mod tests {
         ] {
             let mut input = Input::new(text);
             input.move_caret(-left);
-            let after = input.halves().1.to_owned();
+            let after = input.after.clone();
             input.delete_word();
-            assert!(kept.starts_with(input.halves().0), "{text}: {input:?}");
-            assert_eq!(input.halves().1, after);
+            assert!(kept.starts_with(&input.before), "{text}: {input:?}");
+            assert_eq!(input.after, after);
             if left == 0 {
                 assert_eq!(input.text(), kept);
             }
