@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::figure::completed;
-use super::input::{self, assignment, page_file, physical_window, tolerance};
+use super::input::{self, MACHINE, page_file, tolerance};
 use super::{Failure, MachineCase, Output, second, timed, troubled, write};
 use crate::figure::panels;
 use crate::flow::{Limits, Method};
@@ -31,7 +31,7 @@ pub struct BeltCommand {
     machine: String,
     /// Sets a quantity of the machine or its friction law, such as "v0=0.2 m/s", or with a tolerance "R=1 N +- 0.2 N";
     /// repeatable; also the start x, v
-    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=VALUE", value_parser = |text: &str| MACHINE.assignment(text), allow_hyphen_values = true)]
     set: Vec<(Knob, WithTolerance)>,
     /// Bound on a force that disturbs the mass in any way, such as "0.1 N": also reports the margin that is guaranteed under it
     #[arg(long, value_name = "FORCE", value_parser = |text: &str| Knob::DisturbingForce.parse(text), allow_hyphen_values = true)]
@@ -41,7 +41,7 @@ pub struct BeltCommand {
           allow_hyphen_values = true)]
     start: Vec<(Knob, WithTolerance)>,
     /// Window "XMIN:XMAX,VMIN:VMAX": reports the share of its starts that come to rest
-    #[arg(long, value_name = "WINDOW", value_parser = physical_window, allow_hyphen_values = true)]
+    #[arg(long, value_name = "WINDOW", value_parser = |text: &str| MACHINE.window(text), allow_hyphen_values = true)]
     window: Option<Window>,
     /// Measures the window's displacements from the relaxed spring instead of the steady position
     #[arg(long, requires = "window")]

@@ -4,7 +4,7 @@
 use clap::Args;
 use rayon::prelude::*;
 
-use super::input::{self, Over, physical_over};
+use super::input::MACHINE;
 use super::{Certify, Failure, MachineCase, Output, SourceOptions, given, read, timed};
 use crate::branch::along::{Points, branch};
 use crate::branch::fold::{Boundary, BoundaryPoint, border};
@@ -15,6 +15,7 @@ use crate::proof::bifurcation::{enclose_escape, enclose_fold};
 use crate::proof::range::{change_near, range};
 use crate::report::certified::BorderProof;
 use crate::report::{About, branch as report};
+use crate::scan::sweep::{Spacing, Sweep};
 
 /// Follows the limit cycles along a parameter, with folds and other special points
 #[derive(Debug, Args)]
@@ -31,30 +32,31 @@ pub struct BranchCommand {
     over: String,
 }
 
-/// A range of a parameter on which cycles depend.
-fn parameter(text: &str) -> Result<Over, String> {
-    let over = input::over(text)?;
-    if !over.knob.is_parameter() {
-        return Err(format!("cycles do not depend on {}; allowed: D, D2, D3, r", over.knob));
-    }
-    Ok(over)
+/// The ends of a range, the smaller first.
+fn range_of(over: &Sweep) -> (f64, f64) {
+    (over.from.min(over.to), over.from.max(over.to))
 }
 
 impl BranchCommand {
     pub fn run(&self) -> Result<(), Failure> {
-        if let Some(case) = self.source.portrayed()? {
-            let Over { knob, ends, count } = read("--over", &self.over, physical_over)?;
+        let case = self.source.portrayed()?;
+        let over = read("--over", &self.over, |text| self.source.numbers().over(text))?;
+        let Sweep { symbol, from, to, count, .. } = over;
+        if let Some(case) = case {
             let subject = &case.problem.subject;
-            let follow = || crate::branch::machine::branch(subject.clone(), knob, ends, count);
+            let follow =
+                || crate::branch::machine::branch(subject.clone(), symbol, (from, to), count);
             let (found, seconds) = timed(self.output.repeat, follow);
-            let (found, about) = (found.map_err(Failure::Usage)?, case.about().but(&[knob]));
-            return self.output.print(report::of_machine(&about, knob, &found, seconds));
+            let (found, about) = (found.map_err(Failure::Usage)?, case.about().but(&[symbol]));
+            return self.output.print(report::of_machine(&about, symbol, &found, seconds));
         }
-        let over = read("--over", &self.over, parameter)?;
+        if !symbol.is_parameter() {
+            let line = format!("cycles do not depend on {symbol}; allowed: D, D2, D3, r");
+            return Err(Failure::Usage(line));
+        }
         let problem = self.source.start.scene(None)?.problem;
         let (base, tolerance) = (&problem.parameters, problem.tolerance);
-        let Over { knob: symbol, count, .. } = over;
-        let ends = over.range();
+        let ends = range_of(&over);
         let follow =
             || branch(base, symbol, ends, Points::Even(count), tolerance, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the branch could not be completed", follow)?;
@@ -88,27 +90,22 @@ pub struct BorderCommand {
     along: Option<String>,
 }
 
-/// Reads the second parameter. The border is located along D and does not depend on the start of a motion.
-fn second(text: &str) -> Result<Over, String> {
-    let over = input::over(text)?;
-    let name = over.knob.spec().name;
-    match over.knob {
-        Knob::D2 | Knob::D3 | Knob::R => Ok(over),
-        _ => Err(format!(
-            "the border is a value of D over another parameter, not over {name}: D2, D3 or r"
-        )),
-    }
-}
-
 impl BorderCommand {
     pub fn run(&self) -> Result<(), Failure> {
-        if let Some(case) = self.source.portrayed()? {
-            return self.of_machine(&case);
+        let case = self.source.portrayed()?;
+        let over = read("--over", &self.over, |text| self.source.numbers().over(text))?;
+        if let Some(case) = case {
+            return self.of_machine(&case, &over);
+        }
+        let Sweep { symbol, count, .. } = over;
+        // It is located along D and does not depend on the start of a motion.
+        if !matches!(symbol, Knob::D2 | Knob::D3 | Knob::R) {
+            return Err(Failure::Usage(format!(
+                "the border is a value of D over another parameter, not over {symbol}: D2, D3 or r"
+            )));
         }
         let parameters = self.source.start.scene(None)?.problem.parameters;
-        let over = read("--over", &self.over, second)?;
-        let Over { knob: symbol, count, .. } = over;
-        let range = over.range();
+        let range = range_of(&over);
         let follow = || border(&parameters, symbol, range, count, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the boundary could not be completed", follow)?;
         let certified = self.certify.ask(|| enclosed(&found));
@@ -116,30 +113,29 @@ impl BorderCommand {
         self.output.print(report::border(&about, &found, certified.as_deref(), seconds))
     }
 
-    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
-        let over = read("--over", &self.over, physical_over)?;
-        let along = given("--along", self.along.as_ref(), physical_over)?;
+    fn of_machine(&self, case: &MachineCase, over: &Sweep) -> Result<(), Failure> {
+        let along = given("--along", self.along.as_ref(), |text| MACHINE.over(text))?;
         let subject = &case.problem.subject;
-        let own = |belt: &Belt| {
-            let ends = (0.1 * belt.belt_speed, 3.0 * belt.belt_speed);
-            Over { knob: Knob::BeltSpeed, ends, count: 60 }
+        let own = |Belt { belt_speed, .. }: &Belt| {
+            let (from, to) = (0.1 * belt_speed, 3.0 * belt_speed);
+            Sweep { symbol: Knob::BeltSpeed, from, to, count: 60, spacing: Spacing::Even }
         };
         let along = along.or_else(|| subject.of_belt().map(own)).ok_or_else(|| {
             Failure::Usage(
                 "a mode has no belt speed: along what? --along NAME=FROM:TO:COUNT".into(),
             )
         })?;
-        if along.knob == over.knob {
-            let line = format!("{} is varied twice, by --along and by --over", over.knob);
+        let knobs = (along.symbol, over.symbol);
+        if knobs.0 == knobs.1 {
+            let line = format!("{} is varied twice, by --along and by --over", over.symbol);
             return Err(Failure::Usage(line));
         }
-        let three = |Over { knob, ends, count }: Over| (knob, ends, count);
+        let three = |sweep: &Sweep| (sweep.symbol, (sweep.from, sweep.to), sweep.count);
         let (found, seconds) = timed(self.output.repeat, || {
-            crate::branch::machine::borders(subject, three(along), three(over))
+            crate::branch::machine::borders(subject, three(&along), three(over))
         });
         let found = found.map_err(Failure::Usage)?;
-        let knobs = (along.knob, over.knob);
-        let about = case.about().but(&[along.knob, over.knob]);
+        let about = case.about().but(&[along.symbol, over.symbol]);
         self.output.print(report::border_of_machine(&about, knobs, &found, seconds))
     }
 }

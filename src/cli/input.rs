@@ -8,12 +8,91 @@ use std::str::FromStr;
 use super::Failure;
 use crate::figure::FileForm;
 use crate::flow::{METHODS, Method};
-use crate::model::unit::{Dimension, WithTolerance, measured, quantity};
-use crate::model::{Group, Interval, Knob, MachineProblem};
+use crate::model::unit::{Dimension, WithTolerance, measured};
+use crate::model::{Group, Knob, MachineProblem};
 use crate::portrait::basin::Window;
 use crate::portrait::design::Kick;
 use crate::portrait::kicks::RandomKick;
-use crate::scan::sweep::ends;
+use crate::scan::sweep::{Spacing, Sweep};
+
+/// The numbers by which options are read whose values depend on what a command is about.
+pub struct Numbers {
+    /// Displacement and velocity.
+    pub state: [Knob; 2],
+    /// The end of a motion.
+    pub until: Knob,
+    /// The bound on a disturbing force.
+    pub disturbance: Knob,
+    /// What can be set.
+    pub set: &'static [Group],
+    /// What a branch or a border goes over.
+    pub over: &'static [Group],
+    /// Reads a margin.
+    pub margin: fn(&str) -> Result<(Kick, f64), String>,
+}
+
+/// Those of the oscillator of the paper.
+pub const OSCILLATOR: Numbers = Numbers {
+    state: [Knob::Q0, Knob::V0],
+    until: Knob::Until,
+    disturbance: Knob::Disturbance,
+    set: &[Group::Motion],
+    over: &[Group::Motion],
+    margin,
+};
+
+/// Those of a machine.
+pub const MACHINE: Numbers = Numbers {
+    state: [Knob::X, Knob::V],
+    until: Knob::Duration,
+    disturbance: Knob::DisturbingForce,
+    set: MachineProblem::GROUPS,
+    over: Group::SOURCE,
+    margin: physical_margin,
+};
+
+impl Numbers {
+    /// `QMIN:QMAX,VMIN:VMAX`.
+    pub fn window(&self, text: &str) -> Result<Window, String> {
+        const FORM: &str =
+            "expected QMIN:QMAX,VMIN:VMAX, such as -6:6,-6:6, or of a machine -2mm:2mm,0:1";
+        let (q, v) = text.split_once(',').ok_or(FORM)?;
+        let side = |part: &str, knob: Knob| {
+            let (low, high) = part.split_once(':').ok_or(FORM)?;
+            let (low, high) = (knob.parse(low)?, knob.parse(high)?);
+            let above = || format!("{part:?}: {low:?} is not below {high:?}");
+            (low < high).then_some((low, high)).ok_or_else(above)
+        };
+        Ok(Window { q: side(q, self.state[0])?, v: side(v, self.state[1])? })
+    }
+
+    /// Random kicks.
+    pub fn kicks(&self, text: &str) -> Result<RandomKick, String> {
+        RandomKick::read(text, self.state.map(|knob| knob.spec().unit))
+    }
+
+    /// `NAME=FROM:TO:COUNT`.
+    pub fn over(&self, text: &str) -> Result<Sweep, String> {
+        let over = Sweep::read(text, self.over)?;
+        if over.spacing == Spacing::Logarithmic {
+            return Err("the values are evenly spaced, without log:".to_owned());
+        }
+        Ok(over)
+    }
+
+    /// `NAME=VALUE`, `NAME=VALUE+-HALFWIDTH` or `NAME=LOW..HIGH`.
+    pub fn assignment(&self, text: &str) -> Result<(Knob, WithTolerance), String> {
+        let form =
+            "expected NAME=VALUE, such as D=-0.3, r=0.10+-0.01, or of a machine \"v0=0.2 m/s\"";
+        let (name, value) = text.split_once('=').ok_or(form)?;
+        let knob = Knob::named(name.trim(), self.set)?;
+        let read = knob.parse_toleranced(value)?;
+        if read.half_width > 0.0 && knob.spec().group == Group::Course {
+            return Err(format!("{text:?}: a start has no tolerance"));
+        }
+        Ok((knob, read))
+    }
+}
 
 /// Reads the text of an option whose numbers depend on what the command is about.
 pub fn read<T>(
@@ -57,33 +136,20 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
     Knob::Tolerance.parse(text)
 }
 
-/// A number of these groups and the text of its value, from `NAME=VALUE`; `form` says what is expected.
-pub fn named<'a>(text: &'a str, groups: &[Group], form: &str) -> Result<(Knob, &'a str), String> {
-    let (name, value) = text.split_once('=').ok_or(form)?;
-    Ok((Knob::named(name.trim(), groups)?, value))
-}
-
-/// `NAME=VALUE` or `NAME=INTERVAL`: a number, `VALUE+-HALFWIDTH` or `LOW..HIGH`.
-pub fn assigned(text: &str) -> Result<(Knob, Interval), String> {
-    let form = "expected NAME=VALUE, such as D=-0.3 or r=0.10+-0.01";
-    let (knob, value) = named(text, &[Group::Motion], form)?;
-    Ok((knob, knob.parse_toleranced(value)?.ends))
-}
-
 /// `NAME=HALFWIDTH` of D, D2, D3 or r.
 pub fn half_width(text: &str) -> Result<(Knob, f64), String> {
     let form = "expected NAME=HALFWIDTH with D, D2, D3 or r, such as r=0.01";
-    let (knob, value) = named(text, &[Group::Motion], form)?;
+    let (name, value) = text.split_once('=').ok_or(form)?;
+    let knob = Knob::named(name.trim(), OSCILLATOR.set)?;
     if !knob.is_parameter() {
         return Err(form.to_owned());
     }
-    let half_width = knob.parse(value)?;
-    let wide = Some(half_width).filter(|half_width| *half_width >= 0.0);
+    let wide = Some(knob.parse(value)?).filter(|half_width| *half_width >= 0.0);
     Ok((knob, wide.ok_or_else(|| format!("{text:?}: a half width is 0 or more"))?))
 }
 
-/// A margin: `q=DISPLACEMENT` or `v=IMPULSE`.
-pub fn margin(text: &str) -> Result<(Kick, f64), String> {
+/// A margin of the oscillator: `q=DISPLACEMENT` or `v=IMPULSE`.
+fn margin(text: &str) -> Result<(Kick, f64), String> {
     let form = || format!("{text:?} is not a margin; expected q=DISPLACEMENT or v=IMPULSE");
     let (name, size) = text.split_once('=').ok_or_else(form)?;
     let (kick, knob) = match name.trim() {
@@ -95,68 +161,24 @@ pub fn margin(text: &str) -> Result<(Kick, f64), String> {
     if size > 0.0 { Ok((kick, size)) } else { Err(format!("{text:?} is not positive")) }
 }
 
-/// A number and the values that it takes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Over {
-    pub knob: Knob,
-    /// The first and the last value.
-    pub ends: (f64, f64),
-    /// Number of values.
-    pub count: usize,
-}
-
-impl Over {
-    /// Smallest and largest value.
-    pub fn range(&self) -> (f64, f64) {
-        let (from, to) = self.ends;
-        (from.min(to), from.max(to))
-    }
-}
-
-/// `NAME=FROM:TO:COUNT` of a number of a motion.
-pub fn over(text: &str) -> Result<Over, String> {
-    over_of(text, &[Group::Motion], "such as D=-0.95:0:400", 1_000_000)
-}
-
-/// `NAME=FROM:TO:COUNT` of a number of these groups: two different ends, and a count from 2 to `most`.
-pub fn over_of(text: &str, groups: &[Group], such: &str, most: usize) -> Result<Over, String> {
-    let form = format!("expected NAME=FROM:TO:COUNT, {such}");
-    let (knob, range) = named(text, groups, &form)?;
-    let [from, to, count] = range.split(':').collect::<Vec<_>>()[..] else { return Err(form) };
-    let ends = ends(knob, range, [from, to])?;
-    let count = whole(count, 2..=most)
-        .map_err(|_| format!("COUNT = {count} is not a whole number in 2 .. {most}"))?;
-    if ends.0 == ends.1 {
-        return Err(format!("FROM and TO are both {:?}", ends.0));
-    }
-    Ok(Over { knob, ends, count })
-}
-
-/// Reads a number; the error says in one line what is wrong.
-type ReadNumber<'a> = &'a dyn Fn(&str) -> Result<f64, String>;
-
-/// `LOW:HIGH,LOW:HIGH`; `read` has one function for each side.
-pub fn sides(text: &str, form: &str, read: [ReadNumber; 2]) -> Result<[(f64, f64); 2], String> {
-    let (first, second) = text.split_once(',').ok_or(form)?;
-    let side = |part: &str, read: ReadNumber| {
-        let (low, high) = part.split_once(':').ok_or(form)?;
-        let (low, high) = (read(low)?, read(high)?);
-        let above = || format!("{part:?}: {low:?} is not below {high:?}");
-        (low < high).then_some((low, high)).ok_or_else(above)
+/// A margin of a machine: the unit decides whether it is a displacement or an impulse.
+pub fn physical_margin(text: &str) -> Result<(Kick, f64), String> {
+    let read = measured(text)?;
+    let kick = match read.dimension {
+        Some(Dimension::LENGTH) => Kick::Displacement,
+        Some(Dimension::IMPULSE) => Kick::Impulse,
+        _ => {
+            return Err(format!(
+                "{text:?} is not a margin; expected a displacement, such as \"2 mm\", or an impulse, such as \
+                 \"0.1 N s\""
+            ));
+        }
     };
-    Ok([side(first, read[0])?, side(second, read[1])?])
+    if read.value > 0.0 { Ok((kick, read.value)) } else { Err(format!("{text:?} is not positive")) }
 }
 
 /// The window where none is given.
 pub const WINDOW: Window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
-
-/// `QMIN:QMAX,VMIN:VMAX`.
-pub fn window(text: &str) -> Result<Window, String> {
-    let form = "expected QMIN:QMAX,VMIN:VMAX, such as -6:6,-6:6";
-    let read = |knob: Knob| move |text: &str| knob.parse(text);
-    let [q, v] = sides(text, form, [&read(Knob::Q0), &read(Knob::V0)])?;
-    Ok(Window { q, v })
-}
 
 /// `WxH` of this kind, such as the one given.
 fn rectangle<T: FromStr + PartialOrd + Display>(
@@ -203,67 +225,23 @@ pub fn page_file(text: &str) -> Result<PathBuf, String> {
     if is_page { Ok(path) } else { Err("a page ends in .html".to_owned()) }
 }
 
-/// `NAME=VALUE`, the value with or without a unit.
-pub fn assignment(text: &str) -> Result<(Knob, WithTolerance), String> {
-    let (knob, value) =
-        named(text, MachineProblem::GROUPS, "expected NAME=VALUE, such as \"v0=0.2 m/s\"")?;
-    let read = knob.parse_toleranced(value)?;
-    if read.half_width > 0.0 && knob.spec().group == Group::Course {
-        return Err(format!("{text:?}: a start has no tolerance"));
-    }
-    Ok((knob, read))
-}
-
 /// A part of `x=..,v=..`.
 pub fn start(text: &str) -> Result<(Knob, WithTolerance), String> {
-    let start = assignment(text)?;
+    let start = MACHINE.assignment(text)?;
     match start.0 {
         Knob::X | Knob::V => Ok(start),
         _ => Err(format!("{text:?} is not a start; expected x=.. and v=..")),
     }
 }
 
-/// `XMIN:XMAX,VMIN:VMAX`, in m and m/s.
-pub fn physical_window(text: &str) -> Result<Window, String> {
-    let form =
-        format!("{text:?} is not a window; expected XMIN:XMAX,VMIN:VMAX, such as -2mm:2mm,0:1");
-    let read = |unit| move |text: &str| quantity(text, unit);
-    let [q, v] = sides(text, &form, [&read("m"), &read("m/s")])?;
-    Ok(Window { q, v })
-}
-
-/// Random kicks, in m and m/s.
-pub fn physical_kicks(text: &str) -> Result<RandomKick, String> {
-    RandomKick::read(text, ["m", "m/s"])
-}
-
-/// `NAME=FROM:TO:COUNT`.
-pub fn physical_over(text: &str) -> Result<Over, String> {
-    over_of(text, Group::SOURCE, "such as \"v0=0.1 m/s:0.5 m/s:21\"", 100_000)
-}
-
-/// A margin: the unit decides whether it is a displacement or an impulse.
-pub fn physical_margin(text: &str) -> Result<(Kick, f64), String> {
-    let read = measured(text)?;
-    let kick = match read.dimension {
-        Some(Dimension::LENGTH) => Kick::Displacement,
-        Some(Dimension::IMPULSE) => Kick::Impulse,
-        _ => {
-            return Err(format!(
-                "{text:?} is not a margin; expected a displacement, such as \"2 mm\", or an impulse, such as \
-                 \"0.1 N s\""
-            ));
-        }
-    };
-    if read.value > 0.0 { Ok((kick, read.value)) } else { Err(format!("{text:?} is not positive")) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Interval;
 
     #[test]
     fn numbers_and_intervals_are_read_and_refused_with_the_range() {
+        let assigned = |text| OSCILLATOR.assignment(text).map(|(knob, read)| (knob, read.ends));
         assert_eq!(assigned("q0= 1e150"), Ok((Knob::Q0, Interval::point(1e150))));
         assert_eq!(assigned("D=-0.3..-0.28"), Ok((Knob::D, Interval::new(-0.3, -0.28))));
         let refused = assigned("r=0.1+-0.2").unwrap_err();
@@ -276,12 +254,22 @@ mod tests {
 
     #[test]
     fn ranges_are_read_in_either_direction() {
-        let expected = Over { knob: Knob::D, ends: (-0.95, 0.0), count: 400 };
-        assert_eq!(over("D=-0.95:0:400"), Ok(expected));
-        assert_eq!(over("D=0:-0.95:400").map(|over| over.range()), Ok(expected.range()));
-        for text in ["D", "D=1", "D=0:1", "D=0:1:1", "D=0:1:x", "D=0:0:5", "D=0:inf:5", "D=0:1:2:3"]
-        {
-            assert!(over(text).is_err(), "{text}");
+        let read =
+            |text| OSCILLATOR.over(text).map(|over| (over.symbol, over.from, over.to, over.count));
+        assert_eq!(read("D=-0.95:0:400"), Ok((Knob::D, -0.95, 0.0, 400)));
+        assert_eq!(read("D=0:-0.95:400"), Ok((Knob::D, 0.0, -0.95, 400)));
+        for text in [
+            "D",
+            "D=1",
+            "D=0:1",
+            "D=0:1:1",
+            "D=0:1:x",
+            "D=0:0:5",
+            "D=0:inf:5",
+            "D=0:1:2:3",
+            "r=log:1:2:3",
+        ] {
+            assert!(read(text).is_err(), "{text}");
         }
     }
 
@@ -315,7 +303,7 @@ mod tests {
             ("R=1 N+-0.2 N", Knob::Friction, 1.0, 0.2),
             ("x=-2mm", Knob::X, -0.002, 0.0),
         ] {
-            let (found, read) = assignment(text).unwrap();
+            let (found, read) = MACHINE.assignment(text).unwrap();
             assert_eq!((found, read.middle.value, read.half_width), (name, value, half_width));
         }
         for (text, words) in [
@@ -327,18 +315,18 @@ mod tests {
             ("v=two", "\"two\" is not a number"),
             ("x=1 mm+-1 mm", "a start has no tolerance"),
         ] {
-            let refused = assignment(text).unwrap_err();
+            let refused = MACHINE.assignment(text).unwrap_err();
             assert!(refused.contains(words), "{text}: {refused}");
         }
     }
 
     #[test]
     fn sweeps_and_margins_are_read() {
-        let expected = Over { knob: Knob::BeltSpeed, ends: (0.1, 0.5), count: 5 };
-        assert_eq!(physical_over("v0=10 cm/s:50 cm/s:5"), Ok(expected));
+        let over = MACHINE.over("v0=10 cm/s:50 cm/s:5").unwrap();
+        assert_eq!((over.symbol, over.from, over.to, over.count), (Knob::BeltSpeed, 0.1, 0.5, 5));
         for text in ["v0", "v0=1:2", "v0=1 m/s:2:5", "v0=1:2:1", "v9=1:2:3", "v0=0:1:3", "v0=1:1:3"]
         {
-            assert!(physical_over(text).is_err(), "{text}");
+            assert!(MACHINE.over(text).is_err(), "{text}");
         }
         assert_eq!(physical_margin("2 mm"), Ok((Kick::Displacement, 0.002)));
         assert_eq!(physical_margin("0.5 N s"), Ok((Kick::Impulse, 0.5)));

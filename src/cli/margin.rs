@@ -7,11 +7,10 @@ use super::{
     Certify, Failure, MachineCase, Output, SourceOptions, given, number, read, timed, troubled,
 };
 use crate::flow::Limits;
-use crate::model::{Knob, MachineProblem};
+use crate::model::MachineProblem;
 use crate::portrait::basin::SurveyedBasin;
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::guarantee::oscillator::guarantee;
-use crate::portrait::kicks::RandomKick;
 use crate::portrait::kicks::repeated::{repeated, repeated_by};
 use crate::portrait::proved::agreed;
 use crate::proof;
@@ -33,15 +32,14 @@ pub struct MarginCommand {
 
 impl MarginCommand {
     pub fn run(&self) -> Result<(), Failure> {
-        let disturbance = self.disturbance.as_ref();
+        let knob = self.source.numbers().disturbance;
+        let bound = number("--disturbance", self.disturbance.as_ref(), knob)?;
         if let Some(mut case) = self.source.portrayed()? {
-            let force = number("--disturbance", disturbance, Knob::DisturbingForce)?;
             let known = &mut case.problem.tolerances;
-            known.disturbance = force.unwrap_or(known.disturbance);
+            known.disturbance = bound.unwrap_or(known.disturbance);
             return self.of_machine(&case.checked()?);
         }
-        let known = self.source.start.known()?;
-        let bound = number("--disturbance", disturbance, Knob::Disturbance)?.unwrap_or(0.0);
+        let (known, bound) = (self.source.start.known()?, bound.unwrap_or(0.0));
         let ask = || guarantee(&known, bound, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the margin could not be computed", ask)?;
         let about = About::oscillator(&known.middle());
@@ -85,8 +83,9 @@ pub struct BasinCommand {
 
 impl BasinCommand {
     pub fn run(&self) -> Result<(), Failure> {
+        let numbers = self.source.numbers();
+        let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
         if let Some(case) = self.source.portrayed()? {
-            let window = given("--window", self.window.as_ref(), input::physical_window)?;
             let (found, before) = case.portrait(&self.output)?;
             let window = window.unwrap_or_else(|| found.surroundings());
             let (counts, seconds) = timed(self.output.repeat, || found.count(&window, self.grid));
@@ -95,7 +94,7 @@ impl BasinCommand {
             return self.output.print(answer.answer(&case.about(), before + seconds));
         }
         let parameters = self.source.start.scene(None)?.problem.parameters;
-        let window = given("--window", self.window.as_ref(), input::window)?.unwrap_or(WINDOW);
+        let window = window.unwrap_or(WINDOW);
         let survey = || SurveyedBasin::of(&parameters, &window, self.grid, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the basin could not be completed", survey)?;
         let enclose = || {
@@ -130,15 +129,14 @@ pub struct KicksCommand {
 impl KicksCommand {
     pub fn run(&self) -> Result<(), Failure> {
         const FAILED: &str = "the kicks could not be followed";
+        let law = read("--kicks", &self.law, |text| self.source.numbers().kicks(text))?;
         if let Some(case) = self.source.portrayed()? {
-            let law = read("--kicks", &self.law, input::physical_kicks)?;
             let (portrait, before) = case.portrait(&self.output)?;
             let follow = || repeated_by(&portrait, &law);
             let (found, seconds) = self.output.timed(FAILED, follow)?;
             let (about, held) = (case.about(), portrait.model.guide_static);
             return self.output.print(kicks(&about, &law, &found, held, before + seconds));
         }
-        let law: RandomKick = read("--kicks", &self.law, str::parse)?;
         let parameters = self.source.start.scene(None)?.problem.parameters;
         let follow = || repeated(&parameters, &law, &Limits::PATIENT);
         let (found, seconds) = self.output.timed(FAILED, follow)?;

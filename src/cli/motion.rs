@@ -29,19 +29,22 @@ struct MotionOptions {
 }
 
 impl MotionOptions {
+    /// The end that is asked for.
+    fn end(&self) -> Result<Option<f64>, Failure> {
+        number("--until", self.until.as_ref(), self.source.numbers().until)
+    }
+
     /// The motion of a machine, if it is about one.
     fn of_machine(&self) -> Result<Option<MachineCase>, Failure> {
         let Some(mut case) = self.source.machine()? else { return Ok(None) };
-        let end = number("--until", self.until.as_ref(), Knob::Duration)?;
-        case.problem.until = end.unwrap_or(case.problem.until);
+        case.problem.until = self.end()?.unwrap_or(case.problem.until);
         case.checked().map(Some)
     }
 
     /// The motion of the scene with this name, or of the one among the options.
     fn problem(&self, named: Option<&str>) -> Result<Problem, Failure> {
         let mut problem = self.source.start.scene(named)?.problem;
-        let end = number("--until", self.until.as_ref(), Knob::Until)?;
-        problem.until = end.unwrap_or(problem.until);
+        problem.until = self.end()?.unwrap_or(problem.until);
         Ok(problem)
     }
 }

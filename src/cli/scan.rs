@@ -16,7 +16,7 @@ use super::output::holds_something;
 use super::part::{RowChoice, Shard};
 use super::plan::Plan;
 use super::progress::{Outlet, Progress};
-use super::{Failure, MachineCase, SourceOptions, given, number, print, read};
+use super::{Failure, SourceOptions, given, number, print, read};
 use crate::flow::Limits;
 use crate::model::{Knob, MachineProblem};
 use crate::report::Format;
@@ -189,10 +189,7 @@ impl ScanCommand {
 
     /// The scan and the points to compute, after checking the options.
     pub fn asked(&self) -> Result<ScanRequest, Failure> {
-        let (base, conditions) = match self.source.machine()? {
-            Some(case) => self.of_machine(case)?,
-            None => self.of_scene()?,
-        };
+        let (base, conditions) = self.subject()?;
         let mut measures = self.measure.clone();
         if self.certify && !measures.contains(&Measure::Proved) {
             measures.push(Measure::Proved);
@@ -208,46 +205,40 @@ impl ScanCommand {
         Ok(ScanRequest { part, shard: self.part.shard() })
     }
 
-    /// The motion of the scene, and what its measures depend on.
-    fn of_scene(&self) -> Result<(ScanSource, Conditions), Failure> {
-        let mut problem = self.source.start.scene(None)?.problem;
-        let until = number("--until", self.until.as_ref(), Knob::Until)?;
-        problem.until = until.unwrap_or(problem.until);
-        let window = given("--window", self.window.as_ref(), input::window)?;
-        let disturbance = number("--disturbance", self.disturbance.as_ref(), Knob::Disturbance)?;
+    /// The motion, and what its measures depend on.
+    fn subject(&self) -> Result<(ScanSource, Conditions), Failure> {
+        let numbers = self.source.numbers();
+        let until = number("--until", self.until.as_ref(), numbers.until)?;
+        let window = given("--window", self.window.as_ref(), |text| numbers.window(text))?;
+        let kicks = given("--kicks", self.kicks.as_ref(), |text| numbers.kicks(text))?;
+        let disturbance = self.disturbance.as_ref();
+        let disturbance = number("--disturbance", disturbance, numbers.disturbance)?;
+        let wanted = given("--design", self.design.as_ref(), numbers.margin)?;
         let conditions = Conditions {
+            elongation: self.elongation,
             half_widths: self.half_width.clone(),
-            disturbance: disturbance.unwrap_or(0.0),
-            kicks: given("--kicks", self.kicks.as_ref(), str::parse)?.unwrap_or_default(),
-            wanted: given("--design", self.design.as_ref(), input::margin)?,
+            kicks: kicks.unwrap_or_default(),
+            wanted,
             ..window.unwrap_or(WINDOW).into()
         };
-        Ok((problem.into(), conditions))
-    }
-
-    /// The motion of the machine, and what its measures depend on.
-    fn of_machine(&self, mut case: MachineCase) -> Result<(ScanSource, Conditions), Failure> {
-        let until = number("--until", self.until.as_ref(), Knob::Duration)?;
-        let window = given("--window", self.window.as_ref(), input::physical_window)?;
-        if let Some(over) = self.measure.iter().find(|it| it.is_over_window() && window.is_none()) {
-            let line = format!("{} of a machine needs a --window", over.spec().name);
-            return Err(Failure::Usage(line));
-        }
-        let kicks = given("--kicks", self.kicks.as_ref(), input::physical_kicks)?;
-        if let Some(of) = self.measure.iter().find(|it| it.is_of_kicks() && kicks.is_none()) {
-            return Err(Failure::Usage(format!("{} of a machine needs --kicks", of.spec().name)));
+        let Some(mut case) = self.source.machine()? else {
+            let mut problem = self.source.start.scene(None)?.problem;
+            problem.until = until.unwrap_or(problem.until);
+            let disturbance = disturbance.unwrap_or(0.0);
+            return Ok((problem.into(), Conditions { disturbance, ..conditions }));
+        };
+        for measure in &self.measure {
+            let needs = match (measure.is_over_window(), measure.is_of_kicks()) {
+                (true, _) if window.is_none() => "a --window",
+                (_, true) if kicks.is_none() => "--kicks",
+                _ => continue,
+            };
+            let name = measure.spec().name;
+            return Err(Failure::Usage(format!("{name} of a machine needs {needs}")));
         }
         let MachineProblem { until: end, tolerances, .. } = &mut case.problem;
         *end = until.unwrap_or(*end);
-        let disturbance = self.disturbance.as_ref();
-        let disturbance = number("--disturbance", disturbance, Knob::DisturbingForce)?;
         tolerances.disturbance = disturbance.unwrap_or(tolerances.disturbance);
-        let conditions = Conditions {
-            elongation: self.elongation,
-            kicks: kicks.unwrap_or_default(),
-            wanted: given("--design", self.design.as_ref(), input::physical_margin)?,
-            ..window.unwrap_or(WINDOW).into()
-        };
         Ok((ScanSource::Machine(Box::new(case.checked()?.problem)), conditions))
     }
 

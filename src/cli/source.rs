@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use clap::Args;
 
-use super::input::{self, assignment};
+use super::input::{self, MACHINE, Numbers, OSCILLATOR};
 use super::{Failure, MachineCase, read, second};
 use crate::flow::{METHODS, Method, Problem};
-use crate::model::{Interval, Knob, ParameterBox};
+use crate::model::unit::WithTolerance;
+use crate::model::{Knob, ParameterBox};
 use crate::runtime::standard::tell;
 use crate::scene::library::PLAIN;
 use crate::scene::{Scene, find};
@@ -24,6 +25,11 @@ pub struct SourceOptions {
 }
 
 impl SourceOptions {
+    /// The numbers by which the other options are read.
+    pub fn numbers(&self) -> &'static Numbers {
+        if self.machine.is_some() { &MACHINE } else { &OSCILLATOR }
+    }
+
     /// The machine to which a question about all motions is put, if it is about one. These are followed by Taylor series
     /// alone.
     pub fn portrayed(&self) -> Result<Option<MachineCase>, Failure> {
@@ -45,8 +51,7 @@ impl SourceOptions {
     pub fn machine(&self) -> Result<Option<MachineCase>, Failure> {
         let Some(name) = &self.machine else { return Ok(None) };
         let mut case = MachineCase::named(name)?;
-        let set = self.start.set.iter().map(|text| read("--set", text, assignment));
-        case.set(&set.collect::<Result<Vec<_>, _>>()?)?;
+        case.set(&self.start.assigned(&MACHINE)?)?;
         case.problem.subject.tolerance = self.start.tol;
         Ok(Some(case))
     }
@@ -94,7 +99,8 @@ impl StartOptions {
     /// of the scene.
     pub fn scene(&self, named: Option<&str>) -> Result<Arc<Scene>, Failure> {
         let scene = self.found(named)?;
-        if let Some((symbol, _)) = self.assigned()?.iter().find(|(_, value)| !value.is_point()) {
+        let assigned = self.assigned(&OSCILLATOR)?;
+        if let Some((symbol, _)) = assigned.iter().find(|(_, value)| !value.ends.is_point()) {
             let line = format!(
                 "{symbol}: only cycles and margin take an interval; this command takes a number"
             );
@@ -104,8 +110,9 @@ impl StartOptions {
     }
 
     /// The numbers that are set.
-    fn assigned(&self) -> Result<Vec<(Knob, Interval)>, Failure> {
-        self.set.iter().map(|text| read("--set", text, input::assigned)).collect()
+    fn assigned(&self, numbers: &Numbers) -> Result<Vec<(Knob, WithTolerance)>, Failure> {
+        let one = |text: &String| read("--set", text, |text| numbers.assignment(text));
+        self.set.iter().map(one).collect()
     }
 
     /// A scene with the values set on the command line.
@@ -116,8 +123,8 @@ impl StartOptions {
         }
         let changed = Arc::make_mut(&mut scene);
         let Problem { parameters, initial, .. } = &mut changed.problem;
-        for (symbol, value) in self.assigned()? {
-            symbol.set(parameters, initial, value.middle());
+        for (symbol, value) in self.assigned(&OSCILLATOR)? {
+            symbol.set(parameters, initial, value.middle.value);
             if symbol.is_parameter() {
                 changed.terms.insert(symbol);
             }
@@ -132,9 +139,9 @@ impl StartOptions {
     /// The parameters, each as the interval in which it was given.
     pub fn known(&self) -> Result<ParameterBox, Failure> {
         let mut known = ParameterBox::from(&self.found(None)?.problem.parameters);
-        for (symbol, interval) in self.assigned()? {
+        for (symbol, value) in self.assigned(&OSCILLATOR)? {
             if symbol.is_parameter() {
-                known.set(symbol, interval).map_err(Failure::Usage)?;
+                known.set(symbol, value.ends).map_err(Failure::Usage)?;
             }
         }
         Ok(known)
