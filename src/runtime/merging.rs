@@ -79,14 +79,14 @@ impl<'a> OpenPart<'a> {
     fn new(file: &'a PartFile, recheck: Option<&Limits>) -> Result<Option<Self>, Failure> {
         let opened = File::open(&file.path).map_err(|error| Failure::file(&file.path, &error))?;
         let mut rows = RowReader::new(&file.part, &file.path, opened, file.checksum)?;
-        let Some(row) = rows.next()? else { return Ok(None) };
+        let Some(row) = rows.row()? else { return Ok(None) };
         recheck.map_or(Ok(()), |limits| rows.check(&row, limits))?;
         Ok(Some(OpenPart { file, rows, row }))
     }
 
     /// Reads the next row; `false` if there is none.
     fn advance(&mut self, recheck: Option<&Limits>) -> Result<bool, Failure> {
-        let Some(row) = self.rows.next()? else {
+        let Some(row) = self.rows.row()? else {
             return recheck
                 .map_or(Ok(false), |limits| self.rows.check(&self.row, limits).map(|()| false));
         };

@@ -151,7 +151,7 @@ fn kept(
 ) -> Result<(u64, Checksum), Failure> {
     let mut kept = (rows.bytes, Checksum::NONE);
     let mut last: Option<FileRow> = None;
-    while let Some(row) = rows.next()? {
+    while let Some(row) = rows.row()? {
         if rows.has_gap() {
             return Err(rows.out_of_turn(&row));
         }

@@ -99,7 +99,7 @@ impl<'a> RowReader<'a> {
 
     /// The next row, which may be of a later point than the one after the last row; `None` at the end of the file.
     /// Fails if it is not a row of the part, or the rows up to it have another checksum than those that were written.
-    pub fn next(&mut self) -> Result<Option<FileRow>, Failure> {
+    pub fn row(&mut self) -> Result<Option<FileRow>, Failure> {
         let line = self.line(LONGEST)?;
         let part = self.part;
         if line.last() != Some(&b'\n') {

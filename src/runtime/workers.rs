@@ -115,12 +115,11 @@ impl Workers {
             let found = found.map_err(NoAnswer::Panic);
             tell(found.and_then(|found| found.map_err(NoAnswer::Reason)), true);
         });
-        match begun {
-            Ok((stop, _)) => self.jobs.push(Job { request, _stop: stop }),
-            Err(_) => {
-                let why = Reason::NotApplicable { needs: "a thread, and the system gives none" };
-                (self.report)(Msg::answered(request, Err(NoAnswer::Reason(why)), 0.0));
-            }
+        if let Ok((stop, _)) = begun {
+            self.jobs.push(Job { request, _stop: stop });
+        } else {
+            let why = Reason::NotApplicable { needs: "a thread, and the system gives none" };
+            (self.report)(Msg::answered(request, Err(NoAnswer::Reason(why)), 0.0));
         }
     }
 

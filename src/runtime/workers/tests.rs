@@ -243,7 +243,7 @@ fn a_refinement_waits_for_its_draft() {
     assert_eq!(bench.workers.asked().collect::<Vec<_>>(), [&draft]);
     bench.finish.send(JobStep::Finish).unwrap();
     bench.workers.arrived(&bench.messages.recv().unwrap());
-    bench.workers.ask(&[full.clone()]);
+    bench.workers.ask(std::slice::from_ref(&full));
     bench.starts(&full);
 }
 
