@@ -39,9 +39,9 @@ fn place(window: Window, (x, y): (f64, f64)) -> Pair {
     [center.x + 0.5 * AROUND * window.x.width() * x, center.y + 0.5 * AROUND * window.y.width() * y]
 }
 
-/// The way from one point outside of the window to another, around it.
+/// The way from one point outside of the window to another, around it counterclockwise.
 fn detour(from: Pair, to: Pair, window: Window) -> Vec<Pair> {
-    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
     let center = window.center();
     let angle =
         |[x, y]: Pair| atan2((y - center.y) / window.y.width(), (x - center.x) / window.x.width());
@@ -50,18 +50,11 @@ fn detour(from: Pair, to: Pair, window: Window) -> Vec<Pair> {
         let longest = sin.abs().max(cos.abs());
         place(window, (cos / longest, sin / longest))
     };
-    let (start, end) = (angle(from), angle(to));
-    // The shorter way round.
-    let turn = (end - start + PI).rem_euclid(TAU) - PI;
-    let corners = (-8..=8).map(|corner| FRAC_PI_4 + FRAC_PI_2 * f64::from(corner));
-    let mut between: Vec<f64> = corners
-        .filter(|corner| (corner - start) * turn > 0.0 && (corner - start).abs() < turn.abs())
-        .collect();
-    if turn < 0.0 {
-        between.reverse();
-    }
-    let way = std::iter::once(start).chain(between).chain(std::iter::once(end));
-    way.map(outward).collect()
+    let start = angle(from);
+    let end = start + (angle(to) - start).rem_euclid(TAU);
+    let corners = (-2..=6).map(|corner| FRAC_PI_4 + FRAC_PI_2 * f64::from(corner));
+    let between = corners.filter(|corner| (start..end).contains(corner));
+    std::iter::once(start).chain(between).chain([end]).map(outward).collect()
 }
 
 /// Whether a polygon contains a point, by counting crossings.

@@ -1,14 +1,12 @@
 //! Places texts beside their points, where they cover nothing and cannot be mistaken for the name of another
 //! curve.
 
-use std::fmt::Write;
-
+use super::elements::{self, Anchor};
 use super::paper::{Frame, PLOT, Spot, ink};
 use super::{FigureCurve, MarkedPoint, Panel};
 use crate::numerics::{count::real, elementary::hypot};
 use crate::picture::{Caption, Dash};
 use crate::scene::Point;
-use crate::words::printable::xml;
 
 /// Width of a letter and height of a line, in pixels.
 const LETTER: f64 = 5.6;
@@ -50,14 +48,14 @@ struct Surroundings {
 }
 
 /// The places along a curve that lie in the plot.
-fn followed(points: impl IntoIterator<Item = Point>, frame: Frame) -> Vec<Spot> {
+fn followed(points: &[[f64; 2]], frame: Frame) -> Vec<Spot> {
     let inside = |spot: &Spot| {
         (frame.left..=frame.left + PLOT.0).contains(&spot.0)
             && (frame.top..=frame.top + PLOT.1).contains(&spot.1)
     };
     let mut spots: Vec<Spot> = Vec::new();
     let mut last: Option<Spot> = None;
-    for here in points.into_iter().map(|point| frame.spot(point)) {
+    for here in points.iter().map(|point| frame.spot((*point).into())) {
         let from = last.replace(here).unwrap_or(here);
         let length = hypot(here.0 - from.0, here.1 - from.1);
         if !length.is_finite() {
@@ -86,9 +84,8 @@ impl Surroundings {
         // against.
         let thin = panel.curves.iter().filter(|curve| curve.style != Dash::Thick);
         let (sparse, curves): (Vec<_>, Vec<_>) = thin.partition(|it| it.style == Dash::Sparse);
-        let spots =
-            |curve: &FigureCurve| followed(curve.points.iter().copied().map(Point::from), frame);
-        let guides = panel.guides.iter().map(|guide| followed(guide.iter().copied(), frame));
+        let spots = |curve: &FigureCurve| followed(&curve.points, frame);
+        let guides = panel.guides.iter().map(|guide| followed(guide, frame));
         let mark = |mark: &MarkedPoint| frame.spot(Point { x: mark.x, y: mark.y });
         Surroundings {
             curves: curves.into_iter().map(spots).collect(),
@@ -217,16 +214,13 @@ fn best(
 pub(super) fn write(out: &mut String, panel: &Panel, frame: Frame) {
     for (Caption { role, .. }, text, Rectangle { left, top, .. }) in places(panel, frame) {
         let (_, color) = ink(*role);
-        let (text, line) = (xml(text), top + LINE - 2.5);
+        let spot = (left, top + LINE - 2.5);
         // First its halo, so that what understands no order of painting shows the letters too.
         for paint in [
             "fill=\"none\" stroke=\"#ffffff\" stroke-width=\"2.5\"".to_owned(),
             format!("fill=\"{color}\""),
         ] {
-            let _ = writeln!(
-                out,
-                "<text x=\"{left:.2}\" y=\"{line:.2}\" font-size=\"10.5\" {paint}>{text}</text>"
-            );
+            elements::text(out, spot, Anchor::Right, &format!("font-size=\"10.5\" {paint}"), text);
         }
     }
 }

@@ -8,7 +8,7 @@ use super::areas::polygons;
 use super::lines::{graph, kept, lattice, missed};
 use crate::model::{Knob, Parameters, State};
 use crate::picture::{
-    self, Caption, Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap, VariantTag,
+    self, Caption, Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap,
 };
 use crate::scene::{Point, Span, Window, rectangle};
 use crate::words::provenance::Provenance;
@@ -72,7 +72,7 @@ pub struct Panel {
     pub nothing: Option<String>,
     /// Lines to be read against.
     #[serde(skip)]
-    pub guides: Vec<Vec<Point>>,
+    pub guides: Vec<Vec<[f64; 2]>>,
     /// Directions: where, and which way in the world.
     #[serde(skip)]
     pub arrows: Vec<(Point, Point)>,
@@ -167,12 +167,6 @@ impl Panel {
         for item in &picture.items {
             panel.add(picture, item);
         }
-        for item in &picture.items {
-            // Along a path other parameters vary than those on the axes, and it lies over the rest.
-            if let Item::Path(line, points) = item {
-                panel.curves.extend(curve(line, points, Held::new()));
-            }
-        }
         panel
     }
 
@@ -181,23 +175,16 @@ impl Panel {
         let mut add = |line: &LineStyle, points: &[Point]| {
             if line.name.is_empty() {
                 // A line without a name is not data.
-                self.guides.push(points.to_vec());
-            } else if let Some(curve) = curve(line, points, held(picture, line.variant.as_ref())) {
+                self.guides.push(pairs(points));
+            } else if let Some(curve) = curve(picture, line, points) {
                 self.curve(curve);
             }
         };
         match item {
-            Item::Path(..) => {}
             Item::Curve(line, points) => add(line, points),
             Item::Graph(line, value) => add(line, &graph(value, window)),
             Item::Upright(line, at) => {
                 add(line, &[y.from(), y.to()].map(|y| Point { x: *at, y }));
-            }
-            Item::Bar(line, from, to) => {
-                let curve = curve(line, &[*from, *to], held(picture, line.variant.as_ref()));
-                if let Some(curve) = curve {
-                    self.curve(FigureCurve { style: Dash::Thick, ..curve });
-                }
             }
             Item::Shade(line, edge) => self.area(picture, line, edge),
             Item::Beyond(line, edge) => self.area(picture, line, &beyond(edge, picture.window)),
@@ -245,7 +232,7 @@ impl Panel {
         let area = Area {
             name: line.full_name().into_owned(),
             role: line.role,
-            parameters: held(picture, line.variant.as_ref()),
+            parameters: held(picture, line),
             edge: pairs(edge),
             kind: line.name.to_string(),
         };
@@ -283,22 +270,23 @@ fn beyond(edge: &[Point], window: Window) -> Vec<Point> {
 }
 
 /// A line as data. One point is not a line: a motion at rest has its mark.
-fn curve(line: &LineStyle, points: &[Point], parameters: Held) -> Option<FigureCurve> {
+fn curve(picture: &Picture, line: &LineStyle, points: &[Point]) -> Option<FigureCurve> {
     let finite = points.iter().filter(|point| point.x.is_finite() && point.y.is_finite());
     (finite.count() > 1).then(|| FigureCurve {
         name: line.full_name().into_owned(),
         role: line.role,
         style: line.dash,
-        parameters,
+        parameters: held(picture, line),
         points: pairs(points),
         kind: line.name.to_string(),
     })
 }
 
-/// The parameters of a variant, or of the first where something belongs to all, except for those on the axes.
-fn held(picture: &Picture, variant: Option<&VariantTag>) -> Held {
-    let index = variant.map_or(0, |variant| variant.index);
-    let Some(parameters) = picture.variants.get(index) else { return Held::new() };
+/// The parameters of the variant of a line, or of the first where it belongs to all, except for those that vary along it.
+fn held(picture: &Picture, line: &LineStyle) -> Held {
+    let index = line.variant.as_ref().map_or(0, |variant| variant.index);
+    let parameters = picture.variants.get(index).filter(|_| !line.varies);
+    let Some(parameters) = parameters else { return Held::new() };
     let value = |symbol: Knob| symbol.get(parameters, &State { q: 0.0, v: 0.0 });
     Knob::PARAMETERS
         .into_iter()

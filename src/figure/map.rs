@@ -1,12 +1,10 @@
 //! A map and its scale as SVG: cells of one hue, the stronger the more dangerous.
 
-use std::fmt::Write;
-
+use super::elements::{Anchor, path, text};
 use super::paper::{Frame, PLOT, Spot, shading};
 use crate::numerics::count::{real, truncated};
 use crate::picture::{Danger, MapCell, Role, ScanMap};
 use crate::scene::Point;
-use crate::words::printable::xml;
 use crate::words::significant;
 
 /// Height of the scale of a map with its name and its numbers, in pixels.
@@ -28,26 +26,23 @@ pub(super) fn role(word: &str) -> Role {
     }
 }
 
-/// How a cell is filled: its colour and opacity.
-fn paint(cell: MapCell, scale: Option<Danger>) -> (String, f64) {
+/// The attributes of a cell.
+fn paint(cell: MapCell, scale: Option<Danger>) -> String {
     match (cell, scale) {
-        (MapCell::Number(value), Some(scale)) => (color(scale.strength(scale.part(value))), 1.0),
-        (MapCell::Number(_), None) => ("none".to_owned(), 1.0),
-        (MapCell::Word(word), _) => {
-            let (color, opacity) = shading(role(word));
-            (color.to_owned(), opacity)
-        }
+        (MapCell::Number(value), Some(scale)) => color(scale.strength(scale.part(value))),
+        (MapCell::Number(_), None) => "fill=\"none\"".to_owned(),
+        (MapCell::Word(word), _) => shading(role(word)),
     }
 }
 
-/// The colour of a strength from 0 to 1, as that of one of the steps.
+/// The attributes of a strength from 0 to 1: the colour of one of the steps.
 fn color(strength: f64) -> String {
     let step = truncated(strength * real(STEPS)).min(STEPS - 1);
     let part = real(step) / real(STEPS - 1);
     let [weak, strong] = ENDS;
     let mixed =
         [0, 1, 2].map(|index| truncated(weak[index] + part * (strong[index] - weak[index])));
-    format!("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2])
+    format!("fill=\"#{:02x}{:02x}{:02x}\"", mixed[0], mixed[1], mixed[2])
 }
 
 /// The borders of cells around these places: in the middle between neighbours, and as far beyond the ends.
@@ -64,7 +59,7 @@ fn borders(places: &[f64]) -> Vec<f64> {
 /// Draws the cells, equal neighbours above each other as one.
 pub(super) fn draw(out: &mut String, map: &ScanMap, frame: Frame) {
     let (across, upward) = (borders(&map.x), borders(&map.y));
-    let _ = writeln!(out, "<g shape-rendering=\"crispEdges\" stroke=\"none\">");
+    out.push_str("<g shape-rendering=\"crispEdges\" stroke=\"none\">\n");
     for (column, cells) in across.windows(2).zip(&map.values) {
         let mut row = 0;
         for same in cells.chunk_by(|one, other| paint(*one, map.scale) == paint(*other, map.scale))
@@ -73,12 +68,8 @@ pub(super) fn draw(out: &mut String, map: &ScanMap, frame: Frame) {
             row += same.len();
             let (left, bottom) = frame.spot(Point { x: column[0], y: low });
             let (right, top) = frame.spot(Point { x: column[1], y: high });
-            let (color, opacity) = paint(same[0], map.scale);
-            let _ = writeln!(
-                out,
-                "<path d=\"M{left:.2} {bottom:.2}H{right:.2}V{top:.2}H{left:.2}Z\" \
-                 fill=\"{color}\" fill-opacity=\"{opacity}\"/>"
-            );
+            let cell = format!("M{left:.2} {bottom:.2}H{right:.2}V{top:.2}H{left:.2}Z");
+            path(out, &cell, &paint(same[0], map.scale));
         }
     }
     out.push_str("</g>\n");
@@ -89,31 +80,20 @@ pub(super) fn draw(out: &mut String, map: &ScanMap, frame: Frame) {
 pub(super) fn scale(out: &mut String, map: &ScanMap, (x, y): Spot) {
     let Some(scale) = map.scale else { return };
     let (width, top) = (PLOT.0, y + 20.0);
-    let _ = writeln!(
-        out,
-        "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"11\">{}</text>",
-        x + width / 2.0,
-        y + 14.0,
-        xml(&map.name)
-    );
+    text(out, (x + width / 2.0, y + 14.0), Anchor::Around, "font-size=\"11\"", &map.name);
     out.push_str("<g shape-rendering=\"crispEdges\" stroke=\"none\">\n");
     for step in 0..STEPS {
         let [from, to] = [step, step + 1].map(|edge| x + width * real(edge) / real(STEPS));
         let fill = color(scale.strength((real(step) + 0.5) / real(STEPS)));
-        let _ =
-            writeln!(out, "<path d=\"M{from:.2} {top}H{to:.2}v10H{from:.2}Z\" fill=\"{fill}\"/>");
+        path(out, &format!("M{from:.2} {top}H{to:.2}v10H{from:.2}Z"), &fill);
     }
     out.push_str("</g>\n");
     let [lowest, highest] = scale.ends();
-    let below = top + 22.0;
-    for (part, anchor, end) in [(0.0, "start", lowest), (0.5, "middle", ""), (1.0, "end", highest)]
-    {
+    let ends =
+        [(0.0, Anchor::Right, lowest), (0.5, Anchor::Around, ""), (1.0, Anchor::Left, highest)];
+    for (part, anchor, end) in ends {
         let value = significant(scale.at(part), 4);
-        let text = if end.is_empty() { value } else { format!("{value} ({end})") };
-        let _ = writeln!(
-            out,
-            "<text x=\"{:.1}\" y=\"{below:.1}\" text-anchor=\"{anchor}\" font-size=\"10\">{text}</text>",
-            x + part * width
-        );
+        let words = if end.is_empty() { value } else { format!("{value} ({end})") };
+        text(out, (x + part * width, top + 22.0), anchor, "font-size=\"10\"", &words);
     }
 }

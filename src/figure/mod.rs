@@ -10,6 +10,7 @@ mod areas;
 mod captions;
 mod content;
 mod data;
+mod elements;
 mod lines;
 mod map;
 mod paper;
@@ -24,6 +25,8 @@ pub use svg::{panels, svg};
 
 use std::path::Path;
 
+use strum::EnumString;
+
 use crate::fit::{Fitted, OMEGA0, parameters};
 use crate::flow::Problem;
 use crate::picture;
@@ -31,7 +34,9 @@ use crate::picture::fit::pictures;
 use crate::session::{Key, Session};
 use crate::words::provenance::Provenance;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How a figure is written: the ending of its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, EnumString)]
+#[strum(serialize_all = "lowercase", ascii_case_insensitive)]
 pub enum FileForm {
     Svg,
     /// The same picture as dots, 288 to the inch.
@@ -46,13 +51,7 @@ impl FileForm {
     /// The form that the ending of a file asks for. Fails with one line with the endings that there are.
     pub fn of_file(path: &Path) -> Result<FileForm, String> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-        match ending.to_ascii_lowercase().as_str() {
-            "svg" => Ok(FileForm::Svg),
-            "png" => Ok(FileForm::Png),
-            "csv" => Ok(FileForm::Csv),
-            "json" => Ok(FileForm::Json),
-            _ => Err("a figure ends in .svg, .png, .csv or .json".to_owned()),
-        }
+        ending.parse().map_err(|_| "a figure ends in .svg, .png, .csv or .json".to_owned())
     }
 }
 

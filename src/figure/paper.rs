@@ -94,11 +94,12 @@ pub(super) fn stroke(role: Role, dash: Dash) -> String {
     format!("stroke=\"{color}\" stroke-width=\"{width}\"{dashes}")
 }
 
-/// Colour and opacity of shaded areas.
-pub(super) fn shading(role: Role) -> (&'static str, f64) {
-    match role {
+/// The attributes of a shaded area: its colour and opacity.
+pub(super) fn shading(role: Role) -> String {
+    let (color, opacity) = match role {
         Role::Danger | Role::Safe | Role::Field => (ink(role).1, 0.12),
         Role::Sticking | Role::Failure => (ink(role).1, 0.18),
         _ => ("#dbe7f3", 0.75),
-    }
+    };
+    format!("fill=\"{color}\" fill-opacity=\"{opacity}\"")
 }

@@ -7,7 +7,10 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 use roxmltree::{Document, Node};
 use skrifa::instance::{LocationRef, Size};
-use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::outline::DrawSettings;
+use skrifa::outline::pen::SvgPen;
+use skrifa::raw::model::glyph::outline::TransformSink;
+use skrifa::raw::types::Matrix;
 use skrifa::{FontRef, GlyphId, MetadataProvider};
 
 /// Dots of a PNG along a pixel of the vector picture, which is a 96th of an inch: 288 to the inch.
@@ -45,9 +48,9 @@ fn outlined(svg: &str) -> Result<String, String> {
     let mut copied = 0;
     for text in document.descendants().filter(|node| node.has_tag_name("text")) {
         let italic = text.attribute("font-style") == Some("italic");
-        let outline = Outline::of(&text, if italic { &slanted } else { &upright })?;
+        let path = outline(&text, if italic { &slanted } else { &upright })?;
         out.push_str(&svg[copied..text.range().start]);
-        let _ = write!(out, "<path d=\"{}\"", outline.path);
+        let _ = write!(out, "<path d=\"{path}\"");
         for painted in text.attributes().filter(|it| !SETTING.contains(&it.name())) {
             let _ = write!(out, " {}=\"{}\"", painted.name(), painted.value());
         }
@@ -58,71 +61,34 @@ fn outlined(svg: &str) -> Result<String, String> {
     Ok(out)
 }
 
-/// Letters as the data of a path.
-struct Outline {
-    path: String,
-    /// Where the next letter stands.
-    at: [f32; 2],
-}
-
-impl Outline {
-    /// The outline of a text element. Fails with one line if the font is damaged.
-    fn of(text: &Node, font: &FontRef) -> Result<Outline, String> {
-        let number = |name| text.attribute(name).and_then(|it| it.parse().ok()).unwrap_or(0.0);
-        let size = text.ancestors().find_map(|node| node.attribute("font-size")?.parse().ok());
-        let (size, whole) = (Size::new(size.unwrap_or(12.0)), LocationRef::default());
-        let (places, metrics) = (font.charmap(), font.glyph_metrics(size, whole));
-        let letters = text.text().unwrap_or_default().chars();
-        let glyphs: Vec<GlyphId> =
-            letters.map(|letter| places.map(letter).unwrap_or_default()).collect();
-        let step = |glyph: &GlyphId| metrics.advance_width(*glyph).unwrap_or(0.0);
-        let width: f32 = glyphs.iter().map(step).sum();
-        let before = match text.attribute("text-anchor") {
-            Some("middle") => width / 2.0,
-            Some("end") => width,
-            _ => 0.0,
-        };
-        let at = [number("x") - before, number("y")];
-        let mut outline = Outline { path: String::new(), at };
-        let outlines = font.outline_glyphs();
-        for glyph in glyphs {
-            if let Some(shape) = outlines.get(glyph) {
-                shape.draw(DrawSettings::unhinted(size, whole), &mut outline).map_err(failed)?;
-            }
-            outline.at[0] += step(&glyph);
+/// The letters of a text element as the data of a path. Fails with one line if the font is damaged.
+fn outline(text: &Node, font: &FontRef) -> Result<SvgPen, String> {
+    let number = |name| text.attribute(name).and_then(|it| it.parse().ok()).unwrap_or(0.0);
+    let size = text.ancestors().find_map(|node| node.attribute("font-size")?.parse().ok());
+    let (size, whole) = (Size::new(size.unwrap_or(12.0)), LocationRef::default());
+    let (places, metrics) = (font.charmap(), font.glyph_metrics(size, whole));
+    let letters = text.text().unwrap_or_default().chars();
+    let glyphs: Vec<GlyphId> =
+        letters.map(|letter| places.map(letter).unwrap_or_default()).collect();
+    let step = |glyph: &GlyphId| metrics.advance_width(*glyph).unwrap_or(0.0);
+    let width: f32 = glyphs.iter().map(step).sum();
+    let before = match text.attribute("text-anchor") {
+        Some("middle") => width / 2.0,
+        Some("end") => width,
+        _ => 0.0,
+    };
+    let mut left = number("x") - before;
+    let mut path = SvgPen::with_precision(3);
+    for glyph in glyphs {
+        if let Some(shape) = font.outline_glyphs().get(glyph) {
+            // Letters grow upwards, the picture downwards.
+            let upright = Matrix::from_elements([1.0, 0.0, 0.0, -1.0, left, number("y")]);
+            let mut placed = TransformSink::new(&mut path, upright);
+            shape.draw(DrawSettings::unhinted(size, whole), &mut placed).map_err(failed)?;
         }
-        Ok(outline)
+        left += step(&glyph);
     }
-
-    fn push(&mut self, command: char, points: &[(f32, f32)]) {
-        self.path.push(command);
-        let [left, base] = self.at;
-        for (x, y) in points {
-            let _ = write!(self.path, "{:.3} {:.3} ", left + x, base - y);
-        }
-    }
-}
-
-impl OutlinePen for Outline {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.push('M', &[(x, y)]);
-    }
-
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.push('L', &[(x, y)]);
-    }
-
-    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        self.push('Q', &[(x1, y1), (x, y)]);
-    }
-
-    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        self.push('C', &[(x1, y1), (x2, y2), (x, y)]);
-    }
-
-    fn close(&mut self) {
-        self.path.push('Z');
-    }
+    Ok(path)
 }
 
 #[cfg(test)]

@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
+use super::elements::{Anchor, circle, path, rectangle, text};
 use super::paper::{self, ENTRY, Frame, HEAD, MARGIN, PLOT, Spot, ink, shading, stroke};
-use super::{
-    Area, Figure, FigureCurve, MarkedPoint, Panel, areas::loops, captions, data::remarks, map,
-};
+use super::{Area, Figure, MarkedPoint, Panel, areas::loops, captions, data::remarks, map};
 use crate::numerics::count::{real, truncated};
 use crate::numerics::elementary::hypot;
+use crate::picture::legend::distinct;
 use crate::picture::{LegendEntry, LegendSample, Mark, Marks, ScanMap, Ticks, passes};
 use crate::scene::Point;
 use crate::words::printable::xml;
@@ -50,20 +50,15 @@ fn picture(figure: &Figure, alone: Option<u32>) -> String {
         xml(&remarks(figure).join("\n")),
     );
     if alone.is_none() {
-        let _ = writeln!(
-            out,
-            "<text x=\"{}\" y=\"22\" text-anchor=\"middle\" font-size=\"14\">{}</text>",
-            width / 2.0,
-            xml(&figure.title),
-        );
+        let spot = (width / 2.0, 22.0);
+        text(&mut out, spot, Anchor::Around, "font-size=\"14\"", &figure.title);
     }
     for (number, panel) in (0..).zip(&figure.panels) {
         draw(&mut out, alone.unwrap_or(number), panel, Frame::of(number, panels, panel.window));
     }
     for (number, entry) in entries.iter().enumerate() {
-        let place = |count: usize| f64::from(u32::try_from(count).unwrap_or(0));
-        let x = MARGIN.1 + place(number % across) * ENTRY.0;
-        let y = below + place(number / across) * ENTRY.1 + 8.0;
+        let x = MARGIN.1 + real(number % across) * ENTRY.0;
+        let y = below + real(number / across) * ENTRY.1 + 8.0;
         sample(&mut out, entry, (x, y));
     }
     for (number, shown) in maps().enumerate() {
@@ -95,8 +90,7 @@ fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
         arrow(out, *at, *way, frame);
     }
     for guide in &panel.guides {
-        let points = guide.iter().map(|point| [point.x, point.y]).collect::<Vec<_>>();
-        polyline(out, &points, "stroke=\"#b0b0b0\" stroke-width=\"0.6\"", frame);
+        polyline(out, guide, "stroke=\"#b0b0b0\" stroke-width=\"0.6\"", frame);
     }
     for curve in &panel.curves {
         polyline(out, &curve.points, &stroke(curve.role, curve.style), frame);
@@ -109,18 +103,10 @@ fn draw(out: &mut String, number: u32, panel: &Panel, frame: Frame) {
     captions::write(out, panel, frame);
 }
 
-/// A polyline with these attributes, run by run between points that are not finite.
+/// A polyline with these attributes, run by run between points that are not finite. What lies far outside of the plot
+/// is moved to where its lines still run where they ran, and left out where they cannot be seen.
 fn polyline(out: &mut String, points: &[[f64; 2]], attributes: &str, frame: Frame) {
-    let path = path(points, frame);
-    if !path.is_empty() {
-        let _ = writeln!(out, "<path d=\"{path}\" {attributes}/>");
-    }
-}
-
-/// The commands of a path. What lies far outside of the plot is moved to where its lines still run
-/// where they ran, and left out where they cannot be seen.
-fn path(points: &[[f64; 2]], frame: Frame) -> String {
-    let mut path = String::new();
+    let mut commands = String::new();
     let mut down = false;
     for (index, [x, y]) in points.iter().enumerate() {
         let seen = |[x, y]: &[f64; 2]| near(*x, *y, frame);
@@ -132,10 +118,12 @@ fn path(points: &[[f64; 2]], frame: Frame) -> String {
         }
         let (across, along) = drawable(frame, [*x, *y]);
         let command = if down { 'L' } else { 'M' };
-        let _ = write!(path, "{command}{across:.3} {along:.3}");
+        let _ = write!(commands, "{command}{across:.3} {along:.3}");
         down = true;
     }
-    path
+    if !commands.is_empty() {
+        path(out, &commands, attributes);
+    }
 }
 
 /// Where a point stands. Coordinates of paper have six digits; what is far outside keeps its side.
@@ -152,19 +140,16 @@ fn near(x: f64, y: f64, frame: Frame) -> bool {
 
 fn shade(out: &mut String, areas: &[Area], frame: Frame) {
     let Some(Area { role, .. }) = areas.first() else { return };
-    let mut path = String::new();
+    let mut commands = String::new();
     for polygon in areas.iter().flat_map(|area| loops(&area.edge, frame.window)) {
         for (index, point) in polygon.iter().enumerate() {
             let (across, along) = drawable(frame, *point);
-            let _ = write!(path, "{}{across:.3} {along:.3}", if index == 0 { 'M' } else { 'L' });
+            let command = if index == 0 { 'M' } else { 'L' };
+            let _ = write!(commands, "{command}{across:.3} {along:.3}");
         }
-        path.push('Z');
+        commands.push('Z');
     }
-    let (color, opacity) = shading(*role);
-    let _ = writeln!(
-        out,
-        "<path d=\"{path}\" fill=\"{color}\" fill-opacity=\"{opacity}\" fill-rule=\"evenodd\"/>"
-    );
+    path(out, &commands, &format!("{} fill-rule=\"evenodd\"", shading(*role)));
 }
 
 fn arrow(out: &mut String, at: Point, way: Point, frame: Frame) {
@@ -183,11 +168,9 @@ fn arrow(out: &mut String, at: Point, way: Point, frame: Frame) {
     let wing = |side: f64| (tx - TIP * (ux + 0.6 * side * uy), ty - TIP * (uy - 0.6 * side * ux));
     let ((ax, ay), (bx, by)) = (wing(1.0), wing(-1.0));
     let (fx, fy) = (x - HALF * ux, y - HALF * uy);
-    let _ = writeln!(
-        out,
-        "<path d=\"M{fx:.2} {fy:.2}L{tx:.2} {ty:.2}M{ax:.2} {ay:.2}L{tx:.2} {ty:.2}L{bx:.2} {by:.2}\" \
-         stroke=\"#a8a8a8\" stroke-width=\"0.7\"/>"
-    );
+    let commands =
+        format!("M{fx:.2} {fy:.2}L{tx:.2} {ty:.2}M{ax:.2} {ay:.2}L{tx:.2} {ty:.2}L{bx:.2} {by:.2}");
+    path(out, &commands, "stroke=\"#a8a8a8\" stroke-width=\"0.7\"");
 }
 
 fn dot(out: &mut String, mark: &MarkedPoint, frame: Frame) {
@@ -195,12 +178,8 @@ fn dot(out: &mut String, mark: &MarkedPoint, frame: Frame) {
     let at = Point { x: mark.x, y: mark.y };
     if let Some((at, above)) = Marks::edge(at, frame.window).filter(|_| mark.at_edge) {
         let (x, y) = frame.spot(at);
-        let way = if above { 1 } else { -1 };
-        let _ = writeln!(
-            out,
-            "<path d=\"M{x:.2} {y:.2}l-4 {down}h8z\" fill=\"{color}\"/>",
-            down = 8 * way
-        );
+        let down = if above { 8 } else { -8 };
+        path(out, &format!("M{x:.2} {y:.2}l-4 {down}h8z"), &format!("fill=\"{color}\""));
         return;
     }
     let (x, y) = frame.spot(at);
@@ -211,50 +190,29 @@ fn dot(out: &mut String, mark: &MarkedPoint, frame: Frame) {
 
 /// A mark at a place on paper.
 fn spot(out: &mut String, mark: Mark, (x, y): Spot, color: &str) {
-    let _ = match mark {
-        Mark::Rest => writeln!(
-            out,
-            "<rect x=\"{:.3}\" y=\"{:.3}\" width=\"6\" height=\"6\" fill=\"{color}\"/>",
-            x - 3.0,
-            y - 3.0
-        ),
-        Mark::Head | Mark::Stable => {
-            writeln!(out, "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"3.2\" fill=\"{color}\"/>")
+    let filled = format!("fill=\"{color}\"");
+    match mark {
+        Mark::Rest => rectangle(out, (x - 3.0, y - 3.0), (6.0, 6.0), &filled),
+        Mark::Head | Mark::Stable => circle(out, (x, y), 3.2, &filled),
+        Mark::Start | Mark::Turn | Mark::Unstable => {
+            let hollow = format!("fill=\"#ffffff\" stroke=\"{color}\" stroke-width=\"1.2\"");
+            circle(out, (x, y), 3.2, &hollow);
         }
-        Mark::Start | Mark::Turn | Mark::Unstable => writeln!(
-            out,
-            "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"3.2\" fill=\"#ffffff\" stroke=\"{color}\" \
-             stroke-width=\"1.2\"/>"
-        ),
-        Mark::Outlier => writeln!(
-            out,
-            "<path d=\"M{x:.2} {y:.2}m-3 -3l6 6m-6 0l6 -6\" stroke=\"{color}\" stroke-width=\"1.4\"/>"
-        ),
-        Mark::Saturated => {
-            writeln!(out, "<path d=\"M{x:.2} {y:.2}m-3 0l3 -3l3 3l-3 3z\" fill=\"{color}\"/>")
+        Mark::Outlier => {
+            let cross = format!("M{x:.2} {y:.2}m-3 -3l6 6m-6 0l6 -6");
+            path(out, &cross, &format!("stroke=\"{color}\" stroke-width=\"1.4\""));
         }
-        Mark::Aside => {
-            writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"1.2\" fill=\"{color}\"/>")
-        }
-    };
+        Mark::Saturated => path(out, &format!("M{x:.2} {y:.2}m-3 0l3 -3l3 3l-3 3z"), &filled),
+        Mark::Aside => circle(out, (x, y), 1.2, &filled),
+    }
 }
 
 fn axes(out: &mut String, panel: &Panel, frame: Frame) {
     let Frame { left, top, window } = frame;
     let (width, height) = PLOT;
     let (right, bottom) = (left + width, top + height);
-    let _ = writeln!(
-        out,
-        "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"none\" \
-         stroke=\"#222222\" stroke-width=\"0.9\"/>"
-    );
-    let mut text = |x: f64, y: f64, anchor: &str, more: &str, text: &str| {
-        let text = xml(text);
-        let _ = writeln!(
-            out,
-            "<text x=\"{x:.2}\" y=\"{y:.2}\" text-anchor=\"{anchor}\"{more}>{text}</text>"
-        );
-    };
+    let edge = "fill=\"none\" stroke=\"#222222\" stroke-width=\"0.9\"";
+    rectangle(out, (left, top), PLOT, edge);
     let rightward = Ticks::on(panel.scales[0], window.x, |ticks| ticks.len() <= 7);
     let mut upward = Ticks::on(panel.scales[1], window.y, |ticks| ticks.len() <= 7);
     if panel.y.name.is_empty() {
@@ -264,94 +222,65 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
     let based = |name: &str, base: Option<&String>| {
         base.map_or_else(|| name.to_owned(), |base| format!("{name} - {base}"))
     };
-    for tick in &rightward.ticks {
-        text(left + tick.fraction * width, bottom + 17.0, "middle", "", &tick.label);
-    }
-    for tick in &upward.ticks {
-        let y = top + (1.0 - tick.fraction) * height + 4.0;
-        text(left - 8.0, y, "end", "", &tick.label);
-    }
-    text(left + width / 2.0, top - 9.0, "middle", " font-size=\"12.5\"", &panel.title);
-    let italic = " font-style=\"italic\"";
-    let name = based(&panel.names[0], rightward.base.as_ref());
-    text(left + width / 2.0, bottom + 35.0, "middle", italic, &name);
-    let (x, y) = (left - 46.0, top + height / 2.0);
-    let turned = format!("{italic} transform=\"rotate(-90 {x:.2} {y:.2})\"");
-    text(x, y, "middle", &turned, &based(&panel.names[1], upward.base.as_ref()));
-    // Clause by clause, as none is wider than the plot.
-    let clauses =
-        panel.nothing.iter().flat_map(|sentence| sentence.split_inclusive([':', ';', ',']));
-    for (line, clause) in clauses.enumerate() {
-        text(
-            left + width / 2.0,
-            top + height / 2.0 + 16.0 * real(line),
-            "middle",
-            "",
-            clause.trim(),
-        );
-    }
     let mut notches = String::new();
     for tick in &rightward.ticks {
         let x = left + tick.fraction * width;
         let _ = write!(notches, "M{x:.2} {bottom}v-5M{x:.2} {top}v5");
+        text(out, (x, bottom + 17.0), Anchor::Around, "", &tick.label);
     }
     for tick in &upward.ticks {
         let y = top + (1.0 - tick.fraction) * height;
         let _ = write!(notches, "M{left} {y:.2}h5M{right} {y:.2}h-5");
+        text(out, (left - 8.0, y + 4.0), Anchor::Left, "", &tick.label);
     }
-    let _ = writeln!(out, "<path d=\"{notches}\" stroke=\"#222222\" stroke-width=\"0.8\"/>");
+    path(out, &notches, "stroke=\"#222222\" stroke-width=\"0.8\"");
+    let (center, middle) = (left + width / 2.0, top + height / 2.0);
+    let mut around = |x: f64, y: f64, attributes: &str, words: &str| {
+        text(out, (x, y), Anchor::Around, attributes, words);
+    };
+    around(center, top - 9.0, "font-size=\"12.5\"", &panel.title);
+    let italic = "font-style=\"italic\"";
+    around(center, bottom + 35.0, italic, &based(&panel.names[0], rightward.base.as_ref()));
+    let x = left - 46.0;
+    let turned = format!("{italic} transform=\"rotate(-90 {x:.2} {middle:.2})\"");
+    around(x, middle, &turned, &based(&panel.names[1], upward.base.as_ref()));
+    // Clause by clause, as none is wider than the plot.
+    let clauses =
+        panel.nothing.iter().flat_map(|sentence| sentence.split_inclusive([':', ';', ',']));
+    for (line, clause) in clauses.enumerate() {
+        around(center, middle + 16.0 * real(line), "", clause.trim());
+    }
 }
 
-/// Everything with a name that is seen, once; which of several variants a curve is stands beside it. An
-/// area whose edge has its name needs no entry.
+/// Everything with a name that is seen, once, lines before areas; which of several variants a curve is stands beside it.
 fn legend(figure: &Figure) -> Vec<LegendEntry> {
-    let mut entries: Vec<LegendEntry> = Vec::new();
-    for panel in &figure.panels {
+    let entry = |text: &str, role, sample| LegendEntry { sample, role, text: text.to_owned() };
+    let of_panel = |panel: &Panel| {
         let seen = panel.curves.iter().filter(|curve| {
             let points: Vec<Point> = curve.points.iter().copied().map(Point::from).collect();
             passes(&points, panel.window)
         });
-        let line = |it: &FigureCurve| (it.kind.clone(), it.role, LegendSample::Line(it.style));
-        let area = |it: &Area| (it.kind.clone(), it.role, LegendSample::Shade);
-        let word = |it: &'static str| (it.to_owned(), map::role(it), LegendSample::Shade);
+        let lines = seen.map(|it| entry(&it.kind, it.role, LegendSample::Line(it.style)));
+        let areas = panel.areas.iter().map(|it| entry(&it.kind, it.role, LegendSample::Shade));
+        let words = panel.map.iter().flat_map(ScanMap::words);
+        let words = words.map(|word| entry(word, map::role(word), LegendSample::Shade));
         let dropped = [Mark::Outlier, Mark::Saturated, Mark::Aside];
         let marks = panel.marks.iter().filter(|it| dropped.contains(&it.mark));
-        let mark = |it: &MarkedPoint| (it.name.to_string(), it.role, LegendSample::Point(it.mark));
-        let words = panel.map.iter().flat_map(ScanMap::words).map(word);
-        let all = seen.map(line).chain(panel.areas.iter().map(area)).chain(words);
-        for (text, role, sample) in all.chain(marks.map(mark)) {
-            let entry = LegendEntry { sample, role, text };
-            if !entries.contains(&entry) {
-                entries.push(entry);
-            }
-        }
-    }
-    let is_line = |entry: &LegendEntry| matches!(entry.sample, LegendSample::Line(_));
-    let edges: Vec<LegendEntry> = entries.iter().filter(|entry| is_line(entry)).cloned().collect();
-    entries.retain(|entry| {
-        let is_edge = |edge: &LegendEntry| (&edge.text, edge.role) == (&entry.text, entry.role);
-        entry.sample != LegendSample::Shade || !edges.iter().any(is_edge)
-    });
-    entries
+        let marks = marks.map(|it| entry(&it.name, it.role, LegendSample::Point(it.mark)));
+        lines.chain(areas).chain(words).chain(marks).collect::<Vec<_>>()
+    };
+    distinct(figure.panels.iter().flat_map(of_panel))
 }
 
-fn sample(out: &mut String, LegendEntry { sample, role, text }: &LegendEntry, (x, y): Spot) {
+fn sample(out: &mut String, LegendEntry { sample, role, text: name }: &LegendEntry, (x, y): Spot) {
     match sample {
         LegendSample::Point(mark) => spot(out, *mark, (x + 15.0, y), ink(*role).1),
         LegendSample::Line(dash) => {
-            let stroke = stroke(*role, *dash);
-            let _ = writeln!(out, "<path d=\"M{x:.1} {y:.1}h30\" {stroke}/>");
+            path(out, &format!("M{x:.1} {y:.1}h30"), &stroke(*role, *dash));
         }
         LegendSample::Shade | LegendSample::Spot | LegendSample::Arrow => {
-            let (color, opacity) = shading(*role);
-            let _ = writeln!(
-                out,
-                "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"30\" height=\"10\" fill=\"{color}\" \
-                     fill-opacity=\"{opacity}\"/>",
-                y - 5.0
-            );
+            rectangle(out, (x, y - 5.0), (30.0, 10.0), &shading(*role));
         }
     }
-    let (x, y, name) = (x + 37.0, y + 4.0, xml(text));
-    let _ = writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"11\">{name}</text>");
+    text(out, (x + 37.0, y + 4.0), Anchor::Right, "font-size=\"11\"", name);
 }

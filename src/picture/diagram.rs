@@ -6,10 +6,7 @@
 //! those of others are paler, without marks. A point of the branch that is held has a cross.
 
 use super::equilibria::{self, at};
-use super::{
-    CycleStyle, Dash, LineStyle, Picture, Role, Text, VariantTag, cycle_style,
-    phase_plane::variants,
-};
+use super::{CycleStyle, Dash, LineStyle, Picture, Role, Text, cycle_style};
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::closed_form::harmonic::{
     amplitudes, damping_at, large_asymptote, mean, small_asymptote,
@@ -37,17 +34,11 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     let current = session.value(abscissa);
     let all = session.shown(index);
     let has_present = all.iter().any(|one| one.present);
-    let mut found: Vec<ComputedBranch> = session
-        .branches(index)
-        .into_iter()
-        .filter_map(|(variant, branch)| {
-            let height = session.height(index, variant);
-            let ShownMotion { label, present, .. } = all.get(variant)?.clone();
-            let variant = VariantTag { index: variant, label };
-            let beside = has_present && !present;
-            Some(ComputedBranch { variant, branch, height, present, beside })
-        })
-        .collect();
+    let computed = session.branches(index).into_iter().filter_map(|(variant, branch)| {
+        let (shown, height) = (all.get(variant)?, session.height(index, variant));
+        Some(ComputedBranch { shown, branch, height, beside: has_present && !shown.present })
+    });
+    let mut found: Vec<ComputedBranch> = computed.collect();
     // The present one over the others.
     found.sort_by_key(|found| !found.beside);
 
@@ -57,14 +48,14 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     }
     picture.upright(LineStyle::new("present value", Role::Current, Dash::Sparse), current);
     // Beside branches of other values the formulas stand for the present one alone.
-    for (variant, shown) in variants(&all).filter(|(_, shown)| shown.present || !has_present) {
+    for shown in all.iter().filter(|shown| shown.present || !has_present) {
         let height = diagram.axes.height(shown.problem.parameters.r);
         if shows(Layer::Asymptotes) {
-            asymptotes(picture, shown, &variant, abscissa, height);
+            asymptotes(picture, shown, abscissa, height);
         }
         if shows(Layer::Harmonic) {
             let largest = largest_amplitude(diagram, height, &found);
-            harmonic(picture, (shown, &variant), abscissa, height, largest);
+            harmonic(picture, shown, abscissa, height, largest);
         }
     }
     let rest = |shown: &ShownMotion| match (shown.present || all.len() == 1, has_present) {
@@ -72,9 +63,9 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         (false, true) => ("rest at other values", Dash::Solid),
         (false, false) => (equilibria::REST, Dash::Solid),
     };
-    for (variant, shown) in variants(&all) {
+    for shown in &all {
         let height = diagram.axes.height(shown.problem.parameters.r);
-        equilibria::draw(picture, (shown, &variant), rest(shown), abscissa, height);
+        equilibria::draw(picture, shown, rest(shown), abscissa, height);
     }
     let pieces = || {
         found.iter().flat_map(|found| found.branch.pieces.iter().map(move |piece| (found, piece)))
@@ -104,12 +95,10 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
 
 /// A branch that was computed: whose it is, and how high its cycles stand.
 struct ComputedBranch<'a> {
-    variant: VariantTag,
+    shown: &'a ShownMotion,
     branch: &'a Branch,
     height: Height,
-    /// Whether it is that of the present values.
-    present: bool,
-    /// Whether it stands beside that.
+    /// Whether it stands beside that of the present values.
     beside: bool,
 }
 
@@ -141,13 +130,7 @@ fn held(session: &Session, index: usize) -> Option<Point> {
 }
 
 /// The asymptotes A1 and A2 (51, 52), their height read out of A0 and A.
-fn asymptotes(
-    picture: &mut Picture,
-    shown: &ShownMotion,
-    variant: &VariantTag,
-    abscissa: Knob,
-    height: Height,
-) {
+fn asymptotes(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob, height: Height) {
     let Some(size) = height.ordinate.spec().harmonic else { return };
     // Of the mean they are asymptotes of their own, with names of their own (53, 54).
     let names = match height.ordinate {
@@ -156,10 +139,9 @@ fn asymptotes(
     };
     let asymptotes = [small_asymptote as fn(&Parameters) -> Option<f64>, large_asymptote];
     for (name, asymptote) in names.into_iter().zip(asymptotes) {
-        let line =
-            LineStyle::new(name, Role::Asymptote, Dash::DashDot).briefly("asymptote").of(variant);
+        let line = LineStyle::new(name, Role::Asymptote, Dash::DashDot).briefly("asymptote");
         let shown = shown.clone();
-        picture.graph(line, move |value| {
+        picture.graph(line.of(&shown.variant), move |value| {
             let parameters = at(&shown, abscissa, value);
             let amplitude = asymptote(&parameters)?;
             Some(height.scaled(value, size(mean(parameters.d2, amplitude), amplitude)))
@@ -173,7 +155,7 @@ fn asymptotes(
 /// over the other parameters each amplitude is a curve of its own.
 fn harmonic(
     picture: &mut Picture,
-    (shown, variant): (&ShownMotion, &VariantTag),
+    shown: &ShownMotion,
     abscissa: Knob,
     height: Height,
     largest: f64,
@@ -181,7 +163,7 @@ fn harmonic(
     /// Samples along the amplitude: more than any screen has dots.
     const SAMPLES: u16 = 1000;
     let Some(size) = height.ordinate.spec().harmonic else { return };
-    let line = LineStyle::new("first harmonic", Role::Harmonic, Dash::Dotted).of(variant);
+    let line = LineStyle::new("first harmonic", Role::Harmonic, Dash::Dotted).of(&shown.variant);
     let Parameters { d2, d3, r, .. } = shown.problem.parameters;
     if abscissa == Knob::D {
         let points = (1..=SAMPLES).map(|sample| {
@@ -222,7 +204,7 @@ fn largest_amplitude(diagram: &session::Plot, height: Height, found: &[ComputedB
 /// Adds a piece, run by run of equal stability; neighbouring runs meet at the fold between them. One of
 /// several branches has its label where it is highest in the window.
 fn branch(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch) {
-    let ComputedBranch { variant, present, beside, .. } = found;
+    let ComputedBranch { shown: ShownMotion { variant, present, .. }, beside, .. } = found;
     let place = |point: &BranchPoint| found.place(point);
     let mut start = None;
     for run in piece.chunk_by(|one, other| one.cycle.stable == other.cycle.stable) {
@@ -257,7 +239,7 @@ fn extents(picture: &mut Picture, piece: &[BranchPoint], found: &ComputedBranch)
     let points =
         piece.iter().map(|point| Point { x: point.value, y: height.of(point.value, &point.cycle) });
     let line = LineStyle::new("largest velocity A_v", Role::Velocity, Dash::DashDot);
-    picture.curve(line.of(&found.variant).briefly("largest velocity"), points);
+    picture.curve(line.of(&found.shown.variant).briefly("largest velocity"), points);
 }
 
 /// Marks the cycles of a piece at the present value.

@@ -2,11 +2,10 @@
 //! equilibrium at 0, stable on one side of the Hopf point and unstable on the other.
 
 use super::{
-    CycleStyle, Dash, Fill, Item, LineStyle, Pattern, Picture, Role, VariantTag, cycle_style,
-    phase_plane::AT_REST,
+    Dash, Fill, Item, LineStyle, Pattern, Picture, Role, cycle_style, phase_plane::AT_REST,
 };
 use crate::model::{Knob, Parameters};
-use crate::scene::{Height, Ordinate};
+use crate::scene::{Height, Ordinate, Point};
 use crate::session::ShownMotion;
 
 /// The name of rest in every diagram.
@@ -16,7 +15,7 @@ pub(super) const REST: &str = "rest (attracts)";
 /// rest (its period, its multiplier).
 pub fn draw(
     picture: &mut Picture,
-    (shown, variant): (&ShownMotion, &VariantTag),
+    shown: &ShownMotion,
     (name, dash): (&'static str, Dash),
     abscissa: Knob,
     height: Height,
@@ -29,11 +28,11 @@ pub fn draw(
     if shown.problem.parameters.r == 0.0 && abscissa != Knob::R {
         // There is no height in units of a friction that is zero.
         if !height.is_ratio() {
-            point(picture, shown, variant, abscissa);
+            point(picture, shown, abscissa);
         }
         return;
     }
-    let line = LineStyle::new(name, Role::Sticking, dash).briefly(AT_REST).of(variant);
+    let line = LineStyle::new(name, Role::Sticking, dash).briefly(AT_REST).of(&shown.variant);
     if !has_band {
         return picture.level(line, 0.0);
     }
@@ -47,9 +46,8 @@ pub fn draw(
     let band = edge(picture.window.x.from()).filter(|_| abscissa != Knob::R);
     if abscissa == Knob::R {
         let fill = Fill { pattern: Pattern::Shade, role: Role::Sticking, name };
-        let within = move |place: crate::scene::Point| {
-            edge(place.x).filter(|edge| place.y.abs() <= *edge).map(|_| fill)
-        };
+        let within =
+            move |place: Point| edge(place.x).filter(|edge| place.y.abs() <= *edge).map(|_| fill);
         picture.items.push(Item::Texture(Box::new(within)));
     }
     picture.graph(line.clone(), upper);
@@ -77,16 +75,12 @@ fn is_stable(parameters: &Parameters) -> Option<bool> {
 }
 
 /// The equilibrium at 0 without friction.
-fn point(picture: &mut Picture, shown: &ShownMotion, variant: &VariantTag, abscissa: Knob) {
-    for stable in [true, false] {
-        let (name, dash) = if stable {
-            ("rest (stable)", Dash::Thick)
-        } else {
-            ("rest (unstable)", Dash::DashDot)
-        };
-        let CycleStyle { role, .. } = cycle_style(stable);
+fn point(picture: &mut Picture, shown: &ShownMotion, abscissa: Knob) {
+    let kinds = [(true, "rest (stable)", Dash::Thick), (false, "rest (unstable)", Dash::DashDot)];
+    for (stable, name, dash) in kinds {
+        let line = LineStyle::new(name, cycle_style(stable).role, dash).of(&shown.variant);
         let of = shown.clone();
-        picture.graph(LineStyle::new(name, role, dash).of(variant), move |value| {
+        picture.graph(line, move |value| {
             (is_stable(&at(&of, abscissa, value)) == Some(stable)).then_some(0.0)
         });
     }

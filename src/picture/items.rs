@@ -8,18 +8,10 @@ use super::{Dash, Mark, Role, Scale, ScanMap, units::said};
 use crate::model::{Knob, Parameters};
 use crate::numerics::elementary::sin_cos;
 use crate::scene::{Point, Window};
+use crate::session::VariantTag;
 
 /// A text that is a constant or was made for this picture.
 pub type Text = Cow<'static, str>;
-
-/// One of the variants that a plot shows.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct VariantTag {
-    /// Its place in [`Picture::variants`].
-    pub index: usize,
-    /// The values that tell it from the others; empty where the plot shows one motion.
-    pub label: String,
-}
 
 /// How a line looks and what it is called.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,11 +26,13 @@ pub struct LineStyle {
     pub role: Role,
     /// How it is interrupted.
     pub dash: Dash,
+    /// Whether other parameters than those on the axes vary along it too.
+    pub varies: bool,
 }
 
 impl LineStyle {
     pub fn new(name: impl Into<Text>, role: Role, dash: Dash) -> Self {
-        LineStyle { name: name.into(), brief: None, variant: None, role, dash }
+        LineStyle { name: name.into(), brief: None, variant: None, role, dash, varies: false }
     }
 
     /// The same line of one of several variants.
@@ -134,14 +128,10 @@ impl Marks {
 pub enum Item<'a> {
     /// A polyline; a point that is not finite interrupts it.
     Curve(LineStyle, Vec<Point>),
-    /// A polyline along which other parameters than those on the axes vary too.
-    Path(LineStyle, Vec<Point>),
     /// A graph over the whole window, sampled as finely as its renderer needs.
     Graph(LineStyle, Function<'a>),
     /// An upright through the whole window.
     Upright(LineStyle, f64),
-    /// A thick straight line.
-    Bar(LineStyle, Point, Point),
     /// The area that a curve, closed or with ends outside the window, does not separate from the origin.
     Shade(LineStyle, Vec<Point>),
     /// The area that a closed curve separates from the origin.
@@ -229,10 +219,9 @@ impl Item<'_> {
     /// The line of a curve, an area or a bar that has a name and is seen in this window.
     pub fn seen(&self, window: Window) -> Option<&LineStyle> {
         let (line, seen) = match self {
-            Item::Curve(line, points) | Item::Path(line, points) => (line, passes(points, window)),
+            Item::Curve(line, points) => (line, passes(points, window)),
             Item::Graph(line, value) => (line, is_met(value, window)),
             Item::Upright(line, x) => (line, window.x.contains(*x)),
-            Item::Bar(line, from, to) => (line, passes(&[*from, *to], window)),
             Item::Shade(line, edge) | Item::Beyond(line, edge) => (line, !edge.is_empty()),
             Item::Columns(line, from, to) => (line, *from < window.x.to() && *to > window.x.from()),
             Item::Rows(line, from, to) => (line, *from < window.y.to() && *to > window.y.from()),
@@ -331,8 +320,9 @@ impl<'a> Picture<'a> {
         self.items.push(Item::Upright(line, x));
     }
 
+    /// Adds a thick straight line.
     pub fn bar(&mut self, line: LineStyle, from: Point, to: Point) {
-        self.items.push(Item::Bar(line, from, to));
+        self.curve(LineStyle { dash: Dash::Thick, ..line }, [from, to]);
     }
 
     pub fn mark(&mut self, mark: Mark, at: Point, role: Role) {

@@ -23,18 +23,21 @@ pub struct LegendEntry {
 
 /// What these pictures have to explain, in the order in which they are painted.
 pub fn entries(pictures: &[Picture]) -> Vec<LegendEntry> {
-    let mut entries: Vec<LegendEntry> = Vec::new();
-    for picture in pictures {
-        for entry in picture.items.iter().filter_map(|item| entry(picture, item)) {
-            // An area whose edge has its name needs no entry.
-            let known =
-                |other: &LegendEntry| (other.role, &other.text) == (entry.role, &entry.text);
-            if !entry.text.is_empty() && !entries.iter().any(known) {
-                entries.push(entry);
-            }
+    let all = pictures
+        .iter()
+        .flat_map(|picture| picture.items.iter().filter_map(|item| entry(picture, item)));
+    distinct(all.filter(|entry| !entry.text.is_empty()))
+}
+
+/// Entries of one colour and text once: an area whose edge has its name needs no entry of its own.
+pub fn distinct(entries: impl Iterator<Item = LegendEntry>) -> Vec<LegendEntry> {
+    let mut kept: Vec<LegendEntry> = Vec::new();
+    for entry in entries {
+        if !kept.iter().any(|it| (it.role, &it.text) == (entry.role, &entry.text)) {
+            kept.push(entry);
         }
     }
-    entries
+    kept
 }
 
 fn entry(picture: &Picture, item: &Item) -> Option<LegendEntry> {
@@ -50,15 +53,15 @@ fn entry(picture: &Picture, item: &Item) -> Option<LegendEntry> {
             let text = "flow".to_owned();
             return Some(LegendEntry { sample: LegendSample::Arrow, role: *role, text });
         }
-        Item::Bar(_, from, to) if from == to => LegendSample::Spot,
-        Item::Bar(..) => LegendSample::Line(Dash::Thick),
+        Item::Curve(_, points) if matches!(points[..], [from, to] if from == to) => {
+            LegendSample::Spot
+        }
         Item::Shade(..) | Item::Beyond(..) | Item::Columns(..) | Item::Rows(..) => {
             LegendSample::Shade
         }
-        Item::Curve(line, _)
-        | Item::Path(line, _)
-        | Item::Graph(line, _)
-        | Item::Upright(line, _) => LegendSample::Line(line.dash),
+        Item::Curve(line, _) | Item::Graph(line, _) | Item::Upright(line, _) => {
+            LegendSample::Line(line.dash)
+        }
         Item::Texture(_) | Item::Caption(_) => return None,
     };
     let line = item.seen(picture.window)?;

@@ -29,7 +29,7 @@ pub(crate) mod units;
 
 pub use items::{
     Caption, Fill, Flow, Function, Item, LineStyle, Marks, Pattern, Picture, Text, Texture,
-    VariantTag, ellipse, passes,
+    ellipse, passes,
 };
 pub use legend::{LegendEntry, LegendSample};
 pub use map::{Danger, Dangerous, MapCell, ScanMap};

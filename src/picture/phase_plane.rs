@@ -6,8 +6,8 @@
 //! says when that is stale.
 
 use super::{
-    CycleStyle, Dash, Item, LineStyle, Mark, Picture, Role, VariantTag, construction, cycle_style,
-    ellipse, kicks,
+    CycleStyle, Dash, Item, LineStyle, Mark, Picture, Role, construction, cycle_style, ellipse,
+    kicks,
 };
 use crate::closed_form::lyapunov;
 use crate::fit::Signal;
@@ -18,7 +18,7 @@ use crate::portrait::{Border, Cycle, Cycles, Ride};
 use crate::question::ShownFit;
 use crate::question::zones::Extent;
 use crate::scene::{Answer, Layer, Point, Topic};
-use crate::session::{Session, ShownMotion};
+use crate::session::{Session, ShownMotion, VariantTag};
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     picture.axes("q", "v");
@@ -40,7 +40,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
             construction::levels(picture, &parameters);
         }
     }
-    let all_cycles = found(session, Topic::Cycles, index).into_iter().filter_map(|it| match it {
+    let all_cycles = session.found(Topic::Cycles, index).into_iter().filter_map(|it| match it {
         (variant, Answer::Cycles(found)) => Some((variant, found)),
         _ => None,
     });
@@ -68,9 +68,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     kicks::draw(picture, session, index);
     picture.level(LineStyle::guide(), 0.0);
     if shows(Layer::Lyapunov) {
-        for (variant, shown) in variants(&shown) {
-            circle(picture, &shown.problem.parameters, &variant);
-        }
+        shown.iter().for_each(|shown| circle(picture, shown));
     }
     if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Recorded)) {
         record(picture, fitted);
@@ -93,10 +91,10 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         picture.curve(line.briefly("N harmonics"), points(&found.curve));
     }
     if shows(Layer::Sticking) {
-        for (variant, shown) in variants(&shown) {
-            let r = shown.problem.parameters.r;
+        for ShownMotion { variant, problem, .. } in &shown {
+            let r = problem.parameters.r;
             let [from, to] = [-r, r].map(|x| Point { x, y: 0.0 });
-            picture.bar(sticking_set(r).of(&variant), from, to);
+            picture.bar(sticking_set(r).of(variant), from, to);
         }
     }
     if shows(Layer::Belt) {
@@ -167,22 +165,10 @@ fn kind(cycle: &Cycle) -> (&'static str, &'static str) {
     }
 }
 
-/// The answers of a kind that a plot has, each with its variant.
-fn found(session: &Session, topic: Topic, index: usize) -> Vec<(VariantTag, &Answer)> {
-    let found = session.found(topic, index).into_iter();
-    found.map(|(index, label, answer)| (VariantTag { index, label }, answer)).collect()
-}
-
-/// What a plot shows, each with its variant.
-pub(super) fn variants(shown: &[ShownMotion]) -> impl Iterator<Item = (VariantTag, &ShownMotion)> {
-    let all = shown.iter().enumerate();
-    all.map(|(index, shown)| (VariantTag { index, label: shown.label.clone() }, shown))
-}
-
 /// The motions of a plot.
 fn motions(picture: &mut Picture, session: &Session, index: usize) {
     let family = session.variants(index).is_some();
-    let mut found = found(session, Topic::Trajectory, index);
+    let mut found = session.found(Topic::Trajectory, index);
     if !family {
         // The present one over the others.
         found.reverse();
@@ -303,8 +289,8 @@ fn lost(picture: &mut Picture, extent: &Extent) {
     picture.curve(line.briefly("surely lost outside"), border);
 }
 
-fn circle(picture: &mut Picture, parameters: &Parameters, variant: &VariantTag) {
-    if let Some(radius) = lyapunov::radius(parameters) {
+fn circle(picture: &mut Picture, ShownMotion { variant, problem, .. }: &ShownMotion) {
+    if let Some(radius) = lyapunov::radius(&problem.parameters) {
         let line = LineStyle::new("Lyapunov circle", Role::Lyapunov, Dash::Dotted);
         picture.curve(line.of(variant), ellipse((0.0, radius), (0.0, radius)));
     }
@@ -351,7 +337,7 @@ fn ghost(picture: &mut Picture, session: &Session) {
 /// for its cycles and has no marks; the present motion that does has the one of its rest.
 fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMotion]) {
     let family = session.variants(index).is_some();
-    for (place, _, answer) in session.found(Topic::Trajectory, index) {
+    for (VariantTag { index: place, .. }, answer) in session.found(Topic::Trajectory, index) {
         if let Answer::Trajectory(found) = answer
             && session.contact_of(found).is_none()
             && !(family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. }))

@@ -149,8 +149,8 @@ fn path(picture: &mut Picture, session: &Session, right: Knob, up: Knob) {
     };
     let place = |(_, parameters): Station| parameters.as_ref().map_or(Point::NOWHERE, at);
     let line = LineStyle::new("over the speed of the belt", PEN, Dash::Dotted);
-    let line = line.briefly("path of the belt");
-    picture.items.push(Item::Path(line, running.path().into_iter().map(place).collect()));
+    let line = LineStyle { varies: true, ..line.briefly("path of the belt") };
+    picture.curve(line, running.path().into_iter().map(place));
     let here = at(&session.problem.parameters);
     milestones(picture, &running, here, place);
     let present = at(&running.reduced.parameters);

@@ -1,6 +1,7 @@
 //! What a part of a picture stands for, and how it is told apart without colour: roles, dashes, marks.
 
 use serde::Serialize;
+use strum::IntoStaticStr;
 
 /// Makes [`Role`] and [`ROLES`] from one list: each role with its name in theme files, and its glyph in a plot
 /// without dots.
@@ -87,8 +88,9 @@ impl Role {
 }
 
 /// How a stroke is interrupted; told apart without colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, IntoStaticStr)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Dash {
     Solid,
     /// Two dots wide.
@@ -103,19 +105,13 @@ pub enum Dash {
 impl Dash {
     /// The name in files.
     pub fn name(self) -> &'static str {
-        match self {
-            Dash::Solid => "solid",
-            Dash::Thick => "thick",
-            Dash::Dashed => "dashed",
-            Dash::DashDot => "dash-dot",
-            Dash::Dotted => "dotted",
-            Dash::Sparse => "sparse",
-        }
+        self.into()
     }
 }
 
 /// What a mark says about its point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Mark {
     /// A motion starts here.
     Start,
@@ -123,6 +119,7 @@ pub enum Mark {
     Rest,
     /// A motion is here at its end time.
     Head,
+    #[strum(serialize = "turning point")]
     Turn,
     Stable,
     Unstable,
@@ -131,23 +128,14 @@ pub enum Mark {
     /// A sample that was flattened at full scale.
     Saturated,
     /// A sample that belongs to another part of the record.
+    #[strum(serialize = "left out")]
     Aside,
 }
 
 impl Mark {
     /// The name in files.
     pub fn name(self) -> &'static str {
-        match self {
-            Mark::Start => "start",
-            Mark::Rest => "rest",
-            Mark::Head => "head",
-            Mark::Turn => "turning point",
-            Mark::Stable => "stable",
-            Mark::Unstable => "unstable",
-            Mark::Outlier => "outlier",
-            Mark::Saturated => "saturated",
-            Mark::Aside => "left out",
-        }
+        self.into()
     }
 }
 

@@ -8,6 +8,7 @@
     clippy::cast_possible_truncation,
     clippy::cast_possible_wrap,
     clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
     reason = "powers of ten and counts of ticks are small, whatever the axis"
 )]
 
@@ -173,8 +174,9 @@ impl TickStep {
 
     /// All multiples of this step on the axis.
     fn ticks(self, axis: Span) -> Ticks {
-        let origin = Origin::of(axis, self.power);
-        let (low, high) = (axis.from() - origin.value, axis.to() - origin.value);
+        let (base, value) = origin(axis, self.power).unzip();
+        let value = value.unwrap_or(0.0);
+        let (low, high) = (axis.from() - value, axis.to() - value);
         let width = decimal(self.digit, self.power);
         let first = (low / width - ROUNDING).ceil() as i64;
         let last = (high / width + ROUNDING).floor() as i64;
@@ -183,33 +185,23 @@ impl TickStep {
         let largest = numbers.iter().map(|number| number.abs()).max().unwrap_or(0);
         let tick = |number| Tick {
             fraction: place(number),
-            label: label(number, self.power, largest, origin.text.is_some()),
+            label: label(number, self.power, largest, base.is_some()),
         };
-        Ticks { ticks: numbers.into_iter().map(tick).collect(), base: origin.text }
+        Ticks { ticks: numbers.into_iter().map(tick).collect(), base }
     }
 }
 
-/// The number from which labels count: zero, unless that would make them long.
-struct Origin {
-    value: f64,
-    text: Option<String>,
-}
-
-impl Origin {
-    fn of(axis: Span, power: i32) -> Self {
-        let largest = axis.from().abs().max(axis.to().abs());
-        if decade(largest) - power < DIGITS {
-            return Origin { value: 0.0, text: None };
-        }
-        // A round number inside the axis or just below it, with as few digits as tell it apart.
-        let coarse = decade(axis.width()) + 1;
-        let digits = (decade(axis.from().abs()) - coarse).clamp(0, 16);
-        let text = format!("{:.*e}", usize::try_from(digits).unwrap_or(0), axis.from());
-        match text.parse::<f64>() {
-            Ok(value) => Origin { value, text: Some(crate::words::number::exact(value, 24)) },
-            Err(_) => Origin { value: 0.0, text: None },
-        }
+/// The number from which labels count, where they would be long if they counted from zero; first as it is written.
+fn origin(axis: Span, power: i32) -> Option<(String, f64)> {
+    let largest = axis.from().abs().max(axis.to().abs());
+    if decade(largest) - power < DIGITS {
+        return None;
     }
+    // A round number inside the axis or just below it, with as few digits as tell it apart.
+    let coarse = decade(axis.width()) + 1;
+    let digits = (decade(axis.from().abs()) - coarse).clamp(0, 16);
+    let value = format!("{:.*e}", digits as usize, axis.from()).parse().ok()?;
+    Some((crate::words::number::exact(value, 24), value))
 }
 
 /// The power of ten at or below a positive number; far below all others for zero.
@@ -224,28 +216,13 @@ fn decimal(number: i64, power: i32) -> f64 {
 
 /// Writes `number * 10^power`: plainly while the largest of its kind stays short, else with exponent.
 fn label(number: i64, power: i32, largest: i64, signed: bool) -> String {
-    let sign = match number.signum() {
-        0 => return "0".into(),
-        1 if signed => "+",
-        1 => "",
-        _ => "-",
-    };
-    let digits = number.unsigned_abs().to_string();
+    let (value, sign) = (decimal(number, power), if signed && number > 0 { "+" } else { "" });
     let order = power + largest.max(1).ilog10() as i32;
-    if (-4..0).contains(&power) && order < DIGITS {
-        let decimals = power.unsigned_abs() as usize;
-        let padded = format!("{digits:0>width$}", width = decimals + 1);
-        let (units, part) = padded.split_at(padded.len() - decimals);
-        return format!("{sign}{units}.{part}");
-    }
-    if (0..DIGITS - 1).contains(&power) && order < DIGITS - 1 {
-        return format!("{sign}{digits}{}", "0".repeat(power.unsigned_abs() as usize));
-    }
-    let exponent = power + digits.len() as i32 - 1;
-    let (lead, rest) = digits.split_at(1);
-    match rest.trim_end_matches('0') {
-        "" => format!("{sign}{lead}e{exponent}"),
-        rest => format!("{sign}{lead}.{rest}e{exponent}"),
+    match power {
+        _ if number == 0 => "0".into(),
+        -4..0 if order < DIGITS => format!("{sign}{value:.*}", power.unsigned_abs() as usize),
+        0.. if order < DIGITS - 1 => format!("{sign}{value}"),
+        _ => format!("{sign}{value:e}"),
     }
 }
 

@@ -3,9 +3,9 @@
 //! Displacement and energy change smoothly through the turning points, where the force of friction
 //! jumps from one end of `[-r, r]` to the other; at rest it balances the spring.
 
-use super::phase_plane::{motion, number_curve};
+use super::phase_plane::{self, number_curve};
 use super::{
-    Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, fit::mark_dropped, units::said,
+    Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, Text, fit::mark_dropped, units::said,
 };
 use crate::fit::Signal;
 use crate::flow::{Outcome, Sample, Trajectory};
@@ -27,9 +27,9 @@ const QUANTITIES: [Quantity; 3] = [
 pub fn draw(picture: &mut Picture, session: &Session) {
     let (window, [time, upward]) = (picture.window, picture.scales);
     let shows = |layer| session.layers.contains(&layer);
-    let shown = || QUANTITIES.iter().rev().filter(|(layer, ..)| shows(*layer));
+    let shown = || quantities_on_show(session).rev();
     let friction = shows(Layer::Friction).then_some("f");
-    let letters: Vec<&str> = shown().map(|(_, letter, ..)| *letter).chain(friction).collect();
+    let letters: Vec<&str> = shown().map(|(_, letter, ..)| letter).chain(friction).collect();
     picture.axes("tau", letters.join(" "));
     picture.reading = picture.cursor.map(|Point { x: tau, .. }| {
         let time = said(time, "tau", tau, window.x);
@@ -43,7 +43,7 @@ pub fn draw(picture: &mut Picture, session: &Session) {
         record(picture, session);
     }
     for (place, beside) in session.motions().into_iter().filter(|(place, _)| *place > 0) {
-        others(picture, session, beside, place);
+        quantities(picture, session, beside, place);
     }
     // In the whole model the belt holds the mass too: the force of the guide alone is not known.
     let whole = session.draws_whole();
@@ -53,23 +53,28 @@ pub fn draw(picture: &mut Picture, session: &Session) {
         let points: Vec<Point> = force.iter().copied().map(Point::from).collect();
         let first = points.first().copied();
         picture.curve(LineStyle::new("friction force f", Role::Sticking, Dash::DashDot), points);
-        label(picture, first, "f", Role::Sticking);
+        label(picture, first, "f".into(), Role::Sticking);
     }
     if let Some(motion) = session.trajectory() {
-        present(picture, session, motion);
+        quantities(picture, session, motion, 0);
+        rides(picture, session);
         if shows(Layer::Events) {
             events(picture, motion);
         }
     }
     if let Some(head) = session.head() {
         picture.upright(LineStyle::new("", Role::Cursor, Dash::Sparse), head.tau);
-        for (.., read) in QUANTITIES.iter().filter(|(layer, ..)| shows(*layer)) {
-            picture.mark(Mark::Head, at(&head, *read), Role::Cursor);
+        for (.., read) in quantities_on_show(session) {
+            picture.mark(Mark::Head, at(&head, read), Role::Cursor);
         }
         if let Some(y) = force.and_then(|force| force_at(&force, head.tau)) {
             picture.mark(Mark::Head, Point { x: head.tau, y }, Role::Cursor);
         }
     }
+}
+
+fn quantities_on_show(session: &Session) -> impl DoubleEndedIterator<Item = Quantity> {
+    QUANTITIES.into_iter().filter(|(layer, ..)| session.layers.contains(layer))
 }
 
 /// What a quantity is called in a picture: a displacement in metres has its own letter.
@@ -101,41 +106,32 @@ fn record(picture: &mut Picture, session: &Session) {
     mark_dropped(picture, all.filter_map(|(at, why)| Some((at, why?))));
 }
 
-/// A motion beside the present one.
-fn others(picture: &mut Picture, session: &Session, beside: &Trajectory, place: usize) {
-    let line = motion(session, place);
-    for (layer, _, name, _, dash, read) in QUANTITIES {
-        if !session.layers.contains(&layer) {
-            continue;
-        }
-        let points = curve(beside, beside.problem.until, read);
-        let number = session.number(place);
-        if let Some(first) = points.first() {
-            picture.caption(*first, number.unwrap_or_default().to_string(), line.role);
-        }
-        number_curve(picture, number, &points, line.role);
-        let name = format!("{}, {}", physical(picture, name), line.name);
-        picture.curve(LineStyle::new(name, line.role, dash).briefly("other motions"), points);
+/// The quantities of the motion in this place among those on show, the present one the first.
+fn quantities(picture: &mut Picture, session: &Session, motion: &Trajectory, place: usize) {
+    let LineStyle { name: of, role: beside, .. } = phase_plane::motion(session, place);
+    for (layer, letter, name, own, dash, read) in quantities_on_show(session) {
+        let points = curve(motion, motion.problem.until, read);
+        let (first, number) = (points.first().copied(), session.number(place));
+        let name = physical(picture, name);
+        let role = if place == 0 { own } else { beside };
+        number_curve(picture, number, &points, role);
+        let line = match (place, layer) {
+            // The same motion as in the phase plane, drawn in the same way.
+            (0, Layer::Position) => LineStyle::new(name, role, dash).briefly("motion"),
+            (0, _) => LineStyle::new(name, role, dash),
+            _ => LineStyle::new(format!("{name}, {of}"), role, dash).briefly("other motions"),
+        };
+        picture.curve(line, points);
+        let number = number.filter(|_| place > 0).map(|number| number.to_string().into());
+        label(picture, first, number.unwrap_or(physical(picture, letter).into()), role);
     }
 }
 
-/// The present motion, and where it rides on its belt.
-fn present(picture: &mut Picture, session: &Session, motion: &Trajectory) {
-    let shows = |(layer, ..): &&Quantity| session.layers.contains(layer);
-    for &(layer, letter, name, role, dash, read) in QUANTITIES.iter().filter(shows) {
-        let points = curve(motion, motion.problem.until, read);
-        number_curve(picture, session.number(0), &points, role);
-        let line = LineStyle::new(physical(picture, name), role, dash);
-        // The same motion as in the phase plane, drawn in the same way.
-        let line = if layer == Layer::Position { line.briefly("motion") } else { line };
-        picture.curve(line, points);
-        let first = motion.samples.first();
-        let first = first.map(|sample| at(sample, read));
-        label(picture, first, physical(picture, letter), role);
-    }
+/// Where the present motion rides on its belt.
+fn rides(picture: &mut Picture, session: &Session) {
     for ride in session.course().iter().flat_map(|motion| &motion.rides) {
-        for (.., read) in QUANTITIES.iter().filter(shows) {
-            let [from, to] = ride.map(|end| at(&end, *read));
+        for (.., read) in quantities_on_show(session) {
+            let [from, to] = ride.map(|end| at(&end, read));
             let line = LineStyle::new("sticks to the belt", Role::Trajectory, Dash::Thick);
             picture.bar(line.briefly("motion on the belt"), from, to);
         }
@@ -166,7 +162,7 @@ fn curve(motion: &Trajectory, end: f64, read: fn(State) -> f64) -> Vec<Point> {
 }
 
 /// The letter of a curve, where it begins.
-fn label(picture: &mut Picture, first: Option<Point>, letter: &'static str, role: Role) {
+fn label(picture: &mut Picture, first: Option<Point>, letter: Text, role: Role) {
     if let Some(first) = first {
         picture.caption(first, letter, role);
     }

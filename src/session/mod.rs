@@ -35,7 +35,7 @@ pub use lines::lines;
 pub use message::{Gesture, Msg, Notice, Pointed, PointerTarget, Purpose};
 pub use read::answers::NoErrorReason;
 pub use read::contexts::{Hint, PaletteRow};
-pub use read::plots::ShownMotion;
+pub use read::plots::{ShownMotion, VariantTag};
 pub use read::{fate, ledger, motion, wants};
 pub use replay::script::{Instruction, Script, ScriptStep};
 pub use state::answers::{AnswerState, Answers};

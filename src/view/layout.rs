@@ -85,18 +85,20 @@ fn plots(area: Rect, session: &Session) -> Vec<Rect> {
 
 /// Divides an area among this many plots.
 fn divided(area: Rect, count: usize, arrangement: Arrangement) -> Vec<Rect> {
+    let [halves, others]: [fn(Rect, usize) -> Vec<Rect>; 2] =
+        if is_wide(area) { [beside, above] } else { [above, beside] };
     match (count, arrangement) {
         (0 | 1, _) => vec![area],
-        (_, Arrangement::Columns) => columns(area, count),
-        (_, Arrangement::Rows) => rows(area, count),
-        (2, Arrangement::Auto) if is_wide(area) => beside(area).to_vec(),
-        (2, Arrangement::Auto) => above(area).to_vec(),
+        (_, Arrangement::Columns) => beside(area, count),
+        (_, Arrangement::Rows) => above(area, count),
+        (2, Arrangement::Auto) => halves(area, 2),
         (3, Arrangement::Auto) => {
-            let [main, others] = if is_wide(area) { beside(area) } else { above(area) };
-            let others = if is_wide(area) { above(others) } else { beside(others) };
-            std::iter::once(main).chain(others).collect()
+            let places = halves(area, 2);
+            [&places[..1], &others(places[1], 2)].concat()
         }
-        (_, Arrangement::Auto) => above(area).into_iter().flat_map(beside).collect(),
+        (_, Arrangement::Auto) => {
+            above(area, 2).into_iter().flat_map(|row| beside(row, 2)).collect()
+        }
     }
 }
 
@@ -108,44 +110,20 @@ fn is_wide(area: Rect) -> bool {
     beside >= above
 }
 
-fn beside(area: Rect) -> [Rect; 2] {
-    at_column(area, area.width / 2)
+/// Parts of an area beside each other, with a column between them that stays empty.
+fn beside(area: Rect, count: usize) -> Vec<Rect> {
+    let part = |(begin, width)| Rect { x: area.x + begin, width, ..area };
+    parts(area.width, count, 1).map(part).collect()
 }
 
-/// Parts of an area left and right of a column that stays empty.
-fn at_column(area: Rect, width: u16) -> [Rect; 2] {
-    let second = width + 1;
-    [
-        Rect { width, ..area },
-        Rect { x: area.x + second, width: area.width.saturating_sub(second), ..area },
-    ]
+fn above(area: Rect, count: usize) -> Vec<Rect> {
+    let part = |(begin, height)| Rect { y: area.y + begin, height, ..area };
+    parts(area.height, count, 0).map(part).collect()
 }
 
-fn above(area: Rect) -> [Rect; 2] {
-    let height = area.height / 2;
-    [Rect { height, ..area }, Rect { y: area.y + height, height: area.height - height, ..area }]
-}
-
-fn columns(area: Rect, count: usize) -> Vec<Rect> {
-    let mut rest = area;
-    let left = |count: usize| u16::try_from(count).unwrap_or(u16::MAX);
-    let split = |places: usize| {
-        let [first, others] = at_column(rest, (rest.width + 1) / left(places) - 1);
-        rest = others;
-        first
-    };
-    let mut places: Vec<Rect> = (2..=count).rev().map(split).collect();
-    places.push(rest);
-    places
-}
-
-fn rows(area: Rect, count: usize) -> Vec<Rect> {
+/// Where this many equal parts of a length begin, and how long they are, with a gap between them.
+fn parts(length: u16, count: usize, gap: u16) -> impl Iterator<Item = (u16, u16)> {
     let count = u16::try_from(count).unwrap_or(u16::MAX);
-    let edge = |index: u16| area.height * index / count;
-    let row = |index: u16| Rect {
-        y: area.y + edge(index),
-        height: edge(index + 1) - edge(index),
-        ..area
-    };
-    (0..count).map(row).collect()
+    let begin = move |part: u16| ((length + gap) * part + gap) / count;
+    (0..count).map(move |part| (begin(part), (begin(part + 1) - begin(part)).saturating_sub(gap)))
 }

@@ -65,12 +65,11 @@ fn followed<'a>(item: &'a Item) -> Option<&'a [Point]> {
 fn put(plot: &mut Canvas, item: &Item, window: Window, look: &Look) {
     let symbols = look.symbols();
     match item {
-        Item::Curve(line, points) | Item::Path(line, points) => {
+        Item::Curve(line, points) => {
             plot.curve(points.iter().copied(), line.role, line.dash);
         }
         Item::Graph(line, value) => plot.function(line.role, line.dash, value),
         Item::Upright(line, x) => plot.upright(*x, line.role, line.dash),
-        Item::Bar(line, from, to) => plot.bar(*from, *to, line.role),
         Item::Shade(line, edge) => plot.shade(edge, true, line.role),
         Item::Beyond(line, edge) => plot.shade(edge, false, line.role),
         Item::Columns(line, from, to) => {

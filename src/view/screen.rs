@@ -10,6 +10,7 @@ use ratatui::style::{Color, Modifier};
 use unicode_width::UnicodeWidthStr;
 
 use super::signs::MINUS;
+use crate::numerics::count::real;
 use crate::words::printable::xml;
 
 /// The rows of a screen, without the blanks at their ends and with minus signs as programs read them.
@@ -57,10 +58,11 @@ pub fn svg(screen: &Buffer, paper: Paper) -> String {
          font-size=\"{FONT_SIZE}\" xml:space=\"preserve\">\n<style>text{{white-space:pre}}</style>\n<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n"
     );
     for (number, row) in rows(screen, paper).enumerate() {
-        let top = CELL.1 * units(number);
-        grounds(&mut out, &row, top);
-        shapes(&mut out, &row, top);
-        letters(&mut out, &row, top);
+        let mut corner = (0.0, CELL.1 * real(number));
+        for run in row.chunk_by(|one, other| one.paint == other.paint) {
+            draw(&mut out, run, corner);
+            corner.0 += CELL.0 * real(run.len());
+        }
     }
     out + "</svg>\n"
 }
@@ -90,11 +92,6 @@ fn places(row: &[Cell], paper: Paper) -> Vec<ScreenCell<'_>> {
     places
 }
 
-/// A count of cells as a coordinate.
-fn units(count: usize) -> f64 {
-    f64::from(u32::try_from(count).unwrap_or(u32::MAX))
-}
-
 /// How a cell is painted: colours after reversal, and the modifiers that remain.
 #[derive(Clone, PartialEq)]
 struct Paint {
@@ -105,27 +102,23 @@ struct Paint {
 
 impl Paint {
     fn of(cell: &Cell, paper: Paper) -> Self {
-        let ink = hex(cell.fg).unwrap_or_else(|| paper.ink.to_owned());
-        let ground = hex(cell.bg);
+        let (mut ink, mut ground) = (hex(cell.fg), hex(cell.bg));
         if cell.modifier.contains(Modifier::REVERSED) {
-            Paint {
-                ink: ground.unwrap_or_else(|| paper.ground.to_owned()),
-                ground: Some(ink),
-                modifier: cell.modifier,
-            }
-        } else {
-            Paint { ink, ground, modifier: cell.modifier }
+            let or_paper =
+                |color: Option<String>, own: &str| color.unwrap_or_else(|| own.to_owned());
+            (ink, ground) = (Some(or_paper(ground, paper.ground)), Some(or_paper(ink, paper.ink)));
         }
+        let ink = ink.unwrap_or_else(|| paper.ink.to_owned());
+        Paint { ink, ground, modifier: cell.modifier }
     }
 
-    /// Attributes of text in this paint.
+    /// Attributes of shapes and of text in this paint.
     fn attributes(&self) -> String {
         let mut out = format!("fill=\"{}\"", self.ink);
         for (modifier, attribute) in [
             (Modifier::BOLD, " font-weight=\"bold\""),
             (Modifier::ITALIC, " font-style=\"italic\""),
             (Modifier::UNDERLINED, " text-decoration=\"underline\""),
-            (Modifier::CROSSED_OUT, " text-decoration=\"line-through\""),
             (Modifier::DIM, " opacity=\"0.6\""),
         ] {
             if self.modifier.contains(modifier) {
@@ -136,55 +129,46 @@ impl Paint {
     }
 }
 
-/// Runs of neighbouring places that `key` maps to the same value: first column, length, value.
-fn runs<K: PartialEq>(row: &[ScreenCell], key: impl Fn(&Paint) -> K) -> Vec<(usize, usize, K)> {
-    let mut runs: Vec<(usize, usize, K)> = Vec::new();
-    for (column, place) in row.iter().enumerate() {
-        let value = key(&place.paint);
-        match runs.last_mut() {
-            Some((_, length, last)) if *last == value => *length += 1,
-            _ => runs.push((column, 1, value)),
-        }
+/// Draws neighbouring places of one paint, the first with its upper left corner there: their ground, what is drawn as
+/// shapes in one path, and what is left as one text.
+fn draw(out: &mut String, run: &[ScreenCell], (left, top): (f64, f64)) {
+    let Some(ScreenCell { paint, .. }) = run.first() else { return };
+    if let Some(ground) = &paint.ground {
+        let (width, height) = (CELL.0 * real(run.len()), CELL.1);
+        let _ = writeln!(
+            out,
+            "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>"
+        );
     }
-    runs
-}
-
-fn grounds(out: &mut String, row: &[ScreenCell], top: f64) {
-    for (column, length, ground) in runs(row, |paint| paint.ground.clone()) {
-        if let Some(ground) = ground {
-            let (x, width) = (CELL.0 * units(column), CELL.0 * units(length));
-            let height = CELL.1;
-            let _ = writeln!(
-                out,
-                "<rect x=\"{x}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>"
-            );
-        }
+    let (mut path, mut line) = (String::new(), String::new());
+    for (number, ScreenCell { symbol, .. }) in run.iter().enumerate() {
+        let shaped = shape(&mut path, symbol, left + CELL.0 * real(number), top);
+        line += if shaped { " " } else { symbol };
     }
-}
-
-/// Draws the braille dots and blocks of a row, one path for each run of a colour.
-fn shapes(out: &mut String, row: &[ScreenCell], top: f64) {
-    for (column, length, paint) in runs(row, Paint::clone) {
-        let mut path = String::new();
-        for (offset, place) in row[column..column + length].iter().enumerate() {
-            shape(&mut path, place.symbol, CELL.0 * units(column + offset), top);
-        }
-        if !path.is_empty() {
-            let opacity =
-                if paint.modifier.contains(Modifier::DIM) { " opacity=\"0.6\"" } else { "" };
-            let _ = writeln!(out, "<path fill=\"{}\"{opacity} d=\"{path}\"/>", paint.ink);
-        }
+    let attributes = paint.attributes();
+    if !path.is_empty() {
+        let _ = writeln!(out, "<path {attributes} d=\"{path}\"/>");
+    }
+    let text = line.trim();
+    if !text.is_empty() {
+        let indent = line.chars().take_while(|char| char.is_whitespace()).count();
+        let (x, y) = (left + CELL.0 * real(indent), top + BASELINE);
+        let (length, text) = (CELL.0 * real(text.width()), xml(text));
+        let _ = writeln!(
+            out,
+            "<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\" {attributes}>{text}</text>"
+        );
     }
 }
 
-/// Appends the shape of a character to a path, if it is one of those drawn as shapes.
-fn shape(path: &mut String, symbol: &str, x: f64, top: f64) {
+/// Appends the shape of a character to a path, if it is one of those drawn as shapes; returns whether it is.
+fn shape(path: &mut String, symbol: &str, x: f64, top: f64) -> bool {
     /// Radius of a braille dot.
     const DOT: f64 = 1.3;
     /// Width of a line.
     const LINE: f64 = 1.0;
     let mut chars = symbol.chars();
-    let (Some(char), None) = (chars.next(), chars.next()) else { return };
+    let (Some(char), None) = (chars.next(), chars.next()) else { return false };
     if let Some(dots) = braille(char) {
         for (column, row) in dots {
             let (x, y) = (x + CELL.0 * (0.25 + 0.5 * column), top + CELL.1 * (0.125 + 0.25 * row));
@@ -211,7 +195,10 @@ fn shape(path: &mut String, symbol: &str, x: f64, top: f64) {
             let to = if down { top + CELL.1 } else { center + half };
             rectangle(path, (middle - half, from), (LINE, to - from));
         }
+    } else {
+        return false;
     }
+    true
 }
 
 fn rectangle(path: &mut String, (x, y): (f64, f64), (width, height): (f64, f64)) {
@@ -219,21 +206,12 @@ fn rectangle(path: &mut String, (x, y): (f64, f64), (width, height): (f64, f64))
 }
 
 /// The dots of a braille pattern as column 0 or 1 and row 0 to 3; none for other characters.
-fn braille(char: char) -> Option<Vec<(f64, f64)>> {
-    /// Bit of the code, column, row (Unicode chapter 21.1).
-    const DOTS: [(u32, f64, f64); 8] = [
-        (0x01, 0.0, 0.0),
-        (0x02, 0.0, 1.0),
-        (0x04, 0.0, 2.0),
-        (0x40, 0.0, 3.0),
-        (0x08, 1.0, 0.0),
-        (0x10, 1.0, 1.0),
-        (0x20, 1.0, 2.0),
-        (0x80, 1.0, 3.0),
-    ];
+fn braille(char: char) -> Option<impl Iterator<Item = (f64, f64)>> {
     let pattern = u32::from(char).checked_sub(0x2800).filter(|pattern| *pattern < 0x100)?;
-    let set = DOTS.iter().filter(|dot| pattern & dot.0 != 0);
-    Some(set.map(|&(_, column, row)| (column, row)).collect())
+    // Three dots down each side have the first bits, the lowest ones the last two (Unicode chapter 21.1).
+    let place = |bit: u8| if bit < 6 { (bit / 3, bit % 3) } else { (bit - 6, 3) };
+    let set = (0..8).filter(move |bit| (pattern >> bit) & 1 == 1).map(place);
+    Some(set.map(|(column, row)| (f64::from(column), f64::from(row))))
 }
 
 /// The part of the cell's height that a block covers.
@@ -262,38 +240,6 @@ fn strokes(char: char) -> Option<[bool; 4]> {
         ('┼', [true, true, true, true]),
     ];
     LINES.iter().find(|line| line.0 == char).map(|line| line.1)
-}
-
-/// Draws what is left of a row as text, one element for each run of one paint.
-fn letters(out: &mut String, row: &[ScreenCell], top: f64) {
-    for (column, length, paint) in runs(row, Paint::clone) {
-        if paint.modifier.contains(Modifier::HIDDEN) {
-            continue;
-        }
-        let places = &row[column..column + length];
-        // What was drawn as a shape leaves a blank.
-        let line: String = places
-            .iter()
-            .map(|place| if is_shape(place.symbol) { " " } else { place.symbol })
-            .collect();
-        let text = line.trim();
-        if !text.is_empty() {
-            let indent = line.chars().take_while(|char| char.is_whitespace()).count();
-            let (x, y) = (CELL.0 * units(column + indent), top + BASELINE);
-            let length = CELL.0 * units(text.width());
-            let (attributes, text) = (paint.attributes(), xml(text));
-            let _ = writeln!(
-                out,
-                "<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\" {attributes}>{text}</text>"
-            );
-        }
-    }
-}
-
-fn is_shape(symbol: &str) -> bool {
-    let mut chars = symbol.chars();
-    let shaped = |char| braille(char).is_some() || block(char).is_some() || strokes(char).is_some();
-    matches!((chars.next(), chars.next()), (Some(char), None) if shaped(char))
 }
 
 /// A colour as `#rrggbb`, or `None` where it is left to the terminal.

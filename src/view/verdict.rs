@@ -53,7 +53,7 @@ pub fn outcome(session: &Session) -> (String, Role) {
 fn held_motions(session: &Session) -> Option<String> {
     let plots = session.on_show().filter(|plot| session.variants(*plot).is_some());
     let mut ends = [(0, "come to rest"), (0, "still move"), (0, "escape"), (0, "given up")];
-    for (.., answer) in plots.flat_map(|plot| session.found(Topic::Trajectory, plot)) {
+    for (_, answer) in plots.flat_map(|plot| session.found(Topic::Trajectory, plot)) {
         if let Answer::Trajectory(found) = answer {
             let end = match found.outcome {
                 Outcome::Captured { .. } => 0,
@@ -155,7 +155,7 @@ pub fn held_point(session: &Session, look: &Look, width: u16) -> Option<String> 
     let shown = session.shown(session.plot);
     // The present values stand in the parameter pane.
     let other = shown.get(held.variant).filter(|shown| !shown.present);
-    let label = other.map_or("", |shown| shown.label.as_str());
+    let label = other.map_or("", |shown| shown.variant.label.as_str());
     let line = |digits: &usize| point(name, label, &held, *digits, look.symbols().dot);
     // The status line begins with a blank and a symbol.
     Some(pane::fitting(DIGITS.iter().map(line), usize::from(width).saturating_sub(4)))

@@ -129,7 +129,6 @@ fn the_view_draws_each_kind_its_own_way_and_marks_the_jumps() {
                     jumping.push(line.name.to_string());
                 }
                 Item::Curve(line, _) => looks.push((line.name.to_string(), Some(line.dash))),
-                Item::Bar(line, ..) => looks.push((line.name.to_string(), None)),
                 Item::Caption { .. } => letters += 1,
                 _ => {}
             }

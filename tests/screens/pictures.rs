@@ -59,7 +59,7 @@ fn rest_is_in_every_bifurcation_diagram() {
                         let of =
                             |line: &LineStyle| line.variant.as_ref().map(|it| it.label.clone());
                         let ours = |(line, _): &(LineStyle, f64)| {
-                            of(line).unwrap_or_default() == shown.label
+                            of(line).unwrap_or_default() == shown.variant.label
                         };
                         found
                             .into_iter()
@@ -68,7 +68,7 @@ fn rest_is_in_every_bifurcation_diagram() {
                             .collect::<Vec<_>>()
                     })
                     .collect();
-                assert!(!own.is_empty(), "{} {index}: {:?}", scene.name, shown.label);
+                assert!(!own.is_empty(), "{} {index}: {:?}", scene.name, shown.variant.label);
                 let r = shown.problem.parameters.r;
                 for (at, (line, height)) in own {
                     let unit = if plot.axes.label().ends_with("/r") { r } else { 1.0 };
@@ -236,10 +236,8 @@ fn what_is_drawn_in_red_and_green_is_a_cycle_or_the_edge_of_a_basin() {
         for item in all_pictures(&session).iter().flat_map(|picture| &picture.items) {
             let (role, name) = match item {
                 Item::Curve(line, _)
-                | Item::Path(line, _)
                 | Item::Graph(line, _)
                 | Item::Upright(line, _)
-                | Item::Bar(line, ..)
                 | Item::Shade(line, _)
                 | Item::Beyond(line, _)
                 | Item::Columns(line, ..)

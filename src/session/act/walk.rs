@@ -81,8 +81,8 @@ pub fn take(session: &mut Session) -> Done {
     let abscissa = session.plots[session.plot].axes.abscissa;
     let value = abscissa.check(held.value)?;
     let shown = session.shown(session.plot);
-    let Some(variant) = shown.get(held.variant) else { return Ok(()) };
-    let mut problem = variant.problem;
+    let Some(shown) = shown.get(held.variant) else { return Ok(()) };
+    let mut problem = shown.problem;
     abscissa.set(&mut problem.parameters, &mut problem.initial, value);
     // A cycle at infinity has no start on it: the present start stays.
     if let Some(cycle) = held.cycle {
@@ -90,8 +90,8 @@ pub fn take(session: &mut Session) -> Done {
     }
     change(session, problem);
     let start = held.cycle.map(|_| ", and the motion starts on its cycle").unwrap_or_default();
-    let also = if variant.label.is_empty() { "" } else { ", " };
-    let label = &variant.label;
+    let label = &shown.variant.label;
+    let also = if label.is_empty() { "" } else { ", " };
     inform(session, format!("{abscissa} = {}{also}{label}{start}", shortest(value)));
     Ok(())
 }

@@ -130,11 +130,19 @@ impl Session {
     }
 }
 
+/// One of the variants that a plot shows.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct VariantTag {
+    /// Its place among them.
+    pub index: usize,
+    /// The values that tell it from the others; empty where the plot shows one motion.
+    pub label: String,
+}
+
 /// A motion that a plot shows, and what distinguishes it from the others there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShownMotion {
-    /// The held values that distinguish it; empty if the plot shows only the present motion.
-    pub label: String,
+    pub variant: VariantTag,
     pub problem: Problem,
     /// Whether nothing is held, so that it is the present motion.
     pub present: bool,
@@ -150,18 +158,15 @@ impl Session {
     /// The problems that a plot shows: the present one, or its variants.
     pub fn shown(&self, plot: usize) -> Vec<ShownMotion> {
         let Some(all) = self.variants(plot) else {
-            return vec![ShownMotion {
-                label: String::new(),
-                problem: self.problem,
-                present: true,
-            }];
+            let (variant, problem) = (VariantTag::default(), self.problem);
+            return vec![ShownMotion { variant, problem, present: true }];
         };
-        let shown = |(variant, label): (&Variant, String)| ShownMotion {
-            label,
+        let shown = |(index, (variant, label)): (usize, (&Variant, String))| ShownMotion {
+            variant: VariantTag { index, label },
             problem: variant.of(self.problem),
             present: variant.held.is_empty(),
         };
-        all.iter().zip(labels(all, &self.problem, false)).map(shown).collect()
+        all.iter().zip(labels(all, &self.problem, false)).enumerate().map(shown).collect()
     }
 
     /// The parameters that all variants of a plot hold at the same values, as text that needs to be given only
@@ -172,14 +177,14 @@ impl Session {
         text(held.filter(|(symbol, value)| symbol.is_parameter() && alike(all, **symbol, **value)))
     }
 
-    /// The answers on this topic for the problems that a plot shows, stale or not, each with its index among
-    /// these and its held values.
-    pub fn found(&self, topic: Topic, plot: usize) -> Vec<(usize, String, &Answer)> {
+    /// The answers on this topic for the problems that a plot shows, stale or not.
+    pub fn found(&self, topic: Topic, plot: usize) -> Vec<(VariantTag, &Answer)> {
         let starts = topic == Topic::Trajectory;
         let labels = self.variants(plot).map(|all| labels(all, &self.problem, starts));
         let label = |index: usize| labels.as_ref()?.get(index).cloned();
+        let tag = |index| VariantTag { index, label: label(index).unwrap_or_default() };
         let found = self.answers_for_each(topic, plot);
-        found.map(|(index, answer)| (index, label(index).unwrap_or_default(), answer)).collect()
+        found.map(|(index, answer)| (tag(index), answer)).collect()
     }
 
     /// The answers without the held values.

@@ -4,7 +4,7 @@ use super::Trial;
 use crate::model::State;
 use crate::portrait::{BasinPicture, Border, Cycles, Margin};
 use crate::scene::{Answer, Point, Span, Topic, Window};
-use crate::session::Framing;
+use crate::session::{Framing, VariantTag};
 
 #[test]
 fn the_cursor_moves_on_round_numbers_and_sets_the_start() {
@@ -92,7 +92,7 @@ fn fit_shows_every_variant_and_not_the_motion_that_none_of_them_is() {
         assert_eq!(trial.session.plots[index].framing, Framing::Fitted, "{scene}");
         let window = trial.session.plots[index].window;
         let mut seen = Vec::new();
-        for (_, label, answer) in trial.session.found(Topic::Cycles, index) {
+        for (VariantTag { label, .. }, answer) in trial.session.found(Topic::Cycles, index) {
             let Answer::Cycles(found) = answer else { continue };
             for cycle in &found.cycles {
                 let corners = [(cycle.q_min, cycle.v_min), (cycle.q_max, cycle.v_max)];
