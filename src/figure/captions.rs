@@ -5,7 +5,7 @@ use super::elements::{self, Anchor};
 use super::paper::{Frame, PLOT, Spot, ink};
 use super::{FigureCurve, MarkedPoint, Panel};
 use crate::numerics::{count::real, elementary::hypot};
-use crate::picture::{Caption, Dash};
+use crate::picture::{Caption, Dash, along};
 use crate::scene::Point;
 
 /// Width of a letter and height of a line, in pixels.
@@ -54,27 +54,12 @@ fn followed(points: &[[f64; 2]], frame: Frame) -> Vec<Spot> {
             && (frame.top..=frame.top + PLOT.1).contains(&spot.1)
     };
     let mut spots: Vec<Spot> = Vec::new();
-    let mut last: Option<Spot> = None;
-    for here in points.iter().map(|point| frame.spot((*point).into())) {
-        let from = last.replace(here).unwrap_or(here);
-        let length = hypot(here.0 - from.0, here.1 - from.1);
-        if !length.is_finite() {
-            last = None;
-            continue;
-        }
-        // A chord from far outside is examined in this many places only.
-        let parts = (length / SPACING).ceil().clamp(1.0, 1000.0);
-        let mut part = 0.0;
-        while part < parts {
-            part += 1.0;
-            let share = part / parts;
-            let spot = (from.0 + share * (here.0 - from.0), from.1 + share * (here.1 - from.1));
-            let apart = |other: &Spot| hypot(other.0 - spot.0, other.1 - spot.1);
-            if inside(&spot) && spots.last().is_none_or(|last| apart(last) >= 0.5 * SPACING) {
-                spots.push(spot);
-            }
-        }
+    for pair in points.windows(2) {
+        let [from, to] = [pair[0], pair[1]].map(|point| frame.spot(point.into()));
+        spots.extend(along(from, to, SPACING).filter(inside));
     }
+    let apart = |one: &Spot, other: &Spot| hypot(one.0 - other.0, one.1 - other.1);
+    spots.dedup_by(|next, last| apart(next, last) < 0.5 * SPACING);
     spots
 }
 
@@ -103,15 +88,15 @@ impl Surroundings {
         let nearest = |spots: &[Spot]| {
             spots.iter().map(|spot| place.distance(*spot)).fold(f64::INFINITY, f64::min)
         };
-        let count = |of: &[Vec<Spot>]| of.iter().filter(|spots| nearest(spots) < 1.0).count();
-        let weigh = |count: usize, harm: f64| real(count) * harm;
-        let covered = weigh(taken.iter().filter(|other| place.overlaps(other)).count(), COVERED[0])
-            + weigh(
-                self.marks.iter().filter(|mark| place.distance(**mark) < 3.0).count(),
-                COVERED[1],
-            )
-            + weigh(count(&self.curves), COVERED[2])
-            + weigh(count(&self.guides), COVERED[3]);
+        let lines = |of: &[Vec<Spot>]| of.iter().filter(|spots| nearest(spots) < 1.0).count();
+        let covered = [
+            taken.iter().filter(|other| place.overlaps(other)).count(),
+            self.marks.iter().filter(|mark| place.distance(**mark) < 3.0).count(),
+            lines(&self.curves),
+            lines(&self.guides),
+        ];
+        let covered: f64 =
+            covered.into_iter().zip(COVERED).map(|(count, harm)| real(count) * harm).sum();
         // Its own curves pass through the spot.
         let touches = |spots: &&Vec<Spot>| {
             spots.iter().any(|other| hypot(other.0 - spot.0, other.1 - spot.1) < 2.0 * SPACING)
@@ -183,7 +168,7 @@ fn best(
     /// Harm of a pixel further away from a point than needed: what names a curve may be anywhere beside
     /// it, what names a point stands there.
     const FAR: (f64, f64) = (0.3, 1.0);
-    let width = LETTER * f64::from(u32::try_from(text.chars().count()).unwrap_or(0));
+    let width = LETTER * real(text.chars().count());
     let inside = |place: &Rectangle| {
         place.left >= frame.left + 2.0
             && place.left + width <= frame.left + PLOT.0 - 2.0
@@ -193,20 +178,18 @@ fn best(
     let far = if caption.or_at.is_empty() { FAR.1 } else { FAR.0 };
     let mut best: Option<(f64, Rectangle)> = None;
     let spots = std::iter::once(&caption.at).chain(&caption.or_at);
-    let mut later = 0.0;
-    for spot in spots.map(|at| frame.spot(*at)) {
-        let mut harm = later;
-        for place in around(spot, width) {
-            if inside(&place) && best.is_none_or(|(least, _)| harm < least) {
+    for (later, spot) in spots.map(|at| frame.spot(*at)).enumerate() {
+        for (farther, place) in around(spot, width).enumerate().filter(|(_, place)| inside(place)) {
+            let harm = LESS_GOOD.0 * real(later) + LESS_GOOD.1 * real(farther);
+            let is_least = |harm| best.is_none_or(|(least, _)| harm < least);
+            if is_least(harm) {
                 let away = (place.distance(spot) - GAP).max(0.0) * far;
                 let harm = harm + away + surroundings.harm(&place, spot, taken);
-                if best.is_none_or(|(least, _)| harm < least) {
+                if is_least(harm) {
                     best = Some((harm, place));
                 }
             }
-            harm += LESS_GOOD.1;
         }
-        later += LESS_GOOD.0;
     }
     best
 }

@@ -6,7 +6,8 @@ use std::fmt;
 
 use super::{Dash, Mark, Role, Scale, ScanMap, units::said};
 use crate::model::{Knob, Parameters};
-use crate::numerics::elementary::sin_cos;
+use crate::numerics::count::{real, truncated};
+use crate::numerics::elementary::{hypot, sin_cos};
 use crate::scene::{Point, Window};
 use crate::session::VariantTag;
 
@@ -250,6 +251,16 @@ pub fn ellipse(x: (f64, f64), y: (f64, f64)) -> impl Iterator<Item = Point> {
         let (sin, cos) = sin_cos(TAU * f64::from(corner) / f64::from(CORNERS));
         Point { x: x.0 + x.1 * cos, y: y.0 + y.1 * sin }
     })
+}
+
+/// Places along a chord on paper or on a screen, both ends among them, about this far apart.
+pub fn along(from: (f64, f64), to: (f64, f64), spacing: f64) -> impl Iterator<Item = (f64, f64)> {
+    /// A chord from far outside is followed in so many places only.
+    const MOST: f64 = 1000.0;
+    let (across, up) = (to.0 - from.0, to.1 - from.1);
+    let parts = (hypot(across, up) / spacing).ceil().clamp(1.0, MOST);
+    let shares = (0..=truncated(parts)).map(move |part| real(part) / parts);
+    shares.map(move |share| (from.0 + share * across, from.1 + share * up))
 }
 
 /// Whether a graph is seen in a window.

@@ -28,7 +28,7 @@ pub mod trade;
 pub(crate) mod units;
 
 pub use items::{
-    Caption, Fill, Flow, Function, Item, LineStyle, Marks, Pattern, Picture, Text, Texture,
+    Caption, Fill, Flow, Function, Item, LineStyle, Marks, Pattern, Picture, Text, Texture, along,
     ellipse, passes,
 };
 pub use legend::{LegendEntry, LegendSample};

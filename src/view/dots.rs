@@ -108,12 +108,12 @@ impl Dots {
     }
 
     fn line(&mut self, points: impl IntoIterator<Item = DotPoint>, pen: DotPen) {
-        let mut stroke = PenState::default();
+        let (mut run, mut drawn) = (Vec::new(), 0);
         let mut previous: Option<DotPoint> = None;
         let size = self.size();
         for point in points {
             if !(point.0.is_finite() && point.1.is_finite()) {
-                self.lift(&mut stroke, pen);
+                self.ink_run(&mut run, &mut drawn, pen);
                 previous = None;
                 continue;
             }
@@ -123,48 +123,24 @@ impl Dots {
                 for index in 0..=steps as u32 {
                     let along = f64::from(index) / steps;
                     let (x, y) = (x0 + (x1 - x0) * along, y0 + (y1 - y0) * along);
-                    self.visit(&mut stroke, pen, (x as i32, y as i32));
+                    extend(&mut run, (x as i32, y as i32));
                 }
             }
             if segment.is_none_or(|(.., unclipped)| !unclipped) {
-                self.lift(&mut stroke, pen);
+                self.ink_run(&mut run, &mut drawn, pen);
             }
             previous = Some(point);
         }
-        self.lift(&mut stroke, pen);
+        self.ink_run(&mut run, &mut drawn, pen);
     }
 
-    /// Moves a stroke to a dot. A dot that would only make a corner between its neighbours is left
-    /// out, so that curves stay one dot wide.
-    fn visit(&mut self, stroke: &mut PenState, pen: DotPen, dot: (i32, i32)) {
-        let Some(waiting) = stroke.waiting else {
-            stroke.waiting = Some(dot);
-            return;
-        };
-        if waiting == dot {
-            return;
-        }
-        let corner = stroke
-            .last
-            .is_some_and(|last| (dot.0 - last.0).abs() == 1 && (dot.1 - last.1).abs() == 1);
-        if !corner {
-            self.commit(stroke, pen, waiting);
-        }
-        stroke.waiting = Some(dot);
-    }
-
-    fn commit(&mut self, stroke: &mut PenState, pen: DotPen, dot: (i32, i32)) {
+    /// Draws a run of dots; dashes go on after those `drawn` before.
+    fn ink_run(&mut self, run: &mut Vec<(i32, i32)>, drawn: &mut u32, pen: DotPen) {
         let (pattern, period) = self.glyphs.dash(pen.dash);
-        self.ink(dot, pen, pattern >> (stroke.length % period) & 1 == 1);
-        stroke.length += 1;
-        stroke.last = Some(dot);
-    }
-
-    fn lift(&mut self, stroke: &mut PenState, pen: DotPen) {
-        if let Some(waiting) = stroke.waiting.take() {
-            self.commit(stroke, pen, waiting);
+        for dot in run.drain(..) {
+            self.ink(dot, pen, (pattern >> (*drawn % period)) & 1 == 1);
+            *drawn += 1;
         }
-        stroke.last = None;
     }
 
     /// Draws a dot, or the gap of a dash.
@@ -244,12 +220,17 @@ impl Dots {
     }
 }
 
-/// The state of a line being drawn: its last dot, the one to be drawn next, and how many were drawn.
-#[derive(Default)]
-struct PenState {
-    last: Option<(i32, i32)>,
-    waiting: Option<(i32, i32)>,
-    length: u32,
+/// Adds a dot to a run. A dot that would only make a corner between its neighbours is left out, so that curves stay
+/// one dot wide.
+fn extend(run: &mut Vec<(i32, i32)>, dot: (i32, i32)) {
+    match run[..] {
+        [.., last] if last == dot => {}
+        [.., before, _] if (dot.0 - before.0).abs() == 1 && (dot.1 - before.1).abs() == 1 => {
+            run.pop();
+            run.push(dot);
+        }
+        _ => run.push(dot),
+    }
 }
 
 impl Glyphs {

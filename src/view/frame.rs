@@ -101,10 +101,11 @@ fn plot(
 /// What a plot says in place of empty axes.
 fn nothing(area: Rect, text: String, look: &Look, buffer: &mut Buffer) {
     let line = vec![look.span(text, Role::Text).into()];
+    let body = pane::below(area, 1);
     let width = area.width.saturating_sub(2);
-    let rows = prose::rows(&line, width).min(area.height.saturating_sub(1));
-    let y = area.y + 1 + (area.height.saturating_sub(1) - rows) / 2;
-    prose::write(Rect { x: area.x + 1, y, width, height: rows }, line, look, buffer);
+    let height = prose::rows(&line, width).min(body.height);
+    let y = body.y + (body.height - height) / 2;
+    prose::write(Rect { x: area.x + 1, y, width, height }, line, look, buffer);
 }
 
 /// What a screen too small for everything else shows.

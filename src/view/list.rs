@@ -77,9 +77,8 @@ impl ListContent {
         }
         let first = pane::first_seen(selected, self.rows.len(), rows.height.into());
         let seen = self.rows.into_iter().enumerate().skip(first);
-        for (y, (place, row)) in (0..rows.height).zip(seen) {
-            pane::line(rows, y, drawn(row, place == selected, look), look, buffer);
-        }
+        let seen = seen.map(|(place, row)| drawn(row, place == selected, look));
+        pane::lines(rows, seen, look, buffer);
         if about > 0 {
             let text = Rect { y: rows.bottom() + 1, height: about - 1, ..inner };
             prose::write(text, self.about, look, buffer);

@@ -234,6 +234,24 @@ pub fn line(
     both_ends(area, row, left, "", look, buffer);
 }
 
+/// Writes lines from the top of `area` down, as far as they fit.
+pub fn lines<L: Into<Line<'static>>>(
+    area: Rect,
+    lines: impl IntoIterator<Item = L>,
+    look: &Look,
+    buffer: &mut Buffer,
+) {
+    for (row, text) in (0..area.height).zip(lines) {
+        line(area, row, text, look, buffer);
+    }
+}
+
+/// What is left of an area below so many rows.
+pub fn below(area: Rect, rows: u16) -> Rect {
+    let rows = rows.min(area.height);
+    Rect { y: area.y + rows, height: area.height - rows, ..area }
+}
+
 /// [`line`] with a text at its right end where that fits whole.
 pub fn both_ends(
     area: Rect,

@@ -35,29 +35,22 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let heading = Heading::of(session, Pane::Parameters);
     let of = session.number(0).map_or_else(String::new, |number| format!("of motion {number}"));
     pane::title(area, "parameters", &of, &heading, look, buffer);
-    let wide = usize::from(area.width) >= VALUES + STEP;
-    let mut y = 1;
-    for row in session.rows().into_iter().skip(first(session, area.height)) {
-        let selected = row == session.selected;
-        let step = (selected || wide).then(|| step(session, row)).flatten();
-        let line = row_line(session, row, step, area.width, look);
-        pane::line(area, y, line, look, buffer);
-        y += 1;
+    let rows = session.rows().into_iter().skip(first(session, area.height));
+    let mut lines: Vec<Line> = rows.map(|row| row_line(session, row, area.width, look)).collect();
+    lines.extend(folded(session).map(|folded| look.span(format!(" {folded}"), Role::Quiet).into()));
+    lines.push(Line::default());
+    lines.extend(cycles(session, area.width.into(), look));
+    let taken = u16::try_from(lines.len()).unwrap_or(u16::MAX);
+    let body = pane::below(area, 1);
+    pane::lines(body, lines, look, buffer);
+    if is_wide(area.width) {
+        guide(pane::below(body, taken), session, look, buffer);
     }
-    if let Some(folded) = folded(session) {
-        pane::line(area, y, look.span(format!(" {folded}"), Role::Quiet), look, buffer);
-        y += 1;
-    }
-    let below = Rect {
-        y: area.y + (y + 1).min(area.height),
-        height: area.height.saturating_sub(y + 1),
-        ..area
-    };
-    let rows = cycles(below, session, look, buffer);
-    if wide {
-        let text = Rect { y: below.y + rows, height: below.height.saturating_sub(rows), ..below };
-        guide(text, session, look, buffer);
-    }
+}
+
+/// Whether steps stand beside all values, and texts below.
+fn is_wide(width: u16) -> bool {
+    usize::from(width) >= VALUES + STEP
 }
 
 /// The first row that is on show, so that the selected one is: a machine can have more rows than fit.
@@ -93,18 +86,12 @@ fn guide(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     prose::write(inner, lines, look, buffer);
 }
 
-fn row_line(
-    session: &Session,
-    row: Row,
-    step: Option<String>,
-    width: u16,
-    look: &Look,
-) -> Vec<Span<'static>> {
+fn row_line(session: &Session, row: Row, width: u16, look: &Look) -> Line<'static> {
     let selected = row == session.selected;
     let pointer = if selected { look.symbols().pointer } else { " " };
     let role = if selected { Role::Selected } else { Role::Text };
     let name = row.name_in(&session.problem);
-    let tail = tail(session, row, step, width, look);
+    let tail = tail(session, row, width, look);
     // Two blanks before the value and, where there is room, two behind it.
     let end = VALUES.min(usize::from(width).saturating_sub(tail.chars().count()));
     let room = (VALUES - 3).min(end.saturating_sub(3)).saturating_sub(name.len());
@@ -124,16 +111,17 @@ fn row_line(
     } else {
         style
     };
-    vec![
+    Line::from(vec![
         Span::styled(format!("{pointer}{name}{:gap$}", ""), style),
         Span::styled(value, value_style),
         look.span(tail, Role::Quiet),
-    ]
+    ])
 }
 
 /// What stands behind a value: its step, and what the number means.
-fn tail(session: &Session, row: Row, step: Option<String>, width: u16, look: &Look) -> String {
+fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
     let selected = row == session.selected;
+    let step = step(session, row).filter(|_| selected || is_wide(width));
     // On a narrow pane the error of a fitted number matters more than its step.
     let recorded = session.scene.recording.is_some() && width < WITH_MEANINGS;
     let step = step.filter(|_| !recorded).unwrap_or_default();
@@ -263,45 +251,39 @@ fn cells(cycle: &Cycle, units: Option<Units>) -> [String; 5] {
     [size, period, speed, multiplier(cycle), error]
 }
 
-/// What the cycles are, in numbers in as many columns as fit, and what borders the basin; returns the rows that it
-/// took.
-fn cycles(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) -> u16 {
+/// What the cycles are, in numbers in as many columns as fit, what borders the basin, and a blank line; nothing
+/// until they are known.
+fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
     /// Columns of the symbol before the numbers.
     const SYMBOL: usize = 3;
-    let Some(found) = session.cycles() else { return 0 };
-    let (width, units) = (usize::from(area.width), units::shown(session));
+    let Some(found) = session.cycles() else { return Vec::new() };
+    let units = units::shown(session);
     let mut used = SYMBOL;
-    let fits = |(_, width): &&(&str, usize)| {
-        used += width;
-        used <= usize::from(area.width)
+    let fits = |(_, columns): &&(&str, usize)| {
+        used += columns;
+        used <= width
     };
-    let columns = COLUMNS[usize::from(units.is_some())].iter().take_while(fits);
-    let columns: Vec<(&str, usize)> = columns.copied().collect();
-    let aligned = |cells: &[String]| {
-        let all = cells.iter().zip(&columns);
-        all.fold(String::new(), |line, (cell, (_, width))| format!("{line}{cell:>width$}"))
+    let columns: Vec<_> =
+        COLUMNS[usize::from(units.is_some())].iter().take_while(fits).copied().collect();
+    let aligned = |cells: &[String]| -> String {
+        cells.iter().zip(&columns).map(|(cell, (_, width))| format!("{cell:>width$}")).collect()
     };
     let title = " cycles";
     let headings: Vec<String> = columns.iter().map(|(name, _)| (*name).to_owned()).collect();
     let headings = aligned(&headings).split_at(title.len() - SYMBOL).1.to_owned();
-    let heading = vec![look.span(title, Role::Title), look.span(headings, Role::Quiet)];
-    let numbers = found.cycles.iter().map(|cycle| {
+    let mut lines: Vec<Vec<Span>> =
+        vec![vec![look.span(title, Role::Title), look.span(headings, Role::Quiet)]];
+    lines.extend(found.cycles.iter().map(|cycle| {
         let CycleStyle { mark, role, .. } = cycle_style(cycle.stable);
         let symbol = look.span(format!(" {} ", look.symbols().mark(mark)), role);
         vec![symbol, Span::raw(aligned(&cells(cycle, units)))]
-    });
-    let (count, role) = counted(session, found, width);
+    }));
     let words = basin(session, found, width, look).into_iter().chain(balance(session, width));
     let words = words.map(|text| (text, Role::Quiet));
-    let below = std::iter::once((count, role)).chain(words);
-    let below = below.map(|(text, role)| vec![look.span(format!(" {text}"), role)]);
-    let lines: Vec<_> = std::iter::once(heading).chain(numbers).chain(below).collect();
-    let mut y = 0;
-    for line in lines {
-        pane::line(area, y, line, look, buffer);
-        y += 1;
-    }
-    y + 1
+    let below = std::iter::once(counted(session, found, width)).chain(words);
+    lines.extend(below.map(|(text, role)| vec![look.span(format!(" {text}"), role)]));
+    lines.push(Vec::new());
+    lines.into_iter().map(Line::from).collect()
 }
 
 /// How many cycles there are, and whether that is proved.

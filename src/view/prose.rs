@@ -22,9 +22,7 @@ pub fn write(area: Rect, lines: Vec<Line<'static>>, look: &Look, buffer: &mut Bu
             last.push_span(format!(" {mark}"));
         }
     }
-    for (row, line) in (0..area.height).zip(rows) {
-        pane::line(area, row, line, look, buffer);
-    }
+    pane::lines(area, rows, look, buffer);
 }
 
 /// As many words of a line as fit.

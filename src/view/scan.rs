@@ -44,8 +44,7 @@ pub fn draw(
     let title = format!("{} {}", View::Scan.spec().title, progress(scanned));
     if scanned.table {
         pane::title(area, &title, "", heading, look, buffer);
-        let body = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
-        return table(body, scanned, look, buffer);
+        return table(pane::below(area, 1), scanned, look, buffer);
     }
     let Picture { x, y, map, .. } = picture;
     let width = usize::from(area.width);
@@ -70,10 +69,8 @@ pub fn draw(
     let reading = Line::styled(reading, look.style(Role::Cursor));
     let without = scan_map::without_numbers(scanned, width);
     let without = Line::styled(without, look.style(Role::Quiet));
-    let lines = [reading, legend, without];
-    for (row, line) in (area.height.saturating_sub(BELOW)..area.height).zip(lines) {
-        pane::line(area, row, line, look, buffer);
-    }
+    let below = pane::below(area, area.height.saturating_sub(BELOW));
+    pane::lines(below, [reading, legend, without], look, buffer);
 }
 
 /// How far a scan is: `120 of 400, 3 s left`.
@@ -176,17 +173,17 @@ fn table(area: Rect, scanned: &ScanOnShow, look: &Look, buffer: &mut Buffer) {
         cells.collect::<Vec<_>>().concat()
     };
     let names = Line::styled(line(0) + more, look.style(Role::Title));
-    pane::line(area, 0, names, look, buffer);
-    for (row, index) in (1..).zip(seen) {
+    let rows = (1..).zip(seen).map(|(row, index)| {
         let reason = &scanned.rows[index].reason;
         let role = match (index == scanned.at, reason) {
             (true, _) => Role::Selected,
             (false, Some(_)) => Role::Warning,
             (false, None) => Role::Text,
         };
-        let text = line(usize::from(row)) + reason.as_deref().unwrap_or_default();
-        pane::line(area, row, Line::styled(text, look.style(role)), look, buffer);
-    }
+        let text = line(row) + reason.as_deref().unwrap_or_default();
+        Line::styled(text, look.style(role))
+    });
+    pane::lines(area, std::iter::once(names).chain(rows), look, buffer);
 }
 
 /// The columns of these rows: each a name and its cells.

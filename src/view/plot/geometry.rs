@@ -11,6 +11,7 @@ use ratatui::layout::{Position, Rect};
 use crate::picture::{Scale, Tick, Ticks};
 use crate::scene::{Point, Span, View, Window};
 use crate::session::Session;
+use crate::view::pane;
 use crate::words::number::resolved;
 
 /// Smallest area in which axes stand outside the picture; below it labels lie inside.
@@ -32,7 +33,7 @@ pub(super) struct Geometry {
 
 impl Geometry {
     pub fn of(area: Rect, window: Window, scales: [Scale; 2], upward: Option<Ticks>) -> Self {
-        let body = Rect { y: area.y + 1, height: area.height.saturating_sub(1), ..area };
+        let body = pane::below(area, 1);
         let roomy = body.width >= ROOMY.0 && body.height >= ROOMY.1;
         let rows = rows(area);
         let most = usize::from(rows / 3).clamp(2, 9);

@@ -3,7 +3,7 @@
 #![expect(clippy::cast_possible_truncation, reason = "lengths of short texts count cells")]
 
 use super::Canvas;
-use crate::picture::{Caption, Role};
+use crate::picture::{Caption, Role, along};
 use crate::scene::Point;
 use crate::view::dots::Covering;
 use crate::view::pane;
@@ -65,25 +65,13 @@ impl Canvas<'_> {
 
     /// The cells that a curve runs through.
     fn cells_of(&self, curve: &[Point]) -> Vec<(i32, i32)> {
-        /// A chord from far outside is followed in so many places only.
-        const MOST: f64 = 1000.0;
-        let mut cells = Vec::new();
-        for pair in curve.windows(2) {
-            let [(x0, y0), (x1, y1)] = [pair[0], pair[1]].map(|point| self.place(point));
-            let parts = (x1 - x0).abs().max((y1 - y0).abs()).min(MOST).ceil();
-            let mut part = 0.0;
-            while part <= parts {
-                let share = part / parts.max(1.0);
-                let at = (x0 + share * (x1 - x0), y0 + share * (y1 - y0));
-                if let Some((column, row)) = self.dots.cell_at(at) {
-                    let cell = (i32::from(column), i32::from(row));
-                    if cells.last() != Some(&cell) {
-                        cells.push(cell);
-                    }
-                }
-                part += 2.0;
-            }
-        }
+        let followed = curve.windows(2).flat_map(|pair| {
+            let [from, to] = [pair[0], pair[1]].map(|point| self.place(point));
+            along(from, to, 2.0).filter_map(|at| self.dots.cell_at(at))
+        });
+        let mut cells: Vec<_> =
+            followed.map(|(column, row)| (i32::from(column), i32::from(row))).collect();
+        cells.dedup();
         cells
     }
 
