@@ -1,6 +1,6 @@
 //! A scan: a curve over one parameter, or a map over two.
 
-use super::{Dash, LineStyle, Picture, Role, Scale, ScanMap, map::measured};
+use super::{Dash, Item, LineStyle, Mark, Marks, Picture, Role, Scale, ScanMap, map::measured};
 use crate::scan::sweep::{Spacing, Sweep};
 use crate::scene::Point;
 use crate::session::{Session, scan::ScanOnShow};
@@ -20,6 +20,7 @@ pub fn scales(scanned: &ScanOnShow) -> [Scale; 2] {
 /// The curve over one parameter, or the map over two.
 pub fn draw(picture: &mut Picture, session: &Session) {
     let Some(scanned) = &session.scanned else { return };
+    picture.cursor = scanned.place(scanned.at);
     picture.varied = scanned.scan.over().iter().map(|sweep| sweep.symbol).collect();
     let names: Vec<&str> = picture.varied.iter().map(|knob| knob.spec().name).collect();
     let upward = names.get(1).copied().unwrap_or_else(|| measured(scanned));
@@ -28,8 +29,22 @@ pub fn draw(picture: &mut Picture, session: &Session) {
     if let Some(name) = picture.map.as_ref().map(|map| map.name.clone()) {
         picture.add_to_title(&name);
     } else {
-        let line = LineStyle::new(upward, Role::Trajectory, Dash::Solid);
-        let points = 0..scanned.rows.len();
-        picture.curve(line, points.map(|index| scanned.place(index).unwrap_or(Point::NOWHERE)));
+        curve(picture, scanned, upward.to_owned());
     }
+}
+
+/// The measured number over one parameter; where there is none the curve has a gap.
+fn curve(picture: &mut Picture, scanned: &ScanOnShow, name: String) {
+    let place = |index| scanned.place(index).unwrap_or(Point::NOWHERE);
+    let (all, words) = (0..scanned.rows.len(), scanned.plots_words());
+    // Words, and points without neighbours, make no curve.
+    let known = |index: usize| scanned.height(index).is_some();
+    let joined = |index: usize| (index > 0 && known(index - 1)) || known(index + 1);
+    let alone = all.clone().filter(|index| words || (known(*index) && !joined(*index)));
+    let marks = Marks::new(Mark::Stable, Role::Trajectory, alone.map(place).collect());
+    let marks = Item::Marks(Marks { name: name.clone().into(), ..marks });
+    if !words {
+        picture.curve(LineStyle::new(name, Role::Trajectory, Dash::Solid), all.map(place));
+    }
+    picture.items.push(marks);
 }

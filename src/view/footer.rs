@@ -52,17 +52,12 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
 
 /// The first hints that fit into `width`, whole.
 fn fitting(hints: &[&Hint], width: usize, look: &Look) -> Vec<Span<'static>> {
-    let mut line = Vec::new();
     let mut used = 0;
-    for hint in hints {
-        let spans = spans(hint, look);
+    let fits = |spans: &[Span; 2]| {
         used += spans.iter().map(Span::width).sum::<usize>();
-        if used > width {
-            break;
-        }
-        line.extend(spans);
-    }
-    line
+        used <= width
+    };
+    hints.iter().map(|hint| spans(hint, look)).take_while(fits).flatten().collect()
 }
 
 fn spans(hint: &Hint, look: &Look) -> [Span<'static>; 2] {
@@ -126,27 +121,24 @@ fn allowed(row: Row, session: &Session) -> String {
 
 /// The command being typed, with what it can become, what it takes, or why it was refused.
 fn prompt(prompt: &Prompt, keymap: &Keymap, look: &Look) -> Vec<Span<'static>> {
-    let mut line = vec![look.span(" :", Role::Title)];
-    line.extend(typed(&prompt.input, look));
     let quiet = |text: &str| look.span(format!("  {text}"), Role::Quiet);
-    match (&prompt.refused, &prompt.completion) {
-        (Some(why), _) => {
-            line.push(look.span(format!("  {why}"), Role::Failure));
-        }
+    let remark = match (&prompt.refused, &prompt.completion) {
+        (Some(why), _) => vec![look.span(format!("  {why}"), Role::Failure)],
         (None, Some(completion)) => {
-            line.push(Span::raw(" "));
-            for (index, word) in completion.words.iter().enumerate() {
-                let style =
-                    look.style(if index == completion.at { Role::Key } else { Role::Quiet });
-                line.extend([Span::raw(" "), Span::styled(word.clone(), style)]);
-            }
+            let word = |(index, word): (usize, &String)| {
+                let role = if index == completion.at { Role::Key } else { Role::Quiet };
+                [Span::raw(" "), look.span(word.clone(), role)]
+            };
+            let words = completion.words.iter().enumerate().flat_map(word);
+            std::iter::once(Span::raw(" ")).chain(words).collect()
         }
-        (None, None) => line.push(match described(keymap, &prompt.input.text()) {
+        (None, None) => vec![match described(keymap, &prompt.input.text()) {
             Some((arguments, doc)) => quiet(&format!("{arguments} {doc}")),
             None => quiet("the name of a command; Tab completes"),
-        }),
-    }
-    line
+        }],
+    };
+    let lead = look.span(" :", Role::Title);
+    std::iter::once(lead).chain(typed(&prompt.input, look)).chain(remark).collect()
 }
 
 /// Text being typed, with its caret.

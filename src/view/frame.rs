@@ -3,6 +3,7 @@
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
+use ratatui::widgets::{Paragraph, Widget, Wrap};
 
 use super::layout::{Layout, SMALLEST, layout};
 use super::pane::{self, Heading};
@@ -92,7 +93,7 @@ fn plot(
         }
         // Its shades fill cells, and its table is text.
         (View::Scan, Some(scanned)) => {
-            scan::draw(area, &picture, &heading, scanned, look, buffer);
+            scan::draw(area, picture, heading, scanned, look, buffer);
         }
         _ => paint(area, &picture, heading, look, buffer),
     }
@@ -110,19 +111,12 @@ fn nothing(area: Rect, text: String, look: &Look, buffer: &mut Buffer) {
 
 /// What a screen too small for everything else shows.
 fn card(screen: Rect, look: &Look, buffer: &mut Buffer) {
-    let Rect { x, y, width, height } = screen;
+    let Rect { width, height, .. } = screen;
     let (columns, rows) = SMALLEST;
-    let lines = [
-        format!("hopfscope needs {columns} x {rows}"),
-        format!("this screen is {width} x {height}"),
-    ];
-    let top = height.saturating_sub(2) / 2;
-    for (row, line) in (top..height).zip(lines) {
-        let left = usize::from(width).saturating_sub(line.len()) / 2;
-        let left = u16::try_from(left).unwrap_or(0);
-        let line = pane::cut(&line, width.into(), look);
-        buffer.set_string(x + left, y + row, line, look.style(Role::Text));
-    }
+    let text = format!("hopfscope needs {columns} x {rows}\nthis screen is {width} x {height}");
+    let text = Paragraph::new(text).style(look.style(Role::Text)).centered();
+    let middle = pane::below(screen, height.saturating_sub(2) / 2);
+    text.wrap(Wrap { trim: true }).render(middle, buffer);
 }
 
 /// Every plot of a session for itself, each drawn in this size.

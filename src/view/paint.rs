@@ -3,7 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::{Look, look::Symbols, pane::Heading, plot::Canvas};
+use super::{Look, look::Symbols, pane::Heading, plot::Canvas, scan_map};
 use crate::picture::{Caption, Dash, Item, Mark, Marks, Pattern, Picture};
 use crate::scene::{Point, Window};
 
@@ -26,6 +26,9 @@ pub fn paint(
     let Picture { title, window, cursor, items, .. } = picture;
     heading.reading.clone_from(&picture.reading);
     let mut plot = Canvas::new(area, title, picture, None, &heading, look, buffer);
+    if let Some(map) = &picture.map {
+        scan_map::draw(&plot, map, look, buffer);
+    }
     // Texts find their places when all else is there; names of curves last, since they have many places
     // to go to.
     let mut captions = Vec::new();

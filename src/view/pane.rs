@@ -22,21 +22,16 @@ pub fn centred(screen: Rect, width: u16, height: u16) -> Rect {
 /// Clears an area for what stands over the panes, and what it would leave of words and numbers beside it.
 fn clear(area: Rect, buffer: &mut Buffer) {
     let full = buffer.area;
-    let letter = |buffer: &Buffer, x: u16, y: u16| {
-        let symbol = buffer.cell((x, y)).map_or(" ", |cell| cell.symbol());
-        symbol.chars().next().filter(char::is_ascii_graphic)
+    let is_letter = |buffer: &Buffer, x: &u16, y: u16| {
+        let symbol = buffer.cell((*x, y)).map_or(" ", |cell| cell.symbol());
+        symbol.starts_with(|letter: char| letter.is_ascii_graphic())
     };
     for y in area.y..area.bottom().min(full.bottom()) {
-        let leftward: Vec<u16> = (full.x..area.x).rev().collect();
-        let rightward: Vec<u16> = (area.right()..full.right()).collect();
-        for (edge, beside) in [(area.x, leftward), (area.right().saturating_sub(1), rightward)] {
-            if letter(buffer, edge, y).is_none() {
-                continue;
-            }
-            let run = beside.into_iter().take_while(|x| letter(buffer, *x, y).is_some());
-            for x in run.collect::<Vec<_>>() {
-                buffer[(x, y)].set_symbol(" ");
-            }
+        let leftward = (full.x..=area.x).rev().take_while(|x| is_letter(buffer, x, y));
+        let rightward =
+            (area.right().saturating_sub(1)..full.right()).take_while(|x| is_letter(buffer, x, y));
+        for x in leftward.chain(rightward).collect::<Vec<_>>() {
+            buffer[(x, y)].set_symbol(" ");
         }
     }
     Clear.render(area, buffer);

@@ -11,12 +11,12 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use super::pane::{self, Heading};
-use super::{Look, plot::Canvas, scan_map};
+use super::{Look, paint::paint, scan_map};
 use crate::picture::map::{measured, nothing};
-use crate::picture::{Danger, Dash, Mark, Picture, Role};
+use crate::picture::{Danger, Picture, Role};
 use crate::scan::measure::Value;
 use crate::scan::sweep::Sweep;
-use crate::scene::{Point, View};
+use crate::scene::View;
 use crate::session::scan::{ScanOnShow, ScanProgress, WORDS};
 use crate::words::measured::rounded;
 use crate::words::number::remaining;
@@ -35,34 +35,27 @@ pub fn body(area: Rect) -> Rect {
 
 pub fn draw(
     area: Rect,
-    picture: &Picture,
-    heading: &Heading,
+    picture: Picture,
+    heading: Heading,
     scanned: &ScanOnShow,
     look: &Look,
     buffer: &mut Buffer,
 ) {
     let title = format!("{} {}", View::Scan.spec().title, progress(scanned));
     if scanned.table {
-        pane::title(area, &title, "", heading, look, buffer);
+        pane::title(area, &title, "", &heading, look, buffer);
         return table(pane::below(area, 1), scanned, look, buffer);
     }
-    let Picture { x, y, map, .. } = picture;
     let width = usize::from(area.width);
     // The names of the axes stand there in any case; how far the scan is, where there is room.
-    let full = title.chars().count() + y.len() + x.len() + 9 <= width;
-    let short = if full { title.as_str() } else { View::Scan.spec().title };
-    let mut plot = Canvas::new(body(area), short, picture, None, heading, look, buffer);
-    let legend = if let Some(map) = map {
-        scan_map::draw(&plot, map, look, buffer);
-        scan_map::legend(scanned, width, look)
-    } else {
-        curve(&mut plot, scanned, look);
-        Line::styled(meaning(scanned, width), look.style(Role::Quiet))
+    let full = title.chars().count() + picture.y.len() + picture.x.len() + 9 <= width;
+    let short = if full { title.into() } else { View::Scan.spec().title.into() };
+    let picture = Picture { title: short, ..picture };
+    paint(body(area), &picture, heading, look, buffer);
+    let legend = match picture.map {
+        Some(_) => scan_map::legend(scanned, width, look),
+        None => Line::styled(meaning(scanned, width), look.style(Role::Quiet)),
     };
-    if let Some(point) = scanned.place(scanned.at) {
-        plot.cross(point);
-    }
-    plot.finish(buffer);
     let running = matches!(scanned.progress, ScanProgress::Running { .. });
     let reading =
         if running && !full { format!(" {}", progress(scanned)) } else { reading(scanned, width) };
@@ -107,22 +100,6 @@ fn reading(scanned: &ScanOnShow, width: usize) -> String {
         format!(" {name} {} at {}", found(*digits), at.collect::<Vec<_>>().join(" "))
     };
     pane::fitting(DIGITS.iter().map(text), width)
-}
-
-/// The measured number over one parameter; where there is none the curve has a gap.
-fn curve(plot: &mut Canvas, scanned: &ScanOnShow, look: &Look) {
-    let point = |index| scanned.place(index).unwrap_or(Point::NOWHERE);
-    let role = Role::Trajectory;
-    let all = 0..scanned.rows.len();
-    if !scanned.plots_words() {
-        plot.curve(all.clone().map(point), role, Dash::Solid);
-    }
-    // Words, and points without neighbours, make no curve.
-    let known = |index: usize| scanned.height(index).is_some();
-    let joined = |index: usize| (index > 0 && known(index - 1)) || known(index + 1);
-    for index in all.filter(|index| scanned.plots_words() || (known(*index) && !joined(*index))) {
-        plot.mark(point(index), look.symbols().mark(Mark::Stable), role);
-    }
 }
 
 /// What the heights of a curve mean: their range, or the words that they stand for.
