@@ -1,18 +1,18 @@
 //! A box of text above the status lines: the caption of a tour, or what there is to see in the scene and
 //! to press. It takes no keys: what it says can be tried while it is read.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
-use super::{Look, keys, pane, prose};
+use super::{Screen, keys, prose};
 use crate::picture::Role;
 use crate::session::{Session, overlay::SessionCaption};
 
 const WIDTH: u16 = 100;
 
 /// Draws the box at the bottom of `area`, if there is something to say and room for it.
-pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+pub fn draw(area: Rect, session: &Session, screen: &mut Screen) {
+    let look = screen.look;
     let filled = |text: &str| session.keymap.fill(text, |key| keys::name(key, look));
     let (heading, paragraphs) = match &session.caption {
         SessionCaption::Tour(caption, place) => {
@@ -41,6 +41,6 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     }
     let place =
         Rect { x: area.x + (area.width - width) / 2, y: area.bottom() - height, width, height };
-    let text = pane::boxed(place, &heading, "", look, buffer);
-    prose::write(text, lines, look, buffer);
+    let text = screen.boxed(place, &heading, "");
+    prose::write(text, lines, screen);
 }

@@ -13,12 +13,11 @@
     reason = "numbers are clipped to the raster before they count dots"
 )]
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::symbols::braille::BRAILLE;
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS};
 
-use super::Look;
+use super::Screen;
 use crate::picture::{Dash, Role};
 use crate::session::settings::Glyphs;
 
@@ -202,7 +201,7 @@ impl Dots {
     }
 
     /// Writes the raster into the buffer; empty cells leave what is there.
-    pub fn paint(&self, buffer: &mut Buffer, look: &Look) {
+    pub fn paint(&self, Screen { look, buffer }: &mut Screen) {
         for (position, content) in self.area.positions().zip(&self.cells) {
             let (symbol, role) = match *content {
                 CellContent::Empty | CellContent::Ink(0, _) => continue,

@@ -4,10 +4,9 @@
 //! Bars are fractions of the largest work of their owner, numbers are energies in the units of the model. While
 //! the motion is played, a mark on each of its bars shows what has been done so far.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::Look;
+use super::Screen;
 use super::pane::{self, Heading};
 use super::plot::{Canvas, rows};
 use crate::numerics::count::real;
@@ -26,18 +25,18 @@ pub fn draw(
     mut picture: Picture,
     mut heading: Heading,
     lines: &[LedgerLine],
-    look: &Look,
-    buffer: &mut Buffer,
+    screen: &mut Screen,
 ) {
+    let look = screen.look;
     let (window, marks) = marks(area, lines, picture.window);
     picture.window = window;
-    let title = View::EnergyLedger.spec().title;
+    picture.title = View::EnergyLedger.spec().title.into();
     heading.reading = picture.cursor.map(|cursor| {
         let near = |(line, _): &(usize, &LedgerLine)| (middle(*line) - cursor.y).abs() <= 0.5;
         let found = lines.iter().enumerate().find(near);
         found.map_or_else(String::new, |(_, entry)| reading(entry))
     });
-    let mut plot = Canvas::new(area, title, &picture, Some(marks), &heading, look, buffer);
+    let mut plot = Canvas::new(area, &picture, Some(marks), &heading, screen);
     plot.upright(0.0, Role::Axis, Dash::Solid);
     let symbols = look.symbols();
     let half = half_a_row(area, window);
@@ -72,7 +71,7 @@ pub fn draw(
     if let Some(cursor) = picture.cursor {
         plot.cross(cursor);
     }
-    plot.finish(buffer);
+    plot.finish(screen);
 }
 
 /// The lines that are seen in `area`, each in whole rows, and the sources at the axis.

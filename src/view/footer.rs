@@ -1,11 +1,10 @@
 //! The last line: the keys that matter now; or what the program has to say; or the value being typed.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 use ratatui::text::Span;
 
-use super::{Look, keys, pane};
+use super::{Look, Screen, keys, pane};
 use crate::flow::QUALITIES;
 use crate::model::{Knob, KnobSpec};
 use crate::picture::Role;
@@ -20,7 +19,8 @@ const ALWAYS: [&str; 5] = ["help", "accept", "replay", "forget", "quit"];
 /// The hint that joins them while something is open.
 const CLOSE: &str = "close";
 
-pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+pub fn draw(area: Rect, session: &Session, screen: &mut Screen) {
+    let look = screen.look;
     let hints = session.hints();
     let (always, others): (Vec<&Hint>, Vec<&Hint>) = hints.iter().partition(|hint| {
         ALWAYS.contains(&hint.text) || (hint.text == CLOSE && session.overlay.is_some())
@@ -47,7 +47,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
             fitting(&others, usize::from(area.width).saturating_sub(taken + 1), look)
         }
     };
-    pane::both_ends(area, 0, left, right, look, buffer);
+    screen.both_ends(area, 0, left, right);
 }
 
 /// The first hints that fit into `width`, whole.

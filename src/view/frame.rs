@@ -9,8 +9,8 @@ use super::layout::{Layout, SMALLEST, layout};
 use super::pane::{self, Heading};
 use super::plot::{point_at, shown};
 use super::{
-    Look, caption, energy_ledger, footer, keys, legend, lists, paint::paint, parameters, prose,
-    scan, scan_form, signs, status,
+    Look, Screen, caption, energy_ledger, footer, keys, legend, lists, paint::paint, parameters,
+    prose, scan, scan_form, signs, status,
 };
 use crate::picture::{self, Picture, Role};
 use crate::scene::View;
@@ -18,46 +18,46 @@ use crate::session::{Overlay, Pane, PointerTarget, Session, settings::Glyphs};
 
 /// Draws a session. Nothing is decided or computed here except what a visible cell shows.
 pub fn draw(frame: &mut Frame, session: &Session, look: &Look) {
-    let screen = frame.area();
-    render(screen, session, look, frame.buffer_mut());
+    render(frame.area(), session, look, frame.buffer_mut());
 }
 
 /// [`draw`] without a terminal.
-pub fn render(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    match layout(screen, session) {
-        None => card(screen, look, buffer),
+pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+    let screen = &mut Screen { look, buffer };
+    match layout(area, session) {
+        None => card(area, screen),
         Some(parts) => {
-            panes(&parts, session, look, buffer);
-            let body = Rect { height: parts.status.y.saturating_sub(screen.y), ..screen };
-            caption::draw(body, session, look, buffer);
-            lists::draw(screen, session, look, buffer);
-            scan_form::draw(screen, session, look, buffer);
+            panes(&parts, session, screen);
+            let body = Rect { height: parts.status.y.saturating_sub(area.y), ..area };
+            caption::draw(body, session, screen);
+            lists::draw(area, session, screen);
+            scan_form::draw(area, session, screen);
         }
     }
     match look.glyphs {
-        Glyphs::Ascii => signs::only_letters(buffer),
+        Glyphs::Ascii => signs::only_letters(screen.buffer),
         // The fonts of terminals that have no more than blocks need not have one.
         Glyphs::Block => {}
         _ => {
             // What is being typed stands there as it will be read.
             let typing = matches!(session.overlay, Some(Overlay::Entry(_) | Overlay::Prompt(_)));
-            signs::minus(screen, buffer, |y| typing && y + 1 == screen.bottom());
+            signs::minus(area, screen.buffer, |y| typing && y + 1 == area.bottom());
         }
     }
 }
 
-fn panes(parts: &Layout, session: &Session, look: &Look, buffer: &mut Buffer) {
-    status::title(parts.title, session, look, buffer);
+fn panes(parts: &Layout, session: &Session, screen: &mut Screen) {
+    status::title(parts.title, session, screen);
     let shown = parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty());
     let pictures = shown.clone().map(|(index, area)| framed(*area, session, index));
     let pictures: Vec<_> = pictures.collect();
-    parameters::draw(parts.parameters, session, look, buffer);
-    legend::draw(parts.legend, &pictures, look, buffer);
+    parameters::draw(parts.parameters, session, screen);
+    legend::draw(parts.legend, &pictures, screen);
     for ((index, area), picture) in shown.zip(pictures) {
-        plot(*area, session, index, picture, look, buffer);
+        plot(*area, session, index, picture, screen);
     }
-    status::draw(parts.status, session, look, buffer);
-    footer::draw(parts.footer, session, look, buffer);
+    status::draw(parts.status, session, screen);
+    footer::draw(parts.footer, session, screen);
 }
 
 /// The picture of a plot in its place.
@@ -67,14 +67,8 @@ fn framed(area: Rect, session: &Session, index: usize) -> Picture<'_> {
     picture
 }
 
-fn plot(
-    area: Rect,
-    session: &Session,
-    index: usize,
-    picture: Picture,
-    look: &Look,
-    buffer: &mut Buffer,
-) {
+fn plot(area: Rect, session: &Session, index: usize, picture: Picture, screen: &mut Screen) {
+    let look = screen.look;
     let draws = match session.plots[index].view {
         View::EnergyLedger => !session.ledger().is_empty(),
         View::Scan => session.scanned.is_some(),
@@ -82,41 +76,43 @@ fn plot(
     };
     let heading = Heading::of(session, Pane::Plot(index));
     if let Some(text) = session.nothing(index).filter(|_| !draws) {
-        pane::title(area, &picture.title, "", &heading, look, buffer);
+        screen.title(area, &picture.title, "", &heading);
         let text = keys::sentence(&text, &session.keymap, look);
-        return nothing(area, text, look, buffer);
+        return nothing(area, text, screen);
     }
     match (session.plots[index].view, &session.scanned) {
         // Its lines are whole rows of the screen.
         (View::EnergyLedger, _) => {
-            energy_ledger::draw(area, picture, heading, &session.ledger(), look, buffer);
+            energy_ledger::draw(area, picture, heading, &session.ledger(), screen);
         }
         // Its shades fill cells, and its table is text.
         (View::Scan, Some(scanned)) => {
-            scan::draw(area, picture, heading, scanned, look, buffer);
+            scan::draw(area, picture, heading, scanned, screen);
         }
-        _ => paint(area, &picture, heading, look, buffer),
+        _ => paint(area, &picture, heading, screen),
     }
 }
 
 /// What a plot says in place of empty axes.
-fn nothing(area: Rect, text: String, look: &Look, buffer: &mut Buffer) {
+fn nothing(area: Rect, text: String, screen: &mut Screen) {
+    let look = screen.look;
     let line = vec![look.span(text, Role::Text).into()];
     let body = pane::below(area, 1);
     let width = area.width.saturating_sub(2);
     let height = prose::rows(&line, width).min(body.height);
     let y = body.y + (body.height - height) / 2;
-    prose::write(Rect { x: area.x + 1, y, width, height }, line, look, buffer);
+    prose::write(Rect { x: area.x + 1, y, width, height }, line, screen);
 }
 
 /// What a screen too small for everything else shows.
-fn card(screen: Rect, look: &Look, buffer: &mut Buffer) {
-    let Rect { width, height, .. } = screen;
+fn card(area: Rect, screen: &mut Screen) {
+    let look = screen.look;
+    let Rect { width, height, .. } = area;
     let (columns, rows) = SMALLEST;
     let text = format!("hopfscope needs {columns} x {rows}\nthis screen is {width} x {height}");
     let text = Paragraph::new(text).style(look.style(Role::Text)).centered();
-    let middle = pane::below(screen, height.saturating_sub(2) / 2);
-    text.wrap(Wrap { trim: true }).render(middle, buffer);
+    let middle = pane::below(area, height.saturating_sub(2) / 2);
+    text.wrap(Wrap { trim: true }).render(middle, screen.buffer);
 }
 
 /// Every plot of a session for itself, each drawn in this size.
@@ -124,7 +120,8 @@ pub fn panels(session: &Session, (width, height): (u16, u16), look: &Look) -> Ve
     let area = Rect { x: 0, y: 0, width, height };
     let panel = |index: usize| {
         let mut buffer = Buffer::empty(area);
-        plot(area, session, index, framed(area, session, index), look, &mut buffer);
+        let screen = &mut Screen { look, buffer: &mut buffer };
+        plot(area, session, index, framed(area, session, index), screen);
         buffer
     };
     (0..session.plots.len()).map(panel).collect()

@@ -1,9 +1,8 @@
 //! What the lines of the pictures mean: a sample of each that is seen, drawn by the same pens.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::Look;
+use super::Screen;
 use super::dots::{DotPen, Dots};
 use crate::picture::{Dash, LegendEntry, LegendSample, Mark, Picture, Role, legend::entries};
 
@@ -16,7 +15,8 @@ const MORE: u16 = 8;
 
 /// Draws the legend of some pictures, each entry in the first row with room, the main things first; what is
 /// left out is counted.
-pub fn draw(area: Rect, pictures: &[Picture], look: &Look, buffer: &mut Buffer) {
+pub fn draw(area: Rect, pictures: &[Picture], screen: &mut Screen) {
+    let look = screen.look;
     let mut entries = entries(pictures);
     entries.sort_by_key(|entry| rank(entry.sample));
     let texts = entries.iter().map(|entry| entry.text.chars().count());
@@ -28,12 +28,17 @@ pub fn draw(area: Rect, pictures: &[Picture], look: &Look, buffer: &mut Buffer) 
         let (shorter, x) = self::places(&widths, area, MORE + GAP);
         places = shorter;
         let left = places.iter().filter(|place| place.is_none()).count();
-        buffer.set_string(x, area.bottom() - 1, format!("+{left} more"), look.style(Role::Quiet));
+        screen.buffer.set_string(
+            x,
+            area.bottom() - 1,
+            format!("+{left} more"),
+            look.style(Role::Quiet),
+        );
     }
     for (LegendEntry { sample, role, text }, place) in entries.iter().zip(places) {
         if let Some(place) = place {
-            draw_sample(Rect { width: SAMPLE, ..place }, *role, *sample, look, buffer);
-            buffer.set_string(place.x + SAMPLE + 1, place.y, text, look.style(Role::Quiet));
+            draw_sample(Rect { width: SAMPLE, ..place }, *role, *sample, screen);
+            screen.buffer.set_string(place.x + SAMPLE + 1, place.y, text, look.style(Role::Quiet));
         }
     }
 }
@@ -69,7 +74,8 @@ fn rank(sample: LegendSample) -> u8 {
     }
 }
 
-fn draw_sample(place: Rect, role: Role, sample: LegendSample, look: &Look, buffer: &mut Buffer) {
+fn draw_sample(place: Rect, role: Role, sample: LegendSample, screen: &mut Screen) {
+    let look = screen.look;
     let mut dots = Dots::new(place, look.glyphs);
     let (width, height) = dots.size();
     let mut line = |y: f64, dash| dots.stroke([(0.0, y), (width - 0.5, y)], DotPen { role, dash });
@@ -85,5 +91,5 @@ fn draw_sample(place: Rect, role: Role, sample: LegendSample, look: &Look, buffe
         LegendSample::Point(mark) => dots.symbol(1, 0, look.symbols().mark(mark), role),
         LegendSample::Arrow => dots.texture(1, 0, look.symbols().arrows[0], role),
     }
-    dots.paint(buffer, look);
+    dots.paint(screen);
 }

@@ -1,10 +1,9 @@
 //! A list over the panes: its rows, which scroll so that the selected one is seen, and what is said of that one.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::{Look, pane, prose};
+use super::{Look, Screen, pane, prose};
 use crate::picture::Role;
 use crate::session::List;
 
@@ -50,14 +49,15 @@ impl ListContent {
     }
 
     /// Draws it into the middle of the screen.
-    pub fn draw(self, screen: Rect, list: &List, look: &Look, buffer: &mut Buffer) {
+    pub fn draw(self, area: Rect, list: &List, screen: &mut Screen) {
+        let look = screen.look;
         let below = if self.about.is_empty() { 0 } else { self.below + 1 };
         let rows = u16::try_from(self.rows.len()).unwrap_or(u16::MAX);
         let wanted = rows.saturating_add(2 + below);
         // No slivers of panes beside the list; the footer stays in sight.
-        let width = if screen.width < WIDTH + 10 { screen.width } else { WIDTH };
-        let height = screen.height.saturating_sub(1).min(wanted.max(4));
-        let area = pane::centred(screen, width, height);
+        let width = if area.width < WIDTH + 10 { area.width } else { WIDTH };
+        let height = area.height.saturating_sub(1).min(wanted.max(4));
+        let area = pane::centred(area, width, height);
         if area.width < 4 || area.height < 4 {
             return;
         }
@@ -69,19 +69,19 @@ impl ListContent {
             _ => format!(" {} of {count} ", (list.selected + 1).min(count)),
         };
         let selected = places.clone().nth(list.selected).unwrap_or(0);
-        let inner = pane::boxed(area, &heading(self.title, list), &remark, look, buffer);
+        let inner = screen.boxed(area, &heading(self.title, list), &remark);
         let about = below.min(inner.height.saturating_sub(4));
         let rows = Rect { height: inner.height - about, ..inner };
         if count == 0 {
-            pane::line(rows, 0, look.span("nothing found", Role::Quiet), look, buffer);
+            screen.line(rows, 0, look.span("nothing found", Role::Quiet));
         }
         let first = pane::first_seen(selected, self.rows.len(), rows.height.into());
         let seen = self.rows.into_iter().enumerate().skip(first);
         let seen = seen.map(|(place, row)| drawn(row, place == selected, look));
-        pane::lines(rows, seen, look, buffer);
+        screen.lines(rows, seen);
         if about > 0 {
             let text = Rect { y: rows.bottom() + 1, height: about - 1, ..inner };
-            prose::write(text, self.about, look, buffer);
+            prose::write(text, self.about, screen);
         }
     }
 }

@@ -1,12 +1,11 @@
 //! What the lists over the panes hold: everything, the scenes, the layers, the views, the costs. Those that are
 //! searched show what is searched for.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use super::list::{ListContent, TEXT};
-use super::{Look, keys, paper};
+use super::{Look, Screen, keys, paper};
 use crate::picture::Role;
 use crate::scene::library::SceneGroup;
 use crate::scene::said::said_by;
@@ -20,7 +19,8 @@ use crate::words::number::count;
 const KEYS: usize = 16;
 
 /// Draws the open list, if there is one, into the middle of the screen.
-pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+pub fn draw(area: Rect, session: &Session, screen: &mut Screen) {
+    let look = screen.look;
     let Some(Overlay::List(listed, list)) = &session.overlay else { return };
     let content = match listed {
         Listed::Scenes => scenes(session, list, look),
@@ -31,7 +31,7 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         Listed::Palette => palette(session, list, look),
         Listed::Interrupted => interrupted(session, list, look),
     };
-    content.draw(screen, list, look, buffer);
+    content.draw(area, list, screen);
 }
 
 /// Everything that has a name: with headings where nothing is searched, the best first where something is.

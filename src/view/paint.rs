@@ -1,9 +1,8 @@
 //! A picture painted into a part of the screen.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::{Look, look::Symbols, pane::Heading, plot::Canvas, scan_map};
+use super::{Look, Screen, look::Symbols, pane::Heading, plot::Canvas, scan_map};
 use crate::picture::{Caption, Dash, Item, Mark, Marks, Pattern, Picture};
 use crate::scene::{Point, Window};
 
@@ -16,18 +15,13 @@ const LABELLED: u16 = 30;
 /// Columns between marks that are left out where they would touch.
 const APART: usize = 4;
 
-pub fn paint(
-    area: Rect,
-    picture: &Picture,
-    mut heading: Heading,
-    look: &Look,
-    buffer: &mut Buffer,
-) {
-    let Picture { title, window, cursor, items, .. } = picture;
+pub fn paint(area: Rect, picture: &Picture, mut heading: Heading, screen: &mut Screen) {
+    let look = screen.look;
+    let Picture { window, cursor, items, .. } = picture;
     heading.reading.clone_from(&picture.reading);
-    let mut plot = Canvas::new(area, title, picture, None, &heading, look, buffer);
+    let mut plot = Canvas::new(area, picture, None, &heading, screen);
     if let Some(map) = &picture.map {
-        scan_map::draw(&plot, map, look, buffer);
+        scan_map::draw(&plot, map, screen);
     }
     // Texts find their places when all else is there; names of curves last, since they have many places
     // to go to.
@@ -52,7 +46,7 @@ pub fn paint(
     let named = |name: &&Caption| labelled || !name.long.is_empty();
     let curves: Vec<&[Point]> = items.iter().filter_map(followed).collect();
     plot.names(&names.into_iter().filter(named).collect::<Vec<_>>(), &curves);
-    plot.finish(buffer);
+    plot.finish(screen);
 }
 
 /// The points of a curve that a name beside it could be taken for.

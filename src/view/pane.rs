@@ -12,6 +12,133 @@ use super::{Look, look::Symbols};
 use crate::picture::Role;
 use crate::session::{AnswerState, Pane, Session};
 
+/// A screen to draw on, and how things look there.
+pub struct Screen<'a> {
+    pub look: &'a Look,
+    pub buffer: &'a mut Buffer,
+}
+
+impl Screen<'_> {
+    /// Writes a row of `area` from its left end, as far as it fits.
+    pub fn line(&mut self, area: Rect, row: u16, left: impl Into<Line<'static>>) {
+        self.both_ends(area, row, left, "");
+    }
+
+    /// [`line`] with a text at its right end where that fits whole.
+    pub fn both_ends(
+        &mut self,
+        area: Rect,
+        row: u16,
+        left: impl Into<Line<'static>>,
+        right: impl Into<Line<'static>>,
+    ) {
+        let look = self.look;
+        if row >= area.height {
+            return;
+        }
+        let (left, right) = (fitted(left.into(), area.width.into(), look), right.into());
+        let (x, y) = (area.x, area.y + row);
+        let (end, _) = self.buffer.set_line(x, y, &left, area.width);
+        let needed = u16::try_from(right.width()).unwrap_or(u16::MAX);
+        if let Some(start) = area.width.checked_sub(needed).filter(|_| needed > 0)
+            && x + start >= end
+        {
+            self.buffer.set_line(x + start, y, &right, needed);
+        }
+    }
+
+    /// Writes lines from the top of `area` down, as far as they fit.
+    pub fn lines<L: Into<Line<'static>>>(
+        &mut self,
+        area: Rect,
+        lines: impl IntoIterator<Item = L>,
+    ) {
+        for (row, text) in (0..area.height).zip(lines) {
+            self.line(area, row, text);
+        }
+    }
+
+    /// Writes a title line into the first row of `area`: what fits of the title, `names`, and the marks at the right.
+    /// `names` are those of the axes and stand there as long as they fit whole; of the title held values matter more
+    /// than the view.
+    pub fn title(&mut self, area: Rect, title: &str, names: &str, heading: &Heading) {
+        let look = self.look;
+        let (pointer, role) = if heading.focused {
+            (look.symbols().pointer, Role::Focus)
+        } else {
+            (" ", Role::Title)
+        };
+        let width = usize::from(area.width);
+        let mut right = Line::default();
+        if let Some(mark) = heading.mark {
+            right.push_span(look.span(format!(" {mark}"), Role::Warning));
+        }
+        if let Some(reading) = &heading.reading {
+            right.push_span(look.span(format!(" {reading}"), Role::Cursor));
+        }
+        // What the cursor reads matters more than the end of the title.
+        let right = fitted(right, width, look);
+        let room = width.saturating_sub(right.width());
+        let full = |text: &str| pointer.chars().count() + text.chars().count() <= room;
+        let (view, held) = title.split_once(", ").unwrap_or((title, title));
+        // A number matters more than its error.
+        let number = held.split(" +- ").next().unwrap_or(held);
+        let beside = |text: &&str| full(&format!("{text}  {names}"));
+        let beside = [title, held, number, view].into_iter().find(beside);
+        // Beside a reading, a title of which only a few letters fit is left out.
+        let stump = heading.reading.is_some() && 2 * room < title.chars().count();
+        let otherwise = if stump { "" } else { title };
+        let alone = || [names, title, held].into_iter().find(|text| full(text) && !text.is_empty());
+        let mut left = Vec::new();
+        if let Some(text) = beside.filter(|_| !names.is_empty()) {
+            left.push(look.span(format!("{pointer}{text}"), role));
+            left.push(look.span(format!("  {names}"), Role::Quiet));
+        } else {
+            left.push(look.span(format!("{pointer}{}", alone().unwrap_or(otherwise)), role));
+        }
+        let left = fitted(left.into(), room, look);
+        self.both_ends(area, 0, left, right);
+        if heading.focused {
+            // The focused pane is recognized in any colours: its heading is a bar.
+            let bar = look.style(Role::Focus).remove_modifier(Modifier::DIM);
+            let row = Rect { height: area.height.min(1), ..area };
+            self.buffer.set_style(row, bar.add_modifier(Modifier::REVERSED));
+        }
+    }
+
+    /// Clears an area for a box with a frame, a heading above and a remark below at the right; returns the part of the box
+    /// for its text.
+    pub fn boxed(&mut self, area: Rect, heading: &str, remark: &str) -> Rect {
+        let look = self.look;
+        clear(area, self.buffer);
+        let Symbols { rule, upright, corners, .. } = *look.symbols();
+        let [top_left, top_right, bottom_left, bottom_right] = corners;
+        let frame = border::Set {
+            top_left,
+            top_right,
+            bottom_left,
+            bottom_right,
+            vertical_left: upright,
+            vertical_right: upright,
+            horizontal_top: rule,
+            horizontal_bottom: rule,
+        };
+        let room = usize::from(area.width.saturating_sub(4));
+        let above = [
+            look.span(rule, Role::Axis),
+            Span::styled(cut(heading, room, look), Style::reset().patch(look.style(Role::Focus))),
+        ];
+        let below = [look.span(cut(remark, room, look), Role::Quiet), look.span(rule, Role::Axis)];
+        Block::bordered()
+            .border_set(frame)
+            .border_style(look.style(Role::Axis))
+            .title_top(Line::from_iter(above))
+            .title_bottom(Line::from_iter(below).right_aligned())
+            .render(area, self.buffer);
+        Rect { x: area.x + 2, y: area.y + 1, width: area.width - 4, height: area.height - 2 }
+    }
+}
+
 /// The middle of the screen above the footer, for what stands over the panes.
 pub fn centred(screen: Rect, width: u16, height: u16) -> Rect {
     let x = screen.x + (screen.width - width) / 2;
@@ -35,37 +162,6 @@ fn clear(area: Rect, buffer: &mut Buffer) {
         }
     }
     Clear.render(area, buffer);
-}
-
-/// Clears an area for a box with a frame, a heading above and a remark below at the right; returns the part of the box
-/// for its text.
-pub fn boxed(area: Rect, heading: &str, remark: &str, look: &Look, buffer: &mut Buffer) -> Rect {
-    clear(area, buffer);
-    let Symbols { rule, upright, corners, .. } = *look.symbols();
-    let [top_left, top_right, bottom_left, bottom_right] = corners;
-    let frame = border::Set {
-        top_left,
-        top_right,
-        bottom_left,
-        bottom_right,
-        vertical_left: upright,
-        vertical_right: upright,
-        horizontal_top: rule,
-        horizontal_bottom: rule,
-    };
-    let room = usize::from(area.width.saturating_sub(4));
-    let above = [
-        look.span(rule, Role::Axis),
-        Span::styled(cut(heading, room, look), Style::reset().patch(look.style(Role::Focus))),
-    ];
-    let below = [look.span(cut(remark, room, look), Role::Quiet), look.span(rule, Role::Axis)];
-    Block::bordered()
-        .border_set(frame)
-        .border_style(look.style(Role::Axis))
-        .title_top(Line::from_iter(above))
-        .title_bottom(Line::from_iter(below).right_aligned())
-        .render(area, buffer);
-    Rect { x: area.x + 2, y: area.y + 1, width: area.width - 4, height: area.height - 2 }
 }
 
 /// The first of so many rows that is seen where `height` of them are, with the selected one among them.
@@ -111,57 +207,6 @@ fn mark(session: &Session, plot: usize) -> Option<&'static str> {
     });
     // The worse state comes later in the alphabet.
     worst.max().flatten()
-}
-
-/// Writes a title line into the first row of `area`: what fits of the title, `names`, and the marks at the right.
-/// `names` are those of the axes and stand there as long as they fit whole; of the title held values matter more
-/// than the view.
-pub fn title(
-    area: Rect,
-    title: &str,
-    names: &str,
-    heading: &Heading,
-    look: &Look,
-    buffer: &mut Buffer,
-) {
-    let (pointer, role) =
-        if heading.focused { (look.symbols().pointer, Role::Focus) } else { (" ", Role::Title) };
-    let width = usize::from(area.width);
-    let mut right = Line::default();
-    if let Some(mark) = heading.mark {
-        right.push_span(look.span(format!(" {mark}"), Role::Warning));
-    }
-    if let Some(reading) = &heading.reading {
-        right.push_span(look.span(format!(" {reading}"), Role::Cursor));
-    }
-    // What the cursor reads matters more than the end of the title.
-    let right = fitted(right, width, look);
-    let room = width.saturating_sub(right.width());
-    let full = |text: &str| pointer.chars().count() + text.chars().count() <= room;
-    let (view, held) = title.split_once(", ").unwrap_or((title, title));
-    // A number matters more than its error.
-    let number = held.split(" +- ").next().unwrap_or(held);
-    let beside = |text: &&str| full(&format!("{text}  {names}"));
-    let beside = [title, held, number, view].into_iter().find(beside);
-    // Beside a reading, a title of which only a few letters fit is left out.
-    let stump = heading.reading.is_some() && 2 * room < title.chars().count();
-    let otherwise = if stump { "" } else { title };
-    let alone = || [names, title, held].into_iter().find(|text| full(text) && !text.is_empty());
-    let mut left = Vec::new();
-    if let Some(text) = beside.filter(|_| !names.is_empty()) {
-        left.push(look.span(format!("{pointer}{text}"), role));
-        left.push(look.span(format!("  {names}"), Role::Quiet));
-    } else {
-        left.push(look.span(format!("{pointer}{}", alone().unwrap_or(otherwise)), role));
-    }
-    let left = fitted(left.into(), room, look);
-    both_ends(area, 0, left, right, look, buffer);
-    if heading.focused {
-        // The focused pane is recognized in any colours: its heading is a bar.
-        let bar = look.style(Role::Focus).remove_modifier(Modifier::DIM);
-        let row = Rect { height: area.height.min(1), ..area };
-        buffer.set_style(row, bar.add_modifier(Modifier::REVERSED));
-    }
 }
 
 /// How many of the letters of a text stand before a mark that it continues, where it has `width` columns:
@@ -218,56 +263,10 @@ pub fn fitting(texts: impl IntoIterator<Item = String>, width: usize) -> String 
     last
 }
 
-/// Writes a row of `area` from its left end, as far as it fits.
-pub fn line(
-    area: Rect,
-    row: u16,
-    left: impl Into<Line<'static>>,
-    look: &Look,
-    buffer: &mut Buffer,
-) {
-    both_ends(area, row, left, "", look, buffer);
-}
-
-/// Writes lines from the top of `area` down, as far as they fit.
-pub fn lines<L: Into<Line<'static>>>(
-    area: Rect,
-    lines: impl IntoIterator<Item = L>,
-    look: &Look,
-    buffer: &mut Buffer,
-) {
-    for (row, text) in (0..area.height).zip(lines) {
-        line(area, row, text, look, buffer);
-    }
-}
-
 /// What is left of an area below so many rows.
 pub fn below(area: Rect, rows: u16) -> Rect {
     let rows = rows.min(area.height);
     Rect { y: area.y + rows, height: area.height - rows, ..area }
-}
-
-/// [`line`] with a text at its right end where that fits whole.
-pub fn both_ends(
-    area: Rect,
-    row: u16,
-    left: impl Into<Line<'static>>,
-    right: impl Into<Line<'static>>,
-    look: &Look,
-    buffer: &mut Buffer,
-) {
-    if row >= area.height {
-        return;
-    }
-    let (left, right) = (fitted(left.into(), area.width.into(), look), right.into());
-    let (x, y) = (area.x, area.y + row);
-    let (end, _) = buffer.set_line(x, y, &left, area.width);
-    let needed = u16::try_from(right.width()).unwrap_or(u16::MAX);
-    if let Some(start) = area.width.checked_sub(needed).filter(|_| needed > 0)
-        && x + start >= end
-    {
-        buffer.set_line(x + start, y, &right, needed);
-    }
 }
 
 #[cfg(test)]

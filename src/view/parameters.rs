@@ -1,12 +1,11 @@
 //! The parameter pane: what the model is, in numbers that the keys change, and what follows from them.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
 use super::fitted::{fitted, spread};
 use super::pane::{self, Heading};
-use super::{Look, keys, margin, prose, verdict::multiplier};
+use super::{Look, Screen, keys, margin, prose, verdict::multiplier};
 use crate::accuracy::harmonic_error::BalanceResult;
 use crate::flow::Problem;
 use crate::model::belt::Units;
@@ -31,10 +30,11 @@ const FOLLOWING: usize = 5;
 /// Columns from which on what numbers mean stands beside their steps.
 const WITH_MEANINGS: u16 = 50;
 
-pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+pub fn draw(area: Rect, session: &Session, screen: &mut Screen) {
+    let look = screen.look;
     let heading = Heading::of(session, Pane::Parameters);
     let of = session.number(0).map_or_else(String::new, |number| format!("of motion {number}"));
-    pane::title(area, "parameters", &of, &heading, look, buffer);
+    screen.title(area, "parameters", &of, &heading);
     let rows = session.rows().into_iter().skip(first(session, area.height));
     let mut lines: Vec<Line> = rows.map(|row| row_line(session, row, area.width, look)).collect();
     lines.extend(folded(session).map(|folded| look.span(format!(" {folded}"), Role::Quiet).into()));
@@ -42,9 +42,9 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     lines.extend(cycles(session, area.width.into(), look));
     let taken = u16::try_from(lines.len()).unwrap_or(u16::MAX);
     let body = pane::below(area, 1);
-    pane::lines(body, lines, look, buffer);
+    screen.lines(body, lines);
     if is_wide(area.width) {
-        guide(pane::below(body, taken), session, look, buffer);
+        guide(pane::below(body, taken), session, screen);
     }
 }
 
@@ -61,7 +61,8 @@ pub fn first(session: &Session, height: u16) -> usize {
 
 /// What to look at in this scene and what to press. Where there is no room for both texts, the key that shows
 /// the second stands in its place.
-fn guide(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+fn guide(area: Rect, session: &Session, screen: &mut Screen) {
+    let look = screen.look;
     let quiet = |text: &str| look.span(text.to_owned(), Role::Quiet);
     let sentence = |text: &str| keys::sentence(text, &session.keymap, look);
     let section = |heading: &'static str, remark: &str, text: &str| {
@@ -83,7 +84,7 @@ fn guide(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         let blank = (prose::rows(&watch, inner.width) + 1 < area.height).then(Line::default);
         watch.into_iter().chain(blank).chain([short]).collect()
     });
-    prose::write(inner, lines, look, buffer);
+    prose::write(inner, lines, screen);
 }
 
 fn row_line(session: &Session, row: Row, width: u16, look: &Look) -> Line<'static> {

@@ -1,15 +1,15 @@
 //! Sentences in a box: broken between words, and with a mark where the rest does not fit.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::{Look, pane};
+use super::Screen;
 use crate::words::wrapped;
 
 /// Writes lines from the top of `area` down; those that are too long for a row go on in the next, in the
 /// style of their first words.
-pub fn write(area: Rect, lines: Vec<Line<'static>>, look: &Look, buffer: &mut Buffer) {
+pub fn write(area: Rect, lines: Vec<Line<'static>>, screen: &mut Screen) {
+    let look = screen.look;
     let width = usize::from(area.width);
     let mut rows: Vec<Line> = lines.into_iter().flat_map(|line| broken(line, width)).collect();
     let height = usize::from(area.height);
@@ -22,7 +22,7 @@ pub fn write(area: Rect, lines: Vec<Line<'static>>, look: &Look, buffer: &mut Bu
             last.push_span(format!(" {mark}"));
         }
     }
-    pane::lines(area, rows, look, buffer);
+    screen.lines(area, rows);
 }
 
 /// As many words of a line as fit.
@@ -49,7 +49,8 @@ pub fn rows(lines: &[Line<'static>], width: u16) -> u16 {
 mod tests {
     use super::*;
     use crate::session::settings;
-    use crate::view::screen::text;
+    use crate::view::{Look, screen::text};
+    use ratatui::buffer::Buffer;
 
     #[test]
     fn what_goes_on_below_has_a_mark() {
@@ -60,7 +61,8 @@ mod tests {
             [(4, "one two\nthree\nfour five\nsix\n"), (3, "one two\nthree\nfour \u{2026}\n")]
         {
             let mut buffer = Buffer::empty(Rect::new(0, 0, 9, height));
-            write(buffer.area, lines(), &look, &mut buffer);
+            let area = buffer.area;
+            write(area, lines(), &mut Screen { look: &look, buffer: &mut buffer });
             assert_eq!(text(&buffer), expected);
         }
     }

@@ -6,12 +6,11 @@
 
 use std::ops::Range;
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use super::pane::{self, Heading};
-use super::{Look, paint::paint, scan_map};
+use super::{Screen, paint::paint, scan_map};
 use crate::picture::map::{measured, nothing};
 use crate::picture::{Danger, Picture, Role};
 use crate::scan::measure::Value;
@@ -38,20 +37,20 @@ pub fn draw(
     picture: Picture,
     heading: Heading,
     scanned: &ScanOnShow,
-    look: &Look,
-    buffer: &mut Buffer,
+    screen: &mut Screen,
 ) {
+    let look = screen.look;
     let title = format!("{} {}", View::Scan.spec().title, progress(scanned));
     if scanned.table {
-        pane::title(area, &title, "", &heading, look, buffer);
-        return table(pane::below(area, 1), scanned, look, buffer);
+        screen.title(area, &title, "", &heading);
+        return table(pane::below(area, 1), scanned, screen);
     }
     let width = usize::from(area.width);
     // The names of the axes stand there in any case; how far the scan is, where there is room.
     let full = title.chars().count() + picture.y.len() + picture.x.len() + 9 <= width;
     let short = if full { title.into() } else { View::Scan.spec().title.into() };
     let picture = Picture { title: short, ..picture };
-    paint(body(area), &picture, heading, look, buffer);
+    paint(body(area), &picture, heading, screen);
     let legend = match picture.map {
         Some(_) => scan_map::legend(scanned, width, look),
         None => Line::styled(meaning(scanned, width), look.style(Role::Quiet)),
@@ -63,7 +62,7 @@ pub fn draw(
     let without = scan_map::without_numbers(scanned, width);
     let without = Line::styled(without, look.style(Role::Quiet));
     let below = pane::below(area, area.height.saturating_sub(BELOW));
-    pane::lines(below, [reading, legend, without], look, buffer);
+    screen.lines(below, [reading, legend, without]);
 }
 
 /// How far a scan is: `120 of 400, 3 s left`.
@@ -123,7 +122,8 @@ fn meaning(scanned: &ScanOnShow, width: usize) -> String {
 
 /// Draws a table that scrolls: the names and the rows around the one that is looked at. The column that is plotted comes
 /// first of those that are measured, and the others follow as far as they fit whole.
-fn table(area: Rect, scanned: &ScanOnShow, look: &Look, buffer: &mut Buffer) {
+fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Screen) {
+    let look = screen.look;
     let Some(room) = usize::from(area.height).checked_sub(1).filter(|room| *room > 0) else {
         return;
     };
@@ -160,7 +160,7 @@ fn table(area: Rect, scanned: &ScanOnShow, look: &Look, buffer: &mut Buffer) {
         let text = line(row) + reason.as_deref().unwrap_or_default();
         Line::styled(text, look.style(role))
     });
-    pane::lines(area, std::iter::once(names).chain(rows), look, buffer);
+    screen.lines(area, std::iter::once(names).chain(rows));
 }
 
 /// The columns of these rows: each a name and its cells.

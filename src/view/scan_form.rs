@@ -1,9 +1,8 @@
 //! The form in which a scan is typed: one line a field, and why it was refused.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::{Look, footer::typed, pane};
+use super::{Screen, footer::typed, pane};
 use crate::picture::Role;
 use crate::scan::measure::MEASURES;
 use crate::session::overlay::{FIELDS, ScanForm};
@@ -15,16 +14,17 @@ const WIDTH: u16 = 74;
 const BELOW: u16 = 3;
 
 /// Draws the form, if it is open, into the middle of the screen.
-pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+pub fn draw(area: Rect, session: &Session, screen: &mut Screen) {
+    let look = screen.look;
     let Some(Overlay::Scan(form)) = &session.overlay else { return };
     let rows = u16::try_from(FIELDS.len()).unwrap_or(u16::MAX) + BELOW;
-    let width = WIDTH.min(screen.width);
-    let height = (rows + 2).min(screen.height.saturating_sub(1));
-    let area = pane::centred(screen, width, height);
+    let width = WIDTH.min(area.width);
+    let height = (rows + 2).min(area.height.saturating_sub(1));
+    let area = pane::centred(area, width, height);
     if area.width < 20 || area.height < 6 {
         return;
     }
-    let inner = pane::boxed(area, " scan ", "", look, buffer);
+    let inner = screen.boxed(area, " scan ", "");
     for (row, (index, (name, _))) in (0..inner.height).zip(FIELDS.iter().enumerate()) {
         let active = index == form.at;
         let pointer = if active { look.symbols().pointer } else { " " };
@@ -37,13 +37,13 @@ pub fn draw(screen: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         } else {
             line.push(look.span(input.text(), Role::Text));
         }
-        pane::line(inner, row, line, look, buffer);
+        screen.line(inner, row, line);
     }
     let below = inner.height.saturating_sub(2);
     let quiet = |text: String| look.span(text, Role::Quiet);
-    pane::line(inner, below, quiet(about(form)), look, buffer);
+    screen.line(inner, below, quiet(about(form)));
     if let Some(why) = &form.refused {
-        pane::line(inner, below + 1, look.span(why.clone(), Role::Failure), look, buffer);
+        screen.line(inner, below + 1, look.span(why.clone(), Role::Failure));
     }
 }
 

@@ -2,11 +2,10 @@
 //!
 //! Where values spread over several decades, each shade takes an equal range of their logarithms.
 
-use ratatui::buffer::Buffer;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use super::{Look, pane, plot::Canvas};
+use super::{Look, Screen, pane, plot::Canvas};
 use crate::numerics::count::{real, truncated};
 use crate::picture::map::{measured, nothing};
 use crate::picture::{Danger, Dangerous, MapCell, Role, ScanMap};
@@ -57,7 +56,8 @@ impl Ramp {
 }
 
 /// Fills each cell with the shade of the point nearest to it.
-pub fn draw(plot: &Canvas, map: &ScanMap, look: &Look, buffer: &mut Buffer) {
+pub fn draw(plot: &Canvas, map: &ScanMap, screen: &mut Screen) {
+    let look = screen.look;
     let ramp = map.scale.map(|scale| Ramp::of(scale, look));
     let quiet = look.style(Role::Quiet);
     let sign = |cell: MapCell| match (cell, &ramp) {
@@ -78,7 +78,7 @@ pub fn draw(plot: &Canvas, map: &ScanMap, look: &Look, buffer: &mut Buffer) {
             let across = nearest(&map.x, x).and_then(|across| map.values.get(across));
             let cell = nearest(&map.y, y).and_then(|upward| across?.get(upward));
             let Some((symbol, style)) = cell.copied().map(sign) else { continue };
-            buffer[(inner.x + column, inner.y + row)].set_char(symbol).set_style(style);
+            screen.buffer[(inner.x + column, inner.y + row)].set_char(symbol).set_style(style);
         }
     }
 }

@@ -1,10 +1,9 @@
 //! The status lines: what becomes of the motion, and which kicks are survived; while the accuracy is changed, how
 //! the motion was computed and what that cost.
 
-use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::{Look, fitted::UNRELIABLE, keys, margin, pane, verdict};
+use super::{Look, Screen, fitted::UNRELIABLE, keys, margin, pane, verdict};
 use crate::flow::Outcome;
 use crate::flow::trajectory::choice;
 use crate::picture::{Mark, Role};
@@ -16,14 +15,16 @@ use crate::words::number::count;
 use crate::words::{duration, significant};
 
 /// Draws the title line: what the scene is, and its name.
-pub fn title(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+pub fn title(area: Rect, session: &Session, screen: &mut Screen) {
+    let look = screen.look;
     let left = look.span(format!(" {}", session.scene.title), Role::Title);
     let right = look.span(format!("{} ", session.scene.name), Role::Quiet);
-    pane::both_ends(area, 0, left, right, look, buffer);
+    screen.both_ends(area, 0, left, right);
 }
 
 /// Draws the status lines: the outcome first, then method, cost and error.
-pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
+pub fn draw(area: Rect, session: &Session, screen: &mut Screen) {
+    let look = screen.look;
     let (text, role) = if let Some(held) = verdict::held_point(session, look, area.width) {
         (held, Role::Cursor)
     } else {
@@ -38,7 +39,7 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     let room = usize::from(area.width).saturating_sub(busy.chars().count());
     let text = pane::cut(&shorter(session, format!(" {text}"), room), room, look);
     let left = look.span(text, role);
-    pane::both_ends(area, 0, left, look.span(busy, Role::Warning), look, buffer);
+    screen.both_ends(area, 0, left, look.span(busy, Role::Warning));
 
     let quiet = |text| look.span(text, Role::Quiet);
     // While the accuracy is changed, the cost stands here; at other times a key of its own lists it.
@@ -47,14 +48,14 @@ pub fn draw(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
         let text = margin::status(session, width).unwrap_or_default();
         let failed = text.starts_with(UNRELIABLE);
         let role = if failed { Role::Warning } else { Role::Quiet };
-        return pane::line(area, 1, look.span(format!(" {text}"), role), look, buffer);
+        return screen.line(area, 1, look.span(format!(" {text}"), role));
     }
     let line = |shorter| (work(session, look, shorter), price(session, look, shorter));
     let fits = |(left, right): &(String, String)| {
         left.chars().count() + right.chars().count() + 4 <= usize::from(area.width)
     };
     let (left, right) = (0..SHORTEST).map(line).find(fits).unwrap_or_else(|| line(SHORTEST));
-    pane::both_ends(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")), look, buffer);
+    screen.both_ends(area, 1, quiet(format!(" {left}")), quiet(format!("{right} ")));
 }
 
 /// What goes on: a computation, a file that is written, a motion that is played.

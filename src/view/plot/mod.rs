@@ -20,7 +20,7 @@ use geometry::{Geometry, along, centred, column};
 pub use geometry::{point_at, rows, shown};
 
 use super::dots::{Covering, DotPen, Dots};
-use super::{Look, pane};
+use super::{Look, Screen, pane};
 use crate::picture::{Dash, Picture, Role, Tick, Ticks};
 use crate::scene::{Point, Window};
 
@@ -34,17 +34,16 @@ pub struct Canvas<'a> {
 }
 
 impl<'a> Canvas<'a> {
-    /// Writes a title and the axes of a picture into `area`, and gives the raster between them. Without `marks` the
+    /// Writes the title and the axes of a picture into `area`, and gives the raster between them. Without `marks` the
     /// vertical axis has round numbers.
     pub fn new(
         area: Rect,
-        title: &str,
         picture: &Picture,
         marks: Option<Ticks>,
         heading: &pane::Heading,
-        look: &'a Look,
-        buffer: &mut Buffer,
+        screen: &mut Screen<'a>,
     ) -> Self {
+        let look = screen.look;
         let (window, scales, has_marks) = (picture.window, picture.scales, marks.is_some());
         let Geometry { inner, roomy, rightward, mut upward } =
             Geometry::of(area, window, scales, marks);
@@ -58,11 +57,11 @@ impl<'a> Canvas<'a> {
         } else {
             format!("{} over {x}", named(scales[1].title(&picture.y), &upward))
         };
-        pane::title(area, title, &axes, heading, look, buffer);
+        screen.title(area, &picture.title, &axes, heading);
         let dots = Dots::new(inner, look.glyphs);
         let mut plot = Canvas { look, window, inner, dots, inside: None };
         if roomy {
-            plot.axes(&rightward, &upward, buffer);
+            plot.axes(&rightward, &upward, screen.buffer);
         } else {
             plot.inside = Some((rightward, upward));
         }
@@ -178,10 +177,10 @@ impl<'a> Canvas<'a> {
     }
 
     /// Puts the picture on the screen.
-    pub fn finish(self, buffer: &mut Buffer) {
-        self.dots.paint(buffer, self.look);
+    pub fn finish(self, screen: &mut Screen) {
+        self.dots.paint(screen);
         if let Some((rightward, upward)) = &self.inside {
-            self.labels_inside(rightward, upward, buffer);
+            self.labels_inside(rightward, upward, screen.buffer);
         }
     }
 }
