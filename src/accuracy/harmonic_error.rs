@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use crate::closed_form::harmonic::{Harmonic, amplitudes};
-use crate::closed_form::harmonics::{HarmonicCycle, Lost, harmonic_cycle};
+use crate::closed_form::harmonics::{HarmonicCycle, harmonic_cycle};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Parameters, State};
 use crate::numerics::elementary::ln;
@@ -28,7 +28,7 @@ pub struct BalanceResult {
     /// The first-order answer.
     pub first: Harmonic,
     /// The cycle of N harmonics that begins there, or why there is none.
-    pub cycle: Result<HarmonicCycle, Lost>,
+    pub cycle: Result<HarmonicCycle, Reason>,
     /// Its error; `None` where the oscillator has no such cycle, so that the answer is none.
     pub error: Option<HarmonicError>,
     /// Its curve in the phase plane, if asked for.
@@ -94,7 +94,7 @@ fn compare(
 ) -> Result<HarmonicBalance, Reason> {
     let balance = |first: Harmonic| {
         let cycle = harmonic_cycle(parameters, &first, harmonics, limits.interrupted);
-        if cycle == Err(Lost::Interrupted) {
+        if cycle == Err(Reason::Interrupted) {
             return Err(Reason::Interrupted);
         }
         let error = cycle.as_ref().ok().and_then(|cycle| error(cycle, exact));

@@ -3,16 +3,17 @@
 use rayon::prelude::*;
 
 use super::machine_special::{MachineSpecial, between};
+use crate::flow::Reason;
 use crate::model::{Knob, Source};
+use crate::portrait::Portrait;
 use crate::portrait::basin::between as evenly;
-use crate::portrait::{Portrait, Trouble};
 
 #[derive(Clone, Debug)]
 pub struct MachineBranchPoint {
     /// Value of the number that varies, in SI units.
     pub value: f64,
     /// What the machine does there, or why there is no answer.
-    pub found: Result<Portrait, Trouble>,
+    pub found: Result<Portrait, Reason>,
 }
 
 /// The cycles along a number.

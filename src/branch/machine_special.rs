@@ -8,7 +8,7 @@ use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
 use crate::flow::machine::turn::ContactState;
-use crate::flow::{Fate, Flow, LostMotion};
+use crate::flow::{Fate, Flow, Reason};
 use crate::model::{Model, Phase};
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::{PlaceTolerance, illinois, try_bisect};
@@ -71,8 +71,8 @@ pub struct Signs {
 }
 
 impl Signs {
-    /// Computes them. Fails with [`LostMotion`] where the friction law ends before.
-    pub fn new(model: &Model) -> Result<Self, LostMotion> {
+    /// Computes them. Fails with [`Reason`] where the friction law ends before.
+    pub fn new(model: &Model) -> Result<Self, Reason> {
         let mut flow = Flow::new(model);
         let signs =
             Signs { damping: model.damping, held: model.guide_static > 0.0, ..Self::default() };
@@ -278,7 +278,7 @@ pub struct Jump {
     /// Largest displacement of the cycle that ends, in m; 0 for rest.
     pub from: f64,
     /// What its motions become.
-    pub to: Fate<LostMotion>,
+    pub to: Fate,
     /// Largest displacement of the cycle to which they tend, in m; 0 for rest, else infinite.
     pub x_max: f64,
 }

@@ -8,14 +8,14 @@ use super::figure::completed;
 use super::input::{self, MACHINE, page_file, tolerance};
 use super::{Failure, MachineCase, Output, second, timed, troubled, write};
 use crate::figure::panels;
-use crate::flow::{Limits, Method};
+use crate::flow::{Limits, Method, Reason};
 use crate::model::unit::WithTolerance;
 use crate::model::{Belt, Knob, MachineProblem, Source, Tolerances};
 use crate::portrait::basin::Window;
 use crate::portrait::design::Kick;
 use crate::portrait::design::friction_of_guide;
 use crate::portrait::guarantee::machine::guaranteed;
-use crate::portrait::{Course, CubicExpansion, Portrait, Trouble};
+use crate::portrait::{Course, CubicExpansion, Portrait};
 use crate::report::About;
 use crate::report::machine::{DesignAnswer, MachineAnswer, OnBelt, RestShare, machine, page};
 use crate::runtime::print::figure;
@@ -124,12 +124,12 @@ impl BeltCommand {
         problem: &'a MachineProblem,
         about: &'a About,
         second: Option<Method>,
-    ) -> Result<MachineAnswer<'a>, Trouble> {
+    ) -> Result<MachineAnswer<'a>, Reason> {
         let MachineProblem { subject, tolerances, start, until } = problem;
         let on_belt = |belt: &Belt| {
             let expansion = CubicExpansion::new(belt, &Limits::PATIENT)?;
             let certain = (!tolerances.is_none()).then(|| guaranteed(belt, tolerances));
-            Ok::<_, Trouble>(OnBelt { expansion, tolerances, certain: certain.transpose()? })
+            Ok::<_, Reason>(OnBelt { expansion, tolerances, certain: certain.transpose()? })
         };
         let on_belt = subject.of_belt().map(on_belt).transpose()?;
         let mut course = Course::new(&subject.model()?, *start, *until)?;
@@ -160,7 +160,7 @@ impl BeltCommand {
         &self,
         subject: &Source,
         known: &Tolerances,
-    ) -> Result<Option<DesignAnswer>, Trouble> {
+    ) -> Result<Option<DesignAnswer>, Reason> {
         let Some((kick, wanted)) = self.design else { return Ok(None) };
         let needed = friction_of_guide(subject, known, kick, wanted)?;
         let at = subject.of_belt().map(|belt| belt.belt_speed);

@@ -4,11 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{Failure, Output, timed};
-use crate::flow::Method;
 use crate::flow::machine::stepped::ALLOWED;
+use crate::flow::{Method, Reason};
 use crate::model::unit::WithTolerance;
 use crate::model::{Group, Knob, MachineProblem};
-use crate::portrait::{Portrait, Trouble};
+use crate::portrait::Portrait;
 use crate::report::About;
 use crate::report::page::SourceFile;
 use crate::runtime::standard::tell;
@@ -120,8 +120,7 @@ impl MachineCase {
 }
 
 /// Why a machine has no answer; an error in the machine itself counts as bad input.
-pub fn troubled(trouble: impl Into<Trouble>) -> Failure {
-    let trouble: Trouble = trouble.into();
+pub fn troubled(trouble: Reason) -> Failure {
     let line = format!("the machine could not be computed: {trouble}");
     if trouble.is_of_the_machine() {
         Failure::Usage(trouble.to_string())

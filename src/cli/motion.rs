@@ -8,7 +8,7 @@ use super::{
 use crate::accuracy::machine_trade::MachineTrade;
 use crate::accuracy::trade::Trade;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Fate, Limits, LostMotion, MachineMotion, Method, Outcome, Problem};
+use crate::flow::{Detail, Fate, Limits, MachineMotion, Method, Outcome, Problem};
 use crate::model::{Knob, MachineProblem, State};
 use crate::numerics::Interval;
 use crate::proof::ParameterBox;
@@ -107,7 +107,7 @@ impl TrajectoryCommand {
 }
 
 /// Fails where the motion of a machine could not be followed.
-fn known(outcome: Fate<LostMotion>) -> Result<(), Failure> {
+fn known(outcome: Fate) -> Result<(), Failure> {
     if let Fate::Unknown(stop) = outcome { Err(troubled(stop)) } else { Ok(()) }
 }
 

@@ -11,12 +11,11 @@
 use std::sync::Arc;
 
 use super::exact::Exact;
-use super::limits::Reason;
 use super::motion::Cost;
 use super::step::{Field, Powers, Step, StepPoint, Stepper};
 use super::stiff::Stiff;
 use super::taylor::Taylor;
-use crate::model::HalfPlane;
+use crate::model::{HalfPlane, Reason};
 
 /// Length of a series step, in damping times and as a fraction of the order, beyond which stability limits it.
 const LIMITED: f64 = 1.0 / 3.0;

@@ -1,10 +1,9 @@
 //! The closed form of the piecewise linear oscillator as a stepper: one step is a whole half swing.
 
-use super::limits::Reason;
 use super::motion::Cost;
 use super::step::{Powers, Step, StepPoint, Stepper};
 use crate::closed_form::linear::Linear;
-use crate::model::HalfPlane;
+use crate::model::{HalfPlane, Reason};
 use crate::numerics::count::truncated;
 
 /// Maximum number of pieces into which a step is cut for drawing and for quadrature. A piece is one unit of

@@ -4,11 +4,10 @@
 //! Wanner (sections II.4 and II.10 of their book). A step that passes `v = 0` is repeated with Newton's method
 //! on its length until it ends there, so a crossing is as accurate as a step.
 
-use super::limits::Reason;
 use super::motion::Cost;
 use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
 use super::tableau::{ErrorEstimate, Scheme, dop853, dopri5, rk4};
-use crate::model::HalfPlane;
+use crate::model::{HalfPlane, Reason};
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scaling::{rough_exp2, rough_log2};
 

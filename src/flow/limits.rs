@@ -1,8 +1,6 @@
 //! What a computation may cost, what becomes of a motion, and why a computation may end without an answer.
 
-use std::fmt;
-
-use serde::Serialize;
+use crate::model::Reason;
 
 /// Bounds on a computation: a budget of evaluations and a means of interruption.
 #[derive(Clone, Copy)]
@@ -25,80 +23,9 @@ impl Default for Limits<'static> {
     }
 }
 
-/// Why a computation gave up, with the numbers that explain it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case", tag = "why")]
-pub enum Reason {
-    /// A newer question replaced this one.
-    Interrupted,
-    /// The budget of evaluations is spent.
-    Budget {
-        /// Evaluations spent.
-        evaluations: u64,
-    },
-    /// The step that the tolerance requires is too small to advance the time.
-    StepTooSmall {
-        /// Size of that step.
-        step: f64,
-    },
-    /// The fixed step is too long for the damping that the motion encounters.
-    StepTooLong {
-        /// The step.
-        step: f64,
-        /// The longest step that is stable there.
-        stable: f64,
-    },
-    /// The motion has more half swings than are kept.
-    HalfSwings {
-        /// How many are.
-        most: usize,
-    },
-    /// A number left the floating-point range.
-    OutOfRange,
-    /// The method does not apply to these parameters.
-    NotApplicable {
-        /// What the method requires.
-        needs: &'static str,
-    },
-    /// An iteration did not converge.
-    NoConvergence {
-        /// The quantity sought.
-        sought: &'static str,
-        /// Relative change at which the iteration stopped.
-        change: f64,
-    },
-}
-
-impl fmt::Display for Reason {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Reason::Interrupted => write!(out, "interrupted"),
-            Reason::Budget { evaluations } => {
-                write!(out, "budget of {evaluations} evaluations spent")
-            }
-            Reason::StepTooSmall { step } => {
-                write!(out, "step {step:.1e} is too small to move the time")
-            }
-            Reason::StepTooLong { step, stable } => {
-                write!(out, "step {step:.1e} is unstable here; at most {stable:.1e} would do")
-            }
-            Reason::HalfSwings { most } => {
-                write!(out, "the motion has more than {most} half swings; ask for a shorter time")
-            }
-            Reason::OutOfRange => write!(out, "left the range of floating-point numbers"),
-            Reason::NotApplicable { needs } => write!(out, "the method needs {needs}"),
-            Reason::NoConvergence { sought, change } => {
-                write!(out, "{sought} did not settle (last relative change {change:.1e})")
-            }
-        }
-    }
-}
-
-impl std::error::Error for Reason {}
-
 /// What becomes of a motion: for good, or for as long as it was followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fate<Why = Reason> {
+pub enum Fate {
     /// It comes to rest; without friction at the steady state, in infinite time.
     Rest,
     /// It tends to the cycle with this index, counted by amplitude, or starts on it.
@@ -110,10 +37,20 @@ pub enum Fate<Why = Reason> {
     /// It grows without bound.
     Escapes,
     /// It could not be followed far enough.
-    Unknown(Why),
+    Unknown(Reason),
 }
 
-impl<W> Fate<W> {
+impl From<Reason> for Fate {
+    fn from(reason: Reason) -> Self {
+        match reason {
+            Reason::Settles => Fate::Rest,
+            Reason::Escapes => Fate::Escapes,
+            _ => Fate::Unknown(reason),
+        }
+    }
+}
+
+impl Fate {
     /// The word of files for how a motion ended that was followed for a time.
     #[must_use]
     pub fn word(&self) -> &'static str {

@@ -42,8 +42,9 @@ pub(crate) mod taylor;
 pub(crate) mod time_stepping;
 pub mod trajectory;
 
-pub use limits::{Fate, Limits, Reason};
-pub use machine::arc::{Flow, LostMotion};
+pub use crate::model::Reason;
+pub use limits::{Fate, Limits};
+pub use machine::arc::Flow;
 pub use machine::ledger::MachineLedger;
 pub use machine::motion::MachineMotion;
 pub use method::{METHODS, Method, MethodSpec};

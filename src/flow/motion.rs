@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::limits::Reason;
 use super::method::Method;
-use crate::model::{Knob, Ledger, Parameters, State};
+use crate::model::{Knob, Ledger, Parameters, Reason, State};
 use crate::numerics::polynomial::Hermite;
 use crate::numerics::scalar::Scalar;
 

@@ -5,14 +5,14 @@
 
 use std::ops::ControlFlow;
 
-use super::limits::{Limits, Reason};
+use super::limits::Limits;
 use super::method::Method;
 use super::motion::{Cost, Detail, Problem, Trajectory};
 use super::run::MotionRun;
 use super::step::{StepPoint, Stepper};
 use super::swing::{SwingEnd, swing};
 use super::taylor::Taylor;
-use crate::model::HalfPlane;
+use crate::model::{HalfPlane, Reason};
 use crate::numerics::twofold::Twofold;
 
 /// How finely a motion is computed: order and tolerance of the series.

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::limits::{Limits, Reason};
+use super::limits::Limits;
 use super::method::Method;
 use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
 use super::step::{Field, PlaneField, Powers, Step, StepPoint, Stepper};
@@ -10,7 +10,7 @@ use super::stop::ComingToRest;
 use super::swing::{Swing, SwingEnd, glide, swing};
 use crate::model::parameters::energy;
 use crate::model::parameters::rests;
-use crate::model::{HalfPlane, Ledger, Side, State};
+use crate::model::{HalfPlane, Ledger, Reason, Side, State};
 use crate::numerics::count::real;
 use crate::numerics::scalar::Scalar;
 use crate::numerics::scaling::times_power;

@@ -2,9 +2,8 @@
 
 use std::fmt::Debug;
 
-use super::limits::Reason;
 use super::motion::Cost;
-use crate::model::HalfPlane;
+use crate::model::{HalfPlane, Reason};
 use crate::numerics::count::real;
 use crate::numerics::quadrature::GAUSS;
 use crate::numerics::scalar::Scalar;

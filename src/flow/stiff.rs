@@ -18,11 +18,10 @@ mod arrival;
 
 use algebra::{MOST, differences, interpolated, solve, weighted};
 
-use super::limits::Reason;
 use super::motion::Cost;
 use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
 use super::tableau::radau::{Collocation, FIVE, SEVEN, THREE};
-use crate::model::HalfPlane;
+use crate::model::{HalfPlane, Reason};
 use crate::numerics::count::real;
 use crate::numerics::elementary::pow;
 use crate::numerics::root::bisect;

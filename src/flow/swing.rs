@@ -5,9 +5,9 @@
 
 use std::ops::ControlFlow;
 
-use super::limits::{Limits, Reason};
+use super::limits::Limits;
 use super::step::{PlaneField, Step, StepPoint, Stepper};
-use crate::model::HalfPlane;
+use crate::model::{HalfPlane, Reason};
 use crate::numerics::elementary::ln_1p;
 use crate::numerics::scalar::Scalar;
 use crate::numerics::scaling::exponent;

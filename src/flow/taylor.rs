@@ -8,10 +8,9 @@
 //! terms of the series have reached its asymptotic behaviour. Then the truncation error of a step is about
 //! `e h/(rho - h)` of the state.
 
-use super::limits::Reason;
 use super::motion::Cost;
 use super::step::{LONGEST, Powers, Step, StepPoint, Stepper};
-use crate::model::HalfPlane;
+use crate::model::{HalfPlane, Reason};
 use crate::numerics::count::real;
 use crate::numerics::polynomial::{
     derivative, value_and_slope_in_two as value_and_slope, value_in_two as value,

@@ -8,10 +8,10 @@
 //! freedom dynamics*, 1988; M. Jean, *The non-smooth contact dynamics method*, Computer Methods in Applied
 //! Mechanics and Engineering 177, 1999).
 
-use super::limits::Reason;
 use super::motion::Cost;
 use super::regularized::SmoothField;
 use super::step::{Powers, Step, StepPoint, Stepper};
+use crate::model::Reason;
 
 /// Newton iterations for the velocity at the end of a step. The residual is nearly linear.
 const ITERATIONS: usize = 50;

@@ -3,7 +3,7 @@
 use super::auto::Auto;
 use super::exact::Exact;
 use super::explicit::{Dop853, Dopri5, Rk4};
-use super::limits::{Limits, Reason};
+use super::limits::Limits;
 use super::method::Method;
 pub use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
 use super::regularized::{SignLaw, SmoothField};
@@ -11,7 +11,7 @@ use super::run::MotionRun;
 use super::stiff::Stiff;
 use super::taylor::Taylor;
 use super::time_stepping::TimeStepping;
-use crate::model::{HalfPlane, Side};
+use crate::model::{HalfPlane, Reason, Side};
 
 /// Computes a motion.
 ///

@@ -31,6 +31,7 @@ pub(crate) mod force;
 #[expect(clippy::module_inception, reason = "the model itself, beside what belongs to it")]
 pub(crate) mod model;
 pub(crate) mod reach;
+pub(crate) mod reason;
 pub(crate) mod source;
 
 pub mod belt;
@@ -48,9 +49,10 @@ pub use interval::{Interval, ParameterBox};
 pub(crate) use knob::unknown;
 pub use knob::{Group, KNOBS, Knob, KnobSpec, OutOfRange};
 pub use modal::Modal;
-pub use model::{Lines, Model, NoModel, Phase};
+pub use model::{Lines, Model, Phase};
 pub use parameters::Ledger;
 pub use parameters::{Parameters, State};
+pub use reason::Reason;
 pub use source::MachineProblem;
 pub use source::Tolerances;
 pub use source::{Body, Source};

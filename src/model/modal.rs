@@ -1,7 +1,5 @@
 //! The numbers of a vibration mode that has no belt.
 
-use super::model::{Model, NoModel};
-
 /// A vibration mode: what feeds and damps it is a polynomial in its velocity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modal {
@@ -15,16 +13,4 @@ pub struct Modal {
     pub friction: f64,
     /// The same at rest; `None`: the same.
     pub static_guide: Option<f64>,
-}
-
-impl Modal {
-    /// Its whole model.
-    ///
-    /// # Errors
-    /// [`NoModel`] where the static friction or the numbers allow none.
-    pub fn model(&self) -> Result<Model, NoModel> {
-        let omega_0 = std::f64::consts::TAU * self.frequency;
-        let at_rest = self.static_guide.unwrap_or(self.friction);
-        Model::of_mode(omega_0, self.mass, &self.damping_ratio, self.friction, at_rest)
-    }
 }

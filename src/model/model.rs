@@ -10,12 +10,10 @@
 //! No length is singled out: a machine with all its lengths scaled by a power of two moves alike to the last
 //! bit.
 
-use std::fmt;
-
 use super::force::{ForceBranch, ForcePiece};
 use super::force::{ScaledLaw, faster, slower};
 use super::reach::first_below_zero;
-use crate::model::{Belt, Parameters};
+use crate::model::{Belt, Modal, Parameters, Reason};
 use crate::numerics::elementary::powi;
 
 /// The last terms of a step are this small against the state where nothing else is asked for.
@@ -80,78 +78,16 @@ pub struct Model {
     damper: Vec<f64>,
 }
 
-/// Why a machine has no whole model.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NoModel {
-    /// The law does not reach the belt's speed.
-    OutsideLaw {
-        /// Speed of the belt, in m/s.
-        v0: f64,
-        /// Where the law reaches, in m/s.
-        range: (f64, f64),
-    },
-    /// The coefficient of friction at the belt's speed is not positive.
-    NoFriction {
-        /// Speed of the belt, in m/s.
-        v0: f64,
-        /// The coefficient.
-        mu: f64,
-    },
-    /// The static coefficient is below the kinetic one at small slip.
-    StaticBelowKinetic {
-        /// The static coefficient.
-        mu_s: f64,
-        /// The coefficient at vanishing slip.
-        mu: f64,
-    },
-    /// The guide's static friction is below its kinetic one.
-    GuideStatic {
-        /// `R_static`, in N.
-        at_rest: f64,
-        /// R, in N.
-        moving: f64,
-    },
-    /// A number is beyond the range of floating point.
-    OutOfRange,
-}
-
-impl fmt::Display for NoModel {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NoModel::OutsideLaw { v0, range: (low, high) } => write!(
-                out,
-                "v0 = {v0} m/s is outside the friction law; it reaches from {low} to {high} m/s"
-            ),
-            NoModel::NoFriction { v0, mu } => {
-                write!(out, "mu = {mu} at v0 = {v0} m/s; it must be positive")
-            }
-            NoModel::StaticBelowKinetic { mu_s, mu } => write!(
-                out,
-                "mu_s = {mu_s} is below the coefficient {mu} of the law at rest; static friction is at least that"
-            ),
-            NoModel::GuideStatic { at_rest, moving } => write!(
-                out,
-                "R_static = {at_rest} N is below R = {moving} N; static friction is at least the kinetic one"
-            ),
-            NoModel::OutOfRange => {
-                write!(out, "the machine's numbers leave the range of floating point")
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoModel {}
-
 impl Model {
     /// The whole model of a mass on a belt.
     ///
     /// # Errors
-    /// [`NoModel`] where the law, the static friction or the numbers allow none.
-    pub fn new(belt: &Belt) -> Result<Self, NoModel> {
+    /// [`Reason`] where the law, the static friction or the numbers allow none.
+    pub fn new(belt: &Belt) -> Result<Self, Reason> {
         let v0 = belt.belt_speed;
-        let mu = belt.law.mu(v0).ok_or(NoModel::OutsideLaw { v0, range: belt.law.range() })?;
+        let mu = belt.law.mu(v0).ok_or(Reason::OutsideLaw { v0, range: belt.law.range() })?;
         if !(mu.is_finite() && mu > 0.0) {
-            return Err(NoModel::NoFriction { v0, mu });
+            return Err(Reason::NoFriction { v0, mu });
         }
         let omega_0 = (belt.stiffness / belt.mass).sqrt();
         let per_stiffness = 1.0 / belt.stiffness;
@@ -183,13 +119,13 @@ impl Model {
         };
         if model.guide_static < model.guide {
             let at_rest = belt.static_guide.unwrap_or(belt.friction);
-            return Err(NoModel::GuideStatic { at_rest, moving: belt.friction });
+            return Err(Reason::GuideStatic { at_rest, moving: belt.friction });
         }
         model.damping = -model.slower.at(0.0).1;
         if let Some(mu_rest) = belt.law.mu(0.0) {
             let mu_s = belt.static_coefficient.unwrap_or(mu_rest);
             if mu_s < mu_rest {
-                return Err(NoModel::StaticBelowKinetic { mu_s, mu: mu_rest });
+                return Err(Reason::StaticBelowKinetic { mu_s, mu: mu_rest });
             }
             let fold = model.slower.at(speed).0 - model.guide;
             let (excess, both) = (force * (mu_s - mu_rest), force * (mu_s + mu_rest));
@@ -199,7 +135,7 @@ impl Model {
         if numbers.iter().all(|number| number.is_finite()) && speed > 0.0 {
             Ok(model)
         } else {
-            Err(NoModel::OutOfRange)
+            Err(Reason::OutOfRange)
         }
     }
 
@@ -208,16 +144,16 @@ impl Model {
     /// in N.
     ///
     /// # Errors
-    /// [`NoModel`] where the static friction or the numbers allow none.
+    /// [`Reason`] where the static friction or the numbers allow none.
     pub fn of_mode(
         omega_0: f64,
         mass: f64,
         damping_ratio: &[f64],
         guide: f64,
         guide_static: f64,
-    ) -> Result<Self, NoModel> {
+    ) -> Result<Self, Reason> {
         if guide_static < guide {
-            return Err(NoModel::GuideStatic { at_rest: guide_static, moving: guide });
+            return Err(Reason::GuideStatic { at_rest: guide_static, moving: guide });
         }
         let stiffness = mass * omega_0 * omega_0;
         let ratio = |(k, number): (usize, &f64)| {
@@ -249,7 +185,7 @@ impl Model {
         if finite && stiffness.is_finite() && stiffness > 0.0 {
             Ok(model)
         } else {
-            Err(NoModel::OutOfRange)
+            Err(Reason::OutOfRange)
         }
     }
 
@@ -324,5 +260,17 @@ impl Model {
     #[must_use]
     pub fn rests_at(&self, x: f64) -> bool {
         x.abs() <= self.guide_static
+    }
+}
+
+impl Modal {
+    /// Its whole model.
+    ///
+    /// # Errors
+    /// [`Reason`] where the static friction or the numbers allow none.
+    pub fn model(&self) -> Result<Model, Reason> {
+        let omega_0 = std::f64::consts::TAU * self.frequency;
+        let at_rest = self.static_guide.unwrap_or(self.friction);
+        Model::of_mode(omega_0, self.mass, &self.damping_ratio, self.friction, at_rest)
     }
 }

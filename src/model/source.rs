@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::model::{Model, NoModel};
-use crate::model::{Belt, Group, Interval, KNOBS, Knob, Modal};
+use super::model::Model;
+use crate::model::{Belt, Group, Interval, KNOBS, Knob, Modal, Reason};
 
 /// A mass on a belt, or a vibration mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,8 +103,8 @@ impl Source {
     /// Its whole model.
     ///
     /// # Errors
-    /// [`NoModel`] where it has none.
-    pub fn model(&self) -> Result<Model, NoModel> {
+    /// [`Reason`] where it has none.
+    pub fn model(&self) -> Result<Model, Reason> {
         let mut model = match &self.body {
             Body::Belt(belt) => Model::new(belt)?,
             Body::Mode(mode) => mode.model()?,

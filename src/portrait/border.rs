@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::flow::LostMotion;
+use crate::flow::Reason;
 use crate::model::Parameters;
 
 /// What borders the basin of rest.
@@ -21,7 +21,7 @@ pub enum Border {
     /// Nothing, because rest itself repels.
     NoBasin,
     /// Not known: what could be followed comes to rest.
-    Unknown(LostMotion),
+    Unknown(Reason),
 }
 
 impl Serialize for Border {

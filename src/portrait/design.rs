@@ -13,7 +13,6 @@ use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::{PlaceTolerance, illinois};
 use crate::portrait::basin::basin;
 use crate::portrait::guarantee::machine::guaranteed;
-use crate::portrait::survey::Trouble;
 use crate::portrait::{Border, Margin};
 
 /// A kick out of rest.
@@ -212,7 +211,7 @@ fn guaranteed_excess(
     known: &Tolerances,
     kick: Kick,
     wanted: f64,
-) -> Result<f64, Trouble> {
+) -> Result<f64, Reason> {
     // Only belts have tolerances.
     let Body::Belt(belt) = &subject.body else { return Ok(f64::MIN) };
     let found = guaranteed(belt, known)?.map_or(0.0, |margin| kick.margin(&margin));
@@ -220,14 +219,14 @@ fn guaranteed_excess(
 }
 
 /// The least friction R of the guide, in N, at which the margin, or with tolerances the guaranteed margin, is
-/// `wanted` (m or N s) or more; `None` where no bracket of it was found. Fails with [`Trouble`] where a machine on
+/// `wanted` (m or N s) or more; `None` where no bracket of it was found. Fails with [`Reason`] where a machine on
 /// the way has no portrait.
 pub fn friction_of_guide(
     subject: &Source,
     known: &Tolerances,
     kick: Kick,
     wanted: f64,
-) -> Result<Option<FrictionNeeded>, Trouble> {
+) -> Result<Option<FrictionNeeded>, Reason> {
     let model = subject.model()?;
     let mut trouble = None;
     let machine = |held: f64| subject.with_friction(held * model.stiffness);

@@ -55,4 +55,4 @@ pub use closing::return_map::{Return, ReturnMap};
 pub use cycle::{Cycle, CycleErrors, Ride};
 pub use margin::{Margin, Reach, RestMargin};
 pub use portrait::Portrait;
-pub use survey::{Course, CubicExpansion, Trouble};
+pub use survey::{Course, CubicExpansion};

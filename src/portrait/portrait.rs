@@ -11,7 +11,7 @@ use super::without_belt::{self, WithoutBelt};
 use super::{Border, Cycle, Margin, Reach, RestMargin};
 use crate::flow::machine::curve::{CurvePiece, MachineCurve, PhaseWindow};
 use crate::flow::machine::turn::ContactState;
-use crate::flow::{Fate, Flow, LostMotion};
+use crate::flow::{Fate, Flow, Reason};
 use crate::model::{Model, Phase};
 use crate::numerics::root::bisect;
 use crate::portrait::basin::orbit::{POINTS, filled, inner_radius};
@@ -48,7 +48,7 @@ pub struct Portrait {
     /// Where the line of the belt is met.
     pub landmarks: Option<Landmarks>,
     /// Why motions that turn beyond [`Self::known`] are unknown; `None` if all are known.
-    pub stop: Option<LostMotion>,
+    pub stop: Option<Reason>,
     /// Right turning point up to which the return map was evaluated.
     pub known: f64,
     /// Intervals of right turning points in which the search for cycles did not settle: pairs of cycles may
@@ -64,8 +64,8 @@ impl Portrait {
     /// The portrait of a machine: by half swings that close where there is no belt, else by the return map.
     ///
     /// # Errors
-    /// [`LostMotion`] if the motions near rest, or those that the belt releases, cannot be followed.
-    pub fn of(model: &Model) -> Result<Self, LostMotion> {
+    /// [`Reason`] if the motions near rest, or those that the belt releases, cannot be followed.
+    pub fn of(model: &Model) -> Result<Self, Reason> {
         match WithoutBelt::of(model) {
             Some(found) => Ok(Portrait::without_belt(model, found)),
             None => Portrait::by_return_map(model),
@@ -76,7 +76,7 @@ impl Portrait {
     ///
     /// # Errors
     /// As for [`Self::of`].
-    pub fn by_return_map(model: &Model) -> Result<Self, LostMotion> {
+    pub fn by_return_map(model: &Model) -> Result<Self, Reason> {
         let mut flow = Flow::new(model);
         let landmarks = flow.landmarks()?;
         let found = flow.fixed_points(landmarks.as_ref())?;
@@ -141,11 +141,7 @@ impl Portrait {
         portrait
     }
 
-    fn settle_border(
-        &mut self,
-        flow: &mut Flow,
-        marks: &[(f64, Divide)],
-    ) -> Result<(), LostMotion> {
+    fn settle_border(&mut self, flow: &mut Flow, marks: &[(f64, Divide)]) -> Result<(), Reason> {
         let Some(first) = self.gaps.first() else { return Ok(()) };
         let inner = if self.neutral { Fate::Neutral } else { Fate::Rest };
         if let Fate::Unknown(stop) = first.fate {
@@ -185,11 +181,11 @@ impl Portrait {
     }
 
     /// What hides a border farther out, where none was met.
-    fn open_end(&self) -> Option<LostMotion> {
+    fn open_end(&self) -> Option<Reason> {
         let Model { omega_0, speed, .. } = self.model;
         let slip = (speed - self.model.least_velocity()) * omega_0;
-        let ends = self.model.law_ends().then_some(LostMotion::OutsideLaw { slip });
-        let hides = |stop: &LostMotion| !matches!(stop, LostMotion::Escaped | LostMotion::Settled);
+        let ends = self.model.law_ends().then_some(Reason::BeyondLaw { slip });
+        let hides = |stop: &Reason| !matches!(stop, Reason::Escapes | Reason::Settles);
         self.stop.filter(hides).or(ends)
     }
 
@@ -286,8 +282,8 @@ impl Portrait {
     /// The fate of a motion that starts at displacement `x` (m) with velocity `v` (m/s).
     ///
     /// # Errors
-    /// [`LostMotion`] if it does not reach its next right turning point.
-    pub fn fate(&self, x: f64, v: f64) -> Result<Fate<LostMotion>, LostMotion> {
+    /// [`Reason`] if it does not reach its next right turning point.
+    pub fn fate(&self, x: f64, v: f64) -> Result<Fate, Reason> {
         let y = self.model.scaled_velocity(v);
         if self.model.place(x, y) == ContactState::Rests {
             return Ok(Fate::Rest);
@@ -300,8 +296,8 @@ impl Portrait {
         let mut flow = Flow::new(&self.model);
         let turn = match flow.to_the_right(x, y) {
             Ok(turn) => turn,
-            Err(LostMotion::Settled) => return Ok(Fate::Rest),
-            Err(LostMotion::Escaped) => return Ok(Fate::Escapes),
+            Err(Reason::Settles) => return Ok(Fate::Rest),
+            Err(Reason::Escapes) => return Ok(Fate::Escapes),
             Err(stop) => return Err(stop),
         };
         let Some(mut x) = turn else { return Ok(Fate::Rest) };
@@ -311,7 +307,7 @@ impl Portrait {
                 Ok(MachineReturn::Turns(image)) if image.x < x => x = image.x,
                 Ok(MachineReturn::Turns(_)) => break,
                 Ok(MachineReturn::Rests(_)) => return Ok(Fate::Rest),
-                Err(LostMotion::Escaped) => return Ok(Fate::Escapes),
+                Err(Reason::Escapes) => return Ok(Fate::Escapes),
                 Err(stop) => return Err(stop),
             }
         }
@@ -320,16 +316,16 @@ impl Portrait {
 
     /// Why the portrait is incomplete: the friction law ends before all motions are known.
     #[must_use]
-    pub fn incomplete(&self) -> Option<LostMotion> {
+    pub fn incomplete(&self) -> Option<Reason> {
         let outermost = self.gaps.last().map(|gap| gap.fate);
         let open = matches!(outermost, Some(Fate::Unknown(_)));
-        let stop = self.stop.filter(|stop| matches!(stop, LostMotion::OutsideLaw { .. }));
+        let stop = self.stop.filter(|stop| matches!(stop, Reason::BeyondLaw { .. }));
         let borderless = matches!(self.border, Border::None | Border::Unknown(_));
         stop.filter(|_| open || borderless)
     }
 
     /// The fate of a motion that turns on the right at `x`.
-    fn fate_of_turn(&self, x: f64) -> Fate<LostMotion> {
+    fn fate_of_turn(&self, x: f64) -> Fate {
         if let Traced::Basin(basin) = &self.traced {
             return without_belt::fate(basin, x, 0.0);
         }
@@ -442,8 +438,8 @@ impl Flow<'_> {
     /// The next right turning point of any start; `None` if the mass comes to rest before it.
     ///
     /// # Errors
-    /// [`LostMotion`] if it is not reached.
-    pub fn to_the_right(&mut self, mut x: f64, mut y: f64) -> Result<Option<f64>, LostMotion> {
+    /// [`Reason`] if it is not reached.
+    pub fn to_the_right(&mut self, mut x: f64, mut y: f64) -> Result<Option<f64>, Reason> {
         if y == 0.0 && x > self.model.guide_static {
             return Ok(Some(x));
         }

@@ -1,11 +1,9 @@
 //! What a machine does: its portrait and one motion of it; and beside it what the oscillator of the paper says, which
 //! knows friction by its cubic expansion alone.
 
-use std::fmt;
-
-use crate::flow::{Detail, Fate, Flow, Limits, LostMotion, MachineMotion, Method, Reason};
-use crate::model::belt::{BeltError, ReducedBelt};
-use crate::model::{Belt, Model, NoModel, Source};
+use crate::flow::{Detail, Fate, Flow, Limits, MachineMotion, Method, Reason};
+use crate::model::belt::ReducedBelt;
+use crate::model::{Belt, Model, Source};
 use crate::portrait::Portrait;
 use crate::portrait::basin::cycle::{Cycles, cycles};
 
@@ -21,8 +19,8 @@ pub struct CubicExpansion {
 }
 
 impl CubicExpansion {
-    /// Finds the cycles. Fails with [`BeltError`] where the machine has no dimensionless form.
-    pub fn new(belt: &Belt, limits: &Limits) -> Result<Self, BeltError> {
+    /// Finds the cycles. Fails with [`Reason`] where the machine has no dimensionless form.
+    pub fn new(belt: &Belt, limits: &Limits) -> Result<Self, Reason> {
         let reduced = belt.reduce()?;
         let cycles = cycles(&reduced.parameters, true, limits);
         Ok(CubicExpansion { belt: belt.clone(), reduced, cycles })
@@ -37,7 +35,7 @@ pub struct Course {
     /// The one that was asked for.
     pub motion: MachineMotion,
     /// What it ends as.
-    pub fate: Fate<LostMotion>,
+    pub fate: Fate,
     /// Where it comes to rest, in m.
     pub rest: Option<f64>,
     /// The same motion by another method, if asked for.
@@ -46,12 +44,12 @@ pub struct Course {
 
 impl Course {
     /// What a model does, and the motion from `start` (m and m/s), followed for `until` seconds. Fails with
-    /// [`Trouble`] where motions leave the law before the border of rest is known, or cannot be followed.
-    pub fn new(model: &Model, start: (f64, f64), until: f64) -> Result<Self, Trouble> {
+    /// [`Reason`] where motions leave the law before the border of rest is known, or cannot be followed.
+    pub fn new(model: &Model, start: (f64, f64), until: f64) -> Result<Self, Reason> {
         let portrait = Portrait::of(model)?;
         let (x, v) = start;
         let fate = match portrait.fate(x, v) {
-            Err(stop @ LostMotion::OutsideLaw { .. }) => Fate::Unknown(stop),
+            Err(stop @ Reason::BeyondLaw { .. }) => Fate::Unknown(stop),
             fate => fate?,
         };
         let rest =
@@ -69,69 +67,18 @@ impl Course {
     }
 }
 
-/// Why a machine has no answer.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Trouble {
-    /// It has no dimensionless form.
-    Belt(BeltError),
-    /// It has no whole model.
-    Unfit(NoModel),
-    /// Its motions cannot be followed.
-    Stop(LostMotion),
-}
-
-impl Trouble {
-    /// Whether the machine itself is at fault, and not what it takes to compute it.
-    pub fn is_of_the_machine(&self) -> bool {
-        !matches!(
-            self,
-            Trouble::Stop(LostMotion::Steps | LostMotion::Settled | LostMotion::Escaped)
-        )
-    }
-}
-
-impl fmt::Display for Trouble {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Trouble::Belt(error) => error.fmt(out),
-            Trouble::Unfit(unfit) => unfit.fmt(out),
-            Trouble::Stop(stop) => stop.fmt(out),
-        }
-    }
-}
-
-impl std::error::Error for Trouble {}
-
-impl From<BeltError> for Trouble {
-    fn from(error: BeltError) -> Self {
-        Trouble::Belt(error)
-    }
-}
-
-impl From<NoModel> for Trouble {
-    fn from(unfit: NoModel) -> Self {
-        Trouble::Unfit(unfit)
-    }
-}
-
-impl From<LostMotion> for Trouble {
-    fn from(stop: LostMotion) -> Self {
-        Trouble::Stop(stop)
-    }
-}
-
-/// The portrait of a machine whose friction law reaches as far as its motions do. Fails with [`Trouble`] where it
+/// The portrait of a machine whose friction law reaches as far as its motions do. Fails with [`Reason`] where it
 /// has no model, or where motions leave the law before the border of rest is known.
-pub fn portrait(belt: &Belt) -> Result<Portrait, Trouble> {
-    Ok(Portrait::of(&Model::new(belt)?)?)
+pub fn portrait(belt: &Belt) -> Result<Portrait, Reason> {
+    Portrait::of(&Model::new(belt)?)
 }
 
 impl Source {
     /// What it does.
     ///
     /// # Errors
-    /// [`Trouble`] where it has no model, or where motions leave the law before the border of rest is known.
-    pub fn portrait(&self) -> Result<Portrait, Trouble> {
-        Ok(Portrait::of(&self.model()?)?)
+    /// [`Reason`] where it has no model, or where motions leave the law before the border of rest is known.
+    pub fn portrait(&self) -> Result<Portrait, Reason> {
+        Portrait::of(&self.model()?)
     }
 }

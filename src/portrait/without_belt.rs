@@ -6,7 +6,7 @@
 
 use super::{Border, Cycle, Reach};
 use crate::closed_form::harmonic::is_centre;
-use crate::flow::{Fate, Limits, LostMotion};
+use crate::flow::{Fate, Limits, Reason};
 use crate::model::{Model, State};
 use crate::portrait::basin::arc::Arc;
 use crate::portrait::basin::cycle::cycles_and_closings;
@@ -79,13 +79,13 @@ fn reach_of(basin: &Basin, model: &Model) -> Option<Reach> {
 }
 
 /// Where a motion from displacement `x` and velocity `y` (divided by the natural frequency) ends.
-pub fn fate(basin: &Basin, x: f64, y: f64) -> Fate<LostMotion> {
+pub fn fate(basin: &Basin, x: f64, y: f64) -> Fate {
     match basin.fate(State { q: x, v: y }) {
         Fate::Rest => Fate::Rest,
         Fate::Cycle(index) => Fate::Cycle(index),
         Fate::Neutral => Fate::Neutral,
         Fate::Escapes => Fate::Escapes,
-        Fate::Moving | Fate::Unknown(_) => Fate::Unknown(LostMotion::Steps),
+        Fate::Moving | Fate::Unknown(_) => Fate::Unknown(Reason::Steps),
     }
 }
 

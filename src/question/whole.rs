@@ -8,17 +8,17 @@ use crate::flow::machine::series::ORDER;
 use crate::flow::machine::turn::ContactState;
 use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
 use crate::flow::{
-    Cost, Detail, Fate, Flow, Limits, LostMotion, MachineLedger, MachineMotion, Problem, Reason,
+    Cost, Detail, Fate, Flow, Limits, MachineLedger, MachineMotion, Problem, Reason,
 };
 use crate::model::{Belt, Model, Parameters, State};
 use crate::portrait::basin::cycle::cycles_drawn;
-use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, Portrait, Trouble, survey};
+use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, Portrait, survey};
 
 /// What is known of a machine's motion beside its course.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WholeMotion {
     /// The fate.
-    pub fate: Fate<LostMotion>,
+    pub fate: Fate,
     /// The cycle to which it tends, in the units of the paper's oscillator.
     pub cycle: Option<Cycle>,
     /// Kind of the border of the basin.
@@ -71,27 +71,6 @@ impl DrawingUnits {
     }
 }
 
-/// Why the whole model has no answer.
-fn reason(trouble: Trouble) -> Reason {
-    Reason::NotApplicable {
-        needs: match trouble {
-            Trouble::Belt(_) | Trouble::Unfit(_) => {
-                "a friction law that reaches the belt's speed and static friction above the kinetic one"
-            }
-            Trouble::Stop(LostMotion::OutsideLaw { .. }) => {
-                "a friction law that reaches the slips of these motions"
-            }
-            Trouble::Stop(LostMotion::Escaped | LostMotion::Settled) => "motions that turn",
-            Trouble::Stop(LostMotion::Steps) => "motions that turn within some thousand steps",
-        },
-    }
-}
-
-/// Why the motions of a machine could not be followed.
-fn lost(stop: LostMotion) -> Reason {
-    reason(stop.into())
-}
-
 /// The motion of a machine, with `between` points between the ends of each step.
 pub fn motion(
     belt: &Belt,
@@ -116,8 +95,8 @@ pub fn motion(
     let ledger = found.ledger;
     let ledger = ledger.or_else(|| MachineMotion::new(&model, x, v, until).ledger);
     let fate = match portrait.fate(x, v) {
-        Err(stop @ LostMotion::OutsideLaw { .. }) => Fate::Unknown(stop),
-        fate => fate.map_err(lost)?,
+        Err(stop @ Reason::BeyondLaw { .. }) => Fate::Unknown(stop),
+        fate => fate?,
     };
     let cycle = match fate {
         Fate::Cycle(index) => portrait.cycles.get(index),
@@ -142,7 +121,7 @@ fn trajectory(found: &MachineMotion, problem: &Problem, units: DrawingUnits) -> 
         Fate::Rest => Outcome::Captured { tau, q },
         Fate::Moving | Fate::Cycle(_) | Fate::Neutral => Outcome::Moving { tau, q, v },
         Fate::Escapes => Outcome::Escaped { tau },
-        Fate::Unknown(stop) => Outcome::GaveUp { tau, reason: lost(stop) },
+        Fate::Unknown(stop) => Outcome::GaveUp { tau, reason: stop },
     };
     let crossing = |turn: &motion::Leg| Crossing { tau: turn.t / units.t, q: turn.x / units.x };
     Trajectory {
@@ -201,7 +180,7 @@ fn works(found: &Portrait) -> Vec<MachineLedger> {
 
 /// The portrait of a machine, or why there is none.
 pub fn found(belt: &Belt) -> Result<Portrait, Reason> {
-    survey::portrait(belt).map_err(reason)
+    survey::portrait(belt)
 }
 
 /// The kicks that a machine survives, without units.
@@ -221,7 +200,7 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
     let mut curves = Vec::new();
     for cycle in &found.cycles {
         let mut curve = MachineCurve::default();
-        flow.around(cycle.q_max, cycle.is_followed_backward(), &mut curve).map_err(lost)?;
+        flow.around(cycle.q_max, cycle.is_followed_backward(), &mut curve)?;
         curves.push(places(&curve, model, points));
     }
     let border = found.border_curve().map(|curve| places(curve, model, points));

@@ -13,14 +13,14 @@ use hopfscope::accuracy::extremes::sets::{LatticeCycle, SetAnswer, SetVerdict, j
 use hopfscope::branch::SpecialKind;
 use hopfscope::branch::along::{Points, branch};
 use hopfscope::flow::trajectory::trajectory;
-use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Problem};
+use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Problem, Reason};
 use hopfscope::model::{HalfPlane, Knob, Parameters, Side, State};
 use hopfscope::numerics::elementary::{exp, ln};
 use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::portrait::basin::{Basin, Counts, Window, basin};
 use hopfscope::portrait::closing::all::closings;
 use hopfscope::portrait::closing::equation::{Equation, Route};
-use hopfscope::portrait::closing::half_map::{HalfMap, Length, NoEnd};
+use hopfscope::portrait::closing::half_map::{HalfMap, Length};
 use hopfscope::portrait::closing::polish::polish;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -47,9 +47,9 @@ fn turn_is_larger(parameters: Parameters, sides: [Side; 2], step: f64) -> impl F
         let mut length = Length::new(clearance);
         for map in &mut maps {
             match map.swing(length, &Limits { evaluations: u64::MAX, ..LIMITS }) {
-                Err(NoEnd::Escapes) => return true,
-                Err(NoEnd::Never) => return false,
-                Err(NoEnd::Failed(reason)) => panic!("{parameters:?}: {reason}"),
+                Err(Reason::Escapes) => return true,
+                Err(Reason::Settles) => return false,
+                Err(reason) => panic!("{parameters:?}: {reason}"),
                 Ok(swing) if swing.end.value <= 2.0 * parameters.r => return false,
                 Ok(swing) => length = Length::new(swing.end.value - 2.0 * parameters.r),
             }

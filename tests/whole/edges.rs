@@ -2,7 +2,7 @@
 //! that end beyond the cycles.
 
 use super::portrait;
-use hopfscope::flow::{Fate, Flow, LostMotion};
+use hopfscope::flow::{Fate, Flow, Reason};
 use hopfscope::model::belt::FrictionLaw;
 use hopfscope::model::{Belt, Body, Modal, Source};
 use hopfscope::numerics::elementary::exp;
@@ -123,9 +123,7 @@ fn where_the_law_ends_it_is_not_said_that_every_kick_is_survived() {
                 friction.polynomial.coefficients = [0.62, -1.11435, -0.98584]\n";
     let found = portrait(&belt(text));
     let margin = found.reach.unwrap();
-    assert!(
-        matches!(found.stop, Some(LostMotion::OutsideLaw { .. })) && found.incomplete().is_some()
-    );
+    assert!(matches!(found.stop, Some(Reason::BeyondLaw { .. })) && found.incomplete().is_some());
     // A kick against the belt gets slightly faster at first.
     let fastest = 0.408_645_154 - 0.1379;
     assert!((0.9999 * fastest..fastest).contains(&margin.velocity.1), "{margin:?}");
@@ -145,7 +143,7 @@ fn where_motions_take_too_many_steps_the_margin_is_what_was_followed() {
                 friction.polynomial.coefficients = [0.437, 2.72777, 2.16231, 57.38058, 272.78022]\n";
     let found = portrait(&belt(text));
     let margin = found.reach.unwrap();
-    assert_eq!((found.stop, margin.displacement.0), (Some(LostMotion::Steps), found.known));
+    assert_eq!((found.stop, margin.displacement.0), (Some(Reason::Steps), found.known));
     assert!(margin.displacement.0 > 10.0 && margin.velocity.1 > 10.0, "{margin:?}");
     assert!(found.steps < 100_000, "{} steps", found.steps);
 }

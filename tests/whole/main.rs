@@ -11,9 +11,9 @@ use std::f64::consts::PI;
 use hopfscope::branch::machine::branch;
 use hopfscope::branch::machine_special::MachineSpecialKind;
 use hopfscope::flow::machine::turn::ContactState;
-use hopfscope::flow::{Detail, Fate, Flow, MachineMotion, Method};
+use hopfscope::flow::{Detail, Fate, Flow, MachineMotion, Method, Reason};
 use hopfscope::model::belt::FrictionLaw;
-use hopfscope::model::{Belt, Group, Knob, Model, NoModel};
+use hopfscope::model::{Belt, Group, Knob, Model};
 use hopfscope::numerics::elementary::{
     asin, atan, atan2, cos, exp, exp_m1, hypot, ln, powi, sin, tanh,
 };
@@ -263,7 +263,7 @@ fn a_cubic_law_far_from_the_belt_is_the_oscillator_of_the_paper() {
 #[test]
 fn static_friction_below_the_kinetic_one_is_refused() {
     let belt = Belt { static_coefficient: Some(0.29), ..machine("coulomb-guide") };
-    assert_eq!(Model::new(&belt), Err(NoModel::StaticBelowKinetic { mu_s: 0.29, mu: 0.3 }));
+    assert_eq!(Model::new(&belt), Err(Reason::StaticBelowKinetic { mu_s: 0.29, mu: 0.3 }));
     let belt = Belt { static_guide: Some(0.1), ..machine("coulomb-guide") };
     let refused = Model::new(&belt).unwrap_err().to_string();
     assert_eq!(

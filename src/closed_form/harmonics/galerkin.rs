@@ -15,13 +15,11 @@
 //! and these weigh nothing. Any number of sign changes is projected rightly; a cycle has two.
 
 use std::f64::consts::{PI, TAU};
-use std::fmt;
 
 use nalgebra::{Complex, DMatrix, DVector, Dyn, LU};
-use serde::Serialize;
 
 use super::fourier::{Fourier, SignChange, sign_changes};
-use crate::model::Parameters;
+use crate::model::{Parameters, Reason};
 use crate::numerics::count::real;
 use crate::numerics::elementary::sin_cos;
 
@@ -283,39 +281,6 @@ fn spring_and_inertia(eta: f64, k: usize) -> f64 {
     (1.0 - speed) * (1.0 + speed)
 }
 
-/// Why a first-order answer has no counterpart of N harmonics.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case", tag = "why")]
-pub enum Lost {
-    /// The computation was told to stop.
-    Interrupted,
-    /// A number left the range of floating point.
-    OutOfRange,
-    /// The branch that begins at the first-order answer could not be followed.
-    Ends {
-        /// Number of harmonics.
-        harmonics: usize,
-        /// Part of damping and friction up to which it was followed.
-        strength: f64,
-    },
-}
-
-impl fmt::Display for Lost {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Lost::Interrupted => write!(out, "interrupted"),
-            Lost::OutOfRange => write!(out, "left the range of floating-point numbers"),
-            Lost::Ends { harmonics, strength } => write!(
-                out,
-                "no cycle of {harmonics} harmonics: the first-order answer was lost at {:.0} % of the damping and friction",
-                100.0 * strength
-            ),
-        }
-    }
-}
-
-impl std::error::Error for Lost {}
-
 /// A change of the unknowns below which Newton's next step is below rounding.
 const SETTLED: f64 = 1e-12;
 
@@ -331,23 +296,23 @@ const SETTLED: f64 = 1e-12;
 /// solutions from stable ones.
 ///
 /// # Errors
-/// [`Lost`] says why it found no solution: [`Lost::Ends`] with a strength of 1 where the iteration does not settle.
+/// [`Reason`] says why it found no solution: [`Reason::Harmonics`] with a strength of 1 where the iteration does not settle.
 pub fn solve(
     parameters: &Parameters,
     basis: Basis,
     start: &Ansatz,
     interrupted: &dyn Fn() -> bool,
-) -> Result<(BalanceResidual, bool), Lost> {
+) -> Result<(BalanceResidual, bool), Reason> {
     /// Newton steps before giving up; sharp kinks need 20.
     const ITERATIONS: usize = 60;
     /// Smallest fraction of a step that is tried.
     const SMALLEST_PART: f64 = 1e-3;
-    let unsettled = Lost::Ends { harmonics: basis.count, strength: 1.0 };
+    let unsettled = Reason::Harmonics { count: basis.count, strength: 1.0 };
     let mut residual = BalanceResidual::new(parameters, basis, start);
     let mut part: f64 = 1.0;
     for _ in 0..ITERATIONS {
         if interrupted() {
-            return Err(Lost::Interrupted);
+            return Err(Reason::Interrupted);
         }
         let jacobian = residual.jacobian().lu();
         let step = newton_step(&jacobian, &residual)?.ok_or(unsettled)?;
@@ -380,10 +345,10 @@ pub fn solve(
 fn newton_step(
     jacobian: &LU<f64, Dyn, Dyn>,
     residual: &BalanceResidual,
-) -> Result<Option<DVector<f64>>, Lost> {
+) -> Result<Option<DVector<f64>>, Reason> {
     let values = -residual.values();
     if !values.amax().is_finite() {
-        return Err(Lost::OutOfRange);
+        return Err(Reason::OutOfRange);
     }
     Ok(jacobian.solve(&values).filter(|step| step.iter().all(|change| change.is_finite())))
 }

@@ -24,10 +24,9 @@ use nalgebra::Complex;
 use serde::Serialize;
 
 use self::fourier::{Fourier, sign_changes};
-pub use self::galerkin::Lost;
 use self::galerkin::{Ansatz, BalanceResidual, Basis, solve};
 use super::harmonic::Harmonic;
-use crate::model::{Parameters, State};
+use crate::model::{Parameters, Reason, State};
 use crate::numerics::count::real;
 use crate::numerics::scaling::{exponent, times_power};
 
@@ -72,13 +71,13 @@ pub struct HarmonicCycle {
 /// mirrored oscillator has the mirrored cycle, to the last bit.
 ///
 /// # Errors
-/// [`Lost`] says why there is none.
+/// [`Reason`] says why there is none.
 pub fn harmonic_cycle(
     parameters: &Parameters,
     first: &Harmonic,
     count: usize,
     interrupted: &dyn Fn() -> bool,
-) -> Result<HarmonicCycle, Lost> {
+) -> Result<HarmonicCycle, Reason> {
     // Where N is too small for the cycle, rounding decides between branches: only one of the mirror images is computed.
     let mirrored = parameters.d2 < 0.0;
     let (parameters, first) = if mirrored {
@@ -120,7 +119,7 @@ impl<'a> Followed<'a> {
         Followed { parameters: scaled, first: first_order, stable: first.stable, unit, interrupted }
     }
 
-    fn cycle(&self, count: usize) -> Result<HarmonicCycle, Lost> {
+    fn cycle(&self, count: usize) -> Result<HarmonicCycle, Reason> {
         if count == 1 {
             let basis = Basis::new(&self.parameters, count);
             return self
@@ -128,13 +127,13 @@ impl<'a> Followed<'a> {
         }
         let mut solution = match self.strengthened(count.min(COARSE)) {
             // The folds of few and of many harmonics differ a little.
-            Err(Lost::Ends { .. }) if count > COARSE => self.strengthened(count)?,
+            Err(Reason::Harmonics { .. }) if count > COARSE => self.strengthened(count)?,
             other => other?,
         };
         while solution.ansatz.q.degree() < count {
             let more = (2 * solution.ansatz.q.degree() + 1).min(count);
             solution = match self.solve(&self.parameters, more, &solution.ansatz) {
-                Err(Lost::Ends { .. }) => self.strengthened(count)?,
+                Err(Reason::Harmonics { .. }) => self.strengthened(count)?,
                 other => other?,
             };
         }
@@ -142,7 +141,7 @@ impl<'a> Followed<'a> {
     }
 
     /// Follows the branch from no damping and friction to all of it, with secants as predictors.
-    fn strengthened(&self, count: usize) -> Result<BalanceResidual, Lost> {
+    fn strengthened(&self, count: usize) -> Result<BalanceResidual, Reason> {
         /// Smallest step.
         const SMALLEST: f64 = 1.0 / 256.0;
         let Parameters { d, d2, d3, r } = self.parameters;
@@ -163,9 +162,9 @@ impl<'a> Followed<'a> {
                     before = (was.0 > 0.0).then_some(was);
                     step *= 2.0;
                 }
-                Err(Lost::Ends { .. }) if step > SMALLEST => step *= 0.5,
-                Err(Lost::Ends { harmonics, .. }) => {
-                    return Err(Lost::Ends { harmonics, strength: here.0 });
+                Err(Reason::Harmonics { .. }) if step > SMALLEST => step *= 0.5,
+                Err(Reason::Harmonics { count, .. }) => {
+                    return Err(Reason::Harmonics { count, strength: here.0 });
                 }
                 Err(lost) => return Err(lost),
             }
@@ -185,20 +184,20 @@ impl<'a> Followed<'a> {
         parameters: &Parameters,
         count: usize,
         start: &Ansatz,
-    ) -> Result<BalanceResidual, Lost> {
+    ) -> Result<BalanceResidual, Reason> {
         /// Part of the first-order amplitude below which a solution is the steady state.
         const VANISHED: f64 = 1e-6;
         let basis = Basis::new(parameters, count);
         let (solution, unstable) = solve(parameters, basis, start, self.interrupted)?;
         let Ansatz { frequency, q } = &solution.ansatz;
         if unstable == self.stable || q.cosine(1) < VANISHED || *frequency <= 0.0 {
-            return Err(Lost::Ends { harmonics: count, strength: 1.0 });
+            return Err(Reason::Harmonics { count, strength: 1.0 });
         }
         Ok(solution)
     }
 
     /// Reads everything out, in the units of the question.
-    fn describe(&self, count: usize, residual: &BalanceResidual) -> Result<HarmonicCycle, Lost> {
+    fn describe(&self, count: usize, residual: &BalanceResidual) -> Result<HarmonicCycle, Reason> {
         let sized = |value| times_power(value, self.unit);
         let Ansatz { frequency, q } = &residual.ansatz;
         let (frequency, (q_min, q_max)) = (*frequency, extremes(q));
@@ -220,7 +219,7 @@ impl<'a> Followed<'a> {
         let numbers =
             [cycle.q_min, cycle.q_max, cycle.v_min, cycle.v_max, cycle.mean, cycle.period];
         let in_range = numbers.iter().all(|number| number.is_finite());
-        in_range.then_some(cycle).ok_or(Lost::OutOfRange)
+        in_range.then_some(cycle).ok_or(Reason::OutOfRange)
     }
 }
 
@@ -292,7 +291,7 @@ mod tests {
     }
 
     /// The cycles that begin at each first-order answer.
-    fn all(parameters: &Parameters, count: usize) -> Vec<Result<HarmonicCycle, Lost>> {
+    fn all(parameters: &Parameters, count: usize) -> Vec<Result<HarmonicCycle, Reason>> {
         let from = |first: &Harmonic| harmonic_cycle(parameters, first, count, &|| false);
         amplitudes(parameters).iter().map(from).collect()
     }
@@ -364,7 +363,7 @@ mod tests {
         let beyond = all(&oscillator(0.5 * (first.d - 0.17278), 0.2, 0.5, 0.1), 9);
         assert_eq!(beyond.len(), 2);
         for lost in beyond {
-            let Err(Lost::Ends { harmonics: 9, strength }) = lost else { panic!("{lost:?}") };
+            let Err(Reason::Harmonics { count: 9, strength }) = lost else { panic!("{lost:?}") };
             assert!(strength > 0.5 && strength < 1.0, "{strength}");
         }
         let [Ok(inner), Ok(outer)] = &all(&oscillator(-0.1729, 0.2, 0.5, 0.1), 9)[..] else {

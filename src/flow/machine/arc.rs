@@ -5,63 +5,14 @@
 //! exactly once. So the values at the ends of a step and at that maximum decide whether a line was reached,
 //! however shallow the contact; nothing is sampled.
 
-use std::fmt;
-
 use super::series::PhaseSeries;
-use crate::flow::Fate;
+
 use crate::model::force::ForceBranch;
 use crate::model::model::FINEST;
-use crate::model::{Model, Phase};
+use crate::model::{Model, Phase, Reason};
 use crate::numerics::elementary::ln;
 use crate::numerics::polynomial::{derivative, value, value_and_slope};
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
-
-/// Why a motion was not followed to the end of its phase.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LostMotion {
-    /// The slip left the velocities for which the friction law is known and positive.
-    OutsideLaw {
-        /// The slip, in m/s.
-        slip: f64,
-    },
-    /// It ran away.
-    Escaped,
-    /// It came to rest at the balance of its phase without another turn.
-    Settled,
-    /// It took too many steps.
-    Steps,
-}
-
-impl fmt::Display for LostMotion {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            LostMotion::OutsideLaw { slip } => write!(
-                out,
-                "motions of this machine slip by more than {slip:.6} m/s, where the friction law ends or its \
-                 coefficient falls below 0; it must be known and not negative there"
-            ),
-            LostMotion::Escaped => write!(out, "the motion grows without bound"),
-            LostMotion::Settled => write!(out, "the motion turns no more"),
-            LostMotion::Steps => write!(
-                out,
-                "the motion takes more than {STEPS} steps to turn: at the velocities that it reaches its damping is \
-                 many times the critical one; less damping, or a smaller start, can be followed"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for LostMotion {}
-
-impl From<LostMotion> for Fate<LostMotion> {
-    fn from(stop: LostMotion) -> Self {
-        match stop {
-            LostMotion::Settled => Fate::Rest,
-            LostMotion::Escaped => Fate::Escapes,
-            LostMotion::OutsideLaw { .. } | LostMotion::Steps => Fate::Unknown(stop),
-        }
-    }
-}
 
 /// One step of a motion, as its series.
 pub struct SeriesStep<'a> {
@@ -168,14 +119,14 @@ impl<'a> Flow<'a> {
     /// Follows a motion from `(x, y)` to the end of its phase, forward in time or backward.
     ///
     /// # Errors
-    /// [`LostMotion`] where it does not get there.
+    /// [`Reason`] where it does not get there.
     pub fn arc(
         &mut self,
         phase: Phase,
         (x, y): (f64, f64),
         backward: bool,
         watch: &mut impl Watch,
-    ) -> Result<ArcEnd, LostMotion> {
+    ) -> Result<ArcEnd, Reason> {
         let model = self.model;
         let (side, offset) = (model.side(phase), model.offset(phase));
         let (least, most) = model.range(phase);
@@ -183,7 +134,7 @@ impl<'a> Flow<'a> {
         let (mut x, mut y) = (x + offset, y);
         let started = x.abs().max(y.abs());
         if started < LEAST {
-            return Err(LostMotion::Settled);
+            return Err(Reason::Settles);
         }
         // On the belt's line at the fold the acceleration vanishes exactly.
         let touching = phase == Phase::Between
@@ -205,9 +156,9 @@ impl<'a> Flow<'a> {
             if !(length > 0.0 && length.is_finite()) {
                 // Without terms nothing moves; with terms that overflow it moves beyond all bounds.
                 return Err(if length == f64::INFINITY {
-                    LostMotion::Settled
+                    Reason::Settles
                 } else {
-                    LostMotion::Escaped
+                    Reason::Escapes
                 });
             }
             let (low, high) = (piece.low.max(least), piece.high.min(most));
@@ -234,13 +185,13 @@ impl<'a> Flow<'a> {
             let end = if watch.follows() { NEAR * started } else { f64::INFINITY };
             let turns = size > end || !creeps(phase, side, (x, y), forward);
             if size < SETTLED * started || !turns || watch.left() <= 0.0 {
-                return Err(LostMotion::Settled);
+                return Err(Reason::Settles);
             }
             if size.is_nan() || size > ESCAPED * started {
-                return Err(LostMotion::Escaped);
+                return Err(Reason::Escapes);
             }
         }
-        Err(LostMotion::Steps)
+        Err(Reason::Steps)
     }
 
     /// Whether the velocity rises, along the direction of integration.
@@ -250,8 +201,8 @@ impl<'a> Flow<'a> {
         if rate == 0.0 { phase == Phase::Below } else { rate > 0.0 }
     }
 
-    fn outside(&self, y: f64) -> LostMotion {
-        LostMotion::OutsideLaw { slip: (self.model.speed - y).abs() * self.model.omega_0 }
+    fn outside(&self, y: f64) -> Reason {
+        Reason::BeyondLaw { slip: (self.model.speed - y).abs() * self.model.omega_0 }
     }
 }
 

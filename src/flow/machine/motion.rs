@@ -2,14 +2,14 @@
 
 use serde::Serialize;
 
-use super::arc::{Flow, LostMotion, SeriesStep, Watch};
+use super::arc::{Flow, SeriesStep, Watch};
 use super::ledger::{MachineLedger, StepWorks};
 use super::series::ORDER;
 use super::stepped;
 use super::stepped::{PhaseField, PhaseStepper};
 use super::turn::ContactState;
 use crate::flow::{Cost, Detail, Fate, Method};
-use crate::model::{Model, Phase};
+use crate::model::{Model, Phase, Reason};
 use crate::numerics::polynomial::value;
 
 /// A stretch of a motion in one phase, on the belt, or at rest.
@@ -57,7 +57,7 @@ pub struct MachineMotion {
     /// Where it ends, or how far it was followed.
     pub end: MachineState,
     /// How it ends.
-    pub outcome: Fate<LostMotion>,
+    pub outcome: Fate,
     /// Smallest and largest displacement, in m.
     pub x: (f64, f64),
     /// Smallest and largest velocity, in m/s.
@@ -221,7 +221,7 @@ impl MachineMotion {
                 break Fate::Moving;
             }
             if recorder.steps > most {
-                break Fate::Unknown(LostMotion::Steps);
+                break Fate::Unknown(Reason::Steps);
             }
             legs.push(Leg { place, t: (whole - recorder.left) / omega_0, x });
             match flow.leg(stepper.as_mut(), place, (x, y), &mut recorder) {
@@ -250,11 +250,11 @@ impl MachineMotion {
         }
     }
 
-    /// Where it ends. Fails with [`LostMotion`] where it leaves the law, escapes, or needs too many steps.
-    pub fn known_end(&self) -> Result<MachineState, LostMotion> {
+    /// Where it ends. Fails with [`Reason`] where it leaves the law, escapes, or needs too many steps.
+    pub fn known_end(&self) -> Result<MachineState, Reason> {
         match self.outcome {
             Fate::Unknown(stop) => Err(stop),
-            Fate::Escapes => Err(LostMotion::Escaped),
+            Fate::Escapes => Err(Reason::Escapes),
             _ => Ok(self.end),
         }
     }
@@ -282,7 +282,7 @@ impl<'a> Flow<'a> {
         place: ContactState,
         (x, y): (f64, f64),
         watch: &mut impl Watch,
-    ) -> Result<Option<(ContactState, f64, f64)>, LostMotion> {
+    ) -> Result<Option<(ContactState, f64, f64)>, Reason> {
         let phase = match place {
             ContactState::Rests => return Ok(None),
             ContactState::Sticks => {
@@ -306,8 +306,8 @@ impl<'a> Flow<'a> {
     /// Where a motion from `(x, y)` that comes to rest does so, in m.
     ///
     /// # Errors
-    /// [`LostMotion`] where it does not.
-    pub fn rest_of(&mut self, mut x: f64, mut y: f64) -> Result<f64, LostMotion> {
+    /// [`Reason`] where it does not.
+    pub fn rest_of(&mut self, mut x: f64, mut y: f64) -> Result<f64, Reason> {
         /// Turns that a motion may take.
         const TURNS: usize = 200_000;
         if self.model.guide_static == 0.0 {
@@ -318,13 +318,13 @@ impl<'a> Flow<'a> {
             match self.turn(place, (x, y), &mut ()) {
                 Ok(turn) if turn.rests => return Ok(turn.x),
                 Ok(turn) => (x, y) = (turn.x, 0.0),
-                Err(LostMotion::Settled) if place == ContactState::Slips(Phase::Below) => {
+                Err(Reason::Settles) if place == ContactState::Slips(Phase::Below) => {
                     return Ok(self.model.guide);
                 }
-                Err(LostMotion::Settled) => return Ok(-self.model.guide),
+                Err(Reason::Settles) => return Ok(-self.model.guide),
                 Err(stop) => return Err(stop),
             }
         }
-        Err(LostMotion::Steps)
+        Err(Reason::Steps)
     }
 }

@@ -1,11 +1,11 @@
 //! An arc by an explicit Runge-Kutta method in place of Taylor series: a second opinion that shares with the first
 //! the model, what happens at its lines and how they are found, but not the steps.
 
-use super::arc::{ArcEnd, LostMotion, StepInside, Watch, crossing};
+use super::arc::{ArcEnd, StepInside, Watch, crossing};
 use crate::flow::Method;
 use crate::flow::explicit::{Dop853, Dopri5};
 use crate::flow::step::{Field, Step, StepPoint, Stepper};
-use crate::model::{Model, Phase};
+use crate::model::{Model, Phase, Reason};
 use crate::numerics::root::bisect;
 
 /// The methods that can follow a machine.
@@ -91,14 +91,14 @@ impl StepInside for LastStep<'_, '_> {
     }
 }
 
-/// Follows a motion to the end of its phase, or until no time is left. Fails with [`LostMotion`] where it leaves the
+/// Follows a motion to the end of its phase, or until no time is left. Fails with [`Reason`] where it leaves the
 /// law, escapes, or needs too many steps.
 pub(crate) fn stepped<'a>(
     stepper: &mut PhaseStepper<'a>,
     field: PhaseField<'a>,
     (x, y): (f64, f64),
     watch: &mut impl Watch,
-) -> Result<ArcEnd, LostMotion> {
+) -> Result<ArcEnd, Reason> {
     let PhaseField { model, phase } = field;
     let offset = model.offset(phase);
     let (least, most) = model.range(phase);
@@ -112,11 +112,11 @@ pub(crate) fn stepped<'a>(
     stepper.begin(&field);
     for _ in 0..STEPS {
         let longest = LONGEST.min(watch.left());
-        let mut step = stepper.pass(from, longest).map_err(|_| LostMotion::Escaped)?;
+        let mut step = stepper.pass(from, longest).map_err(|_| Reason::Escapes)?;
         let inside = LastStep { stepper, field, from, step, prepared: false };
         let mut reached = None;
         if let Some((time, level)) = crossing(inside, phase, step.duration, (low, outer)).hit {
-            step = stepper.pass(from, time).map_err(|_| LostMotion::Escaped)?;
+            step = stepper.pass(from, time).map_err(|_| Reason::Escapes)?;
             // Where the shorter step was refused, it ends before the line.
             reached = (step.duration >= time).then_some(level);
         }
@@ -130,11 +130,11 @@ pub(crate) fn stepped<'a>(
             return Ok(ArcEnd { x, on_belt: y != 0.0, accelerations });
         }
         if reached.is_some() {
-            return Err(LostMotion::OutsideLaw { slip: (model.speed - y).abs() * model.omega_0 });
+            return Err(Reason::BeyondLaw { slip: (model.speed - y).abs() * model.omega_0 });
         }
         if watch.left() <= 0.0 {
-            return Err(LostMotion::Settled);
+            return Err(Reason::Settles);
         }
     }
-    Err(LostMotion::Steps)
+    Err(Reason::Steps)
 }

@@ -3,8 +3,8 @@
 //! Where the inclusion leaves a choice, the mass is held: by the belt wherever static friction suffices, and
 //! likewise by the guide. An orbit that touches the belt's line tangentially sticks.
 
-use super::arc::{ArcEnd, Flow, LostMotion, Watch};
-use crate::model::{Model, Phase};
+use super::arc::{ArcEnd, Flow, Watch};
+use crate::model::{Model, Phase, Reason};
 
 /// The state of contact at a point of the phase plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,13 +67,13 @@ impl Model {
 
 impl Flow<'_> {
     /// Follows a motion to its next turning point: the left one from `y < 0`, the right one otherwise. Fails with
-    /// [`LostMotion`] if it does not turn.
+    /// [`Reason`] if it does not turn.
     pub fn turn(
         &mut self,
         place: ContactState,
         (mut x, mut y): (f64, f64),
         watch: &mut impl Watch,
-    ) -> Result<Turn, LostMotion> {
+    ) -> Result<Turn, Reason> {
         /// Maximum number of contacts with the belt's line: three, and one more by rounding.
         const CONTACTS: usize = 8;
         let model = self.model;
@@ -103,7 +103,7 @@ impl Flow<'_> {
                 way.overtakes_from = Some(x);
             }
         }
-        Err(LostMotion::Steps)
+        Err(Reason::Steps)
     }
 
     /// The phase that follows an arc, and its start. Only by rounding does a motion arrive where its own side

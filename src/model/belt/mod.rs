@@ -16,7 +16,7 @@ pub mod taylor;
 
 pub use friction::Belt;
 pub use friction::{Derivatives, FrictionLaw};
-pub use reduce::{BeltError, ReducedBelt, Units};
+pub use reduce::{ReducedBelt, Units};
 pub use taylor::TaylorError;
 
 #[cfg(test)]

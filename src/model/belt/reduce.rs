@@ -1,12 +1,11 @@
 //! The dimensionless oscillator that a mass on a belt is.
 
-use std::fmt;
-
 use serde::Serialize;
 
 use super::friction::Belt;
 use super::friction::Derivatives;
-use crate::model::knob::{Knob, OutOfRange};
+use crate::model::Reason;
+use crate::model::knob::Knob;
 use crate::model::parameters::{Parameters, State};
 
 /// The units of the dimensionless oscillator: what 1 of each stands for.
@@ -39,50 +38,6 @@ pub struct ReducedBelt {
     pub sticking_velocity: f64,
 }
 
-/// Why a belt has no dimensionless form.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum BeltError {
-    /// The friction law says nothing at the belt speed.
-    OutsideLaw {
-        /// The belt speed, in m/s.
-        v0: f64,
-        /// The velocities for which the law says something, in m/s.
-        range: (f64, f64),
-    },
-    /// The coefficient of friction at the belt speed is not positive, or has no three derivatives.
-    NoFriction {
-        /// The belt speed, in m/s.
-        v0: f64,
-        /// The coefficient.
-        mu: f64,
-    },
-    /// A dimensionless parameter is beyond its range.
-    OutOfRange(OutOfRange),
-}
-
-impl fmt::Display for BeltError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            BeltError::OutsideLaw { v0, range: (low, high) } => {
-                write!(
-                    out,
-                    "v0 = {v0} m/s is outside the friction law; it reaches from {low} to {high} m/s"
-                )
-            }
-            BeltError::NoFriction { v0, mu } if mu.is_finite() && *mu > 0.0 => {
-                write!(out, "the friction law has no three derivatives at v0 = {v0} m/s")
-            }
-            BeltError::NoFriction { v0, mu } => write!(
-                out,
-                "mu = {mu} at v0 = {v0} m/s; it must be positive: x0 = F mu(v0)/c is the unit of length"
-            ),
-            BeltError::OutOfRange(refused) => refused.fmt(out),
-        }
-    }
-}
-
-impl std::error::Error for BeltError {}
-
 impl Belt {
     /// The dimensionless oscillator, by equations (1) to (7) with their signs, `omega_0` and the scale of
     /// `r` put right:
@@ -94,9 +49,9 @@ impl Belt {
     /// leaves out.
     ///
     /// # Errors
-    /// [`BeltError`] where the law does not reach, where it has no derivatives, where friction does not
+    /// [`Reason`] where the law does not reach, where it has no derivatives, where friction does not
     /// pull, or where a parameter is beyond the range of numbers.
-    pub fn reduce(&self) -> Result<ReducedBelt, BeltError> {
+    pub fn reduce(&self) -> Result<ReducedBelt, Reason> {
         self.reduce_at(self.belt_speed)
     }
 
@@ -104,12 +59,12 @@ impl Belt {
     ///
     /// # Errors
     /// Those of [`Self::reduce`].
-    pub fn reduce_at(&self, v0: f64) -> Result<ReducedBelt, BeltError> {
+    pub fn reduce_at(&self, v0: f64) -> Result<ReducedBelt, Reason> {
         let Belt { mass, stiffness, normal_force, .. } = *self;
         let mu = self.law.at(v0);
-        let mu = mu.ok_or(BeltError::OutsideLaw { v0, range: self.law.range() })?;
+        let mu = mu.ok_or(Reason::OutsideLaw { v0, range: self.law.range() })?;
         if !(mu.is_finite() && mu.value > 0.0) {
-            return Err(BeltError::NoFriction { v0, mu: mu.value });
+            return Err(Reason::NoFriction { v0, mu: mu.value });
         }
         let omega_0 = (stiffness / mass).sqrt();
         let x0 = normal_force * mu.value / stiffness;
@@ -122,7 +77,7 @@ impl Belt {
             r: self.friction / (mass * omega_0 * omega_0 * x0),
         };
         for knob in Knob::PARAMETERS {
-            knob.check(knob.get(&parameters, &State::default())).map_err(BeltError::OutOfRange)?;
+            knob.check(knob.get(&parameters, &State::default())).map_err(Reason::Refused)?;
         }
         let velocity = omega_0 * x0;
         Ok(ReducedBelt {

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::model::unit::Dimension;
-use crate::model::{Group, HalfPlane, Knob, Side};
+use crate::model::{Group, HalfPlane, Knob, Reason, Side};
 use crate::numerics::elementary::{exp, log10, powi};
 use crate::numerics::spline::SmoothingSpline;
 
@@ -179,7 +179,7 @@ fn what_has_no_dimensionless_form_says_why() {
         "{outside}"
     );
     let huge = Belt { cubic_damping: 1e12, normal_force: 1e12, stiffness: 1e-12, ..stribeck() };
-    assert!(matches!(huge.reduce(), Ok(_) | Err(BeltError::OutOfRange(_))));
+    assert!(matches!(huge.reduce(), Ok(_) | Err(Reason::Refused(_))));
 }
 
 /// The same machine in units `kg`, `m`, `s` times as large.

@@ -15,7 +15,7 @@ use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::quadrature::gauss;
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scaling::times_power;
-use crate::portrait::closing::half_map::{HalfMap, HalfSwing, Length, NoEnd, linear_below};
+use crate::portrait::closing::half_map::{HalfMap, HalfSwing, Length, linear_below};
 
 /// Integration tolerance of an arc.
 const TOLERANCE: f64 = 1e-14;
@@ -71,7 +71,7 @@ pub struct Arc {
     /// From where the motion is linear to its end, if it was not followed there.
     rest: Option<ArcStep>,
     /// The swing, or why it has no end.
-    pub swing: Result<HalfSwing, NoEnd>,
+    pub swing: Result<HalfSwing, Reason>,
     pub cost: Cost,
 }
 
@@ -102,7 +102,9 @@ impl Arc {
             let end = times_power(step.at(duration).x, unit);
             pieces.push(ArcStep { step, unit, duration, end });
         });
-        if let Err(NoEnd::Failed(reason)) = swing {
+        if let Err(reason) = swing
+            && !reason.is_an_end()
+        {
             return Err(reason);
         }
         Ok(Arc {
@@ -138,7 +140,7 @@ impl Arc {
         let index = self.pieces.partition_point(|piece| piece.end < target);
         let rest = self.rest.as_ref().filter(|rest| target <= rest.end);
         let Some(piece) = self.pieces.get(index).or(rest) else {
-            let gone = matches!(self.swing, Err(NoEnd::Escapes));
+            let gone = matches!(self.swing, Err(Reason::Escapes));
             return gone.then_some(f64::INFINITY);
         };
         Some(piece.speed_at(target))
@@ -168,8 +170,8 @@ impl Arc {
         }
         match &self.swing {
             Ok(swing) => Some(swing.end),
-            Err(NoEnd::Never) => Some(Length::ZERO),
-            Err(NoEnd::Escapes | NoEnd::Failed(_)) => None,
+            Err(Reason::Settles) => Some(Length::ZERO),
+            Err(_) => None,
         }
     }
 

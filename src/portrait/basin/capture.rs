@@ -8,7 +8,7 @@
 use super::arc::{Arc, Direction};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{HalfPlane, Parameters, Side, State};
-use crate::portrait::closing::half_map::{Length, NoEnd};
+use crate::portrait::closing::half_map::Length;
 
 /// The bands: in each half plane the borders between one arrival more and one less, innermost first.
 #[derive(Clone, Debug)]
@@ -62,7 +62,7 @@ pub fn bands(
             let arc = Arc::new(parameters, side, Direction::Backward, clearance, limits)?;
             bands.cost += arc.cost;
             let before = starts[index].map_or(0.0, |start| start.value);
-            from_infinity[index] = arc.swing == Err(NoEnd::Escapes);
+            from_infinity[index] = arc.swing == Err(Reason::Escapes);
             next[index] = arc.swing.ok().map(|swing| swing.end).filter(|start| {
                 start.value < reach && start.value - before > RESOLVED * start.value
             });

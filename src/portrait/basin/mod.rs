@@ -89,7 +89,7 @@ impl Counts {
     }
 
     /// Counts starts with one fate.
-    pub fn add<Why: Copy>(&mut self, fate: Fate<Why>, starts: u64) {
+    pub fn add(&mut self, fate: Fate, starts: u64) {
         match fate {
             Fate::Rest => self.captured += starts,
             Fate::Cycle(_) => self.cycle += starts,

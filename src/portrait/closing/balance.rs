@@ -10,7 +10,7 @@
 //! `integral of x exp(2 D2 x) over [c1, c1 + 2 r] + integral of x exp(-2 D2 x) over [c0, c0 + 2 r] = W`
 
 use super::equation::{Equation, Route};
-use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
+use super::half_map::{HalfMap, HalfSwing, Length};
 use super::pair::Closing;
 use super::roundoff::UNIT;
 use crate::flow::step::Stepper;
@@ -87,8 +87,8 @@ fn weigh(
     map.set_linear_below(skipped);
     match swing {
         Ok(swing) => Ok(Some((swing, gained))),
-        Err(NoEnd::Failed(reason)) => Err(reason),
-        Err(NoEnd::Escapes | NoEnd::Never) => Ok(None),
+        Err(Reason::Escapes | Reason::Settles) => Ok(None),
+        Err(reason) => Err(reason),
     }
 }
 

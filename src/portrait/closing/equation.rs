@@ -12,7 +12,7 @@
 //! The first swing is the one in whose frame `D2 >= 0`, so that with `D3 = 0` neither it nor the
 //! second swing run backward can escape.
 
-use super::half_map::{HalfMap, HalfSwing, Length, NoEnd};
+use super::half_map::{HalfMap, HalfSwing, Length};
 use super::pair::{Closing, Spread, rounding, share};
 use super::roundoff::Errors;
 use super::search::Node;
@@ -174,9 +174,9 @@ impl Equation {
         let end = Length::new(2.0 * self.parameters.r);
         match self.backward[0].swing(end, limits) {
             Ok(swing) => Ok(Some(swing.end)),
-            Err(NoEnd::Never) => Ok(Some(Length { value: 0.0, log: f64::NEG_INFINITY })),
-            Err(NoEnd::Escapes) => Ok(None),
-            Err(NoEnd::Failed(reason)) => Err(reason),
+            Err(Reason::Settles) => Ok(Some(Length { value: 0.0, log: f64::NEG_INFINITY })),
+            Err(Reason::Escapes) => Ok(None),
+            Err(reason) => Err(reason),
         }
     }
 
@@ -204,18 +204,20 @@ impl Equation {
         // The second swing first: with D3 > 0 it is the one that escapes, and quickly, where the first
         // one would be stiff.
         let second = match self.backward[1].swing(start.plus(gap), limits) {
-            Err(NoEnd::Escapes) => {
+            Err(Reason::Escapes) => {
                 return Ok(Closing::beyond(start, self.reach(start, limits)?, f64::INFINITY));
             }
-            Err(NoEnd::Never) => HalfSwing::collapsed(start.plus(gap)),
-            Err(NoEnd::Failed(reason)) => return Err(reason),
+            Err(Reason::Settles) => HalfSwing::collapsed(start.plus(gap)),
+            Err(reason) => return Err(reason),
             Ok(swing) => swing,
         };
         let target = second.end.plus(gap);
         let first = match self.forward[0].swing(start, limits) {
-            Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, target.log)),
-            Err(NoEnd::Never) => return Ok(Closing::beyond(start, f64::NEG_INFINITY, target.log)),
-            Err(NoEnd::Failed(reason)) => return Err(reason),
+            Err(Reason::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, target.log)),
+            Err(Reason::Settles) => {
+                return Ok(Closing::beyond(start, f64::NEG_INFINITY, target.log));
+            }
+            Err(reason) => return Err(reason),
             Ok(swing) => swing,
         };
         Ok(self.pair(start, first, second))
@@ -255,7 +257,7 @@ impl Equation {
         let evaluations = limits.evaluations.min(map.cost().evaluations + map.swings + LITTLE);
         match map.swing(start, &Limits { evaluations, interrupted: limits.interrupted }) {
             Ok(swing) => Ok(swing.end.log),
-            Err(NoEnd::Failed(Reason::Interrupted)) => Err(Reason::Interrupted),
+            Err(Reason::Interrupted) => Err(Reason::Interrupted),
             Err(_) => Ok(f64::MAX),
         }
     }
@@ -266,11 +268,11 @@ impl Equation {
         let mut seconds = start;
         for (index, map) in self.forward.iter_mut().enumerate() {
             let swing = match map.swing(clearance, limits) {
-                Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, f64::MAX)),
-                Err(NoEnd::Never) => {
+                Err(Reason::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, f64::MAX)),
+                Err(Reason::Settles) => {
                     return Ok(Closing::beyond(start, f64::NEG_INFINITY, f64::MIN));
                 }
-                Err(NoEnd::Failed(reason)) => return Err(reason),
+                Err(reason) => return Err(reason),
                 Ok(swing) => swing,
             };
             let passed = swing.end.value - gap;
@@ -309,9 +311,9 @@ impl Equation {
         for index in [1, 0] {
             shrink *= share(length, gap);
             let swing = match self.backward[index].swing(length.plus(gap), limits) {
-                Err(NoEnd::Escapes) => return Ok(Closing::beyond(start, f64::MAX, f64::INFINITY)),
-                Err(NoEnd::Never) => HalfSwing::collapsed(length.plus(gap)),
-                Err(NoEnd::Failed(reason)) => return Err(reason),
+                Err(Reason::Escapes) => return Ok(Closing::beyond(start, f64::MAX, f64::INFINITY)),
+                Err(Reason::Settles) => HalfSwing::collapsed(length.plus(gap)),
+                Err(reason) => return Err(reason),
                 Ok(swing) => swing,
             };
             shrink *= exp(swing.log_elasticity);
@@ -368,9 +370,9 @@ impl Equation {
         for map in &mut self.forward {
             match map.swing(rim, limits) {
                 Ok(swing) => bound = ln(swing.end.value - 2.0 * r),
-                Err(NoEnd::Escapes) => return Ok(None),
-                Err(NoEnd::Never) => bound = f64::NEG_INFINITY,
-                Err(NoEnd::Failed(reason)) => return Err(reason),
+                Err(Reason::Escapes) => return Ok(None),
+                Err(Reason::Settles) => bound = f64::NEG_INFINITY,
+                Err(reason) => return Err(reason),
             }
         }
         Ok(Some(if bound.is_nan() { f64::NEG_INFINITY } else { bound }))
@@ -389,9 +391,9 @@ impl Equation {
             for map in [index, 1 - index] {
                 let end = match self.forward[map].swing(start, limits) {
                     Ok(swing) => swing.end.value,
-                    Err(NoEnd::Never) => 0.0,
-                    Err(NoEnd::Escapes) => f64::INFINITY,
-                    Err(NoEnd::Failed(reason)) => return Err(reason),
+                    Err(Reason::Settles) => 0.0,
+                    Err(Reason::Escapes) => f64::INFINITY,
+                    Err(reason) => return Err(reason),
                 };
                 excess = excess.min(ln(end / gap));
                 if map == index {
@@ -453,9 +455,9 @@ mod tests {
         let field = HalfPlane { d: 0.2, d2: 0.2, d3: -0.5 };
         let mut map = HalfMap::new(field, 1e-16);
         let start = Length::new(10.0);
-        assert_eq!(map.swing(start, &Limits::PATIENT), Err(NoEnd::Escapes));
+        assert_eq!(map.swing(start, &Limits::PATIENT), Err(Reason::Escapes));
         let short = map.cost().evaluations;
-        assert_eq!(map.swing_watched(start, &Limits::PATIENT, |_, _, _| {}), Err(NoEnd::Escapes));
+        assert_eq!(map.swing_watched(start, &Limits::PATIENT, |_, _, _| {}), Err(Reason::Escapes));
         assert!(3 * short < map.cost().evaluations, "{short} {:?}", map.cost());
     }
 }

@@ -92,17 +92,6 @@ pub struct HalfSwing {
     pub errors: [Errors; 2],
 }
 
-/// Why a half swing has no end.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NoEnd {
-    /// The velocity runs to infinity.
-    Escapes,
-    /// The motion creeps towards the centre of its spiral and never arrives at `v = 0`.
-    Never,
-    /// The computation failed.
-    Failed(Reason),
-}
-
 /// The half-swing map of one field.
 #[derive(Clone, Debug)]
 pub struct HalfMap {
@@ -153,13 +142,13 @@ impl HalfMap {
     }
 
     /// Swings from `(-start, 0)`, handing each step to `watch` as (stepper, unit exponent, duration). Fails with
-    /// [`NoEnd`] if the motion does not come back to `v = 0`.
+    /// [`Reason`] if the motion does not come back to `v = 0`.
     pub fn swing_watched(
         &mut self,
         start: Length,
         limits: &Limits,
         watch: impl FnMut(&mut Auto, i32, f64),
-    ) -> Result<HalfSwing, NoEnd> {
+    ) -> Result<HalfSwing, Reason> {
         self.run(start, true, limits, watch)
     }
 
@@ -170,15 +159,15 @@ impl HalfMap {
         tail: bool,
         limits: &Limits,
         mut watch: impl FnMut(&mut Auto, i32, f64),
-    ) -> Result<HalfSwing, NoEnd> {
+    ) -> Result<HalfSwing, Reason> {
         self.swings += 1;
         // A swing in closed form takes no steps, but thousands of them take time.
         if (limits.interrupted)() {
-            return Err(NoEnd::Failed(Reason::Interrupted));
+            return Err(Reason::Interrupted);
         }
         let spent = self.stepper.cost().evaluations + self.swings;
         if spent > limits.evaluations {
-            return Err(NoEnd::Failed(Reason::Budget { evaluations: spent }));
+            return Err(Reason::Budget { evaluations: spent });
         }
         let mut leg = SwingLeg { point: StepPoint { x: -start.value, v: 0.0 }, duration: 0.0 };
         if self.linear_below > 0.0 && self.field.d < 1.0 {
@@ -227,26 +216,26 @@ impl HalfMap {
         let duration = leg.duration + done.duration;
         let (end, rest) = match done.end {
             SwingEnd::Crossing { x } => (Length::new(x), 0.0),
-            SwingEnd::Failed(reason) => return Err(NoEnd::Failed(reason)),
-            SwingEnd::Escape => return Err(NoEnd::Escapes),
-            SwingEnd::Stopped { .. } if escapes => return Err(NoEnd::Escapes),
+            SwingEnd::Failed(reason) => return Err(reason),
+            SwingEnd::Escape => return Err(Reason::Escapes),
+            SwingEnd::Stopped { .. } if escapes => return Err(Reason::Escapes),
             SwingEnd::Stopped { point } if point.size() < small => {
                 if self.field.d < 1.0 {
                     Spiral::of(self.field.d).arrive(point)
                 } else {
                     let end = Linear::new(self.field.d).first_standstill(point.x, point.v);
-                    end.map(|end| (Length::new(end.x), end.time)).ok_or(NoEnd::Never)?
+                    end.map(|end| (Length::new(end.x), end.time)).ok_or(Reason::Settles)?
                 }
             }
-            SwingEnd::Stopped { .. } => return Err(NoEnd::Never),
+            SwingEnd::Stopped { .. } => return Err(Reason::Settles),
         };
         let errors = roundoff.map(|roundoff| roundoff.done(&self.field, end.log, rest));
         let errors = errors.unwrap_or_default();
         Ok(self.finish(start, end, duration + rest, square, fastest, errors))
     }
 
-    /// Swings from `(-start, 0)`. Fails with [`NoEnd`] if the motion does not come back to `v = 0`.
-    pub fn swing(&mut self, start: Length, limits: &Limits) -> Result<HalfSwing, NoEnd> {
+    /// Swings from `(-start, 0)`. Fails with [`Reason`] if the motion does not come back to `v = 0`.
+    pub fn swing(&mut self, start: Length, limits: &Limits) -> Result<HalfSwing, Reason> {
         self.run(start, false, limits, |_, _, _| {})
     }
 

@@ -7,7 +7,7 @@
 //!
 //! With D2 = D3 = 0 every half swing is the closed form (29), and nothing is integrated.
 
-use super::half_map::{HalfMap, Length, NoEnd};
+use super::half_map::{HalfMap, Length};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{HalfPlane, Parameters, Side};
 
@@ -152,8 +152,8 @@ impl Turns {
 fn end(map: &mut HalfMap, start: Length, limits: &Limits) -> Result<Option<Length>, Reason> {
     match map.swing(start, limits) {
         Ok(swing) => Ok(Some(swing.end)),
-        Err(NoEnd::Escapes | NoEnd::Never) => Ok(None),
-        Err(NoEnd::Failed(reason)) => Err(reason),
+        Err(Reason::Escapes | Reason::Settles) => Ok(None),
+        Err(reason) => Err(reason),
     }
 }
 

@@ -11,10 +11,11 @@
 
 use std::fmt;
 
+use crate::flow::Reason;
 use crate::model::source::{MONOTONE, set};
 use crate::model::{Belt, Knob, Model, Phase, Tolerances};
 use crate::numerics::root::try_bisect;
-use crate::portrait::survey::{Trouble, portrait};
+use crate::portrait::survey::portrait;
 use crate::portrait::{Margin, Portrait};
 
 /// Why no kick is survived for certain.
@@ -62,12 +63,12 @@ impl fmt::Display for MachineUncertain {
     }
 }
 
-/// The kicks that a machine survives for certain, or why none is. Fails with [`Trouble`] where a machine within the
+/// The kicks that a machine survives for certain, or why none is. Fails with [`Reason`] where a machine within the
 /// tolerances has no model, or one that bounds them has no portrait.
 pub fn guaranteed(
     belt: &Belt,
     known: &Tolerances,
-) -> Result<Result<Margin, MachineUncertain>, Trouble> {
+) -> Result<Result<Margin, MachineUncertain>, Reason> {
     Ok(worst(belt, known)?.map(|(corners, portrait)| kicks(&corners, &portrait)))
 }
 
@@ -75,7 +76,7 @@ pub fn guaranteed(
 pub fn worst(
     belt: &Belt,
     known: &Tolerances,
-) -> Result<Result<(Corners, Portrait), MachineUncertain>, Trouble> {
+) -> Result<Result<(Corners, Portrait), MachineUncertain>, Reason> {
     let corners = match Corners::new(belt, known)? {
         Ok(corners) => corners,
         Err(TooMany) => return Ok(Err(MachineUncertain::TooMany)),
@@ -95,7 +96,7 @@ pub fn worst(
 
 /// The machine outside of whose basin nothing comes to rest: with the largest friction and damping. `None` where
 /// other numbers are uncertain.
-pub fn best(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Trouble> {
+pub fn best(belt: &Belt, known: &Tolerances) -> Result<Option<Portrait>, Reason> {
     known.best(belt).map(|best| portrait(&best)).transpose()
 }
 
@@ -121,7 +122,7 @@ fn slip_border(portrait: &Portrait) -> Option<(f64, f64)> {
 
 impl Corners {
     /// A machine whose border bounds all others at its own velocities.
-    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, MachineUncertain>, Trouble> {
+    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, MachineUncertain>, Reason> {
         /// Ranges of velocities that are tried, each larger than the border of the one before.
         const ROUNDS: usize = 8;
         const ROOM: f64 = 1.2;
@@ -150,10 +151,10 @@ impl Corners {
 
     /// The portrait of a worst machine whose border stays below the line of every belt, with as much friction
     /// as that allows, and the velocities along the border.
-    fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<SlipBorder>, Trouble> {
+    fn below_the_line(&self, corner: usize, less: f64) -> Result<Option<SlipBorder>, Reason> {
         const HALVINGS: u32 = 24;
         let slowest = self.slowest();
-        let at = |less: f64| -> Result<Option<SlipBorder>, Trouble> {
+        let at = |less: f64| -> Result<Option<SlipBorder>, Reason> {
             let portrait = portrait(&self.worst(corner, less))?;
             let border = slip_border(&portrait).filter(|(_, high)| *high < slowest);
             Ok(border.map(|velocities| SlipBorder { portrait, velocities }))
@@ -166,7 +167,7 @@ impl Corners {
             let found = at(less)?;
             let holds = found.is_some();
             best = found.or_else(|| best.take());
-            Ok::<_, Trouble>(holds)
+            Ok::<_, Reason>(holds)
         })?;
         Ok(best)
     }
@@ -207,8 +208,8 @@ impl Corners {
     /// The corners of a machine's tolerances, unless there are [`TooMany`].
     ///
     /// # Errors
-    /// [`Trouble`] where one of them has no model.
-    pub fn new(belt: &Belt, known: &Tolerances) -> Result<Result<Self, TooMany>, Trouble> {
+    /// [`Reason`] where one of them has no model.
+    pub fn new(belt: &Belt, known: &Tolerances) -> Result<Result<Self, TooMany>, Reason> {
         let mut worst = belt.clone();
         let (monotone, others): (Vec<_>, Vec<_>) =
             known.intervals(belt).into_iter().partition(|(varied, _)| MONOTONE.contains(varied));

@@ -6,7 +6,7 @@ use super::zeros::{GrowthSample, NOTHING, zeros};
 use crate::flow::machine::arc::{SeriesStep, Watch};
 use crate::flow::machine::ledger::StepWorks;
 use crate::flow::machine::turn::ContactState;
-use crate::flow::{Flow, LostMotion, MachineLedger};
+use crate::flow::{Flow, MachineLedger, Reason};
 use crate::model::{Model, Phase};
 use crate::numerics::elementary::{exp, ln, pow};
 use crate::numerics::root::bisect;
@@ -52,7 +52,7 @@ pub struct FixedPoints {
     /// The point up to which they were sought, and what ended the search.
     pub end: f64,
     /// See [`Self::end`].
-    pub stop: Option<LostMotion>,
+    pub stop: Option<Reason>,
     /// Intervals in which the search did not settle.
     pub unresolved: Vec<(f64, f64)>,
     /// Right turning point up to which the guide catches the mass within one return, if motions from beyond it
@@ -68,7 +68,7 @@ const FAR: f64 = 1e3;
 
 impl Flow<'_> {
     /// `ln(image/x)` of the return map over `u = ln(x/unit)`.
-    pub(crate) fn growth(&mut self, u: f64, unit: f64) -> Result<GrowthSample, LostMotion> {
+    pub(crate) fn growth(&mut self, u: f64, unit: f64) -> Result<GrowthSample, Reason> {
         let x = unit * exp(u);
         let lost = |f| Ok(GrowthSample { u, f, slope: 0.0 });
         match self.returned(x) {
@@ -77,7 +77,7 @@ impl Flow<'_> {
                 Ok(GrowthSample { u, f: ln(image.x / x), slope })
             }
             Ok(MachineReturn::Rests(_)) => lost(-FAR),
-            Err(LostMotion::Escaped) => lost(FAR),
+            Err(Reason::Escapes) => lost(FAR),
             Err(stop) => Err(stop),
         }
     }
@@ -85,15 +85,15 @@ impl Flow<'_> {
     /// All fixed points of the return map.
     ///
     /// # Errors
-    /// [`LostMotion`] if even the motions next to rest cannot be followed.
-    pub fn fixed_points(&mut self, marks: Option<&Landmarks>) -> Result<FixedPoints, LostMotion> {
+    /// [`Reason`] if even the motions next to rest cannot be followed.
+    pub fn fixed_points(&mut self, marks: Option<&Landmarks>) -> Result<FixedPoints, Reason> {
         let mut found = FixedPoints::default();
         let touch = marks.and_then(|marks| marks.grazing.right);
         let scale = self.scale(marks);
         let at = |x: f64| ln(x / scale);
         let caught = match self.smallest(scale) {
             // Every motion comes to rest at once, or leaves the law.
-            Err(stop @ LostMotion::OutsideLaw { .. }) => {
+            Err(stop @ Reason::BeyondLaw { .. }) => {
                 let held = GrowthSample { u: at(self.model.guide_static), f: -FAR, slope: 0.0 };
                 found.stop = Some(stop);
                 found.end = scale * exp(self.edge(held, at(scale), scale).u);
@@ -147,7 +147,7 @@ impl Flow<'_> {
                     found.points.push((released, image));
                 }
                 // What escapes is known.
-                Some((_, Err(stop))) if stop != LostMotion::Escaped => found.stop = Some(stop),
+                Some((_, Err(stop))) if stop != Reason::Escapes => found.stop = Some(stop),
                 _ => {}
             }
             if let Some(beyond) = marks.beyond {
@@ -192,7 +192,7 @@ impl Flow<'_> {
 
     /// The right turning point below which every motion comes to rest; without friction of the guide, a point
     /// below which the map is linear.
-    fn smallest(&mut self, scale: f64) -> Result<f64, LostMotion> {
+    fn smallest(&mut self, scale: f64) -> Result<f64, Reason> {
         /// Growth below this is about to be lost in rounding.
         const WEAK: f64 = 1e-9;
         let held = self.model.guide_static;
@@ -221,7 +221,7 @@ impl Flow<'_> {
         last: GrowthSample,
         scale: f64,
         found: &mut FixedPoints,
-    ) -> Result<Vec<f64>, LostMotion> {
+    ) -> Result<Vec<f64>, Reason> {
         let zeros = zeros((first, last), &mut |u| self.growth(u, scale))?;
         let turn = |u: f64| scale * exp(u);
         found.unresolved.extend(zeros.unresolved.iter().map(|(from, to)| (turn(*from), turn(*to))));
@@ -230,7 +230,7 @@ impl Flow<'_> {
 
     /// The innermost cycle, if it repels so strongly that a few turns backward lead to it from rest and the map
     /// itself cannot resolve it.
-    fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, LostMotion> {
+    fn innermost(&mut self, smallest: f64) -> Result<Option<(f64, Image)>, Reason> {
         /// Maximum number of turns.
         const TURNS: usize = 8;
         /// To rounding, a cycle that repels beyond all digits turns where the guide lets go.
@@ -259,7 +259,7 @@ impl Flow<'_> {
     }
 
     /// The fixed point near `x` with its image; if it repels strongly, by the inverse map.
-    fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, LostMotion> {
+    fn sharpened(&mut self, x: f64) -> Result<Option<(f64, Image)>, Reason> {
         let MachineReturn::Turns(image) = self.returned(x)? else { return Ok(None) };
         let slips = image.sticks_from.is_none() && image.overtakes_from.is_none();
         if !slips || image.log_slope < STRONG {
@@ -276,7 +276,7 @@ impl Flow<'_> {
         from: f64,
         scale: f64,
         found: &mut FixedPoints,
-    ) -> Result<GrowthSample, LostMotion> {
+    ) -> Result<GrowthSample, Reason> {
         /// Factor by which it lies beyond.
         const DOUBLINGS: u32 = 10;
         /// Doublings after which the shrinking of motions counts.
@@ -293,7 +293,7 @@ impl Flow<'_> {
                 Err(stop) => {
                     found.stop = Some(stop);
                     // Where motions take too many steps, finding the first of them costs too much.
-                    let dear = stop == LostMotion::Steps;
+                    let dear = stop == Reason::Steps;
                     return Ok(if dear { last } else { self.edge(last, at(x), scale) });
                 }
             }
@@ -319,7 +319,7 @@ impl Flow<'_> {
         first: GrowthSample,
         last: GrowthSample,
         unit: f64,
-    ) -> Result<bool, LostMotion> {
+    ) -> Result<bool, Reason> {
         let middle = self.growth(0.5 * (first.u + last.u), unit)?;
         let other = self.growth(0.3 * first.u + 0.7 * last.u, unit)?;
         Ok([first, middle, other, last].iter().all(|sample| sample.f.abs() < NOTHING))
@@ -328,8 +328,8 @@ impl Flow<'_> {
     /// The description of the cycle through a right turning point.
     ///
     /// # Errors
-    /// [`LostMotion`] if rounding carries the motion away.
-    pub fn describe(&mut self, x: f64, image: &Image, stable: bool) -> Result<Cycle, LostMotion> {
+    /// [`Reason`] if rounding carries the motion away.
+    pub fn describe(&mut self, x: f64, image: &Image, stable: bool) -> Result<Cycle, Reason> {
         let Model { omega_0, guide, .. } = *self.model;
         let sticks = image.sticks_from.is_some();
         let overtakes = image.overtakes_from.is_some();
@@ -359,13 +359,13 @@ impl Flow<'_> {
     /// Follows a motion once around from a right turning point; backward in time if that attracts.
     ///
     /// # Errors
-    /// [`LostMotion`] if rounding carries the motion away.
+    /// [`Reason`] if rounding carries the motion away.
     pub fn around(
         &mut self,
         x: f64,
         backward: bool,
         watch: &mut impl Watch,
-    ) -> Result<f64, LostMotion> {
+    ) -> Result<f64, Reason> {
         if backward {
             let left = self.arc(Phase::Between, (x, 0.0), true, watch)?.x;
             self.arc(Phase::Below, (left, 0.0), true, watch)?;
@@ -379,8 +379,8 @@ impl Flow<'_> {
     /// The ledger of one turn of a cycle.
     ///
     /// # Errors
-    /// [`LostMotion`], where rounding carries the motion off.
-    pub fn works_around(&mut self, cycle: &Cycle) -> Result<MachineLedger, LostMotion> {
+    /// [`Reason`], where rounding carries the motion off.
+    pub fn works_around(&mut self, cycle: &Cycle) -> Result<MachineLedger, Reason> {
         let mut works = StepWorks::default();
         let start = (cycle.q_max, 0.0);
         self.around(cycle.q_max, cycle.is_followed_backward(), &mut works)?;

@@ -1,7 +1,7 @@
 //! The gaps between the right turning points at which the return map changes, and the fate of the motions in
 //! each gap.
 
-use crate::flow::{Fate, Flow, LostMotion};
+use crate::flow::{Fate, Flow, Reason};
 use crate::model::Model;
 use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::return_map::machine_return::MachineReturn;
@@ -12,9 +12,9 @@ use crate::portrait::return_map::zeros::NOTHING;
 pub(crate) struct Gap {
     /// Its upper end.
     pub to: f64,
-    pub fate: Fate<LostMotion>,
+    pub fate: Fate,
     /// Fate of a motion that turns exactly at the upper end.
-    pub end: Fate<LostMotion>,
+    pub end: Fate,
 }
 
 /// A right turning point at which the return map changes.
@@ -45,7 +45,7 @@ pub(crate) enum Tendency {
     /// They are periodic.
     Nowhere,
     /// They leave the known range.
-    Lost(LostMotion),
+    Lost(Reason),
 }
 
 /// The direction of motions in each gap.
@@ -53,7 +53,7 @@ pub(crate) fn ways(
     flow: &mut Flow,
     marks: &[(f64, Divide)],
     end: f64,
-) -> Result<Vec<Tendency>, LostMotion> {
+) -> Result<Vec<Tendency>, Reason> {
     let mut ways = Vec::with_capacity(marks.len() + 1);
     let held = flow.model.guide_static;
     let mut low = held;
@@ -68,10 +68,10 @@ pub(crate) fn ways(
         let x = low + 0.5 * (high - low);
         ways.push(match flow.returned(x) {
             Ok(MachineReturn::Turns(image)) => way(image.x, x),
-            Ok(MachineReturn::Rests(_)) | Err(LostMotion::Settled) => Tendency::Inward,
-            Err(LostMotion::Escaped) => Tendency::Outward,
-            Err(stop @ LostMotion::OutsideLaw { .. }) => Tendency::Lost(stop),
-            Err(LostMotion::Steps) => return Err(LostMotion::Steps),
+            Ok(MachineReturn::Rests(_)) | Err(Reason::Settles) => Tendency::Inward,
+            Err(Reason::Escapes) => Tendency::Outward,
+            Err(stop @ Reason::BeyondLaw { .. }) => Tendency::Lost(stop),
+            Err(reason) => return Err(reason),
         });
         low = high;
     }
@@ -90,11 +90,7 @@ fn way(image: f64, x: f64) -> Tendency {
 }
 
 /// The fate of each gap.
-pub(crate) fn gaps(
-    marks: &[(f64, Divide)],
-    ways: &[Tendency],
-    stop: Option<LostMotion>,
-) -> Vec<Gap> {
+pub(crate) fn gaps(marks: &[(f64, Divide)], ways: &[Tendency], stop: Option<Reason>) -> Vec<Gap> {
     let fate = |gap: usize| {
         let mut here = gap;
         loop {

@@ -7,7 +7,7 @@
 use crate::flow::machine::arc::{ArcEnd, SeriesStep, Watch};
 use crate::flow::machine::curve::{CurvePiece, MachineCurve};
 use crate::flow::machine::turn::{ContactState, Turn};
-use crate::flow::{Flow, LostMotion};
+use crate::flow::{Flow, Reason};
 use crate::model::{Lines, Model, Phase};
 use crate::numerics::elementary::ln;
 use crate::numerics::quadrature::gauss;
@@ -48,13 +48,13 @@ pub enum MachineReturn {
 
 impl Flow<'_> {
     /// The next right turning point after the one at `x`, outside of what the guide holds. Fails with
-    /// [`LostMotion`] if the motion does not turn; a motion that settles at an equilibrium counts as coming to rest.
-    pub fn returned(&mut self, x: f64) -> Result<MachineReturn, LostMotion> {
+    /// [`Reason`] if the motion does not turn; a motion that settles at an equilibrium counts as coming to rest.
+    pub fn returned(&mut self, x: f64) -> Result<MachineReturn, Reason> {
         let mut divergence = Divergence::default();
         let left = match self.turn(ContactState::Slips(Phase::Below), (x, 0.0), &mut divergence) {
             Ok(Turn { x, rests: true, .. }) => return Ok(MachineReturn::Rests(x)),
             Ok(turn) => turn,
-            Err(LostMotion::Settled) => return Ok(MachineReturn::Rests(self.model.guide)),
+            Err(Reason::Settles) => return Ok(MachineReturn::Rests(self.model.guide)),
             Err(stop) => return Err(stop),
         };
         match self.turn(ContactState::Slips(Phase::Between), (left.x, 0.0), &mut divergence) {
@@ -66,39 +66,39 @@ impl Flow<'_> {
                 sticks_from: way.sticks_from,
                 overtakes_from: way.overtakes_from,
             })),
-            Err(LostMotion::Settled) => Ok(MachineReturn::Rests(-self.model.guide)),
+            Err(Reason::Settles) => Ok(MachineReturn::Rests(-self.model.guide)),
             Err(stop) => Err(stop),
         }
     }
 
     /// The right turning point before the left one at `left`, with the logarithm of (acceleration before the
-    /// arc's end / after its start); `None` if no motion comes from one. Fails with [`LostMotion`] where the
+    /// arc's end / after its start); `None` if no motion comes from one. Fails with [`Reason`] where the
     /// friction law ends or the steps run out.
     pub(crate) fn right_before(
         &mut self,
         left: f64,
         watch: &mut impl Watch,
-    ) -> Result<Option<(f64, f64)>, LostMotion> {
+    ) -> Result<Option<(f64, f64)>, Reason> {
         let left = left.min(-self.model.guide_static);
         match self.arc(Phase::Below, (left, 0.0), true, watch) {
             Ok(end) => Ok(Some((end.x, end.log_ratio()))),
-            Err(LostMotion::Escaped) => Ok(None),
-            Err(LostMotion::Settled) => Ok(Some((self.model.guide, f64::NEG_INFINITY))),
+            Err(Reason::Escapes) => Ok(None),
+            Err(Reason::Settles) => Ok(Some((self.model.guide, f64::NEG_INFINITY))),
             Err(stop) => Err(stop),
         }
     }
 
     /// The inverse map at the right turning point `x`, for motions that always slip below the belt's speed:
     /// [`Image::x`] is the turning point before. It contracts where the map itself expands. `None` if no such motion
-    /// leads to `x`. Fails with [`LostMotion`] where the friction law ends or the steps run out.
-    pub fn preimage(&mut self, x: f64) -> Result<Option<Image>, LostMotion> {
+    /// leads to `x`. Fails with [`Reason`] where the friction law ends or the steps run out.
+    pub fn preimage(&mut self, x: f64) -> Result<Option<Image>, Reason> {
         let mut divergence = Divergence::default();
         let (left, entered) = match self.arc(Phase::Between, (x, 0.0), true, &mut divergence) {
             Ok(end) if end.on_belt => return Ok(None),
             Ok(end) => (end.x, end.log_ratio()),
-            Err(LostMotion::Settled) => (-self.model.guide, f64::NEG_INFINITY),
+            Err(Reason::Settles) => (-self.model.guide, f64::NEG_INFINITY),
             // Backward in time, damping adds energy: however far away it comes from, a motion turns before `x`.
-            Err(LostMotion::Escaped) => return Ok(None),
+            Err(Reason::Escapes) => return Ok(None),
             Err(stop) => return Err(stop),
         };
         let before = self.right_before(left, &mut divergence)?;
@@ -112,17 +112,12 @@ impl Flow<'_> {
     }
 
     /// The left turning point from which a motion between rest and the belt's speed reaches `(x, y)`; where
-    /// there is none, the edge of what the guide holds. Fails with [`LostMotion`] where the friction law ends or the
+    /// there is none, the edge of what the guide holds. Fails with [`Reason`] where the friction law ends or the
     /// steps run out.
-    pub fn left_before(
-        &mut self,
-        x: f64,
-        y: f64,
-        watch: &mut impl Watch,
-    ) -> Result<f64, LostMotion> {
+    pub fn left_before(&mut self, x: f64, y: f64, watch: &mut impl Watch) -> Result<f64, Reason> {
         match self.arc(Phase::Between, (x, y), true, watch) {
             Ok(end) => Ok(end.x),
-            Err(LostMotion::Settled) => Ok(-self.model.guide),
+            Err(Reason::Settles) => Ok(-self.model.guide),
             Err(stop) => Err(stop),
         }
     }
@@ -160,16 +155,16 @@ pub struct Landmarks {
 }
 
 impl Flow<'_> {
-    /// The landmarks; `None` without a belt, or without a law for small slips. Fails with [`LostMotion`] if the
+    /// The landmarks; `None` without a belt, or without a law for small slips. Fails with [`Reason`] if the
     /// friction law ends before they are reached.
-    pub fn landmarks(&mut self) -> Result<Option<Landmarks>, LostMotion> {
+    pub fn landmarks(&mut self) -> Result<Option<Landmarks>, Reason> {
         let model = self.model;
         let Some(lines) = model.lines else { return Ok(None) };
         let grazing = self.grazing(&lines)?;
         let released = match self.turn(ContactState::Sticks, (lines.release, model.speed), &mut ())
         {
             Ok(turn) => (!turn.rests).then_some(turn.x),
-            Err(LostMotion::Settled) => None,
+            Err(Reason::Settles) => None,
             Err(stop) => return Err(stop),
         };
         let low_left = self.left_before(lines.low, model.speed, &mut ())?;
@@ -177,19 +172,19 @@ impl Flow<'_> {
         Ok(Some(Landmarks { lines, grazing, released, low_left, beyond }))
     }
 
-    fn grazing(&mut self, lines: &Lines) -> Result<Grazing, LostMotion> {
+    fn grazing(&mut self, lines: &Lines) -> Result<Grazing, Reason> {
         let (guide, speed) = (self.model.guide, self.model.speed);
         let mut divergence = Divergence::default();
         let left = self.left_before(lines.fold, speed, &mut divergence)?;
         // If overdamped, it comes to rest without another turn.
         let after = match self.arc(Phase::Between, (lines.fold, speed), false, &mut divergence) {
             Ok(end) => end.x,
-            Err(LostMotion::Settled) => -guide,
+            Err(Reason::Settles) => -guide,
             Err(stop) => return Err(stop),
         };
         let left = left.min(-self.model.guide_static);
         let before = match self.right_before(left, &mut divergence) {
-            Err(LostMotion::OutsideLaw { .. }) => None,
+            Err(Reason::BeyondLaw { .. }) => None,
             before => before?,
         };
         let (right, ratio) = before.map_or((None, 0.0), |(right, ratio)| (Some(right), ratio));
@@ -203,12 +198,12 @@ impl Flow<'_> {
     }
 
     /// The right turning point beyond which motions overtake the belt instead of riding on it.
-    fn beyond(&mut self, lines: &Lines, low_left: f64) -> Result<Option<f64>, LostMotion> {
+    fn beyond(&mut self, lines: &Lines, low_left: f64) -> Result<Option<f64>, Reason> {
         let speed = self.model.speed;
         // The last motion that comes down on the band is followed back to where it rose above the line.
         let back = |stop| match stop {
-            LostMotion::Escaped | LostMotion::Settled | LostMotion::OutsideLaw { .. } => Ok(None),
-            LostMotion::Steps => Err(LostMotion::Steps),
+            Reason::Escapes | Reason::Settles | Reason::BeyondLaw { .. } => Ok(None),
+            _ => Err(stop),
         };
         let rose = match self.arc(Phase::Above, (lines.release, speed), true, &mut ()) {
             Ok(end) => end.x,
@@ -232,13 +227,13 @@ impl Flow<'_> {
         x: f64,
         landmarks: Option<&Landmarks>,
         curve: &mut MachineCurve,
-    ) -> Result<f64, LostMotion> {
+    ) -> Result<f64, Reason> {
         let speed = self.model.speed;
-        let Some(marks) = landmarks else { return Err(LostMotion::Steps) };
+        let Some(marks) = landmarks else { return Err(Reason::Steps) };
         // Where static friction holds what the orbit comes from, its way to the line is not on the border.
         match self.arc(Phase::Between, (x, 0.0), true, &mut ()) {
             Ok(ArcEnd { on_belt: true, .. }) => {}
-            Ok(_) | Err(LostMotion::Settled) => return self.capture_border(x, landmarks, curve),
+            Ok(_) | Err(Reason::Settles) => return self.capture_border(x, landmarks, curve),
             Err(stop) => return Err(stop),
         }
         let corner =
@@ -261,10 +256,10 @@ impl Flow<'_> {
         x: f64,
         landmarks: Option<&Landmarks>,
         curve: &mut MachineCurve,
-    ) -> Result<f64, LostMotion> {
+    ) -> Result<f64, Reason> {
         let (guide, speed) = (self.model.guide, self.model.speed);
         let mut left = match self.arc(Phase::Between, (x, 0.0), true, curve) {
-            Err(LostMotion::Settled) => -guide,
+            Err(Reason::Settles) => -guide,
             end => {
                 let end = end?;
                 let lines = landmarks.map(|marks| marks.lines).filter(|_| end.on_belt);
@@ -276,7 +271,7 @@ impl Flow<'_> {
         };
         left = left.min(-self.model.guide_static);
         match self.arc(Phase::Below, (left, 0.0), true, curve) {
-            Ok(_) | Err(LostMotion::Settled) => Ok(left),
+            Ok(_) | Err(Reason::Settles) => Ok(left),
             Err(stop) => Err(stop),
         }
     }

@@ -6,7 +6,7 @@
 //! zeros as an extremum beyond zero: a function that a cubic predicts to a few percent of its distance from zero
 //! cannot hide a pair.
 
-use crate::flow::LostMotion;
+use crate::flow::Reason;
 use crate::numerics::polynomial::Hermite;
 use crate::numerics::root::{Bracket, PlaceTolerance, illinois, try_newton};
 
@@ -42,11 +42,11 @@ pub struct Zeros {
     pub unresolved: Vec<(f64, f64)>,
 }
 
-/// The zeros of a function between two samples. Fails with the [`LostMotion`] of an evaluation.
+/// The zeros of a function between two samples. Fails with the [`Reason`] of an evaluation.
 pub fn zeros(
     ends: (GrowthSample, GrowthSample),
-    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, LostMotion>,
-) -> Result<Zeros, LostMotion> {
+    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Reason>,
+) -> Result<Zeros, Reason> {
     /// Initial number of intervals.
     const FIRST: i32 = 8;
     let mut found = Zeros::default();
@@ -64,9 +64,9 @@ fn within(
     left: GrowthSample,
     right: GrowthSample,
     depth: u32,
-    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, LostMotion>,
+    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Reason>,
     found: &mut Zeros,
-) -> Result<(), LostMotion> {
+) -> Result<(), Reason> {
     let h = right.u - left.u;
     if left.f > h || right.f < -h {
         return Ok(());
@@ -94,9 +94,9 @@ fn within(
 fn leaf(
     left: GrowthSample,
     right: GrowthSample,
-    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, LostMotion>,
+    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Reason>,
     found: &mut Vec<f64>,
-) -> Result<(), LostMotion> {
+) -> Result<(), Reason> {
     // If all motions are periodic to rounding, zeros cannot be distinguished.
     if left.f.abs() < ROUNDING || right.f.abs() < ROUNDING {
         return Ok(());
@@ -116,13 +116,13 @@ fn leaf(
     Ok(())
 }
 
-/// The zero between two samples of different sign: Newton's method inside a bracket. Fails with the [`LostMotion`]
+/// The zero between two samples of different sign: Newton's method inside a bracket. Fails with the [`Reason`]
 /// of an evaluation.
 pub fn zero(
     left: GrowthSample,
     right: GrowthSample,
-    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, LostMotion>,
-) -> Result<f64, LostMotion> {
+    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Reason>,
+) -> Result<f64, Reason> {
     let best = if left.f.abs() < right.f.abs() { left } else { right };
     if best.f == 0.0 {
         return Ok(best.u);
@@ -138,12 +138,12 @@ pub fn zero(
 }
 
 /// Where the slope vanishes between two samples with slopes of different sign, or a place on the way there at which
-/// the function has another sign than at both. Fails with the [`LostMotion`] of an evaluation.
+/// the function has another sign than at both. Fails with the [`Reason`] of an evaluation.
 fn extremum(
     left: GrowthSample,
     right: GrowthSample,
-    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, LostMotion>,
-) -> Result<GrowthSample, LostMotion> {
+    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Reason>,
+) -> Result<GrowthSample, Reason> {
     const WIDTH: PlaceTolerance = PlaceTolerance::Absolute(1e-9);
     let mut best = if left.f.abs() < right.f.abs() { left } else { right };
     // The result of an early end is passed on in place of an error.

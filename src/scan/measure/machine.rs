@@ -11,7 +11,7 @@ use crate::portrait::basin::Window;
 use crate::portrait::design::{FrictionNeeded, friction_of_guide};
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::kicks::repeated::{Repeated, part_lost, repeated_by};
-use crate::portrait::{Margin, Portrait, Trouble};
+use crate::portrait::{Margin, Portrait};
 
 /// What was computed at a point of a machine; `None` for what no measure needed.
 #[derive(Clone, Debug, Default)]
@@ -58,14 +58,14 @@ impl MachinePoint {
         need: MeasureNeed,
         MachineProblem { subject, tolerances, start, until }: &MachineProblem,
         conditions: &Conditions,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), Reason> {
         match need {
             MeasureNeed::Motion => {
                 let motion = MachineMotion::new(&subject.model()?, start.0, start.1, *until);
                 let outcome = motion.outcome;
                 self.motion = Some(motion);
                 if let Fate::Unknown(stop) = outcome {
-                    return Err(stop.into());
+                    return Err(stop);
                 }
             }
             MeasureNeed::Guarantee => {
@@ -112,7 +112,7 @@ impl MachinePoint {
                 let incomplete = portrait.incomplete();
                 self.portrait = Some(portrait);
                 if let Some(stop) = incomplete {
-                    return Err(stop.into());
+                    return Err(stop);
                 }
             }
         }

@@ -9,8 +9,8 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use crate::flow::Problem;
-use crate::model::belt::{BeltError, ReducedBelt};
+use crate::flow::{Problem, Reason};
+use crate::model::belt::ReducedBelt;
 use crate::model::{Belt, Body, Knob, MachineProblem, Parameters, State, Tolerances};
 use crate::numerics::elementary::powi;
 
@@ -89,9 +89,9 @@ pub struct ScaledMachine {
 }
 
 impl TryFrom<Machine> for ScaledMachine {
-    type Error = BeltError;
+    type Error = Reason;
 
-    fn try_from(machine: Machine) -> Result<Self, BeltError> {
+    fn try_from(machine: Machine) -> Result<Self, Reason> {
         ScaledMachine::new(machine)
     }
 }
@@ -103,8 +103,8 @@ impl From<ScaledMachine> for Machine {
 }
 
 impl ScaledMachine {
-    /// Computes the dimensionless form of a machine. Fails with [`BeltError`] where there is none.
-    pub fn new(machine: Machine) -> Result<Self, BeltError> {
+    /// Computes the dimensionless form of a machine. Fails with [`Reason`] where there is none.
+    pub fn new(machine: Machine) -> Result<Self, Reason> {
         let reduced = machine.belt.reduce()?;
         Ok(ScaledMachine { machine, reduced })
     }

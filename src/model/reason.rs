@@ -1,0 +1,174 @@
+//! Why there is no answer.
+
+use std::fmt;
+
+use super::knob::OutOfRange;
+
+/// Why a computation has no answer, with the numbers that explain it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reason {
+    /// A newer question replaced this one.
+    Interrupted,
+    /// The budget of evaluations is spent.
+    Budget {
+        /// Evaluations spent.
+        evaluations: u64,
+    },
+    /// The step that the tolerance requires is too small to advance the time.
+    StepTooSmall {
+        /// Size of that step.
+        step: f64,
+    },
+    /// The fixed step is too long for the damping that the motion encounters.
+    StepTooLong {
+        /// The step.
+        step: f64,
+        /// The longest step that is stable there.
+        stable: f64,
+    },
+    /// The motion has more half swings than are kept.
+    HalfSwings {
+        /// How many are.
+        most: usize,
+    },
+    /// A number left the floating-point range.
+    OutOfRange,
+    /// The method does not apply to these parameters.
+    NotApplicable {
+        /// What the method requires.
+        needs: &'static str,
+    },
+    /// An iteration did not converge.
+    NoConvergence {
+        /// The quantity sought.
+        sought: &'static str,
+        /// Relative change at which the iteration stopped.
+        change: f64,
+    },
+    /// The motion runs away.
+    Escapes,
+    /// The motion comes to rest at the balance of its phase without another turn.
+    Settles,
+    /// The motion takes too many steps to its next turn.
+    Steps,
+    /// The slip leaves the velocities for which the friction law is known and not negative.
+    BeyondLaw {
+        /// The slip, in m/s.
+        slip: f64,
+    },
+    /// The friction law does not reach the belt's speed.
+    OutsideLaw {
+        /// Speed of the belt, in m/s.
+        v0: f64,
+        /// Where the law reaches, in m/s.
+        range: (f64, f64),
+    },
+    /// The coefficient of friction at the belt's speed is not positive, or has no three derivatives.
+    NoFriction {
+        /// Speed of the belt, in m/s.
+        v0: f64,
+        /// The coefficient.
+        mu: f64,
+    },
+    /// The static coefficient is below the kinetic one at small slip.
+    StaticBelowKinetic {
+        /// The static coefficient.
+        mu_s: f64,
+        /// The coefficient at vanishing slip.
+        mu: f64,
+    },
+    /// The guide's static friction is below its kinetic one.
+    GuideStatic {
+        /// `R_static`, in N.
+        at_rest: f64,
+        /// R, in N.
+        moving: f64,
+    },
+    /// A number that follows from others is beyond its range.
+    Refused(OutOfRange),
+    /// The branch of N harmonics that begins at a first-order answer could not be followed.
+    Harmonics {
+        /// Number of harmonics.
+        count: usize,
+        /// Part of damping and friction up to which it was followed.
+        strength: f64,
+    },
+}
+
+impl Reason {
+    /// Whether it says how a motion ends, and not why that is unknown.
+    #[must_use]
+    pub fn is_an_end(&self) -> bool {
+        matches!(self, Reason::Escapes | Reason::Settles)
+    }
+
+    /// Whether a machine itself is at fault, and not what it takes to compute its motions.
+    #[must_use]
+    pub fn is_of_the_machine(&self) -> bool {
+        !matches!(self, Reason::Steps | Reason::Settles | Reason::Escapes)
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Reason::Interrupted => write!(out, "interrupted"),
+            Reason::Budget { evaluations } => {
+                write!(out, "budget of {evaluations} evaluations spent")
+            }
+            Reason::StepTooSmall { step } => {
+                write!(out, "step {step:.1e} is too small to move the time")
+            }
+            Reason::StepTooLong { step, stable } => {
+                write!(out, "step {step:.1e} is unstable here; at most {stable:.1e} would do")
+            }
+            Reason::HalfSwings { most } => {
+                write!(out, "the motion has more than {most} half swings; ask for a shorter time")
+            }
+            Reason::OutOfRange => write!(out, "left the range of floating-point numbers"),
+            Reason::NotApplicable { needs } => write!(out, "the method needs {needs}"),
+            Reason::NoConvergence { sought, change } => {
+                write!(out, "{sought} did not settle (last relative change {change:.1e})")
+            }
+            Reason::Escapes => write!(out, "the motion grows without bound"),
+            Reason::Settles => write!(out, "the motion turns no more"),
+            Reason::Steps => write!(
+                out,
+                "the motion takes too many steps to turn: at the velocities that it reaches its damping is \
+                 many times the critical one; less damping, or a smaller start, can be followed"
+            ),
+            Reason::BeyondLaw { slip } => write!(
+                out,
+                "motions of this machine slip by more than {slip:.6} m/s, where the friction law ends or its \
+                 coefficient falls below 0; it must be known and not negative there"
+            ),
+            Reason::OutsideLaw { v0, range: (low, high) } => write!(
+                out,
+                "v0 = {v0} m/s is outside the friction law; it reaches from {low} to {high} m/s"
+            ),
+            Reason::NoFriction { v0, mu } if mu.is_finite() && *mu > 0.0 => {
+                write!(out, "the friction law has no three derivatives at v0 = {v0} m/s")
+            }
+            Reason::NoFriction { v0, mu } => write!(
+                out,
+                "mu = {mu} at v0 = {v0} m/s; it must be positive: x0 = F mu(v0)/c is the unit of length"
+            ),
+            Reason::StaticBelowKinetic { mu_s, mu } => write!(
+                out,
+                "mu_s = {mu_s} is below the coefficient {mu} of the law at rest; static friction is at least that"
+            ),
+            Reason::GuideStatic { at_rest, moving } => write!(
+                out,
+                "R_static = {at_rest} N is below R = {moving} N; static friction is at least the kinetic one"
+            ),
+            Reason::Refused(refused) => refused.fmt(out),
+            Reason::Harmonics { count, strength } => write!(
+                out,
+                "no cycle of {count} harmonics: the first-order answer was lost at {:.0} % of the damping and friction",
+                100.0 * strength
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Reason {}
