@@ -84,16 +84,6 @@ enum Taken {
 /// One step of a motion, kept for later evaluation.
 pub type KeptStep = Arc<dyn Stepper + Send + Sync>;
 
-/// A step with or without looking for `v = 0`.
-fn step<S: Stepper>(
-    stepper: &mut S,
-    from: StepPoint,
-    longest: f64,
-    arrives: bool,
-) -> Result<Step, Reason> {
-    if arrives { stepper.advance(from, longest) } else { stepper.pass(from, longest) }
-}
-
 impl Auto {
     /// A stepper with a relative error per step of about `tolerance`.
     pub fn new(tolerance: f64) -> Self {
@@ -161,15 +151,34 @@ impl Auto {
         }
     }
 
+    /// The length of a step in units of the damping time at its end.
+    fn damping_times(&self, step: &Step) -> f64 {
+        -Field::divergence(&self.field, step.end.v) * step.duration
+    }
+}
+
+impl Stepper for Auto {
+    fn begin(&mut self, field: &HalfPlane) {
+        (self.field, self.series_steps) = (*field, 0);
+        self.linear = field.is_linear() && field.d.abs() < 1.0;
+        if self.linear {
+            self.exact.begin(field);
+        }
+        self.taylor.begin(field);
+        if let Some(stiff) = &mut self.stiff {
+            stiff.begin(field);
+        }
+    }
+
     /// Takes a step by the current method, then chooses the method of the next one.
-    fn step(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {
         if self.linear {
             self.last = Taken::Closed;
-            return step(&mut self.exact, from, longest.min(CLOSED), arrives);
+            return self.exact.advance(from, longest.min(CLOSED), arrives);
         }
         if self.implicit
             && let Some(stiff) = self.stiff.as_deref_mut()
-            && let Ok(step) = step(stiff, from, longest, arrives)
+            && let Ok(step) = stiff.advance(from, longest, arrives)
         {
             self.last = Taken::Implicit;
             self.implicit_steps += 1;
@@ -190,7 +199,7 @@ impl Auto {
             return Ok(step);
         }
         (self.last, self.implicit) = (Taken::Series, false);
-        let step = step(&mut self.taylor, from, longest, arrives)?;
+        let step = self.taylor.advance(from, longest, arrives)?;
         let limited = self.damping_times(&step) > LIMITED * self.taylor.order();
         self.limited = if limited { self.limited + 1 } else { 0 };
         self.series_steps += 1;
@@ -202,33 +211,6 @@ impl Auto {
             stiff.expect_length(FIRST * step.duration);
         }
         Ok(step)
-    }
-
-    /// The length of a step in units of the damping time at its end.
-    fn damping_times(&self, step: &Step) -> f64 {
-        -Field::divergence(&self.field, step.end.v) * step.duration
-    }
-}
-
-impl Stepper for Auto {
-    fn begin(&mut self, field: &HalfPlane) {
-        (self.field, self.series_steps) = (*field, 0);
-        self.linear = field.is_linear() && field.d.abs() < 1.0;
-        if self.linear {
-            self.exact.begin(field);
-        }
-        self.taylor.begin(field);
-        if let Some(stiff) = &mut self.stiff {
-            stiff.begin(field);
-        }
-    }
-
-    fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        self.step(from, longest, true)
-    }
-
-    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        self.step(from, longest, false)
     }
 
     fn prepare_dense(&mut self) {

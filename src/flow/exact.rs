@@ -20,11 +20,6 @@ pub struct Exact {
     cost: Cost,
 }
 
-/// A step, unless it leaves the range of numbers.
-fn finite(step: Step) -> Result<Step, Reason> {
-    if step.end.size().is_finite() { Ok(step) } else { Err(Reason::OutOfRange) }
-}
-
 impl Exact {
     /// A stepper that has taken no step yet.
     pub fn new() -> Self {
@@ -53,21 +48,19 @@ impl Stepper for Exact {
         (self.field, self.linear) = (*field, Linear::new(field.d));
     }
 
-    fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        let arrival = self.linear.first_standstill(from.x, from.v);
-        let Some(arrival) = arrival.filter(|arrival| arrival.time <= longest) else {
-            return self.pass(from, longest);
+    fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {
+        self.cost.evaluations += 1;
+        self.start = from;
+        let arrival = arrives.then(|| self.linear.first_standstill(from.x, from.v)).flatten();
+        let arrival = arrival.filter(|arrival| arrival.time <= longest);
+        self.duration = arrival.map_or(longest, |arrival| arrival.time);
+        let end = arrival.map(|arrival| StepPoint { x: arrival.x, v: 0.0 });
+        let step = Step {
+            duration: self.duration,
+            end: end.unwrap_or_else(|| self.at(longest)),
+            crossed: arrival.is_some(),
         };
-        (self.start, self.duration) = (from, arrival.time);
-        self.cost.evaluations += 1;
-        let end = StepPoint { x: arrival.x, v: 0.0 };
-        finite(Step { duration: arrival.time, end, crossed: true })
-    }
-
-    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        (self.start, self.duration) = (from, longest);
-        self.cost.evaluations += 1;
-        finite(Step { duration: longest, end: self.at(longest), crossed: false })
+        if step.end.size().is_finite() { Ok(step) } else { Err(Reason::OutOfRange) }
     }
 
     fn at(&self, time: f64) -> StepPoint {

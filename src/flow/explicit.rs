@@ -244,18 +244,23 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
         self.end = StepPoint { x: f64::NAN, v: f64::NAN };
     }
 
-    fn advance(&mut self, from: StepPoint, mut longest: f64) -> Result<Step, Reason> {
+    fn advance(
+        &mut self,
+        from: StepPoint,
+        mut longest: f64,
+        arrives: bool,
+    ) -> Result<Step, Reason> {
         let continues = from == self.end;
         self.start_at(from);
-        if !continues {
+        if arrives && !continues {
             longest = longest.min(stopping_time(from.v, self.acceleration[0]));
         }
         loop {
             // A step that turned around passed two crossings and is repeated with a shorter length.
-            let makes_sense = |end: StepPoint| end.v <= 0.0 || end.x >= from.x;
+            let makes_sense = |end: StepPoint| !arrives || end.v <= 0.0 || end.x >= from.x;
             let (duration, end) = self.accepted(longest, makes_sense)?;
             self.check_stability(duration)?;
-            if end.v > 0.0 {
+            if !arrives || end.v > 0.0 {
                 return Ok(Step { duration, end, crossed: false });
             }
             let arrival = self.arrive(duration);
@@ -265,13 +270,6 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
             self.cost.rejected += 1;
             longest = 0.5 * duration;
         }
-    }
-
-    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        self.start_at(from);
-        let (duration, end) = self.accepted(longest, |_| true)?;
-        self.check_stability(duration)?;
-        Ok(Step { duration, end, crossed: false })
     }
 
     fn prepare_dense(&mut self) {

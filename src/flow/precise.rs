@@ -10,7 +10,7 @@ use super::method::Method;
 use super::motion::{Cost, Detail, Problem, Trajectory};
 use super::run::MotionRun;
 use super::step::{StepPoint, Stepper};
-use super::swing::{SwingEnd, swing};
+use super::swing::swing;
 use super::taylor::Taylor;
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::twofold::Twofold;
@@ -69,12 +69,13 @@ pub fn half_swing(
     let mut stepper = grain.stepper();
     let point = StepPoint { x: start.opposite(), v: Twofold::default() };
     let watch = |_: &mut Taylor<Twofold>, _, _, _: &_| ControlFlow::Continue(());
-    let found = swing(&mut stepper, &field, (point, 0), Twofold::of(PATIENCE), limits, watch);
+    let found =
+        swing(&mut stepper, &field, (point, 0), (Twofold::of(PATIENCE), true), limits, watch);
     *cost += Cost { steps: found.steps, ..stepper.cost() };
     match found.end {
-        SwingEnd::Crossing { x } => Ok(Some((x, found.duration))),
-        SwingEnd::Failed(reason) => Err(reason),
-        SwingEnd::Stopped { .. } | SwingEnd::Escape => Ok(None),
+        Ok(end) => Ok(found.crossed.then_some((end.x, found.duration))),
+        Err(Reason::Escapes) => Ok(None),
+        Err(reason) => Err(reason),
     }
 }
 

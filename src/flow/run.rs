@@ -7,7 +7,7 @@ use super::method::Method;
 use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
 use super::step::{Field, PlaneField, Powers, Step, StepPoint, Stepper};
 use super::stop::ComingToRest;
-use super::swing::{Swing, SwingEnd, glide, swing};
+use super::swing::{Swing, swing};
 use crate::model::parameters::energy;
 use crate::model::parameters::rests;
 use crate::model::{HalfPlane, Ledger, Reason, Side, State};
@@ -107,8 +107,14 @@ impl<N: Scalar> MotionRun<N> {
         Outcome::Captured { tau: N::of(0.0), q: N::of(self.found.problem.initial.q) }
     }
 
+    /// The outcome of a motion that escapes, or is given up.
     fn gives_up(&self, reason: Reason) -> Outcome<N> {
-        Outcome::GaveUp { tau: self.time.value(), reason }
+        let tau = self.time.value();
+        if reason == Reason::Escapes {
+            Outcome::Escaped { tau }
+        } else {
+            Outcome::GaveUp { tau, reason }
+        }
     }
 
     /// One smooth motion on both sides of `v = 0`: there is no friction, or it is part of the field.
@@ -135,12 +141,11 @@ impl<N: Scalar> MotionRun<N> {
                 ended = see(stepper, at, unit, step);
                 if ended.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
-            glide(stepper, field, point, until, limits, watch)
+            swing(stepper, field, (point, 0), (until, false), limits, watch)
         };
         match self.book(result) {
-            SwingEnd::Failed(reason) => self.gives_up(reason),
-            SwingEnd::Stopped { point } => ended.unwrap_or_else(|| self.stopped(point)),
-            _ => Outcome::Escaped { tau: self.time.value() },
+            Ok(point) => ended.unwrap_or_else(|| self.stopped(point)),
+            Err(reason) => self.gives_up(reason),
         }
     }
 
@@ -168,27 +173,26 @@ impl<N: Scalar> MotionRun<N> {
             let stop = ComingToRest::of(&field, point.rounded(), N::NEGLIGIBLE);
             let stop = stop.filter(|stop| N::of(stop.duration) < remaining);
             let result = if let Some(ComingToRest { duration, .. }) = stop {
-                let end = SwingEnd::Crossing { x: point.x };
-                Swing { end, duration: N::of(duration), steps: 0 }
+                Swing { end: Ok(point), crossed: true, duration: N::of(duration), steps: 0 }
             } else {
                 let mut keep = self.keeper::<HalfPlane, S>(side, r, field);
                 let watch = |stepper: &mut S, at: f64, unit: i32, step: &Step<N>| {
                     keep(stepper, at, unit, step);
                     ControlFlow::Continue(())
                 };
-                swing(stepper, &field, (point, unit), remaining, limits, watch)
+                swing(stepper, &field, (point, unit), (remaining, true), limits, watch)
             };
+            let crossed = result.crossed;
             let end = self.book(result);
             let tau = self.time.value();
             match end {
-                SwingEnd::Failed(reason) => return self.gives_up(reason),
-                SwingEnd::Escape => return Outcome::Escaped { tau },
-                SwingEnd::Stopped { point: end } => {
+                Err(reason) => return self.gives_up(reason),
+                Ok(end) if !crossed => {
                     self.works.path += (end.x - point.x).value();
                     let v = N::of(side.sign()) * end.v;
                     return self.stopped(StepPoint { x: side.displacement(end.x, r), v });
                 }
-                SwingEnd::Crossing { x } => {
+                Ok(StepPoint { x, .. }) => {
                     let (way, q) = match stop {
                         Some(stop) => (stop.way(), last.x + N::of(side.sign() * stop.way())),
                         None => ((x - point.x).value(), side.displacement(x, r)),
@@ -245,7 +249,7 @@ impl<N: Scalar> MotionRun<N> {
     }
 
     /// Records steps and time; returns how the piece ended.
-    fn book(&mut self, piece: Swing<N>) -> SwingEnd<N> {
+    fn book(&mut self, piece: Swing<N>) -> Result<StepPoint<N>, Reason> {
         self.found.cost.steps += piece.steps;
         self.time.add(piece.duration);
         piece.end

@@ -184,13 +184,11 @@ pub trait Stepper<F: Field = HalfPlane, N: Scalar = f64>: Debug {
     /// Prepares for steps in this field.
     fn begin(&mut self, field: &F);
 
-    /// Takes one step of at most `longest` from a point with `v >= 0` (on `v = 0`: with `x < 0`), and not
-    /// beyond the first arrival at `v = 0`. Fails with [`Reason::StepTooSmall`] or [`Reason::OutOfRange`] where
-    /// no step meets the tolerance.
-    fn advance(&mut self, from: StepPoint<N>, longest: N) -> Result<Step<N>, Reason>;
-
-    /// Takes one step of at most `longest`, wherever it leads, without looking for `v = 0`.
-    fn pass(&mut self, from: StepPoint<N>, longest: N) -> Result<Step<N>, Reason>;
+    /// Takes one step of at most `longest`. If it `arrives`, it begins at a point with `v >= 0` (on `v = 0`: with
+    /// `x < 0`) and leads not beyond the first arrival at `v = 0`; otherwise wherever it leads. Fails with
+    /// [`Reason::StepTooSmall`] or [`Reason::OutOfRange`] where no step meets the tolerance.
+    fn advance(&mut self, from: StepPoint<N>, longest: N, arrives: bool)
+    -> Result<Step<N>, Reason>;
 
     /// Prepares [`Stepper::at`] for the last step, if that takes any work.
     fn prepare_dense(&mut self) {}

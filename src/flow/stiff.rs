@@ -343,18 +343,18 @@ impl<F: Field> Stepper<F> for Stiff<F> {
         self.end = StepPoint { x: f64::NAN, v: f64::NAN };
     }
 
-    fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
+    fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {
         let continues = from == self.end;
         self.start_at(from);
         let mut longest = longest.min(self.longest());
-        if !continues {
+        if arrives && !continues {
             longest = longest.min(stopping_time(from.v, self.slope));
         }
         loop {
-            let (duration, end) = self.accepted(longest, true)?;
+            let (duration, end) = self.accepted(longest, arrives)?;
             let last = self.end;
             self.keep(duration, end);
-            if !self.reaches_standstill() {
+            if !(arrives && self.reaches_standstill()) {
                 return Ok(Step { duration, end, crossed: false });
             }
             let arrival = self.arrive().filter(Step::is_possible);
@@ -367,13 +367,6 @@ impl<F: Field> Stepper<F> for Stiff<F> {
             (self.end, self.duration) = (last, 0.0);
             longest = arrival.map_or(0.5 * duration, |arrival| SHORT_OF * arrival.duration);
         }
-    }
-
-    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        self.start_at(from);
-        let (duration, end) = self.accepted(longest.min(self.longest()), false)?;
-        self.keep(duration, end);
-        Ok(Step { duration, end, crossed: false })
     }
 
     fn prepare_dense(&mut self) {

@@ -20,30 +20,14 @@ const FAR: i32 = 300;
 /// negligible.
 const BLOW_UP_ERROR: f64 = 1e-2;
 
-/// How a half swing ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SwingEnd<N = f64> {
-    /// At `v = 0`, at this position.
-    Crossing {
-        /// Position in the frame of the half plane.
-        x: N,
-    },
-    /// At the end time, or where the watcher stopped it.
-    Stopped {
-        /// The point reached.
-        point: StepPoint<N>,
-    },
-    /// The velocity becomes infinite before the end time.
-    Escape,
-    /// It could not be completed.
-    Failed(Reason),
-}
-
 /// A half swing and how long it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Swing<N = f64> {
-    /// How it ended.
-    pub end: SwingEnd<N>,
+    /// Where it ended: at `v = 0`, at the end time, or where the watcher stopped it; [`Reason::Escapes`] if the
+    /// velocity becomes infinite before the end time.
+    pub end: Result<StepPoint<N>, Reason>,
+    /// Whether it ended at `v = 0`.
+    pub crossed: bool,
     /// Duration (until the blow-up where it escaped), or the time reached.
     pub duration: N,
     /// Accepted steps.
@@ -51,42 +35,18 @@ pub struct Swing<N = f64> {
 }
 
 /// Runs one half swing from `start` (`v > 0`, or `v = 0` and `x < 0`), given in units of `2^unit`, for at most
-/// `longest`.
+/// `longest`; unless it `arrives`, through as many half swings as occur, without looking for `v = 0`.
 ///
 /// `watch` is called after each accepted step with the stepper that holds it, the time at which it began, the
 /// exponent of its unit, and the step; it may stop the swing there.
-pub fn swing<N: Scalar, S: Stepper<HalfPlane, N>>(
-    stepper: &mut S,
-    field: &HalfPlane,
-    (start, unit): (StepPoint<N>, i32),
-    longest: N,
-    limits: &Limits,
-    watch: impl FnMut(&mut S, f64, i32, &Step<N>) -> ControlFlow<()>,
-) -> Swing<N> {
-    drive(stepper, S::advance, field, (start, unit), longest, limits, watch)
-}
-
-/// Follows a motion for `longest` without looking for `v = 0`, through as many half swings as occur.
 ///
-/// Assumption: the field holds on both sides: there is no friction, or it is part of the field.
-pub fn glide<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
+/// Assumption: where it does not arrive, the field holds on both sides: there is no friction, or it is part of the
+/// field.
+pub fn swing<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
     stepper: &mut S,
-    field: &F,
-    start: StepPoint<N>,
-    longest: N,
-    limits: &Limits,
-    watch: impl FnMut(&mut S, f64, i32, &Step<N>) -> ControlFlow<()>,
-) -> Swing<N> {
-    drive(stepper, S::pass, field, (start, 0), longest, limits, watch)
-}
-
-/// Takes steps with `advance` until a crossing, the end of the time span, or certain escape.
-fn drive<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
-    stepper: &mut S,
-    advance: impl Fn(&mut S, StepPoint<N>, N) -> Result<Step<N>, Reason>,
     field: &F,
     (start, unit): (StepPoint<N>, i32),
-    longest: N,
+    (longest, arrives): (N, bool),
     limits: &Limits,
     mut watch: impl FnMut(&mut S, f64, i32, &Step<N>) -> ControlFlow<()>,
 ) -> Swing<N> {
@@ -99,7 +59,7 @@ fn drive<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
     stepper.begin(&scaled);
     loop {
         let time = clock.value();
-        let failed = |reason| Swing { end: SwingEnd::Failed(reason), duration: time, steps };
+        let failed = |reason| Swing { end: Err(reason), crossed: false, duration: time, steps };
         if (limits.interrupted)() {
             return failed(Reason::Interrupted);
         }
@@ -112,7 +72,7 @@ fn drive<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
             return failed(Reason::OutOfRange);
         }
         let remaining = longest - time;
-        let step = match advance(stepper, point, remaining) {
+        let step = match stepper.advance(point, remaining, arrives) {
             Ok(step) => step,
             Err(reason) => return failed(reason),
         };
@@ -122,21 +82,22 @@ fn drive<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
         clock.add(step.duration);
         let time = clock.value();
         point = step.end;
-        if step.crossed {
-            let end = SwingEnd::Crossing { x: point.x.times_power(unit) };
-            return Swing { end, duration: time, steps };
-        }
-        let in_time = step.duration < remaining;
-        if !(in_time && goes_on) {
-            let end = SwingEnd::Stopped { point: point.times_power(unit) };
-            return Swing { end, duration: if in_time { time } else { longest }, steps };
+        let in_time = step.crossed || step.duration < remaining;
+        if step.crossed || !(in_time && goes_on) {
+            let duration = if in_time { time } else { longest };
+            return Swing {
+                end: Ok(point.times_power(unit)),
+                crossed: step.crossed,
+                duration,
+                steps,
+            };
         }
         let error = BLOW_UP_ERROR * N::NEGLIGIBLE * time.value();
         if let Some(rest) = time_to_blow_up(&smooth, point.rounded(), error)
             && time + N::of(rest) <= longest
         {
             let duration = time + N::of(rest);
-            return Swing { end: SwingEnd::Escape, duration, steps };
+            return Swing { end: Err(Reason::Escapes), crossed: false, duration, steps };
         }
         let drift = exponent(point.size());
         if drift.abs() > FAR {

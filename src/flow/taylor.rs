@@ -308,8 +308,14 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
         self.field = *field;
     }
 
-    fn advance(&mut self, from: StepPoint<N>, longest: N) -> Result<Step<N>, Reason> {
-        let mut scaled = self.settle(from, longest, LONGEST)?;
+    fn advance(
+        &mut self,
+        from: StepPoint<N>,
+        longest: N,
+        arrives: bool,
+    ) -> Result<Step<N>, Reason> {
+        let bound = if arrives { LONGEST } else { f64::INFINITY };
+        let mut scaled = self.settle(from, longest, bound)?;
         let order = self.order;
         loop {
             let duration = scaled.times_power(self.time_exponent);
@@ -317,7 +323,7 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
                 return Err(Reason::StepTooSmall { step: 0.0 });
             }
             let v = value(&self.v[..=order], scaled);
-            if v <= N::default() {
+            if arrives && v <= N::default() {
                 let root = self.root(scaled, v);
                 let end = StepPoint { x: value(&self.x[..=order], root), v: N::default() };
                 let duration = root.times_power(self.time_exponent);
@@ -330,23 +336,13 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
             } else {
                 let x = value(&self.x[..=order], scaled);
                 // Above v = 0 the position grows; if it did not, the step passed two crossings.
-                if x >= from.x {
+                if !arrives || x >= from.x {
                     return Ok(self.accept(duration, StepPoint { x, v }));
                 }
             }
             self.cost.rejected += 1;
             scaled = scaled.times_power(-1);
         }
-    }
-
-    fn pass(&mut self, from: StepPoint<N>, longest: N) -> Result<Step<N>, Reason> {
-        let scaled = self.settle(from, longest, f64::INFINITY)?;
-        let duration = scaled.times_power(self.time_exponent);
-        if duration == N::default() {
-            return Err(Reason::StepTooSmall { step: 0.0 });
-        }
-        let end = self.point(scaled);
-        Ok(self.accept(duration, end))
     }
 
     fn at(&self, time: f64) -> StepPoint {

@@ -74,11 +74,8 @@ impl Stepper<SmoothField> for TimeStepping {
         self.field = *field;
     }
 
-    fn advance(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
-        self.pass(from, longest)
-    }
-
-    fn pass(&mut self, from: StepPoint, longest: f64) -> Result<Step, Reason> {
+    /// It looks for no arrival.
+    fn advance(&mut self, from: StepPoint, longest: f64, _: bool) -> Result<Step, Reason> {
         let h = self.length.min(longest);
         self.start = from;
         let rate = self.field.smooth.divergence(from.v).abs();

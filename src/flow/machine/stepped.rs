@@ -112,11 +112,11 @@ pub(crate) fn stepped<'a>(
     stepper.begin(&field);
     for _ in 0..STEPS {
         let longest = LONGEST.min(watch.left());
-        let mut step = stepper.pass(from, longest).map_err(|_| Reason::Escapes)?;
+        let mut step = stepper.advance(from, longest, false).map_err(|_| Reason::Escapes)?;
         let inside = LastStep { stepper, field, from, step, prepared: false };
         let mut reached = None;
         if let Some((time, level)) = crossing(inside, phase, step.duration, (low, outer)).hit {
-            step = stepper.pass(from, time).map_err(|_| Reason::Escapes)?;
+            step = stepper.advance(from, time, false).map_err(|_| Reason::Escapes)?;
             // Where the shorter step was refused, it ends before the line.
             reached = (step.duration >= time).then_some(level);
         }

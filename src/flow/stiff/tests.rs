@@ -60,14 +60,9 @@ fn a_step_that_begins_stiff_and_ends_at_rest_keeps_the_digits_of_its_end() {
 }
 
 fn run<S: Stepper>(stepper: &mut S, field: &HalfPlane, start: StepPoint) -> Swing {
-    swing(
-        stepper,
-        field,
-        (start, 0),
-        60.0,
-        &Limits::PATIENT,
-        |_, _, _, _| ControlFlow::Continue(()),
-    )
+    swing(stepper, field, (start, 0), (60.0, true), &Limits::PATIENT, |_, _, _, _| {
+        ControlFlow::Continue(())
+    })
 }
 
 #[test]
@@ -100,7 +95,7 @@ fn dense_output_satisfies_the_equation_inside_a_step() {
     stepper.begin(&field);
     let mut point = StepPoint { x: -1.0, v: 0.2 };
     for _ in 0..6 {
-        let step = stepper.advance(point, 10.0).unwrap();
+        let step = stepper.advance(point, 10.0, true).unwrap();
         stepper.prepare_dense();
         let time = 0.37 * step.duration;
         let (here, h) = (stepper.at(time), 1e-4 * step.duration);

@@ -240,7 +240,7 @@ fn rest(field: &HalfPlane, pieces: &[ArcStep], detail: f64) -> Option<ArcStep> {
     let mut exact = Exact::new();
     exact.begin(&HalfPlane { d: field.d, d2: 0.0, d3: 0.0 });
     // Both times of decay have the product 1, and the sum 2 D.
-    let step = exact.advance(from, DECAYED * (2.0 * field.d).max(1.0)).ok()?;
+    let step = exact.advance(from, DECAYED * (2.0 * field.d).max(1.0), true).ok()?;
     let end = times_power(step.end.x, unit);
     Some(ArcStep { step: Shared::new(exact), unit, duration: step.duration, end })
 }

@@ -15,7 +15,7 @@ use super::roundoff::{Errors, Roundoff};
 use crate::closed_form::linear::Linear;
 use crate::flow::auto::Auto;
 use crate::flow::step::{Step, StepPoint, Stepper};
-use crate::flow::swing::{SwingEnd, is_escaping, swing};
+use crate::flow::swing::{is_escaping, swing};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::HalfPlane;
 use crate::numerics::elementary::{atan2, exp, hypot, ln, ln_1p, sin_cos};
@@ -211,23 +211,21 @@ impl HalfMap {
             ControlFlow::Continue(())
         };
         let stepper = &mut self.stepper;
-        let done = swing(stepper, &self.field, (leg.point, 0), LONGEST, limits, &mut see);
+        let done = swing(stepper, &self.field, (leg.point, 0), (LONGEST, true), limits, &mut see);
         self.steps += done.steps;
         let duration = leg.duration + done.duration;
-        let (end, rest) = match done.end {
-            SwingEnd::Crossing { x } => (Length::new(x), 0.0),
-            SwingEnd::Failed(reason) => return Err(reason),
-            SwingEnd::Escape => return Err(Reason::Escapes),
-            SwingEnd::Stopped { .. } if escapes => return Err(Reason::Escapes),
-            SwingEnd::Stopped { point } if point.size() < small => {
-                if self.field.d < 1.0 {
-                    Spiral::of(self.field.d).arrive(point)
-                } else {
-                    let end = Linear::new(self.field.d).first_standstill(point.x, point.v);
-                    end.map(|end| (Length::new(end.x), end.time)).ok_or(Reason::Settles)?
-                }
-            }
-            SwingEnd::Stopped { .. } => return Err(Reason::Settles),
+        let point = done.end?;
+        let (end, rest) = if done.crossed {
+            (Length::new(point.x), 0.0)
+        } else if escapes {
+            return Err(Reason::Escapes);
+        } else if point.size() >= small {
+            return Err(Reason::Settles);
+        } else if self.field.d < 1.0 {
+            Spiral::of(self.field.d).arrive(point)
+        } else {
+            let end = Linear::new(self.field.d).first_standstill(point.x, point.v);
+            end.map(|end| (Length::new(end.x), end.time)).ok_or(Reason::Settles)?
         };
         let errors = roundoff.map(|roundoff| roundoff.done(&self.field, end.log, rest));
         let errors = errors.unwrap_or_default();
