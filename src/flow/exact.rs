@@ -13,7 +13,6 @@ const MOST_PIECES: f64 = 4096.0;
 /// The stepper. It applies to fields with `D2 = D3 = 0` and is exact to rounding for every D.
 #[derive(Clone, Debug)]
 pub struct Exact {
-    field: HalfPlane,
     linear: Linear,
     start: StepPoint,
     duration: f64,
@@ -24,28 +23,17 @@ impl Exact {
     /// A stepper that has taken no step yet.
     pub fn new() -> Self {
         Exact {
-            field: HalfPlane { d: 0.0, d2: 0.0, d3: 0.0 },
             linear: Linear::new(0.0),
             start: StepPoint { x: 0.0, v: 0.0 },
             duration: 0.0,
             cost: Cost::default(),
         }
     }
-
-    /// The largest v in the last step, if the acceleration changes sign there.
-    ///
-    /// Velocity and acceleration obey the same equation as displacement and velocity.
-    pub fn fastest(&self) -> Option<f64> {
-        let StepPoint { x, v } = self.start;
-        let acceleration = self.field.acceleration(x, v);
-        let top = self.linear.first_standstill(v, acceleration)?;
-        (acceleration > 0.0 && top.time <= self.duration).then_some(top.x)
-    }
 }
 
 impl Stepper for Exact {
     fn begin(&mut self, field: &HalfPlane) {
-        (self.field, self.linear) = (*field, Linear::new(field.d));
+        self.linear = Linear::new(field.d);
     }
 
     fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {

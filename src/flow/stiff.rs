@@ -13,6 +13,8 @@
 //! the solution is hardly more accurate than the difference. The tolerance of the difference therefore depends
 //! on both.
 
+use std::sync::LazyLock;
+
 mod algebra;
 mod arrival;
 
@@ -24,11 +26,10 @@ use super::tableau::radau::{Collocation, FIVE, SEVEN, THREE};
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::count::real;
 use crate::numerics::elementary::pow;
-use crate::numerics::root::bisect;
 use crate::numerics::scaling::{rough_exp2, rough_log2};
 
 /// The scheme for each tolerance: the first whose bound is not above it.
-static SCHEMES: [(f64, &Collocation); 3] = [(5e-4, &THREE), (1e-8, &FIVE), (0.0, &SEVEN)];
+static SCHEMES: [(f64, &LazyLock<Collocation>); 3] = [(5e-4, &THREE), (1e-8, &FIVE), (0.0, &SEVEN)];
 
 /// Fraction of the way to an arrival after which the arrival is sought anew, from nearby. Where a motion creeps
 /// in along `v^2 = -x/D2`, a hundredth of the way out is left.
@@ -83,7 +84,7 @@ impl<F: Field> Stiff<F> {
         let mut square = [[0.0; MOST]; MOST];
         for (i, row) in scheme.integrals.iter().enumerate() {
             for (k, element) in square[i].iter_mut().enumerate().take(stages) {
-                *element = row.iter().zip(scheme.integrals).map(|(a, next)| a * next[k]).sum();
+                *element = row.iter().zip(&scheme.integrals).map(|(a, next)| a * next[k]).sum();
             }
         }
         Stiff {
@@ -107,24 +108,6 @@ impl<F: Field> Stiff<F> {
     /// Sets the length to try for the next step.
     pub fn expect_length(&mut self, length: f64) {
         self.next = length;
-    }
-
-    /// The largest v in the last step, if the acceleration changes sign there. Call [`Stepper::prepare_dense`] first.
-    ///
-    /// Bisection on the acceleration along the polynomial. Since v is flat there, an error e in time costs only
-    /// e^2 in v.
-    pub fn fastest(&self) -> Option<f64> {
-        /// Number of halvings; they give the time to half its digits.
-        const HALVINGS: u32 = 30;
-        let falls = |time: f64| {
-            let point = self.at(time);
-            self.field.acceleration(point.x, point.v) <= 0.0
-        };
-        if falls(0.0) || !falls(self.duration) {
-            return None;
-        }
-        let (_, time) = bisect(0.0, self.duration, HALVINGS, falls);
-        Some(self.at(time).v)
     }
 
     fn start_at(&mut self, from: StepPoint) {
@@ -161,14 +144,14 @@ impl<F: Field> Stiff<F> {
 
     /// Solves for the stages of a step of length `h`; `None` where Newton's method does not converge.
     fn attempt(&mut self, h: f64, mut velocity: [f64; MOST]) -> Option<StepPoint> {
-        let Collocation { nodes, integrals, .. } = *self.scheme;
+        let Collocation { nodes, integrals, .. } = self.scheme;
         let stages = nodes.len();
         let mut acceleration = [0.0; MOST];
         let mut before = f64::NAN;
         for _ in 0..ITERATIONS {
             let mut rate = [0.0; MOST];
             for j in 0..stages {
-                let x = self.start.x + h * weighted(integrals[j], &velocity);
+                let x = self.start.x + h * weighted(&integrals[j], &velocity);
                 acceleration[j] = self.field.acceleration(x, velocity[j]);
                 rate[j] = self.field.divergence(velocity[j]);
             }
@@ -176,7 +159,7 @@ impl<F: Field> Stiff<F> {
             let mut matrix = [[0.0; MOST]; MOST];
             let mut change = [0.0; MOST];
             for i in 0..stages {
-                let row = integrals[i];
+                let row = &integrals[i];
                 change[i] = self.start.v - velocity[i] + h * weighted(row, &acceleration);
                 for k in 0..stages {
                     matrix[i][k] = h * (h * self.square[i][k] - row[k] * rate[k]);
@@ -200,10 +183,10 @@ impl<F: Field> Stiff<F> {
             if settled || moved <= (f64::EPSILON * size).max(self.rounding(h)) {
                 // The effect of the last change on the accelerations needs no evaluation.
                 for j in 0..stages {
-                    acceleration[j] += rate[j] * change[j] - h * weighted(integrals[j], &change);
+                    acceleration[j] += rate[j] * change[j] - h * weighted(&integrals[j], &change);
                 }
                 (self.velocity, self.acceleration) = (velocity, acceleration);
-                let x = self.start.x + h * weighted(integrals[stages - 1], &velocity);
+                let x = self.start.x + h * weighted(&integrals[stages - 1], &velocity);
                 return Some(StepPoint { x, v: velocity[stages - 1] });
             }
             if shrunk > 2.0 {
@@ -241,7 +224,7 @@ impl<F: Field> Stiff<F> {
 
     /// Error of the last attempt in units of the allowed error; accepted up to 1.
     fn error(&mut self, h: f64, scale: ErrorScale, first: bool) -> f64 {
-        let Collocation { error: weights, start: own, .. } = *self.scheme;
+        let Collocation { error: weights, start: own, .. } = self.scheme;
         let part = h * own;
         let rate = self.field.divergence(self.start.v);
         let sums = StepPoint {
@@ -371,7 +354,7 @@ impl<F: Field> Stepper<F> for Stiff<F> {
 
     fn prepare_dense(&mut self) {
         let mut position = [0.0; MOST];
-        for (x, row) in position.iter_mut().zip(self.scheme.integrals) {
+        for (x, row) in position.iter_mut().zip(&self.scheme.integrals) {
             *x = self.start.x + self.duration * weighted(row, &self.velocity);
         }
         self.dense[0] = differences(self.scheme.nodes, self.start.x, &position);
@@ -385,7 +368,7 @@ impl<F: Field> Stepper<F> for Stiff<F> {
 
     /// The quadrature of the collocation scheme, exact for polynomials of degree below its order.
     fn powers(&self) -> Powers {
-        let weights = self.scheme.integrals[self.scheme.nodes.len() - 1];
+        let weights = &self.scheme.integrals[self.scheme.nodes.len() - 1];
         Powers::of_stages(self.duration, weights, &self.velocity)
     }
 

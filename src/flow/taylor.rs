@@ -13,7 +13,7 @@ use super::step::{LONGEST, Powers, Step, StepPoint, Stepper};
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::count::real;
 use crate::numerics::polynomial::{
-    derivative, value_and_slope_in_two as value_and_slope, value_in_two as value,
+    value_and_slope_in_two as value_and_slope, value_in_two as value,
 };
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scalar::Scalar;
@@ -207,21 +207,6 @@ impl Taylor {
     pub fn square_integral(&self) -> f64 {
         let t = times_power(self.duration, -self.time_exponent);
         value(&self.square_integral[..=self.order], t)
-    }
-
-    /// The largest v in the last step, if the acceleration changes sign there.
-    pub fn fastest(&self) -> Option<f64> {
-        let end = times_power(self.duration, -self.time_exponent);
-        let slopes = derivative(&self.v);
-        let slopes = &slopes[..self.order];
-        if !(slopes[0] > 0.0 && value(slopes, end) <= 0.0) {
-            return None;
-        }
-        // Since v is flat there, an error e in time costs only e^2 in v.
-        let settled = PlaceTolerance::Absolute(1e-9 * end);
-        let bracket = Bracket::falling(0.0, end);
-        let peak = newton(bracket, 0.5 * end, settled, |t| value_and_slope(slopes, t));
-        Some(value(&self.v[..=self.order], peak.at))
     }
 }
 

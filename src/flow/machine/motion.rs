@@ -6,7 +6,6 @@ use super::arc::{Flow, SeriesStep, Watch};
 use super::ledger::{MachineLedger, StepWorks};
 use super::series::ORDER;
 use super::stepped;
-use super::stepped::{PhaseField, PhaseStepper};
 use super::turn::ContactState;
 use crate::flow::{Cost, Detail, Fate, Method};
 use crate::model::{Model, Phase, Reason};
@@ -225,7 +224,7 @@ impl MachineMotion {
             }
             legs.push(Leg { place, t: (whole - recorder.left) / omega_0, x });
             match flow.leg(stepper.as_mut(), place, (x, y), &mut recorder) {
-                Ok(Some(next)) => (place, x, y) = next,
+                Ok(Some(leg)) => (place, x, y) = (leg.place, leg.x, leg.y),
                 _ if recorder.left <= 0.0 => break Fate::Moving,
                 Ok(None) => break Fate::Rest,
                 Err(stop) => break stop.into(),
@@ -273,36 +272,7 @@ impl Method {
     }
 }
 
-impl<'a> Flow<'a> {
-    /// Follows one leg, by Taylor series where there is no other stepper; returns where the next begins, `None` at
-    /// rest.
-    fn leg(
-        &mut self,
-        stepper: Option<&mut PhaseStepper<'a>>,
-        place: ContactState,
-        (x, y): (f64, f64),
-        watch: &mut impl Watch,
-    ) -> Result<Option<(ContactState, f64, f64)>, Reason> {
-        let phase = match place {
-            ContactState::Rests => return Ok(None),
-            ContactState::Sticks => {
-                let release = self.model.lines.map_or(x, |lines| lines.release);
-                watch.stick(self.model, x, release);
-                return Ok(Some((ContactState::Slips(Phase::Between), release, y)));
-            }
-            ContactState::Slips(phase) => phase,
-        };
-        let end = match stepper {
-            None => self.arc(phase, (x, y), false, watch)?,
-            Some(stepper) => {
-                let field = PhaseField { model: self.model, phase };
-                stepped::stepped(stepper, field, (x, y), watch)?
-            }
-        };
-        let (place, x) = self.after(phase, &end);
-        Ok(Some((place, x, if end.on_belt { self.model.speed } else { 0.0 })))
-    }
-
+impl Flow<'_> {
     /// Where a motion from `(x, y)` that comes to rest does so, in m.
     ///
     /// # Errors

@@ -4,6 +4,7 @@
 //! likewise by the guide. An orbit that touches the belt's line tangentially sticks.
 
 use super::arc::{ArcEnd, Flow, Watch};
+use super::stepped::{PhaseField, PhaseStepper, stepped};
 use crate::model::{Model, Phase, Reason};
 
 /// The state of contact at a point of the phase plane.
@@ -65,45 +66,75 @@ impl Model {
     }
 }
 
-impl Flow<'_> {
+/// Where a leg ends: where the next begins.
+pub(crate) struct LegEnd {
+    /// What the mass does next.
+    pub place: ContactState,
+    /// Displacement.
+    pub x: f64,
+    /// Velocity.
+    pub y: f64,
+    /// Logarithm of (acceleration in/acceleration out); minus infinity after sticking.
+    pub log_ratio: f64,
+}
+
+impl<'a> Flow<'a> {
     /// Follows a motion to its next turning point: the left one from `y < 0`, the right one otherwise. Fails with
     /// [`Reason`] if it does not turn.
     pub fn turn(
         &mut self,
-        place: ContactState,
+        mut place: ContactState,
         (mut x, mut y): (f64, f64),
         watch: &mut impl Watch,
     ) -> Result<Turn, Reason> {
-        /// Maximum number of contacts with the belt's line: three, and one more by rounding.
-        const CONTACTS: usize = 8;
-        let model = self.model;
+        /// Maximum number of legs: three contacts with the belt's line and one more by rounding, and a ride.
+        const LEGS: usize = 8;
         let mut way = WayToTurn::default();
-        let mut place = place;
-        for _ in 0..CONTACTS {
-            let phase = match place {
-                ContactState::Rests => return Ok(Turn { x, rests: true, way }),
-                ContactState::Slips(phase) => phase,
-                ContactState::Sticks => {
-                    let release = model.lines.map_or(x, |lines| lines.release);
-                    watch.stick(model, x, release);
-                    way.sticks_from = way.sticks_from.or(Some(x));
-                    way.log_ratio = f64::NEG_INFINITY;
-                    x = release;
-                    Phase::Between
-                }
+        for _ in 0..LEGS {
+            let Some(leg) = self.leg(None, place, (x, y), watch)? else {
+                return Ok(Turn { x, rests: true, way });
             };
-            let end = self.arc(phase, (x, y), false, watch)?;
-            way.log_ratio += end.log_ratio();
-            (place, x) = self.after(phase, &end);
-            if !end.on_belt {
+            if place == ContactState::Sticks {
+                way.sticks_from = way.sticks_from.or(Some(x));
+            }
+            way.log_ratio += leg.log_ratio;
+            (place, x, y) = (leg.place, leg.x, leg.y);
+            if y == 0.0 {
                 return Ok(Turn { x, rests: place == ContactState::Rests, way });
             }
-            y = model.speed;
             if place == ContactState::Slips(Phase::Above) {
                 way.overtakes_from = Some(x);
             }
         }
         Err(Reason::Steps)
+    }
+
+    /// Follows one leg, by Taylor series where there is no other stepper; `None` at rest.
+    pub(crate) fn leg(
+        &mut self,
+        stepper: Option<&mut PhaseStepper<'a>>,
+        place: ContactState,
+        (x, y): (f64, f64),
+        watch: &mut impl Watch,
+    ) -> Result<Option<LegEnd>, Reason> {
+        let model = self.model;
+        let phase = match place {
+            ContactState::Rests => return Ok(None),
+            ContactState::Sticks => {
+                let release = model.lines.map_or(x, |lines| lines.release);
+                watch.stick(model, x, release);
+                let place = ContactState::Slips(Phase::Between);
+                return Ok(Some(LegEnd { place, x: release, y, log_ratio: f64::NEG_INFINITY }));
+            }
+            ContactState::Slips(phase) => phase,
+        };
+        let end = match stepper {
+            None => self.arc(phase, (x, y), false, watch)?,
+            Some(stepper) => stepped(stepper, PhaseField { model, phase }, (x, y), watch)?,
+        };
+        let (place, x) = self.after(phase, &end);
+        let y = if end.on_belt { model.speed } else { 0.0 };
+        Ok(Some(LegEnd { place, x, y, log_ratio: end.log_ratio() }))
     }
 
     /// The phase that follows an arc, and its start. Only by rounding does a motion arrive where its own side

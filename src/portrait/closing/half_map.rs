@@ -194,7 +194,7 @@ impl HalfMap {
                 square += times_power(times_power(squared, unit), unit);
             }
             if let Some(roundoff) = &mut roundoff {
-                let largest = stepper.fastest();
+                let largest = stepper.fastest(step.duration);
                 if let Some(v) = largest {
                     fastest = fastest.max(times_power(v, unit));
                 }
