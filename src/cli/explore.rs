@@ -13,7 +13,7 @@ use super::settings::{Looks, Settings};
 use super::{Failure, MachineCase, StartOptions};
 use crate::numerics::similar::similar;
 use crate::runtime::effects::Files;
-use crate::runtime::{Options, RecordingFile, explore};
+use crate::runtime::{Options, RecordingFile, explore, provenance_file};
 use crate::scene::library::{PLAIN, names};
 use crate::scene::machine::NO_BELT;
 use crate::scene::{find, plain};
@@ -143,7 +143,7 @@ pub fn go(
 ) -> Result<ExitCode, Failure> {
     let environment = Environment::of_process();
     environment.admit().map_err(Failure::Usage)?;
-    let started = started();
+    let started = provenance_file::of_process().command;
     let mut recorder = opening(&session).map_err(Failure::Unanswered)?;
     recorder.extend(play.iter().cloned());
     let mut recorder = Recorder::new(recorder);
@@ -200,13 +200,6 @@ fn welcome(session: &Session, memory: &Memory) -> Option<String> {
         return None;
     };
     Some(session.keymap.fill(said, Key::said))
-}
-
-/// The command line of this process, as a comment for a recorded file.
-fn started() -> String {
-    let words = std::env::args_os().skip(1);
-    let words = words.map(|word| word.to_string_lossy().into_owned());
-    std::iter::once("hopfscope".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
 /// The error for a first word that is neither a scene nor a command, with names that are similar.

@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicI32, Ordering};
 
 use clap::{Args, FromArgMatches, ValueEnum};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-use signal_hook::flag;
+use signal_hook::iterator::Signals;
 
 use super::input::{self, WINDOW};
 use super::output::holds_something;
@@ -143,8 +143,8 @@ impl ScanCommand {
                 self.force,
             );
         }
-        let stop = StopSignal::listen()?;
-        let interrupted = || stop.signal().is_some();
+        let stop = stop_signal()?;
+        let interrupted = || stop.load(Ordering::Relaxed) != 0;
         let all = asked.part.points.len();
         let scan = asked.part.scan.clone();
         let mut file = self.opened(asked.part, &interrupted)?;
@@ -183,7 +183,11 @@ impl ScanCommand {
                 let to = path.unwrap_or_else(|| "standard output".to_owned());
                 Err(Failure::Unanswered(format!("{to}: {error}; {tally}")))
             }
-            None => Ok(self.report(&tally, stop.signal().filter(|_| file.left() > 0))),
+            None => {
+                let signal = Some(stop.load(Ordering::Relaxed));
+                let signal = signal.filter(|signal| *signal != 0 && file.left() > 0);
+                Ok(self.report(&tally, signal))
+            }
         }
     }
 
@@ -323,28 +327,19 @@ impl std::fmt::Display for Tally {
     }
 }
 
-/// The signal that asked the process to stop, if any; a second signal ends it at once.
-struct StopSignal(Arc<AtomicUsize>);
-
-impl StopSignal {
-    fn listen() -> Result<Self, Failure> {
-        let came = Arc::new(AtomicUsize::new(0));
-        let again = Arc::new(AtomicBool::new(false));
-        let listen = |signal: i32| {
-            let code = i32::from(exit_code(signal));
-            flag::register_conditional_shutdown(signal, code, Arc::clone(&again))?;
-            flag::register(signal, Arc::clone(&again))?;
-            flag::register_usize(signal, Arc::clone(&came), usize::try_from(signal).unwrap_or(0))
-        };
-        for signal in [SIGINT, SIGTERM, SIGHUP] {
-            listen(signal).map_err(|error| {
-                Failure::Unanswered(format!("cannot listen for signals: {error}"))
-            })?;
+/// The signal that asked the process to stop, 0 if none has; a second signal ends it at once.
+fn stop_signal() -> Result<Arc<AtomicI32>, Failure> {
+    let came = Arc::new(AtomicI32::new(0));
+    let told = Arc::clone(&came);
+    let signals = Signals::new([SIGINT, SIGTERM, SIGHUP]);
+    let mut signals = signals
+        .map_err(|error| Failure::Unanswered(format!("cannot listen for signals: {error}")))?;
+    std::thread::spawn(move || {
+        for signal in signals.forever() {
+            if told.swap(signal, Ordering::Relaxed) != 0 {
+                std::process::exit(exit_code(signal).into());
+            }
         }
-        Ok(StopSignal(came))
-    }
-
-    fn signal(&self) -> Option<i32> {
-        i32::try_from(self.0.load(Ordering::Relaxed)).ok().filter(|&signal| signal != 0)
-    }
+    });
+    Ok(came)
 }

@@ -8,6 +8,7 @@ use clap_complete::Shell;
 use clap_mangen::Man;
 
 use super::{Cli, Failure, print, write};
+use crate::words::wrapped;
 
 /// Date of the manual pages, that of the version.
 const DATE: &str = "2026-11-23";
@@ -72,19 +73,15 @@ fn tidied(page: &str) -> String {
         // A tag is the line after `.TP`; broken, its rest would be the text that it stands beside.
         let whole = is_tag || line.starts_with(['.', '\'', ' ']);
         is_tag = line == ".TP";
-        let mut column = 0;
-        for word in line.trim_end().split(' ') {
-            if column > WIDTH - word.len().min(WIDTH) && !whole {
-                // At the start of a line a point begins a request.
-                out += if word.starts_with('.') { "\n\\&" } else { "\n" };
-                column = 0;
-            } else if column > 0 {
-                out.push(' ');
-            }
-            out += word;
-            column += 1 + word.len();
+        if whole {
+            out += &(line.trim_end().to_owned() + "\n");
+            continue;
         }
-        out.push('\n');
+        for part in wrapped(line, WIDTH) {
+            // At the start of a line a point begins a request.
+            let escape = if part.starts_with('.') { "\\&" } else { "" };
+            out += &format!("{escape}{part}\n");
+        }
     }
     out
 }

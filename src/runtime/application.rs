@@ -11,6 +11,7 @@ use ratatui::{Frame, Terminal};
 
 use super::workers::Work;
 use crate::scene::Request;
+use crate::session::replay::ScriptError;
 use crate::session::{Effect, Gesture, Key, Msg, PointerTarget};
 
 /// A session and how it is drawn; tests have simpler implementations.
@@ -121,6 +122,21 @@ pub enum EffectOutcome {
     Told(Msg),
     /// The loop ends, or pauses.
     Stop(LoopEnd),
+}
+
+/// The result of a keystroke file that was played without a terminal.
+#[derive(Clone, Debug)]
+pub struct ReplayResult<M> {
+    /// The application at the end.
+    pub application: M,
+    /// The last picture; [`crate::view::screen::text`] has its characters.
+    pub screen: Buffer,
+    /// The pictures that the file asks for by name, in its order.
+    pub kept: Vec<(String, Buffer)>,
+    /// The first expectation that was not met; playing ended there.
+    pub unmet: Option<ScriptError>,
+    /// Why the first file that was to be written was not.
+    pub unwritten: Option<String>,
 }
 
 /// Runs an application and carries out its effects.

@@ -21,7 +21,7 @@ use super::record::RecordingFile;
 use super::scan_file;
 use super::workers::Workers;
 use crate::scene::Request;
-use crate::session::replay::{LONGEST, Recorder, Script};
+use crate::session::replay::{LONGEST, Recorder, Script, ScriptError};
 use crate::session::{Effect, Msg, Notice, Pointed};
 use crate::terminal::Screen;
 use crate::terminal::pacing::FRAME_TIME;
@@ -29,6 +29,7 @@ use crate::view;
 
 mod play;
 mod playing;
+mod unattended;
 
 use play::Playing;
 
@@ -84,6 +85,10 @@ pub struct Pump<M, W: Write> {
     held_back: VecDeque<Event>,
     /// Whether a figure is being written.
     writing: bool,
+    /// Whether there is no terminal: a file is played, and no frame drawn.
+    unattended: bool,
+    /// The first expectation of that file that was not met.
+    unmet: Option<ScriptError>,
     terminal_size: fn() -> Size,
 }
 
@@ -111,6 +116,8 @@ impl<M: Application, W: Write> Pump<M, W> {
             playing,
             held_back: VecDeque::new(),
             writing: false,
+            unattended: false,
+            unmet: None,
             terminal_size,
         }
     }
@@ -177,9 +184,9 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// Waits for an answer that the terminal owes, so that it does not arrive after the program has ended.
     pub fn await_terminal(&mut self) {
-        while let Some(until) = self.screen.last_wait() {
+        while let Some(until) = self.screen.pacing.last_wait() {
             match self.events.recv_deadline(until) {
-                Ok(Event::Shown) => drop(self.screen.answered(Instant::now())),
+                Ok(Event::Shown) => drop(self.screen.pacing.answered(Instant::now())),
                 Ok(event) => self.missed.push_back(event),
                 Err(_) => return,
             }
@@ -190,7 +197,10 @@ impl<M: Application, W: Write> Pump<M, W> {
         match event {
             Event::Session(msg) if is_users(&msg) => self.users(msg),
             Event::Session(msg) => {
-                self.writing &= !matches!(msg, Msg::Written(_));
+                if let Msg::Written(notice) = &msg {
+                    self.writing = false;
+                    self.note_unwritten(notice);
+                }
                 self.workers.arrived(&msg);
                 self.update(msg)
             }
@@ -200,7 +210,7 @@ impl<M: Application, W: Write> Pump<M, W> {
                 pointed.map_or(Ok(None), |msg| self.handle(Event::Session(msg)))
             }
             Event::Shown => {
-                self.screen.answered(Instant::now());
+                self.screen.pacing.answered(Instant::now());
                 Ok(None)
             }
             Event::Background { is_light } => {
@@ -248,7 +258,11 @@ impl<M: Application, W: Write> Pump<M, W> {
         self.writing |= begun.is_ok();
         match begun {
             Ok(()) => EffectOutcome::Done,
-            Err(text) => EffectOutcome::Told(Msg::Written(Notice { error: true, text })),
+            Err(text) => {
+                let notice = Notice { error: true, text };
+                self.note_unwritten(&notice);
+                EffectOutcome::Told(Msg::Written(notice))
+            }
         }
     }
 
@@ -270,14 +284,14 @@ impl<M: Application, W: Write> Pump<M, W> {
         let Some(changed) = self.changed else {
             // Motion is drawn as often as frames may be sent, which over a slow line is less often.
             let beat = self.beat.filter(|_| self.application.is_moving())?;
-            return Some((beat + FRAME_TIME).max(self.screen.next(beat)));
+            return Some((beat + FRAME_TIME).max(self.screen.pacing.next(beat)));
         };
         let answer = if self.workers.asked().all(Request::is_long) {
             changed
         } else {
             changed + ANSWER_TIME
         };
-        Some(answer.max(self.screen.next(changed)))
+        Some(answer.max(self.screen.pacing.next(changed)))
     }
 
     /// Tells the session how much time has passed since it was last told, while something in it moves.
@@ -310,8 +324,9 @@ impl<M: Application, W: Write> Host for Pump<M, W> {
     }
 
     fn carry_out(&mut self, effect: Effect) -> io::Result<EffectOutcome> {
-        if let Some(refusal) = self.refusal(&effect) {
-            return Ok(EffectOutcome::Told(refusal));
+        let refusal = self.refusal(&effect).map(EffectOutcome::Told);
+        if let Some(outcome) = refusal.or_else(|| self.omission(&effect)) {
+            return Ok(outcome);
         }
         let notice = match effect {
             Effect::Quit => return Ok(EffectOutcome::Stop(LoopEnd::Quit)),
@@ -345,6 +360,7 @@ impl<M: Application, W: Write> Host for Pump<M, W> {
             }
             Effect::Record { path, forget, replace } => self.write_record(&path, forget, replace),
         };
+        self.note_unwritten(&notice);
         Ok(EffectOutcome::Told(Msg::Told(notice)))
     }
 }

@@ -5,6 +5,7 @@ use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
+use time::OffsetDateTime;
 
 use crate::report::page::SourceFile;
 
@@ -20,30 +21,14 @@ pub fn of(path: &Path, bytes: &[u8]) -> SourceFile {
 
 /// The SHA-256 in hexadecimal digits.
 fn sha256(bytes: &[u8]) -> String {
-    let digest = Sha256::digest(bytes);
-    digest
-        .iter()
-        .flat_map(|byte| [byte >> 4, byte & 15])
-        .filter_map(|four| char::from_digit(four.into(), 16))
-        .collect()
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Seconds since 1970 as `2026-03-02 10:11:12 UTC`, in the calendar.
+/// Seconds since 1970 as `2026-03-02 10:11:12 UTC`.
 fn date(seconds: i64) -> String {
-    let (days, clock) = (seconds.div_euclid(86_400), seconds.rem_euclid(86_400));
-    // Years begin in March here, so that the leap day ends them; 719 468 days lie between March of the year 0 and 1970.
-    // 400 years have 146 097 days.
-    let days = days + 719_468;
-    let (era, day) = (days.div_euclid(146_097), days.rem_euclid(146_097));
-    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
-    let day = day - (365 * year + year / 4 - year / 100);
-    // Five months from March on have 153 days.
-    let month = (5 * day + 2) / 153;
-    let day = day - (153 * month + 2) / 5 + 1;
-    let (year, month) = (400 * era + year, month + 3);
-    let (year, month) = if month > 12 { (year + 1, month - 12) } else { (year, month) };
-    let (hours, minutes, seconds) = (clock / 3600, clock / 60 % 60, clock % 60);
-    format!("{year:04}-{month:02}-{day:02} {hours:02}:{minutes:02}:{seconds:02} UTC")
+    let Ok(at) = OffsetDateTime::from_unix_timestamp(seconds) else { return String::new() };
+    let ((hours, minutes, seconds), month) = (at.to_hms(), u8::from(at.month()));
+    format!("{}-{month:02}-{:02} {hours:02}:{minutes:02}:{seconds:02} UTC", at.year(), at.day())
 }
 
 #[cfg(test)]

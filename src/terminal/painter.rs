@@ -40,15 +40,17 @@ const FRAME_CAPACITY: usize = 64 * 1024;
 #[derive(Debug)]
 pub struct Painter<W: Write> {
     out: W,
-    size: Size,
+    /// The size of the terminal.
+    pub size: Size,
     /// The frame in progress, empty or starting with [`BEGIN`].
     frame: Vec<u8>,
-    /// Whether the next frame ends with [`REQUEST`].
-    asking: bool,
+    /// Whether frames end with [`REQUEST`], so that the terminal reports when it has shown them.
+    pub asking: bool,
     hand: TerminalState,
     shown: Shown,
     cursor_shown: bool,
-    written: u64,
+    /// Bytes written so far.
+    pub written: u64,
 }
 
 impl<W: Write> Painter<W> {
@@ -66,21 +68,6 @@ impl<W: Write> Painter<W> {
         }
     }
 
-    /// Bytes written so far.
-    pub fn written(&self) -> u64 {
-        self.written
-    }
-
-    /// Tells the painter the size of the terminal.
-    pub fn set_size(&mut self, size: Size) {
-        self.size = size;
-    }
-
-    /// The size from the last call of `set_size`, or from the start.
-    pub fn shown_size(&self) -> Size {
-        self.size
-    }
-
     /// Forgets the state of the terminal, because something else has written to it or it has another size, and
     /// the frame begun for that state.
     pub fn forget(&mut self) {
@@ -88,11 +75,6 @@ impl<W: Write> Painter<W> {
         self.hand = TerminalState::default();
         self.shown = Shown::default();
         self.cursor_shown = false;
-    }
-
-    /// Sets whether frames ask the terminal to report when it has shown them.
-    pub fn ask(&mut self, asking: bool) {
-        self.asking = asking;
     }
 
     /// Writes a control sequence that draws nothing, outside of frames.
@@ -231,7 +213,7 @@ mod tests {
         let mut terminal = terminal(10, 2);
         assert_eq!(frame(&mut terminal, &Line::from("abc")), "\x1b[H\x1b[mabc");
         assert_eq!(frame(&mut terminal, &Line::from("abc")), "");
-        assert_eq!(terminal.backend().written(), 25);
+        assert_eq!(terminal.backend().written, 25);
     }
 
     #[test]
@@ -244,7 +226,7 @@ mod tests {
     #[test]
     fn a_request_follows_the_frame_and_only_a_frame() {
         let mut terminal = terminal(4, 1);
-        terminal.backend_mut().ask(true);
+        terminal.backend_mut().asking = true;
         for _ in 0..2 {
             terminal.draw(|frame| frame.render_widget("x", frame.area())).unwrap();
         }

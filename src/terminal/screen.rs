@@ -16,7 +16,8 @@ const UNKNOWN: Size = Size { width: 80, height: 24 };
 #[derive(Debug)]
 pub struct Screen<W: Write> {
     terminal: Terminal<Painter<W>>,
-    pacing: Pacing,
+    /// When the next frame may be sent.
+    pub pacing: Pacing,
 }
 
 impl<W: Write> Screen<W> {
@@ -36,28 +37,13 @@ impl<W: Write> Screen<W> {
         Ok(())
     }
 
-    /// Earliest time for the next frame.
-    pub fn next(&self, now: Instant) -> Instant {
-        self.pacing.next(now)
-    }
-
-    /// Notes that the terminal has shown the last frame; `false` if no answer was due.
-    pub fn answered(&mut self, now: Instant) -> bool {
-        self.pacing.answered(now)
-    }
-
-    /// Until when to wait for an answer before leaving the terminal.
-    pub fn last_wait(&self) -> Option<Instant> {
-        self.pacing.last_wait()
-    }
-
     /// Draws a frame; one that looks like the last one sends nothing.
     pub fn draw(&mut self, now: Instant, picture: impl FnOnce(&mut Frame)) -> io::Result<()> {
-        let before = self.terminal.backend().written();
+        let before = self.terminal.backend().written;
         let asks = self.pacing.asks();
-        self.terminal.backend_mut().ask(asks);
+        self.terminal.backend_mut().asking = asks;
         self.terminal.draw(picture)?;
-        if self.terminal.backend().written() > before {
+        if self.terminal.backend().written > before {
             self.pacing.sent(now, asks);
         }
         Ok(())
@@ -65,7 +51,7 @@ impl<W: Write> Screen<W> {
 
     /// The current size of frames, in cells.
     pub fn size(&self) -> Size {
-        self.terminal.backend().shown_size()
+        self.terminal.backend().size
     }
 
     /// Sets the size of the terminal and makes the next frame redraw everything, because what is on the screen is
@@ -73,7 +59,7 @@ impl<W: Write> Screen<W> {
     pub fn repaint(&mut self, size: Size) -> io::Result<()> {
         let size = known(size);
         let painter = self.terminal.backend_mut();
-        painter.set_size(size);
+        painter.size = size;
         painter.forget();
         // Not `Terminal::clear`, which asks for the cursor position and waits for the answer.
         self.terminal.resize(Rect::from((ratatui::layout::Position::ORIGIN, size)))

@@ -5,7 +5,6 @@
 //! are drawn either row by row or pen by pen, whichever takes fewer bytes: a curve along a row favours the
 //! first order, a line down the screen the second.
 
-use std::fmt::Write;
 use std::ops::Range;
 
 use ratatui::buffer::Cell;
@@ -318,16 +317,13 @@ fn relative_move(target: Position, cursor: Cursor, size: Size) -> Option<String>
 
 /// A move by `count` steps: repeated single characters if that is shorter, else a sequence.
 fn steps(count: u16, single: &str, letter: char) -> String {
-    let mut sequence = String::new();
-    match count {
-        0 => {}
-        1 => sequence.extend(['\x1b', '[', letter]),
-        _ => drop(write!(sequence, "\x1b[{count}{letter}")),
-    }
-    if !single.is_empty() && usize::from(count) < sequence.len() {
-        return single.repeat(count.into());
-    }
-    sequence
+    let sequence = match count {
+        0 => String::new(),
+        1 => format!("\x1b[{letter}"),
+        _ => format!("\x1b[{count}{letter}"),
+    };
+    let is_shorter = !single.is_empty() && usize::from(count) < sequence.len();
+    if is_shorter { single.repeat(count.into()) } else { sequence }
 }
 
 #[cfg(test)]

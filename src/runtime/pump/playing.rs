@@ -10,7 +10,6 @@ use std::path::Path;
 use super::play::{Pause, Playing};
 use super::{Application, EffectOutcome, Files, Pump};
 use crate::runtime::application::{Event, LoopEnd};
-use crate::runtime::headless::unasked;
 use crate::session::read::waiting::forgets;
 use crate::session::replay::{Action, Script};
 use crate::session::{Code, Effect, Key, Msg, Notice};
@@ -119,6 +118,10 @@ impl<M: Application, W: Write> Pump<M, W> {
         };
         playing.given.forget(asked);
         let Err(unmet) = playing.player.interject(script) else { return Ok(EffectOutcome::Done) };
+        if self.unattended {
+            self.unmet = Some(unmet);
+            return Ok(EffectOutcome::Stop(LoopEnd::Quit));
+        }
         let stop = self.played(true, format!("replay stopped: {unmet}"), false)?;
         Ok(stop.map_or(EffectOutcome::Done, EffectOutcome::Stop))
     }
@@ -126,10 +129,22 @@ impl<M: Application, W: Write> Pump<M, W> {
     /// The refusal of an effect that writes a file, if a file that may not do so is played.
     pub(super) fn refusal(&mut self, effect: &Effect) -> Option<Msg> {
         let playing = self.playing.as_mut()?;
-        let notice = unasked(effect).filter(|_| !self.options.files.may_play_write)?;
-        playing.unwritten.get_or_insert(notice.text.clone());
+        if self.options.files.may_play_write {
+            return None;
+        }
+        let path = effect.writes()?.display();
+        let text = format!("{path} not written: a keystroke file writes only with --allow-write");
+        playing.unwritten.get_or_insert(text.clone());
+        let notice = Notice { error: true, text };
         let is_figure = matches!(effect, Effect::Figure { .. });
         Some(if is_figure { Msg::Written(notice) } else { Msg::Told(notice) })
+    }
+
+    /// Notes that a file which a replay asked for was not written.
+    pub(super) fn note_unwritten(&mut self, notice: &Notice) {
+        if let Some(playing) = self.playing.as_mut().filter(|_| notice.error) {
+            playing.unwritten.get_or_insert(notice.text.clone());
+        }
     }
 
     /// Takes the next step of a replay, if the screen shows everything before it.
