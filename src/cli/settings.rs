@@ -26,17 +26,8 @@ pub struct Settings {
 impl Settings {
     /// The content of the file. The user's own file need not exist; a file named on the command line must.
     pub fn read(&self) -> Result<Config, Failure> {
-        let (path, named) = match (&self.config, self.no_config) {
-            (Some(path), _) => (path.clone(), true),
-            (None, true) => return Ok(Config::default()),
-            (None, false) => match places::settings() {
-                Some(path) => (path, false),
-                None => return Ok(Config::default()),
-            },
-        };
-        if !named && !path.exists() {
-            return Ok(Config::default());
-        }
+        let is_there = |path: &PathBuf| self.config.is_some() || path.exists();
+        let Some(path) = self.path().filter(is_there) else { return Ok(Config::default()) };
         parse(&path.display().to_string(), &bounded::text(&path)?)
             .map_err(|misread| Failure::Usage(misread.to_string()))
     }

@@ -102,7 +102,11 @@ impl<M: Application, W: Write> Pump<M, W> {
         mut options: Options,
         terminal_size: fn() -> Size,
     ) -> Pump<M, W> {
-        let playing = options.replay.take().map(|script| Playing::new(script, 1));
+        let playing = options.replay.take().map(Playing::new);
+        if playing.is_some() {
+            // Its steps are recorded as they are given.
+            options.recorder.forget(1);
+        }
         Pump {
             application,
             screen,
@@ -272,7 +276,7 @@ impl<M: Application, W: Write> Pump<M, W> {
             return Notice { error: true, text };
         }
         let mut recorder = self.options.recorder.clone();
-        recorder.forget(if self.playing.is_none() { forget } else { 0 });
+        recorder.forget(forget);
         Files::write(path, recorder.text(&self.options.started), true, Readers::Owner)
     }
 
@@ -300,7 +304,7 @@ impl<M: Application, W: Write> Pump<M, W> {
         let last = self.beat.replace(now);
         if let Some(last) = last.filter(|_| self.application.is_moving()) {
             let msg = Msg::Elapsed { seconds: (now - last).as_secs_f64().min(LONGEST) };
-            self.note(&msg);
+            self.options.recorder.note(&msg);
             // The passing of time has no effects.
             drop(self.application.update(msg));
         }

@@ -1,6 +1,6 @@
 //! The state of the loop while it plays a file.
 
-use crate::session::replay::{Player, Recorder, Script};
+use crate::session::replay::{Player, Script};
 
 /// Why a replay is paused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,27 +22,18 @@ pub(super) struct Playing {
     pub(super) passed: usize,
     /// Whether keys had their usual effect since the present caption was shown.
     pub(super) tried: bool,
-    /// Number of key presses that asked for it, the last ones recorded.
-    pub(super) asked: u32,
-    /// The steps that it has given to the session so far.
-    pub(super) given: Recorder,
-    /// Whether anything besides its own steps was given to the session, such as the passing of time.
-    pub(super) timed: bool,
     pub(super) pause: Pause,
     /// Why the first file that it asked for was not written.
     pub(super) unwritten: Option<String>,
 }
 
 impl Playing {
-    pub(super) fn new(script: Script, asked: u32) -> Self {
+    pub(super) fn new(script: Script) -> Self {
         Playing {
             player: Player::new(script.clone()),
             script,
             passed: 0,
             tried: false,
-            asked,
-            given: Recorder::default(),
-            timed: false,
             pause: Pause::Not,
             unwritten: None,
         }

@@ -1,8 +1,6 @@
 //! Files played in the loop, the effect of the user's keys meanwhile, and what is recorded.
 //!
-//! A recording keeps the command that asked for a replay, because it plays the same again. Only if the replay
-//! ended early, or something besides its steps was given to the session, the recording has the given steps
-//! instead of the command.
+//! A recording has the steps that a replay has given to the session instead of the command that asked for it.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -43,21 +41,15 @@ impl<M: Application, W: Write> Pump<M, W> {
                     return self.update(msg);
                 }
             }
-            self.options.recorder.note(&msg);
-            let stop = self.update(msg)?;
-            if stop == Some(LoopEnd::Quit) {
-                self.options.recorder.forget(1);
-            }
-            return Ok(stop);
+            return self.record(msg);
         };
         let caption = playing.pause == Pause::Caption;
         if matches!(msg, Msg::Key(key) if caption && self.application.tries(key)) {
-            (playing.tried, playing.timed) = (true, true);
-            playing.given.note(&msg);
-            return self.update(msg);
+            playing.tried = true;
+            return self.record(msg);
         }
         if is_key(&msg, Code::Esc) {
-            return self.played(false, "replay stopped".to_owned(), false);
+            return self.played(false, "replay stopped".to_owned());
         }
         if leaves(&msg) {
             return Ok(Some(LoopEnd::Quit));
@@ -78,51 +70,30 @@ impl<M: Application, W: Write> Pump<M, W> {
         Ok(None)
     }
 
-    /// Records a message that is not input of the user.
-    pub(super) fn note(&mut self, msg: &Msg) {
-        match &mut self.playing {
-            Some(playing) => {
-                playing.timed = true;
-                playing.given.note(msg);
-            }
-            None => self.options.recorder.note(msg),
-        }
-    }
-
     /// The text of a file, from the replay if that embeds it, else from disk; the recording embeds it.
     pub(super) fn read(&mut self, path: &Path) -> Result<String, String> {
         let embedded = self.playing.as_ref().and_then(|playing| playing.player.file(path));
         let result = embedded.map_or_else(|| Files::read(path), |text| Ok(text.to_owned()));
         if let Ok(text) = &result {
-            let (recorder, asked) = match &mut self.playing {
-                // If the replay is not played to its end, the recording has its steps, which ask for the file
-                // themselves.
-                Some(playing) => {
-                    let asked = self.application.asked();
-                    playing.given.embed(&path.display().to_string(), text, asked);
-                    (&mut self.options.recorder, playing.asked)
-                }
-                None => (&mut self.options.recorder, self.application.asked()),
-            };
-            recorder.embed(&path.display().to_string(), text, asked);
+            let asked = self.application.asked();
+            self.options.recorder.embed(&path.display().to_string(), text, asked);
         }
         result
     }
 
     /// Begins a replay; one that is already being played continues afterwards.
     pub(super) fn begin(&mut self, script: Script) -> io::Result<EffectOutcome> {
-        let asked = self.application.asked();
+        self.options.recorder.forget(self.application.asked());
         let Some(playing) = &mut self.playing else {
-            self.playing = Some(Playing::new(script, asked));
+            self.playing = Some(Playing::new(script));
             return Ok(EffectOutcome::Done);
         };
-        playing.given.forget(asked);
         let Err(unmet) = playing.player.interject(script) else { return Ok(EffectOutcome::Done) };
         if self.unattended {
             self.unmet = Some(unmet);
             return Ok(EffectOutcome::Stop(LoopEnd::Quit));
         }
-        let stop = self.played(true, format!("replay stopped: {unmet}"), false)?;
+        let stop = self.played(true, format!("replay stopped: {unmet}"))?;
         Ok(stop.map_or(EffectOutcome::Done, EffectOutcome::Stop))
     }
 
@@ -172,26 +143,20 @@ impl<M: Application, W: Write> Pump<M, W> {
                     if matches!(msg, Msg::Say(..)) && playing.player.said() > playing.passed {
                         playing.pause = Pause::Caption;
                     }
-                    playing.given.note(&msg);
-                    let stop = self.update(msg)?;
-                    if stop == Some(LoopEnd::Quit) {
-                        // The command that asked for this replay also quits when it is played again.
-                        self.settle(true);
-                    }
-                    Ok(stop)
+                    self.record(msg)
                 }
                 Ok(Action::Done) => match playing.unwritten.take() {
-                    Some(why) => self.played(true, format!("replay done, but {why}"), true),
-                    None => self.played(false, "replay done".to_owned(), true),
+                    Some(why) => self.played(true, format!("replay done, but {why}")),
+                    None => self.played(false, "replay done".to_owned()),
                 },
-                Err(unmet) => self.played(true, format!("replay stopped: {unmet}"), false),
+                Err(unmet) => self.played(true, format!("replay stopped: {unmet}")),
             };
         }
     }
 
-    /// Ends a replay; `whole` says that it was played to its end.
-    fn played(&mut self, error: bool, text: String, whole: bool) -> io::Result<Option<LoopEnd>> {
-        self.settle(whole);
+    /// Ends a replay.
+    fn played(&mut self, error: bool, text: String) -> io::Result<Option<LoopEnd>> {
+        self.playing = None;
         self.update(Msg::Say(String::new(), None))?;
         self.update(Msg::Told(Notice { error, text }))
     }
@@ -206,14 +171,14 @@ impl<M: Application, W: Write> Pump<M, W> {
         }
     }
 
-    /// Ends a replay in the recording: keeps the command that asked for it, or replaces that by the given
-    /// steps.
-    fn settle(&mut self, whole: bool) {
-        let Some(playing) = self.playing.take() else { return };
-        if !whole || playing.timed {
-            self.options.recorder.forget(playing.asked);
-            playing.given.steps().iter().for_each(|step| self.options.recorder.add(step.clone()));
+    /// Gives the session a message that is recorded, unless it quits.
+    fn record(&mut self, msg: Msg) -> io::Result<Option<LoopEnd>> {
+        self.options.recorder.note(&msg);
+        let stop = self.update(msg)?;
+        if stop == Some(LoopEnd::Quit) {
+            self.options.recorder.forget(1);
         }
+        Ok(stop)
     }
 
     /// Writes what was recorded since the last call, if there is a file for it.
@@ -228,7 +193,6 @@ impl<M: Application, W: Write> Pump<M, W> {
 
     /// Completes the recording when the program ends.
     pub fn close_record(&mut self) {
-        self.settle(false);
         if self.application.is_waiting() {
             self.options.recorder.forget(1);
         }
