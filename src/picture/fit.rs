@@ -11,7 +11,7 @@ use crate::flow::Limits;
 use crate::model::{Parameters, State};
 use crate::numerics::count::real;
 use crate::portrait::Border;
-use crate::portrait::basin::{Basin, basin};
+use crate::portrait::basin::basin;
 use crate::scene::{Point, Span, Window};
 
 /// Draws whose edge of the basin is drawn.
@@ -26,15 +26,14 @@ pub fn pictures(fitted: &Fitted) -> Vec<Picture<'static>> {
 
 fn record(fitted: &Fitted) -> Option<Picture<'static>> {
     let seen = fitted.curves.sampled.as_ref()?;
-    let measured = seen.points.iter().map(|[t, x, _]| at(*t, *x)).collect();
-    let fit = seen.motion.iter().map(|[t, .., x]| at(*t, *x)).collect();
-    let curves = vec![
-        curve("record", Role::Ghost, Dash::Solid, measured),
-        curve("fitted motion", Role::Trajectory, Dash::Solid, fit),
-    ];
     let name = ["x", "x'", "x''"][fitted.record.signal.order()];
-    let names = ("t [s]".to_owned(), with_unit(name, &fitted.signal_unit()));
-    let mut picture = picture("record and fit", names, curves, None)?;
+    let name = with_unit(name, &fitted.signal_unit());
+    let mut picture = Picture::new("record and fit", "t [s]", name, EMPTY);
+    let line = LineStyle::new("record", Role::Ghost, Dash::Solid);
+    picture.curve(line, seen.points.iter().map(|[t, x, _]| at(*t, *x)));
+    let line = LineStyle::new("fitted motion", Role::Trajectory, Dash::Solid);
+    picture.curve(line, seen.motion.iter().map(|[t, .., x]| at(*t, *x)));
+    picture.window = around(&picture)?;
     let record = &fitted.record;
     // What lies before and after the motion is seen, too.
     if let Some(times) = Span::covering(record.t.iter().flatten().copied()) {
@@ -47,12 +46,13 @@ fn record(fitted: &Fitted) -> Option<Picture<'static>> {
 
 pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
     let seen = fitted.curves.sampled.as_ref()?;
+    let name = with_unit("measured - fitted", &fitted.signal_unit());
+    let mut picture = Picture::new("residuals", "t [s]", name, EMPTY);
+    let line = LineStyle::new("residuals", Role::Ghost, Dash::Solid);
+    picture.curve(line, seen.points.iter().map(|[t, _, e]| at(*t, *e)));
     let deviation = fitted.estimate.covariance.deviation;
-    let points = seen.points.iter().map(|[t, _, e]| at(*t, *e)).collect();
-    let mut curves = vec![curve("residuals", Role::Ghost, Dash::Solid, points)];
-    curves.extend(band([seen.points.first()?[0], seen.points.last()?[0]], 2.0 * deviation));
-    let names = ("t [s]".to_owned(), with_unit("measured - fitted", &fitted.signal_unit()));
-    let mut picture = picture("residuals", names, curves, None)?;
+    band(&mut picture, [seen.points.first()?[0], seen.points.last()?[0]], 2.0 * deviation);
+    picture.window = around(&picture)?;
     let all = fitted.estimate.data.t.iter().zip(&fitted.estimate.residuals);
     let apart = all.zip(fitted.estimate.dropped_data()).filter_map(|((t, e), why)| {
         let why = why.filter(|it| matches!(it, Dropped::Outlier | Dropped::Jump))?;
@@ -63,59 +63,56 @@ pub fn residuals(fitted: &Fitted) -> Option<Picture<'static>> {
 }
 
 /// Both ends of what is to be expected by chance.
-fn band(along: [f64; 2], height: f64) -> [StyledPoints; 2] {
-    [height, -height].map(|height| {
-        let level = along.map(|x| at(x, height)).to_vec();
-        curve("+-2 standard deviations", Role::Current, Dash::Dashed, level)
-    })
+fn band(picture: &mut Picture, along: [f64; 2], height: f64) {
+    for height in [height, -height] {
+        let line = LineStyle::new("+-2 standard deviations", Role::Current, Dash::Dashed);
+        picture.curve(line, along.map(|x| at(x, height)));
+    }
 }
 
 /// The autocorrelation of the residuals over two periods.
 fn memory(fitted: &Fitted) -> Option<Picture<'static>> {
     let memory = memory_of(&fitted.estimate);
     let [periods, _] = *memory.last()?;
-    let chance = 2.0 / (real(fitted.estimate.kept_residuals().count())).sqrt();
+    let window = window([0.0, periods, -1.0, 1.0])?;
+    let mut picture = Picture::new("memory of the residuals", "lag [s]", "correlation", window);
     let name = "autocorrelation of the residuals";
-    let mut curves = vec![curve(name, Role::Energy, Dash::Solid, points(&memory))];
-    curves.extend(band([0.0, periods], chance));
-    let names = ("lag [s]".to_owned(), "correlation".to_owned());
-    picture("memory of the residuals", names, curves, window([0.0, periods, -1.0, 1.0]))
+    picture.curve(LineStyle::new(name, Role::Energy, Dash::Solid), points(&memory));
+    let chance = 2.0 / (real(fitted.estimate.kept_residuals().count())).sqrt();
+    band(&mut picture, [0.0, periods], chance);
+    Some(picture)
 }
 
 /// Damping over amplitude: measured decrements, the exact curve, the averaged one with its terms and its band.
 pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
     let p = &fitted.estimate.p;
     let found = &fitted.curves.damping;
-    let over = |value: &dyn Fn(f64) -> f64| {
-        found.averaged.iter().map(|&[x, _]| Point { x, y: value(x) }).collect()
-    };
-    let friction = |a: f64| 2.0 * p[R] / (PI * a);
-    let mut curves = vec![
-        curve("linear part D", Role::Asymptote, Dash::Sparse, over(&|_| p[D])),
-        curve("friction 2 r/(pi A)", Role::Sticking, Dash::Dotted, over(&friction)),
-        curve(
-            "cubic part (3/8) D3 A^2",
-            Role::Lyapunov,
-            Dash::DashDot,
-            over(&|a| 0.375 * p[D3] * a * a),
-        ),
-        curve("averaged", Role::Harmonic, Dash::Dashed, points(&found.averaged)),
-        curve("exact", Role::Trajectory, Dash::Thick, points(&found.exact)),
-    ];
+    let amplitude = with_unit("amplitude A", fitted.unit());
     let extent = window(found.extent)?;
-    let measured: Vec<Point> = found.measured.iter().map(|&[x, y, _]| Point { x, y }).collect();
+    let mut picture =
+        Picture::new("damping over amplitude", amplitude, "loss of amplitude", extent);
+    let parts: [(&str, Role, Dash, &dyn Fn(f64) -> f64); 3] = [
+        ("linear part D", Role::Asymptote, Dash::Sparse, &|_| p[D]),
+        ("friction 2 r/(pi A)", Role::Sticking, Dash::Dotted, &|a| 2.0 * p[R] / (PI * a)),
+        ("cubic part (3/8) D3 A^2", Role::Lyapunov, Dash::DashDot, &|a| 0.375 * p[D3] * a * a),
+    ];
+    for (name, role, dash, part) in parts {
+        let places = found.averaged.iter().map(|[a, _]| at(*a, part(*a)));
+        picture.curve(LineStyle::new(name, role, dash), places);
+    }
+    let line = LineStyle::new("averaged", Role::Harmonic, Dash::Dashed);
+    picture.curve(line, points(&found.averaged));
+    picture.curve(LineStyle::new("exact", Role::Trajectory, Dash::Thick), points(&found.exact));
+    let measured: Vec<Point> = found.measured.iter().map(|&[x, y, _]| at(x, y)).collect();
     let beyond = measured.iter().filter(|at| !extent.contains(**at)).count();
     let name = match beyond {
         0 => "measured".to_owned(),
         _ => format!("measured, {beyond} beyond the plot"),
     };
-    curves.extend(found.measured.iter().map(|&[x, y, error]| {
-        let bar = [y - error, y + error].map(|y| Point { x, y });
-        (LineStyle::new(name.clone(), Role::Ghost, Dash::Solid), bar.to_vec())
-    }));
-    let amplitude = with_unit("amplitude A", fitted.unit());
-    let names = (amplitude, "loss of amplitude".to_owned());
-    let mut picture = picture("damping over amplitude", names, curves, Some(extent))?;
+    for &[x, y, error] in &found.measured {
+        let line = LineStyle::new(name.clone(), Role::Ghost, Dash::Solid);
+        picture.curve(line, [y - error, y + error].map(|y| at(x, y)));
+    }
     let line = LineStyle::new("90 % band of averaged", Role::Field, Dash::Solid);
     picture.items.push(Item::Shade(line, points(&found.band)));
     let exact = points(&found.exact);
@@ -133,32 +130,21 @@ fn zero(from: Point, to: Point) -> Marks {
     Marks { name: name.into(), brief: name, ..Marks::new(mark, role, vec![Point { x, y: 0.0 }]) }
 }
 
-/// The first border of a basin, thinned, as a curve.
-fn border(found: &Basin, name: &'static str, role: Role, dash: Dash) -> Option<StyledPoints> {
-    const COUNT: u16 = 24;
-    if found.border == Border::None {
-        return None;
-    }
-    let points = found.borders.first()?.curve(COUNT);
-    Some(curve(name, role, dash, points.iter().map(|point| at(point.q, point.v)).collect()))
-}
-
 fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
     let estimate = &fitted.estimate;
     let p = &estimate.p;
     let (_, largest) = estimate.amplitudes();
-    let edge_of = |parameters: &Parameters| basin(parameters, 2.0 * largest, &Limits::PATIENT).ok();
+    let reach = 1.3 * largest.max(p[Q0].abs());
+    let span = Span::new(-reach, reach).ok()?;
+    let [q, v] = ["x - offset", "velocity/omega0"].map(|name| with_unit(name, fitted.unit()));
+    let mut picture = Picture::new("phase plane", q, v, Window { x: span, y: span });
     let every = (fitted.margins.draws.len() / EDGES).max(1);
-    let drawn = fitted.margins.draws.iter().step_by(every);
-    let mut curves: Vec<StyledPoints> = drawn
-        .filter_map(|draw| {
-            border(&edge_of(draw)?, "borders of twenty drawn basins", Role::Ghost, Dash::Dotted)
-        })
-        .collect();
-    let own = edge_of(&parameters(p));
-    curves.extend(
-        own.and_then(|own| border(&own, "border of the basin", Role::Unstable, Dash::Solid)),
-    );
+    for draw in fitted.margins.draws.iter().step_by(every) {
+        let line = LineStyle::new("borders of twenty drawn basins", Role::Ghost, Dash::Dotted);
+        border(&mut picture, draw, largest, line);
+    }
+    let line = LineStyle::new("border of the basin", Role::Unstable, Dash::Solid);
+    border(&mut picture, &parameters(p), largest, line);
     if let Some(seen) = &fitted.curves.sampled {
         let mut motion = seen.motion.iter().peekable();
         let mut data = Vec::new();
@@ -168,24 +154,29 @@ fn phase(fitted: &Fitted) -> Option<Picture<'static>> {
                 data.extend(estimate.measured(*t, *x, State { q: *q, v: *v }).map(Point::from));
             }
         }
-        let fit = seen.motion.iter().map(|[_, q, v, _]| at(*q, *v)).collect();
         let name = match estimate.data.signal {
             Signal::Displacement => "record (velocity by the fit)",
             _ => "record (displacement by the fit)",
         };
         if !data.is_empty() {
-            curves.push(curve(name, Role::Field, Dash::Dotted, data));
+            picture.curve(LineStyle::new(name, Role::Field, Dash::Dotted), data);
         }
-        curves.push(curve("fitted motion", Role::Trajectory, Dash::Solid, fit));
+        let line = LineStyle::new("fitted motion", Role::Trajectory, Dash::Solid);
+        picture.curve(line, seen.motion.iter().map(|[_, q, v, _]| at(*q, *v)));
     }
-    let reach = 1.3 * largest.max(p[Q0].abs());
-    let span = Span::new(-reach, reach).ok()?;
-    let q = with_unit("x - offset", fitted.unit());
-    let v = with_unit("velocity/omega0", fitted.unit());
-    let mut picture = picture("phase plane", (q, v), curves, Some(Window { x: span, y: span }))?;
     let line = LineStyle::new("sticking set", Role::Sticking, Dash::Solid);
     picture.bar(line, at(-p[R], 0.0), at(p[R], 0.0));
     Some(picture)
+}
+
+/// Adds the first border of the basin of these parameters, thinned, if there is one.
+fn border(picture: &mut Picture, parameters: &Parameters, largest: f64, line: LineStyle) {
+    const COUNT: u16 = 24;
+    let found = basin(parameters, 2.0 * largest, &Limits::PATIENT).ok();
+    let found = found.filter(|found| found.border != Border::None);
+    if let Some(border) = found.as_ref().and_then(|found| found.borders.first()) {
+        picture.curve(line, border.curve(COUNT).iter().map(|point| at(point.q, point.v)));
+    }
 }
 
 /// D and r together: where both lie with 68 and 95 %.
@@ -193,12 +184,15 @@ fn together(fitted: &Fitted) -> Option<Picture<'static>> {
     const LINES: [(&str, Dash); 2] =
         [("delta chi^2 = 2.3 (68 %)", Dash::Solid), ("delta chi^2 = 6 (95 %)", Dash::Dashed)];
     let p = &fitted.estimate.p;
-    let contours = fitted.contours.iter().zip(LINES).filter(|(points, _)| !points.is_empty());
-    let contours = contours.map(|(points, (name, dash))| {
-        curve(name, Role::Trajectory, dash, points.iter().map(|[d, r]| at(*d, *r)).collect())
-    });
-    let names = ("D".to_owned(), with_unit("r", fitted.unit()));
-    let mut picture = picture("D and r together", names, contours.collect(), None)?;
+    let r = with_unit("r", fitted.unit());
+    let mut picture = Picture::new("D and r together", "D", r, EMPTY);
+    for (contour, (name, dash)) in fitted.contours.iter().zip(LINES) {
+        if !contour.is_empty() {
+            let line = LineStyle::new(name, Role::Trajectory, dash);
+            picture.curve(line, contour.iter().map(|[d, r]| at(*d, *r)));
+        }
+    }
+    picture.window = around(&picture)?;
     let marks = Marks::new(Mark::Stable, Role::Special, vec![at(p[D], p[R])]);
     picture.items.push(Item::Marks(Marks { name: "estimate".into(), ..marks }));
     Some(picture)
@@ -209,16 +203,15 @@ pub fn margin(fitted: &Fitted) -> Option<Picture<'static>> {
     let (_, largest) = fitted.estimate.amplitudes();
     // A shift from rest leads this far out if it begins at the end of the sticking set.
     let largest = largest - fitted.estimate.p[R];
-    let steps = points(&fitted.curves.spread);
-    let ends = vec![at(largest, 0.0), at(largest, 1.0)];
-    let curves = vec![
-        curve("margin is less than this", Role::Danger, Dash::Thick, steps),
-        curve("largest amplitude less r", Role::Current, Dash::DashDot, ends),
-    ];
     let name = with_unit("smallest shift from rest not survived", fitted.unit());
-    let names = (name, "probability".to_owned());
-    let extent = Some(window(fitted.curves.spread_extent)?);
-    picture("margin from rest, distribution", names, curves, extent)
+    let extent = window(fitted.curves.spread_extent)?;
+    let title = "margin from rest, distribution";
+    let mut picture = Picture::new(title, name, "probability", extent);
+    let line = LineStyle::new("margin is less than this", Role::Danger, Dash::Thick);
+    picture.curve(line, points(&fitted.curves.spread));
+    let line = LineStyle::new("largest amplitude less r", Role::Current, Dash::DashDot);
+    picture.curve(line, [0.0, 1.0].map(|share| at(largest, share)));
+    Some(picture)
 }
 
 /// How samples that do not count are marked, and what legends call them.
@@ -249,9 +242,6 @@ pub fn mark_dropped(picture: &mut Picture, samples: impl Iterator<Item = (Point,
     }
 }
 
-/// A curve before it stands in a picture.
-type StyledPoints = (LineStyle, Vec<Point>);
-
 fn at(x: f64, y: f64) -> Point {
     Point { x, y }
 }
@@ -265,33 +255,23 @@ fn window([left, right, low, high]: Extent) -> Option<Window> {
     Some(Window { x: Span::new(left, right).ok()?, y: Span::new(low, high).ok()? })
 }
 
-/// A curve through these points.
-fn curve(name: &'static str, role: Role, dash: Dash, points: Vec<Point>) -> StyledPoints {
-    (LineStyle::new(name, role, dash), points)
-}
+/// The window of a picture until its own is known.
+const EMPTY: Window = Window { x: Span::known(0.0, 1.0), y: Span::known(0.0, 1.0) };
 
-/// A picture of these curves; where no window is given, of one that holds them all with some room. `None` if
-/// they have no extent.
-fn picture(
-    title: &'static str,
-    (x, y): (String, String),
-    curves: Vec<StyledPoints>,
-    within: Option<Window>,
-) -> Option<Picture<'static>> {
-    let around = |place: fn(&Point) -> f64| {
-        let points = curves.iter().flat_map(|(_, points)| points);
-        let span = Span::covering(points.map(place).filter(|it| it.is_finite()))?;
+/// A window that holds all curves with some room; `None` if they have no extent.
+fn around(picture: &Picture) -> Option<Window> {
+    let curves = || {
+        picture.items.iter().filter_map(|item| match item {
+            Item::Curve(_, points) => Some(points),
+            _ => None,
+        })
+    };
+    let span = |place: fn(&Point) -> f64| {
+        let places = curves().flatten().map(place);
+        let span = Span::covering(places.filter(|it| it.is_finite()))?;
         Some(span.scaled(span.center(), 1.06))
     };
-    let window = match within {
-        Some(window) => window,
-        None => Window { x: around(|point| point.x)?, y: around(|point| point.y)? },
-    };
-    let mut picture = Picture::new(title, x, y, window);
-    for (line, points) in curves {
-        picture.curve(line, points);
-    }
-    Some(picture)
+    Some(Window { x: span(|point| point.x)?, y: span(|point| point.y)? })
 }
 
 /// `name [unit]`.

@@ -10,27 +10,23 @@ use crate::scene::{Layer, Point};
 use crate::session::Session;
 use crate::words::with_unit;
 
-/// A kind of cycle: what it is called, also by the legend of the screen, how it is drawn, and which cycles are of it.
-type CycleKind = ([&'static str; 2], Role, Dash, fn(&Cycle) -> bool);
-
-/// All kinds.
-const KINDS: [CycleKind; 5] = [
-    (["stable slip cycle", "stable cycle"], Role::Stable, Dash::Solid, |it| {
-        it.stable && !it.sticks() && !it.overtakes
-    }),
-    (["unstable slip cycle", "unstable cycle"], Role::Unstable, Dash::Dashed, |it| {
-        !it.stable && !it.sticks() && !it.overtakes
-    }),
-    (["branch of stick-slip cycles", "cycle on the belt"], Role::Stable, Dash::Thick, |it| {
-        it.sticks()
-    }),
-    (["stable overtaking cycle"; 2], Role::Velocity, Dash::Dotted, |it| {
-        it.stable && it.overtakes && !it.sticks()
-    }),
-    (["unstable overtaking cycle"; 2], Role::Unstable, Dash::Sparse, |it| {
-        !it.stable && it.overtakes && !it.sticks()
-    }),
+/// What each kind of cycle is called, also by the legend of the screen, and how it is drawn.
+const KINDS: [([&str; 2], Role, Dash); 5] = [
+    (["stable slip cycle", "stable cycle"], Role::Stable, Dash::Solid),
+    (["unstable slip cycle", "unstable cycle"], Role::Unstable, Dash::Dashed),
+    (["branch of stick-slip cycles", "cycle on the belt"], Role::Stable, Dash::Thick),
+    (["stable overtaking cycle"; 2], Role::Velocity, Dash::Dotted),
+    (["unstable overtaking cycle"; 2], Role::Unstable, Dash::Sparse),
 ];
+
+/// The row of [`KINDS`] to which a cycle belongs.
+fn kind(cycle: &Cycle) -> usize {
+    match (cycle.sticks(), cycle.overtakes, cycle.stable) {
+        (true, ..) => 2,
+        (_, false, stable) => usize::from(!stable),
+        (_, true, stable) => 3 + usize::from(!stable),
+    }
+}
 
 pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     picture.axes("v0 [m/s]", "x_max [m]");
@@ -45,9 +41,7 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     if session.layers.contains(&Layer::Speeds)
         && let Some(found) = session.speeds(index)
     {
-        for row in KINDS {
-            cycles(picture, &found.points, row);
-        }
+        (0..KINDS.len()).for_each(|kind| cycles(picture, &found.points, kind));
         rest(picture, &found.points);
         for special in &found.special {
             changes(picture, special);
@@ -56,15 +50,13 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
 }
 
 /// The cycles of a kind: the smallest of it at all speeds are one curve, the next ones another.
-fn cycles(
-    picture: &mut Picture,
-    points: &[SpeedPoint],
-    ([name, brief], role, dash, is): CycleKind,
-) {
-    let most = points.iter().map(|at| at.cycles.iter().filter(|it| is(it)).count()).max();
+fn cycles(picture: &mut Picture, points: &[SpeedPoint], kind: usize) {
+    let ([name, brief], role, dash) = KINDS[kind];
+    let is = |cycle: &&Cycle| self::kind(cycle) == kind;
+    let most = points.iter().map(|at| at.cycles.iter().filter(is).count()).max();
     for rank in 0..most.unwrap_or(0) {
         let place = |at: &SpeedPoint| {
-            let cycle = at.cycles.iter().filter(|it| is(it)).nth(rank);
+            let cycle = at.cycles.iter().filter(is).nth(rank);
             Point { x: at.v0, y: cycle.map_or(f64::NAN, |cycle| cycle.q_max) }
         };
         let places: Vec<Point> = points.iter().map(place).collect();

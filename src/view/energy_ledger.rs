@@ -27,7 +27,6 @@ pub fn draw(
     lines: &[LedgerLine],
     screen: &mut Screen,
 ) {
-    let look = screen.look;
     let (window, marks) = marks(area, lines, picture.window);
     picture.window = window;
     picture.title = View::EnergyLedger.spec().title.into();
@@ -38,7 +37,7 @@ pub fn draw(
     });
     let mut plot = Canvas::new(area, &picture, Some(marks), &heading, screen);
     plot.upright(0.0, Role::Axis, Dash::Solid);
-    let symbols = look.symbols();
+    let symbols = screen.look.symbols();
     let half = half_a_row(area, window);
     for y in left_out(lines.len(), window, half) {
         plot.write(y, &format!("{} more", symbols.more), Role::Quiet);
@@ -57,7 +56,7 @@ pub fn draw(
             }
             LedgerLine::Work { work, part, so_far, .. } => {
                 let role = if *work < 0.0 { Role::Loss } else { Role::Gain };
-                plot.bar(Point { x: 0.0, y }, Point { x: *part, y }, role);
+                plot.curve([0.0, *part].map(|x| Point { x, y }), role, Dash::Thick);
                 if let Some(so_far) = so_far {
                     plot.mark(Point { x: *so_far, y }, symbols.mark(Mark::Head), Role::Cursor);
                 }

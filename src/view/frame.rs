@@ -68,7 +68,6 @@ fn framed(area: Rect, session: &Session, index: usize) -> Picture<'_> {
 }
 
 fn plot(area: Rect, session: &Session, index: usize, picture: Picture, screen: &mut Screen) {
-    let look = screen.look;
     let draws = match session.plots[index].view {
         View::EnergyLedger => !session.ledger().is_empty(),
         View::Scan => session.scanned.is_some(),
@@ -77,7 +76,7 @@ fn plot(area: Rect, session: &Session, index: usize, picture: Picture, screen: &
     let heading = Heading::of(session, Pane::Plot(index));
     if let Some(text) = session.nothing(index).filter(|_| !draws) {
         screen.title(area, &picture.title, "", &heading);
-        let text = keys::sentence(&text, &session.keymap, look);
+        let text = keys::sentence(&text, &session.keymap, screen.look);
         return nothing(area, text, screen);
     }
     match (session.plots[index].view, &session.scanned) {
@@ -95,8 +94,7 @@ fn plot(area: Rect, session: &Session, index: usize, picture: Picture, screen: &
 
 /// What a plot says in place of empty axes.
 fn nothing(area: Rect, text: String, screen: &mut Screen) {
-    let look = screen.look;
-    let line = vec![look.span(text, Role::Text).into()];
+    let line = vec![screen.look.span(text, Role::Text).into()];
     let body = pane::below(area, 1);
     let width = area.width.saturating_sub(2);
     let height = prose::rows(&line, width).min(body.height);
@@ -106,11 +104,10 @@ fn nothing(area: Rect, text: String, screen: &mut Screen) {
 
 /// What a screen too small for everything else shows.
 fn card(area: Rect, screen: &mut Screen) {
-    let look = screen.look;
     let Rect { width, height, .. } = area;
     let (columns, rows) = SMALLEST;
     let text = format!("hopfscope needs {columns} x {rows}\nthis screen is {width} x {height}");
-    let text = Paragraph::new(text).style(look.style(Role::Text)).centered();
+    let text = Paragraph::new(text).style(screen.look.style(Role::Text)).centered();
     let middle = pane::below(area, height.saturating_sub(2) / 2);
     text.wrap(Wrap { trim: true }).render(middle, screen.buffer);
 }

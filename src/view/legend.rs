@@ -16,7 +16,6 @@ const MORE: u16 = 8;
 /// Draws the legend of some pictures, each entry in the first row with room, the main things first; what is
 /// left out is counted.
 pub fn draw(area: Rect, pictures: &[Picture], screen: &mut Screen) {
-    let look = screen.look;
     let mut entries = entries(pictures);
     entries.sort_by_key(|entry| rank(entry.sample));
     let texts = entries.iter().map(|entry| entry.text.chars().count());
@@ -32,13 +31,18 @@ pub fn draw(area: Rect, pictures: &[Picture], screen: &mut Screen) {
             x,
             area.bottom() - 1,
             format!("+{left} more"),
-            look.style(Role::Quiet),
+            screen.look.style(Role::Quiet),
         );
     }
     for (LegendEntry { sample, role, text }, place) in entries.iter().zip(places) {
         if let Some(place) = place {
             draw_sample(Rect { width: SAMPLE, ..place }, *role, *sample, screen);
-            screen.buffer.set_string(place.x + SAMPLE + 1, place.y, text, look.style(Role::Quiet));
+            screen.buffer.set_string(
+                place.x + SAMPLE + 1,
+                place.y,
+                text,
+                screen.look.style(Role::Quiet),
+            );
         }
     }
 }

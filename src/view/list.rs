@@ -50,7 +50,6 @@ impl ListContent {
 
     /// Draws it into the middle of the screen.
     pub fn draw(self, area: Rect, list: &List, screen: &mut Screen) {
-        let look = screen.look;
         let below = if self.about.is_empty() { 0 } else { self.below + 1 };
         let rows = u16::try_from(self.rows.len()).unwrap_or(u16::MAX);
         let wanted = rows.saturating_add(2 + below);
@@ -73,11 +72,11 @@ impl ListContent {
         let about = below.min(inner.height.saturating_sub(4));
         let rows = Rect { height: inner.height - about, ..inner };
         if count == 0 {
-            screen.line(rows, 0, look.span("nothing found", Role::Quiet));
+            screen.line(rows, 0, screen.look.span("nothing found", Role::Quiet));
         }
         let first = pane::first_seen(selected, self.rows.len(), rows.height.into());
         let seen = self.rows.into_iter().enumerate().skip(first);
-        let seen = seen.map(|(place, row)| drawn(row, place == selected, look));
+        let seen = seen.map(|(place, row)| drawn(row, place == selected, screen.look));
         screen.lines(rows, seen);
         if about > 0 {
             let text = Rect { y: rows.bottom() + 1, height: about - 1, ..inner };

@@ -32,11 +32,10 @@ impl Screen<'_> {
         left: impl Into<Line<'static>>,
         right: impl Into<Line<'static>>,
     ) {
-        let look = self.look;
         if row >= area.height {
             return;
         }
-        let (left, right) = (fitted(left.into(), area.width.into(), look), right.into());
+        let (left, right) = (fitted(left.into(), area.width.into(), self.look), right.into());
         let (x, y) = (area.x, area.y + row);
         let (end, _) = self.buffer.set_line(x, y, &left, area.width);
         let needed = u16::try_from(right.width()).unwrap_or(u16::MAX);
@@ -89,13 +88,11 @@ impl Screen<'_> {
         let stump = heading.reading.is_some() && 2 * room < title.chars().count();
         let otherwise = if stump { "" } else { title };
         let alone = || [names, title, held].into_iter().find(|text| full(text) && !text.is_empty());
-        let mut left = Vec::new();
-        if let Some(text) = beside.filter(|_| !names.is_empty()) {
-            left.push(look.span(format!("{pointer}{text}"), role));
-            left.push(look.span(format!("  {names}"), Role::Quiet));
-        } else {
-            left.push(look.span(format!("{pointer}{}", alone().unwrap_or(otherwise)), role));
-        }
+        let (text, names) = match beside.filter(|_| !names.is_empty()) {
+            Some(text) => (text, format!("  {names}")),
+            None => (alone().unwrap_or(otherwise), String::new()),
+        };
+        let left = vec![look.span(format!("{pointer}{text}"), role), look.span(names, Role::Quiet)];
         let left = fitted(left.into(), room, look);
         self.both_ends(area, 0, left, right);
         if heading.focused {

@@ -9,13 +9,12 @@ use crate::words::wrapped;
 /// Writes lines from the top of `area` down; those that are too long for a row go on in the next, in the
 /// style of their first words.
 pub fn write(area: Rect, lines: Vec<Line<'static>>, screen: &mut Screen) {
-    let look = screen.look;
     let width = usize::from(area.width);
     let mut rows: Vec<Line> = lines.into_iter().flat_map(|line| broken(line, width)).collect();
     let height = usize::from(area.height);
     if rows.len() > height && height > 0 {
         rows.truncate(height);
-        let mark = look.symbols().more;
+        let mark = screen.look.symbols().more;
         if let Some(last) = rows.last_mut() {
             let room = width.saturating_sub(mark.chars().count() + 1);
             *last = up_to(std::mem::take(last), room);

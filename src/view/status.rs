@@ -16,9 +16,8 @@ use crate::words::{duration, significant};
 
 /// Draws the title line: what the scene is, and its name.
 pub fn title(area: Rect, session: &Session, screen: &mut Screen) {
-    let look = screen.look;
-    let left = look.span(format!(" {}", session.scene.title), Role::Title);
-    let right = look.span(format!("{} ", session.scene.name), Role::Quiet);
+    let left = screen.look.span(format!(" {}", session.scene.title), Role::Title);
+    let right = screen.look.span(format!("{} ", session.scene.name), Role::Quiet);
     screen.both_ends(area, 0, left, right);
 }
 

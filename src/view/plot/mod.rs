@@ -164,11 +164,6 @@ impl<'a> Canvas<'a> {
         self.curve([y.from(), y.to()].map(|y| Point { x, y }), role, dash);
     }
 
-    /// Draws a straight line two dots thick, or one letter.
-    pub fn bar(&mut self, from: Point, to: Point, role: Role) {
-        self.curve([from, to], role, Dash::Thick);
-    }
-
     /// Puts a symbol on a point, if it is in the window.
     pub fn mark(&mut self, point: Point, symbol: char, role: Role) {
         if let Some((column, row)) = self.dots.cell_at(self.place(point)) {

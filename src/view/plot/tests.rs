@@ -46,7 +46,7 @@ proptest! {
                 &|plot| plot.curve(ends, Role::Stable, Dash::Solid),
                 &|plot| plot.function(Role::Stable, Dash::Dashed, |_| Some(y)),
                 &|plot| plot.function(Role::Axis, Dash::Sparse, |_| Some(y)),
-                &|plot| plot.bar(ends[0], ends[1], Role::Sticking),
+                &|plot| plot.curve(ends, Role::Sticking, Dash::Thick),
                 &|plot| plot.mark(ends[0], 'X', Role::Current),
             ];
             for draw in draws {
