@@ -209,7 +209,7 @@ fn straight(lower: &[FillRun], middle: &[FillRun], upper: &[FillRun]) -> bool {
 mod tests {
     use super::*;
     use crate::numerics::elementary::hypot;
-    use crate::picture::{Pattern, Role};
+    use crate::picture::Role;
     use crate::scene::Span;
 
     const WINDOW: Window = Window { x: Span::known(-1.0, 1.0), y: Span::known(-1.0, 1.0) };
@@ -238,7 +238,7 @@ mod tests {
         }
     }
 
-    const FILL: Fill = Fill { pattern: Pattern::Shade, role: Role::Stable, name: "inside" };
+    const FILL: Fill = Fill { role: Role::Stable, name: "inside" };
 
     /// The area of closed polygons, by the trapezoidal rule.
     fn area_of(polygons: &[(Fill, Vec<Point>)]) -> f64 {

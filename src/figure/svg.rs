@@ -219,9 +219,6 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
         // What has no name is not a quantity: a place on paper, the number of a line.
         upward.ticks.clear();
     }
-    let based = |name: &str, base: Option<&String>| {
-        base.map_or_else(|| name.to_owned(), |base| format!("{name} - {base}"))
-    };
     let mut notches = String::new();
     for tick in &rightward.ticks {
         let x = left + tick.fraction * width;
@@ -240,10 +237,10 @@ fn axes(out: &mut String, panel: &Panel, frame: Frame) {
     };
     around(center, top - 9.0, "font-size=\"12.5\"", &panel.title);
     let italic = "font-style=\"italic\"";
-    around(center, bottom + 35.0, italic, &based(&panel.names[0], rightward.base.as_ref()));
+    around(center, bottom + 35.0, italic, &rightward.named(&panel.names[0]));
     let x = left - 46.0;
     let turned = format!("{italic} transform=\"rotate(-90 {x:.2} {middle:.2})\"");
-    around(x, middle, &turned, &based(&panel.names[1], upward.base.as_ref()));
+    around(x, middle, &turned, &upward.named(&panel.names[1]));
     // Clause by clause, as none is wider than the plot.
     let clauses =
         panel.nothing.iter().flat_map(|sentence| sentence.split_inclusive([':', ';', ',']));

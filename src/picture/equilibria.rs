@@ -1,9 +1,7 @@
 //! Rest in a bifurcation diagram: with friction the sticking set, a band that attracts; without, the
 //! equilibrium at 0, stable on one side of the Hopf point and unstable on the other.
 
-use super::{
-    Dash, Fill, Item, LineStyle, Pattern, Picture, Role, cycle_style, phase_plane::AT_REST,
-};
+use super::{Dash, Fill, Item, LineStyle, Picture, Role, cycle_style, phase_plane::AT_REST};
 use crate::model::{Knob, Parameters};
 use crate::scene::{Height, Ordinate, Point};
 use crate::session::ShownMotion;
@@ -45,7 +43,7 @@ pub fn draw(
     let (upper, lower) = (edge.clone(), edge.clone());
     let band = edge(picture.window.x.from()).filter(|_| abscissa != Knob::R);
     if abscissa == Knob::R {
-        let fill = Fill { pattern: Pattern::Shade, role: Role::Sticking, name };
+        let fill = Fill { role: Role::Sticking, name };
         let within =
             move |place: Point| edge(place.x).filter(|edge| place.y.abs() <= *edge).map(|_| fill);
         picture.items.push(Item::Texture(Box::new(within)));

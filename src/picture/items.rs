@@ -65,20 +65,9 @@ impl LineStyle {
     }
 }
 
-/// How a part of the world is filled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pattern {
-    Shade,
-    /// With arrows that lead away.
-    Arrows,
-    Stable,
-    Unstable,
-}
-
 /// What a part of the world is filled with, and what it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fill {
-    pub pattern: Pattern,
     /// What it is, as far as its colour goes.
     pub role: Role,
     pub name: &'static str,

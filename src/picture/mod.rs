@@ -28,8 +28,8 @@ pub mod trade;
 pub(crate) mod units;
 
 pub use items::{
-    Caption, Fill, Flow, Function, Item, LineStyle, Marks, Pattern, Picture, Text, Texture, along,
-    ellipse, passes,
+    Caption, Fill, Flow, Function, Item, LineStyle, Marks, Picture, Text, Texture, along, ellipse,
+    passes,
 };
 pub use legend::{LegendEntry, LegendSample};
 pub use map::{Danger, Dangerous, MapCell, ScanMap};

@@ -4,7 +4,7 @@
 //! harmonic (48) is dotted. The present point is marked: stepping the two parameters moves it and nothing
 //! else. The machine on show has its path, along which its belt runs slower and faster.
 
-use super::{Dash, Fill, Item, LineStyle, Mark, Marks, Pattern, Picture, Role};
+use super::{Dash, Fill, Item, LineStyle, Mark, Marks, Picture, Role};
 use crate::branch::chart::{BoundaryKind, Chart};
 use crate::branch::regime::{REGIMES, Regime};
 use crate::model::{Knob, Parameters, State};
@@ -66,15 +66,15 @@ fn across(window: Window, y: f64) -> [Point; 2] {
 
 /// What a regime looks like; nothing where every kick is survived.
 fn texture(regime: Regime) -> Option<Fill> {
-    let (pattern, role) = match regime {
+    let role = match regime {
         Regime::Global | Regime::Neutral => return None,
-        Regime::Finite => (Pattern::Shade, Role::Danger),
-        Regime::Coexisting => (Pattern::Shade, Role::Basin),
-        Regime::Escape => (Pattern::Arrows, Role::Field),
-        Regime::Cycle => (Pattern::Stable, Role::Stable),
-        Regime::Repelling => (Pattern::Unstable, Role::Unstable),
+        Regime::Finite => Role::Danger,
+        Regime::Coexisting => Role::Basin,
+        Regime::Escape => Role::Field,
+        Regime::Cycle => Role::Stable,
+        Regime::Repelling => Role::Unstable,
     };
-    Some(Fill { pattern, role, name: regime.name() })
+    Some(Fill { role, name: regime.name() })
 }
 
 /// Where a parameter changes its sign; D = 0 is the Hopf point where there is no friction.

@@ -119,6 +119,17 @@ impl Ticks {
         Ticks { base: even.base.clone(), ticks: bent(&even.ticks) }
     }
 
+    /// The name of an axis with these ticks, whose labels may count from a base.
+    pub fn named(&self, name: &str) -> String {
+        match self.base.as_deref() {
+            None => name.into(),
+            Some(base) => match base.strip_prefix('-') {
+                Some(positive) => format!("{name}+{positive}"),
+                None => format!("{name}-{base}"),
+            },
+        }
+    }
+
     /// The finest ticks that `fit`; none at all if not even a single one fits.
     pub fn fitting(axis: Span, fit: impl Fn(&[Tick]) -> bool) -> Self {
         let mut step = TickStep::at_least(axis.width() / MOST);

@@ -177,7 +177,7 @@ impl Look {
 const STEPS: u8 = 16;
 
 /// Red, green and blue.
-type Rgb = (u8, u8, u8);
+pub type Rgb = (u8, u8, u8);
 
 /// Reads a style such as `red bold #ff7b72`: the finer colour serves where the terminal has more
 /// than 16. Returns the word that it does not know.
@@ -234,23 +234,32 @@ fn mixed(from: Rgb, to: Rgb, step: u8) -> Rgb {
     (part(from.0, to.0), part(from.1, to.1), part(from.2, to.2))
 }
 
-/// The nearest of xterm's 240 fixed colours: a cube of 6 levels a side and a ramp of 24 greys.
+/// The nearest of xterm's 240 fixed colours.
 fn nearest((red, green, blue): Rgb) -> u8 {
-    const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
-    let distance = |other: Rgb| {
+    let distance = |index: &u8| {
+        let other = fixed(*index);
         let part = |a: u8, b: u8| u32::from(a.abs_diff(b)).pow(2);
         part(red, other.0) + part(green, other.1) + part(blue, other.2)
     };
-    let of_index = |index: u8| {
-        if index < 216 {
-            let level = |place: u8| LEVELS[usize::from(index / place % 6)];
+    (FIXED..=u8::MAX).min_by_key(distance).unwrap_or(FIXED)
+}
+
+/// The first of xterm's fixed colours.
+pub const FIXED: u8 = 16;
+
+/// A fixed colour of xterm: a cube of 6 levels a side, then a ramp of 24 greys.
+pub fn fixed(index: u8) -> Rgb {
+    const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
+    match index.saturating_sub(FIXED) {
+        cube @ 0..216 => {
+            let level = |place: u8| LEVELS[usize::from(cube / place % 6)];
             (level(36), level(6), level(1))
-        } else {
-            let grey = 8 + 10 * (index - 216);
+        }
+        grey => {
+            let grey = 8 + 10 * (grey - 216);
             (grey, grey, grey)
         }
-    };
-    16 + (0..240).min_by_key(|index| distance(of_index(*index))).unwrap_or(0)
+    }
 }
 
 #[cfg(test)]

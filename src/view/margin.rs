@@ -114,11 +114,6 @@ pub fn status(session: &Session, width: usize) -> Option<String> {
     certain(session, width).or_else(nominal)
 }
 
-/// What the pane says about a margin where there is no status line about it.
-pub fn brief(session: &Session, margin: &Margin, width: usize) -> Option<String> {
-    in_pane(session, "from rest", margin, width)
-}
-
 /// What the pane says about the margin that holds for certain, in a line of less than this width.
 pub fn brief_certain(session: &Session, width: usize) -> Option<String> {
     let (_, sure) = margins(session)?;
@@ -129,7 +124,8 @@ pub fn brief_certain(session: &Session, width: usize) -> Option<String> {
     }
 }
 
-fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> Option<String> {
+/// What the pane says about a margin of this name, in a line of less than this width.
+pub fn in_pane(session: &Session, name: &str, margin: &Margin, width: usize) -> Option<String> {
     let write = |places| KickWriting { bound: name == "sure", ..KickWriting::new(session, places) };
     let texts = (1..=PLACES).rev().flat_map(|places| [write(places), write(places).unnamed()]);
     let mut texts =

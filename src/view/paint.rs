@@ -3,7 +3,7 @@
 use ratatui::layout::Rect;
 
 use super::{Look, Screen, look::Symbols, pane::Heading, plot::Canvas, scan_map};
-use crate::picture::{Caption, Dash, Item, Mark, Marks, Pattern, Picture};
+use crate::picture::{Caption, Dash, Item, Mark, Marks, Picture, Role};
 use crate::scene::{Point, Window};
 
 /// Plots at least this wide have the long form of captions.
@@ -75,9 +75,11 @@ fn put(plot: &mut Canvas, item: &Item, window: Window, look: &Look) {
         Item::Rows(line, from, to) => {
             plot.shade_where(line.role, |point| (*from..=*to).contains(&point.y));
         }
-        Item::Texture(at) => plot.texture_where(|point| {
-            at(point).map(|fill| (filling(fill.pattern, symbols), fill.role))
-        }),
+        Item::Texture(at) => {
+            plot.texture_where(|point| {
+                at(point).map(|fill| (filling(fill.role, symbols), fill.role))
+            });
+        }
         Item::Arrows(role, flow) => plot.arrows(*role, flow),
         Item::Marks(Marks { mark, role, at, sparse, at_edge, .. }) => {
             if !sparse || at.len() * APART <= usize::from(plot.inner().width) {
@@ -95,11 +97,12 @@ fn put(plot: &mut Canvas, item: &Item, window: Window, look: &Look) {
     }
 }
 
-fn filling(pattern: Pattern, symbols: &Symbols) -> char {
-    match pattern {
-        Pattern::Shade => symbols.shade,
-        Pattern::Arrows => symbols.arrows[0],
-        Pattern::Stable => symbols.mark(Mark::Stable),
-        Pattern::Unstable => symbols.mark(Mark::Unstable),
+/// What fills a part of the world, by what it is: the marks of cycles where motions end on one, arrows where they leave.
+fn filling(role: Role, symbols: &Symbols) -> char {
+    match role {
+        Role::Field => symbols.arrows[0],
+        Role::Stable => symbols.mark(Mark::Stable),
+        Role::Unstable => symbols.mark(Mark::Unstable),
+        _ => symbols.shade,
     }
 }

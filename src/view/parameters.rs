@@ -323,7 +323,8 @@ fn basin(session: &Session, found: &Cycles, width: usize, look: &Look) -> Vec<St
     };
     // Without friction there is no set of rests that could survive anything.
     let rests = found.picture.as_ref().filter(|_| found.parameters.r > 0.0);
-    let kicks = rests.and_then(|picture| margin::brief(session, &picture.margin, width));
+    let kicks =
+        rests.and_then(|picture| margin::in_pane(session, "from rest", &picture.margin, width));
     // Where there is a second status line, it says what kicks are survived.
     let low = !session.size.tells_margin();
     let mut lines = vec![border.to_owned()];

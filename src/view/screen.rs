@@ -9,6 +9,7 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 use unicode_width::UnicodeWidthStr;
 
+use super::look::{FIXED, fixed};
 use super::signs::MINUS;
 use crate::numerics::count::real;
 use crate::words::printable::xml;
@@ -183,18 +184,13 @@ fn shape(path: &mut String, symbol: &str, x: f64, top: f64) -> bool {
     } else if let Some((from, to)) = block(char) {
         rectangle(path, (x, top + CELL.1 * from), (CELL.0, CELL.1 * (to - from)));
     } else if let Some([left, right, up, down]) = strokes(char) {
-        let (middle, center) = (x + 0.5 * CELL.0, top + 0.5 * CELL.1);
-        let half = 0.5 * LINE;
-        if left || right {
-            let from = if left { x } else { middle - half };
-            let to = if right { x + CELL.0 } else { middle + half };
-            rectangle(path, (from, center - half), (to - from, LINE));
-        }
-        if up || down {
-            let from = if up { top } else { center - half };
-            let to = if down { top + CELL.1 } else { center + half };
-            rectangle(path, (middle - half, from), (LINE, to - from));
-        }
+        let (middle, center, half) = (x + 0.5 * CELL.0, top + 0.5 * CELL.1, 0.5 * LINE);
+        let reach = |is_there: bool, edge: f64, own: f64| if is_there { edge } else { own };
+        let (from, to) = (reach(left, x, middle - half), reach(right, x + CELL.0, middle + half));
+        rectangle(path, (from, center - half), (to - from, LINE));
+        let from = reach(up, top, center - half);
+        let to = reach(down, top + CELL.1, center + half);
+        rectangle(path, (middle - half, from), (LINE, to - from));
     } else {
         return false;
     }
@@ -245,39 +241,34 @@ fn strokes(char: char) -> Option<[bool; 4]> {
 /// A colour as `#rrggbb`, or `None` where it is left to the terminal.
 fn hex(color: Color) -> Option<String> {
     /// The sixteen colours of the terminal's palette, as in most terminals today.
-    const PALETTE: [(Color, u32); 16] = [
-        (Color::Black, 0x00_0000),
-        (Color::Red, 0xcd_3131),
-        (Color::Green, 0x0d_bc79),
-        (Color::Yellow, 0xe5_e510),
-        (Color::Blue, 0x24_72c8),
-        (Color::Magenta, 0xbc_3fbc),
-        (Color::Cyan, 0x11_a8cd),
-        (Color::Gray, 0xe5_e5e5),
-        (Color::DarkGray, 0x66_6666),
-        (Color::LightRed, 0xf1_4c4c),
-        (Color::LightGreen, 0x23_d18b),
-        (Color::LightYellow, 0xf5_f543),
-        (Color::LightBlue, 0x3b_8eea),
-        (Color::LightMagenta, 0xd6_70d6),
-        (Color::LightCyan, 0x29_b8db),
-        (Color::White, 0xff_ffff),
+    const PALETTE: [(Color, &str); 16] = [
+        (Color::Black, "#000000"),
+        (Color::Red, "#cd3131"),
+        (Color::Green, "#0dbc79"),
+        (Color::Yellow, "#e5e510"),
+        (Color::Blue, "#2472c8"),
+        (Color::Magenta, "#bc3fbc"),
+        (Color::Cyan, "#11a8cd"),
+        (Color::Gray, "#e5e5e5"),
+        (Color::DarkGray, "#666666"),
+        (Color::LightRed, "#f14c4c"),
+        (Color::LightGreen, "#23d18b"),
+        (Color::LightYellow, "#f5f543"),
+        (Color::LightBlue, "#3b8eea"),
+        (Color::LightMagenta, "#d670d6"),
+        (Color::LightCyan, "#29b8db"),
+        (Color::White, "#ffffff"),
     ];
-    let number = match color {
-        Color::Rgb(red, green, blue) => u32::from_be_bytes([0, red, green, blue]),
-        Color::Indexed(index) => match index {
-            0..16 => PALETTE[usize::from(index)].1,
-            16..232 => {
-                // A cube of six levels a colour.
-                let level = |digit: u8| if digit == 0 { 0 } else { 55 + 40 * digit };
-                let cube = index - 16;
-                u32::from_be_bytes([0, level(cube / 36), level(cube / 6 % 6), level(cube % 6)])
-            }
-            232.. => u32::from(8 + 10 * (index - 232)) * 0x01_0101,
-        },
-        named => PALETTE.iter().find(|(color, _)| *color == named)?.1,
+    let (red, green, blue) = match color {
+        Color::Rgb(red, green, blue) => (red, green, blue),
+        Color::Indexed(index @ FIXED..) => fixed(index),
+        Color::Indexed(index) => return Some(PALETTE[usize::from(index)].1.to_owned()),
+        named => {
+            let own = PALETTE.iter().find(|(color, _)| *color == named);
+            return own.map(|(_, number)| (*number).to_owned());
+        }
     };
-    Some(format!("#{number:06x}"))
+    Some(format!("#{red:02x}{green:02x}{blue:02x}"))
 }
 
 #[cfg(test)]

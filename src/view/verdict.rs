@@ -93,11 +93,9 @@ fn verdict(fate: &MotionVerdict, motion: &Trajectory, writing: Writing) -> Strin
         (End::Rests, _) => {
             format!("comes to rest, after {}", writing.time(motion.problem.until, 3))
         }
-        (End::Onto { q_max, grows: true }, _) => {
-            format!("grows onto the stable cycle, {}", writing.amplitude(q_max, 4))
-        }
-        (End::Onto { q_max, .. }, _) => {
-            format!("falls onto the stable cycle, {}", writing.amplitude(q_max, 4))
+        (End::Onto { q_max, grows }, _) => {
+            let way = if grows { "grows" } else { "falls" };
+            format!("{way} onto the stable cycle, {}", writing.amplitude(q_max, 4))
         }
         (End::Grows, Outcome::Escaped { tau }) => {
             format!("escapes at {}{}", writing.time(tau, 4), swings(motion))

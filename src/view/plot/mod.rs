@@ -47,7 +47,7 @@ impl<'a> Canvas<'a> {
         let (window, scales, has_marks) = (picture.window, picture.scales, marks.is_some());
         let Geometry { inner, roomy, rightward, mut upward } =
             Geometry::of(area, window, scales, marks);
-        let x = named(scales[0].title(&picture.x), &rightward);
+        let x = rightward.named(scales[0].title(&picture.x));
         let axes = if picture.y.is_empty() {
             if !has_marks {
                 // Heights without meaning have no scale.
@@ -55,7 +55,7 @@ impl<'a> Canvas<'a> {
             }
             x
         } else {
-            format!("{} over {x}", named(scales[1].title(&picture.y), &upward))
+            format!("{} over {x}", upward.named(scales[1].title(&picture.y)))
         };
         screen.title(area, &picture.title, &axes, heading);
         let dots = Dots::new(inner, look.glyphs);
@@ -177,17 +177,6 @@ impl<'a> Canvas<'a> {
         if let Some((rightward, upward)) = &self.inside {
             self.labels_inside(rightward, upward, screen.buffer);
         }
-    }
-}
-
-/// The name of an axis whose labels may count from a base.
-fn named(name: &str, ticks: &Ticks) -> String {
-    match ticks.base.as_deref() {
-        None => name.into(),
-        Some(base) => match base.strip_prefix('-') {
-            Some(positive) => format!("{name}+{positive}"),
-            None => format!("{name}-{base}"),
-        },
     }
 }
 
