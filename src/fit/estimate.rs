@@ -207,7 +207,7 @@ fn assessed(
     // With correlated noise, larger differences of the loss occur by chance.
     let unit = covariance.variance * covariance.inflation(R);
     let rival = |other: &Optimum| Rival {
-        half_swings: other.half_swings(),
+        half_swings: other.seen.turns.len(),
         delta_chi2: (other.cost - best.cost) / unit,
         p: other.p,
     };
@@ -223,7 +223,7 @@ fn assessed(
         intervals,
         residuals: best.seen.residuals.iter().map(|it| it.value).collect(),
         used: task.used.to_vec(),
-        half_swings: best.half_swings(),
+        half_swings: best.seen.turns.len(),
         rests: best.seen.rests,
         rivals: found.iter().map(rival).collect(),
         whiteness,

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
 use super::{
-    D2, D3, Drawn, Estimate, Inertia, NAMES, OMEGA0, R, Unknowns, drawn, following, parameters,
+    D2, D3, Drawn, Estimate, Inertia, NAMES, OMEGA0, Unknowns, drawn, following, parameters,
 };
 use crate::branch::fold::fold;
 use crate::flow::{Limits, Reason};
@@ -267,8 +267,7 @@ fn allowed(
         [interval.lower, interval.upper].into_iter().flatten().map(move |end| (row, end))
     });
     let lost = ends.filter_map(|(row, end)| {
-        let mut p = following(estimate, &[(row.place, end)]);
-        p[R] = p[R].max(0.0);
+        let p = following(estimate, &[(row.place, end)]);
         Some((row.name, end, ask(&p).ok()?.margin.displacement?))
     });
     lost.min_by(|one, other| one.2.total_cmp(&other.2))

@@ -82,7 +82,7 @@ pub use {
         StartKind, UNKNOWNS, Unknowns,
     },
     question::{Choice, NAMES, NameSpec, named},
-    refit::refitted,
+    refit::following,
     task::{Runs, Task},
 };
 
@@ -119,7 +119,6 @@ pub(crate) use {
     profile::{Left, Profile, ProfileInterval},
     quantiles::{chi_squared, deviation_of_95_percent, normal_at},
     question::{Loss, placed, reach},
-    refit::following,
     residuals::{Whiteness, autocorrelations, whiteness},
     samples::samples,
     search::released_before,

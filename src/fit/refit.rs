@@ -3,8 +3,8 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::{
-    Covariance, Estimate, Optimum, ProfileInterval, R, Rival, Runs, Task, UNKNOWNS, Unfit,
-    Unknowns, interrupted, moved,
+    Covariance, Estimate, ProfileInterval, R, Rival, Runs, Task, UNKNOWNS, Unfit, Unknowns,
+    interrupted, moved,
 };
 use crate::numerics::elementary::{cos, sin};
 
@@ -21,27 +21,9 @@ impl Estimate {
     /// # Errors
     /// [`Unfit`] when interrupted.
     pub fn unit(&self, runs: &mut Runs) -> Result<f64, Unfit> {
-        let cost = self.task(&[]).cost_at(&self.p, runs)?;
+        let task = self.task(&[]);
+        let cost = task.cost(&task.evaluated(&self.p, false, runs)?);
         Ok(cost / self.covariance.freedom * self.covariance.inflation(R))
-    }
-}
-
-impl Task<'_> {
-    /// The best motion near a guess, with the held unknowns as in the guess.
-    ///
-    /// # Errors
-    /// [`Unfit`] if the motion of the guess escapes, or when interrupted.
-    fn refitted(&self, mut guess: Unknowns, runs: &mut Runs) -> Result<Optimum, Unfit> {
-        guess[R] = guess[R].max(0.0);
-        self.solve_roughly(guess, runs)
-    }
-
-    /// The loss at a point.
-    ///
-    /// # Errors
-    /// [`Unfit`] if the motion escapes, or when interrupted.
-    pub fn cost_at(&self, p: &Unknowns, runs: &mut Runs) -> Result<f64, Unfit> {
-        Ok(self.cost(&self.evaluated(p, false, runs)?))
     }
 }
 
@@ -56,10 +38,10 @@ pub fn held(
 ) -> Result<Estimate, Unfit> {
     let places: Vec<usize> = numbers.iter().map(|(place, _)| *place).collect();
     let task = estimate.task(&places);
-    let optimum = task.refitted(following(estimate, numbers), runs)?;
+    let optimum = task.solve_roughly(following(estimate, numbers), runs)?;
     let autocorrelation = &estimate.whiteness.autocorrelation;
     let covariance = Covariance::at(&task, &optimum, autocorrelation).ok_or(Unfit::Blind)?;
-    let half_swings = optimum.half_swings();
+    let half_swings = optimum.seen.turns.len();
     Ok(Estimate {
         p: optimum.p,
         free: task.free,
@@ -74,7 +56,7 @@ pub fn held(
     })
 }
 
-/// All unknowns as predicted by the linear model, after some have been set to new values.
+/// All unknowns as predicted by the linear model, after some have been set to new values; friction is not negative.
 pub fn following(estimate: &Estimate, numbers: &[(usize, f64)]) -> Unknowns {
     let change = |(place, value): &(usize, f64)| (*place, value - estimate.p[*place]);
     let changes: Vec<(usize, f64)> = numbers.iter().map(change).collect();
@@ -82,21 +64,8 @@ pub fn following(estimate: &Estimate, numbers: &[(usize, f64)]) -> Unknowns {
     for (place, value) in numbers {
         guess[*place] = *value;
     }
+    guess[R] = guess[R].max(0.0);
     guess
-}
-
-/// The best motion with one of the unknowns held at a value.
-///
-/// # Errors
-/// [`Unfit`] if the motion with that value escapes, or when interrupted.
-pub fn refitted(
-    estimate: &Estimate,
-    place: usize,
-    value: f64,
-    runs: &mut Runs,
-) -> Result<Optimum, Unfit> {
-    // The descent starts from the prediction of the linear model.
-    estimate.task(&[place]).refitted(following(estimate, &[(place, value)]), runs)
 }
 
 /// Rises of chi-squared whose contours contain two unknowns with a probability of 68 and 95 %.
@@ -117,7 +86,8 @@ pub fn contour(
     let plane = Matrix2::new(of(one, one), of(one, other), of(other, one), of(other, other));
     let Some(root) = plane.cholesky() else { return Ok(Vec::new()) };
     let task = estimate.task(&places);
-    let (cost, unit) = (task.cost_at(&estimate.p, runs)?, estimate.unit(runs)?);
+    let cost = task.cost(&task.evaluated(&estimate.p, false, runs)?);
+    let unit = estimate.unit(runs)?;
     let mut points = Vec::new();
     for index in 0..DIRECTIONS {
         let angle = std::f64::consts::TAU * f64::from(index) / f64::from(DIRECTIONS);
@@ -147,7 +117,9 @@ fn risen(
     let farthest = if along[R] < 0.0 { -p[R] / along[R] } else { f64::INFINITY };
     let mut at = f64::min(1.0, farthest);
     for _ in 0..ROUNDS {
-        let found = interrupted(task.refitted(moved(p, at, &along), runs))?;
+        let mut guess = moved(p, at, &along);
+        guess[R] = guess[R].max(0.0);
+        let found = interrupted(task.solve_roughly(guess, runs))?;
         let Some(found) = found else { return Ok(None) };
         let part = ((found.cost - cost).max(0.0) / rise).sqrt();
         if (part - 1.0).abs() < 0.03 || part < 1.0 && at >= farthest {

@@ -55,11 +55,6 @@ pub struct Optimum {
 }
 
 impl Optimum {
-    /// Number of half swings within the record.
-    pub fn half_swings(&self) -> usize {
-        self.seen.turns.len()
-    }
-
     /// The lower of two minima with the same start.
     pub fn or_lower(self, other: Option<Optimum>) -> Self {
         other.filter(|other| other.cost < self.cost).unwrap_or(self)

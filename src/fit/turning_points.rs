@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use nalgebra::Complex;
+
 use super::{least_squares, median};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{atan2, hypot, powi, sin_cos};
@@ -149,9 +151,13 @@ pub fn dominant_frequency(t: &[f64], x: &[f64]) -> Option<f64> {
     }
     let even = resampled(t, x, count);
     let mean = even.iter().sum::<f64>() / real(count);
-    let mut values: Vec<(f64, f64)> = even.iter().map(|x| (x - mean, 0.0)).collect();
-    transform(&mut values);
-    let power = |k: usize| powi(real(k), 2) * (powi(values[k].0, 2) + powi(values[k].1, 2));
+    let values: Vec<Complex<f64>> = even.iter().map(|x| Complex::from(x - mean)).collect();
+    let root = |k: usize| {
+        let (sine, cosine) = sin_cos(TAU * real(k) / real(count));
+        Complex::new(cosine, -sine)
+    };
+    let spectrum = transform(&values, &(0..count / 2).map(root).collect::<Vec<_>>());
+    let power = |k: usize| powi(real(k), 2) * spectrum[k].norm_sqr();
     // Zero padding would locate the peak more accurately, but the extremes do so later anyway.
     let best = (1..count / 2).max_by(|&one, &other| power(one).total_cmp(&power(other)))?;
     let around = (best.saturating_sub(1).max(1)..=best + 1).map(|k| (real(k), power(k)));
@@ -176,30 +182,22 @@ fn resampled(t: &[f64], x: &[f64], count: usize) -> Vec<f64> {
     (0..count).map(at).collect()
 }
 
-/// The discrete Fourier transform in place, by the radix-2 algorithm of Cooley and Tukey.
-fn transform(values: &mut [(f64, f64)]) {
-    let count = values.len();
-    let bits = count.trailing_zeros();
-    for index in 0..count {
-        let other = index.reverse_bits() >> (usize::BITS - bits);
-        if index < other {
-            values.swap(index, other);
-        }
+/// The discrete Fourier transform by the radix-2 algorithm of Cooley and Tukey; `roots` are the roots of unity of a
+/// transform at least as long, in the lower half plane.
+fn transform(values: &[Complex<f64>], roots: &[Complex<f64>]) -> Vec<Complex<f64>> {
+    let half = values.len() / 2;
+    if half == 0 {
+        return values.to_vec();
     }
-    let mut half = 1;
-    while half < count {
-        let turns: Vec<(f64, f64)> =
-            (0..half).map(|k| sin_cos(TAU * real(k) / real(2 * half))).collect();
-        for block in values.chunks_exact_mut(2 * half) {
-            let (even, odd) = block.split_at_mut(half);
-            for ((even, odd), (sine, cosine)) in even.iter_mut().zip(odd).zip(&turns) {
-                let turned = (odd.0 * cosine + odd.1 * sine, odd.1 * cosine - odd.0 * sine);
-                *odd = (even.0 - turned.0, even.1 - turned.1);
-                *even = (even.0 + turned.0, even.1 + turned.1);
-            }
-        }
-        half *= 2;
-    }
+    let [even, odd] = [0, 1].map(|first| {
+        let part: Vec<_> = values.iter().skip(first).step_by(2).copied().collect();
+        transform(&part, roots)
+    });
+    let roots = roots.iter().step_by(roots.len() / half);
+    let turned: Vec<_> = odd.iter().zip(roots).map(|(odd, root)| odd * root).collect();
+    let sum = even.iter().zip(&turned).map(|(even, odd)| even + odd);
+    let difference = even.iter().zip(&turned).map(|(even, odd)| even - odd);
+    sum.chain(difference).collect()
 }
 
 #[cfg(test)]

@@ -200,7 +200,7 @@ pub fn through_the_valley(
             p[R] *= if up { factor } else { 1.0 / factor };
             let Some(found) = interrupted(held.solve_roughly(p, runs))? else { break };
             p = found.p;
-            closest.see(found.half_swings(), found.cost, p);
+            closest.see(found.seen.turns.len(), found.cost, p);
         }
     }
     Ok(closest.beside(known))
@@ -223,7 +223,7 @@ impl Closest {
         /// Maximum number of points from which to descend.
         const MOST: usize = 3;
         let is_lower = |(half_swings, (cost, _)): &(usize, (f64, Unknowns))| {
-            let same = known.iter().find(|valley| valley.half_swings() == *half_swings);
+            let same = known.iter().find(|valley| valley.seen.turns.len() == *half_swings);
             same.is_none_or(|valley| *cost < valley.cost)
         };
         let mut points: Vec<_> = self.0.into_iter().filter(is_lower).map(|it| it.1).collect();
