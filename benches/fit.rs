@@ -28,7 +28,7 @@ fn zeros((_, _, seconds): (Unknowns, StartKind, f64), samples: u32) -> Data {
 }
 
 fn observation(data: &Data, (_, start, _): (Unknowns, StartKind, f64)) -> Observation<'_> {
-    Observation { data, start, reach: 1e9 }
+    Observation { data, start, linear: false, reach: 1e9 }
 }
 
 fn record(motion: (Unknowns, StartKind, f64), samples: u32) -> Record {

@@ -72,6 +72,8 @@ pub struct FollowedMotion {
 /// How a motion is followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Way {
+    /// Whether D2 and D3 are zero, and derivatives by them not wanted.
+    pub linear: bool,
     /// Whether derivatives are wanted.
     pub with_derivatives: bool,
     /// Displacement or velocity beyond which a motion counts as lost.
@@ -86,7 +88,7 @@ impl Default for Way {
     /// Every displacement, without derivatives.
     fn default() -> Self {
         let (reach, turns, signal) = (f64::MAX, usize::MAX, Signal::Displacement);
-        Way { with_derivatives: false, reach, turns, signal }
+        Way { linear: false, with_derivatives: false, reach, turns, signal }
     }
 }
 
@@ -133,7 +135,8 @@ struct FittedSwing {
     side: Side,
     r: f64,
     field: HalfPlane,
-    start: Jet,
+    /// Position and velocity at its beginning.
+    start: [f64; 2],
     tau: f64,
     x_by: Gradient,
     v_by: Gradient,
@@ -146,7 +149,7 @@ impl FittedSwing {
         let side = Side::entered_from(start, parameters.r)?;
         let mut swing = Self::new(parameters, side, start.q);
         // A velocity of -0 would stand for a motion that has just arrived.
-        swing.start.v = start.v.abs();
+        swing.start[1] = start.v.abs();
         (swing.x_by[4], swing.v_by[5]) = (side.sign(), side.sign());
         Some(swing)
     }
@@ -159,14 +162,13 @@ impl FittedSwing {
             *by += side.sign() * turn_by;
         }
         (swing.tau, swing.tau_by) = (turn.tau, turn.tau_by);
-        (swing.start.x < 0.0).then_some(swing)
+        (swing.start[0] < 0.0).then_some(swing)
     }
 
     /// The half swing from a displacement at time 0, without velocity.
     fn new(parameters: &Parameters, side: Side, q: f64) -> Self {
         let Parameters { r, .. } = *parameters;
-        let mut start = Jet { x: side.position(q, r), ..Jet::default() };
-        (start.y[0], start.w[1]) = (1.0, 1.0);
+        let start = [side.position(q, r), 0.0];
         let [mut x_by, v_by, tau_by] = [[0.0; NUMBERS]; 3];
         x_by[R] = 1.0;
         let field = HalfPlane::new(parameters, side);
@@ -193,15 +195,16 @@ impl FittedSwing {
         way: Way,
         see: &mut impl FnMut(usize, MotionPoint),
     ) -> Result<Option<FittedTurn>, MotionLost> {
-        let (mut start, mut from) = (self.start, self.tau);
+        let Way { linear, with_derivatives, reach, signal, .. } = way;
+        let mut stretch =
+            Stretch::new(self.field, self.start, linear, with_derivatives).ok_or(MotionLost)?;
+        let mut from = self.tau;
         for _ in 0..STEPS {
-            let stretch =
-                Stretch::new(&self.field, &start, way.with_derivatives).ok_or(MotionLost)?;
             let until = from + stretch.duration;
             while let Some(&time) = times.get(*next)
                 && time <= until
             {
-                let jet = if way.with_derivatives && !way.signal.is_displacement() {
+                let jet = if with_derivatives && !signal.is_displacement() {
                     stretch.jet(time - from)
                 } else {
                     stretch.at(time - from)
@@ -212,12 +215,13 @@ impl FittedSwing {
             if *next >= times.len() {
                 return Ok(None);
             }
-            start = stretch.jet(stretch.duration);
+            let end = stretch.jet(stretch.duration);
             if stretch.arrives {
-                return Ok(Some(self.turn(until, &start)));
+                return Ok(Some(self.turn(until, &end)));
             }
             // A motion that escapes, or whose steps no longer advance the time, never ends.
-            if !(start.x.abs().max(start.v) <= way.reach && until > from) {
+            let stays = end.x.abs().max(end.v) <= reach && until > from;
+            if !(stays && stretch.advance(end)) {
                 return Err(MotionLost);
             }
             from = until;
@@ -375,6 +379,23 @@ mod tests {
                 let is = if moves { -force - q.q - friction } else { 0.0 };
                 assert!((a.signal - is).abs() < 1e-12 * start.q.abs(), "{parameters:?} {a:?}");
                 assert!(moves || (v.signal, a.by, v.by) == (0.0, [0.0; NUMBERS], [0.0; NUMBERS]));
+            }
+        }
+    }
+
+    #[test]
+    fn the_closed_form_and_the_series_are_one_motion() {
+        let (parameters, moving) = MOTIONS[3];
+        for start in [moving, State { q: 4.0, v: 0.0 }, State { q: -4.0, v: 0.0 }] {
+            let formula = points(&parameters, start, &times(), Way { linear: true, ..way(true) });
+            let series = points(&parameters, start, &times(), way(true));
+            for (formula, series) in formula.iter().zip(&series) {
+                assert!((formula.q - series.q).abs() < 1e-12, "{start:?}");
+                // With respect to D, r, q0 and v0; the closed form leaves out D2 and D3.
+                for p in [0, 3, 4, 5] {
+                    let off = (formula.by[p] - series.by[p]).abs();
+                    assert!(off < 1e-11 * formula.by[p].abs().max(1.0), "number {p}: {off}");
+                }
             }
         }
     }

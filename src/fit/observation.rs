@@ -173,6 +173,8 @@ pub struct Observation<'a> {
     pub data: &'a Data,
     /// How the motion begins.
     pub start: StartKind,
+    /// Whether D2 and D3 are held at zero.
+    pub linear: bool,
     /// Displacement beyond which a motion counts as escaped.
     pub reach: f64,
 }
@@ -187,7 +189,8 @@ impl Observation<'_> {
             return Err(MotionLost);
         }
         let (reach, signal) = (self.reach, self.data.signal);
-        let way = Way { with_derivatives, reach, signal, ..Way::default() };
+        let linear = self.linear && p[D2] == 0.0 && p[D3] == 0.0;
+        let way = Way { linear, with_derivatives, reach, signal, ..Way::default() };
         match self.data.peaks {
             None => self.samples(p, way),
             Some(ratio) => peaks(p, self.data, ratio, way),

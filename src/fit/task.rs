@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    BEND, Data, IMPOSSIBLE, Loss, OMEGA0, Observation, Region, Residual, SLOPE, Seen, StartKind,
-    UNKNOWNS, Unfit, Unknowns, robust_deviation, whiteness,
+    BEND, D2, D3, Data, IMPOSSIBLE, Loss, OMEGA0, Observation, Region, Residual, SLOPE, Seen,
+    StartKind, UNKNOWNS, Unfit, Unknowns, robust_deviation, whiteness,
 };
 use crate::numerics::count::real;
 
@@ -124,7 +124,7 @@ pub fn moved(p: &Unknowns, part: f64, step: &Unknowns) -> Unknowns {
 impl<'a> Task<'a> {
     /// All unknowns and residuals of a record, of which nothing else is known.
     pub fn new(data: &'a Data, start: StartKind, free: [bool; UNKNOWNS], reach: f64) -> Self {
-        let observation = Observation { data, start, reach };
+        let observation = Observation { data, start, linear: false, reach };
         let (loss, used, noise) = (Loss::LINEAR, &[][..], 0.0);
         Task { observation, free, loss, used, noise, horizon: usize::MAX, within: None }
     }
@@ -193,7 +193,9 @@ impl<'a> Task<'a> {
             return Err(Unfit::GaveUp { motions: runs.most, closest: runs.closest });
         }
         *(if derivatives { &mut runs.with_derivatives } else { &mut runs.plain }) += 1;
-        self.observation.compare(p, derivatives).map_err(|_| Unfit::NoMotion)
+        let linear = !self.free[D2] && !self.free[D3];
+        let observation = Observation { linear, ..self.observation };
+        observation.compare(p, derivatives).map_err(|_| Unfit::NoMotion)
     }
 
     /// The places of the free unknowns.

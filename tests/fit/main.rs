@@ -144,7 +144,7 @@ impl Simulated {
     fn record(&self, seed: u64) -> Record {
         let t = self.times();
         let data = Data { x: vec![0.0; t.len()], t: t.clone(), signal: self.signal, peaks: None };
-        let observation = Observation { data: &data, start: self.start, reach: 1e9 };
+        let observation = Observation { data: &data, start: self.start, linear: false, reach: 1e9 };
         let motion = observation.compare(&without_drift(&self.p), false).unwrap().residuals;
         let mut chance = Random::new(seed);
         let mut error = chance.normal();
@@ -366,7 +366,8 @@ fn peaks_continue_at_rest_so_that_intervals_do_not_end_there() {
     // The last two readings belong to a motion that has nearly died away.
     let decay = [1.0, 0.3, 0.012, 0.004, 0.0004, 0.1, 8.0, 0.0];
     let data = Data { t: vec![], x: vec![0.0; 24], signal: Signal::Displacement, peaks: Some(1.0) };
-    let observation = Observation { data: &data, start: StartKind::Release, reach: 1e9 };
+    let observation =
+        Observation { data: &data, start: StartKind::Release, linear: false, reach: 1e9 };
     let stronger = |r: f64| {
         let mut p = decay;
         p[5] = r;

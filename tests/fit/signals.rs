@@ -116,7 +116,7 @@ fn the_gradient_of_every_signal_is_that_of_differences() {
             (p[LAST], p[SLOPE], p[SLOPE + 1]) = (0.3, 0.7, -0.4);
             let t: Vec<f64> = (0..200_u8).map(|i| 0.013 + 0.02 * f64::from(i)).collect();
             let data = Data { x: vec![0.0; t.len()], t, signal, peaks: None };
-            let observation = Observation { data: &data, start, reach: 1e9 };
+            let observation = Observation { data: &data, start, linear: false, reach: 1e9 };
             let exact = observation.compare(&p, true).unwrap().residuals;
             for place in 0..UNKNOWNS {
                 let step = 1e-6 * p[place].abs().max(1e-2);
