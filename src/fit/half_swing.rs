@@ -1,8 +1,8 @@
 //! One half swing with its derivatives, in the frame of its half plane ([`HalfPlane`]).
 //!
-//! Along with the motion `x' = v, v' = f(x, v)`, five solutions of the variational equation
-//! `y' = w, w' = -y + (df/dv) w + g` are computed: two homogeneous ones, for the position and the velocity of the start,
-//! and those for D, D2 and D3 with `g = -2 v, -v^2, -v^3`. The Taylor coefficients of motion and derivatives obey one
+//! Along with the motion `x' = v, v' = f(x, v)`, four solutions of the variational equation
+//! `y' = w, w' = -y + (df/dv) w + g` are computed: a homogeneous one that starts across the flow, and those for D, D2
+//! and D3 with `g = -2 v, -v^2, -v^3`. The Taylor coefficients of motion and derivatives obey one
 //! recurrence. If the damping is linear and stays so, everything has a closed form, which is several times faster.
 
 use crate::model::HalfPlane;
@@ -10,8 +10,8 @@ use crate::numerics::count::real;
 use crate::numerics::elementary::{atan2, exp, pow, sin_cos};
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 
-/// Number of solutions of the variational equation: by position and velocity of the start, D, D2 (of this frame) and D3.
-pub const WAYS: usize = 5;
+/// Number of solutions of the variational equation: across the flow, and by D, D2 (of this frame) and D3.
+pub const WAYS: usize = 4;
 
 /// Order of the Taylor series.
 const ORDER: usize = 18;
@@ -41,15 +41,6 @@ pub struct Jet {
     pub w: [f64; WAYS],
 }
 
-impl Jet {
-    /// The start of a half swing, from which its derivatives count.
-    pub fn start(x: f64, v: f64) -> Self {
-        let mut start = Jet { x, v, ..Jet::default() };
-        (start.y[0], start.w[1]) = (1.0, 1.0);
-        start
-    }
-}
-
 /// A part of a half swing that is described by one formula.
 #[derive(Clone, Debug)]
 pub struct Stretch {
@@ -65,8 +56,8 @@ pub struct Stretch {
 
 #[derive(Clone, Debug)]
 enum Formula {
-    /// The linear oscillation from this position and velocity, `abs(D) < 1`, with frequency `omega`.
-    Linear { x: f64, v: f64, omega: f64 },
+    /// The linear oscillation from this point, `abs(D) < 1`, with frequency `omega`.
+    Linear { start: Jet, omega: f64 },
     /// Taylor coefficients.
     Series(Box<[Lanes; ORDER + 1]>),
 }
@@ -75,26 +66,21 @@ enum Formula {
 const OSCILLATORY: f64 = 0.9;
 
 impl Stretch {
-    /// The first stretch of the half swing from `x`, `v`; in closed form if `linear` is set and the damping allows it.
+    /// The first stretch of the half swing from `start`; in closed form if `linear` is set and the damping allows it.
     /// `linear` requires `D2 = D3 = 0` and leaves out the derivatives with respect to them.
     ///
     /// `None` if numbers overflow.
-    pub fn new(
-        field: HalfPlane,
-        [x, v]: [f64; 2],
-        linear: bool,
-        with_derivatives: bool,
-    ) -> Option<Self> {
+    pub fn new(field: HalfPlane, start: Jet, linear: bool, with_derivatives: bool) -> Option<Self> {
         let is_closed = linear && field.d.abs() < OSCILLATORY;
         let omega = ((1.0 - field.d) * (1.0 + field.d)).sqrt();
         let formula = if is_closed {
-            Formula::Linear { x, v, omega }
+            Formula::Linear { start, omega }
         } else {
             Formula::Series(Box::new([[0.0; 8]; ORDER + 1]))
         };
-        let duration = atan2(omega * v, x + field.d * v) / omega;
+        let duration = atan2(omega * start.v, start.x + field.d * start.v) / omega;
         let mut first = Stretch { field, with_derivatives, formula, duration, arrives: true };
-        (is_closed || first.advance(Jet::start(x, v))).then_some(first)
+        (is_closed || first.advance(start)).then_some(first)
     }
 
     /// Replaces the stretch with the one that begins at `start`; `false` if numbers overflow.
@@ -115,8 +101,8 @@ impl Stretch {
     #[inline]
     pub fn at(&self, t: f64) -> Jet {
         let terms = match &self.formula {
-            Formula::Linear { x, v, omega } => {
-                return linear_jet(self.field.d, *omega, [*x, *v], t);
+            Formula::Linear { start, omega } => {
+                return linear_jet(self.field.d, *omega, start, t);
             }
             Formula::Series(terms) => terms,
         };
@@ -126,7 +112,7 @@ impl Stretch {
                 *sum = *sum * t + term;
             }
         }
-        let [x, v, y @ .., _] = sum;
+        let [x, v, y @ .., _, _] = sum;
         Jet { x, v, y, ..Jet::default() }
     }
 
@@ -143,19 +129,20 @@ impl Stretch {
     }
 }
 
-/// The linear oscillation from `x`, `v`: `C = cos(omega t)`, `S = sin(omega t)/omega`, both times `e^(-D t)`.
-fn linear_jet(d: f64, omega: f64, [x, v]: [f64; 2], t: f64) -> Jet {
+/// The linear oscillation: `C = cos(omega t)`, `S = sin(omega t)/omega`, both times `e^(-D t)`.
+fn linear_jet(d: f64, omega: f64, start: &Jet, t: f64) -> Jet {
     let decay = exp(-d * t);
     let (sine, cosine) = sin_cos(omega * t);
     let (c, s) = (decay * cosine, decay * sine / omega);
+    let flow = |x: f64, v: f64| (c * x + s * (v + d * x), c * v - s * (x + d * v));
+    let Jet { x, v, y, w } = *start;
+    let (across, sped) = flow(y[0], w[0]);
     // dC/dD = t D S and dS/dD = -D (t C - S)/omega^2; the decay adds a factor -t.
     let (c_by_d, s_by_d) = (t * (d * s - c), -t * s - d / (omega * omega) * (t * c - s));
-    Jet {
-        x: c * x + s * (v + d * x),
-        v: c * v - s * (x + d * v),
-        y: [c + s * d, s, c_by_d * x + s_by_d * (v + d * x) + s * x, 0.0, 0.0],
-        w: [-s, c - s * d, c_by_d * v - s_by_d * (x + d * v) - s * v, 0.0, 0.0],
-    }
+    let y = [across, c_by_d * x + s_by_d * (v + d * x) + s * x, 0.0, 0.0];
+    let w = [sped, c_by_d * v - s_by_d * (x + d * v) - s * v, 0.0, 0.0];
+    let (x, v) = flow(x, v);
+    Jet { x, v, y, w }
 }
 
 /// Computes the Taylor coefficients; returns the time for which they are accurate enough.
@@ -192,7 +179,7 @@ fn expand<const DERIVATIVES: bool>(
             if k == 0 {
                 slope[0] -= 2.0 * d;
             }
-            let mut sum = [0.0, 0.0, -2.0 * v[k], -second, -third];
+            let mut sum = [0.0, -2.0 * v[k], -second, -third];
             for i in 0..=k {
                 for (sum, w) in sum.iter_mut().zip(&w[k - i]) {
                     *sum += slope[i] * w;

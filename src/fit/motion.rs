@@ -8,6 +8,7 @@
 
 use super::{Jet, Signal, Stretch, WAYS};
 use crate::model::{HalfPlane, Parameters, Side, State};
+use crate::numerics::elementary::hypot;
 
 /// Number of the quantities on which a motion depends: D, D2, D3, r, q0, v0.
 pub const NUMBERS: usize = 6;
@@ -135,22 +136,32 @@ struct FittedSwing {
     side: Side,
     r: f64,
     field: HalfPlane,
-    /// Position and velocity at its beginning.
-    start: [f64; 2],
+    start: Jet,
     tau: f64,
-    x_by: Gradient,
-    v_by: Gradient,
+    /// Derivatives of the start in the direction that the jet takes, for each number.
+    across: Gradient,
+    /// Derivatives of the time of the start, for each number.
     tau_by: Gradient,
 }
 
 impl FittedSwing {
-    /// The half swing of a motion from `start`; `None` if it rests there.
+    /// The half swing of a motion from `start`; `None` if it rests there. A shift of the start along the flow only
+    /// delays the motion; the rest of it is across.
     fn first(parameters: &Parameters, start: State) -> Option<Self> {
         let side = Side::entered_from(start, parameters.r)?;
         let mut swing = Self::new(parameters, side, start.q);
         // A velocity of -0 would stand for a motion that has just arrived.
-        swing.start[1] = start.v.abs();
-        (swing.x_by[4], swing.v_by[5]) = (side.sign(), side.sign());
+        let Jet { x, v, y, w } = &mut swing.start;
+        *v = start.v.abs();
+        let force = swing.field.acceleration(*x, *v);
+        let norm = hypot(*v, force);
+        let (ux, uv) = (*v / norm, force / norm);
+        (y[0], w[0]) = (-uv, ux);
+        let sign = side.sign();
+        for (number, dx, dv) in [(R, 1.0, 0.0), (4, sign, 0.0), (5, 0.0, sign)] {
+            swing.across[number] = ux * dv - uv * dx;
+            swing.tau_by[number] = -(ux * dx + uv * dv) / norm;
+        }
         Some(swing)
     }
 
@@ -158,28 +169,27 @@ impl FittedSwing {
     fn after(&self, parameters: &Parameters, turn: &FittedTurn) -> Option<Self> {
         let side = self.side.opposite();
         let mut swing = Self::new(parameters, side, turn.q);
-        for (by, turn_by) in swing.x_by.iter_mut().zip(turn.q_by) {
-            *by += side.sign() * turn_by;
-        }
+        swing.across = turn.q_by.map(|by| side.sign() * by);
+        swing.across[R] += 1.0;
         (swing.tau, swing.tau_by) = (turn.tau, turn.tau_by);
-        (swing.start[0] < 0.0).then_some(swing)
+        (swing.start.x < 0.0).then_some(swing)
     }
 
     /// The half swing from a displacement at time 0, without velocity.
     fn new(parameters: &Parameters, side: Side, q: f64) -> Self {
         let Parameters { r, .. } = *parameters;
-        let start = [side.position(q, r), 0.0];
-        let [mut x_by, v_by, tau_by] = [[0.0; NUMBERS]; 3];
-        x_by[R] = 1.0;
+        let mut start = Jet { x: side.position(q, r), ..Jet::default() };
+        start.y[0] = 1.0;
+        let [across, tau_by] = [[0.0; NUMBERS]; 2];
         let field = HalfPlane::new(parameters, side);
-        FittedSwing { side, r, field, start, tau: 0.0, x_by, v_by, tau_by }
+        FittedSwing { side, r, field, start, tau: 0.0, across, tau_by }
     }
 
     /// The derivatives with respect to all numbers from the solutions of the variational equation.
     #[inline]
     fn combined(&self, ways: &[f64; WAYS]) -> Gradient {
-        let [x, v, d, d2, d3] = *ways;
-        let mut by: Gradient = std::array::from_fn(|p| x * self.x_by[p] + v * self.v_by[p]);
+        let [across, d, d2, d3] = *ways;
+        let mut by = self.across.map(|share| share * across);
         by[0] += d;
         by[1] += self.side.sign() * d2;
         by[2] += d3;
@@ -215,7 +225,11 @@ impl FittedSwing {
             if *next >= times.len() {
                 return Ok(None);
             }
-            let end = stretch.jet(stretch.duration);
+            let end = if with_derivatives {
+                stretch.jet(stretch.duration)
+            } else {
+                stretch.at(stretch.duration)
+            };
             if stretch.arrives {
                 return Ok(Some(self.turn(until, &end)));
             }
