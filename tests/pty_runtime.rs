@@ -106,7 +106,7 @@ fn machinery() {
     let keep = std::env::var_os("KEEP").map(PathBuf::from);
     let options = Options { keep, ..Options::default() };
     let ended = launch(Machinery::default(), std::sync::Arc::new(confirm), options).unwrap();
-    let failed = ended != std::process::ExitCode::SUCCESS;
+    let failed = ended != 0;
     println!("{}", if failed { "ended by a signal" } else { "left by the user" });
     std::process::exit(if failed { 77 } else { 0 });
 }

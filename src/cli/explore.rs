@@ -1,7 +1,6 @@
 //! `hopfscope [SCENE]` and `hopfscope tour`: the explorer in this terminal.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::SystemTime;
 
@@ -58,7 +57,7 @@ pub struct ExploreCommand {
 }
 
 impl ExploreCommand {
-    pub fn run(&self) -> Result<ExitCode, Failure> {
+    pub fn run(&self) -> Result<(), Failure> {
         let config = self.settings.read()?;
         let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
         let name = named.map_or(PLAIN, String::as_str);
@@ -99,7 +98,7 @@ pub struct TourCommand {
 }
 
 impl TourCommand {
-    pub fn run(&self) -> Result<ExitCode, Failure> {
+    pub fn run(&self) -> Result<(), Failure> {
         let config = self.settings.read()?;
         let mut session = Session::new(plain(), Size { width: 80, height: 24 });
         session.display = self.looks.wishes(&config);
@@ -140,7 +139,7 @@ pub fn go(
     play: &[Instruction],
     record: Option<(&Path, bool)>,
     may_play_write: bool,
-) -> Result<ExitCode, Failure> {
+) -> Result<(), Failure> {
     let environment = Environment::of_process();
     environment.admit().map_err(Failure::Usage)?;
     let started = provenance_file::of_process().command;
@@ -163,8 +162,9 @@ pub fn go(
     let last = memory.as_ref().map(Memory::last);
     let replay = (!play.is_empty()).then(|| Script::of(play.to_vec()));
     let options = Options { replay, started, recorder, record, keep, last, mouse, files };
-    explore(session, environment, options)
-        .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))
+    let ended = explore(session, environment, options)
+        .map_err(|error| Failure::Unanswered(format!("the terminal: {error}")))?;
+    if ended == 0 { Ok(()) } else { Err(Failure::Said(ended)) }
 }
 
 /// An interrupted session, with a summary of its content.
@@ -205,7 +205,11 @@ fn welcome(session: &Session, memory: &Memory) -> Option<String> {
 /// The error for a first word that is neither a scene nor a command, with names that are similar.
 fn neither_scene_nor_command(name: &str) -> Failure {
     let scenes: Vec<String> = names().map(str::to_owned).collect();
-    let meant = similar(name, scenes.iter().cloned().chain(super::command_names())).into_iter();
+    let meant = similar(
+        name,
+        scenes.iter().cloned().chain(super::command_names().into_iter().map(str::to_owned)),
+    )
+    .into_iter();
     let told = |found| if scenes.contains(&found) { found } else { format!("the command {found}") };
     let meant = meant.map(told);
     let meant = meant.collect::<Vec<_>>().join(" or ");

@@ -3,7 +3,6 @@
 use std::io::{self, BufWriter, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use clap::Args;
 
@@ -56,7 +55,7 @@ struct PartSource {
 
 impl MergeCommand {
     /// Merges; exit code 1 if rows are missing.
-    pub fn run(&self) -> Result<ExitCode, Failure> {
+    pub fn run(&self) -> Result<(), Failure> {
         let (sources, absent) = self.sources()?;
         let first = &sources[0];
         for other in &sources[1..] {
@@ -82,7 +81,7 @@ impl MergeCommand {
             for gap in &missing {
                 report(gap, &missing, &sources);
             }
-            return Ok(ExitCode::FAILURE);
+            return Err(Failure::Said(1));
         }
         if let Some(path) = absent.first() {
             let error = io::Error::from(io::ErrorKind::NotFound);
@@ -98,7 +97,7 @@ impl MergeCommand {
             let provenance = Provenance { command, checksum, ..first.provenance.clone() };
             provenance_file::write(path, &provenance)?;
         }
-        Ok(ExitCode::SUCCESS)
+        Ok(())
     }
 
     /// The parts that exist, at least one, and the paths that do not.

@@ -35,7 +35,8 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use clap::{Parser, Subcommand};
+use clap::{ArgMatches, Args, Command};
+use explore::ExploreCommand;
 use signal_hook::consts::SIGXFSZ;
 use signal_hook::flag;
 
@@ -46,6 +47,14 @@ pub(super) use output::{Certify, Output, print, write};
 pub(super) use source::{SourceOptions, StartOptions};
 pub(super) use timing::{in_turn, timed};
 
+/// What the program is about, for the help text.
+const LONG_ABOUT: &str = "\
+Explorer of one oscillator, q'' + 2 D q' + D2 q'^2 + D3 q'^3 + q = friction within -r .. r: \
+how dry friction turns a Hopf bifurcation into a set of equilibria with a basin that one \
+must know.
+
+Without a command: the explorer in this terminal. With one: an answer on standard output.";
+
 /// Commands for a first try, below the help text.
 const EXAMPLES: &str = "\
 Examples:
@@ -55,82 +64,64 @@ Examples:
   hopfscope cycles --set D=-0.3        the limit cycles and the basin at these numbers, as text
   hopfscope figure fig17 --output fig17.svg";
 
-/// The command line.
-#[derive(Debug, Parser)]
-#[command(
-    name = "hopfscope",
-    version,
-    about = "Explorer of one oscillator: dry friction and the Hopf bifurcation",
-    long_about = "Explorer of one oscillator, q'' + 2 D q' + D2 q'^2 + D3 q'^3 + q = friction within -r .. r: \
-                  how dry friction turns a Hopf bifurcation into a set of equilibria with a basin that one \
-                  must know.\n\nWithout a command: the explorer in this terminal. With one: an answer on \
-                  standard output.",
-    after_help = EXAMPLES,
-    args_conflicts_with_subcommands = true
-)]
-struct Cli {
-    #[command(subcommand)]
-    command: Option<HeadlessCommand>,
-    #[command(flatten)]
-    explore: explore::ExploreCommand,
+/// A command that needs no terminal.
+struct CommandRow {
+    name: &'static str,
+    /// Adds its options to a command.
+    options: fn(Command) -> Command,
+    /// Runs it with the options that were given.
+    run: Box<dyn Fn(&ArgMatches) -> Result<(), Failure>>,
 }
 
-/// The commands that need no terminal.
-#[derive(Debug, Subcommand)]
-enum HeadlessCommand {
-    Tour(explore::TourCommand),
-    Scenes(lists::ScenesCommand),
-    Keys(lists::KeysCommand),
-    Trajectory(motion::TrajectoryCommand),
-    Cycles(cycles::CyclesCommand),
-    Branch(branch::BranchCommand),
-    Border(branch::BorderCommand),
-    Basin(margin::BasinCommand),
-    Margin(margin::MarginCommand),
-    Kicks(margin::KicksCommand),
-    Scan(scan::ScanCommand),
-    Merge(merge::MergeCommand),
-    Belt(belt::BeltCommand),
-    Fit(fit::FitCommand),
-    Figure(figure::FigureCommand),
-    Replay(replay::ReplayCommand),
-    Check(cycles::CheckCommand),
-    Paper(lists::PaperCommand),
-    Trade(motion::TradeCommand),
-    Extremes(lists::ExtremesCommand),
-    Completions(shell::CompletionsCommand),
-    #[command(name = "man")]
-    Manual(shell::ManualCommand),
+fn row<C: Args + 'static>(name: &'static str, run: fn(&C) -> Result<(), Failure>) -> CommandRow {
+    let run = move |given: &ArgMatches| run(&parsed(given)?);
+    CommandRow { name, options: C::augment_args, run: Box::new(run) }
 }
 
-impl HeadlessCommand {
-    fn run(&self) -> Result<ExitCode, Failure> {
-        let answered = match self {
-            HeadlessCommand::Tour(command) => return command.run(),
-            HeadlessCommand::Scan(command) => return command.run(),
-            HeadlessCommand::Merge(command) => return command.run(),
-            HeadlessCommand::Scenes(command) => command.run(),
-            HeadlessCommand::Keys(command) => command.run(),
-            HeadlessCommand::Trajectory(command) => command.run(),
-            HeadlessCommand::Cycles(command) => command.run(),
-            HeadlessCommand::Branch(command) => command.run(),
-            HeadlessCommand::Border(command) => command.run(),
-            HeadlessCommand::Basin(command) => command.run(),
-            HeadlessCommand::Margin(command) => command.run(),
-            HeadlessCommand::Kicks(command) => command.run(),
-            HeadlessCommand::Belt(command) => command.run(),
-            HeadlessCommand::Fit(command) => command.run(),
-            HeadlessCommand::Figure(command) => command.run(),
-            HeadlessCommand::Replay(command) => command.run(),
-            HeadlessCommand::Check(command) => command.run(),
-            HeadlessCommand::Paper(command) => command.run(),
-            HeadlessCommand::Trade(command) => command.run(),
-            HeadlessCommand::Extremes(command) => command.run(),
-            HeadlessCommand::Completions(command) => command.run(),
-            HeadlessCommand::Manual(command) => command.run(),
-        };
-        answered.map(|()| ExitCode::SUCCESS)
-    }
+/// The options of a command, of those that were given.
+fn parsed<C: Args>(given: &ArgMatches) -> Result<C, Failure> {
+    C::from_arg_matches(given).map_err(|error| Failure::from_parser(&error))
+}
+
+/// The commands, in the order of the help.
+fn commands() -> [CommandRow; 22] {
+    [
+        row("tour", explore::TourCommand::run),
+        row("scenes", lists::ScenesCommand::run),
+        row("keys", lists::KeysCommand::run),
+        row("trajectory", motion::TrajectoryCommand::run),
+        row("cycles", cycles::CyclesCommand::run),
+        row("branch", branch::BranchCommand::run),
+        row("border", branch::BorderCommand::run),
+        row("basin", margin::BasinCommand::run),
+        row("margin", margin::MarginCommand::run),
+        row("kicks", margin::KicksCommand::run),
+        row("scan", scan::ScanCommand::run),
+        row("merge", merge::MergeCommand::run),
+        row("belt", belt::BeltCommand::run),
+        row("fit", fit::FitCommand::run),
+        row("figure", figure::FigureCommand::run),
+        row("replay", replay::ReplayCommand::run),
+        row("check", cycles::CheckCommand::run),
+        row("paper", lists::PaperCommand::run),
+        row("trade", motion::TradeCommand::run),
+        row("extremes", lists::ExtremesCommand::run),
+        row("completions", shell::CompletionsCommand::run),
+        row("man", shell::ManualCommand::run),
+    ]
+}
+
+/// The command line: the explorer, unless a command stands first.
+fn program() -> Command {
+    let program = ExploreCommand::augment_args(Command::new("hopfscope"))
+        .version(env!("CARGO_PKG_VERSION"))
+        .about("Explorer of one oscillator: dry friction and the Hopf bifurcation")
+        .long_about(LONG_ABOUT)
+        .after_help(EXAMPLES)
+        .args_conflicts_with_subcommands(true);
+    commands()
+        .into_iter()
+        .fold(program, |all, row| all.subcommand((row.options)(Command::new(row.name))))
 }
 
 /// Moves the options `--config` and `--no-config` from before a command to after it. Before a command they would
@@ -143,7 +134,7 @@ fn settings_last(mut words: Vec<OsString>) -> Vec<OsString> {
     let separate = words.get(1).is_some_and(|word| word == "--config");
     let options = if separate { 2 } else { named.count() };
     let command = words.get(1 + options).map(|word| word.to_string_lossy().into_owned());
-    if command.is_some_and(|command| command_names().contains(&command)) {
+    if command.is_some_and(|command| command_names().contains(&command.as_str())) {
         words[1..=1 + options].rotate_right(1);
     }
     words
@@ -153,30 +144,38 @@ fn settings_last(mut words: Vec<OsString>) -> Vec<OsString> {
 pub fn main() -> ExitCode {
     // At the limit of its size the write of a file fails; it does not end the program.
     drop(flag::register(SIGXFSZ, Arc::default()));
-    let result = match Cli::try_parse_from(settings_last(std::env::args_os().collect())) {
-        Ok(Cli { command: Some(command), .. }) => command.run(),
-        Ok(Cli { command: None, explore }) => explore.run(),
+    let words = settings_last(std::env::args_os().collect());
+    let result = match program().try_get_matches_from(words) {
+        Ok(given) => run(&given),
         Err(error) if error.use_stderr() => Err(Failure::from_parser(&error)),
-        Err(help) => print(&help.render().to_string()).map(|()| ExitCode::SUCCESS),
+        Err(help) => print(&help.render().to_string()),
     };
-    result.unwrap_or_else(|failure| failure.report())
+    result.map_or_else(|failure| failure.report(), |()| ExitCode::SUCCESS)
 }
 
-fn command_names() -> Vec<String> {
-    use clap::CommandFactory;
-    Cli::command().get_subcommands().map(|command| command.get_name().to_owned()).collect()
+/// Runs the command that was given.
+fn run(given: &ArgMatches) -> Result<(), Failure> {
+    let named = given.subcommand().and_then(|(name, options)| {
+        Some((commands().into_iter().find(|row| row.name == name)?, options))
+    });
+    match named {
+        Some((row, options)) => (row.run)(options),
+        None => parsed::<ExploreCommand>(given)?.run(),
+    }
+}
+
+fn command_names() -> Vec<&'static str> {
+    commands().map(|row| row.name).to_vec()
 }
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
     use super::*;
     use crate::scene::library;
 
     #[test]
     fn the_definition_of_the_command_line_is_consistent() {
-        Cli::command().debug_assert();
+        program().debug_assert();
     }
 
     #[test]
@@ -200,7 +199,11 @@ mod tests {
     fn no_scene_hides_behind_a_command() {
         let commands = command_names();
         for scene in library() {
-            assert!(!commands.contains(&scene.name), "hopfscope {} runs a command", scene.name);
+            assert!(
+                !commands.contains(&scene.name.as_str()),
+                "hopfscope {} runs a command",
+                scene.name
+            );
         }
     }
 }

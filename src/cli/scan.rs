@@ -3,7 +3,6 @@
 use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI32, Ordering};
 
@@ -132,7 +131,7 @@ impl ScanCommand {
     }
 
     /// Computes and writes rows until all are done or a signal stops it.
-    pub fn run(&self) -> Result<ExitCode, Failure> {
+    pub fn run(&self) -> Result<(), Failure> {
         let asked = self.asked()?;
         if self.plan.is_wanted() {
             let jobs = self.jobs.unwrap_or(1);
@@ -176,7 +175,7 @@ impl ScanCommand {
         match broken {
             // A closed pipe is not an error: its reader has seen enough.
             Some(error) if self.output.is_none() && error.kind() == io::ErrorKind::BrokenPipe => {
-                Ok(ExitCode::SUCCESS)
+                Ok(())
             }
             Some(error) => {
                 let path = self.output.as_ref().map(|path| path.display().to_string());
@@ -186,7 +185,7 @@ impl ScanCommand {
             None => {
                 let signal = Some(stop.load(Ordering::Relaxed));
                 let signal = signal.filter(|signal| *signal != 0 && file.left() > 0);
-                Ok(self.report(&tally, signal))
+                self.report(&tally, signal)
             }
         }
     }
@@ -296,16 +295,16 @@ impl ScanCommand {
     }
 
     /// Reports the rows that were given up, or the signal that stopped the scan.
-    fn report(&self, tally: &Tally, signal: Option<i32>) -> ExitCode {
+    fn report(&self, tally: &Tally, signal: Option<i32>) -> Result<(), Failure> {
         let Some(signal) = signal else {
             if tally.given_up > 0 {
                 tell(format!("note: {tally}; the last column says why"));
             }
-            return ExitCode::SUCCESS;
+            return Ok(());
         };
         let again = if self.output.is_some() { "; --resume continues" } else { "" };
         tell(format!("stopped: {tally}{again}"));
-        exit_code(signal).into()
+        Err(Failure::Said(exit_code(signal)))
     }
 }
 

@@ -3,11 +3,11 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, CommandFactory};
+use clap::Args;
 use clap_complete::Shell;
 use clap_mangen::Man;
 
-use super::{Cli, Failure, print, write};
+use super::{Failure, print, program, write};
 use crate::words::wrapped;
 
 /// Date of the manual pages, that of the version.
@@ -24,7 +24,7 @@ pub struct CompletionsCommand {
 impl CompletionsCommand {
     pub fn run(&self) -> Result<(), Failure> {
         let mut script = Vec::new();
-        clap_complete::generate(self.shell, &mut Cli::command(), "hopfscope", &mut script);
+        clap_complete::generate(self.shell, &mut program(), "hopfscope", &mut script);
         print(&String::from_utf8_lossy(&script))
     }
 }
@@ -45,10 +45,10 @@ impl ManualCommand {
         if !self.folder.is_dir() {
             return Err(Failure::Usage(format!("{}: no such directory", self.folder.display())));
         }
-        let mut program = Cli::command().disable_help_subcommand(true);
-        program.build();
-        let commands = program.get_subcommands().cloned();
-        for command in std::iter::once(program.clone()).chain(commands) {
+        let mut all = program().disable_help_subcommand(true);
+        all.build();
+        let commands = all.get_subcommands().cloned();
+        for command in std::iter::once(all.clone()).chain(commands) {
             // `hopfscope cycles` becomes the page `hopfscope-cycles`.
             let name = command.get_display_name().unwrap_or(command.get_name()).to_owned();
             let page = Man::new(command.name(&name)).title(name.to_uppercase()).date(DATE);

@@ -3,7 +3,6 @@
 use std::cell::Cell;
 use std::io;
 use std::path::Path;
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -144,10 +143,6 @@ fn fitted(recording: &Recording, limits: &Limits, tell: &Tell) -> Result<Fit, Re
 ///
 /// Call [`Environment::admit`] first: it says in one line why there is no usable terminal. Fails if the
 /// terminal cannot be used, or goes away while it is written to.
-pub fn explore(
-    session: Session,
-    environment: Environment,
-    options: Options,
-) -> io::Result<ExitCode> {
+pub fn explore(session: Session, environment: Environment, options: Options) -> io::Result<u8> {
     launch(Explorer::new(session, environment), Arc::new(answer), options)
 }

@@ -13,6 +13,8 @@ pub enum Failure {
     Usage(String),
     /// The answer could not be computed or shown; exit code 1.
     Unanswered(String),
+    /// All has been said; this is the exit code.
+    Said(u8),
 }
 
 impl Failure {
@@ -46,11 +48,13 @@ impl Failure {
 
     /// Prints the line to standard error.
     pub fn report(&self) -> ExitCode {
+        let code = match self {
+            Failure::Said(code) => return ExitCode::from(*code),
+            Failure::Usage(_) => 2,
+            Failure::Unanswered(_) => 1,
+        };
         tell(self);
-        match self {
-            Failure::Usage(_) => ExitCode::from(2),
-            Failure::Unanswered(_) => ExitCode::FAILURE,
-        }
+        ExitCode::from(code)
     }
 }
 
@@ -58,6 +62,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Failure::Usage(line) | Failure::Unanswered(line) => out.write_str(line),
+            Failure::Said(code) => write!(out, "exit code {code}"),
         }
     }
 }

@@ -4,7 +4,6 @@
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
-use std::process::ExitCode;
 use std::sync::Arc;
 
 use crossbeam_channel::unbounded;
@@ -34,7 +33,7 @@ pub fn launch(
     application: impl Application,
     answer: Arc<Compute>,
     options: Options,
-) -> io::Result<ExitCode> {
+) -> io::Result<u8> {
     let guard = Guard::new()?;
     panics::install(guard.clone(), std::thread::current().id());
     let (send, events) = unbounded();
@@ -66,10 +65,10 @@ pub fn launch(
         tell(format!("the session is not kept: {why}"));
     }
     match ended? {
-        LoopEnd::Ended { signal } => Ok(exit_code(signal).into()),
-        LoopEnd::Closed => Ok(exit_code(HANG_UP).into()),
+        LoopEnd::Ended { signal } => Ok(exit_code(signal)),
+        LoopEnd::Closed => Ok(exit_code(HANG_UP)),
         LoopEnd::Deaf(why) => Err(io::Error::other(why)),
-        _ => Ok(ExitCode::SUCCESS),
+        _ => Ok(0),
     }
 }
 
