@@ -8,7 +8,7 @@ use super::Failure;
 use super::input::pair;
 
 /// The options that choose rows; at most one of them is given.
-#[derive(Clone, Copy, Debug, Default, Args)]
+#[derive(Clone, Debug, Default, Args)]
 #[group(id = "part", multiple = false)]
 pub struct RowChoice {
     /// Computes only part K of N (1 <= K <= N); the parts in order make up the whole scan
@@ -19,7 +19,7 @@ pub struct RowChoice {
     shard_index0: Option<Shard>,
     /// Computes only these rows, counted from 1
     #[arg(long, value_name = "FIRST:LAST", value_parser = rows)]
-    rows: Option<RowRange>,
+    rows: Option<Range<usize>>,
 }
 
 /// Part `number` of `of`, counted from 1.
@@ -27,13 +27,6 @@ pub struct RowChoice {
 pub struct Shard {
     number: usize,
     of: usize,
-}
-
-/// Rows `first` to `last`, both included, counted from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct RowRange {
-    first: usize,
-    last: usize,
 }
 
 /// Maximum number of shards.
@@ -53,10 +46,11 @@ fn shard_index0(text: &str) -> Result<Shard, String> {
         .ok_or_else(|| format!("{text:?} is not a part; expected K/N with 0 <= K < N <= {MOST}"))
 }
 
-fn rows(text: &str) -> Result<RowRange, String> {
+/// The points of rows `FIRST` to `LAST`, both included, counted from 1.
+fn rows(text: &str) -> Result<Range<usize>, String> {
     pair(text, ':')
         .filter(|(first, last)| (1..=*last).contains(first))
-        .map(|(first, last)| RowRange { first, last })
+        .map(|(first, last)| first - 1..last)
         .ok_or_else(|| {
             format!("{text:?} is not a range of rows; expected FIRST:LAST with 1 <= FIRST <= LAST")
         })
@@ -83,20 +77,22 @@ impl std::fmt::Display for Shard {
 
 impl RowChoice {
     /// The shard asked for, if any.
-    pub fn shard(self) -> Option<Shard> {
+    pub fn shard(&self) -> Option<Shard> {
         self.shard.or(self.shard_index0)
     }
 
     /// The points to compute, of `all` in the scan.
-    pub fn points(self, all: usize) -> Result<Range<usize>, Failure> {
-        match (self.shard(), self.rows) {
-            (Some(shard), _) => Ok(shard.points(all)),
-            (None, Some(RowRange { first, last })) if last <= all => Ok(first - 1..last),
-            (None, Some(RowRange { first, last })) => {
-                Err(Failure::Usage(format!("--rows {first}:{last}: the scan has {all} rows")))
-            }
-            (None, None) => Ok(0..all),
+    pub fn points(&self, all: usize) -> Result<Range<usize>, Failure> {
+        if let Some(shard) = self.shard() {
+            return Ok(shard.points(all));
         }
+        let rows = self.rows.clone().unwrap_or(0..all);
+        if rows.end > all {
+            let (first, last) = (rows.start + 1, rows.end);
+            let line = format!("--rows {first}:{last}: the scan has {all} rows");
+            return Err(Failure::Usage(line));
+        }
+        Ok(rows)
     }
 }
 
@@ -122,7 +118,7 @@ mod tests {
     fn parts_that_do_not_exist_are_refused() {
         assert_eq!(shard("2/3"), Ok(Shard { number: 2, of: 3 }));
         assert_eq!(shard_index0("1/3"), shard("2/3"));
-        assert_eq!(rows("4:4"), Ok(RowRange { first: 4, last: 4 }));
+        assert_eq!(rows("4:4"), Ok(3..4));
         for text in ["0/3", "4/3", "1", "1/0", "a/b", "-1/2", "1/2/3", "1/1000001"] {
             assert!(shard(text).unwrap_err().contains("1 <= K <= N"), "{text}");
         }
@@ -132,8 +128,7 @@ mod tests {
         for text in ["0:3", "4:3", "1", "1:", "a:b"] {
             assert!(rows(text).unwrap_err().contains("FIRST:LAST"), "{text}");
         }
-        let beyond =
-            RowChoice { rows: Some(RowRange { first: 3, last: 8 }), ..RowChoice::default() };
+        let beyond = RowChoice { rows: Some(2..8), ..RowChoice::default() };
         assert!(beyond.points(7).is_err());
         assert_eq!(beyond.points(8).unwrap(), 2..8);
     }

@@ -65,37 +65,9 @@ impl StatusLine {
     }
 }
 
-/// Reports how many rows are done, how fast, and how long the rest will take.
-#[derive(Debug)]
-pub struct Progress {
-    wanted: usize,
-    /// Rows that had been computed earlier.
-    before: usize,
-    done: usize,
-    line: StatusLine,
-}
-
-impl Progress {
-    /// The progress of `wanted` rows that are about to be computed, after `before` that are done.
-    pub fn new(wanted: usize, before: usize, place: Outlet) -> Self {
-        Progress { wanted, before, done: 0, line: StatusLine::new(place) }
-    }
-
-    /// Counts a row.
-    pub fn step(&mut self) {
-        self.done += 1;
-        let Progress { wanted, before, done, ref mut line } = *self;
-        line.renew(|seconds| message(done, before, wanted, seconds));
-    }
-
-    /// Removes the line.
-    pub fn end(&self) {
-        self.line.end();
-    }
-}
-
-/// The message after this many seconds.
-fn message(done: usize, before: usize, wanted: usize, seconds: f64) -> String {
+/// The message after this many seconds, in which `done` of the `wanted` rows were computed: how many are done, how fast,
+/// and how long the rest will take; `before` that, others had been computed.
+pub fn message(done: usize, before: usize, wanted: usize, seconds: f64) -> String {
     let rate = significant(real(done) / seconds, 2);
     let left = remaining(seconds, done, wanted);
     let (done, all) = (before + done, before + wanted);

@@ -14,7 +14,7 @@ use super::input::{self, WINDOW};
 use super::output::holds_something;
 use super::part::{RowChoice, Shard};
 use super::plan::Plan;
-use super::progress::{Outlet, Progress};
+use super::progress::{Outlet, StatusLine, message};
 use super::{Failure, SourceOptions, given, number, print, read};
 use crate::flow::Limits;
 use crate::model::{Knob, MachineProblem};
@@ -156,15 +156,16 @@ impl ScanCommand {
             (true, _) => Outlet::Line,
             (false, _) => Outlet::Log,
         };
-        let mut progress = Progress::new(all - done, done, place);
-        let (mut given_up, mut broken) = (0, None);
+        let mut progress = StatusLine::new(place);
+        let (mut computed, mut given_up, mut broken) = (0, 0, None);
         let took = rows(&scan, open, processors, &interrupted, &mut |index, row| {
             broken = file.add(index, &row).err();
             if broken.is_some() {
                 return ControlFlow::Break(());
             }
             given_up += usize::from(row.reason.is_some());
-            progress.step();
+            computed += 1;
+            progress.renew(|seconds| message(computed, done, all - done, seconds));
             ControlFlow::Continue(())
         });
         progress.end();

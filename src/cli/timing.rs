@@ -20,30 +20,19 @@ pub fn timed<T>(times: u32, mut compute: impl FnMut() -> T) -> (T, f64) {
     (answer, median(&mut seconds))
 }
 
-/// If no number of repetitions is asked for, a computation is repeated until its times add up to this many
-/// seconds, at most [`ROUNDS`] times. A single run of a short computation is unreliable.
-const ENOUGH: f64 = 0.02;
+/// If no number of repetitions is asked for, a computation is measured this often, so that one disturbed measurement
+/// does not affect the median, unless that takes more than [`LONG`].
+const ROUNDS: usize = 5;
 
-/// Number of rounds that are always measured, so that one disturbed measurement does not affect the median,
-/// unless they take more than [`LONG`] together.
-const FEW: usize = 5;
-
-/// See [`FEW`].
+/// Time in seconds after which a computation is not measured again unasked.
 const LONG: f64 = 0.5;
 
-/// A computation that takes less than this many seconds runs once before it is measured, so that it starts with
-/// warm caches.
+/// A computation that takes less than this many seconds is measured over as many runs as take this long, after one that
+/// warms the caches: a single run of a short computation is unreliable.
 const SHORT: f64 = 1e-3;
 
-/// A computation that takes less than this many seconds is measured over as many runs as take this long, which
-/// makes the time of reading the clock negligible.
-const READABLE: f64 = 200e-6;
-
-/// See [`ENOUGH`].
-const ROUNDS: usize = 25;
-
-/// The median times in seconds of `count` computations. Each is measured `times` times, or if that is 1, as often
-/// as `ENOUGH` and `FEW` require.
+/// The median times in seconds of `count` computations. Each is measured `times` times, or if that is 1, as
+/// [`ROUNDS`] says.
 ///
 /// The computations take turns, so that other load on the machine disturbs all of them alike.
 pub fn in_turn<T>(times: u32, count: usize, mut compute: impl FnMut(usize) -> T) -> Vec<f64> {
@@ -51,8 +40,7 @@ pub fn in_turn<T>(times: u32, count: usize, mut compute: impl FnMut(usize) -> T)
     let rounds = if times > 1 { times as usize } else { ROUNDS };
     for _ in 0..rounds {
         for (index, seconds) in seconds.iter_mut().enumerate() {
-            let few = seconds.len() < FEW && seconds.iter().sum::<f64>() < LONG;
-            if times > 1 || few || seconds.iter().sum::<f64>() < ENOUGH {
+            if times > 1 || seconds.iter().sum::<f64>() < LONG {
                 seconds.push(settled(|| compute(index)));
             }
         }
@@ -60,20 +48,14 @@ pub fn in_turn<T>(times: u32, count: usize, mut compute: impl FnMut(usize) -> T)
     seconds.iter_mut().map(|seconds| median(seconds)).collect()
 }
 
-/// The time of a computation in seconds; that of a short one with warm caches.
+/// The time of a computation in seconds; that of a short one is the mean of several runs.
 fn settled<T>(mut compute: impl FnMut() -> T) -> f64 {
-    let cold = mean(1, &mut compute);
+    let (_, cold) = timed(1, &mut compute);
     if cold >= SHORT {
         return cold;
     }
-    let warm = mean(1, &mut compute);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 1000")]
-    let times = (READABLE / warm).ceil().clamp(1.0, 1000.0) as u32;
-    mean(times, &mut compute)
-}
-
-/// The mean time in seconds of `times` runs in a row.
-fn mean<T>(times: u32, mut compute: impl FnMut() -> T) -> f64 {
+    let times = (SHORT / cold.max(1e-9)).ceil().min(1000.0) as u32;
     let started = Instant::now();
     for _ in 0..times {
         black_box(compute());

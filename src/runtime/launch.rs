@@ -43,7 +43,7 @@ pub fn launch(
     input::start(send.clone())?;
     let report = Arc::new(move |msg| drop(send.send(Event::Session(msg))));
     let workers = Workers::new(answer, report);
-    let screen = Screen::new(guard.out(), terminal_size())?;
+    let screen = Screen::new(Arc::clone(&guard.out), terminal_size())?;
     let mut pump = Pump::new(application, screen, workers, events, options, terminal_size);
     pump.repaint()?;
     // A panic has already been reported and the terminal given back; the panic still ends the program.

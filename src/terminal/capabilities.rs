@@ -105,10 +105,8 @@ impl Environment {
     /// console supports UTF-8, but its fonts have no braille: it gets blocks.
     pub fn glyphs(&self) -> Glyphs {
         let locale = [&self.lc_all, &self.lc_ctype, &self.lang].into_iter().flatten().next();
-        let unicode = locale.is_some_and(|locale| {
-            let locale = locale.to_ascii_lowercase();
-            locale.contains("utf-8") || locale.contains("utf8")
-        });
+        let plain = |locale: &String| locale.to_ascii_lowercase().replace('-', "");
+        let unicode = locale.is_some_and(|locale| plain(locale).contains("utf8"));
         let console = self.term.as_deref() == Some("linux");
         match (unicode || self.tmux.is_some(), console) {
             (true, false) => Glyphs::Braille,

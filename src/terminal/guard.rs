@@ -66,7 +66,8 @@ struct GuardState {
 #[derive(Clone, Debug)]
 pub struct Guard {
     state: Arc<Mutex<GuardState>>,
-    out: Arc<File>,
+    /// The terminal, to write frames to.
+    pub out: Arc<File>,
 }
 
 impl Guard {
@@ -74,11 +75,6 @@ impl Guard {
     pub fn new() -> io::Result<Guard> {
         let out = File::from(io::stdout().as_fd().try_clone_to_owned()?);
         Ok(Guard { state: Arc::default(), out: Arc::new(out) })
-    }
-
-    /// The terminal, to write frames to.
-    pub fn out(&self) -> Arc<File> {
-        Arc::clone(&self.out)
     }
 
     /// Takes the terminal: raw mode, then [`MODES`]. Does nothing if it is taken already. Fails if the terminal

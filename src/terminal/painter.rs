@@ -85,16 +85,12 @@ impl<W: Write> Painter<W> {
         Ok(())
     }
 
-    /// The buffer of the frame in progress; begins it with [`BEGIN`] if it is empty.
-    fn frame(&mut self) -> &mut Vec<u8> {
-        if self.frame.is_empty() {
-            self.frame.extend_from_slice(BEGIN.as_bytes());
-        }
-        &mut self.frame
-    }
-
+    /// Adds to the frame in progress; begins it with [`BEGIN`].
     fn put(&mut self, text: &str) {
-        self.frame().extend_from_slice(text.as_bytes());
+        if !text.is_empty() {
+            let begin = if self.frame.is_empty() { BEGIN } else { "" };
+            self.frame.extend([begin, text].concat().into_bytes());
+        }
     }
 }
 
@@ -106,9 +102,7 @@ impl<W: Write> Backend for Painter<W> {
         I: Iterator<Item = (u16, u16, &'a Cell)>,
     {
         let (text, hand) = strokes::draw(content, &mut self.shown, self.hand);
-        if !text.is_empty() {
-            self.put(&text);
-        }
+        self.put(&text);
         self.hand = hand;
         Ok(())
     }
