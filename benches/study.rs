@@ -67,7 +67,7 @@ fn one_fold() -> Option<f64> {
 
 #[divan::bench]
 fn one_fold_by_its_graph() -> f64 {
-    highest_cycle(black_box(&CASE), 1e-13, LIMITS).0.unwrap().d
+    highest_cycle(black_box(&CASE), 1e-13, LIMITS).0.unwrap().0.d
 }
 
 #[divan::bench]
@@ -80,7 +80,7 @@ fn a_border_by_graphs() -> f64 {
     let step = (RANGE.1 - RANGE.0) / 99.0;
     let folds = (0..100).map(|index| {
         let parameters = Parameters { d3: RANGE.0 + step * f64::from(index), ..CASE };
-        highest_cycle(&parameters, 1e-13, LIMITS).0.unwrap().d
+        highest_cycle(&parameters, 1e-13, LIMITS).0.unwrap().0.d
     });
     folds.sum()
 }

@@ -161,7 +161,7 @@ fn a_scan_measures_what_the_basin_has() {
         let window = Window { q: (left, right), v: (low, high) };
         let problem = Problem { parameters, ..Problem::default() };
         let measures = [Measure::Margin, Measure::Area, Measure::Stability];
-        let (values, _) = measure(&problem, &measures, &window.into(), &LIMITS).unwrap();
+        let measured = measure(&problem.into(), &measures, &window.into(), &LIMITS).unwrap();
         let found = basin(&parameters, left.abs().max(right.abs()), &LIMITS).unwrap();
         let share = found.captured_share(&window);
         let margin = found.margin();
@@ -171,7 +171,7 @@ fn a_scan_measures_what_the_basin_has() {
             found.area().into(),
             Value::Number(share.part),
         ];
-        for (value, expected) in values.into_iter().zip(expected) {
+        for (value, expected) in measured.values.into_iter().zip(expected) {
             let near = match (value.number(), expected.number()) {
                 (Some(value), Some(expected)) => same(value, expected, 1e-12),
                 (value, expected) => value == expected,

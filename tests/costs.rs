@@ -57,7 +57,7 @@ fn folds_are_the_tops_of_the_graph_of_all_cycles() {
         let (found, cost) = fold(&parameters, LIMITS).unwrap();
         let found = found.unwrap();
         let (graph, slow) = highest_cycle(&parameters, 1e-13, LIMITS);
-        let graph = graph.unwrap().point();
+        let (graph, _) = graph.unwrap();
         assert!((found.d / graph.d - 1.0).abs() < 1e-13, "{parameters:?}: {found:?} {graph:?}");
         assert!((found.q_max / graph.q_max - 1.0).abs() < 1e-9, "{found:?} {graph:?}");
         assert!(5 * cost.evaluations < slow.evaluations, "{cost:?} {slow:?}");

@@ -69,7 +69,7 @@ fn a_row_that_cannot_be_computed_says_why_and_the_others_go_on() {
     assert!(!ran.out.contains("NaN") && !ran.out.contains("inf"), "{}", ran.out);
     let row = &rows(&ran.out)[0];
     assert_eq!((row["rest_q"], row["outcome"]), ("", "gave-up"));
-    assert!(row["reason"].starts_with("motion: "), "{}", row["reason"]);
+    assert!(row["reason"].starts_with("outcome: "), "{}", row["reason"]);
 }
 
 #[test]

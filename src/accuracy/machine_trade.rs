@@ -35,7 +35,9 @@ impl MachineTrade {
     /// Computes every row for a motion from displacement and velocity (m, m/s) of `until` seconds.
     #[must_use]
     pub fn new(model: &Model, start: (f64, f64), until: f64) -> Self {
-        let follow = |method, tolerance| Self::follow(model, (method, tolerance), start, until);
+        let follow = |method, tolerance| {
+            MachineMotion::by(model, (method, tolerance), start, until, Detail::default())
+        };
         let reference = follow(Method::Taylor, FINEST);
         let point = |(method, digits): (Method, i32)| {
             let motion = follow(method, powi(10.0, -digits));
@@ -45,17 +47,6 @@ impl MachineTrade {
         let rows = METHODS.into_iter().flat_map(|way| DIGITS.map(move |digits| (way, digits)));
         let points = rows.map(point).collect();
         MachineTrade { reference, points }
-    }
-
-    /// The motion of a row, by a method at a tolerance.
-    #[must_use]
-    pub fn follow(
-        model: &Model,
-        asked: (Method, f64),
-        start: (f64, f64),
-        until: f64,
-    ) -> MachineMotion {
-        MachineMotion::by(model, asked, start, until, Detail::default())
     }
 }
 

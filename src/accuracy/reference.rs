@@ -86,7 +86,7 @@ impl Reference {
     /// The reference for a motion; method and tolerance of the problem are not looked at. Fails with [`Reason`]
     /// where no two ways of computing it come to an end.
     pub fn of(problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
-        let tight = Limits { evaluations: limits.evaluations.min(MOST), ..*limits };
+        let tight = limits.up_to(MOST);
         let run =
             |grain| Self::new(&precise(problem, grain, &tight)?, ReferenceSource::TwicePrecision);
         match run(FINE).and_then(|fine| Ok(fine.checked_by(&run(COARSE)?))) {

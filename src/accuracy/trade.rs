@@ -121,7 +121,7 @@ impl Trade {
     pub fn of(problem: &Problem, limits: &Limits) -> Result<Self, Reason> {
         let reference = Reference::of(problem, limits)?;
         let mut rows = Vec::new();
-        let bounded = Limits { evaluations: limits.evaluations.min(MOST), ..*limits };
+        let bounded = limits.up_to(MOST);
         for spec in METHODS {
             for rung in ladder(problem, spec.method) {
                 let row =
@@ -157,9 +157,7 @@ impl Trade {
     /// The cost of all rows together.
     pub fn cost(&self) -> Cost {
         let mut sum = self.reference.cost;
-        for row in &self.rows {
-            sum += row.cost;
-        }
+        self.rows.iter().for_each(|row| sum += row.cost);
         sum
     }
 
@@ -174,21 +172,15 @@ impl Trade {
     /// No other row that ends as the motion does has a smaller error for the same or less, or the same
     /// error for less. A row that ends otherwise is never among them.
     pub fn front(&self, costs: &[f64]) -> Vec<bool> {
-        let judged: Vec<Option<(f64, f64)>> = self
-            .rows
-            .iter()
-            .zip(costs)
-            .map(|(row, &cost)| row.error().filter(|_| row.agrees()).map(|error| (error, cost)))
-            .collect();
+        let judged = |(row, cost): (&TradePoint, &f64)| {
+            row.error().filter(|_| row.agrees()).map(|error| (error, *cost))
+        };
+        let all: Vec<Option<(f64, f64)>> = self.rows.iter().zip(costs).map(judged).collect();
         let beats = |one: (f64, f64), other: (f64, f64)| {
             one.0 <= other.0 && one.1 <= other.1 && one != other
         };
-        judged
-            .iter()
-            .map(|row| {
-                row.is_some_and(|row| !judged.iter().flatten().any(|other| beats(*other, row)))
-            })
-            .collect()
+        let best = |row: (f64, f64)| !all.iter().flatten().any(|other| beats(*other, row));
+        all.iter().map(|row| row.is_some_and(best)).collect()
     }
 }
 

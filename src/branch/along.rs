@@ -25,7 +25,7 @@ use serde::Serialize;
 
 use super::continuation::{CurvePlace, CurvePoint, CycleCurve, covers, is_beside, passes};
 use super::escape::{escape_point, escape_product};
-use super::special::{Special, SpecialKind, VANISHING};
+use super::special::{Special, SpecialKind, vanishing};
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Knob, Parameters, Side};
@@ -101,20 +101,20 @@ pub fn branch(
     }
     let (pieces, special, vague) = Default::default();
     let found = Branch { parameter, pieces, special, vague, cost: Cost::default() };
-    let mut tracer = CurveTracer { curve, parameter, points, found };
+    let mut tracer = CurveTracer { curve, parameter, range: (from, to), points, found };
     if parameter == Knob::D && parameters.is_piecewise_linear() {
         tracer.found.pieces.extend(linear_branch(parameters.r, from, to, points));
-        tracer.hopf(parameters.r, from, to);
+        tracer.hopf(parameters.r);
         return Ok(tracer.found);
     }
+    tracer.special_points()?;
     // The side of the first swing follows the sign of D2, so a curve in D2 is followed on each side of 0.
-    if parameter == Knob::D2 && from < 0.0 && to > 0.0 {
-        tracer.trace(from, 0.0)?;
-        tracer.trace(0.0, to)?;
-    } else {
-        tracer.trace(from, to)?;
+    let through = parameter == Knob::D2 && from < 0.0 && to > 0.0;
+    let parts = if through { vec![(from, 0.0), (0.0, to)] } else { vec![(from, to)] };
+    for part in parts {
+        tracer.range = part;
+        tracer.trace()?;
     }
-    tracer.special_points(from, to)?;
     let mut found = tracer.found;
     found.cost += tracer.curve.cost;
     found.special.sort_by(|one, other| one.value.total_cmp(&other.value));
@@ -163,6 +163,8 @@ const SHALLOW: f64 = 28.0;
 struct CurveTracer<'a> {
     curve: CycleCurve<'a>,
     parameter: Knob,
+    /// The part of the range that is traced.
+    range: (f64, f64),
     points: Points,
     found: Branch,
 }
@@ -172,10 +174,11 @@ const LOG_FAR: f64 = 25.0;
 
 impl CurveTracer<'_> {
     /// Follows every curve that passes one of the probing values.
-    fn trace(&mut self, from: f64, to: f64) -> Result<(), Reason> {
+    fn trace(&mut self) -> Result<(), Reason> {
         /// Fractions of the range at which cycles are sought: both ends, and between for curves that
         /// reach neither.
         const PROBES: [f64; 5] = [0.0, 1.0, 0.5, 0.25, 0.75];
+        let (from, to) = self.range;
         let mut curves: Vec<Vec<CurvePoint>> = Vec::new();
         self.curve.side = first_side(&self.curve.parameters_at(0.5 * (from + to)));
         for fraction in PROBES {
@@ -190,12 +193,12 @@ impl CurveTracer<'_> {
                 }
                 let mut points = Vec::new();
                 if fraction > 0.0 {
-                    points = self.follow(seed, -1.0, from, to)?;
+                    points = self.follow(seed, -1.0)?;
                     points.reverse();
                     points.pop();
                 }
                 if fraction < 1.0 {
-                    points.extend(self.follow(seed, 1.0, from, to)?);
+                    points.extend(self.follow(seed, 1.0)?);
                 } else {
                     points.push(seed);
                 }
@@ -203,9 +206,9 @@ impl CurveTracer<'_> {
             }
         }
         for points in &curves {
-            self.keep(points, (from, to))?;
+            self.keep(points)?;
         }
-        self.zero_crossings(&curves, from, to)
+        self.zero_crossings(&curves)
     }
 
     /// The intervals of u over which all cycles are known: those of the curves, where a curve is a graph
@@ -239,14 +242,8 @@ impl CurveTracer<'_> {
     }
 
     /// Follows one curve and ends it exactly at the border that it crosses.
-    fn follow(
-        &mut self,
-        seed: CurvePoint,
-        direction: f64,
-        from: f64,
-        to: f64,
-    ) -> Result<Vec<CurvePoint>, Reason> {
-        let bounds = self.bounds_of_u();
+    fn follow(&mut self, seed: CurvePoint, direction: f64) -> Result<Vec<CurvePoint>, Reason> {
+        let ((from, to), bounds) = (self.range, self.bounds_of_u());
         // With D3 = 0 a cycle only ever fades by going to infinity.
         let fades = matches!(self.points, Points::Even(_))
             && self.parameter != Knob::D3
@@ -261,7 +258,7 @@ impl CurveTracer<'_> {
             && !(from..=to).contains(&outside.p)
         {
             points.pop();
-            points.extend(self.crossing(&inside, &outside, (from, to))?);
+            points.extend(self.crossing(&inside, &outside)?);
         }
         Ok(points)
     }
@@ -271,8 +268,8 @@ impl CurveTracer<'_> {
         &mut self,
         inside: &CurvePoint,
         outside: &CurvePoint,
-        (from, to): (f64, f64),
     ) -> Result<Option<CurvePoint>, Reason> {
+        let (from, to) = self.range;
         let border = if outside.p > to { to } else { from };
         let fraction = (border - inside.p) / (outside.p - inside.p);
         let u = inside.u + fraction * (outside.u - inside.u);
@@ -318,14 +315,9 @@ impl CurveTracer<'_> {
     }
 
     /// Notes the cycles at `D = 0`: where the curves pass it, and what else there may be.
-    fn zero_crossings(
-        &mut self,
-        curves: &[Vec<CurvePoint>],
-        from: f64,
-        to: f64,
-    ) -> Result<(), Reason> {
+    fn zero_crossings(&mut self, curves: &[Vec<CurvePoint>]) -> Result<(), Reason> {
         let friction = self.curve.parameters_at(0.0).r > 0.0;
-        if self.parameter != Knob::D || !friction || !(from..=to).contains(&0.0) {
+        if self.parameter != Knob::D || !friction || !self.reaches(0.0) {
             return Ok(());
         }
         let mut found = self.seeds(0.0, &self.known(curves))?;
@@ -344,18 +336,18 @@ impl CurveTracer<'_> {
     }
 
     /// Spreads points over the parts of a curve within the range and describes each; notes the folds.
-    fn keep(&mut self, points: &[CurvePoint], range: (f64, f64)) -> Result<(), Reason> {
+    fn keep(&mut self, points: &[CurvePoint]) -> Result<(), Reason> {
         let mut part: Vec<CurvePoint> = points.first().copied().into_iter().collect();
         for pair in points.windows(2) {
             let [one, other] = pair else { continue };
             let turns = (one.log_multiplier > 0.0) != (other.log_multiplier > 0.0);
             let fold = if turns { self.curve.fold_between(one, other)? } else { None };
             match fold {
-                Some(fold) if !(range.0..=range.1).contains(&fold.p) => {
+                Some(fold) if !self.reaches(fold.p) => {
                     // Between both points the curve leaves the range and comes back.
-                    part.extend(self.crossing(one, &fold, range)?);
+                    part.extend(self.crossing(one, &fold)?);
                     self.keep_part(&std::mem::take(&mut part))?;
-                    part.extend(self.crossing(other, &fold, range)?);
+                    part.extend(self.crossing(other, &fold)?);
                 }
                 Some(fold) => self.note_fold(&fold),
                 None => {}
@@ -407,16 +399,16 @@ impl CurveTracer<'_> {
     }
 
     /// Notes the Hopf point: without friction the steady state changes its stability at `D = 0`.
-    fn hopf(&mut self, r: f64, from: f64, to: f64) {
-        if self.parameter == Knob::D && r == 0.0 && (from..=to).contains(&0.0) {
-            self.found.special.push(Special::new(SpecialKind::Hopf, 0.0, Some(VANISHING)));
+    fn hopf(&mut self, r: f64) {
+        if self.parameter == Knob::D && r == 0.0 && self.reaches(0.0) {
+            self.found.special.push(Special::new(SpecialKind::Hopf, 0.0, Some(vanishing())));
         }
     }
 
     /// The special points that are not folds.
-    fn special_points(&mut self, from: f64, to: f64) -> Result<(), Reason> {
+    fn special_points(&mut self) -> Result<(), Reason> {
         let parameters = self.curve.parameters_at(0.0);
-        self.hopf(parameters.r, from, to);
+        self.hopf(parameters.r);
         let values = match self.parameter {
             Knob::D => {
                 let (value, cost) = escape_point(&parameters, self.curve.limits())?;
@@ -433,10 +425,14 @@ impl CurveTracer<'_> {
             }
             _ => [None; 2],
         };
-        for value in values.into_iter().flatten().filter(|value| (from..=to).contains(value)) {
-            self.found.special.push(Special::new(SpecialKind::Escape, value, None));
-        }
+        let values = values.into_iter().flatten().filter(|value| self.reaches(*value));
+        let escapes = values.map(|value| Special::new(SpecialKind::Escape, value, None));
+        self.found.special.extend(escapes.collect::<Vec<_>>());
         Ok(())
+    }
+
+    fn reaches(&self, value: f64) -> bool {
+        (self.range.0..=self.range.1).contains(&value)
     }
 }
 

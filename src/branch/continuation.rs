@@ -39,6 +39,7 @@ const PROBES: (f64, f64) = (1e-11, 1e-5);
 const CORRECTIONS: usize = 8;
 
 /// A family of closing equations along a parameter.
+#[derive(Clone, Copy)]
 pub struct CycleCurve<'a> {
     parameters: Parameters,
     symbol: Knob,
@@ -72,7 +73,8 @@ impl<'a> CycleCurve<'a> {
         limits: &'a Limits<'a>,
     ) -> Self {
         let (parameters, cost) = (*parameters, Cost::default());
-        let (probe, slope_in_p, strides, budget) = (PROBES.1, None, 1.0, u64::MAX);
+        let (strides, budget) = (1.0, u64::MAX);
+        let (probe, slope_in_p) = (PROBES.1, None);
         CycleCurve {
             parameters,
             symbol,
@@ -117,7 +119,7 @@ impl<'a> CycleCurve<'a> {
         let step = STEP * self.tolerance;
         let mut equation = Equation::on_side(&self.parameters_at(p), self.side, step);
         equation.want_fastest(true);
-        let limits = Limits { evaluations: SWING_BUDGET, interrupted: self.limits.interrupted };
+        let limits = Limits { evaluations: SWING_BUDGET, ..*self.limits };
         let closing = equation.at(route, u, &limits);
         self.cost += equation.cost();
         match closing {
@@ -319,12 +321,8 @@ impl<'a> CycleCurve<'a> {
 
     /// The tangent from the slopes of the residual, turned the way of `along`.
     fn tangent_at(&self, point: &CurvePoint, along: Tangent) -> Option<Tangent> {
-        let slope_p = self.slope_in_p?.1 * self.scale;
-        let slope_u = point.closing.node.slope * UNIT_OF_U;
-        let length = hypot(slope_u, slope_p);
-        let tangent = Tangent { u: -slope_p / length, p: slope_u / length };
-        let sign = tangent.dot(along).signum();
-        let turned = Tangent { u: sign * tangent.u, p: sign * tangent.p };
+        let tangent = self.across_slopes(point.closing.node.slope, self.slope_in_p?.1);
+        let turned = tangent.times(tangent.dot(along).signum());
         (turned.dot(along) > 0.9).then_some(turned)
     }
 
@@ -335,12 +333,17 @@ impl<'a> CycleCurve<'a> {
     ) -> Result<Option<Tangent>, Reason> {
         let route = start.route();
         let Some(closing) = self.closing(route, start.u, start.p)? else { return Ok(None) };
-        let slope_p = self.renew_slope(route, start.u, start.p, closing.node.value())? * self.scale;
-        let slope_u = closing.node.slope * UNIT_OF_U;
+        let in_p = self.renew_slope(route, start.u, start.p, closing.node.value())?;
+        let tangent = self.across_slopes(closing.node.slope, in_p);
+        let turned = tangent.times((tangent.p * direction).signum());
+        Ok((turned.u.is_finite() && turned.p.is_finite()).then_some(turned))
+    }
+
+    /// Along the curve, on which the residual with these slopes in u and p stays the same.
+    fn across_slopes(&self, in_u: f64, in_p: f64) -> Tangent {
+        let (slope_u, slope_p) = (in_u * UNIT_OF_U, in_p * self.scale);
         let length = hypot(slope_u, slope_p);
-        let sign = (slope_u * direction).signum();
-        let tangent = Tangent { u: -sign * slope_p / length, p: sign * slope_u / length };
-        Ok(length.is_finite().then_some(tangent))
+        Tangent { u: -slope_p / length, p: slope_u / length }
     }
 
     /// The point between two neighbours of the curve where the multiplier is 1: a fold.
@@ -354,32 +357,16 @@ impl<'a> CycleCurve<'a> {
     ) -> Result<Option<CurvePoint>, Reason> {
         let tangent = Tangent::between(one, other, self.scale);
         let chord = hypot((other.u - one.u) / UNIT_OF_U, (other.p - one.p) / self.scale);
-        self.slope_in_p = None;
-        let tolerance = self.tolerance;
-        self.tolerance = self.fineness().max(FOLD_TOLERANCE);
-        let zero = tolerance.max(LEAST_LOG);
-        let ends = [one, other].map(|end| end.log_multiplier);
-        let fold = self.multiplier_one(one, tangent, chord, ends, zero);
-        self.tolerance = tolerance;
-        fold
-    }
-
-    fn multiplier_one(
-        &mut self,
-        one: &CurvePoint,
-        tangent: Tangent,
-        chord: f64,
-        ends: [f64; 2],
-        zero: f64,
-    ) -> Result<Option<CurvePoint>, Reason> {
-        let (mut low, mut high) = ((0.0, ends[0]), (chord, ends[1]));
+        let (tolerance, zero) =
+            (self.fineness().max(FOLD_TOLERANCE), self.tolerance.max(LEAST_LOG));
+        let mut fine = CycleCurve { tolerance, slope_in_p: None, ..*self };
+        let (mut low, mut high) = ((0.0, one.log_multiplier), (chord, other.log_multiplier));
         let mut best = None;
         for _ in 0..60 {
             let s = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
-            let Some(point) = self.correct(self.ahead(one, tangent, s), tangent, Route::Mixed)?
-            else {
-                return Ok(best);
-            };
+            let corrected = fine.correct(self.ahead(one, tangent, s), tangent, Route::Mixed);
+            (self.cost, self.slope_in_p) = (fine.cost, fine.slope_in_p);
+            let Some(point) = corrected? else { return Ok(best) };
             best = Some(point);
             let here = (s, point.log_multiplier);
             if here.1.abs() < zero || (high.0 - low.0).abs() < 1e-13 {

@@ -16,6 +16,8 @@
 //! # Ok::<(), hopfscope::flow::Reason>(())
 //! ```
 
+use std::f64::consts::PI;
+
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::Parameters;
 use crate::numerics::elementary::ln;
@@ -35,40 +37,21 @@ pub fn escape_point(
     parameters: &Parameters,
     limits: &Limits,
 ) -> Result<(Option<f64>, Cost), Reason> {
-    let mut cost = Cost::default();
-    let excess = |d: f64| excess_at_infinity(&Parameters { d, ..*parameters }, limits, &mut cost);
-    let found = least_without_cycle(parameters, excess)?;
-    Ok((found, cost))
-}
-
-/// `D_c` from the excess at each D.
-fn least_without_cycle(
-    parameters: &Parameters,
-    mut excess: impl FnMut(f64) -> Result<f64, Reason>,
-) -> Result<Option<f64>, Reason> {
     let Parameters { d2, d3, r, .. } = *parameters;
-    if d3 != 0.0 || d2 == 0.0 || r == 0.0 {
-        return Ok(None);
+    let leading = -(2.0 / PI).sqrt() * r * d2.abs();
+    let mut cost = Cost::default();
+    if d3 != 0.0 || leading == 0.0 || 0.8 * leading < -1.0 {
+        return Ok((None, cost));
     }
-    let leading = -(2.0 / std::f64::consts::PI).sqrt() * r * d2.abs();
-    // The excess falls from positive at D = -1 to negative at D = 0 (no cycle without self-excitation).
-    let mut low = (f64::max(1.2 * leading, -1.0 + f64::EPSILON), 0.0);
-    low.1 = excess(low.0)?;
-    let mut high = (0.8 * leading, 0.0);
-    if high.0 < -1.0 {
-        return Ok(None);
+    let mut excess =
+        |d: f64| excess_at_infinity(&Parameters { d, ..*parameters }, limits, &mut cost);
+    // It falls from positive at D = -1 to negative at D = 0 (no cycle without self-excitation).
+    let near = [f64::max(1.2 * leading, -1.0 + f64::EPSILON), 0.8 * leading];
+    let mut found = where_it_falls(near, &mut excess)?;
+    if found.is_none() {
+        found = where_it_falls([-1.0 + 1e-9, 0.0], &mut excess)?;
     }
-    high.1 = excess(high.0)?;
-    if !(low.1 > 0.0 && high.1 < 0.0) {
-        low = (-1.0 + 1e-9, excess(-1.0 + 1e-9)?);
-        high = (0.0, excess(0.0)?);
-    }
-    if !(low.1 > 0.0 && high.1 < 0.0) {
-        return Ok(None);
-    }
-    let [(d, _), _] =
-        illinois([low, high], 0.0, PlaceTolerance::Relative(2.0 * f64::EPSILON), excess)?;
-    Ok(Some(d))
+    Ok((found, cost))
 }
 
 /// The product `r abs(D2)` at which the cycle of a given damping goes to infinity, or `None` where none does: the
@@ -77,25 +60,29 @@ fn least_without_cycle(
 /// # Errors
 /// The [`Reason`] why a swing failed.
 pub fn escape_product(d: f64, limits: &Limits) -> Result<(Option<f64>, Cost), Reason> {
-    /// The bracket, in units of the leading order.
-    const AROUND: (f64, f64) = (0.25, 4.0);
     let mut cost = Cost::default();
-    let mut excess = |product: f64| {
-        let unit = Parameters { d, d2: product, d3: 0.0, r: 1.0 };
-        excess_at_infinity(&unit, limits, &mut cost)
-    };
     if !(d < 0.0 && d > -1.0) {
         return Ok((None, cost));
     }
-    let leading = -d * (std::f64::consts::PI / 2.0).sqrt();
-    let ends = [AROUND.0 * leading, AROUND.1 * leading];
+    let leading = -d * (PI / 2.0).sqrt();
+    let found = where_it_falls([0.25 * leading, 4.0 * leading], |product| {
+        let unit = Parameters { d, d2: product, d3: 0.0, r: 1.0 };
+        excess_at_infinity(&unit, limits, &mut cost)
+    })?;
+    Ok((found, cost))
+}
+
+/// Where an excess falls through 0, to rounding; `None` unless it is positive at the first end and negative at the other.
+fn where_it_falls(
+    ends: [f64; 2],
+    mut excess: impl FnMut(f64) -> Result<f64, Reason>,
+) -> Result<Option<f64>, Reason> {
     let ends = [(ends[0], excess(ends[0])?), (ends[1], excess(ends[1])?)];
     if !(ends[0].1 > 0.0 && ends[1].1 < 0.0) {
-        return Ok((None, cost));
+        return Ok(None);
     }
-    let [(product, _), _] =
-        illinois(ends, 0.0, PlaceTolerance::Relative(2.0 * f64::EPSILON), &mut excess)?;
-    Ok((Some(product), cost))
+    let [(at, _), _] = illinois(ends, 0.0, PlaceTolerance::Relative(2.0 * f64::EPSILON), excess)?;
+    Ok(Some(at))
 }
 
 /// By how much, as a logarithm, the swing from infinity passes the one to infinity; adds what it cost.

@@ -144,7 +144,7 @@ impl System<'_> {
         const BUDGET: u64 = 5_000;
         let mut equation = Equation::on_side(&self.parameters_at(z), self.side, step);
         equation.want_fastest(true);
-        let limits = Limits { evaluations: BUDGET, interrupted: self.limits.interrupted };
+        let limits = Limits { evaluations: BUDGET, ..*self.limits };
         let closing = equation.at(Route::Mixed, u, &limits);
         self.cost += equation.cost();
         let closing = match closing {

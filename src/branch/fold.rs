@@ -62,8 +62,7 @@ pub fn fold_within(
     let Some(harmonic) = harmonic::fold(parameters.d3, parameters.r) else {
         return Ok((None, Cost::default()));
     };
-    let limits =
-        &Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
+    let limits = &limits.up_to(BUDGET);
     let mut cost = Cost::default();
     if let Some(guess) = FoldGuess::in_damping(parameters) {
         let (found, spent) = fold_near(&guess, Knob::D, tolerance, limits)?;
@@ -74,32 +73,29 @@ pub fn fold_within(
     }
     // A rough fold, one of many on a map, need not be found at any cost.
     let thorough = tolerance <= TOLERANCE;
-    let grazes = |cost: &mut Cost| {
-        let (found, spent) = grazing(parameters, limits)?;
-        *cost += spent;
-        Ok(found)
-    };
     let strong = harmonic.d < STRONG;
     if thorough
         && strong
-        && let Some(point) = grazes(&mut cost)?
+        && let Some(point) = grazing(parameters, limits, &mut cost)?
     {
         return Ok((Some(point), cost));
     }
     let (met, spent) = highest_cycle(parameters, tolerance, limits);
     cost += spent;
     let lost = match &met {
-        Ok(met) => met.d < -1.0 && met.is_no_fold(),
+        Ok((met, log_multiplier)) => {
+            met.d < -1.0 && (log_multiplier.is_nan() || log_multiplier.abs() >= 1.0)
+        }
         Err(reason) => *reason != Reason::Interrupted,
     };
     if lost
         && thorough
         && !strong
-        && let Some(point) = grazes(&mut cost)?
+        && let Some(point) = grazing(parameters, limits, &mut cost)?
     {
         return Ok((Some(point), cost));
     }
-    Ok((Some(met?.point()), cost))
+    Ok((Some(met?.0), cost))
 }
 
 /// One value of the second parameter, and where the basin changes its kind along D.
@@ -183,21 +179,19 @@ const LARGEST: f64 = -1e6;
 
 /// The damping at which the stable cycle grazes the sticking set, and that cycle; `None` where none does below
 /// `D = -1`, or it cannot be told. Fails with [`Reason::Interrupted`].
-///
-/// # Errors
-/// The [`Reason`] why a swing could not be computed.
-pub fn grazing(
+fn grazing(
     parameters: &Parameters,
     limits: &Limits,
-) -> Result<(Option<FoldPoint>, Cost), Reason> {
-    let mut cost = Cost::default();
-    match found(parameters, limits, &mut cost) {
+    cost: &mut Cost,
+) -> Result<Option<FoldPoint>, Reason> {
+    match grazing_cycle(parameters, limits, cost) {
         Err(Reason::Interrupted) => Err(Reason::Interrupted),
-        found => Ok((found.unwrap_or_default(), cost)),
+        found => Ok(found.unwrap_or_default()),
     }
 }
 
-fn found(
+/// The same, or the [`Reason`] why a swing could not be computed.
+fn grazing_cycle(
     parameters: &Parameters,
     limits: &Limits,
     cost: &mut Cost,

@@ -7,67 +7,40 @@ use super::continuation::{CurvePoint, CycleCurve, Tangent};
 use super::special::FoldPoint;
 use crate::closed_form::harmonic;
 use crate::flow::{Cost, Limits, Reason};
-use crate::model::{Knob, Parameters, Side};
+use crate::model::{Knob, Parameters};
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::try_maximum;
+use crate::portrait::Cycle;
 use crate::portrait::closing::equation::{Route, first_side};
 
-/// The cycle of the largest D.
-#[derive(Clone, Copy, Debug)]
-pub struct Highest {
-    pub d: f64,
-    point: CurvePoint,
-    parameters: Parameters,
-    side: Side,
-}
-
-impl Highest {
-    /// Whether its multiplier is far from the 1 of a fold, or does not exist.
-    pub fn is_no_fold(&self) -> bool {
-        self.point.log_multiplier.is_nan() || self.point.log_multiplier.abs() >= 1.0
-    }
-
-    /// What a fold says of it.
-    pub fn point(&self) -> FoldPoint {
-        let cycle = self.point.closing.describe(&self.parameters, self.side);
-        let grazes = self.d < -1.0 && cycle.is_stable_beyond_doubt();
-        FoldPoint { d: self.d, q_max: cycle.q_max, period: cycle.period, grazes }
-    }
-}
-
-/// Finds it, to a relative error `tolerance` of its clearance; that of D is the square, to rounding.
+/// Finds the cycle of the largest D, to a relative error `tolerance` of its clearance; that of D is the square, to
+/// rounding. Beside it stands the logarithm of its multiplier, which is far from 0 where it is no fold.
 ///
 /// The result may be an error: the [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
 pub fn highest_cycle(
     parameters: &Parameters,
     tolerance: f64,
     limits: &Limits,
-) -> (Result<Highest, Reason>, Cost) {
-    let Some(start) = start(parameters) else { return (Err(LOST), Cost::default()) };
+) -> (Result<(FoldPoint, f64), Reason>, Cost) {
+    let Some((u, d, stride)) = start(parameters) else { return (Err(LOST), Cost::default()) };
     let side = first_side(parameters);
     let curve = CycleCurve::new(parameters, Knob::D, side, 1.0, tolerance, limits);
-    let mut graph = Graph { curve, parameters: *parameters, d: start.d };
-    let met = graph.meeting(start).map(|point| {
-        let parameters = graph.curve.parameters_at(point.p);
-        Highest { d: point.p, point, parameters, side }
-    });
+    let mut graph = Graph { curve, parameters: *parameters, d };
+    let met =
+        graph.meeting(u, stride).map(|CurvePoint { p: d, closing, log_multiplier, .. }| {
+            let cycle = closing.describe(&graph.curve.parameters_at(d), side);
+            let grazes = d < -1.0 && cycle.is_stable_beyond_doubt();
+            let Cycle { q_max, period, .. } = cycle;
+            (FoldPoint { d, q_max, period, grazes }, log_multiplier)
+        });
     (met, graph.curve.cost)
 }
 
 const LOST: Reason = Reason::NoConvergence { sought: "the fold", change: f64::NAN };
 
-/// Where the search begins.
-#[derive(Clone, Copy)]
-struct Outset {
-    u: f64,
-    d: f64,
-    /// First stride in u.
-    stride: f64,
-}
-
-/// The harmonic estimate where it is near, else a cycle close to the sticking set, which lies below the
-/// fold.
-fn start(parameters: &Parameters) -> Option<Outset> {
+/// Where the search begins, and its first stride in u: the harmonic estimate where it is near, else a cycle close to the
+/// sticking set, which lies below the fold.
+fn start(parameters: &Parameters) -> Option<(f64, f64, f64)> {
     /// Mean shift, as a fraction of the amplitude, and damping up to which the harmonic estimate is near.
     const NEAR: (f64, f64) = (0.3, 0.8);
     /// Clearance that is small, in units of r.
@@ -79,16 +52,7 @@ fn start(parameters: &Parameters) -> Option<Outset> {
     let clearance =
         if near { estimate.amplitude + shift - parameters.r } else { CLOSE * parameters.r };
     let u = ln(clearance.max(CLOSE * parameters.r));
-    Some(Outset { u, d: estimate.d.max(-0.5), stride: if near { 0.2 } else { 0.5 } })
-}
-
-/// What is known of the place of the fold.
-enum Around {
-    /// It lies between these.
-    Between(Box<[CurvePoint; 2]>),
-    /// Cycles grow and grow while D stays the same to rounding: the fold is where they begin to shrink,
-    /// and its D is this one. So it is where D3 is much weaker than D2.
-    Plateau(Box<CurvePoint>),
+    Some((u, estimate.d.max(-0.5), if near { 0.2 } else { 0.5 }))
 }
 
 /// All cycles as the graph `D(u)`.
@@ -101,14 +65,13 @@ struct Graph<'a> {
 
 impl Graph<'_> {
     /// The cycle at which two meet.
-    fn meeting(&mut self, start: Outset) -> Result<CurvePoint, Reason> {
-        match self.around_fold(start)? {
-            Around::Plateau(point) => Ok(*point),
-            Around::Between(ends) => match self.curve.fold_between(&ends[0], &ends[1])? {
-                Some(fold) => Ok(fold),
-                None => self.highest(ends[0], ends[1]),
-            },
+    fn meeting(&mut self, u: f64, stride: f64) -> Result<CurvePoint, Reason> {
+        let [low, high] = self.around_fold(u, stride)?;
+        if low.u == high.u {
+            return Ok(high);
         }
+        let fold = self.curve.fold_between(&low, &high)?;
+        fold.map_or_else(|| self.highest(low, high), Ok)
     }
 
     /// The cycle at `u`; `None` where it cannot be followed that far out.
@@ -137,12 +100,14 @@ impl Graph<'_> {
 
     /// A cycle on either side of the fold: the inner ones are unstable (multiplier above 1), the outer
     /// ones stable.
-    fn around_fold(&mut self, start: Outset) -> Result<Around, Reason> {
+    ///
+    /// Both are one where cycles grow and grow while D stays the same to rounding: the fold is where they begin to
+    /// shrink, and its D is this one. So it is where D3 is much weaker than D2.
+    fn around_fold(&mut self, u: f64, mut stride: f64) -> Result<[CurvePoint; 2], Reason> {
         /// Shortest and longest stride, and strides before giving up.
         const LENGTHS: (f64, f64) = (0.01, 1.0);
         const STRIDES: usize = 60;
-        let mut stride = start.stride;
-        let here = self.at(start.u)?.ok_or(LOST)?;
+        let here = self.at(u)?.ok_or(LOST)?;
         let (mut low, mut high) = (here, here);
         let mut flat = false;
         for _ in 0..STRIDES {
@@ -150,7 +115,7 @@ impl Graph<'_> {
             // next to it it is infinite.
             let inwards = low.log_multiplier <= 0.0;
             if !inwards && high.log_multiplier <= 0.0 {
-                return Ok(Around::Between(Box::new([low, high])));
+                return Ok([low, high]);
             }
             let u = if inwards { low.u - stride } else { high.u + stride };
             match self.at(u)? {
@@ -162,13 +127,13 @@ impl Graph<'_> {
                     }
                     let rise = (next.p - high.p).abs();
                     flat = rise <= 4.0 * self.curve.fineness() * next.p.abs();
-                    if flat && stride >= LENGTHS.1 {
-                        return Ok(Around::Plateau(Box::new(next)));
-                    }
                     high = next;
+                    if flat && stride >= LENGTHS.1 {
+                        return Ok([high, high]);
+                    }
                 }
                 // Nor can it be followed to its end.
-                None if flat => return Ok(Around::Plateau(Box::new(high))),
+                None if flat => return Ok([high, high]),
                 None => stride *= 0.25,
             }
             stride = (1.5 * stride).min(LENGTHS.1);

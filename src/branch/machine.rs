@@ -2,26 +2,68 @@
 
 use rayon::prelude::*;
 
-use super::machine_special::{MachineSpecial, between};
-use crate::flow::Reason;
+use super::machine_special::between;
+use super::special::Special;
+use crate::flow::machine::series::ORDER;
+use crate::flow::{Cost, Reason};
 use crate::model::{Knob, Source};
-use crate::portrait::Portrait;
 use crate::portrait::basin::between as evenly;
+use crate::portrait::{Border, Cycle, Portrait};
 
-#[derive(Clone, Debug)]
+/// What a machine does at a value of the number that varies.
+#[derive(Clone, Debug, PartialEq)]
 pub struct MachineBranchPoint {
-    /// Value of the number that varies, in SI units.
+    /// The value, in SI units.
     pub value: f64,
-    /// What the machine does there, or why there is no answer.
-    pub found: Result<Portrait, Reason>,
+    /// The cycles, ordered by amplitude, or why there is no answer.
+    pub cycles: Result<Vec<Cycle>, Reason>,
+    /// Largest displacement to the right from which the mass comes to rest, in m; `None` unless the motion that
+    /// touches the belt's line is the border of the basin.
+    pub touching: Option<f64>,
+    /// Whether small motions come to rest.
+    pub rests: bool,
 }
 
 /// The cycles along a number.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct MachineBranch {
     pub points: Vec<MachineBranchPoint>,
     /// Where the portrait changes, in the order of the points.
-    pub special: Vec<MachineSpecial>,
+    pub special: Vec<Special>,
+    /// Cost of the points; locating the changes between them is not counted.
+    pub cost: Cost,
+}
+
+/// Values of a number, and the portrait at each.
+type Portraits = Vec<(f64, Result<Portrait, Reason>)>;
+
+impl MachineBranch {
+    fn of(portraits: Portraits, special: Vec<Special>) -> Self {
+        let known = portraits.iter().filter_map(|(_, found)| found.as_ref().ok());
+        let steps = known.map(|found| found.steps).sum::<u64>();
+        let point = |(value, found): (f64, Result<Portrait, Reason>)| {
+            let rests = found.as_ref().is_ok_and(|found| found.border != Border::NoBasin);
+            let touching = found.as_ref().ok().and_then(|found| {
+                let touches = matches!(found.border, Border::Grazing | Border::Capture);
+                found.reach.filter(|_| touches).map(|reach| reach.displacement.0)
+            });
+            MachineBranchPoint { value, cycles: found.map(|found| found.cycles), touching, rests }
+        };
+        MachineBranch {
+            points: portraits.into_iter().map(point).collect(),
+            special,
+            cost: Cost { evaluations: steps * ORDER as u64, steps, rejected: 0 },
+        }
+    }
+
+    /// This one with the points of another, in order.
+    #[must_use]
+    pub fn with_points_of(mut self, other: Self) -> Self {
+        self.points.extend(other.points);
+        self.points.sort_by(|one, other| one.value.total_cmp(&other.value));
+        self.cost += other.cost;
+        self
+    }
 }
 
 /// Follows the cycles of a machine along one of its numbers, through `count` values. Fails with one line, where the
@@ -47,28 +89,36 @@ pub fn branch_while(
     // Where it is not wanted any more there is no machine, and the search for a change ends at once.
     let family = |value: f64| subject.with(varied, value).ok().filter(|_| wanted())?.model().ok();
     let values = (0..count).map(|index| evenly(range, index, count)).collect();
-    let points = points_while(subject, varied, values, wanted)?;
-    let changes = |pair: &[MachineBranchPoint]| match (&pair[0].found, &pair[1].found) {
-        (Ok(one), Ok(other)) if wanted() => {
-            between(&family, (pair[0].value, one), (pair[1].value, other))
+    let portraits = portraits(subject, varied, values, wanted)?;
+    let changes = |pair: &[(f64, Result<Portrait, Reason>)]| match pair {
+        [(from, Ok(one)), (to, Ok(other))] if wanted() => {
+            between(&family, (*from, one), (*to, other))
         }
         _ => Vec::new(),
     };
-    let special = points.par_windows(2).flat_map_iter(changes).collect();
-    Ok(MachineBranch { points, special })
+    let special = portraits.par_windows(2).flat_map_iter(changes).collect();
+    Ok(MachineBranch::of(portraits, special))
 }
 
-/// What a machine does at values of one of its numbers, on all cores and as long as that is wanted. Fails with one
-/// line, where the machine's law has no such number.
+/// What a machine does at values of one of its numbers, on all cores and as long as that is wanted; changes are not
+/// located. Fails with one line, where the machine's law has no such number.
 pub fn points_while(
     subject: &Source,
     varied: Knob,
     values: Vec<f64>,
     wanted: &(dyn Fn() -> bool + Sync),
-) -> Result<Vec<MachineBranchPoint>, String> {
-    let point =
-        |value| Ok(MachineBranchPoint { value, found: subject.with(varied, value)?.portrait() });
-    values.into_par_iter().filter(|_| wanted()).map(point).collect()
+) -> Result<MachineBranch, String> {
+    Ok(MachineBranch::of(portraits(subject, varied, values, wanted)?, Vec::new()))
+}
+
+fn portraits(
+    subject: &Source,
+    varied: Knob,
+    values: Vec<f64>,
+    wanted: &(dyn Fn() -> bool + Sync),
+) -> Result<Portraits, String> {
+    let portrait = |value| Ok((value, subject.with(varied, value)?.portrait()));
+    values.into_par_iter().filter(|_| wanted()).map(portrait).collect()
 }
 
 /// The special values along one number, at each value of another. Fails with one line, where the machine's law has
@@ -77,7 +127,7 @@ pub fn borders(
     subject: &Source,
     (along, range, count): (Knob, (f64, f64), usize),
     (against, values, rows): (Knob, (f64, f64), usize),
-) -> Result<Vec<(f64, Vec<MachineSpecial>)>, String> {
+) -> Result<Vec<(f64, Vec<Special>)>, String> {
     let row = |index| {
         let value = evenly(values, index, rows);
         let here = subject.with(against, value)?;

@@ -4,49 +4,16 @@
 //! (Hopf), and left turning points of the orbits that the belt's line singles out. A fold is where the return
 //! map touches the diagonal: the extremum of its growth vanishes.
 
-use serde::ser::SerializeStruct;
-use serde::{Serialize, Serializer};
-
+use super::jump::{Family, Jumps};
+use super::special::{Special, SpecialKind};
 use crate::flow::machine::turn::ContactState;
-use crate::flow::{Fate, Flow, Reason};
+use crate::flow::{Flow, Reason};
 use crate::model::{Model, Phase};
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::{PlaceTolerance, illinois, try_bisect};
 use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::return_map::zeros::GrowthSample;
 use crate::portrait::{Border, Cycle, Portrait};
-
-/// A kind of change.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum MachineSpecialKind {
-    /// Rest changes its stability.
-    Hopf,
-    /// A cycle that slips touches the belt's line, and sticks beyond.
-    Grazing,
-    /// The stick-slip cycle and the border of rest meet as both touch the belt's line.
-    Annihilation,
-    /// The stick-slip cycle comes to overtake the belt.
-    Overtaking,
-    /// The cycle comes to overtake the belt without sticking to it.
-    Unsticking,
-    /// Two cycles meet.
-    Fold,
-}
-
-/// A place where the portrait changes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct MachineSpecial {
-    /// What happens.
-    pub kind: MachineSpecialKind,
-    /// Value of the number that varies, in SI units.
-    pub value: f64,
-    /// Largest displacement of the cycle that it happens to, in m; none at rest.
-    #[serde(rename = "q_max")]
-    pub x_max: Option<f64>,
-    /// The stable states that end there.
-    pub jumps: Jumps,
-}
 
 /// The numbers whose zeros are special, at one place; `None` where they do not exist.
 #[derive(Clone, Copy, Debug, Default)]
@@ -104,28 +71,28 @@ impl Signs {
     }
 
     /// One of the numbers.
-    fn of(&self, kind: MachineSpecialKind) -> Option<f64> {
+    fn of(&self, kind: SpecialKind) -> Option<f64> {
         let rides = self.released.is_some_and(|released| released <= 0.0);
         match kind {
-            MachineSpecialKind::Hopf => (!self.held).then_some(self.damping),
-            MachineSpecialKind::Grazing => self.touching,
-            MachineSpecialKind::Annihilation => self.released.filter(|_| self.jumps),
-            MachineSpecialKind::Overtaking => self.overtaking.filter(|_| rides),
-            MachineSpecialKind::Unsticking => self.unsticking.filter(|_| rides),
-            MachineSpecialKind::Fold => None,
+            SpecialKind::Hopf => (!self.held).then_some(self.damping),
+            SpecialKind::Grazing => self.touching,
+            SpecialKind::Annihilation => self.released.filter(|_| self.jumps),
+            SpecialKind::Overtaking => self.overtaking.filter(|_| rides),
+            SpecialKind::Unsticking => self.unsticking.filter(|_| rides),
+            SpecialKind::Fold | SpecialKind::Escape | SpecialKind::ZeroCrossing => None,
         }
     }
 
     /// The change at a zero; a touch of an unstable cycle is where the stick-slip cycle ends.
-    fn special(&self, kind: MachineSpecialKind, value: f64) -> MachineSpecial {
-        let ends = kind == MachineSpecialKind::Grazing && !self.jumps && self.log_slope > 0.0;
-        let x_max = match kind {
-            MachineSpecialKind::Hopf => None,
-            MachineSpecialKind::Grazing => self.turns.0,
+    fn special(&self, kind: SpecialKind, value: f64) -> Special {
+        let ends = kind == SpecialKind::Grazing && !self.jumps && self.log_slope > 0.0;
+        let q_max = match kind {
+            SpecialKind::Hopf => None,
+            SpecialKind::Grazing => self.turns.0,
             _ => self.turns.1,
         };
-        let kind = if ends { MachineSpecialKind::Annihilation } else { kind };
-        MachineSpecial { kind, value, x_max, jumps: Jumps::default() }
+        let kind = if ends { SpecialKind::Annihilation } else { kind };
+        Special { q_max, ..Special::new(kind, value, None) }
     }
 }
 
@@ -137,23 +104,19 @@ fn signs_at(family: Family, value: f64) -> Option<Signs> {
 }
 
 /// All special values between two neighbouring ones, with the portraits there.
-pub fn between(
-    family: Family,
-    left: (f64, &Portrait),
-    right: (f64, &Portrait),
-) -> Vec<MachineSpecial> {
+pub fn between(family: Family, left: (f64, &Portrait), right: (f64, &Portrait)) -> Vec<Special> {
     /// Kinds that are zeros of [`Signs`].
-    const KINDS: [MachineSpecialKind; 5] = [
-        MachineSpecialKind::Hopf,
-        MachineSpecialKind::Grazing,
-        MachineSpecialKind::Annihilation,
-        MachineSpecialKind::Overtaking,
-        MachineSpecialKind::Unsticking,
+    const KINDS: [SpecialKind; 5] = [
+        SpecialKind::Hopf,
+        SpecialKind::Grazing,
+        SpecialKind::Annihilation,
+        SpecialKind::Overtaking,
+        SpecialKind::Unsticking,
     ];
     let (Some(from), Some(to)) = (signs_at(family, left.0), signs_at(family, right.0)) else {
         return Vec::new();
     };
-    let mut found: Vec<MachineSpecial> = KINDS
+    let mut found: Vec<Special> = KINDS
         .into_iter()
         .filter_map(|kind| {
             let ends = (from.of(kind)?, to.of(kind)?);
@@ -185,7 +148,7 @@ pub fn between(
         }
     }
     for special in &mut found {
-        special.jumps = Jumps::at(family, special.value, aside.abs());
+        special.jumps = Some(Jumps::at(family, special.value, aside.abs()));
     }
     found.sort_by(|one, other| (one.value - left.0).abs().total_cmp(&(other.value - left.0).abs()));
     found
@@ -207,7 +170,7 @@ fn count(portrait: &Portrait) -> (usize, usize, bool) {
 }
 
 /// The fold between two places where the numbers of stable and of unstable cycles both differ by one.
-fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option<MachineSpecial> {
+fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option<Special> {
     /// Halvings that bring the portraits near the fold.
     const NEAR: u32 = 12;
     if count(&left.1) == count(&right.1) {
@@ -237,13 +200,8 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
     };
     let ends = (extremum(with)?, extremum(without)?);
     let value = zero(&|value| Some(extremum(value)?.f), (with, ends.0.f), (without, ends.1.f))?;
-    let x = exp(extremum(value)?.u);
-    Some(MachineSpecial {
-        kind: MachineSpecialKind::Fold,
-        value,
-        x_max: Some(x),
-        jumps: Jumps::default(),
-    })
+    let q_max = Some(exp(extremum(value)?.u));
+    Some(Special { q_max, ..Special::new(SpecialKind::Fold, value, None) })
 }
 
 /// The extremum of the growth `ln(image/x)` over `u = ln x` near a place, by secants on its exact slope.
@@ -265,100 +223,4 @@ fn steepest(model: &Model, near: f64, width: f64) -> Option<GrowthSample> {
         }
     }
     Some(other)
-}
-
-// Where a stable state ends along a number of a machine, and what its motions become there.
-
-/// The model along a number: `None` where there is none.
-pub type Family<'a> = &'a (dyn Fn(f64) -> Option<Model> + Sync);
-
-/// The end of a stable state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Jump {
-    /// Largest displacement of the cycle that ends, in m; 0 for rest.
-    pub from: f64,
-    /// What its motions become.
-    pub to: Fate,
-    /// Largest displacement of the cycle to which they tend, in m; 0 for rest, else infinite.
-    pub x_max: f64,
-}
-
-impl Jump {
-    /// How far it goes.
-    fn size(&self) -> f64 {
-        (self.x_max - self.from).abs()
-    }
-}
-
-impl Serialize for Jump {
-    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct To {
-            kind: &'static str,
-            #[serde(rename = "q_max", skip_serializing_if = "Option::is_none")]
-            x_max: Option<f64>,
-        }
-        let (kind, x_max) = match self.to {
-            Fate::Rest => ("rest", None),
-            Fate::Cycle(_) => ("cycle", Some(self.x_max)),
-            Fate::Escapes => ("escaped", None),
-            Fate::Neutral | Fate::Moving | Fate::Unknown(_) => ("unknown", None),
-        };
-        let mut jump = out.serialize_struct("Jump", 2)?;
-        jump.serialize_field("from", &self.from)?;
-        jump.serialize_field("to", &To { kind, x_max })?;
-        jump.end()
-    }
-}
-
-/// The jumps at a place, on the way up and on the way down.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Jumps {
-    /// While the number grows.
-    pub up: Option<Jump>,
-    /// While it falls.
-    pub down: Option<Jump>,
-}
-
-impl Jumps {
-    /// The jumps at `value`, found from the states so far `aside` of it. What shrinks with the distance, as
-    /// a cycle does that is born at rest, is not a jump.
-    pub fn at(family: Family, value: f64, aside: f64) -> Self {
-        /// How much farther one looks as well.
-        const FARTHER: f64 = 100.0;
-        let portrait = |value| Portrait::of(&family(value)?).ok();
-        let jumps = |aside: f64| {
-            let (below, above) = (portrait(value - aside)?, portrait(value + aside)?);
-            Some(Jumps { up: jump(&below, &above), down: jump(&above, &below) })
-        };
-        let (Some(far), Some(near)) = (jumps(FARTHER * aside), jumps(aside)) else {
-            return Jumps::default();
-        };
-        let stays = |far: Option<Jump>, near: Option<Jump>| {
-            far.zip(near).filter(|(far, near)| near.size() > 0.5 * far.size()).map(|(_, near)| near)
-        };
-        Jumps { up: stays(far.up, near.up), down: stays(far.down, near.down) }
-    }
-}
-
-/// The first stable state of one machine that its neighbour does not have.
-fn jump(from: &Portrait, to: &Portrait) -> Option<Jump> {
-    /// A state that has moved by less, as a fraction of the largest cycle, is the same.
-    const MOVED: f64 = 1e-3;
-    /// The kick that shows whether rest holds, as a fraction of the same.
-    const KICK: f64 = 1e-9;
-    let cycles = from.cycles.iter().chain(&to.cycles).map(|cycle| cycle.q_max);
-    let size = cycles.fold(0.0, f64::max);
-    let rests = !from.neutral && from.border != Border::NoBasin;
-    let stable = from.cycles.iter().filter(|cycle| cycle.stable).map(|cycle| cycle.q_max);
-    rests.then_some(0.0).into_iter().chain(stable).find_map(|state| {
-        let fate = to.fate(state.max(KICK * size), 0.0).unwrap_or_else(Fate::Unknown);
-        let x_max = match fate {
-            Fate::Rest => 0.0,
-            Fate::Cycle(index) => to.cycles[index].q_max,
-            Fate::Neutral => return None,
-            Fate::Moving | Fate::Escapes | Fate::Unknown(_) => f64::INFINITY,
-        };
-        Some(Jump { from: state, to: fate, x_max }).filter(|jump| jump.size() > MOVED * size)
-    })
 }

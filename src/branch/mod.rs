@@ -14,6 +14,8 @@ pub mod fold;
 #[doc(hidden)]
 pub mod fold_graph;
 #[doc(hidden)]
+pub mod jump;
+#[doc(hidden)]
 pub mod machine;
 #[doc(hidden)]
 pub mod machine_special;

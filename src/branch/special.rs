@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::extended::FoldCycle;
+use super::jump::Jumps;
 use crate::portrait::{Cycle, CycleErrors};
 
 /// What makes a point of a branch special.
@@ -14,10 +15,18 @@ pub enum SpecialKind {
     Fold,
     /// The cycle goes to infinity.
     Escape,
-    /// The steady state changes its stability (r = 0).
+    /// The steady state changes its stability, which no friction holds.
     Hopf,
     /// The branch crosses the value zero of its parameter.
     ZeroCrossing,
+    /// On a belt: a cycle that slips touches the belt's line, and sticks beyond.
+    Grazing,
+    /// The stick-slip cycle and the border of rest meet as both touch the belt's line.
+    Annihilation,
+    /// The stick-slip cycle comes to overtake the belt.
+    Overtaking,
+    /// The cycle comes to overtake the belt without sticking to it.
+    Unsticking,
 }
 
 /// A special point of a branch.
@@ -25,13 +34,16 @@ pub enum SpecialKind {
 pub struct Special {
     /// What it is.
     pub kind: SpecialKind,
-    /// Value of the parameter there.
+    /// Value of the parameter there; of a machine in SI units.
     pub value: f64,
-    /// Right turning point of the cycle there; `None` where it is infinite.
+    /// Right turning point of the cycle there; `None` where it is infinite, and where a machine rests.
     pub q_max: Option<f64>,
-    /// The cycle there, shrunk to a point at the Hopf point; `None` where it is infinite.
+    /// The cycle there, shrunk to a point at the Hopf point; `None` where it is infinite, and of machines.
     #[serde(skip)]
     pub cycle: Option<Cycle>,
+    /// The stable states of a machine that end there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub jumps: Option<Jumps>,
 }
 
 impl SpecialKind {
@@ -51,6 +63,10 @@ impl SpecialKind {
             SpecialKind::Escape => "escape",
             SpecialKind::Hopf => "Hopf point",
             SpecialKind::ZeroCrossing => "zero crossing",
+            SpecialKind::Grazing => "grazing",
+            SpecialKind::Annihilation => "annihilation",
+            SpecialKind::Overtaking => "overtaking",
+            SpecialKind::Unsticking => "unsticking",
         }
     }
 }
@@ -59,35 +75,21 @@ impl Special {
     /// A special point at which this cycle lives; `None` where it is infinite.
     #[must_use]
     pub fn new(kind: SpecialKind, value: f64, cycle: Option<Cycle>) -> Self {
-        Special { kind, value, q_max: cycle.map(|cycle| cycle.q_max), cycle }
+        Special { kind, value, q_max: cycle.map(|cycle| cycle.q_max), cycle, jumps: None }
     }
 }
 
 /// The cycle at the Hopf point: the steady state, about to swing at the undamped frequency.
-pub(crate) const VANISHING: Cycle = Cycle {
-    stable: false,
-    q_min: 0.0,
-    q_max: 0.0,
-    v_min: 0.0,
-    v_max: 0.0,
-    period: std::f64::consts::TAU,
-    multiplier: Some(1.0),
-    log_multiplier: 0.0,
-    clearance: 0.0,
-    log_clearance: f64::NEG_INFINITY,
-    error: Some(0.0),
-    errors: Some(CycleErrors {
-        q_min: 0.0,
-        q_max: 0.0,
-        v_min: 0.0,
-        v_max: 0.0,
-        period: 0.0,
-        log_multiplier: 0.0,
-        log_clearance: 0.0,
-    }),
-    ride: None,
-    overtakes: false,
-};
+pub(crate) fn vanishing() -> Cycle {
+    Cycle {
+        period: std::f64::consts::TAU,
+        multiplier: Some(1.0),
+        log_clearance: f64::NEG_INFINITY,
+        error: Some(0.0),
+        errors: Some(CycleErrors::default()),
+        ..Cycle::default()
+    }
+}
 
 /// The fold at given D2, D3 and r.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

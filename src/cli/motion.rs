@@ -147,8 +147,8 @@ impl TradeCommand {
         let found = MachineTrade::new(&model, *start, *until);
         let output = &self.asked.output;
         let seconds = in_turn(output.repeat, found.points.len(), |index| {
-            let motion = &found.points[index].motion;
-            MachineTrade::follow(&model, (motion.method, motion.tolerance), *start, *until)
+            let MachineMotion { method, tolerance, .. } = found.points[index].motion;
+            MachineMotion::by(&model, (method, tolerance), *start, *until, Detail::default())
         });
         output.print(trade::of_machine(&case.about(), &case.problem, &found, &seconds))?;
         known(found.reference.outcome)

@@ -17,6 +17,14 @@ impl Limits<'static> {
         Limits { evaluations: 400_000_000, interrupted: &|| false };
 }
 
+impl Limits<'_> {
+    /// The same with at most this many evaluations.
+    #[must_use]
+    pub fn up_to(&self, most: u64) -> Self {
+        Limits { evaluations: self.evaluations.min(most), ..*self }
+    }
+}
+
 impl Default for Limits<'static> {
     fn default() -> Self {
         Limits::PATIENT

@@ -287,6 +287,8 @@ fn caption(picture: &mut Picture, special: &Special, height: Height, top: f64) {
         SpecialKind::Escape => "Dc",
         SpecialKind::Hopf => "H",
         SpecialKind::ZeroCrossing => "Z",
+        SpecialKind::Grazing | SpecialKind::Annihilation => "G",
+        SpecialKind::Overtaking | SpecialKind::Unsticking => "O",
     };
     // A cycle that has gone to infinity is named at the top, where its branch leaves.
     if special.cycle.is_none() {

@@ -3,9 +3,10 @@
 //! stable state ends, the jump to the one that is left.
 
 use super::{Dash, LineStyle, Picture, Role, phase_plane::AT_REST};
-use crate::branch::machine_special::{Jump, MachineSpecial, MachineSpecialKind};
+use crate::branch::jump::Jump;
+use crate::branch::machine::MachineBranchPoint;
+use crate::branch::{Special, SpecialKind};
 use crate::portrait::Cycle;
-use crate::question::speeds::SpeedPoint;
 use crate::scene::{Layer, Point};
 use crate::session::Session;
 use crate::words::with_unit;
@@ -41,8 +42,10 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     if session.layers.contains(&Layer::Speeds)
         && let Some(found) = session.speeds(index)
     {
-        (0..KINDS.len()).for_each(|kind| cycles(picture, &found.points, kind));
-        rest(picture, &found.points);
+        // A speed without an answer is left out.
+        let points: Vec<_> = found.points.iter().filter(|at| at.cycles.is_ok()).collect();
+        (0..KINDS.len()).for_each(|kind| cycles(picture, &points, kind));
+        rest(picture, &points);
         for special in &found.special {
             changes(picture, special);
         }
@@ -50,14 +53,14 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
 }
 
 /// The cycles of a kind: the smallest of it at all speeds are one curve, the next ones another.
-fn cycles(picture: &mut Picture, points: &[SpeedPoint], kind: usize) {
+fn cycles(picture: &mut Picture, points: &[&MachineBranchPoint], kind: usize) {
     let ([name, brief], role, dash) = KINDS[kind];
     let is = |cycle: &&Cycle| self::kind(cycle) == kind;
-    let most = points.iter().map(|at| at.cycles.iter().filter(is).count()).max();
+    let most = points.iter().map(|at| at.cycles.iter().flatten().filter(is).count()).max();
     for rank in 0..most.unwrap_or(0) {
-        let place = |at: &SpeedPoint| {
-            let cycle = at.cycles.iter().filter(is).nth(rank);
-            Point { x: at.v0, y: cycle.map_or(f64::NAN, |cycle| cycle.q_max) }
+        let place = |at: &&MachineBranchPoint| {
+            let cycle = at.cycles.iter().flatten().filter(is).nth(rank);
+            Point { x: at.value, y: cycle.map_or(f64::NAN, |cycle| cycle.q_max) }
         };
         let places: Vec<Point> = points.iter().map(place).collect();
         picture.curve(LineStyle::new(name, role, dash).briefly(brief), places);
@@ -65,9 +68,11 @@ fn cycles(picture: &mut Picture, points: &[SpeedPoint], kind: usize) {
 }
 
 /// Rest, where it is stable, and how far its basin goes where the motion that touches the belt borders it.
-fn rest(picture: &mut Picture, points: &[SpeedPoint]) {
-    let place =
-        |at: &SpeedPoint, height: Option<f64>| Point { x: at.v0, y: height.unwrap_or(f64::NAN) };
+fn rest(picture: &mut Picture, points: &[&MachineBranchPoint]) {
+    let place = |at: &MachineBranchPoint, height: Option<f64>| Point {
+        x: at.value,
+        y: height.unwrap_or(f64::NAN),
+    };
     let rest = LineStyle::new("rest", Role::Sticking, Dash::Thick).briefly(AT_REST);
     picture.curve(rest, points.iter().map(|at| place(at, at.rests.then_some(0.0))));
     let touching = LineStyle::new("touches the belt", Role::Special, Dash::Dotted);
@@ -75,23 +80,25 @@ fn rest(picture: &mut Picture, points: &[SpeedPoint]) {
 }
 
 /// A change, by its letter, and the jumps from the stable states that end there.
-fn changes(picture: &mut Picture, special: &MachineSpecial) {
+fn changes(picture: &mut Picture, special: &Special) {
     let letter = match special.kind {
-        MachineSpecialKind::Hopf => "H",
-        MachineSpecialKind::Grazing => "G",
-        MachineSpecialKind::Annihilation => "A",
-        MachineSpecialKind::Overtaking => "O",
-        MachineSpecialKind::Unsticking => "U",
-        MachineSpecialKind::Fold => "F",
+        SpecialKind::Hopf => "H",
+        SpecialKind::Grazing => "G",
+        SpecialKind::Annihilation => "A",
+        SpecialKind::Overtaking => "O",
+        SpecialKind::Unsticking => "U",
+        SpecialKind::Fold => "F",
+        SpecialKind::Escape | SpecialKind::ZeroCrossing => return,
     };
     let at = special.value;
     let ways = [("jump on a faster belt", Dash::Dotted), ("jump on a slower belt", Dash::Sparse)];
-    for (jump, (name, dash)) in [special.jumps.up, special.jumps.down].into_iter().zip(ways) {
+    let jumps = special.jumps.unwrap_or_default();
+    for (jump, (name, dash)) in [jumps.up, jumps.down].into_iter().zip(ways) {
         let Some(Jump { from, x_max, .. }) = jump else { continue };
         let to = if x_max.is_finite() { x_max } else { picture.window.y.to() };
         let ends = [from, to].map(|y| Point { x: at, y });
         picture.curve(LineStyle::new(name, Role::Warning, dash), ends);
     }
-    let place = Point { x: at, y: special.x_max.unwrap_or(0.0) };
+    let place = Point { x: at, y: special.q_max.unwrap_or(0.0) };
     picture.special(place, letter, &with_unit(at, 4, "m/s"));
 }

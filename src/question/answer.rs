@@ -3,7 +3,7 @@
 use super::fit::Fit;
 use super::request::Request;
 use super::resources::{Fineness, Resources, Rows};
-use super::speeds::Speeds;
+use super::speeds::speeds;
 use super::whole::{self, WholeCycles, WholeMotion};
 use super::zones::{self, CertainZones, UncertainSubject};
 use crate::accuracy::harmonic_error::{HarmonicBalance, harmonic_balance};
@@ -12,6 +12,7 @@ use crate::accuracy::trade::Trade;
 use crate::branch::Branch;
 use crate::branch::along::{Points, branch};
 use crate::branch::chart::{Chart, Plane, Resolution, chart};
+use crate::branch::machine::MachineBranch;
 use crate::flow::quality::DRAFT;
 use crate::flow::trajectory::trajectory;
 use crate::flow::{Cost, Detail, Limits, Problem, Reason, Trajectory};
@@ -40,7 +41,7 @@ pub enum Answer {
     Balance(HarmonicBalance),
     ReturnMap(ReturnMap),
     Regimes(Chart),
-    Speeds(Speeds),
+    Speeds(MachineBranch),
     Trade(Box<Trade>),
     Scan(Rows),
     Claims(Vec<ClaimResult>),
@@ -166,7 +167,6 @@ const REFERENCE: u64 = 4_000_000;
 pub fn answer_by(request: &Request, means: &Resources) -> Result<Answer, Reason> {
     let Resources { fineness, limits, rows } = *means;
     let points = fineness.points_per_step();
-    let up_to = |most: u64| Limits { evaluations: limits.evaluations.min(most), ..*limits };
     Ok(match request {
         Request::Fit { recording } => Answer::Fit(Fit::of(recording, limits, &|_| ())?),
         Request::Refit { fit, held, drawn } => Answer::Refit(fit.held(*held, *drawn, limits)?),
@@ -207,15 +207,13 @@ pub fn answer_by(request: &Request, means: &Resources) -> Result<Answer, Reason>
             Answer::Regimes(regimes(parameters, *plane, *rough, means)?)
         }
         Request::Speeds { belt, range, rough } => {
-            Answer::Speeds(Speeds::of(belt, *range, *rough, limits)?)
+            Answer::Speeds(speeds(belt, *range, *rough, limits)?)
         }
-        Request::Trade(motion) => {
-            Answer::Trade(Box::new(Trade::of(&motion.problem(), &up_to(ROW))?))
-        }
+        Request::Trade(problem) => Answer::Trade(Box::new(Trade::of(problem, &limits.up_to(ROW))?)),
         Request::Scan { scan, from } => Answer::Scan(rows(scan, *from)?),
         Request::Claims => Answer::Claims(examine_all(limits)?),
         Request::Proof { parameters } => Answer::Proof(prove(&ParameterBox::from(parameters), &[])),
-        Request::Reference(motion) => match Reference::of(&motion.problem(), &up_to(REFERENCE)) {
+        Request::Reference(problem) => match Reference::of(problem, &limits.up_to(REFERENCE)) {
             Err(Reason::Interrupted) => return Err(Reason::Interrupted),
             found => Answer::Reference(found.map(Box::new)),
         },
@@ -236,8 +234,8 @@ fn motion(
         return Ok(Answer::Trajectory(trajectory(problem, detail, limits)));
     };
     let (drawn, motion) = whole::motion(belt, problem, points.into())?;
-    let drawn = Answer::Trajectory(drawn);
-    Ok(Answer::Whole(Box::new(Whole { drawn, motion: Some(motion), cycles: None })))
+    let (drawn, motion) = (Answer::Trajectory(drawn), Some(motion));
+    Ok(Answer::Whole(Box::new(Whole { drawn, motion, cycles: None })))
 }
 
 /// The cycles of the paper's oscillator, or those of a machine: by the `whole` model, or by its cubic expansion.

@@ -15,5 +15,5 @@ pub mod zones;
 pub use answer::{Answer, Answered, Borders, LostShare, NoAnswer, Whole};
 pub use answer::{answer, answer_by, answer_for};
 pub use fit::{Fit, Opened, Recording, ShownFit};
-pub use request::{Request, TOPICS, TimedMotion, Topic};
+pub use request::{Request, TOPICS, Topic};
 pub use resources::{Fineness, Resources, Rows};

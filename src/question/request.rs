@@ -11,7 +11,7 @@ use super::zones::UncertainSubject;
 use crate::branch::chart::Plane;
 use crate::flow::quality::DRAFT;
 use crate::flow::{Method, Problem};
-use crate::model::{Belt, Knob, Parameters, State};
+use crate::model::{Belt, Knob, Parameters};
 use crate::portrait::kicks::RandomKick;
 use crate::scan::grid::Scan;
 
@@ -34,21 +34,6 @@ impl Topic {
     /// Whether it is asked for each variant that a plot shows.
     pub fn is_of_variants(self) -> bool {
         matches!(self, Topic::Trajectory | Topic::Cycles | Topic::Branch)
-    }
-}
-
-/// A motion without its method and its accuracy.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TimedMotion {
-    pub parameters: Parameters,
-    pub initial: State,
-    pub until: f64,
-}
-
-impl TimedMotion {
-    pub(super) fn problem(&self) -> Problem {
-        let TimedMotion { parameters, initial, until } = *self;
-        Problem { parameters, initial, until, ..Problem::default() }
     }
 }
 
@@ -155,9 +140,9 @@ pub enum Request {
         /// Whether a draft of few speeds, without the changes between them, is enough.
         rough: bool,
     },
-    /// Accuracy against cost of every method on a motion.
+    /// Accuracy against cost of every method on a motion, whose own method and accuracy are the usual ones.
     #[strum_discriminants(strum(serialize = "trade"))]
-    Trade(TimedMotion),
+    Trade(Problem),
     /// The rows of a scan that are still missing.
     #[strum_discriminants(strum(serialize = "scan"))]
     Scan {
@@ -171,10 +156,10 @@ pub enum Request {
     /// A proof of the number of cycles. Nothing waits for it; the screen shows it once it is there.
     #[strum_discriminants(strum(serialize = "proof"))]
     Proof { parameters: Parameters },
-    /// The reference against which errors are measured, a motion to more digits than any method yields; the least
-    /// urgent.
+    /// The reference against which errors are measured, a motion to more digits than any method yields, its own method
+    /// and accuracy being the usual ones; the least urgent.
     #[strum_discriminants(strum(serialize = "reference"))]
-    Reference(TimedMotion),
+    Reference(Problem),
 }
 
 impl Request {
@@ -241,12 +226,10 @@ impl Request {
     /// of them are equal, the more alike two requests are.
     fn numbers(&self) -> [f64; 8] {
         let (parameters, others) = match self {
-            Request::Trajectory { problem, .. } => {
+            Request::Trajectory { problem, .. }
+            | Request::Trade(problem)
+            | Request::Reference(problem) => {
                 let Problem { parameters, initial, until, .. } = *problem;
-                (parameters, [initial.q, initial.v, until, 0.0])
-            }
-            Request::Trade(motion) | Request::Reference(motion) => {
-                let TimedMotion { parameters, initial, until } = *motion;
                 (parameters, [initial.q, initial.v, until, 0.0])
             }
             Request::Cycles { parameters, .. }

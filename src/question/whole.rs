@@ -41,34 +41,30 @@ pub struct WholeCycles {
     pub neutral: bool,
 }
 
-/// Units of the drawing, in SI units.
-#[derive(Clone, Copy)]
-struct DrawingUnits {
-    x: f64,
-    v: f64,
-    t: f64,
+/// A cycle in the units of the drawing.
+fn cycle(model: &Model, cycle: &Cycle) -> Cycle {
+    cycle.scaled(1.0 / model.pull, 1.0 / model.omega_0)
 }
 
-impl DrawingUnits {
-    fn of(model: &Model) -> Self {
-        DrawingUnits { x: model.pull, v: model.pull * model.omega_0, t: 1.0 / model.omega_0 }
-    }
+fn sample(model: &Model, MachineState { t, x, v }: MachineState) -> Sample {
+    Sample { tau: t * model.omega_0, q: x / model.pull, v: v / (model.pull * model.omega_0) }
+}
 
-    fn ledger(self, ledger: &MachineLedger, model: &Model) -> MachineLedger {
-        let unit = model.stiffness * self.x * self.x;
-        let MachineLedger { start, end, belt, damper, guide } = *ledger;
-        let [start, end, belt, damper, guide] =
-            [start, end, belt, damper, guide].map(|energy| energy / unit);
-        MachineLedger { start, end, belt, damper, guide }
+fn ledger(model: &Model, ledger: &MachineLedger) -> MachineLedger {
+    let unit = model.stiffness * model.pull * model.pull;
+    MachineLedger {
+        start: ledger.start / unit,
+        end: ledger.end / unit,
+        belt: ledger.belt / unit,
+        damper: ledger.damper / unit,
+        guide: ledger.guide / unit,
     }
+}
 
-    fn cycle(self, cycle: &Cycle) -> Cycle {
-        cycle.scaled(1.0 / self.x, self.t)
-    }
-
-    fn sample(self, state: &MachineState) -> Sample {
-        Sample { tau: state.t / self.t, q: state.x / self.x, v: state.v / self.v }
-    }
+/// A margin given in m and N s, in the units of the drawing.
+pub(super) fn margin(model: &Model, margin: &Margin) -> Margin {
+    let impulse = model.mass * model.pull * model.omega_0;
+    margin.map(|x| x / model.pull, |it| it / impulse)
 }
 
 /// The motion of a machine, with `between` points between the ends of each step.
@@ -77,53 +73,52 @@ pub fn motion(
     problem: &Problem,
     between: u32,
 ) -> Result<(Trajectory, WholeMotion), Reason> {
-    let portrait = found(belt)?;
+    let portrait = survey::portrait(belt)?;
     let mut model = portrait.model.clone();
     model.tolerance = problem.tolerance;
-    let units = DrawingUnits::of(&model);
     if !problem.method.follows_machines() {
-        return Err(Reason::NotApplicable {
-            needs: "to know both switching lines of a machine, as auto, taylor, dop853 and dopri5 do",
-        });
+        let needs =
+            "to know both switching lines of a machine, as auto, taylor, dop853 and dopri5 do";
+        return Err(Reason::NotApplicable { needs });
     }
-    let (x, v) = (problem.initial.q * units.x, problem.initial.v * units.v);
-    let until = problem.until * units.t;
+    let (x, v) = (problem.initial.q * model.pull, problem.initial.v * model.pull * model.omega_0);
+    let until = problem.until / model.omega_0;
     let detail =
         Detail { samples_per_step: between as usize + 1, energy: true, ..Detail::default() };
     let asked = (problem.method, problem.tolerance);
     let found = MachineMotion::by(&model, asked, (x, v), until, detail);
-    let ledger = found.ledger;
-    let ledger = ledger.or_else(|| MachineMotion::new(&model, x, v, until).ledger);
+    let known = found.ledger.or_else(|| MachineMotion::new(&model, x, v, until).ledger);
     let fate = match portrait.fate(x, v) {
         Err(stop @ Reason::BeyondLaw { .. }) => Fate::Unknown(stop),
         fate => fate?,
     };
-    let cycle = match fate {
+    let tends = match fate {
         Fate::Cycle(index) => portrait.cycles.get(index),
         _ => None,
     };
     let course = WholeMotion {
         fate,
-        cycle: cycle.map(|cycle| units.cycle(cycle)),
+        cycle: tends.map(|it| cycle(&model, it)),
         border: portrait.border,
-        rides: rides(&found, model.speed * model.omega_0, units),
-        ledger: units.ledger(&ledger.unwrap_or_default(), &model),
+        rides: rides(&found, &model),
+        ledger: ledger(&model, &known.unwrap_or_default()),
     };
-    Ok((trajectory(&found, problem, units), course))
+    Ok((trajectory(&found, problem, &model), course))
 }
 
-fn trajectory(found: &MachineMotion, problem: &Problem, units: DrawingUnits) -> Trajectory {
+fn trajectory(found: &MachineMotion, problem: &Problem, model: &Model) -> Trajectory {
     let start = Sample { tau: 0.0, q: problem.initial.q, v: problem.initial.v };
-    let sampled = found.samples.iter().skip(1).map(|at| units.sample(at));
+    let sampled = found.samples.iter().skip(1).map(|at| sample(model, *at));
     let samples: Vec<Sample> = std::iter::once(start).chain(sampled).collect();
     let Sample { tau, q, v } = samples[samples.len() - 1];
     let outcome = match found.outcome {
         Fate::Rest => Outcome::Captured { tau, q },
         Fate::Moving | Fate::Cycle(_) | Fate::Neutral => Outcome::Moving { tau, q, v },
         Fate::Escapes => Outcome::Escaped { tau },
-        Fate::Unknown(stop) => Outcome::GaveUp { tau, reason: stop },
+        Fate::Unknown(reason) => Outcome::GaveUp { tau, reason },
     };
-    let crossing = |turn: &motion::Leg| Crossing { tau: turn.t / units.t, q: turn.x / units.x };
+    let crossing =
+        |turn: &motion::Leg| Crossing { tau: turn.t * model.omega_0, q: turn.x / model.pull };
     Trajectory {
         problem: *problem,
         method: found.method,
@@ -136,16 +131,12 @@ fn trajectory(found: &MachineMotion, problem: &Problem, units: DrawingUnits) -> 
     }
 }
 
-fn cost(steps: u64) -> Cost {
-    Cost { evaluations: steps * ORDER as u64, steps, rejected: 0 }
-}
-
-/// The stretches on which a motion rides on the belt, whose speed is `v0`.
-fn rides(found: &MachineMotion, v0: f64, units: DrawingUnits) -> Vec<[Sample; 2]> {
+/// The stretches on which a motion rides on the belt.
+fn rides(found: &MachineMotion, model: &Model) -> Vec<[Sample; 2]> {
     let ends = found.legs.iter().skip(1).map(|leg| (leg.t, leg.x));
     let ends = ends.chain(found.samples.last().map(|end| (end.t, end.x)));
     let legs = found.legs.iter().zip(ends).filter(|(leg, _)| leg.place == ContactState::Sticks);
-    let at = |t, x| units.sample(&MachineState { t, x, v: v0 });
+    let at = |t, x| sample(model, MachineState { t, x, v: model.speed * model.omega_0 });
     legs.map(|(leg, (t, x))| [at(leg.t, leg.x), at(t, x)]).collect()
 }
 
@@ -159,12 +150,12 @@ pub fn portrait(
     limits: &Limits,
 ) -> Result<(Cycles, Option<WholeCycles>), Reason> {
     let expansion = cycles_drawn(parameters, points, limits);
-    let found = found(belt);
+    let found = survey::portrait(belt);
     let expanded = expansion.as_ref().ok().and_then(|found| found.picture.as_ref());
     let expanded = expanded.map(|picture| picture.margin);
     let kinds = found.as_ref().ok().map(|found| WholeCycles {
         works: works(found),
-        margins: [margin(found), expanded.unwrap_or(Margin::ENDLESS)],
+        margins: [margin(&found.model, &found.margin), expanded.unwrap_or(Margin::ENDLESS)],
         neutral: found.neutral,
     });
     let drawn = if whole { drawn(&found?, parameters, points)? } else { expansion? };
@@ -173,29 +164,13 @@ pub fn portrait(
 
 /// The energy ledgers of the cycles over one turn, in drawing units.
 fn works(found: &Portrait) -> Vec<MachineLedger> {
-    let (mut flow, units) = (Flow::new(&found.model), DrawingUnits::of(&found.model));
-    let ledger = |cycle| flow.works_around(cycle).unwrap_or_default();
-    found.cycles.iter().map(ledger).map(|one| units.ledger(&one, &found.model)).collect()
-}
-
-/// The portrait of a machine, or why there is none.
-pub fn found(belt: &Belt) -> Result<Portrait, Reason> {
-    survey::portrait(belt)
-}
-
-/// The kicks that a machine survives, without units.
-pub fn margin(found: &Portrait) -> Margin {
-    margin_of(&found.model, &found.margin)
-}
-
-/// A margin given in m and N s, converted to numbers without units.
-pub fn margin_of(model: &Model, margin: &Margin) -> Margin {
-    let units = DrawingUnits::of(model);
-    margin.map(|x| x / units.x, |impulse| impulse / (model.mass * units.v))
+    let mut flow = Flow::new(&found.model);
+    let around = |cycle| flow.works_around(cycle).unwrap_or_default();
+    found.cycles.iter().map(around).map(|one| ledger(&found.model, &one)).collect()
 }
 
 fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycles, Reason> {
-    let (model, units) = (&found.model, DrawingUnits::of(&found.model));
+    let model = &found.model;
     let mut flow = Flow::new(model);
     let mut curves = Vec::new();
     for cycle in &found.cycles {
@@ -208,17 +183,18 @@ fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycle
         curves,
         works: Vec::new(),
         border: border.unwrap_or_default(),
-        margin: margin(found),
+        margin: margin(model, &found.margin),
         area: None,
         lyapunov_share: None,
     };
+    let steps = found.steps;
     Ok(Cycles {
         parameters: *parameters,
-        cycles: found.cycles.iter().map(|cycle| units.cycle(cycle)).collect(),
+        cycles: found.cycles.iter().map(|it| cycle(model, it)).collect(),
         harmonic: Vec::new(),
         border: found.border,
         picture: Some(picture),
-        cost: cost(found.steps),
+        cost: Cost { evaluations: steps * ORDER as u64, steps, rejected: 0 },
     })
 }
 

@@ -3,14 +3,14 @@
 
 use std::sync::Arc;
 
-use super::whole;
+use super::whole::{margin, places};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{Belt, ParameterBox, State, Tolerances};
 use crate::portrait::basin::Basin;
 use crate::portrait::basin::cycle::PICTURE_REACH;
 use crate::portrait::guarantee::machine::{best, kicks, worst};
 use crate::portrait::guarantee::oscillator::{guarantee, uncertain, zones};
-use crate::portrait::{Margin, Portrait};
+use crate::portrait::{Margin, Portrait, survey};
 
 /// What is not known exactly, and disturbed.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,28 +86,25 @@ pub(super) fn of_oscillator(
     })
 }
 
-/// The zones of a machine by the whole model, in the units of its oscillator. Fails with the [`Reason`] why a
+/// The zones of a machine by the whole model, in the units of its oscillator. Fails with [`Reason`] where a
 /// machine within the tolerances has no portrait.
 pub(super) fn of_machine(
     belt: &Belt,
     known: &Tolerances,
     points: u16,
 ) -> Result<CertainZones, Reason> {
-    let needs = "a friction law that reaches the slips of all machines within the tolerances";
-    let trouble = |_| Reason::NotApplicable { needs };
-    let nominal = whole::found(belt)?;
+    let Portrait { model, margin: nominal, .. } = survey::portrait(belt)?;
     let drawn = |portrait: &Portrait| match portrait.border_curve() {
-        Some(curve) => Extent::Within(whole::places(curve, &nominal.model, points)),
+        Some(curve) => Extent::Within(places(curve, &model, points)),
         None => Extent::Everything,
     };
-    let (safe, guaranteed) = match worst(belt, known).map_err(trouble)? {
+    let (safe, guaranteed) = match worst(belt, known)? {
         Err(why) => (Extent::Nothing, Err(why.to_string())),
         Ok((corners, portrait)) => {
-            let least = kicks(&corners, &portrait);
-            (drawn(&portrait), Ok(whole::margin_of(&nominal.model, &least)))
+            (drawn(&portrait), Ok(margin(&model, &kicks(&corners, &portrait))))
         }
     };
-    let hopeful = best(belt, known).map_err(trouble)?.as_ref().map_or(Extent::Everything, drawn);
-    let nominal = whole::margin(&nominal);
+    let hopeful = best(belt, known)?.as_ref().map_or(Extent::Everything, drawn);
+    let nominal = margin(&model, &nominal);
     Ok(CertainZones { safe, hopeful, nominal, guaranteed, cost: Cost::default() })
 }

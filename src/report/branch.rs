@@ -5,13 +5,13 @@ use super::certified::{
     BorderProof, border_columns, border_lines, decided, piece_columns, range_table,
 };
 use super::cycle_numbers::{cycle_fields, number_columns};
-use super::cycles::{machine_cycles, steps};
+use super::cycles::machine_cycles;
 use super::table::digits;
 use super::{About, Answer, Columns, Document, Quantity};
 use crate::branch::fold::{Boundary, BoundaryPoint};
+use crate::branch::jump::Jump;
 use crate::branch::machine::MachineBranch;
-use crate::branch::machine_special::{Jump, MachineSpecial, MachineSpecialKind};
-use crate::branch::{Branch, BranchPoint, Special};
+use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::flow::{Cost, Fate};
 use crate::model::Knob;
 use crate::portrait::Cycle;
@@ -190,8 +190,8 @@ pub fn of_machine<'a>(
     let rows = move || {
         found.points.iter().flat_map(|point| {
             let row = |cycle, reason| MachineBranchRow { value: point.value, cycle, reason };
-            match &point.found {
-                Ok(found) => found.cycles.iter().map(|cycle| row(Some(*cycle), None)).collect(),
+            match &point.cycles {
+                Ok(cycles) => cycles.iter().map(|cycle| row(Some(*cycle), None)).collect(),
                 Err(why) => vec![row(None, Some(why.to_string()))],
             }
         })
@@ -205,8 +205,8 @@ pub fn of_machine<'a>(
     };
     let text = move || {
         let changes = Columns::default()
-            .text("", |it: &&MachineSpecial| with_unit(it.value, 13, unit))
-            .text("", |it| it.x_max.map_or_else(String::new, |x| with_unit(x, PLACES, "m")))
+            .text("", |it: &&Special| with_unit(it.value, 13, unit))
+            .text("", |it| it.q_max.map_or_else(String::new, |x| with_unit(x, PLACES, "m")))
             .text("", |it| format!("{}{}", words(it.kind), jumps(it)))
             .table(&found.special)
             .aligned_left();
@@ -216,27 +216,25 @@ pub fn of_machine<'a>(
             if table.is_empty() { String::new() } else { format!("{}\n", table.aligned_left()) };
         format!("{}\n\n{table}{changes}", about.heading(&[]))
     };
-    let reached = found.points.iter().filter_map(|point| point.found.as_ref().ok());
-    let cost = Cost { steps: reached.map(|found| steps(found).steps).sum(), ..Cost::default() };
+    let cost = Cost { steps: found.cost.steps, ..Cost::default() };
     about.answer(cost, seconds, document, move || columns(name).csv(rows()), text)
 }
 
 /// What happens at a change, in a few words.
-fn words(kind: MachineSpecialKind) -> &'static str {
+fn words(kind: SpecialKind) -> &'static str {
     match kind {
-        MachineSpecialKind::Hopf => "Hopf: rest changes its stability",
-        MachineSpecialKind::Grazing => "grazing: a slip cycle touches the belt's line",
-        MachineSpecialKind::Annihilation => {
-            "annihilation: the stick-slip cycle meets the border of rest"
-        }
-        MachineSpecialKind::Overtaking => "the stick-slip cycle comes to overtake the belt",
-        MachineSpecialKind::Unsticking => "the cycle overtakes the belt without sticking",
-        MachineSpecialKind::Fold => "fold: two cycles meet",
+        SpecialKind::Escape | SpecialKind::ZeroCrossing => kind.name(None),
+        SpecialKind::Hopf => "Hopf: rest changes its stability",
+        SpecialKind::Grazing => "grazing: a slip cycle touches the belt's line",
+        SpecialKind::Annihilation => "annihilation: the stick-slip cycle meets the border of rest",
+        SpecialKind::Overtaking => "the stick-slip cycle comes to overtake the belt",
+        SpecialKind::Unsticking => "the cycle overtakes the belt without sticking",
+        SpecialKind::Fold => "fold: two cycles meet",
     }
 }
 
 /// The stable states that end at a change, as the number increases and as it decreases.
-fn jumps(special: &MachineSpecial) -> String {
+fn jumps(special: &Special) -> String {
     let sentence = |jump: Option<Jump>, way: &str| {
         jump.map_or_else(String::new, |Jump { from, to, x_max }| {
             let length = |x| with_unit(x, 5, "m");
@@ -253,31 +251,32 @@ fn jumps(special: &MachineSpecial) -> String {
             format!("; {way}, from {from} to {to}")
         })
     };
-    sentence(special.jumps.up, "growing") + &sentence(special.jumps.down, "falling")
+    let jumps = special.jumps.unwrap_or_default();
+    sentence(jumps.up, "growing") + &sentence(jumps.down, "falling")
 }
 
 /// The changes of a machine along one number, a row for each, at each value of the other.
 pub fn border_of_machine<'a>(
     about: &'a About,
     (along, over): (Knob, Knob),
-    found: &'a [(f64, Vec<MachineSpecial>)],
+    found: &'a [(f64, Vec<Special>)],
     seconds: f64,
 ) -> Answer<'a> {
     let number = |knob: Knob| (knob.spec().name, Quantity::of(knob.spec().unit, 13));
     let ((over_name, value), (along_name, at)) = (number(over), number(along));
     let columns = move || {
         Columns::default()
-            .number(over_name, value, |(value, _): &(f64, &MachineSpecial)| *value)
+            .number(over_name, value, |(value, _): &(f64, &Special)| *value)
             .number(along_name, at, |(_, special)| special.value)
             .file("kind", |(_, special)| special.kind)
-            .number("q_max", Quantity::of("m", PLACES), |(_, special)| special.x_max)
+            .number("q_max", Quantity::of("m", PLACES), |(_, special)| special.q_max)
             .text("what happens", |(_, special)| words(special.kind).to_owned())
     };
     let rows = move || {
         found.iter().flat_map(|(value, all)| all.iter().map(move |special| (*value, special)))
     };
     let document = move || {
-        let point = |(value, special): &(f64, Vec<MachineSpecial>)| {
+        let point = |(value, special): &(f64, Vec<Special>)| {
             Document::default().with("value", value).with("special", special)
         };
         Document::default()

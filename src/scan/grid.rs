@@ -4,54 +4,18 @@
 //! not depend on each other: any of them can be computed anywhere, at any time, and is the same to the
 //! last bit. So a scan can be shared between cores and machines, stopped, and resumed.
 
-use super::measure::{
-    Conditions, MachinePoint, Measure, MeasureNeed, OF_THE_PAPER, Value, measure, needs_of,
-};
+pub use super::measure::ScanRow;
+use super::measure::{Conditions, Measure, OF_THE_PAPER, Value, computed, measure};
+use super::source::ScanSource;
 use super::sweep::Sweep;
 use crate::flow::{Cost, Limits, Problem, Reason};
 use crate::model::belt::FrictionLaw;
-use crate::model::{Group, Interval, Knob, MachineProblem, ParameterBox, Parameters, State};
+use crate::model::{Interval, Knob, MachineProblem, ParameterBox, Parameters, State};
 use crate::portrait::basin::Window;
 use crate::portrait::kicks::RandomKick;
 
 /// Most points of a scan.
 pub const MOST_POINTS: usize = 1_000_000_000;
-
-/// What is scanned: a motion of the oscillator of the paper, or of a machine by its whole model.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ScanSource {
-    /// A dimensionless motion.
-    Oscillator(Problem),
-    /// A motion in SI units.
-    Machine(Box<MachineProblem>),
-}
-
-impl From<Problem> for ScanSource {
-    fn from(problem: Problem) -> Self {
-        ScanSource::Oscillator(problem)
-    }
-}
-
-impl ScanSource {
-    /// What can be scanned over.
-    pub fn groups(&self) -> &'static [Group] {
-        match self {
-            ScanSource::Oscillator(_) => &[Group::Motion],
-            ScanSource::Machine(_) => MachineProblem::GROUPS,
-        }
-    }
-
-    /// Gives a number a value. Fails with one line if there is no such number.
-    fn set(&mut self, knob: Knob, value: f64) -> Result<(), String> {
-        match self {
-            ScanSource::Oscillator(Problem { parameters, initial, .. }) => {
-                knob.set(parameters, initial, value);
-                Ok(())
-            }
-            ScanSource::Machine(problem) => problem.set(knob, value),
-        }
-    }
-}
 
 /// What is scanned, and what is measured at each point.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,16 +25,6 @@ pub struct Scan {
     over: Vec<Sweep>,
     measures: Vec<Measure>,
     conditions: Conditions,
-}
-
-/// What was measured at a point.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ScanRow {
-    /// The cells, one for each column of [`Scan::measured`].
-    pub values: Vec<Value>,
-    /// What could not be computed, and why.
-    pub reason: Option<String>,
-    pub cost: Cost,
 }
 
 impl Scan {
@@ -86,13 +40,12 @@ impl Scan {
         if over.is_empty() || measures.is_empty() {
             return Err("a scan goes over at least one parameter and measures something".to_owned());
         }
-        let needs = needs_of(&measures);
         for (index, Sweep { symbol, from, .. }) in over.iter().enumerate() {
             base.clone().set(*symbol, *from)?;
             if over[..index].iter().any(|other| other.symbol == *symbol) {
                 return Err(format!("{symbol} is scanned over twice"));
             }
-            if !needs.iter().any(|need| need.depends_on(*symbol)) {
+            if !measures.iter().any(|measure| measure.depends_on(*symbol)) {
                 let names: Vec<_> = measures.iter().map(|measure| measure.spec().name).collect();
                 return Err(format!("{} does not depend on {symbol}", names.join(", ")));
             }
@@ -160,19 +113,7 @@ impl Scan {
 
     /// Measures point number `index`. Fails with [`Reason::Interrupted`], and no other.
     pub fn row(&self, index: usize, limits: &Limits) -> Result<ScanRow, Reason> {
-        let (measures, conditions) = (&self.measures, &self.conditions);
-        let (values, reasons, cost) = match self.source(index) {
-            ScanSource::Oscillator(problem) => {
-                let (values, point) = measure(&problem, measures, conditions, limits)?;
-                (values, point.reasons(), point.cost)
-            }
-            ScanSource::Machine(problem) => {
-                let point = MachinePoint::of(&problem, measures, conditions, limits)?;
-                (point.values(measures, conditions), point.reasons, point.cost)
-            }
-        };
-        let reason = (!reasons.is_empty()).then(|| reasons.join("; "));
-        Ok(ScanRow { values, reason, cost })
+        measure(&self.source(index), &self.measures, &self.conditions, limits)
     }
 
     /// A row that could not be measured at all.
@@ -218,12 +159,12 @@ impl Scan {
         let Problem { parameters, initial, until, method, .. } = *problem;
         let Parameters { d, d2, d3, r } = parameters;
         let mut inputs: Vec<_> = named([("D", d), ("D2", d2), ("D3", d3), ("r", r)]).collect();
-        let needs = needs_of(&self.measures);
-        if needs.contains(&MeasureNeed::Motion) {
+        let wanted = computed(&self.measures);
+        if wanted.contains(&Measure::Outcome) {
             let State { q, v } = initial;
             inputs.extend(named([("q0", q), ("v0", v)]));
         }
-        if needs.contains(&MeasureNeed::Motion) || needs.contains(&MeasureNeed::Settling) {
+        if wanted.contains(&Measure::Outcome) || wanted.contains(&Measure::Settling) {
             inputs.extend(named([("until", until)]));
             inputs.push(("method".to_owned(), Value::Word(method.spec().name)));
             let dial = method.spec().dial;
@@ -251,15 +192,15 @@ impl Scan {
         if let Some(tolerance) = subject.tolerance {
             inputs.extend(named([("tolerance", tolerance)]));
         }
-        let needs = needs_of(&self.measures);
-        if needs.contains(&MeasureNeed::Motion) {
+        let wanted = computed(&self.measures);
+        if wanted.contains(&Measure::Outcome) {
             inputs.extend(named([("x", start.0), ("v", start.1)]));
         }
-        if needs.contains(&MeasureNeed::Motion) || needs.contains(&MeasureNeed::Settling) {
+        if wanted.contains(&Measure::Outcome) || wanted.contains(&Measure::Settling) {
             inputs.extend(named([("until", *until)]));
         }
-        let certain = needs.contains(&MeasureNeed::Guarantee)
-            || (needs.contains(&MeasureNeed::Design) && !tolerances.is_none());
+        let certain = wanted.contains(&Measure::Guaranteed)
+            || (wanted.contains(&Measure::Design) && !tolerances.is_none());
         if let Some(belt) = belt.filter(|_| certain) {
             inputs.extend(named([("w", tolerances.disturbance)]));
             inputs.extend(tolerances.intervals(belt).into_iter().flat_map(ends));
@@ -284,6 +225,7 @@ fn ends((knob, interval): (Knob, Interval)) -> [(String, Value); 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Group;
 
     fn scan(over: &[&str], measures: &[Measure]) -> Result<Scan, String> {
         let sweep = |text: &&str| Sweep::read(text, &[Group::Motion]);

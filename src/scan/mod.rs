@@ -4,4 +4,6 @@
 pub mod grid;
 #[doc(hidden)]
 pub mod measure;
+#[doc(hidden)]
+pub mod source;
 pub mod sweep;

@@ -3,6 +3,7 @@
 use hopfscope::accuracy::harmonic_error::HarmonicBalance;
 use hopfscope::accuracy::trade::Trade;
 use hopfscope::branch::chart::{Band, Chart, ChartLine, Plane};
+use hopfscope::branch::machine::MachineBranch;
 use hopfscope::branch::regime::Regime;
 use hopfscope::branch::{Branch, BranchPoint, Special, SpecialKind};
 use hopfscope::flow::{Cost, Crossing, Limits, Outcome, Problem, Reason, Sample, Trajectory};
@@ -17,7 +18,6 @@ use hopfscope::proof::cycles::ProvedCycle;
 use hopfscope::proof::{ParameterBox, Proof};
 use hopfscope::question;
 use hopfscope::question::LostShare;
-use hopfscope::question::speeds::Speeds;
 use hopfscope::question::zones::{CertainZones, Extent};
 use hopfscope::question::{Borders, Rows};
 use hopfscope::scan::grid::ScanRow;
@@ -157,7 +157,7 @@ pub fn by_hand(request: &Request) -> Answer {
             cost: CHEAP,
         }),
         Request::Speeds { .. } => {
-            Answer::Speeds(Speeds { points: Vec::new(), special: Vec::new(), cost: CHEAP })
+            Answer::Speeds(MachineBranch { cost: CHEAP, ..MachineBranch::default() })
         }
         Request::Claims => Answer::Claims(Vec::new()),
         // There is no reference for made-up answers.

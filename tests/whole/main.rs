@@ -8,8 +8,8 @@ mod random;
 
 use std::f64::consts::PI;
 
+use hopfscope::branch::SpecialKind;
 use hopfscope::branch::machine::branch;
-use hopfscope::branch::machine_special::MachineSpecialKind;
 use hopfscope::flow::machine::turn::ContactState;
 use hopfscope::flow::{Detail, Fate, Flow, MachineMotion, Method, Reason};
 use hopfscope::model::belt::FrictionLaw;
@@ -405,12 +405,7 @@ fn a_search_for_cycles_that_did_not_settle_says_so() {
 }
 
 /// The special points along a number.
-fn special(
-    belt: &Belt,
-    name: &str,
-    range: (f64, f64),
-    count: usize,
-) -> Vec<(MachineSpecialKind, f64)> {
+fn special(belt: &Belt, name: &str, range: (f64, f64), count: usize) -> Vec<(SpecialKind, f64)> {
     let found = branch(belt, Knob::named(name, Group::SOURCE).unwrap(), range, count).unwrap();
     found.special.iter().map(|special| (special.kind, special.value)).collect()
 }
@@ -418,10 +413,8 @@ fn special(
 #[test]
 fn every_change_of_a_portrait_is_located() {
     let bench = machine("bstab-1.5");
-    let expected = [
-        (MachineSpecialKind::Hopf, 0.5 * ln(10.0)),
-        (MachineSpecialKind::Annihilation, 1.836_600_972_207_926),
-    ];
+    let expected =
+        [(SpecialKind::Hopf, 0.5 * ln(10.0)), (SpecialKind::Annihilation, 1.836_600_972_207_926)];
     for count in [4, 7] {
         let found = special(&bench, "v0", (0.5, 2.0), count);
         assert_eq!(found.len(), 2, "{found:?}");
@@ -434,10 +427,7 @@ fn every_change_of_a_portrait_is_located() {
     let held = Belt { static_coefficient: Some(1.1), ..bench.clone() };
     let found = special(&held, "v0", (1.5, 2.0), 4);
     assert!(
-        matches!(
-            found[..],
-            [(MachineSpecialKind::Grazing, _), (MachineSpecialKind::Annihilation, _)]
-        ),
+        matches!(found[..], [(SpecialKind::Grazing, _), (SpecialKind::Annihilation, _)]),
         "{found:?}"
     );
     assert!((found[0].1 - expected[1].1).abs() < 1e-12 && found[1].1 > 1.84);
@@ -445,18 +435,15 @@ fn every_change_of_a_portrait_is_located() {
     let found = special(&machine("graze-slip"), "v0", (0.05, 0.9), 6);
     let (kind, value) = found[0];
     assert!(
-        kind == MachineSpecialKind::Grazing && (value - 0.226_957_326_340_235).abs() < 1e-12,
+        kind == SpecialKind::Grazing && (value - 0.226_957_326_340_235).abs() < 1e-12,
         "{found:?}"
     );
-    assert_eq!(found[1].0, MachineSpecialKind::Fold);
+    assert_eq!(found[1].0, SpecialKind::Fold);
     // A machine fed by its damper: stick-slip first also overtakes the belt, and then only overtakes.
     let fed = Belt { damping: -0.3, friction: 0.02, belt_speed: 0.6, ..bench };
-    let kinds: Vec<MachineSpecialKind> =
+    let kinds: Vec<SpecialKind> =
         special(&fed, "d1", (-0.5, 0.0), 9).into_iter().map(|(kind, _)| kind).collect();
-    assert_eq!(
-        kinds,
-        [MachineSpecialKind::Fold, MachineSpecialKind::Unsticking, MachineSpecialKind::Overtaking]
-    );
+    assert_eq!(kinds, [SpecialKind::Fold, SpecialKind::Unsticking, SpecialKind::Overtaking]);
 }
 
 #[test]
@@ -464,7 +451,7 @@ fn a_fold_of_a_cubic_law_is_that_of_the_oscillator_of_the_paper() {
     let law = FrictionLaw::Polynomial { coefficients: vec![0.5, -0.4, 0.1, 0.2] };
     let belt = Belt { law, ..machine("graze-slip") };
     let found = special(&belt, "d1", (10.0, 20.0), 3);
-    let [(MachineSpecialKind::Fold, value)] = found[..] else { panic!("{found:?}") };
+    let [(SpecialKind::Fold, value)] = found[..] else { panic!("{found:?}") };
     let parameters = Belt { damping: value, ..belt }.reduce().unwrap().parameters;
     let limits = hopfscope::flow::Limits::PATIENT;
     let (fold, _) = hopfscope::branch::fold::fold(&parameters, &limits).unwrap();

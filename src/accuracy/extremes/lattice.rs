@@ -17,39 +17,31 @@ const LEAST: f64 = 1e-150;
 /// Asymmetric and cubic damping.
 pub const D2_D3: [f64; 5] = [-1e6, -1e-12, 0.0, 1e-12, 1e6];
 
-/// A start, by what is special about it.
-#[derive(Clone, Copy)]
-pub struct SpecialStart {
-    pub name: &'static str,
-    /// The start at these parameters.
-    state: fn(&Parameters) -> State,
-}
+/// A start, by what is special about it, at given parameters.
+type SpecialStart = (&'static str, fn(&Parameters) -> State);
 
 /// Every start.
 pub const STARTS: [SpecialStart; 14] = [
     // At rest in the middle of the sticking set.
-    SpecialStart { name: "centre", state: |_| at(0.0) },
-    SpecialStart { name: "right-end", state: |parameters| at(parameters.r) },
-    SpecialStart { name: "left-end", state: |parameters| at(-parameters.r) },
+    ("centre", |_| at(0.0)),
+    ("right-end", |parameters| at(parameters.r)),
+    ("left-end", |parameters| at(-parameters.r)),
     // One unit in the last place inside an end of the sticking set; 1e-150 where there is no friction.
-    SpecialStart { name: "inside-right", state: |parameters| at(-above(-parameters.r)) },
-    SpecialStart { name: "inside-left", state: |parameters| at(above(-parameters.r)) },
+    ("inside-right", |parameters| at(-above(-parameters.r))),
+    ("inside-left", |parameters| at(above(-parameters.r))),
     // One unit in the last place outside.
-    SpecialStart { name: "outside-right", state: |parameters| at(above(parameters.r)) },
-    SpecialStart { name: "outside-left", state: |parameters| at(-above(parameters.r)) },
+    ("outside-right", |parameters| at(above(parameters.r))),
+    ("outside-left", |parameters| at(-above(parameters.r))),
     // Three clearances beyond the right end.
-    SpecialStart {
-        name: "negative-zero",
-        state: |parameters| State { q: 4.0 * parameters.r.max(1e-3), v: -0.0 },
-    },
+    ("negative-zero", |parameters| State { q: 4.0 * parameters.r.max(1e-3), v: -0.0 }),
     // At the centre with the smallest velocity.
-    SpecialStart { name: "smallest-up", state: |_| State { q: 0.0, v: LEAST } },
-    SpecialStart { name: "smallest-down", state: |_| State { q: 0.0, v: -LEAST } },
-    SpecialStart { name: "tiny", state: |_| at(LEAST) },
+    ("smallest-up", |_| State { q: 0.0, v: LEAST }),
+    ("smallest-down", |_| State { q: 0.0, v: -LEAST }),
+    ("tiny", |_| at(LEAST)),
     // Far out, where cubic damping is stiff.
-    SpecialStart { name: "far", state: |_| at(1e6) },
-    SpecialStart { name: "huge", state: |_| at(1e150) },
-    SpecialStart { name: "escaping", state: escaping },
+    ("far", |_| at(1e6)),
+    ("huge", |_| at(1e150)),
+    ("escaping", escaping),
 ];
 
 fn at(q: f64) -> State {
@@ -100,11 +92,7 @@ pub fn all_parameters() -> impl Iterator<Item = Parameters> {
 /// The motions of the lattice, every one or, if `thin`, each [`THIN`]th.
 pub fn cases(thin: bool) -> impl Iterator<Item = Case> {
     let all = all_parameters().flat_map(|parameters| {
-        STARTS.map(|SpecialStart { name: start, state }| Case {
-            parameters,
-            start,
-            initial: state(&parameters),
-        })
+        STARTS.map(|(start, state)| Case { parameters, start, initial: state(&parameters) })
     });
     all.step_by(if thin { THIN } else { 1 })
 }

@@ -25,49 +25,24 @@ pub struct NamedExtreme {
 const NONLINEAR: [Method; 5] =
     [Method::Auto, Method::Taylor, Method::Dop853, Method::Dopri5, Method::Stiff];
 
-/// A motion that runs to infinity, and when it gets there.
+/// A motion that runs to infinity: what it is, its D, D2 and D3, its start, and when it gets there.
 ///
 /// The times were computed with 40 digits by Taylor series of order 40; where only D2 acts, they agree
 /// with the integral of `dx/v` from the first integral of the motion.
-struct BlowUp {
-    what: &'static str,
-    /// D, D2 and D3.
-    damping: [f64; 3],
-    start: (f64, f64),
-    time: f64,
-}
-
-const fn blow_up(what: &'static str, damping: [f64; 3], start: (f64, f64), time: f64) -> BlowUp {
-    BlowUp { what, damping, start, time }
-}
+type BlowUp = (&'static str, [f64; 3], (f64, f64), f64);
 
 const BLOW_UPS: [BlowUp; 6] = [
-    blow_up(
-        "blow-up beyond the parabola of D2",
-        [0.0, -1.0, 0.0],
-        (0.1, 3.0),
-        0.338_881_285_452_042_3,
-    ),
-    blow_up(
-        "blow-up close to the parabola of D2",
-        [0.0, -0.5, 0.0],
-        (-0.2, 2.5),
-        0.846_439_335_312_472_2,
-    ),
-    blow_up("blow-up by D3 < 0", [0.0, 0.0, -1.0], (0.1, 2.0), 0.126_165_782_926_803_04),
-    blow_up("blow-up by D < 0 and D3 < 0", [-0.1, 0.0, -0.5], (0.5, 1.5), 0.489_627_247_499_876_8),
-    blow_up(
+    ("blow-up beyond the parabola of D2", [0.0, -1.0, 0.0], (0.1, 3.0), 0.338_881_285_452_042_3),
+    ("blow-up close to the parabola of D2", [0.0, -0.5, 0.0], (-0.2, 2.5), 0.846_439_335_312_472_2),
+    ("blow-up by D3 < 0", [0.0, 0.0, -1.0], (0.1, 2.0), 0.126_165_782_926_803_04),
+    ("blow-up by D < 0 and D3 < 0", [-0.1, 0.0, -0.5], (0.5, 1.5), 0.489_627_247_499_876_8),
+    (
         "blow-up by D3 < 0 against D and D2",
         [0.2, 0.3, -0.1],
         (0.1, 40.0),
         0.003_295_064_729_575_763_5,
     ),
-    blow_up(
-        "blow-up by all damping together",
-        [-0.5, -0.2, -2.0],
-        (0.3, 1.2),
-        0.147_045_254_234_713_24,
-    ),
+    ("blow-up by all damping together", [-0.5, -0.2, -2.0], (0.3, 1.2), 0.147_045_254_234_713_24),
 ];
 
 /// Every named extreme by the methods that serve it.
@@ -76,12 +51,28 @@ pub fn named(limits: &Limits) -> Vec<NamedExtreme> {
         million_swings(Method::Exact, 1e-13, 1e-15, limits),
         million_swings(Method::Taylor, 1e-15, 1e-13, limits),
     ];
-    for blow_up in &BLOW_UPS {
-        all.extend(NONLINEAR.map(|method| blow_up.by(method, limits)));
+    for case in &BLOW_UPS {
+        all.extend(NONLINEAR.map(|method| blow_up(case, method, limits)));
     }
     all.extend([Method::Auto, Method::Stiff].map(|method| far_out(method, limits)));
     all.extend(NONLINEAR.map(|method| scaled_and_mirrored(method, limits)));
     all
+}
+
+impl NamedExtreme {
+    /// What is measured of a motion, infinite where it is `None`, and the largest value that is right.
+    fn of(
+        what: &'static str,
+        (measure, allowed): (&'static str, f64),
+        problem: &Problem,
+        limits: &Limits,
+        measured: impl Fn(&Trajectory) -> Option<f64>,
+    ) -> Self {
+        let motion = trajectory(problem, Detail::default(), limits);
+        let measured = measured(&motion).unwrap_or(f64::INFINITY);
+        let (method, cost) = (problem.method, motion.cost);
+        NamedExtreme { what, method, measure, measured, allowed, cost }
+    }
 }
 
 /// A million half swings of the undamped oscillator, and what they did to its energy.
@@ -95,41 +86,30 @@ fn million_swings(method: Method, tolerance: f64, allowed: f64, limits: &Limits)
         tolerance,
         ..Problem::default()
     };
-    let motion = trajectory(&problem, Detail::default(), limits);
-    let measured = match motion.outcome {
-        Outcome::Moving { q, v, .. } if motion.crossings.len() == 1_000_000 => {
-            (energy(State { q, v }) / energy(problem.initial) - 1.0).abs()
-        }
-        _ => f64::INFINITY,
-    };
-    let what = "a million half swings at D = r = 0";
-    NamedExtreme {
-        what,
-        method,
-        measure: "energy gained or lost",
-        measured,
-        allowed,
-        cost: motion.cost,
-    }
+    let measure = ("energy gained or lost", allowed);
+    NamedExtreme::of("a million half swings at D = r = 0", measure, &problem, limits, |motion| {
+        let Outcome::Moving { q, v, .. } = motion.outcome else { return None };
+        let changed = energy(State { q, v }) / energy(problem.initial) - 1.0;
+        (motion.crossings.len() == 1_000_000).then_some(changed.abs())
+    })
 }
 
-impl BlowUp {
-    fn by(&self, method: Method, limits: &Limits) -> NamedExtreme {
-        let &BlowUp { what, damping: [d, d2, d3], start: (q, v), time } = self;
-        let problem = Problem {
-            parameters: Parameters { d, d2, d3, r: 0.0 },
-            initial: State { q, v },
-            method,
-            ..Problem::default()
-        };
-        let motion = trajectory(&problem, Detail::default(), limits);
-        let measured = match motion.outcome {
-            Outcome::Escaped { tau } => (tau / time - 1.0).abs(),
-            _ => f64::INFINITY,
-        };
-        let measure = "relative error of its time";
-        NamedExtreme { what, method, measure, measured, allowed: 1e-8, cost: motion.cost }
-    }
+fn blow_up(
+    &(what, [d, d2, d3], (q, v), time): &BlowUp,
+    method: Method,
+    limits: &Limits,
+) -> NamedExtreme {
+    let problem = Problem {
+        parameters: Parameters { d, d2, d3, r: 0.0 },
+        initial: State { q, v },
+        method,
+        ..Problem::default()
+    };
+    let measure = ("relative error of its time", 1e-8);
+    NamedExtreme::of(what, measure, &problem, limits, |motion| match motion.outcome {
+        Outcome::Escaped { tau } => Some((tau / time - 1.0).abs()),
+        _ => None,
+    })
 }
 
 /// The start from which an explicit method needs a hundred million steps.
@@ -141,14 +121,12 @@ fn far_out(method: Method, limits: &Limits) -> NamedExtreme {
         method,
         ..Problem::default()
     };
-    let motion = trajectory(&problem, Detail::default(), limits);
-    #[expect(clippy::cast_precision_loss, reason = "the budget ends it long before")]
-    let measured = match motion.outcome {
-        Outcome::Captured { .. } => motion.cost.steps as f64,
-        _ => f64::INFINITY,
-    };
     let what = "far out at q0 = 1e6, D3 = 1, until it rests";
-    NamedExtreme { what, method, measure: "steps", measured, allowed: 5_000.0, cost: motion.cost }
+    NamedExtreme::of(what, ("steps", 5_000.0), &problem, limits, |motion| {
+        #[expect(clippy::cast_precision_loss, reason = "the budget ends it long before")]
+        let steps = motion.cost.steps as f64;
+        matches!(motion.outcome, Outcome::Captured { .. }).then_some(steps)
+    })
 }
 
 /// One motion in units of every power of two from -240 to 240, and its mirror image in each.

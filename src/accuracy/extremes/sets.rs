@@ -76,20 +76,17 @@ pub fn sets(thin: bool) -> impl Iterator<Item = Parameters> {
 
 /// Searches for all cycles at these parameters within [`BUDGET`].
 pub fn judge_set(parameters: &Parameters, limits: &Limits) -> SetVerdict {
-    let limits =
-        Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
+    let limits = limits.up_to(BUDGET);
     let mut equation = Equation::new(parameters, STEP);
     let answer = match all_closings(&mut equation, &limits) {
         Err(reason) => SetAnswer::GaveUp { reason },
-        Ok(closings) => SetAnswer::Found {
-            cycles: closings
-                .iter()
-                .map(|closing| LatticeCycle {
-                    cycle: closing.describe(parameters, equation.side),
-                    residual: residual(closing, parameters, &limits),
-                })
-                .collect(),
-        },
+        Ok(closings) => {
+            let cycle = |closing: &Closing| LatticeCycle {
+                cycle: closing.describe(parameters, equation.side),
+                residual: residual(closing, parameters, &limits),
+            };
+            SetAnswer::Found { cycles: closings.iter().map(cycle).collect() }
+        }
     };
     SetVerdict { parameters: *parameters, answer, cost: equation.cost() }
 }
@@ -127,7 +124,7 @@ mod tests {
         let numbers = |Parameters { d, d2, d3, r }: Parameters| [d, r, d2, d3].map(f64::to_bits);
         let motion = |case: Case| {
             let [d, r, d2, d3] = numbers(case.parameters);
-            let start = STARTS.iter().position(|start| start.name == case.start);
+            let start = STARTS.iter().position(|start| start.0 == case.start);
             [d, r, d2, d3, start.unwrap() as u64]
         };
         assert_eq!((cases(false).count(), sets(false).count()), (21_000, 1_500));

@@ -111,9 +111,7 @@ fn follow(case: &Case, method: Method, tolerance: f64, budget: u64, limits: &Lim
         tolerance,
         ..Problem::default()
     };
-    let limits =
-        Limits { evaluations: limits.evaluations.min(budget), interrupted: limits.interrupted };
-    trajectory(&problem, Detail::default(), &limits)
+    trajectory(&problem, Detail::default(), &limits.up_to(budget))
 }
 
 /// The motion to compare with: the closed form, else a tight motion by the series, else, where that is

@@ -57,6 +57,10 @@ impl Tangent {
         Tangent { u: u / length, p: p / length }
     }
 
+    pub(crate) fn times(self, factor: f64) -> Self {
+        Tangent { u: factor * self.u, p: factor * self.p }
+    }
+
     pub(crate) fn dot(self, other: Tangent) -> f64 {
         self.u * other.u + self.p * other.p
     }

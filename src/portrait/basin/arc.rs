@@ -95,8 +95,7 @@ impl Arc {
             (DETAIL * (clearance.value + parameters.r)).min(linear_below(&field, TOLERANCE));
         let mut map = HalfMap::integrating_above(detail, field, TOLERANCE);
         let mut pieces: Vec<ArcStep> = Vec::new();
-        let limits =
-            Limits { evaluations: limits.evaluations.min(BUDGET), interrupted: limits.interrupted };
+        let limits = limits.up_to(BUDGET);
         let swing = map.swing_watched(length, &limits, |stepper, unit, duration| {
             let step = stepper.last_step();
             let end = times_power(step.at(duration).x, unit);

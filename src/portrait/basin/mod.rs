@@ -55,7 +55,7 @@ pub struct Basin {
 }
 
 /// A rectangle of starts, both ends included.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Window {
     /// Smallest and largest displacement.
     pub q: (f64, f64),

@@ -51,63 +51,6 @@ pub enum Measure {
     Design,
 }
 
-/// A computation on which measures rest.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum MeasureNeed {
-    /// The motion from (q0, v0).
-    Motion,
-    /// All limit cycles.
-    Cycles,
-    /// The edge of the basin of the sticking set: its innermost cycle, or the separatrix.
-    Edge,
-    /// The fold `D_F`.
-    Fold,
-    /// The escape point `D_c`.
-    Escape,
-    /// The guaranteed margin.
-    Guarantee,
-    /// The motions from all over the window.
-    Settling,
-    /// The Markov chain of repeated kicks.
-    Chain,
-    /// A proof of the number of cycles.
-    Proof,
-    /// The friction that a margin needs.
-    Design,
-}
-
-impl MeasureNeed {
-    /// The name in the reason of a row.
-    pub fn name(self) -> &'static str {
-        match self {
-            MeasureNeed::Motion => "motion",
-            MeasureNeed::Cycles => "cycles",
-            MeasureNeed::Edge => "edge",
-            MeasureNeed::Fold => "fold",
-            MeasureNeed::Escape => "escape",
-            MeasureNeed::Guarantee => "guarantee",
-            MeasureNeed::Settling => "settling",
-            MeasureNeed::Chain => "repeated kicks",
-            MeasureNeed::Proof => "proof",
-            MeasureNeed::Design => "design",
-        }
-    }
-
-    /// Whether the computation depends on a number.
-    pub fn depends_on(self, knob: Knob) -> bool {
-        match knob {
-            Knob::Q0 | Knob::V0 | Knob::X | Knob::V => self == MeasureNeed::Motion,
-            Knob::Duration => matches!(self, MeasureNeed::Motion | MeasureNeed::Settling),
-            Knob::DisturbingForce => {
-                matches!(self, MeasureNeed::Guarantee | MeasureNeed::Design)
-            }
-            Knob::D => !matches!(self, MeasureNeed::Fold | MeasureNeed::Escape),
-            Knob::R | Knob::Friction => self != MeasureNeed::Design,
-            _ => true,
-        }
-    }
-}
-
 /// One row of [`MEASURES`].
 #[derive(Clone, Copy, Debug)]
 pub struct MeasureSpec {
@@ -119,8 +62,8 @@ pub struct MeasureSpec {
     pub meaning: &'static str,
     /// The columns that it fills.
     pub columns: &'static [&'static str],
-    /// The computation that it needs.
-    pub needs: MeasureNeed,
+    /// The measure with which it is computed; itself where that is for its own sake.
+    pub with: Measure,
 }
 
 /// Cycles that have columns of their own; no parameters with more are known, and `cycles` counts all.
@@ -137,14 +80,14 @@ pub const MEASURES: [MeasureSpec; 19] = [
         name: "outcome",
         meaning: "how the motion from (q0, v0) ends, when, after how many half swings",
         columns: &["outcome", "outcome_tau", "half_swings"],
-        needs: MeasureNeed::Motion,
+        with: Measure::Outcome,
     },
     MeasureSpec {
         measure: Measure::Rest,
         name: "rest",
         meaning: "where and when the motion from (q0, v0) comes to rest",
         columns: &["rest_q", "rest_tau"],
-        needs: MeasureNeed::Motion,
+        with: Measure::Outcome,
     },
     MeasureSpec {
         measure: Measure::Cycles,
@@ -154,7 +97,7 @@ pub const MEASURES: [MeasureSpec; 19] = [
             "cycles", "q_min_1", "q_max_1", "v_min_1", "v_max_1", "q_min_2", "q_max_2", "v_min_2",
             "v_max_2",
         ],
-        needs: MeasureNeed::Cycles,
+        with: Measure::Cycles,
     },
     MeasureSpec {
         measure: Measure::Multipliers,
@@ -168,63 +111,63 @@ pub const MEASURES: [MeasureSpec; 19] = [
             "multiplier_2",
             "log_multiplier_2",
         ],
-        needs: MeasureNeed::Cycles,
+        with: Measure::Cycles,
     },
     MeasureSpec {
         measure: Measure::Margin,
         name: "margin",
         meaning: "smallest displacement at rest, and smallest impulse at q = 0, not captured",
         columns: &["displacement", "impulse"],
-        needs: MeasureNeed::Edge,
+        with: Measure::Margin,
     },
     MeasureSpec {
         measure: Measure::FromRest,
         name: "from-rest",
         meaning: "smallest change of position, and smallest impulse, not captured, from the worst rest position",
         columns: &["from_rest_displacement", "from_rest_impulse"],
-        needs: MeasureNeed::Edge,
+        with: Measure::Margin,
     },
     MeasureSpec {
         measure: Measure::Stability,
         name: "stability",
         meaning: "basin stability: the fraction of the window that is captured, and its error",
         columns: &["captured_part", "captured_error"],
-        needs: MeasureNeed::Edge,
+        with: Measure::Margin,
     },
     MeasureSpec {
         measure: Measure::Area,
         name: "area",
         meaning: "area of the basin, where it is finite",
         columns: &["area"],
-        needs: MeasureNeed::Edge,
+        with: Measure::Margin,
     },
     MeasureSpec {
         measure: Measure::Fold,
         name: "fold",
         meaning: "the fold D_F (or grazing, below D = -1), above which no cycle is left, and the amplitude there",
         columns: &["D_F", "D_F_q_max"],
-        needs: MeasureNeed::Fold,
+        with: Measure::Fold,
     },
     MeasureSpec {
         measure: Measure::Escape,
         name: "escape",
         meaning: "the escape point D_c, where the cycle goes to infinity",
         columns: &["D_c"],
-        needs: MeasureNeed::Escape,
+        with: Measure::Escape,
     },
     MeasureSpec {
         measure: Measure::Guaranteed,
         name: "guaranteed",
         meaning: "margin that holds for every disturbance and all parameters within their half widths",
         columns: &["guaranteed_displacement", "guaranteed_impulse"],
-        needs: MeasureNeed::Guarantee,
+        with: Measure::Guaranteed,
     },
     MeasureSpec {
         measure: Measure::Lost,
         name: "lost",
         meaning: "the fraction of random kicks that is not captured, and its error",
         columns: &["lost_part", "lost_error"],
-        needs: MeasureNeed::Edge,
+        with: Measure::Margin,
     },
     MeasureSpec {
         measure: Measure::Integrity,
@@ -232,14 +175,14 @@ pub const MEASURES: [MeasureSpec; 19] = [
         meaning: "radius of the largest circle about the origin within the basin, and the part of the basin \
                   that it fills (integrity factor)",
         columns: &["circle_radius", "integrity"],
-        needs: MeasureNeed::Edge,
+        with: Measure::Margin,
     },
     MeasureSpec {
         measure: Measure::Settling,
         name: "settling",
         meaning: "largest and mean time to rest of 32 x 32 starts of the window, if all are at rest in the end",
         columns: &["settling_max", "settling_mean"],
-        needs: MeasureNeed::Settling,
+        with: Measure::Settling,
     },
     MeasureSpec {
         measure: Measure::FiniteTime,
@@ -247,7 +190,7 @@ pub const MEASURES: [MeasureSpec; 19] = [
         meaning: "finite-time basin stability: the fraction of 32 x 32 starts of the window at rest in the end, and \
                   its error as a fraction of the window",
         columns: &["rested_part", "rested_error"],
-        needs: MeasureNeed::Settling,
+        with: Measure::Settling,
     },
     MeasureSpec {
         measure: Measure::Repeated,
@@ -255,28 +198,28 @@ pub const MEASURES: [MeasureSpec; 19] = [
         meaning: "mean number of random kicks, each from where the last one came to rest, until one is lost; the \
                   part that is lost after many; the relative error of both",
         columns: &["kicks_mean", "kicks_lost", "kicks_error"],
-        needs: MeasureNeed::Chain,
+        with: Measure::Repeated,
     },
     MeasureSpec {
         measure: Measure::Proved,
         name: "proved",
         meaning: "whether it is proved that there are these cycles and no others, and bounds of their amplitudes",
         columns: &["proved", "q_max_1_lower", "q_max_1_upper", "q_max_2_lower", "q_max_2_upper"],
-        needs: MeasureNeed::Proof,
+        with: Measure::Proved,
     },
     MeasureSpec {
         measure: Measure::Border,
         name: "border",
         meaning: "what borders the basin: cycle, separatrix or none; of a machine also grazing or no-basin",
         columns: &["border"],
-        needs: MeasureNeed::Edge,
+        with: Measure::Margin,
     },
     MeasureSpec {
         measure: Measure::Design,
         name: "design",
         meaning: "the least friction, r or R, that keeps the margin of --design; 0 if any does",
         columns: &["friction_needed"],
-        needs: MeasureNeed::Design,
+        with: Measure::Design,
     },
 ];
 
@@ -296,6 +239,19 @@ impl Measure {
         matches!(self, Measure::Lost | Measure::Repeated)
     }
 
+    /// Whether its computation depends on a number.
+    pub fn depends_on(self, knob: Knob) -> bool {
+        let with = self.spec().with;
+        match knob {
+            Knob::Q0 | Knob::V0 | Knob::X | Knob::V => with == Measure::Outcome,
+            Knob::Duration => matches!(with, Measure::Outcome | Measure::Settling),
+            Knob::DisturbingForce => matches!(with, Measure::Guaranteed | Measure::Design),
+            Knob::D => !matches!(with, Measure::Fold | Measure::Escape),
+            Knob::R | Knob::Friction => with != Measure::Design,
+            _ => true,
+        }
+    }
+
     /// The measure with this name. Fails with one line that says which there are.
     pub fn named(name: &str) -> Result<Self, String> {
         MEASURES.iter().find(|row| row.name == name).map(|row| row.measure).ok_or_else(|| {
@@ -305,9 +261,9 @@ impl Measure {
     }
 }
 
-/// What these measures need computed.
-pub fn needs_of(measures: &[Measure]) -> BTreeSet<MeasureNeed> {
-    measures.iter().map(|measure| measure.spec().needs).collect()
+/// What is computed for these measures: those with which each of them is.
+pub fn computed(measures: &[Measure]) -> BTreeSet<Measure> {
+    measures.iter().map(|measure| measure.spec().with).collect()
 }
 
 /// A cell of a row: never a number that does not exist.
@@ -349,7 +305,7 @@ impl Value {
 // What some measures depend on beside the parameters and the start.
 
 /// The window of starts, the tolerances, the disturbance and the kicks.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Conditions {
     /// Starts whose part or times are measured.
     pub window: Window,
@@ -367,15 +323,7 @@ pub struct Conditions {
 
 impl From<Window> for Conditions {
     fn from(window: Window) -> Self {
-        let kicks = RandomKick::default();
-        Conditions {
-            window,
-            half_widths: Vec::new(),
-            disturbance: 0.0,
-            kicks,
-            elongation: false,
-            wanted: None,
-        }
+        Conditions { window, ..Conditions::default() }
     }
 }
 

@@ -5,6 +5,7 @@ use crate::accuracy::harmonic_error::HarmonicBalance;
 use crate::accuracy::reference::{Deviation, NoComparison, Reference};
 use crate::accuracy::trade::Trade;
 use crate::branch::chart::Chart;
+use crate::branch::machine::MachineBranch;
 use crate::flow::Trajectory;
 use crate::model::Knob;
 use crate::model::belt::Units;
@@ -12,7 +13,6 @@ use crate::paper::ClaimResult;
 use crate::portrait::{Cycles, ReturnMap};
 use crate::proof::Proof;
 use crate::question::fit::Unsure;
-use crate::question::speeds::Speeds;
 use crate::question::zones::CertainZones;
 use crate::question::{Borders, Fit, NoAnswer, ShownFit};
 use crate::scene::{Answer, Axes, Request, Topic};
@@ -69,7 +69,7 @@ impl Session {
         last!(self, ReturnMap, plot)
     }
 
-    pub fn speeds(&self, plot: usize) -> Option<&Speeds> {
+    pub fn speeds(&self, plot: usize) -> Option<&MachineBranch> {
         last!(self, Speeds, plot)
     }
 

@@ -11,7 +11,6 @@ use crate::branch::chart::Plane;
 use crate::flow::Problem;
 use crate::model::{Belt, Knob, Parameters, State};
 use crate::numerics::elementary::{exp2, hypot, log2};
-use crate::question::TimedMotion;
 use crate::scene::{Answer, Axes, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::{AnswerState, Framing, List, Listed, Overlay, Pane, Row, Session};
 
@@ -143,7 +142,7 @@ impl Session {
         let own = |view: View| self.plots.get(plot).filter(|plot| plot.view == view);
         let motion = || {
             let Problem { initial, until, .. } = self.problem;
-            TimedMotion { parameters, initial, until }
+            Problem { parameters, initial, until, ..Problem::default() }
         };
         Some(match topic {
             Topic::Claims => Request::Claims,

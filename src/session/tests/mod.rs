@@ -32,6 +32,7 @@ use crate::accuracy::harmonic_error::HarmonicBalance;
 use crate::accuracy::reference::{Deviation, Reference, ReferenceSource};
 use crate::accuracy::trade::{Trade, TradePoint};
 use crate::branch::chart::Chart;
+use crate::branch::machine::MachineBranch;
 use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::flow::{Cost, Limits, Method, Outcome, Problem, Reason, Sample, Trajectory};
 use crate::model::{Ledger, State};
@@ -40,7 +41,6 @@ use crate::numerics::twofold::Twofold;
 use crate::portrait::basin::stability::Share;
 use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, ReturnMap};
 use crate::proof::{ParameterBox, Proof};
-use crate::question::speeds::Speeds;
 use crate::question::zones::{CertainZones, Extent};
 use crate::question::{Borders, LostShare, Rows};
 use crate::scene::{Answer, Fit, Request, Scene, Topic, find};
@@ -288,7 +288,7 @@ pub fn by_hand(request: &Request) -> Answer {
             Answer::Refit(fit.held(*held, *drawn, &Limits::PATIENT).expect("nobody interrupts"))
         }
         Request::Speeds { .. } => {
-            Answer::Speeds(Speeds { points: Vec::new(), special: Vec::new(), cost })
+            Answer::Speeds(MachineBranch { cost, ..MachineBranch::default() })
         }
         Request::Regimes { plane, .. } => {
             let along = plane.along();

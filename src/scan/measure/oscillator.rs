@@ -1,0 +1,158 @@
+//! The computations at a point of a scan of the paper's oscillator.
+
+use super::row::{Cells, Failed};
+use super::settling::Settling;
+use super::table::{CYCLES, Measure, Value};
+use crate::branch::escape::escape_point;
+use crate::branch::fold::fold;
+use crate::flow::trajectory::trajectory;
+use crate::flow::{Detail, Limits, Outcome, Problem, Reason};
+use crate::numerics::Interval;
+use crate::portrait::Cycles;
+use crate::portrait::basin::Basin;
+use crate::portrait::basin::cycle::cycles_and_closings;
+use crate::portrait::closing::all::{STEP, innermost_closing};
+use crate::portrait::closing::equation::Equation;
+use crate::portrait::closing::pair::Closing;
+use crate::portrait::design::friction_for;
+use crate::portrait::guarantee::oscillator::guaranteed;
+use crate::portrait::kicks::repeated::repeated;
+use crate::portrait::proved::proved;
+
+/// A point, and its cycles once they are known.
+pub(super) struct OscillatorPoint<'a> {
+    problem: &'a Problem,
+    limits: &'a Limits<'a>,
+    cycles: Option<(Cycles, Vec<Closing>)>,
+}
+
+impl<'a> OscillatorPoint<'a> {
+    pub fn new(problem: &'a Problem, limits: &'a Limits<'a>) -> Self {
+        OscillatorPoint { problem, limits, cycles: None }
+    }
+
+    /// Computes a measure, and fills its cells and those of all that are computed with it. Fails with why it gave up.
+    pub fn compute(&mut self, measure: Measure, cells: &mut Cells) -> Result<(), Failed> {
+        let (parameters, limits) = (&self.problem.parameters, self.limits);
+        match measure {
+            Measure::Outcome => self.motion(cells)?,
+            Measure::Cycles => self.cycles(cells)?,
+            Measure::Margin => self.edge(cells)?,
+            Measure::Fold => {
+                let (found, cost) = fold(parameters, limits)?;
+                cells.cost += cost;
+                cells.fill(Measure::Fold, || found.into_iter().flat_map(|it| [it.d, it.q_max]));
+            }
+            Measure::Escape => {
+                let (found, cost) = escape_point(parameters, limits)?;
+                cells.cost += cost;
+                cells.fill(Measure::Escape, || found);
+            }
+            Measure::Guaranteed => {
+                let known = cells.conditions.around(parameters);
+                let (found, cost) = guaranteed(&known, cells.conditions.disturbance, limits)?;
+                cells.cost += cost;
+                cells.margin(Measure::Guaranteed, found.margin);
+                if let Some(uncertain) = found.reason {
+                    return Err(uncertain.to_string().into());
+                }
+            }
+            Measure::Settling => self.settling(cells)?,
+            Measure::Proved => self.proof(cells)?,
+            Measure::Design => {
+                let Some((kick, wanted)) = cells.conditions.wanted else { return Ok(()) };
+                let found = friction_for(parameters, kick, wanted, limits)?;
+                cells.cost += found.cost;
+                cells.fill(Measure::Design, || [found.needed.least()]);
+            }
+            // Without friction there is no set of places to rest.
+            Measure::Repeated if parameters.r == 0.0 => {}
+            Measure::Repeated => {
+                let found = repeated(parameters, &cells.conditions.kicks, limits)?;
+                cells.cost += found.cost;
+                cells.repeated(&found);
+            }
+            _ => debug_assert!(false, "it is computed with another"),
+        }
+        Ok(())
+    }
+
+    fn motion(&self, cells: &mut Cells) -> Result<(), Reason> {
+        let motion = trajectory(self.problem, Detail::default(), self.limits);
+        cells.cost += motion.cost;
+        let swings = motion.crossings.len();
+        match motion.outcome {
+            Outcome::Captured { tau, q } => {
+                cells.outcome("captured", Some((tau, swings)));
+                cells.fill(Measure::Rest, || [q, tau]);
+            }
+            Outcome::Moving { tau, .. } => cells.outcome("moving", Some((tau, swings))),
+            Outcome::Escaped { tau } => cells.outcome("escaped", Some((tau, swings))),
+            Outcome::GaveUp { .. } => cells.outcome("gave-up", None),
+        }
+        motion.outcome.answered()
+    }
+
+    fn cycles(&mut self, cells: &mut Cells) -> Result<(), Reason> {
+        let found = cycles_and_closings(&self.problem.parameters, self.limits)?;
+        cells.cost += found.0.cost;
+        cells.cycles(&found.0.cycles);
+        self.cycles = Some(found);
+        Ok(())
+    }
+
+    fn edge(&self, cells: &mut Cells) -> Result<(), Reason> {
+        let (parameters, conditions) = (&self.problem.parameters, cells.conditions);
+        // What is beyond the edge does not matter here.
+        let inner = if let Some((_, closings)) = &self.cycles {
+            closings.first().copied()
+        } else {
+            let mut equation = Equation::new(parameters, STEP);
+            let inner = innermost_closing(&mut equation, self.limits);
+            cells.cost += equation.cost();
+            inner?
+        };
+        // It has to be followed as far as the window or the kicks reach only if these matter.
+        let reach = |measure, reach| if cells.asks(measure) { reach } else { 0.0 };
+        let reach = reach(Measure::Stability, conditions.reach())
+            .max(reach(Measure::Lost, conditions.kicks.reach()));
+        let basin = Basin::around(parameters, inner.as_slice(), reach, self.limits)?;
+        cells.cost += basin.cost;
+        cells.edge(basin.border, basin.margin());
+        cells.share(Measure::Stability, || Some(basin.captured_share(&conditions.window)));
+        cells.share(Measure::Lost, || Some(conditions.kicks.lost(&basin)));
+        cells.fill(Measure::Area, || [basin.area()]);
+        cells.fill(Measure::Integrity, || [basin.inner_radius(), basin.integrity()]);
+        Ok(())
+    }
+
+    fn settling(&self, cells: &mut Cells) -> Result<(), Reason> {
+        let cost = &mut cells.cost;
+        let found = Settling::of(&cells.conditions.window, |initial| {
+            let problem = Problem { initial, ..*self.problem };
+            let motion = trajectory(&problem, Detail::default(), self.limits);
+            *cost += motion.cost;
+            motion.outcome.answered()?;
+            let Outcome::Captured { tau, .. } = motion.outcome else { return Ok(None) };
+            Ok(Some(tau))
+        });
+        cells.settling(&found?);
+        Ok(())
+    }
+
+    fn proof(&mut self, cells: &mut Cells) -> Result<(), Reason> {
+        if self.cycles.is_none() {
+            self.cycles(cells)?;
+        }
+        let Some((found, _)) = &self.cycles else { return Ok(()) };
+        let differ = |_| Reason::NotApplicable { needs: "a search that agrees with its proof" };
+        let proof = proved(found).map_err(differ)?;
+        let word = Value::Word(if proof.is_complete() { "yes" } else { "no" });
+        let bounds = proof.cycles.iter().take(CYCLES).flat_map(|cycle| {
+            let q_max = cycle.enclosure.map(|it| it.q_max);
+            [q_max.map(Interval::lower), q_max.map(Interval::upper)].map(Value::from)
+        });
+        cells.fill(Measure::Proved, || std::iter::once(word).chain(bounds));
+        Ok(())
+    }
+}

@@ -1,0 +1,135 @@
+//! The row of a point while it is computed, and the cells that the oscillator of the paper and machines fill alike.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::error::Error;
+
+use super::settling::Settling;
+use super::table::{CYCLES, Conditions, Measure, Value};
+use crate::flow::{Cost, Limits, Reason};
+use crate::portrait::basin::stability::Share;
+use crate::portrait::kicks::repeated::Repeated;
+use crate::portrait::{Border, Cycle, Margin};
+
+/// What was measured at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScanRow {
+    /// The cells, one for each column of the measures.
+    pub values: Vec<Value>,
+    /// What could not be computed, and why.
+    pub reason: Option<String>,
+    pub cost: Cost,
+}
+
+/// Why a computation gave no answer.
+pub(super) type Failed = Box<dyn Error>;
+
+/// A row that is being computed.
+pub(super) struct Cells<'a> {
+    measures: &'a [Measure],
+    pub conditions: &'a Conditions,
+    filled: BTreeMap<Measure, Vec<Value>>,
+    reasons: Vec<String>,
+    pub cost: Cost,
+}
+
+impl<'a> Cells<'a> {
+    pub fn new(measures: &'a [Measure], conditions: &'a Conditions) -> Self {
+        let (filled, reasons, cost) = Default::default();
+        Cells { measures, conditions, filled, reasons, cost }
+    }
+
+    /// Computes each of these, and all that is computed with it. Fails with [`Reason::Interrupted`], and no other.
+    pub fn compute(
+        &mut self,
+        wanted: BTreeSet<Measure>,
+        limits: &Limits,
+        mut compute: impl FnMut(Measure, &mut Self) -> Result<(), Failed>,
+    ) -> Result<(), Reason> {
+        let stops = || if (limits.interrupted)() { Err(Reason::Interrupted) } else { Ok(()) };
+        for measure in wanted {
+            stops()?;
+            let computed = compute(measure, self);
+            stops()?;
+            if let Err(why) = computed {
+                self.reasons.push(format!("{}: {why}", measure.spec().name));
+            }
+        }
+        Ok(())
+    }
+
+    /// The row; columns that were not filled have no value.
+    pub fn row(mut self) -> ScanRow {
+        let columns = |measure: &Measure| {
+            let mut cells = self.filled.remove(measure).unwrap_or_default();
+            cells.resize(measure.spec().columns.len(), Value::Nothing);
+            cells
+        };
+        let values = self.measures.iter().flat_map(columns).collect();
+        let reason = (!self.reasons.is_empty()).then(|| self.reasons.join("; "));
+        ScanRow { values, reason, cost: self.cost }
+    }
+
+    pub fn asks(&self, measure: Measure) -> bool {
+        self.measures.contains(&measure)
+    }
+
+    /// Fills the columns of a measure, the first ones at least, if it is asked for.
+    pub fn fill<V: Into<Value>, C: IntoIterator<Item = V>>(
+        &mut self,
+        measure: Measure,
+        cells: impl FnOnce() -> C,
+    ) {
+        if self.asks(measure) {
+            self.filled.insert(measure, cells().into_iter().map(Into::into).collect());
+        }
+    }
+
+    /// How a motion ended, when and after how many half swings.
+    pub fn outcome(&mut self, word: &'static str, ended: Option<(f64, usize)>) {
+        let (time, swings) = ended.unzip();
+        self.fill(Measure::Outcome, || {
+            [Value::Word(word), time.into(), swings.map_or(Value::Nothing, Value::Count)]
+        });
+    }
+
+    /// The limit cycles, by amplitude.
+    pub fn cycles(&mut self, cycles: &[Cycle]) {
+        let each = || cycles.iter().take(CYCLES);
+        self.fill(Measure::Cycles, || {
+            let extremes = each().flat_map(|it| [it.q_min, it.q_max, it.v_min, it.v_max]);
+            std::iter::once(Value::Count(cycles.len())).chain(extremes.map(Value::from))
+        });
+        self.fill(Measure::Multipliers, || {
+            each().flat_map(|it| [Some(it.period), it.multiplier, Some(it.log_multiplier)])
+        });
+    }
+
+    /// The edge of the basin, and the kicks that it leaves.
+    pub fn edge(&mut self, border: Border, margin: Margin) {
+        self.fill(Measure::Border, || [Value::Word(border.name())]);
+        self.margin(Measure::Margin, margin);
+        let rest = margin.from_rest;
+        self.fill(Measure::FromRest, || [rest.displacement, rest.impulse]);
+    }
+
+    /// A margin, of this measure.
+    pub fn margin(&mut self, measure: Measure, margin: Margin) {
+        self.fill(measure, || [margin.displacement, margin.impulse]);
+    }
+
+    /// A fraction and its error, where it is known.
+    pub fn share(&mut self, measure: Measure, share: impl FnOnce() -> Option<Share>) {
+        self.fill(measure, || share().into_iter().flat_map(|it| [it.part, it.error]));
+    }
+
+    /// What becomes of repeated kicks.
+    pub fn repeated(&mut self, found: &Repeated) {
+        self.fill(Measure::Repeated, || [found.mean, found.later, found.error]);
+    }
+
+    /// When the starts of the window come to rest.
+    pub fn settling(&mut self, found: &Settling) {
+        self.fill(Measure::Settling, || found.times().into_iter().flatten());
+        self.fill(Measure::FiniteTime, || found.rested());
+    }
+}
