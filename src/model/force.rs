@@ -5,7 +5,7 @@
 //! force vanishes exactly: near rest it keeps all its digits however small the velocity is. Forces are
 //! divided by the stiffness, so that they are lengths, and velocities by the natural frequency.
 
-use crate::model::belt::FrictionLaw;
+use crate::model::belt::friction::{LawParts, LawPiece};
 use crate::numerics::elementary::{exp, exp_m1, ln_1p, pow, powi};
 
 /// A polynomial `sum c_k (y - center)^k` for velocities in `low ..= high`.
@@ -156,56 +156,34 @@ impl ForceBranch {
 
 // The friction law as forces on the mass: on either side of the belt's speed, with the damper's.
 
-/// A piece of a law: from which slip to which, and the coefficients of powers of the distance from its lower
-/// end.
-type Stretch = (f64, f64, Vec<f64>);
-
 /// Beyond this power the exponential part is lost in rounding. It is left out there, because a series cannot
 /// see from far what comes up so steeply; where it ends a step ends too.
 const LOST: f64 = 42.0;
 
-/// The law as pieces of polynomials in the slip, and its exponential part.
-pub(crate) struct ScaledLaw {
-    pieces: Vec<Stretch>,
-    /// Drop, velocity and exponent.
-    fall: Option<(f64, f64, f64)>,
-}
-
-impl ScaledLaw {
+impl LawParts {
     /// The law as a force: coefficients times `force`, velocities divided by `omega_0`.
-    pub fn new(law: &FrictionLaw, force: f64, omega_0: f64) -> Self {
-        let scaled = |coefficients: &[f64]| -> Vec<f64> {
+    pub(crate) fn scaled(&self, force: f64, omega_0: f64) -> Self {
+        let scaled = |(from, to, coefficients): LawPiece| {
             let power = |power| powi(omega_0, i32::try_from(power).unwrap_or(i32::MAX));
-            coefficients.iter().enumerate().map(|(k, number)| force * number * power(k)).collect()
+            let numbers = coefficients.iter().enumerate();
+            let numbers = numbers.map(|(k, number)| force * number * power(k)).collect();
+            (from / omega_0, to / omega_0, numbers)
         };
-        let whole = |coefficients: &[f64]| vec![(0.0, f64::INFINITY, scaled(coefficients))];
-        let straight = |from: f64, to: f64, kinetic: f64, viscous: f64| {
-            let coefficients = scaled(&[kinetic + viscous * from, viscous]);
-            (from / omega_0, to / omega_0, coefficients)
+        // What falls ends within the first piece.
+        let cut = self.fall.map(|(_, velocity, exponent)| velocity * pow(LOST, 1.0 / exponent));
+        let split = |(from, to, coefficients): &LawPiece| match cut {
+            Some(end) if *from < end && end < *to => vec![
+                (*from, end, coefficients.clone()),
+                (end, *to, shifted(coefficients, end - from)),
+            ],
+            _ => vec![(*from, *to, coefficients.clone())],
         };
-        match law {
-            FrictionLaw::Constant { mu } => ScaledLaw { pieces: whole(&[*mu]), fall: None },
-            FrictionLaw::Polynomial { coefficients } => {
-                ScaledLaw { pieces: whole(coefficients), fall: None }
-            }
-            FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
-                let end = velocity * pow(LOST, 1.0 / exponent);
-                let drop = force * (rest - kinetic);
-                ScaledLaw {
-                    pieces: vec![
-                        straight(0.0, end, *kinetic, *viscous),
-                        straight(end, f64::INFINITY, *kinetic, *viscous),
-                    ],
-                    fall: (drop != 0.0).then_some((drop, velocity / omega_0, *exponent)),
-                }
-            }
-            FrictionLaw::Table(spline) => ScaledLaw {
-                pieces: spline
-                    .polynomials()
-                    .map(|(from, to, c)| (from / omega_0, to / omega_0, scaled(&c)))
-                    .collect(),
-                fall: None,
-            },
+        let fall = self
+            .fall
+            .map(|(drop, velocity, exponent)| (force * drop, velocity / omega_0, exponent));
+        LawParts {
+            pieces: self.pieces.iter().flat_map(split).map(scaled).collect(),
+            fall: fall.filter(|(drop, ..)| *drop != 0.0),
         }
     }
 }
@@ -227,14 +205,14 @@ fn added(mut one: Vec<f64>, other: impl Iterator<Item = f64>) -> Vec<f64> {
 
 /// The force at velocities up to the belt's: `T - x0` less the damper's.
 pub(crate) fn slower(
-    law: &ScaledLaw,
+    law: &LawParts,
     damper: &[f64],
     speed: f64,
     pull: f64,
     reach: f64,
 ) -> ForceBranch {
     let alternating = |(k, number): (usize, f64)| if k % 2 == 0 { number } else { 0.0 - number };
-    let piece = |(from, to, coefficients): &Stretch| {
+    let piece = |(from, to, coefficients): &LawPiece| {
         let to = to.min(reach);
         if from > &to {
             return None;
@@ -260,8 +238,8 @@ pub(crate) fn slower(
 }
 
 /// The force at velocities above the belt's: `-T` less the damper's.
-pub(crate) fn faster(law: &ScaledLaw, damper: &[f64], speed: f64, reach: f64) -> ForceBranch {
-    let piece = |(from, to, coefficients): &Stretch| {
+pub(crate) fn faster(law: &LawParts, damper: &[f64], speed: f64, reach: f64) -> ForceBranch {
+    let piece = |(from, to, coefficients): &LawPiece| {
         let to = to.min(reach);
         let center = speed + from;
         let pull = coefficients.iter().map(|number| 0.0 - number);

@@ -10,8 +10,7 @@
 //! No length is singled out: a machine with all its lengths scaled by a power of two moves alike to the last
 //! bit.
 
-use super::force::{ForceBranch, ForcePiece};
-use super::force::{ScaledLaw, faster, slower};
+use super::force::{ForceBranch, ForcePiece, faster, slower};
 use super::reach::first_below_zero;
 use crate::model::{Belt, Modal, Parameters, Reason};
 use crate::numerics::elementary::powi;
@@ -99,9 +98,10 @@ impl Model {
             belt.cubic_damping * powi(omega_0, 3) * per_stiffness,
         ];
         let speed = v0 / omega_0;
-        let law = ScaledLaw::new(&belt.law, force, omega_0);
+        let parts = belt.law.parts();
+        let law = parts.scaled(force, omega_0);
         let pull = force * mu;
-        let reach = belt.law.range().1.min(first_below_zero(&belt.law)) / omega_0;
+        let reach = belt.law.range().1.min(first_below_zero(&parts)) / omega_0;
         let mut model = Model {
             omega_0,
             mass: belt.mass,

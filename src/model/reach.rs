@@ -1,46 +1,37 @@
 //! How far a friction law may be believed: up to the slip at which its coefficient falls below zero.
 
 use super::force::shifted;
-use crate::model::belt::FrictionLaw;
+use crate::model::belt::friction::{LawParts, LawPiece};
 use crate::numerics::elementary::{exp, exp2, pow};
 use crate::numerics::polynomial;
 use crate::numerics::root::{TO_ROUNDING, bisect};
 
 /// The smallest slip, in m/s, beyond which the coefficient of friction is negative; infinite where there is
 /// none.
-pub fn first_below_zero(law: &FrictionLaw) -> f64 {
-    let end = f64::INFINITY;
-    match law {
-        FrictionLaw::Constant { .. } => end,
-        FrictionLaw::Polynomial { coefficients } => {
-            falls_below_zero(coefficients, end).unwrap_or(end)
-        }
-        FrictionLaw::Table(spline) => spline
-            .polynomials()
-            .find_map(|(from, to, c)| falls_below_zero(&c, to - from).map(|at| from + at))
-            .unwrap_or(end),
-        FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
-            let mu = |u: f64| {
-                kinetic + (rest - kinetic) * exp(-pow(u / velocity, *exponent)) + viscous * u
-            };
-            stribeck_zero(mu, *velocity, *kinetic, *viscous)
-        }
+pub fn first_below_zero(law: &LawParts) -> f64 {
+    if let (Some(fall), Some((_, _, rest))) = (law.fall, law.pieces.first()) {
+        return falling_zero(fall, rest);
     }
+    let zero = |(from, to, c): &LawPiece| falls_below_zero(c, to - from).map(|at| from + at);
+    law.pieces.iter().find_map(zero).unwrap_or(f64::INFINITY)
 }
 
-/// The first zero of Stribeck's law on a fine ladder of slips: between two rungs it is monotone but near its
-/// only minimum.
-fn stribeck_zero(mu: impl Fn(f64) -> f64, velocity: f64, kinetic: f64, viscous: f64) -> f64 {
+/// The first zero of a law that falls over this velocity, on a fine ladder of slips: between two rungs it is monotone
+/// but near its only minimum.
+fn falling_zero((drop, velocity, exponent): (f64, f64, f64), rest: &[f64]) -> f64 {
     /// Rungs in a doubling of the slip.
     const RUNGS: i32 = 32;
     // From where the law has hardly fallen to where only its straight part is left.
+    let [kinetic, viscous] = [0, 1].map(|power| rest.get(power).copied().unwrap_or(0.0));
     let far = if viscous < 0.0 { 2.0 * (kinetic / viscous).abs() } else { 0.0 };
     let last = far.max(1024.0 * velocity);
     let ladder = (0..).map(|rung| velocity * exp2(f64::from(rung - 20 * RUNGS) / f64::from(RUNGS)));
+    let negative =
+        |slip: f64| kinetic + drop * exp(-pow(slip / velocity, exponent)) + viscous * slip < 0.0;
     let mut below = 0.0;
     for slip in ladder.take_while(|slip| *slip <= 2.0 * last) {
-        if mu(slip) < 0.0 {
-            return bisect(below, slip, TO_ROUNDING, |at| mu(at) < 0.0).0;
+        if negative(slip) {
+            return bisect(below, slip, TO_ROUNDING, negative).0;
         }
         below = slip;
     }

@@ -44,6 +44,26 @@ pub enum FrictionLaw {
 }
 
 impl FrictionLaw {
+    /// What it is made of: all that is computed of a law follows from these, or from the spline of a table.
+    #[must_use]
+    pub fn parts(&self) -> LawParts {
+        let whole = |coefficients: &[f64]| vec![(0.0, f64::INFINITY, coefficients.to_vec())];
+        match self {
+            FrictionLaw::Constant { mu } => LawParts { pieces: whole(&[*mu]), fall: None },
+            FrictionLaw::Polynomial { coefficients } => {
+                LawParts { pieces: whole(coefficients), fall: None }
+            }
+            FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => LawParts {
+                pieces: whole(&[*kinetic, *viscous]),
+                fall: Some((rest - kinetic, *velocity, *exponent)),
+            },
+            FrictionLaw::Table(spline) => LawParts {
+                pieces: spline.polynomials().map(|(from, to, c)| (from, to, c.to_vec())).collect(),
+                fall: None,
+            },
+        }
+    }
+
     /// The coefficient and its derivatives with respect to the relative velocity, at `v`.
     ///
     /// `None` outside of the [range](Self::range) of the law. Derivatives that do not exist (a Stribeck
@@ -51,23 +71,10 @@ impl FrictionLaw {
     #[must_use]
     pub fn at(&self, v: f64) -> Option<Derivatives> {
         let (low, high) = self.range();
-        if !(low..=high).contains(&v) {
-            return None;
-        }
-        Some(match self {
-            FrictionLaw::Constant { mu } => Derivatives { value: *mu, ..Derivatives::default() },
-            FrictionLaw::Polynomial { coefficients } => derivatives(coefficients, v),
-            FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous } => {
-                let fall = stretched_exponential(v / velocity, *exponent);
-                let drop = rest - kinetic;
-                Derivatives {
-                    value: kinetic + drop * fall.value + viscous * v,
-                    first: drop * fall.first / velocity + viscous,
-                    second: drop * fall.second / powi(*velocity, 2),
-                    third: drop * fall.third / powi(*velocity, 3),
-                }
-            }
+        let inside = (low..=high).contains(&v);
+        inside.then(|| match self {
             FrictionLaw::Table(spline) => spline.at(v),
+            _ => self.parts().at(v),
         })
     }
 
@@ -95,6 +102,35 @@ impl FrictionLaw {
             FrictionLaw::Stribeck { .. } => "stribeck",
             FrictionLaw::Table(_) => "table",
         }
+    }
+}
+
+/// From which slip to which, and the coefficients of powers of the distance from the lower end.
+pub type LawPiece = (f64, f64, Vec<f64>);
+
+/// A friction law as pieces of polynomials in the slip, and one falling exponential.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LawParts {
+    /// The polynomials, by slip.
+    pub pieces: Vec<LawPiece>,
+    /// Drop, velocity and exponent of `drop exp(-(slip/velocity)^exponent)`.
+    pub fall: Option<(f64, f64, f64)>,
+}
+
+impl LawParts {
+    /// The coefficient and its derivatives at a slip.
+    #[must_use]
+    pub fn at(&self, v: f64) -> Derivatives {
+        let piece = self.pieces.iter().rfind(|(from, ..)| *from <= v);
+        let mut mu = piece.map_or(Derivatives::default(), |(from, _, c)| derivatives(c, v - from));
+        if let Some((drop, velocity, exponent)) = self.fall {
+            let fall = stretched_exponential(v / velocity, exponent);
+            mu.value += drop * fall.value;
+            mu.first += drop * fall.first / velocity;
+            mu.second += drop * fall.second / powi(velocity, 2);
+            mu.third += drop * fall.third / powi(velocity, 3);
+        }
+        mu
     }
 }
 

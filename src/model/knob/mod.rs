@@ -4,7 +4,7 @@ mod table;
 
 use std::fmt;
 
-use serde::de::{Deserialize, Deserializer, Error, Visitor};
+use serde::de::{Deserialize, Deserializer, Error};
 use serde::{Serialize, Serializer};
 
 use super::belt::friction::Belt;
@@ -249,19 +249,8 @@ impl Serialize for Knob {
 impl<'de> Deserialize<'de> for Knob {
     /// Reads the name of a number of a motion, which are those that scenes and sessions name.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Name;
-        impl Visitor<'_> for Name {
-            type Value = Knob;
-
-            fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-                out.write_str("the name of a number, such as \"D\"")
-            }
-
-            fn visit_str<E: Error>(self, name: &str) -> Result<Knob, E> {
-                Knob::named(name, &[Group::Motion]).map_err(E::custom)
-            }
-        }
-        deserializer.deserialize_str(Name)
+        let name = String::deserialize(deserializer)?;
+        Knob::named(&name, &[Group::Motion]).map_err(D::Error::custom)
     }
 }
 
