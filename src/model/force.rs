@@ -7,6 +7,7 @@
 
 use crate::model::belt::friction::{LawParts, LawPiece};
 use crate::numerics::elementary::{exp, exp_m1, ln_1p, pow, powi};
+use crate::numerics::polynomial::value_and_slope;
 
 /// A polynomial `sum c_k (y - center)^k` for velocities in `low ..= high`.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,22 +23,24 @@ pub struct ForcePiece {
 impl ForcePiece {
     /// Value and slope.
     fn at(&self, y: f64) -> (f64, f64) {
-        let step = y - self.center;
-        self.coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), coefficient| {
-            (value * step + coefficient, slope * step + value)
-        })
+        value_and_slope(&self.coefficients, y - self.center)
     }
 }
 
 /// The polynomial with these coefficients, in powers of the distance from a point `by` further on.
 pub fn shifted(coefficients: &[f64], by: f64) -> Vec<f64> {
     let mut shifted = coefficients.to_vec();
-    for start in 1..shifted.len() {
-        for k in (start - 1..shifted.len() - 1).rev() {
-            shifted[k] += by * shifted[k + 1];
+    shift(&mut shifted, by);
+    shifted
+}
+
+/// The same in place.
+pub fn shift(coefficients: &mut [f64], by: f64) {
+    for start in 1..coefficients.len() {
+        for k in (start - 1..coefficients.len() - 1).rev() {
+            coefficients[k] += by * coefficients[k + 1];
         }
     }
-    shifted
 }
 
 /// The falling part of Stribeck's law, `drop exp(-(slip/velocity)^exponent)`, on one side of the belt.

@@ -1,6 +1,5 @@
 //! How far a friction law may be believed: up to the slip at which its coefficient falls below zero.
 
-use super::force::shifted;
 use crate::model::belt::friction::{LawParts, LawPiece};
 use crate::numerics::elementary::{exp, exp2, pow};
 use crate::numerics::polynomial;
@@ -77,9 +76,7 @@ pub fn zeros(coefficients: &[f64], end: f64) -> Vec<f64> {
 }
 
 fn derivative(coefficients: &[f64]) -> Vec<f64> {
-    let shifted = shifted(coefficients, 0.0);
-    let pairs = shifted.iter().skip(1).zip(1_u32..);
-    pairs.map(|(c, k)| f64::from(k) * c).collect()
+    coefficients.iter().zip(0_u32..).skip(1).map(|(c, k)| f64::from(k) * c).collect()
 }
 
 /// Cauchy's bound: all zeros are smaller.

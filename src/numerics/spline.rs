@@ -13,8 +13,6 @@
 //! the third divided differences `Q`. The minimum of `|y - g|^2 + lambda c G c` has `g = y - 6 lambda Q' c` and
 //! `(G + 36 lambda Q Q') c = 6 Q y`, a system with seven diagonals.
 
-use std::fmt;
-
 use serde::{Deserialize, Serialize};
 
 use super::polynomial::Derivatives;
@@ -56,52 +54,10 @@ struct Piece {
     third: [f64; 3],
 }
 
-/// Why no curve can be constructed from points.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PointsError {
-    /// Too few points.
-    TooFew {
-        /// Their number.
-        count: usize,
-    },
-    /// Not a finite number, or an abscissa that does not exceed the previous one.
-    Point {
-        /// Index of the point, from 0.
-        index: usize,
-    },
-    /// The computation overflowed; `index` and the next are the two closest points.
-    Uneven {
-        /// Index of the first of the two, from 0.
-        index: usize,
-    },
-}
-
-impl fmt::Display for PointsError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            PointsError::TooFew { count } => {
-                write!(out, "a table needs {FEWEST} points or more, not {count}")
-            }
-            PointsError::Point { index } => {
-                write!(out, "point {}: numbers must be finite, velocities must increase", index + 1)
-            }
-            PointsError::Uneven { index } => {
-                let (one, next) = (index + 1, index + 2);
-                write!(
-                    out,
-                    "points {one} and {next} are too close together beside the others for a smooth curve"
-                )
-            }
-        }
-    }
-}
-
-impl std::error::Error for PointsError {}
-
 impl TryFrom<ScatteredPoints> for SmoothingSpline {
-    type Error = PointsError;
+    type Error = String;
 
-    fn try_from(given: ScatteredPoints) -> Result<Self, PointsError> {
+    fn try_from(given: ScatteredPoints) -> Result<Self, String> {
         SmoothingSpline::new(&given.points, given.scatter)
     }
 }
@@ -114,18 +70,21 @@ impl From<SmoothingSpline> for ScatteredPoints {
 
 impl SmoothingSpline {
     /// The smoothest curve whose root mean square distance from `points` is (at most) `scatter`. Fails with
-    /// [`PointsError`] for fewer than four points, for numbers that are not finite, and for abscissae that do
+    /// one line for fewer than four points, for numbers that are not finite, and for abscissae that do
     /// not increase or are so uneven that numbers overflow.
-    pub fn new(points: &[(f64, f64)], scatter: f64) -> Result<Self, PointsError> {
+    pub fn new(points: &[(f64, f64)], scatter: f64) -> Result<Self, String> {
         if points.len() < FEWEST {
-            return Err(PointsError::TooFew { count: points.len() });
+            return Err(format!("a table needs {FEWEST} points or more, not {}", points.len()));
         }
         let wrong = |index: usize| {
             let (x, y) = points[index];
             !(x.is_finite() && y.is_finite()) || (index > 0 && x <= points[index - 1].0)
         };
         if let Some(index) = (0..points.len()).find(|&index| wrong(index)) {
-            return Err(PointsError::Point { index });
+            return Err(format!(
+                "point {}: numbers must be finite, velocities must increase",
+                index + 1
+            ));
         }
         let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
         let system = SplineSystem::new(&x, &y);
@@ -142,7 +101,11 @@ impl SmoothingSpline {
         if !(pieces.iter().all(is_finite) && g.iter().all(|value| value.is_finite())) {
             let gap = |index: &usize| x[index + 1] - x[*index];
             let closest = (0..x.len() - 1).min_by(|one, other| gap(one).total_cmp(&gap(other)));
-            return Err(PointsError::Uneven { index: closest.unwrap_or(0) });
+            let one = closest.unwrap_or(0) + 1;
+            return Err(format!(
+                "points {one} and {} are too close together beside the others for a smooth curve",
+                one + 1
+            ));
         }
         let given = ScatteredPoints { points: points.to_vec(), scatter };
         Ok(SmoothingSpline { given, pieces, missed })
@@ -471,12 +434,12 @@ mod tests {
     #[test]
     fn what_is_no_table_is_refused() {
         let refused = |points: &[(f64, f64)]| SmoothingSpline::new(points, 0.0).unwrap_err();
-        assert_eq!(refused(&[(0.0, 1.0); 3]), PointsError::TooFew { count: 3 });
+        assert_eq!(refused(&[(0.0, 1.0); 3]), "a table needs 4 points or more, not 3");
         let twice = [(0.0, 1.0), (1.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
-        assert_eq!(refused(&twice), PointsError::Point { index: 2 });
+        assert_eq!(refused(&twice), "point 3: numbers must be finite, velocities must increase");
         let uneven = [(0.0, 0.4), (1.0, 0.3), (1.0 + 1e-15, 0.25), (1e300, 0.2)];
-        assert_eq!(refused(&uneven), PointsError::Uneven { index: 1 });
+        assert!(refused(&uneven).starts_with("points 2 and 3 are too close together"));
         let missing = [(0.0, 1.0), (1.0, f64::NAN), (2.0, 2.0), (3.0, 1.0)];
-        assert_eq!(refused(&missing), PointsError::Point { index: 1 });
+        assert_eq!(refused(&missing), "point 2: numbers must be finite, velocities must increase");
     }
 }

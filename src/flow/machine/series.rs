@@ -4,7 +4,7 @@
 //! series by Horner's scheme, plus an exponential with a recurrence of its own. The step is the one that
 //! keeps the last terms below rounding (Jorba and Zou, Experimental Mathematics 14, 2005).
 
-use crate::model::force::{Fall, ForceBranch, ForcePiece};
+use crate::model::force::{Fall, ForceBranch, ForcePiece, shift};
 use crate::numerics::count::{real, reciprocals};
 use crate::numerics::elementary::{exp2, log2, pow};
 use crate::numerics::polynomial::{value, value_and_slope};
@@ -66,12 +66,7 @@ impl PhaseSeries {
     ) {
         self.local.clear();
         self.local.extend_from_slice(&piece.coefficients);
-        let by = y - piece.center;
-        for start in 1..self.local.len() {
-            for k in (start - 1..self.local.len() - 1).rev() {
-                self.local[k] += by * self.local[k + 1];
-            }
-        }
+        shift(&mut self.local, y - piece.center);
         let degree = self.local.len() - 1;
         let products = degree.saturating_sub(1);
         if self.rows.len() < products {

@@ -14,6 +14,7 @@ use super::unit::{Measured, WithTolerance, measured, toleranced};
 use crate::numerics::Interval;
 use crate::numerics::decimal::{brief, shortest};
 use crate::numerics::similar::most_similar;
+use table::Access;
 pub use table::{Group, KNOBS, Knob, KnobSpec};
 
 /// A value that a number cannot take.
@@ -162,13 +163,13 @@ impl Knob {
     #[must_use]
     pub fn get(self, parameters: &Parameters, initial: &State) -> f64 {
         let both = (*parameters, *initial);
-        self.spec().motion.and_then(|at| (at.get)(&both)).unwrap_or(f64::NAN)
+        self.spec().motion.and_then(|(get, _)| get(&both)).unwrap_or(f64::NAN)
     }
 
     /// Writes a number of a motion; one of a machine changes nothing.
     pub fn set(self, parameters: &mut Parameters, initial: &mut State, value: f64) {
         let mut both = (*parameters, *initial);
-        if let Some(place) = self.spec().motion.and_then(|at| (at.place)(&mut both)) {
+        if let Some(place) = self.spec().motion.and_then(|(_, place)| place(&mut both)) {
             *place = value;
         }
         (*parameters, *initial) = both;
@@ -178,13 +179,13 @@ impl Knob {
     /// at rest, and R.
     #[must_use]
     pub fn of_belt(self, belt: &Belt) -> Option<f64> {
-        (self.spec().belt?.get)(belt)
+        (self.spec().belt?.0)(belt)
     }
 
     /// Reads a number of a vibration mode; `None` if it has none.
     #[must_use]
     pub fn of_mode(self, mode: &Modal) -> Option<f64> {
-        (self.spec().mode?.get)(mode)
+        (self.spec().mode?.0)(mode)
     }
 
     /// Writes a number of a mass on a belt, in SI units.
@@ -192,12 +193,7 @@ impl Knob {
     /// # Errors
     /// One line if it has no such number.
     pub fn set_in_belt(self, belt: &mut Belt, value: f64) -> Result<(), String> {
-        let place = self.spec().belt.and_then(|at| (at.place)(belt));
-        if let Some(place) = place {
-            *place = value;
-            return Ok(());
-        }
-        Err(self.missing(&|knob| knob.of_belt(belt).is_some()))
+        self.write(belt, |row| row.belt, value)
     }
 
     /// Writes a number of a vibration mode, in SI units.
@@ -205,18 +201,23 @@ impl Knob {
     /// # Errors
     /// One line if it has no such number.
     pub fn set_in_mode(self, mode: &mut Modal, value: f64) -> Result<(), String> {
-        let place = self.spec().mode.and_then(|at| (at.place)(mode));
-        if let Some(place) = place {
+        self.write(mode, |row| row.mode, value)
+    }
+
+    /// Writes a number of what has it at this place; the refusal names those that it has.
+    fn write<T>(
+        self,
+        it: &mut T,
+        at: fn(&KnobSpec) -> Option<Access<T>>,
+        value: f64,
+    ) -> Result<(), String> {
+        if let Some(place) = at(self.spec()).and_then(|(_, place)| place(it)) {
             *place = value;
             return Ok(());
         }
-        Err(self.missing(&|knob| knob.of_mode(mode).is_some()))
-    }
-
-    /// That what has these numbers does not have this one.
-    fn missing(self, has: &dyn Fn(Self) -> bool) -> String {
-        let all = KNOBS.iter().filter(|row| has(row.knob)).map(|row| row.name);
-        format!("no {self} here; there are {}", all.collect::<Vec<_>>().join(", "))
+        let has = |row: &&KnobSpec| at(row).and_then(|(get, _)| get(it)).is_some();
+        let all: Vec<_> = KNOBS.iter().filter(has).map(|row| row.name).collect();
+        Err(format!("no {self} here; there are {}", all.join(", ")))
     }
 }
 

@@ -54,19 +54,7 @@ impl Group {
 }
 
 /// How a number is read from what has it, and where it is written.
-#[derive(Debug)]
-pub(crate) struct Access<T> {
-    pub get: fn(&T) -> Option<f64>,
-    pub place: fn(&mut T) -> Option<&mut f64>,
-}
-
-impl<T> Clone for Access<T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Access<T> {}
+pub(crate) type Access<T> = (fn(&T) -> Option<f64>, fn(&mut T) -> Option<&mut f64>);
 
 /// One row of [`KNOBS`].
 #[derive(Clone, Copy, Debug)]
@@ -171,49 +159,49 @@ macro_rules! knobs {
 /// A number that is a field.
 macro_rules! at {
     ($($field:tt)+) => {
-        Access { get: |it| Some(it.$($field)+), place: |it| Some(&mut it.$($field)+) }
+        (|it| Some(it.$($field)+), |it| Some(&mut it.$($field)+))
     };
 }
 
 /// A number of a friction law.
 macro_rules! law {
     ($law:ident $number:ident) => {
-        Access {
-            get: |belt: &Belt| match &belt.law {
+        (
+            |belt: &Belt| match &belt.law {
                 FrictionLaw::$law { $number, .. } => Some(*$number),
                 _ => None,
             },
-            place: |belt: &mut Belt| match &mut belt.law {
+            |belt: &mut Belt| match &mut belt.law {
                 FrictionLaw::$law { $number, .. } => Some($number),
                 _ => None,
             },
-        }
+        )
     };
 }
 
 /// A coefficient of a polynomial law.
 macro_rules! coefficient {
     ($power:literal) => {
-        Access {
-            get: |belt: &Belt| match &belt.law {
+        (
+            |belt: &Belt| match &belt.law {
                 FrictionLaw::Polynomial { coefficients } => coefficients.get($power).copied(),
                 _ => None,
             },
-            place: |belt: &mut Belt| match &mut belt.law {
+            |belt: &mut Belt| match &mut belt.law {
                 FrictionLaw::Polynomial { coefficients } => coefficients.get_mut($power),
                 _ => None,
             },
-        }
+        )
     };
 }
 
 /// A coefficient of a damping ratio.
 macro_rules! ratio {
     ($power:literal) => {
-        Access {
-            get: |mode: &Modal| mode.damping_ratio.get($power).copied(),
-            place: |mode: &mut Modal| mode.damping_ratio.get_mut($power),
-        }
+        (
+            |mode: &Modal| mode.damping_ratio.get($power).copied(),
+            |mode: &mut Modal| mode.damping_ratio.get_mut($power),
+        )
     };
 }
 
@@ -261,22 +249,22 @@ const fn setting(range: (f64, f64)) -> KnobSpec {
 }
 
 /// The coefficient of the belt at rest: that of the law where nothing is said.
-const HELD_BY_BELT: Access<Belt> = Access {
-    get: |belt| belt.static_coefficient.or_else(|| belt.law.mu(0.0)),
-    place: |belt| Some(belt.static_coefficient.get_or_insert(0.0)),
-};
+const HELD_BY_BELT: Access<Belt> = (
+    |belt| belt.static_coefficient.or_else(|| belt.law.mu(0.0)),
+    |belt| Some(belt.static_coefficient.get_or_insert(0.0)),
+);
 
 /// The friction of the guide at rest: that of the moving mass where nothing is said.
-const HELD_BY_GUIDE: Access<Belt> = Access {
-    get: |belt| Some(belt.static_guide.unwrap_or(belt.friction)),
-    place: |belt| Some(belt.static_guide.get_or_insert(0.0)),
-};
+const HELD_BY_GUIDE: Access<Belt> = (
+    |belt| Some(belt.static_guide.unwrap_or(belt.friction)),
+    |belt| Some(belt.static_guide.get_or_insert(0.0)),
+);
 
 /// The same of a mode.
-const MODE_HELD: Access<Modal> = Access {
-    get: |mode| Some(mode.static_guide.unwrap_or(mode.friction)),
-    place: |mode| Some(mode.static_guide.get_or_insert(0.0)),
-};
+const MODE_HELD: Access<Modal> = (
+    |mode| Some(mode.static_guide.unwrap_or(mode.friction)),
+    |mode| Some(mode.static_guide.get_or_insert(0.0)),
+);
 
 knobs! {
     D "D" "linear damping" motion((-1e6, 1e6)).or(-0.1).step(0.01).drawn(-0.9, 0.1).motion(at!(0.d));

@@ -344,8 +344,8 @@ fn spline(
         let message = format!("{} points; {MOST_POINTS} are allowed", points.len());
         return Err(Complaint { at, message });
     }
-    let spline = SmoothingSpline::new(&points, scatter)
-        .map_err(|error| Complaint { at, message: error.to_string() })?;
+    let spline = SmoothingSpline::new(&points, scatter);
+    let spline = spline.map_err(|message| Complaint { at, message })?;
     Ok(FrictionLaw::Table(spline))
 }
 
