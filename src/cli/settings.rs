@@ -7,9 +7,8 @@ use clap::Args;
 use super::{Failure, places};
 use crate::runtime::bounded;
 use crate::session::config::{Config, parse};
-use crate::session::settings::{
-    COLORS, Colors, DisplaySettings, GLYPHS, Glyphs, THEMES, Theme, named,
-};
+use crate::session::settings::{Choice, Colors, DisplaySettings, Glyphs, Theme, choices};
+use crate::words;
 
 /// Which settings file is read.
 #[derive(Clone, Debug, Args)]
@@ -42,15 +41,15 @@ impl Settings {
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Looks {
     #[arg(long, value_name = "KIND",
-          value_parser = |name: &str| one_of(&GLYPHS, name), help = help("Characters that dots are drawn with", &GLYPHS))]
+          value_parser = one_of::<Glyphs>, help = help::<Glyphs>("Characters that dots are drawn with"))]
     glyphs: Option<Glyphs>,
 
     #[arg(long, value_name = "DEPTH",
-          value_parser = |name: &str| one_of(&COLORS, name), help = help("Colour depth", &COLORS))]
+          value_parser = one_of::<Colors>, help = help::<Colors>("Colour depth"))]
     color: Option<Colors>,
 
     #[arg(long, value_name = "NAME",
-          value_parser = |name: &str| one_of(&THEMES, name), help = help("Colour theme", &THEMES))]
+          value_parser = one_of::<Theme>, help = help::<Theme>("Colour theme"))]
     theme: Option<Theme>,
 
     /// Lets the mouse start motions and zoom instead of selecting text
@@ -73,14 +72,11 @@ impl Looks {
     }
 }
 
-fn names<T>(table: &[(T, &'static str)]) -> String {
-    table.iter().map(|row| row.1).collect::<Vec<_>>().join(", ")
+fn help<T: Choice>(what: &str) -> String {
+    let names: Vec<_> = choices::<T>().map(|row| row.0).collect();
+    format!("{what}: {}", names.join(", "))
 }
 
-fn help<T>(what: &str, table: &[(T, &'static str)]) -> String {
-    format!("{what}: {}", names(table))
-}
-
-fn one_of<T: Copy>(table: &[(T, &'static str)], name: &str) -> Result<T, String> {
-    named(table, name).ok_or_else(|| format!("there are {}", names(table)))
+fn one_of<T: Choice>(name: &str) -> Result<T, String> {
+    words::one_of("", name, choices())
 }

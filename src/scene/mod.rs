@@ -18,7 +18,7 @@ pub use library::{find, library, plain};
 pub use machine::{Machine, Running, ScaledMachine, Setting};
 pub use misread::Misread;
 pub use ordinate::{Height, ORDINATES, Ordinate, Unit};
-pub use plot_setup::{ARRANGEMENTS, Arrangement, Axes, MOST_PLOTS, PlotSetup};
+pub use plot_setup::{Arrangement, Axes, MOST_PLOTS, PlotSetup};
 pub use scene::{Scene, Variant};
 pub use views::{LAYERS, Layer, LayerSpec, Needs, VIEWS, View, ViewSpec, letters};
 pub use window::{Point, Span, Window, rectangle};

@@ -1,6 +1,7 @@
 //! How a scene sets up its plots: their views, axes and windows, and how they share the screen.
 
 use serde::{Deserialize, Serialize};
+use strum::{IntoStaticStr, VariantArray};
 
 use super::ordinate::{Height, Ordinate, Unit, usual_values};
 use super::views::View;
@@ -80,11 +81,12 @@ impl PlotSetup {
     }
 }
 
-/// How the plots share the screen.
+/// How the plots share the screen, in the order in which the key cycles through it.
 #[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr, VariantArray,
 )]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Arrangement {
     /// The arrangement in which the plots are closest to squares.
     #[default]
@@ -93,17 +95,14 @@ pub enum Arrangement {
     Rows,
 }
 
-/// The arrangements and their names, in the order in which the key cycles through them.
-pub const ARRANGEMENTS: [(Arrangement, &str); 3] =
-    [(Arrangement::Auto, "auto"), (Arrangement::Columns, "columns"), (Arrangement::Rows, "rows")];
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn arrangements_have_the_names_of_scene_files() {
-        for (arrangement, name) in ARRANGEMENTS {
+        for arrangement in Arrangement::VARIANTS {
+            let name: &str = arrangement.into();
             assert_eq!(serde_json::to_value(arrangement).unwrap(), name);
         }
     }

@@ -20,7 +20,6 @@ use crate::session::act::{
 use crate::session::command_row::CommandAction::{self, Act, Choose, Toggle, Try};
 use crate::session::command_row::{CommandRow, row};
 use crate::session::lines::{LINES, lines};
-use crate::session::settings::{GLYPHS, THEMES};
 use crate::session::{
     Command, Effect, Input, Keymap, Letter as Ask, Listed, Pending, Session, Size,
 };
@@ -295,7 +294,7 @@ const COMMANDS: &[CommandRow] = &[
     row("copy-screen", &[(Always, &["<A-y>"])], "",
         "Copy the characters on the screen", Act(|s, _| s.effects.push(Effect::CopyScreen))),
     row("glyphs", &[(Everywhere, &["g"])], "",
-        "Draw with other characters: braille, octants, blocks, ASCII", Act(|s, _| general::turn(s, "glyphs", &GLYPHS, |it| &mut it.glyphs))),
+        "Draw with other characters: braille, octants, blocks, ASCII", Act(|s, _| general::turn(s, "glyphs", |it| &mut it.glyphs))),
     row("units", &[(Everywhere, &["<A-m>"])], "",
         "Show axes of machines in mm, mm/s and s, or as q, v, tau", Act(|s, _| general::units(s))),
     row("equal", &[(Everywhere, &["E"])], "",
@@ -303,7 +302,7 @@ const COMMANDS: &[CommandRow] = &[
     row("mouse", &[(Everywhere, &["<f2>"])], "",
         "Let the mouse start motions and zoom, or leave it to the terminal", Act(|s, _| plots::toggle_mouse(s))),
     row("theme", &[(Everywhere, &["T"])], "",
-        "Use the next theme", Act(|s, _| general::turn(s, "theme", &THEMES, |it| &mut it.theme))),
+        "Use the next theme", Act(|s, _| general::turn(s, "theme", |it| &mut it.theme))),
     row("drop-cursor", &[(Everywhere, &["<esc>"])], "",
         "Hide the cursor; stop a scan, a fit or a figure; never quits", Act(|s, _| plots::drop_cursor(s))),
     row("back", &[(Lists, &["<esc>", "q"]), (Entry, &["<esc>"]), (Prompt, &["<esc>"]), (Palette, &["<esc>"]), (Form, &["<esc>"]), (Offer, &["<esc>"])], "close",

@@ -18,10 +18,11 @@ use crate::numerics::similar::most_similar;
 use crate::scene::library::names;
 use crate::scene::misread::Complaint;
 use crate::scene::{Misread, misread};
-use crate::session::settings::{COLORS, Colors, GLYPHS, Glyphs, THEMES, Theme, named};
+use crate::session::settings::{Choice, Colors, Glyphs, Theme, choices};
 use crate::session::state::context::contexts;
 use crate::session::state::keymap::full_name;
 use crate::session::{Command, Context, Key, Keymap};
+use crate::words;
 
 /// The content of a settings file; whatever is missing keeps its default.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -76,23 +77,19 @@ fn config(read: &SettingsFile) -> Result<Config, Complaint> {
     });
     Ok(Config {
         scene: scene.transpose()?,
-        glyphs: one_of(read.glyphs.as_ref(), &GLYPHS)?,
-        colors: one_of(read.color.as_ref(), &COLORS)?,
-        theme: one_of(read.theme.as_ref(), &THEMES)?,
+        glyphs: one_of(read.glyphs.as_ref())?,
+        colors: one_of(read.color.as_ref())?,
+        theme: one_of(read.theme.as_ref())?,
         mouse: read.mouse,
         keymap: keymap(&read.keys)?,
     })
 }
 
-/// The value with this name in a table of allowed values.
-fn one_of<T: Copy>(
-    given: Option<&Spanned<String>>,
-    table: &[(T, &'static str)],
-) -> Result<Option<T>, Complaint> {
+/// The value with this name.
+fn one_of<T: Choice>(given: Option<&Spanned<String>>) -> Result<Option<T>, Complaint> {
     let find = |given: &Spanned<String>| {
-        let names = table.iter().map(|(_, name)| *name).collect::<Vec<_>>().join(", ");
-        let message = format!("{:?} is none of {names}", given.get_ref());
-        named(table, given.get_ref()).ok_or(Complaint { at: given.span(), message })
+        let refused = |message| Complaint { at: given.span(), message };
+        words::one_of("", given.get_ref(), choices()).map_err(refused)
     };
     given.map(find).transpose()
 }

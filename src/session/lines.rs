@@ -9,7 +9,7 @@ use crate::scene::{VIEWS, library};
 use crate::session::act::{files, history, scan, values};
 use crate::session::command_row::{CommandRow, line};
 use crate::session::read::completion;
-use crate::session::settings::{COLORS, GLYPHS, THEMES};
+use crate::session::settings::{Colors, Glyphs, Theme, choices};
 use crate::session::{Command, Purpose};
 
 /// Every command that takes words, in the order in which the help lists them.
@@ -72,15 +72,15 @@ pub(super) const LINES: &[CommandRow] = &[
     line("play", "FILE", "Press the keys of a keystroke file",
         |_, _| vec![], |s, rest| files::ask(s, rest, Purpose::Play)),
     line("theme", "NAME", "Use these colours",
-        |_, _| completion::all(THEMES.map(|row| row.1)), |s, name| values::choice(&THEMES, name).map(|it| s.display.theme = it)),
+        |_, _| completion::all(choices::<Theme>().map(|row| row.0)), |s, name| values::choice(name).map(|it| s.display.theme = it)),
     line("units", "on|off", "Show axes of machines in mm, mm/s and s, or as q, v, tau",
         completion::switch, |s, state| values::is_on("units", state).map(|on| s.display.dimensionless = !on)),
     line("equal", "on|off", "Draw a circle in a phase plane as one, or use all the room",
         completion::switch, |s, state| values::is_on("equal units", state).map(|on| s.display.stretched = !on)),
     line("glyphs", "NAME", "Draw with these characters",
-        |_, _| completion::all(GLYPHS.map(|row| row.1)), |s, name| values::choice(&GLYPHS, name).map(|it| s.display.glyphs = it)),
+        |_, _| completion::all(choices::<Glyphs>().map(|row| row.0)), |s, name| values::choice(name).map(|it| s.display.glyphs = it)),
     line("color", "DEPTH", "Use this many colours",
-        |_, _| completion::all(COLORS.map(|row| row.1)), |s, name| values::choice(&COLORS, name).map(|it| s.display.colors = it)),
+        |_, _| completion::all(choices::<Colors>().map(|row| row.0)), |s, name| values::choice(name).map(|it| s.display.colors = it)),
 ];
 
 /// Every command that takes words, in the order in which the help lists them.

@@ -7,7 +7,7 @@ use crate::flow::{METHODS, Problem};
 use crate::model::Knob;
 use crate::numerics::decimal::shortest;
 use crate::scene::{Scene, find};
-use crate::session::settings::{COLORS, DisplaySettings, GLYPHS, THEMES};
+use crate::session::settings::{Choice, DisplaySettings};
 use crate::session::{Instruction, Msg, Session, save};
 
 /// The name under which a file embeds a session.
@@ -39,19 +39,14 @@ fn run(line: String) -> Instruction {
 
 /// The steps that set the user's wishes for the screen, where they differ from the defaults.
 fn display_lines(display: DisplaySettings) -> Vec<Instruction> {
-    fn line<T: Copy + PartialEq + Default>(
-        name: &str,
-        table: &[(T, &str)],
-        value: T,
-    ) -> Option<String> {
-        let row = table.iter().find(|row| row.0 == value && value != T::default());
-        row.map(|row| format!("{name} {}", row.1))
+    fn line<T: Choice + Default>(name: &str, value: T) -> Option<String> {
+        (value != T::default()).then(|| format!("{name} {}", value.into()))
     }
     let switched = |on: bool, line: &str| on.then(|| line.to_owned());
     let lines = [
-        line("glyphs", &GLYPHS, display.glyphs),
-        line("color", &COLORS, display.colors),
-        line("theme", &THEMES, display.theme),
+        line("glyphs", display.glyphs),
+        line("color", display.colors),
+        line("theme", display.theme),
         switched(display.stretched, "equal off"),
         switched(display.dimensionless, "units off"),
         switched(display.mouse, "mouse"),

@@ -265,7 +265,7 @@ pub fn fixed(index: u8) -> Rgb {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::session::settings::THEMES;
+    use crate::session::settings::choices;
 
     /// The hue of a colour in degrees; none of what is nearly grey.
     fn hue((red, green, blue): Rgb) -> Option<f64> {
@@ -293,7 +293,7 @@ mod tests {
 
     #[test]
     fn every_theme_gives_every_role_a_style() {
-        for (theme, name) in THEMES {
+        for (name, theme) in choices::<Theme>() {
             let read = Look::from_text(text_of(theme), Glyphs::Braille, [Colors::Sixteen; 2]);
             assert!(read.is_ok(), "{name}: {read:?}");
             let lines: BTreeMap<String, String> = toml::from_str(text_of(theme)).unwrap();
@@ -303,7 +303,7 @@ mod tests {
 
     #[test]
     fn each_depth_has_its_own_colours_and_no_others() {
-        for (theme, name) in THEMES {
+        for (name, theme) in choices::<Theme>() {
             let colours = |colors| {
                 let look = look(theme, Glyphs::Braille, colors);
                 look.styles.into_iter().filter_map(|style| style.fg).collect::<Vec<_>>()
@@ -336,7 +336,7 @@ mod tests {
             Role::Current,
         ];
         let time_series = [Role::Trajectory, Role::Velocity, Role::Sticking, Role::Energy];
-        for (theme, name) in THEMES.into_iter().filter(|(theme, _)| *theme != Theme::Mono) {
+        for (name, theme) in choices::<Theme>().filter(|(_, theme)| *theme != Theme::Mono) {
             for colors in [Colors::Sixteen, Colors::Indexed, Colors::True] {
                 let look = look(theme, Glyphs::Braille, colors);
                 for pens in [&diagram[..], &time_series] {
@@ -353,7 +353,7 @@ mod tests {
     fn red_and_green_mean_unstable_and_stable_and_nothing_else() {
         let red = [Role::Unstable, Role::GhostUnstable];
         let green = [Role::Stable, Role::GhostStable];
-        for (theme, name) in THEMES {
+        for (name, theme) in choices::<Theme>() {
             for (role, text, _) in ROLES {
                 let lines: BTreeMap<String, String> = toml::from_str(text_of(theme)).unwrap();
                 let (style, fine) = parsed(&lines[text]).unwrap();
@@ -373,7 +373,7 @@ mod tests {
 
     #[test]
     fn grounds_of_maps_are_of_one_hue_and_the_stronger_the_more_dangerous() {
-        for (theme, name) in THEMES.into_iter().filter(|(theme, _)| *theme != Theme::Mono) {
+        for (name, theme) in choices::<Theme>().filter(|(_, theme)| *theme != Theme::Mono) {
             let settings =
                 settings::DisplaySettings { theme, ..settings::DisplaySettings::default() };
             let look =

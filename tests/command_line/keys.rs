@@ -59,7 +59,7 @@ fn two_commands_can_swap_their_keys() {
 #[test]
 fn what_is_wrong_is_said_with_its_place() {
     for (text, said) in [
-        ("theme = \"blue\"", "1:9: \"blue\" is none of auto, light, dark, contrast, mono"),
+        ("theme = \"blue\"", "1:9: no \"blue\"; there are auto, light, dark, contrast, mono"),
         ("themes = 1", "1:1: unknown field `themes`"),
         ("scene = \"hoff\"", "1:9: no scene \"hoff\"; did you mean hopf?"),
         ("[keys.everwhere]", "1:7: no context \"everwhere\"; did you mean everywhere?"),

@@ -18,7 +18,7 @@ use hopfscope::question::zones::Extent;
 use hopfscope::scene::{
     Answer, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window, find, library,
 };
-use hopfscope::session::settings::{Colors, GLYPHS, Glyphs, THEMES};
+use hopfscope::session::settings::{Colors, Glyphs, Theme, choices};
 use hopfscope::session::{BranchStop, Msg, Notice, PointerTarget, Session, Size, settings, update};
 use hopfscope::view::frame::render;
 use hopfscope::view::layout::layout;
@@ -251,8 +251,8 @@ fn letters_are_letters_in_every_corner_of_the_program() {
 
 #[test]
 fn without_colour_no_cell_has_any_and_stable_still_differs_from_unstable() {
-    for (glyphs, _) in GLYPHS {
-        for (theme, _) in THEMES {
+    for (_, glyphs) in choices::<Glyphs>() {
+        for (_, theme) in choices::<Theme>() {
             let colors = Colors::Never;
             let look = settings::DisplaySettings { glyphs, colors, theme, ..braille() };
             let session = settled("supercritical", 80, 24, "");
@@ -335,14 +335,15 @@ fn the_selected_row_is_on_show_and_can_be_clicked_however_many_there_are() {
 #[test]
 fn every_scene_fits_every_size() {
     // Every kind of glyphs has its turn with every scene, size and list, but not all of them together.
-    let mut kinds = GLYPHS.iter().cycle();
+    let kinds: Vec<Glyphs> = choices().map(|(_, glyphs)| glyphs).collect();
+    let mut kinds = kinds.iter().cycle();
     for scene in library() {
         let sizes =
             (1..=25).map(|n| (n * 8, n * 3)).chain([(1, 1), (500, 200), (200, 16), (60, 200)]);
         for (width, height) in sizes {
             for keys in ["", "?", "s", "<enter>"] {
                 let session = settled(&scene.name, width, height, keys);
-                let (glyphs, _) = *kinds.next().expect("kinds come again");
+                let glyphs = *kinds.next().expect("kinds come again");
                 draw(&session, settings::DisplaySettings { glyphs, ..braille() });
             }
         }
@@ -430,7 +431,7 @@ proptest! {
         if let Ok(span) = Span::new(low.min(high), low.max(high)) {
             session.plots.iter_mut().for_each(|plot| plot.window = Window { x: span, y: span });
         }
-        for (glyphs, _) in GLYPHS {
+        for (_, glyphs) in choices::<Glyphs>() {
             draw(&session, settings::DisplaySettings { glyphs, ..braille() });
         }
     }

@@ -3,7 +3,7 @@
 use crate::accuracy::harmonic_error::ladder;
 use crate::scene::Layer;
 use crate::session::act::{inform, inform_of_keys};
-use crate::session::settings::{DisplaySettings, next_of};
+use crate::session::settings::{Choice, DisplaySettings, next_of};
 use crate::session::state::session::{LARGEST_COUNT, MOST_HARMONICS};
 use crate::session::{Done, Effect, Key, Overlay, Pending, Session};
 
@@ -50,15 +50,14 @@ pub(crate) fn balance(session: &mut Session, harmonics: usize) {
     inform(session, format!("harmonic balance with N = {harmonics}"));
 }
 
-/// Takes the next value of a table for a setting of the screen.
-pub(crate) fn turn<T: Copy + PartialEq>(
+/// Takes the next value for a setting of the screen.
+pub(crate) fn turn<T: Choice>(
     session: &mut Session,
     what: &str,
-    table: &[(T, &'static str)],
     setting: fn(&mut DisplaySettings) -> &mut T,
 ) {
     let place = setting(&mut session.display);
-    let (next, name) = next_of(table, *place);
+    let (next, name) = next_of(*place);
     *place = next;
     inform(session, format!("{what}: {name}"));
 }

@@ -1,7 +1,7 @@
 //! Commands that change what is on show: the view of a plot, the number of plots, how they share the screen, and
 //! which pane has the focus. Each change but that of the focus can be undone.
 
-use crate::scene::{ARRANGEMENTS, LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
+use crate::scene::{LAYERS, MOST_PLOTS, PlotSetup, VIEWS, View};
 use crate::session::act::{inform, with_keys};
 use crate::session::settings::next_of;
 use crate::session::{Before, Done, Pane, Plot, ScreenSetup, Session};
@@ -140,7 +140,7 @@ pub fn move_on(session: &mut Session) -> Done {
 /// Selects the next arrangement of the plots.
 pub fn arrange(session: &mut Session) {
     record(session);
-    let (arrangement, name) = next_of(&ARRANGEMENTS, session.arrangement);
+    let (arrangement, name) = next_of(session.arrangement);
     session.arrangement = arrangement;
     inform(session, format!("arrangement: {name}"));
 }

@@ -9,6 +9,7 @@ use crate::session::act::{
     general, history, inform, parameters, plots, screen_setup, warn_of_units,
 };
 use crate::session::read::completion::{properties, rows};
+use crate::session::settings::{Choice, choices};
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::{Done, Framing, Pane, Row, Session};
 use crate::words::one_of;
@@ -163,9 +164,9 @@ pub fn letter(text: &str) -> Result<char, String> {
     }
 }
 
-/// A choice in a table such as [`crate::session::settings::THEMES`]. Fails with a line that names all.
-pub(crate) fn choice<T: Copy>(table: &[(T, &'static str)], name: &str) -> Result<T, String> {
-    one_of("", name, table.iter().map(|row| (row.1, row.0)))
+/// The value with this name. Fails with a line that names all.
+pub(crate) fn choice<T: Choice>(name: &str) -> Result<T, String> {
+    one_of("", name, choices())
 }
 
 /// Whether a setting is to be on. Fails with a line if that is not said.

@@ -1,7 +1,10 @@
 //! The user's wishes for the screen, as plain data. The outer rings adapt them to the present terminal.
 
+use strum::{IntoStaticStr, VariantArray};
+
 /// The characters that form the dots of plots.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, IntoStaticStr, VariantArray)]
+#[strum(serialize_all = "lowercase")]
 pub enum Glyphs {
     /// The best that the terminal and its locale can show.
     #[default]
@@ -16,7 +19,8 @@ pub enum Glyphs {
 }
 
 /// Colour depth.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, IntoStaticStr, VariantArray)]
+#[strum(serialize_all = "lowercase")]
 pub enum Colors {
     /// What the terminal says it has; no colours if `NO_COLOR` is set.
     #[default]
@@ -24,53 +28,28 @@ pub enum Colors {
     /// No colours: markers, dashes, bold and reverse distinguish things.
     Never,
     /// The sixteen colours of the terminal's own palette.
+    #[strum(serialize = "16")]
     Sixteen,
     /// The 256 indexed colours.
+    #[strum(serialize = "256")]
     Indexed,
     /// Red, green and blue with eight bits each.
     True,
 }
 
-/// A set of colours.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+/// A set of colours. Most backgrounds are dark, so that the first step to a light one is visible.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, IntoStaticStr, VariantArray)]
+#[strum(serialize_all = "lowercase")]
 pub enum Theme {
     /// The set that suits the background of the terminal.
     #[default]
     Auto,
-    Dark,
     Light,
+    Dark,
     Contrast,
     /// No colour at all.
     Mono,
 }
-
-/// The glyph modes, in the order in which the key cycles through them.
-pub const GLYPHS: [(Glyphs, &str); 5] = [
-    (Glyphs::Auto, "auto"),
-    (Glyphs::Braille, "braille"),
-    (Glyphs::Octant, "octant"),
-    (Glyphs::Block, "block"),
-    (Glyphs::Ascii, "ascii"),
-];
-
-/// The colour depths, with their names on the command line.
-pub const COLORS: [(Colors, &str); 5] = [
-    (Colors::Auto, "auto"),
-    (Colors::Never, "never"),
-    (Colors::Sixteen, "16"),
-    (Colors::Indexed, "256"),
-    (Colors::True, "true"),
-];
-
-/// The themes, in the order in which the key cycles through them. Most backgrounds are dark, so `light` comes
-/// after `auto`: the first step is then visible.
-pub const THEMES: [(Theme, &str); 5] = [
-    (Theme::Auto, "auto"),
-    (Theme::Light, "light"),
-    (Theme::Dark, "dark"),
-    (Theme::Contrast, "contrast"),
-    (Theme::Mono, "mono"),
-];
 
 /// Everything about the appearance that the user can choose.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -90,13 +69,19 @@ pub struct DisplaySettings {
     pub dimensionless: bool,
 }
 
-/// The value and name that follow `current` in a table such as [`GLYPHS`]; the first ones after the last.
-pub fn next_of<T: Copy + PartialEq>(table: &[(T, &'static str)], current: T) -> (T, &'static str) {
-    let index = table.iter().position(|(value, _)| *value == current).unwrap_or(0);
-    table[(index + 1) % table.len()]
+/// A value with a name, of an enumeration in the order in which a key cycles through it.
+pub trait Choice: VariantArray + Copy + PartialEq + Into<&'static str> {}
+
+impl<T: VariantArray + Copy + PartialEq + Into<&'static str>> Choice for T {}
+
+/// All values with their names.
+pub fn choices<T: Choice>() -> impl Iterator<Item = (&'static str, T)> {
+    T::VARIANTS.iter().map(|value| ((*value).into(), *value))
 }
 
-/// The value with this name in a table such as [`COLORS`].
-pub fn named<T: Copy>(table: &[(T, &'static str)], name: &str) -> Option<T> {
-    table.iter().find(|(_, row)| *row == name).map(|(value, _)| *value)
+/// The value that follows `current`, and its name; the first one after the last.
+pub fn next_of<T: Choice>(current: T) -> (T, &'static str) {
+    let after = T::VARIANTS.iter().skip_while(|value| **value != current).nth(1);
+    let next = *after.unwrap_or(&T::VARIANTS[0]);
+    (next, next.into())
 }

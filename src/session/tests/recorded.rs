@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use proptest::prelude::*;
+use strum::VariantArray;
 
 use super::Trial;
 use super::strange::any_key;
@@ -14,7 +15,7 @@ use crate::scene::{ScaledMachine, Scene, library};
 use crate::session::Answers;
 use crate::session::opening::opening;
 use crate::session::replay::{Recorder, text};
-use crate::session::settings::{COLORS, DisplaySettings, GLYPHS, THEMES};
+use crate::session::settings::{Colors, DisplaySettings, Glyphs, Theme};
 use crate::session::{Effect, Msg, Notice, Session, Size, save};
 
 /// A session as options of the command line start it, with its recording.
@@ -86,7 +87,7 @@ fn a_recording_begins_with_the_lines_that_lead_to_its_start() {
         set(scene, Knob::Q0, 0.5);
         set(scene, Knob::D2, 0.0);
     });
-    let look = DisplaySettings { theme: THEMES[1].0, ..DisplaySettings::default() };
+    let look = DisplaySettings { theme: Theme::Light, ..DisplaySettings::default() };
     let begun = text("", started(scene, look).1.steps());
     assert_eq!(
         begun,
@@ -147,16 +148,16 @@ proptest! {
     #[test]
     fn any_recording_plays_what_was_recorded(
         scene in any_start(),
-        (glyphs, color, theme) in (0..GLYPHS.len(), 0..COLORS.len(), 0..THEMES.len()),
+        (glyphs, color, theme) in (0..Glyphs::VARIANTS.len(), 0..Colors::VARIANTS.len(), 0..Theme::VARIANTS.len()),
         mouse in any::<bool>(),
         keys in prop::collection::vec(any_key(), 0..60),
         before in 0..library().len(),
     ) {
         let look = DisplaySettings {
-            fine: crate::session::settings::Colors::Auto,
-            glyphs: GLYPHS[glyphs].0,
-            colors: COLORS[color].0,
-            theme: THEMES[theme].0,
+            fine: Colors::Auto,
+            glyphs: Glyphs::VARIANTS[glyphs],
+            colors: Colors::VARIANTS[color],
+            theme: Theme::VARIANTS[theme],
             mouse,
             stretched: mouse,
             dimensionless: mouse,

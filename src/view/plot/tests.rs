@@ -6,7 +6,7 @@ use super::*;
 use crate::numerics::count::real;
 use crate::picture::{Caption, Scale};
 use crate::scene::Span;
-use crate::session::settings::{DisplaySettings, GLYPHS, Glyphs};
+use crate::session::settings::{DisplaySettings, Glyphs, choices};
 
 fn look(glyphs: Glyphs) -> Look {
     Look::new(DisplaySettings { glyphs, ..DisplaySettings::default() })
@@ -39,7 +39,7 @@ proptest! {
         let y = from + (to - from) * f64::from(part) / 40.0;
         let ends = [-0.7, 0.7].map(|x| Point { x, y });
         let mut all = Vec::new();
-        for (glyphs, _) in GLYPHS {
+        for (_, glyphs) in choices::<Glyphs>() {
             let look = look(glyphs);
             let mut buffer = Buffer::empty(Rect::new(0, 0, across, down));
             let draws: [&dyn Fn(&mut Canvas); 5] = [
