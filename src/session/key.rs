@@ -43,7 +43,7 @@ pub struct Key {
 }
 
 /// Keys with a name, and alternative names that are also read.
-const NAMES: [(Code, &str, &[&str]); 15] = [
+const NAMES: [(Code, &str, &[&str]); 18] = [
     (Code::Left, "left", &[]),
     (Code::Right, "right", &[]),
     (Code::Up, "up", &[]),
@@ -59,10 +59,11 @@ const NAMES: [(Code, &str, &[&str]); 15] = [
     (Code::PageUp, "pgup", &["pageup"]),
     (Code::PageDown, "pgdn", &["pagedown", "pgdown"]),
     (Code::Char(' '), "space", &[]),
+    // Characters with a special meaning in keystroke files.
+    (Code::Char('<'), "lt", &[]),
+    (Code::Char('>'), "gt", &[]),
+    (Code::Char('#'), "hash", &[]),
 ];
-
-/// Characters with a special meaning in keystroke files, and their names there.
-const SPECIAL: [(char, &str); 3] = [('<', "lt"), ('>', "gt"), ('#', "hash")];
 
 /// Number of the last function key; the first one is 1.
 const LAST_F: u8 = 12;
@@ -126,14 +127,9 @@ impl Key {
 
 /// One line about a text, without its angle brackets, that names no key.
 fn unknown(text: &str, nearest: Option<&str>) -> String {
-    match nearest {
-        Some(name) => format!("unknown key <{text}>; did you mean <{name}>?"),
-        None => {
-            format!(
-                "unknown key <{text}>; a key is a character or a name such as <esc>, <C-r> or <S-tab>"
-            )
-        }
-    }
+    let meant = nearest.map(|name| format!("did you mean <{name}>?"));
+    let form = || "a key is a character or a name such as <esc>, <C-r> or <S-tab>".to_owned();
+    format!("unknown key <{text}>; {}", meant.unwrap_or_else(form))
 }
 
 fn code_named(name: &str) -> Option<Code> {
@@ -146,20 +142,12 @@ fn code_named(name: &str) -> Option<Code> {
         .iter()
         .find(|(_, canonical, others)| *canonical == lower || others.contains(&lower.as_str()))
         .map(|(code, ..)| *code);
-    let special =
-        || SPECIAL.iter().find(|(_, name)| *name == lower).map(|(char, _)| Code::Char(*char));
-    named.or_else(special).or_else(|| function_key(&lower)).or_else(|| code_point(&lower))
-}
-
-fn function_key(name: &str) -> Option<Code> {
-    let number = name.strip_prefix('f')?.parse().ok()?;
-    (1..=LAST_F).contains(&number).then_some(Code::F(number))
-}
-
-/// Any character by its code point, as in `u+1b`.
-fn code_point(name: &str) -> Option<Code> {
-    let number = u32::from_str_radix(name.strip_prefix("u+")?, 16).ok()?;
-    char::from_u32(number).map(Code::Char)
+    let function = || lower.strip_prefix('f')?.parse().ok().filter(|it| (1..=LAST_F).contains(it));
+    // Any character by its code point, as in `u+1b`.
+    let point = || u32::from_str_radix(lower.strip_prefix("u+")?, 16).ok();
+    named
+        .or_else(|| function().map(Code::F))
+        .or_else(|| point().and_then(char::from_u32).map(Code::Char))
 }
 
 /// The names of all keys that are not characters.
@@ -174,13 +162,10 @@ impl fmt::Display for Code {
         }
         match *self {
             Code::F(number) => write!(out, "f{number}"),
-            Code::Char(char) => match SPECIAL.iter().find(|(special, _)| *special == char) {
-                Some((_, name)) => out.write_str(name),
-                None if char.is_control() || char.is_whitespace() => {
-                    write!(out, "u+{:x}", u32::from(char))
-                }
-                None => write!(out, "{char}"),
-            },
+            Code::Char(char) if char.is_control() || char.is_whitespace() => {
+                write!(out, "u+{:x}", u32::from(char))
+            }
+            Code::Char(char) => write!(out, "{char}"),
             _ => Ok(()), // Every other key is in `NAMES`.
         }
     }

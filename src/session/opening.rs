@@ -3,7 +3,7 @@
 //! A built-in scene with other numbers is described by lines that could be typed. Anything else, such as a
 //! machine or a saved session, is described by a saved session embedded in the file.
 
-use crate::flow::{METHODS, Problem};
+use crate::flow::Problem;
 use crate::model::Knob;
 use crate::numerics::decimal::shortest;
 use crate::scene::{Scene, find};
@@ -71,30 +71,13 @@ fn scene(scene: &Scene) -> Option<(Vec<Instruction>, Vec<Knob>)> {
     Some((lines.collect(), names))
 }
 
-/// The assignments that lead from one motion to another. The step or the width of a method is set while such a
-/// method is selected.
+/// The assignments that lead from one motion to another.
 fn numbers(from: &Problem, to: &Problem) -> Vec<String> {
-    let numbers = Knob::MOTION.into_iter().chain([Knob::Until]);
+    let accuracy = [Knob::Until, Knob::Tolerance, Knob::Step, Knob::Epsilon];
+    let numbers = Knob::MOTION.into_iter().chain(accuracy);
     let given = numbers.filter(|knob| from.get(*knob) != to.get(*knob));
-    let mut words: Vec<String> =
-        given.map(|knob| format!("{knob}={}", shortest(to.get(knob)))).collect();
-    let mut method = from.method;
-    for (dial, before, after) in [
-        (Knob::Tolerance, from.tolerance, to.tolerance),
-        (Knob::Step, from.step, to.step),
-        (Knob::Epsilon, from.epsilon, to.epsilon),
-    ] {
-        let by_it = METHODS.iter().find(|row| row.dial == Some(dial)).filter(|_| before != after);
-        if let Some(row) = by_it {
-            if method.spec().dial != Some(dial) {
-                method = row.method;
-                words.push(format!("method={method}"));
-            }
-            words.push(format!("tolerance={}", shortest(after)));
-        }
-    }
-    if method != to.method {
-        words.push(format!("method={}", to.method));
-    }
-    words
+    let words = given.map(|knob| format!("{knob}={}", shortest(to.get(knob))));
+    // Last, because the tolerance is the number that sets the accuracy of the method.
+    let method = (from.method != to.method).then(|| format!("method={}", to.method));
+    words.chain(method).collect()
 }

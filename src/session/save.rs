@@ -5,7 +5,7 @@
 //! the terminal, and the keys to the settings file. A field of `Session` that must survive the program has its
 //! place here.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::de::IgnoredAny;
@@ -14,15 +14,13 @@ use serde::{Deserialize, Serialize};
 use crate::flow::Problem;
 use crate::model::State;
 use crate::portrait::kicks::RandomKick;
-use crate::scene::{
-    Arrangement, Layer, MOST_PLOTS, Misread, PlotSetup, Point, Scene, Setting, find, misread,
-};
+use crate::scene::{MOST_PLOTS, Misread, PlotSetup, Point, Setting, misread};
 use crate::session::act::history::{restore, snapshot};
 use crate::session::read::completion::difference;
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::{
     Before, Bookmark, Bookmarks, History, Overlay, Pane, Plot, Row, ScreenSetup, Session, Setup,
-    Snapshot, StepSizes, Uncertainty,
+    Snapshot, Uncertainty,
 };
 
 /// The format that this program writes; it reads this and all earlier formats.
@@ -46,7 +44,8 @@ struct SavedSession {
     kicks: RandomKick,
     /// Lines typed on the command line, the most recent last.
     lines: Vec<String>,
-    present: Show,
+    /// Without the plots, which stand by themselves.
+    present: Snapshot,
     plots: Vec<Plot>,
     /// The motions at marks.
     #[serde(default)]
@@ -78,32 +77,6 @@ struct SavedSession {
     future: Vec<SavedChange>,
 }
 
-/// A scene, by its name if it is built in, otherwise in full.
-#[derive(Serialize, Deserialize)]
-#[serde(untagged)]
-enum SavedScene {
-    Library(String),
-    Full(Box<Scene>),
-}
-
-/// Everything that a scene determines but its plots, at present or before a change.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Show {
-    arrangement: Arrangement,
-    layers: BTreeSet<Layer>,
-    steps: StepSizes,
-    motion: Problem,
-    /// Starts of the other motions.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    beside: Vec<State>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    belt: Option<Setting>,
-    #[serde(default, skip_serializing_if = "Uncertainty::is_none")]
-    doubt: Uncertainty,
-    scene: SavedScene,
-}
-
 /// A change that can be undone or redone: the state on its other side.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -115,7 +88,8 @@ enum SavedChange {
     Plots(ScreenSetup),
     Scene {
         plots: Vec<PlotSetup>,
-        show: Box<Show>,
+        /// Without them.
+        show: Box<Snapshot>,
     },
 }
 
@@ -135,7 +109,7 @@ pub fn text(session: &Session) -> Result<String, String> {
         harmonics: session.harmonics,
         kicks: session.kicks,
         lines: session.lines.clone(),
-        present: show(&snapshot(session)),
+        present: without_plots(snapshot(session)),
         plots: session.plots.clone(),
         marks: of_marks(session, |setup| Some(setup.problem)),
         belts: of_marks(session, |setup| setup.setting),
@@ -161,22 +135,9 @@ fn of_marks<T>(session: &Session, of: impl Fn(&Setup) -> Option<T>) -> BTreeMap<
     marks.filter_map(|(name, mark)| Some((*name, of(&mark.setup)?))).collect()
 }
 
-fn show(snapshot: &Snapshot) -> Show {
-    let Snapshot { scene, setup, steps, layers, screen_setup } = snapshot.clone();
-    let Setup { problem, others, setting, doubt } = setup;
-    Show {
-        arrangement: screen_setup.arrangement,
-        layers,
-        steps,
-        motion: problem,
-        beside: others,
-        belt: setting,
-        doubt,
-        scene: match find(&scene.name) {
-            Ok(known) if known == scene => SavedScene::Library(scene.name.clone()),
-            _ => SavedScene::Full(Box::new(Scene::clone(&scene))),
-        },
-    }
+fn without_plots(mut snapshot: Snapshot) -> Snapshot {
+    snapshot.screen_setup.plots.clear();
+    snapshot
 }
 
 fn saved_change(before: &Before) -> SavedChange {
@@ -185,7 +146,7 @@ fn saved_change(before: &Before) -> SavedChange {
         Before::ScreenSetup(screen_setup) => SavedChange::Plots(screen_setup.clone()),
         Before::Scene(snapshot) => SavedChange::Scene {
             plots: snapshot.screen_setup.plots.clone(),
-            show: Box::new(show(snapshot)),
+            show: Box::new(without_plots(Snapshot::clone(snapshot))),
         },
     }
 }
@@ -196,7 +157,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
     let file = read(text)?;
     let count = file.plots.len();
     let plot_setups = file.plots.iter().map(plot_setup).collect();
-    let present = shown(file.present, plot_setups)?;
+    let present = checked(file.present, plot_setups)?;
     if file.focus > count {
         return Err(format!("focus = {}, but there are {count} plots", file.focus));
     }
@@ -251,7 +212,7 @@ pub fn open(session: &mut Session, text: &str) -> Result<(), String> {
 pub fn summary(text: &str) -> Result<String, String> {
     let file = read(text)?;
     let plot_setups = file.plots.iter().map(plot_setup).collect();
-    let Snapshot { scene, setup, .. } = shown(file.present, plot_setups)?;
+    let Snapshot { scene, setup, .. } = checked(file.present, plot_setups)?;
     let changed = difference(&Setup::of_scene(&scene), &setup);
     let marks = match file.marks.len() {
         0 => String::new(),
@@ -288,22 +249,15 @@ fn plot_setup(plot: &Plot) -> PlotSetup {
     PlotSetup { view, axes, window: Some(window), family }
 }
 
-/// What is shown, with these plots. Fails with one line if a number is outside its range.
-fn shown(show: Show, plots: Vec<PlotSetup>) -> Result<Snapshot, String> {
-    let Show { arrangement, layers, steps, motion, beside, belt, doubt, scene } = show;
-    let scene = match scene {
-        SavedScene::Library(name) => find(&name)?,
-        SavedScene::Full(scene) => {
-            Setup::alone(scene.problem).checked()?;
-            if !(1..=MOST_PLOTS).contains(&scene.plots.len()) {
-                return Err(format!("a scene with {} plots", scene.plots.len()));
-            }
-            Arc::new(*scene)
-        }
-    };
-    let setup = Setup { problem: motion, others: beside, setting: belt, doubt }.checked()?;
-    let screen_setup = counted(ScreenSetup { arrangement, plots })?;
-    Ok(Snapshot { scene, setup, steps, layers, screen_setup })
+/// A state with these plots. Fails with one line if a number is outside its range.
+fn checked(saved: Snapshot, plots: Vec<PlotSetup>) -> Result<Snapshot, String> {
+    Setup::alone(saved.scene.problem).checked()?;
+    if !(1..=MOST_PLOTS).contains(&saved.scene.plots.len()) {
+        return Err(format!("a scene with {} plots", saved.scene.plots.len()));
+    }
+    let setup = saved.setup.checked()?;
+    let screen_setup = counted(ScreenSetup { plots, ..saved.screen_setup })?;
+    Ok(Snapshot { setup, screen_setup, ..saved })
 }
 
 /// The plots, if their number is allowed on a screen.
@@ -319,7 +273,7 @@ fn before(change: SavedChange) -> Result<Before, String> {
         SavedChange::Motion(problem) => Before::Setup(Box::new(Setup::alone(problem).checked()?)),
         SavedChange::Motions(setup) => Before::Setup(Box::new(setup.checked()?)),
         SavedChange::Plots(screen_setup) => Before::ScreenSetup(counted(screen_setup)?),
-        SavedChange::Scene { plots, show } => Before::Scene(Box::new(shown(*show, plots)?)),
+        SavedChange::Scene { plots, show } => Before::Scene(Box::new(checked(*show, plots)?)),
     })
 }
 

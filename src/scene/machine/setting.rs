@@ -8,15 +8,11 @@ use serde::{Deserialize, Serialize};
 use super::{Machine, ScaledMachine};
 use crate::model::{Group, Knob, Model, OutOfRange};
 
-/// The speed of a belt and the other numbers of a machine that were changed, in SI units.
+/// The speed of a belt and the other numbers of a machine that were changed, in SI units and in the order of the table;
+/// `None` where the file's value holds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "Written")]
-pub struct Setting {
-    /// Speed v0 of the belt.
-    pub speed: f64,
-    /// The other numbers, in the order of the table; `None` where the file's value holds.
-    others: [Option<f64>; Knob::OF_MACHINES],
-}
+pub struct Setting([Option<f64>; Knob::OF_MACHINES]);
 
 /// A setting as it is saved: a speed alone, or all changed numbers by name.
 #[derive(Serialize, Deserialize)]
@@ -28,11 +24,13 @@ enum Written {
 
 impl From<Setting> for Written {
     fn from(setting: Setting) -> Self {
-        if !setting.differs() {
-            return Written::Speed(setting.speed);
+        let set: Vec<(Knob, f64)> = setting.numbers().collect();
+        match set[..] {
+            [(Knob::BeltSpeed, speed)] => Written::Speed(speed),
+            _ => {
+                Written::Numbers(set.into_iter().map(|(knob, it)| (knob.to_string(), it)).collect())
+            }
         }
-        let set = |knob: Knob| Some((knob.to_string(), setting.get(knob)?));
-        Written::Numbers(Knob::of_machines().filter_map(set).collect())
     }
 }
 
@@ -56,45 +54,36 @@ impl TryFrom<Written> for Setting {
 impl Setting {
     /// The setting with this belt speed and all other numbers from the file.
     pub fn of_speed(speed: f64) -> Self {
-        Setting { speed, others: [None; Knob::OF_MACHINES] }
+        Setting([None; Knob::OF_MACHINES]).with(Knob::BeltSpeed, speed)
     }
 
     /// A number that is set; `None` where the file's value holds.
     pub fn get(&self, knob: Knob) -> Option<f64> {
-        match knob {
-            Knob::BeltSpeed => Some(self.speed),
-            other => self.others[place(other)],
-        }
+        self.0[place(knob)]
     }
 
     /// This setting with another value of one number.
     pub fn with(mut self, knob: Knob, value: f64) -> Self {
-        match knob {
-            Knob::BeltSpeed => self.speed = value,
-            other => self.others[place(other)] = Some(value),
-        }
+        self.0[place(knob)] = Some(value);
         self
     }
 
-    /// Whether numbers other than the speed are set.
-    pub fn differs(&self) -> bool {
-        self.others.iter().any(Option::is_some)
+    /// The numbers that are set.
+    fn numbers(&self) -> impl Iterator<Item = (Knob, f64)> {
+        Knob::of_machines().filter_map(|knob| Some((knob, self.get(knob)?)))
     }
 
     /// Checks all numbers against their ranges. Fails with the first one that is outside.
     pub fn checked(&self) -> Result<(), OutOfRange> {
-        let mut set = Knob::of_machines().filter_map(|knob| Some((knob, self.get(knob)?)));
-        set.try_for_each(|(knob, value)| knob.check(value).map(drop))
+        self.numbers().try_for_each(|(knob, value)| knob.check(value).map(drop))
     }
 
     /// A machine with these numbers. The static friction of its guide, where it is not set, is raised to the sliding
     /// friction where it would be less. Fails with one line if the machine lacks a number, or is none with it.
     pub fn on(&self, machine: &Machine) -> Result<ScaledMachine, String> {
         let mut set = machine.clone();
-        for knob in Knob::of_machines() {
-            if let Some(value) = self.get(knob) {
-                knob.set_in_belt(&mut set.belt, value)?;
-            }
+        for (knob, value) in self.numbers() {
+            knob.set_in_belt(&mut set.belt, value)?;
         }
         if self.get(Knob::StaticGuide).is_none() {
             let moving = set.belt.friction;
@@ -105,7 +94,7 @@ impl Setting {
     }
 }
 
-/// The place of a number among [`Setting::others`].
+/// The place of a number among all.
 fn place(knob: Knob) -> usize {
     Knob::of_machines().take_while(|other| *other != knob).count()
 }

@@ -40,7 +40,7 @@ fn cursor_origin(session: &Session, plot: &Plot) -> Point {
         View::TimeSeries => (0.0, q),
         View::EnergyLedger => (0.0, 0.0),
         View::EnergyRate => (v, 0.0),
-        View::Speeds => (session.setting.map_or(center.x, |it| it.speed), center.y),
+        View::Speeds => (session.value(Knob::BeltSpeed), center.y),
         View::ReturnMap => (q, q),
         View::Regimes => (session.value(plot.axes.abscissa), session.value(plot.axes.against)),
         _ => (center.x, center.y),

@@ -34,9 +34,11 @@ pub fn axes(_: &Session, given: &[&str]) -> Vec<String> {
     }
 }
 
-/// The rows to which a line can assign a value; without a machine, none of a machine.
+/// The rows to which a line can assign a value; without a machine, none of a machine. The accuracy of every method has
+/// one.
 pub fn rows(session: &Session) -> impl Iterator<Item = Row> {
-    Row::all().filter(|row| session.has(*row))
+    let accuracy = [Knob::Step, Knob::Epsilon].map(Row::Number);
+    Row::all().filter(|row| session.has(*row)).chain(accuracy)
 }
 
 /// The properties of the cycles by their names; those that are lengths also in units of r.

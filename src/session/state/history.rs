@@ -4,9 +4,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::scene::{Arrangement, Layer, PlotSetup, Request, Scene};
+use crate::scene::{Arrangement, Layer, PlotSetup, Request, Scene, find};
 use crate::session::{Setup, StepSizes};
 
 /// The state before a change, limited to what the change affects.
@@ -21,14 +22,17 @@ pub enum Before {
 }
 
 /// Everything that a scene determines.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
+    #[serde(serialize_with = "by_name", deserialize_with = "named_or_whole")]
     pub scene: Arc<Scene>,
     /// The motion and the speed of its belt.
+    #[serde(flatten)]
     pub setup: Setup,
     pub steps: StepSizes,
     pub layers: BTreeSet<Layer>,
     /// Plots and their arrangement.
+    #[serde(flatten)]
     pub screen_setup: ScreenSetup,
 }
 
@@ -37,7 +41,32 @@ pub struct Snapshot {
 pub struct ScreenSetup {
     /// How they share the screen.
     pub arrangement: Arrangement,
+    /// Saved beside the rest where they have more than their setup.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub plots: Vec<PlotSetup>,
+}
+
+/// A scene, by its name if it is built in, otherwise in full.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+enum SavedScene {
+    Library(String),
+    Full(Box<Scene>),
+}
+
+fn by_name<S: Serializer>(scene: &Arc<Scene>, serializer: S) -> Result<S::Ok, S::Error> {
+    let saved = match find(&scene.name) {
+        Ok(known) if known == *scene => SavedScene::Library(scene.name.clone()),
+        _ => SavedScene::Full(Box::new(Scene::clone(scene))),
+    };
+    saved.serialize(serializer)
+}
+
+fn named_or_whole<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<Scene>, D::Error> {
+    match SavedScene::deserialize(deserializer)? {
+        SavedScene::Library(name) => find(&name).map_err(D::Error::custom),
+        SavedScene::Full(scene) => Ok(Arc::new(*scene)),
+    }
 }
 
 /// The past and, after an undo, the future; the most recent change last in each.
