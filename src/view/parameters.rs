@@ -8,8 +8,8 @@ use super::pane::{self, Heading};
 use super::{Look, Screen, keys, margin, prose, verdict::multiplier};
 use crate::accuracy::harmonic_error::BalanceResult;
 use crate::flow::Problem;
+use crate::model::Knob;
 use crate::model::belt::Units;
-use crate::model::{Knob, KnobSpec};
 use crate::picture::{CycleStyle, Role, cycle_style, units};
 use crate::portrait::proved::compare;
 use crate::portrait::{Border, Cycle, Cycles};
@@ -131,9 +131,8 @@ fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
     let physical = physical(session, row).map(|(name, value)| format!("{name} {value}"));
     // Of a fitted number its error says more than what the step is.
     let physical = physical.or_else(|| {
-        let mut told = fitted(session, row, look);
-        let first = told.iter().position(fits);
-        first.map(|at| told.swap_remove(at)).or_else(|| told.pop())
+        let told = fitted(session, row, look);
+        told.iter().find(|text| fits(text)).or(told.last()).cloned()
     });
     if width >= WITH_MEANINGS {
         let meaning = physical.unwrap_or_else(|| meaning(&session.problem, row).to_owned());
@@ -149,29 +148,24 @@ fn tail(session: &Session, row: Row, width: u16, look: &Look) -> String {
 
 /// What a row means on the machine: the quantity and its value.
 fn physical(session: &Session, row: Row) -> Option<(&'static str, String)> {
-    let units = session.units();
-    let (name, value, unit) = match (row, units) {
-        (Row::Number(Knob::Disturbance), Some(units)) if units.force.is_finite() => {
+    let (name, value, unit) = match (row, session.units(), session.running()) {
+        (Row::Number(Knob::Disturbance), Some(units), _) if units.force.is_finite() => {
             ("w", session.doubt.disturbance * units.force, "N")
         }
-        (Row::Number(Knob::Until), Some(units)) => ("t", session.problem.until * units.time, "s"),
-        _ => return on_its_belt(session, row),
-    };
-    Some((name, with_unit(value, 4, unit)))
-}
-
-/// The same of a number of the machine.
-fn on_its_belt(session: &Session, row: Row) -> Option<(&'static str, String)> {
-    let running = session.running()?;
-    let (knob, value) = match row {
-        Row::BELT if session.is_on_the_belt() == Some(false) => {
+        (Row::Number(Knob::Until), Some(units), _) => {
+            ("t", session.problem.until * units.time, "s")
+        }
+        (Row::BELT, _, Some(_)) if session.is_on_the_belt() == Some(false) => {
             return Some(("v0", "off the belt".to_owned()));
         }
-        Row::Number(knob) if row.is_of_machine() => (knob, session.value(knob)),
-        Row::Number(knob) => running.meaning(knob, session.value(knob))?,
-        Row::Method | Row::Tolerance => return None,
+        (Row::Number(knob), _, Some(running)) => {
+            let (value, of_machine) = (session.value(knob), row.is_of_machine());
+            let (knob, value) =
+                if of_machine { (knob, value) } else { running.meaning(knob, value)? };
+            (knob.spec().name, value, knob.spec().unit)
+        }
+        _ => return None,
     };
-    let KnobSpec { name, unit, .. } = *knob.spec();
     // A pure number stands in its row as it is.
     (!unit.is_empty()).then(|| (name, with_unit(value, 4, unit)))
 }
