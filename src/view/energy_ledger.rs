@@ -27,24 +27,21 @@ pub fn draw(
     lines: &[LedgerLine],
     screen: &mut Screen,
 ) {
-    let (window, marks) = marks(area, lines, picture.window);
-    picture.window = window;
+    let seats = Seats::of(area, lines, picture.window);
+    picture.window = seats.window;
     picture.title = View::EnergyLedger.spec().title.into();
     heading.reading = picture.cursor.map(|cursor| {
         let near = |(line, _): &(usize, &LedgerLine)| (middle(*line) - cursor.y).abs() <= 0.5;
         let found = lines.iter().enumerate().find(near);
         found.map_or_else(String::new, |(_, entry)| reading(entry))
     });
-    let mut plot = Canvas::new(area, &picture, Some(marks), &heading, screen);
+    let mut plot = Canvas::new(area, &picture, Some(seats.marks()), &heading, screen);
     plot.upright(0.0, Role::Axis, Dash::Solid);
     let symbols = screen.look.symbols();
-    let half = half_a_row(area, window);
-    for y in left_out(lines.len(), window, half) {
+    for y in seats.left_out {
         plot.write(y, &format!("{} more", symbols.more), Role::Quiet);
     }
-    let seen = |(line, _): &(usize, &LedgerLine)| is_seen(*line, window, half, lines.len());
-    for (line, entry) in lines.iter().enumerate().filter(seen) {
-        let y = seat(line, half);
+    for (y, entry) in seats.seen {
         match entry {
             LedgerLine::Title(Owner::Motion(..)) => plot.write(y, &reading(entry), Role::Title),
             LedgerLine::Title(Owner::Cycle(cycle)) => {
@@ -73,54 +70,48 @@ pub fn draw(
     plot.finish(screen);
 }
 
-/// The lines that are seen in `area`, each in whole rows, and the sources at the axis.
-pub fn marks(area: Rect, lines: &[LedgerLine], window: Window) -> (Window, Ticks) {
-    let window = Window { y: whole_lines(window.y, rows(area)), ..window };
-    let half = half_a_row(area, window);
-    let mark = |(line, entry): (usize, &LedgerLine)| {
-        let fraction = window.y.fraction(seat(line, half));
-        let label = match entry {
-            LedgerLine::Work { source, .. } => *source,
-            LedgerLine::Residual(_) => "error",
-            LedgerLine::Title(_) => return None,
+/// Where the lines of a ledger stand.
+pub struct Seats<'a> {
+    /// About the window that was asked for, with one or two whole rows of the screen for each line.
+    pub window: Window,
+    /// The lines that are seen, each with the height of the middle of its first row.
+    seen: Vec<(f64, &'a LedgerLine)>,
+    /// The heights of the rows, at the top and at the bottom, that say that lines are left out there.
+    left_out: Vec<f64>,
+}
+
+impl<'a> Seats<'a> {
+    pub fn of(area: Rect, lines: &'a [LedgerLine], window: Window) -> Self {
+        let rows = f64::from(rows(area).max(1));
+        let y = whole_lines(window.y, rows);
+        let half = 0.5 * y.width() / rows;
+        let seats = lines.iter().enumerate().map(|(line, entry)| (-real(line) - half, entry));
+        let mut seen: Vec<(f64, &LedgerLine)> = seats.collect();
+        let above = seen.first().filter(|(seat, _)| *seat > y.to()).map(|_| y.to() - half);
+        let below = seen.last().filter(|(seat, _)| *seat < y.from()).map(|_| y.from() + half);
+        let left_out: Vec<f64> = above.into_iter().chain(below).collect();
+        let is_free = |seat: f64| left_out.iter().all(|row| (row - seat).abs() > half);
+        seen.retain(|(seat, _)| y.contains(*seat) && is_free(*seat));
+        Seats { window: Window { y, ..window }, seen, left_out }
+    }
+
+    /// The sources at the axis.
+    pub fn marks(&self) -> Ticks {
+        let mark = |(seat, entry): &(f64, &LedgerLine)| {
+            let label = match entry {
+                LedgerLine::Work { source, .. } => *source,
+                LedgerLine::Residual(_) => "error",
+                LedgerLine::Title(_) => return None,
+            };
+            Some(Tick { fraction: self.window.y.fraction(*seat), label: label.to_owned() })
         };
-        let is_seen = is_seen(line, window, half, lines.len());
-        is_seen.then(|| Tick { fraction, label: label.to_owned() })
-    };
-    let ticks = lines.iter().enumerate().filter_map(mark).collect();
-    (window, Ticks { base: None, ticks })
+        Ticks { base: None, ticks: self.seen.iter().filter_map(mark).collect() }
+    }
 }
 
 /// About the same top, and as many heights as leave each line one or two whole rows.
-fn whole_lines(y: Span, rows: u16) -> Span {
-    let rows = f64::from(rows.max(1));
+fn whole_lines(y: Span, rows: f64) -> Span {
     let pitch = (rows / y.width()).floor().clamp(1.0, 2.0);
     let top = (y.to() * pitch).round() / pitch;
     Span::new(top - rows / pitch, top).unwrap_or(y)
-}
-
-/// Half of the height of a row of `area`.
-fn half_a_row(area: Rect, window: Window) -> f64 {
-    0.5 * window.y.width() / f64::from(rows(area).max(1))
-}
-
-/// The height at which a line is drawn: the middle of its first row.
-fn seat(line: usize, half: f64) -> f64 {
-    -(real(line)) - half
-}
-
-/// Whether one of this many lines is seen: its first row is in the window, and does not say that others are not.
-fn is_seen(line: usize, window: Window, half: f64, lines: usize) -> bool {
-    let y = seat(line, half);
-    let marks = left_out(lines, window, half);
-    window.y.contains(y) && marks.iter().all(|row| (row - y).abs() > half)
-}
-
-/// The heights of the rows, at the top and at the bottom, that say that lines are left out there.
-fn left_out(lines: usize, window: Window, half: f64) -> Vec<f64> {
-    let Some(last) = lines.checked_sub(1) else { return Vec::new() };
-    let above = seat(0, half) > window.y.to();
-    let below = seat(last, half) < window.y.from();
-    let rows = [(above, window.y.to() - half), (below, window.y.from() + half)];
-    rows.into_iter().filter(|(is_there, _)| *is_there).map(|(_, row)| row).collect()
 }

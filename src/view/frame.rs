@@ -139,8 +139,9 @@ pub fn place(screen: Rect, session: &Session, cell: Position) -> Option<PointerT
     let window = shown(area, session, index, scales);
     let point = match session.plots[index].view {
         View::EnergyLedger => {
-            let (window, marks) = energy_ledger::marks(area, &session.ledger(), window);
-            point_at(area, window, scales, Some(marks), cell)
+            let lines = session.ledger();
+            let seats = energy_ledger::Seats::of(area, &lines, window);
+            point_at(area, seats.window, scales, Some(seats.marks()), cell)
         }
         View::Scan => point_at(scan::body(area), window, scales, None, cell),
         _ => point_at(area, window, scales, None, cell),

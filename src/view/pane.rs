@@ -24,7 +24,7 @@ impl Screen<'_> {
         self.both_ends(area, row, left, "");
     }
 
-    /// [`line`] with a text at its right end where that fits whole.
+    /// [`Self::line`] with a text at its right end where that fits whole.
     pub fn both_ends(
         &mut self,
         area: Rect,
