@@ -15,7 +15,8 @@ use crate::runtime::effects::Files;
 use crate::runtime::{Options, RecordingFile, explore, provenance_file};
 use crate::scene::library::{PLAIN, names};
 use crate::scene::machine::NO_BELT;
-use crate::scene::{find, plain};
+use crate::scene::{Scene, find, plain};
+use crate::session::config::Config;
 use crate::session::opening::opening;
 use crate::session::replay::{Instruction, Recorder, Script};
 use crate::session::{Kept, Key, Msg, Notice, Session, Size, save};
@@ -72,10 +73,7 @@ impl ExploreCommand {
             self.start.scene(Some(name))?
         };
         let play = self.play.as_deref().map(played).transpose()?.unwrap_or_default();
-        // The terminal reports its size before the first picture is drawn.
-        let mut session = Session::new(scene, Size { width: 80, height: 24 });
-        session.display = self.looks.wishes(&config);
-        session.keymap = Arc::new(config.keymap);
+        let mut session = session(scene, self.looks, config);
         session.notice = session.unlikely_number().map(|text| Notice { error: false, text });
         let last = self.last.then(last).transpose()?;
         if let Some(path) = self.open.as_ref().or(last.as_ref()) {
@@ -99,12 +97,18 @@ pub struct TourCommand {
 
 impl TourCommand {
     pub fn run(&self) -> Result<(), Failure> {
-        let config = self.settings.read()?;
-        let mut session = Session::new(plain(), Size { width: 80, height: 24 });
-        session.display = self.looks.wishes(&config);
-        session.keymap = Arc::new(config.keymap);
+        let session = session(plain(), self.looks, self.settings.read()?);
         go(session, &[Instruction::Give(Msg::Run("tour".to_owned()))], None, false)
     }
+}
+
+/// A session of a scene, with the user's settings.
+fn session(scene: Arc<Scene>, looks: Looks, config: Config) -> Session {
+    // The terminal reports its size before the first picture is drawn.
+    let mut session = Session::new(scene, Size { width: 80, height: 24 });
+    session.display = looks.wishes(&config);
+    session.keymap = Arc::new(config.keymap);
+    session
 }
 
 /// The file of the last session.

@@ -64,13 +64,15 @@ Examples:
   hopfscope cycles --set D=-0.3        the limit cycles and the basin at these numbers, as text
   hopfscope figure fig17 --output fig17.svg";
 
+/// Runs a command with the options that were given.
+type Run = Box<dyn Fn(&ArgMatches) -> Result<(), Failure>>;
+
 /// A command that needs no terminal.
 struct CommandRow {
     name: &'static str,
     /// Adds its options to a command.
     options: fn(Command) -> Command,
-    /// Runs it with the options that were given.
-    run: Box<dyn Fn(&ArgMatches) -> Result<(), Failure>>,
+    run: Run,
 }
 
 fn row<C: Args + 'static>(name: &'static str, run: fn(&C) -> Result<(), Failure>) -> CommandRow {

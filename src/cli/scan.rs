@@ -149,7 +149,7 @@ impl ScanCommand {
         let scan = asked.part.scan.clone();
         let mut file = self.opened(asked.part, &interrupted)?;
         let (left, open) = (file.left(), file.open());
-        let done = all - file.open().count();
+        let done = all - left + file.ahead();
         let mut processors = Processors::all();
         processors.jobs = self.jobs.map_or(processors.jobs, usize::from);
         let place = match (io::stderr().is_terminal(), &self.output) {

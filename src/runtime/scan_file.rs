@@ -104,6 +104,11 @@ impl ScanFile {
         self.part.points.len()
     }
 
+    /// Number of those that have been computed before their turn.
+    pub fn ahead(&self) -> usize {
+        self.journal.rows.len()
+    }
+
     /// The points whose rows are left to be computed.
     pub fn open(&self) -> impl Iterator<Item = usize> + use<> {
         let ahead: BTreeSet<usize> = self.journal.rows.keys().copied().collect();

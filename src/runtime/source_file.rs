@@ -21,7 +21,7 @@ pub fn of(path: &Path, bytes: &[u8]) -> SourceFile {
 
 /// The SHA-256 in hexadecimal digits.
 fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    Sha256::digest(bytes).iter().fold(String::new(), |hex, byte| format!("{hex}{byte:02x}"))
 }
 
 /// Seconds since 1970 as `2026-03-02 10:11:12 UTC`.

@@ -55,6 +55,11 @@ impl<M: Application, W: Write> Pump<M, W> {
                 }
             }
         }
+        // A figure that has been begun is written.
+        while self.writing {
+            let Ok(event) = self.events.recv() else { break };
+            self.handle(event)?;
+        }
         let screen = self.application.picture(self.screen.size());
         let unwritten = self.playing.and_then(|playing| playing.unwritten);
         let (application, unmet) = (self.application, self.unmet);
