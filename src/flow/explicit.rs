@@ -6,7 +6,7 @@
 
 use super::motion::Cost;
 use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
-use super::tableau::{ErrorEstimate, Scheme, dop853, dopri5, rk4};
+use super::tableau::{ErrorEstimate, Scheme};
 use crate::model::{HalfPlane, Reason};
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scaling::{rough_exp2, rough_log2};
@@ -47,41 +47,22 @@ pub struct Explicit<const S: usize, const R: usize, F: Field = HalfPlane> {
     cost: Cost,
 }
 
+/// The pair of order 8.
 pub type Dop853<F = HalfPlane> = Explicit<12, 16, F>;
 
+/// The pair of order 5.
 pub type Dopri5<F = HalfPlane> = Explicit<7, 8, F>;
 
-/// The classical method of order 4.
-pub type Rk4<F = HalfPlane> = Explicit<4, 4, F>;
-
-impl<F: Field> Dop853<F> {
-    /// The pair of order 8; the estimated relative error of each step stays below `tolerance`.
-    pub fn dop853(field: F, tolerance: f64) -> Self {
-        Self::new(&dop853::SCHEME, field, tolerance, 0.0)
-    }
-}
-
-impl<F: Field> Dopri5<F> {
-    /// The pair of order 5; the estimated relative error of each step stays below `tolerance`.
-    pub fn dopri5(field: F, tolerance: f64) -> Self {
-        Self::new(&dopri5::SCHEME, field, tolerance, 0.0)
-    }
-}
-
-impl<F: Field> Rk4<F> {
-    /// The classical method with steps of length `step` and no error estimate.
-    pub fn rk4(field: F, step: f64) -> Self {
-        Self::new(&rk4::SCHEME, field, 0.0, step)
-    }
-}
-
 impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
-    fn new(scheme: &'static Scheme<S, R>, field: F, tolerance: f64, next: f64) -> Self {
+    /// A stepper whose estimated relative error of each step stays below `accuracy`; without an error estimate, one
+    /// with steps of this length.
+    pub fn new(scheme: &'static Scheme<S, R>, field: F, accuracy: f64) -> Self {
+        let fixed = scheme.estimate == ErrorEstimate::None;
         Explicit {
             scheme,
             field,
-            tolerance,
-            next,
+            tolerance: accuracy,
+            next: if fixed { accuracy } else { 0.0 },
             start: StepPoint { x: 0.0, v: 0.0 },
             end: StepPoint { x: f64::NAN, v: f64::NAN },
             duration: 0.0,

@@ -10,50 +10,40 @@ use crate::model::{HalfPlane, Parameters, Side};
 use crate::numerics::elementary::tanh;
 use crate::numerics::scaling::times_power;
 
-/// The law that replaces the sign of `v`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SignLaw {
-    /// `tanh(v/epsilon)`.
-    Tanh(f64),
-    /// The sign itself, 0 at 0.
-    Sign,
-}
-
-/// The field of the whole phase plane with friction by a [`SignLaw`].
+/// The field of the whole phase plane with friction as a function of the velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmoothField {
     /// Damping and restoring force.
     pub smooth: HalfPlane,
     /// Intensity of the friction.
     pub r: f64,
-    law: SignLaw,
+    /// The velocity over which `tanh(v/epsilon)` smoothes the sign of `v`; `None`: the sign itself, 0 at 0.
+    epsilon: Option<f64>,
 }
 
 impl SmoothField {
     /// The field for these parameters.
-    pub fn new(parameters: &Parameters, law: SignLaw) -> Self {
-        SmoothField { smooth: HalfPlane::new(parameters, Side::Upper), r: parameters.r, law }
+    pub fn new(parameters: &Parameters, epsilon: Option<f64>) -> Self {
+        let smooth = HalfPlane::new(parameters, Side::Upper);
+        SmoothField { smooth, r: parameters.r, epsilon }
     }
 }
 
 impl Field for SmoothField {
     fn acceleration(&self, x: f64, v: f64) -> f64 {
-        let sign = match self.law {
-            SignLaw::Tanh(epsilon) => tanh(v / epsilon),
-            SignLaw::Sign if v == 0.0 => 0.0,
-            SignLaw::Sign => v.signum(),
+        let sign = match self.epsilon {
+            Some(epsilon) => tanh(v / epsilon),
+            None if v == 0.0 => 0.0,
+            None => v.signum(),
         };
         self.smooth.acceleration(x, v) - self.r * sign
     }
 
     fn divergence(&self, v: f64) -> f64 {
-        let slope = match self.law {
-            SignLaw::Tanh(epsilon) => {
-                let tanh = tanh(v / epsilon);
-                (1.0 - tanh) * (1.0 + tanh) / epsilon
-            }
-            SignLaw::Sign => 0.0,
-        };
+        let slope = self.epsilon.map_or(0.0, |epsilon| {
+            let tanh = tanh(v / epsilon);
+            (1.0 - tanh) * (1.0 + tanh) / epsilon
+        });
         self.smooth.divergence(v) - self.r * slope
     }
 
@@ -64,11 +54,11 @@ impl Field for SmoothField {
 
 impl PlaneField for SmoothField {
     fn in_units(&self, k: i32) -> Self {
-        let law = match self.law {
-            SignLaw::Tanh(epsilon) => SignLaw::Tanh(times_power(epsilon, -k)),
-            SignLaw::Sign => SignLaw::Sign,
-        };
-        SmoothField { smooth: self.smooth.in_units(k), r: times_power(self.r, -k), law }
+        SmoothField {
+            smooth: self.smooth.in_units(k),
+            r: times_power(self.r, -k),
+            epsilon: self.epsilon.map(|epsilon| times_power(epsilon, -k)),
+        }
     }
 
     fn frictionless(&self) -> HalfPlane {

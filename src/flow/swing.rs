@@ -93,7 +93,9 @@ pub fn swing<N: Scalar, F: PlaneField, S: Stepper<F, N>>(
             };
         }
         let error = BLOW_UP_ERROR * N::NEGLIGIBLE * time.value();
-        if let Some(rest) = time_to_blow_up(&smooth, point.rounded(), error)
+        // The time is that of the two driving terms alone; its error is the effect of the others.
+        if let Some((rest, others)) = blow_up(&smooth, point.rounded())
+            && rest * others <= error
             && time + N::of(rest) <= longest
         {
             let duration = time + N::of(rest);
@@ -127,19 +129,6 @@ fn progress<N: Scalar>(step: Step<N>, from: StepPoint<N>, longest: N) -> Step<N>
     }
 }
 
-/// Time until v becomes infinite, where escape is certain and this time is known to within `error`.
-///
-/// The time is that of the two driving terms alone ([`blow_up`]); its error is the effect of the other terms.
-fn time_to_blow_up(field: &HalfPlane, point: StepPoint, error: f64) -> Option<f64> {
-    let (rest, others) = blow_up(field, point)?;
-    (rest * others <= error).then_some(rest)
-}
-
-/// Whether v is certain to become infinite.
-pub(crate) fn is_escaping(field: &HalfPlane, point: StepPoint) -> bool {
-    blow_up(field, point).is_some()
-}
-
 /// Where escape is certain: the time until then from the terms that drive v alone, and the size of all other
 /// terms relative to theirs.
 ///
@@ -147,7 +136,7 @@ pub(crate) fn is_escaping(field: &HalfPlane, point: StepPoint) -> bool {
 /// terms `a v^2 + b v^3` drive v. Escape is certain once they exceed eight times all others together and x can
 /// no longer catch up; if `a` brakes, it must do so with at most half of what `b` gives. From then on v grows,
 /// and these ratios with it.
-fn blow_up(field: &HalfPlane, point: StepPoint) -> Option<(f64, f64)> {
+pub(crate) fn blow_up(field: &HalfPlane, point: StepPoint) -> Option<(f64, f64)> {
     let v = point.v.abs();
     let (a, b) = (if point.v < 0.0 { field.d2 } else { -field.d2 }, -field.d3);
     let drives = if a < 0.0 { b * v >= -2.0 * a } else { b >= 0.0 && (a > 0.0 || b > 0.0) };

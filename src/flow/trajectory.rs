@@ -2,13 +2,14 @@
 
 use super::auto::Auto;
 use super::exact::Exact;
-use super::explicit::{Dop853, Dopri5, Rk4};
+use super::explicit::Explicit;
 use super::limits::Limits;
 use super::method::Method;
 pub use super::motion::{Cost, Crossing, Detail, Outcome, Problem, Sample, Trajectory};
-use super::regularized::{SignLaw, SmoothField};
+use super::regularized::SmoothField;
 use super::run::MotionRun;
 use super::stiff::Stiff;
+use super::tableau::{dop853, dopri5, rk4};
 use super::taylor::Taylor;
 use super::time_stepping::TimeStepping;
 use crate::model::{HalfPlane, Reason, Side};
@@ -23,10 +24,12 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
     let Problem { parameters, tolerance, step, epsilon, .. } = *problem;
     let linear = parameters.is_piecewise_linear();
     let field = HalfPlane::new(&parameters, Side::Upper);
+    let regular = |epsilon| SmoothField::new(&parameters, epsilon);
     let run = |method| MotionRun::new(problem, method, detail);
+    let asked = run(problem.method);
     match problem.method {
         Method::Auto | Method::Exact if linear => run(Method::Exact).go(&mut Exact::new(), limits),
-        Method::Exact => run(Method::Exact).give_up(Reason::NotApplicable { needs: "D2 = D3 = 0" }),
+        Method::Exact => asked.give_up(Reason::NotApplicable { needs: "D2 = D3 = 0" }),
         Method::Auto => {
             let mut stepper = Auto::new(tolerance);
             let mut found = run(Method::Taylor).go(&mut stepper, limits);
@@ -36,28 +39,24 @@ pub fn trajectory(problem: &Problem, detail: Detail, limits: &Limits) -> Traject
             }
             found
         }
-        Method::Taylor => run(Method::Taylor).go(&mut Taylor::new(tolerance), limits),
-        Method::Dop853 => run(Method::Dop853).go(&mut Dop853::dop853(field, tolerance), limits),
-        Method::Dopri5 => run(Method::Dopri5).go(&mut Dopri5::dopri5(field, tolerance), limits),
-        Method::Rk4 => run(Method::Rk4).go(&mut Rk4::rk4(field, step), limits),
-        Method::Stiff => run(Method::Stiff).go(&mut Stiff::new(field, tolerance), limits),
+        Method::Taylor => asked.go(&mut Taylor::new(tolerance), limits),
+        Method::Dop853 => asked.go(&mut Explicit::new(&dop853::SCHEME, field, tolerance), limits),
+        Method::Dopri5 => asked.go(&mut Explicit::new(&dopri5::SCHEME, field, tolerance), limits),
+        Method::Rk4 => asked.go(&mut Explicit::new(&rk4::SCHEME, field, step), limits),
+        Method::Stiff => asked.go(&mut Stiff::new(field, tolerance), limits),
         Method::Smoothed => {
-            let field = SmoothField::new(&parameters, SignLaw::Tanh(epsilon));
-            let mut stepper = Dop853::dop853(field, tolerance);
-            run(Method::Smoothed).walk(&mut stepper, &field, false, limits)
+            let field = regular(Some(epsilon));
+            let mut stepper = Explicit::new(&dop853::SCHEME, field, tolerance);
+            asked.walk(&mut stepper, &field, false, limits)
         }
         Method::SignRk4 => {
-            let field = SmoothField::new(&parameters, SignLaw::Sign);
-            run(Method::SignRk4).walk(&mut Rk4::rk4(field, step), &field, false, limits)
+            let field = regular(None);
+            let mut stepper = Explicit::new(&rk4::SCHEME, field, step);
+            asked.walk(&mut stepper, &field, false, limits)
         }
         Method::TimeStepping => {
-            let field = SmoothField::new(&parameters, SignLaw::Sign);
-            run(Method::TimeStepping).walk(
-                &mut TimeStepping::new(field, step),
-                &field,
-                true,
-                limits,
-            )
+            let field = regular(None);
+            asked.walk(&mut TimeStepping::new(field, step), &field, true, limits)
         }
     }
 }

@@ -176,22 +176,13 @@ impl MachineMotion {
     pub fn by(
         model: &Model,
         (method, tolerance): (Method, f64),
-        start: (f64, f64),
+        (x, v): (f64, f64),
         until: f64,
         detail: Detail,
     ) -> Self {
         let mut model = model.clone();
         model.tolerance = tolerance;
-        Self::followed(&model, method, start, until, detail)
-    }
-
-    fn followed(
-        model: &Model,
-        method: Method,
-        (x, v): (f64, f64),
-        until: f64,
-        detail: Detail,
-    ) -> Self {
+        let model = &model;
         let omega_0 = model.omega_0;
         let start = (x, model.scaled_velocity(v));
         let (mut x, mut y) = start;

@@ -5,6 +5,7 @@ use super::arc::{ArcEnd, StepInside, Watch, crossing};
 use crate::flow::Method;
 use crate::flow::explicit::{Dop853, Dopri5};
 use crate::flow::step::{Field, Step, StepPoint, Stepper};
+use crate::flow::tableau::{dop853, dopri5};
 use crate::model::{Model, Phase, Reason};
 use crate::numerics::root::bisect;
 
@@ -39,8 +40,8 @@ pub(crate) type PhaseStepper<'a> = Box<dyn Stepper<PhaseField<'a>> + 'a>;
 pub(crate) fn stepper(model: &Model, method: Method) -> Option<PhaseStepper<'_>> {
     let field = PhaseField { model, phase: Phase::Between };
     match method {
-        Method::Dop853 => Some(Box::new(Dop853::dop853(field, model.tolerance))),
-        Method::Dopri5 => Some(Box::new(Dopri5::dopri5(field, model.tolerance))),
+        Method::Dop853 => Some(Box::new(Dop853::new(&dop853::SCHEME, field, model.tolerance))),
+        Method::Dopri5 => Some(Box::new(Dopri5::new(&dopri5::SCHEME, field, model.tolerance))),
         _ => None,
     }
 }

@@ -1,8 +1,9 @@
 //! The methods that ignore `v = 0`, which are included for comparison.
 
 use super::super::explicit::Dop853;
-use super::super::regularized::{SignLaw, SmoothField};
+use super::super::regularized::SmoothField;
 use super::super::stiff::Stiff;
+use super::super::tableau::dop853;
 use super::super::trajectory::{Detail, trajectory};
 use super::super::{Limits, Method, Outcome, Problem, Trajectory};
 use super::*;
@@ -49,9 +50,14 @@ fn smoothed_friction_creeps_and_costs_as_the_inverse_of_its_width() {
 #[test]
 fn an_implicit_method_creeps_to_the_same_place() {
     let problem = Problem { epsilon: 1e-4, ..from(0.4) };
-    let field = SmoothField::new(&problem.parameters, SignLaw::Tanh(problem.epsilon));
+    let field = SmoothField::new(&problem.parameters, Some(problem.epsilon));
     let start = || MotionRun::new(&problem, Method::Smoothed, Detail::default());
-    let explicit = start().walk(&mut Dop853::dop853(field, 1e-8), &field, false, &Limits::PATIENT);
+    let explicit = start().walk(
+        &mut Dop853::new(&dop853::SCHEME, field, 1e-8),
+        &field,
+        false,
+        &Limits::PATIENT,
+    );
     let implicit = start().walk(&mut Stiff::new(field, 1e-8), &field, false, &Limits::PATIENT);
     assert!((end(&explicit) - end(&implicit)).abs() < 1e-8);
     assert!(100 * implicit.cost.evaluations < explicit.cost.evaluations);

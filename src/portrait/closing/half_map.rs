@@ -15,7 +15,7 @@ use super::roundoff::{Errors, Roundoff};
 use crate::closed_form::linear::Linear;
 use crate::flow::auto::Auto;
 use crate::flow::step::{Step, StepPoint, Stepper};
-use crate::flow::swing::{is_escaping, swing};
+use crate::flow::swing::{blow_up, swing};
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::HalfPlane;
 use crate::numerics::elementary::{atan2, exp, hypot, ln, ln_1p, sin_cos};
@@ -204,7 +204,7 @@ impl HalfMap {
             if step.crossed {
                 return ControlFlow::Continue(());
             }
-            escapes = !tail && is_escaping(&field.in_units(unit), step.end);
+            escapes = !tail && blow_up(&field.in_units(unit), step.end).is_some();
             if escapes || times_power(step.end.size(), unit) < small {
                 return ControlFlow::Break(());
             }
