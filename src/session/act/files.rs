@@ -10,7 +10,8 @@ use crate::fit::{
 };
 use crate::model::Knob;
 use crate::question::Opened;
-use crate::scene::machine::file;
+use crate::scene::machine::NO_BELT;
+use crate::scene::machine::file::{self, is_mode};
 use crate::scene::{Recording, ScaledMachine};
 use crate::session::act::{history, inform, lists, prompt, warn_of_units, with_keys};
 use crate::session::replay;
@@ -128,6 +129,9 @@ fn open_machine(
 ) -> Done {
     let file = path.display().to_string();
     let title = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    if is_mode(&text) {
+        return Err(format!("{file}: {NO_BELT}"));
+    }
     let mut wanted = None;
     let found = file::parse(&title, &file, &text, |name| {
         table.unwrap_or_else(|| {
@@ -140,8 +144,7 @@ fn open_machine(
         session.effects.push(Effect::Read { path: table, purpose });
         return Ok(());
     }
-    let machine = found.map_err(|error| error.to_string())?.try_into();
-    let machine = machine.map_err(|no_belt: &str| format!("{file}: {no_belt}"))?;
+    let machine = found.map_err(|error| error.to_string())?.try_into()?;
     let scaled = ScaledMachine::new(machine).map_err(|error| format!("{file}: {error}"))?;
     history::open_scene(session, Arc::new(scaled.scene()));
     warn_of_units(session);

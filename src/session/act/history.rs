@@ -19,20 +19,18 @@ use crate::session::{
 
 /// Undoes the last change.
 pub fn undo(session: &mut Session) -> Done {
-    bring_back(session, "undo", |session| {
-        let before = session.history.past.pop()?;
-        session.history.future.push(present(session, &before));
-        Some(before)
-    })
+    let before = session.history.past.pop().ok_or("nothing to undo")?;
+    session.history.future.push(present(session, &before));
+    bring_back(session, "undo", before);
+    Ok(())
 }
 
 /// Redoes the change that was undone last.
 pub fn redo(session: &mut Session) -> Done {
-    bring_back(session, "redo", |session| {
-        let after = session.history.future.pop()?;
-        session.history.past.push(present(session, &after));
-        Some(after)
-    })
+    let after = session.history.future.pop().ok_or("nothing to redo")?;
+    session.history.past.push(present(session, &after));
+    bring_back(session, "redo", after);
+    Ok(())
 }
 
 /// Stops fitting the record on show: restores the state before.
@@ -82,13 +80,9 @@ fn opening(scene: Arc<Scene>) -> Snapshot {
     }
 }
 
-/// Brings a state back that `find` returns, and says what differs.
-fn bring_back(
-    session: &mut Session,
-    name: &str,
-    find: impl FnOnce(&mut Session) -> Option<Before>,
-) -> Done {
-    match find(session).ok_or_else(|| format!("nothing to {name}"))? {
+/// Brings a state back, and says what differs.
+fn bring_back(session: &mut Session, name: &str, state: Before) {
+    match state {
         Before::Setup(setup) => {
             inform(session, format!("{name}: {}", difference(&session.setup(), &setup)));
             session.set_setup(*setup);
@@ -104,7 +98,6 @@ fn bring_back(
             restore(session, *snapshot);
         }
     }
-    Ok(())
 }
 
 /// Makes this the present state.

@@ -72,11 +72,11 @@ impl Session {
     }
 
     fn awaited_by_key(&self, key: Key) -> Option<Request> {
-        let pending = self.pending;
-        let own = pending.and_then(|it| self.keymap.command(&[it.context()], key));
-        match pending {
-            _ if own.is_some() => return None,
-            Some(Pending::Letter(Letter::GoTo)) => return self.awaited_by("goto", None),
+        match self.pending {
+            Some(pending) if self.keymap.command(&[pending.context()], key).is_some() => {
+                return None;
+            }
+            Some(Pending::Letter(Letter::GoTo)) => return self.awaited_by("goto", self.plot),
             Some(Pending::Letter(Letter::Mark)) => return None,
             Some(Pending::Count(_)) | None => {}
         }
@@ -93,7 +93,7 @@ impl Session {
                     _ => None,
                 }
             }
-            _ => self.awaited_by(command.name, Some(self.focus)),
+            _ => self.awaited_by(command.name, self.plot),
         }
     }
 
@@ -101,21 +101,19 @@ impl Session {
         let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         match self.keymap.named(name).filter(|_| rest.trim().is_empty()) {
             Some(command) => self.awaited_by_command(command),
-            None => self.awaited_by(name, None),
+            None => self.awaited_by(name, self.plot),
         }
     }
 
     /// The question that must be answered before a command that is run by name, in the pane where it applies.
     fn awaited_by_command(&self, command: &Command) -> Option<Request> {
-        let pane = place(self, command).ok()?.unwrap_or(self.focus);
-        self.awaited_by(command.name, Some(pane))
+        match place(self, command).ok()?.unwrap_or(self.focus) {
+            Pane::Plot(index) => self.awaited_by(command.name, index),
+            Pane::Parameters => self.awaited_by(command.name, self.plot),
+        }
     }
 
-    fn awaited_by(&self, name: &str, pane: Option<Pane>) -> Option<Request> {
-        let plot = match pane {
-            Some(Pane::Plot(index)) => index,
-            Some(Pane::Parameters) | None => self.plot,
-        };
+    fn awaited_by(&self, name: &str, plot: usize) -> Option<Request> {
         // It must not matter whether a layer asks: the answer may have been computed before the layer was
         // switched off.
         let open = |topic| {
