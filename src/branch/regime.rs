@@ -5,8 +5,6 @@
 //! `D3 = 0`, above which no cycle is left to border the basin. Everything else is a matter of signs. So a
 //! regime needs no search for cycles.
 
-use std::fmt;
-
 use serde::Serialize;
 
 use super::escape::escape_point;
@@ -99,12 +97,6 @@ impl Regime {
         } else {
             Regime::Global
         }
-    }
-}
-
-impl fmt::Display for Regime {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.write_str(self.name())
     }
 }
 

@@ -224,45 +224,39 @@ impl Request {
 
     /// The numbers on which the answer depends, except those that only say how finely to compute it: the more
     /// of them are equal, the more alike two requests are.
-    fn numbers(&self) -> [f64; 8] {
-        let (parameters, others) = match self {
+    fn numbers(&self) -> Vec<f64> {
+        let with = |Parameters { d, d2, d3, r }: Parameters, others: &[f64]| {
+            [&[d, d2, d3, r], others].concat()
+        };
+        match self {
             Request::Trajectory { problem, .. }
             | Request::Trade(problem)
             | Request::Reference(problem) => {
                 let Problem { parameters, initial, until, .. } = *problem;
-                (parameters, [initial.q, initial.v, until, 0.0])
+                with(parameters, &[initial.q, initial.v, until])
             }
             Request::Cycles { parameters, .. }
             | Request::Proof { parameters }
-            | Request::Balance { parameters, .. } => (*parameters, [0.0; 4]),
+            | Request::Balance { parameters, .. } => with(*parameters, &[]),
             Request::Zones(UncertainSubject::Parameters { known, disturbance }) => {
-                (known.middle(), [*disturbance, 0.0, 0.0, 0.0])
+                with(known.middle(), &[*disturbance])
             }
             Request::Zones(UncertainSubject::Machine { belt, tolerances }) => {
-                return [belt.belt_speed, tolerances.disturbance, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+                vec![belt.belt_speed, tolerances.disturbance]
             }
             Request::Kicks { parameters, kicks: RandomKick { q, v, .. } } => {
-                (*parameters, [q.0, q.1, v.0, v.1])
+                with(*parameters, &[q.0, q.1, v.0, v.1])
             }
-            Request::Capture { parameters, reach, .. } => (*parameters, [*reach, 0.0, 0.0, 0.0]),
+            Request::Capture { parameters, reach, .. } => with(*parameters, &[*reach]),
             Request::Branch { parameters, range, .. }
-            | Request::ReturnMap { parameters, range } => {
-                (*parameters, [range.0, range.1, 0.0, 0.0])
-            }
+            | Request::ReturnMap { parameters, range } => with(*parameters, &[range.0, range.1]),
             Request::Regimes { parameters, plane, .. } => {
                 let ((left, right), (low, high)) = (plane.right_range, plane.up_range);
-                (*parameters, [left, right, low, high])
+                with(*parameters, &[left, right, low, high])
             }
-            Request::Refit { held, .. } => {
-                let [d, d2, d3, r] = held.map(Option::unwrap_or_default);
-                (Parameters { d, d2, d3, r }, [0.0; 4])
-            }
-            Request::Speeds { range, .. } => {
-                return [range.0, range.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-            }
-            Request::Fit { .. } | Request::Scan { .. } | Request::Claims => return [0.0; 8],
-        };
-        let (Parameters { d, d2, d3, r }, [a, b, c, e]) = (parameters, others);
-        [d, d2, d3, r, a, b, c, e]
+            Request::Refit { held, .. } => held.map(Option::unwrap_or_default).to_vec(),
+            Request::Speeds { range, .. } => vec![range.0, range.1],
+            Request::Fit { .. } | Request::Scan { .. } | Request::Claims => Vec::new(),
+        }
     }
 }

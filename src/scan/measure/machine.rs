@@ -10,7 +10,7 @@ use crate::flow::{Fate, MachineMotion, Reason};
 use crate::model::{MachineProblem, State};
 use crate::portrait::Portrait;
 use crate::portrait::basin::Window;
-use crate::portrait::design::{FrictionNeeded, friction_of_guide};
+use crate::portrait::design::friction_of_guide;
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::kicks::repeated::{part_lost, repeated_by};
 
@@ -57,7 +57,7 @@ impl<'a> MachinePoint<'a> {
                 let Some((kick, wanted)) = cells.conditions.wanted else { return Ok(()) };
                 let needed = friction_of_guide(subject, tolerances, kick, wanted)?;
                 let needed = needed.ok_or("no friction was found to suffice")?;
-                cells.fill(Measure::Design, || [FrictionNeeded::least(needed)]);
+                cells.fill(Measure::Design, || [needed.least()]);
             }
             Measure::Settling => self.settling(cells)?,
             Measure::Repeated => {
