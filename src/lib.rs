@@ -37,8 +37,8 @@
 //!   texts with their roles. [`view`] draws it in cells of the terminal, [`figure`] as SVG, PNG and data;
 //!   [`report`] writes answers as tables, CSV, JSON and pages. None of the three knows another.
 //! - [`terminal`], [`runtime`] and [`cli`] have the side effects: the screen, the threads, the files. The
-//!   pump drains messages, gives the worker what the session wants, and draws when something changed;
-//!   the worker's newest wants win.
+//!   pump drains messages, gives the workers what the session wants, and draws when something changed;
+//!   the newest wants win.
 
 #![forbid(unsafe_code)]
 // They panic where nobody reads; `runtime::standard` does not.

@@ -43,8 +43,8 @@ pub struct Options {
     pub replay: Option<Script>,
     /// How the session was started, in words, for the heading of a recording.
     pub started: String,
-    /// The steps that stand for this start in a recording, to which the user's actions are added; the script in
-    /// `replay` is the last of them.
+    /// The steps that stand for this start in a recording, to which the user's actions are added; the command that
+    /// plays the script in `replay` is the last of them.
     pub recorder: Recorder,
     /// The file to which the user's actions are recorded.
     pub record: Option<RecordingFile>,
