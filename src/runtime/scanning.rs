@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread::available_parallelism;
+use std::thread::{self, available_parallelism};
 use std::time::{Duration, Instant};
 
 use crossbeam_channel::unbounded;
@@ -58,16 +58,19 @@ pub fn rows(
     let is_over = || stopped.load(Ordering::Relaxed) || interrupted();
     let (ticket, tickets) = unbounded::<usize>();
     let (done, found) = unbounded::<(usize, ScanRow)>();
-    pool.in_place_scope(|scope| {
+    // Rows divide their own work among the threads of the pool. So none of these waits for the next row: while a row
+    // waits for a part of it, its thread would begin that wait, and never come back.
+    thread::scope(|scope| {
         for _ in 0..jobs {
-            let (tickets, done, is_over) = (tickets.clone(), done.clone(), &is_over);
-            scope.spawn(move |_| {
+            let (tickets, done, pool, is_over) = (tickets.clone(), done.clone(), &pool, &is_over);
+            thread::Builder::new().spawn_scoped(scope, move || {
                 let limits = Limits { interrupted: is_over, ..Limits::PATIENT };
                 for index in tickets {
-                    let Some(row) = computed(scan, index, &limits) else { return };
+                    let row = pool.install(|| computed(scan, index, &limits));
+                    let Some(row) = row else { return };
                     drop(done.send((index, row)));
                 }
-            });
+            })?;
         }
         drop((tickets, done));
         let mut open = BTreeSet::new();
@@ -89,8 +92,8 @@ pub fn rows(
         }
         stopped.store(flow.is_break(), Ordering::Relaxed);
         drop(ticket);
-    });
-    Ok(())
+        Ok(())
+    })
 }
 
 /// Answers a request for the rows from the point `from` on: in pieces as they are ready, the rest at the end.
