@@ -140,8 +140,8 @@ pub fn quantity(unit: &str) -> Option<Result<SignalUnit, &'static str>> {
         return of(Signal::Acceleration, "m", GRAVITY);
     }
     for (signal, _, endings) in SIGNALS {
-        let lengths = endings.iter().filter_map(|ending| plain.strip_suffix(ending));
-        if let Some(length) = lengths.into_iter().find(|it| length_in_metres(it).is_some()) {
+        let mut lengths = endings.iter().filter_map(|ending| plain.strip_suffix(ending));
+        if let Some(length) = lengths.find(|it| length_in_metres(it).is_some()) {
             return of(signal, length, 1.0);
         }
     }

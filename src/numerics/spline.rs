@@ -15,7 +15,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::polynomial::Derivatives;
+use super::polynomial::{Derivatives, derivatives, value};
 use super::quadrature::gauss;
 use super::root::bisect;
 use crate::numerics::count::real;
@@ -31,27 +31,19 @@ struct ScatteredPoints {
     scatter: f64,
 }
 
+/// Coefficients of a polynomial of degree five.
+type Quintic = [f64; 6];
+
 /// A smooth curve near given points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "ScatteredPoints", into = "ScatteredPoints")]
 pub struct SmoothingSpline {
     /// The data of the curve, for serialization.
     given: ScatteredPoints,
-    /// The curve on each interval.
-    pieces: Vec<Piece>,
+    /// The curve on each interval, in powers of the distance from its left end.
+    pieces: Vec<Quintic>,
     /// Root mean square distance from the points.
     missed: f64,
-}
-
-/// A curve between two neighbouring points.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Piece {
-    /// Value, first and second derivative at the left end.
-    value: f64,
-    first: f64,
-    second: f64,
-    /// Third derivative, as a quadratic in the distance from the left end.
-    third: [f64; 3],
 }
 
 impl TryFrom<ScatteredPoints> for SmoothingSpline {
@@ -69,21 +61,21 @@ impl From<SmoothingSpline> for ScatteredPoints {
 }
 
 impl SmoothingSpline {
-    /// The smoothest curve whose root mean square distance from `points` is (at most) `scatter`. Fails with
-    /// one line for fewer than four points, for numbers that are not finite, and for abscissae that do
-    /// not increase or are so uneven that numbers overflow.
+    /// The smoothest curve whose root mean square distance from `points` is (at most) `scatter`. Fails with one line
+    /// for fewer than four points, for numbers that are not finite, and for abscissae that do not increase or are so
+    /// uneven that numbers overflow.
     pub fn new(points: &[(f64, f64)], scatter: f64) -> Result<Self, String> {
         if points.len() < FEWEST {
             return Err(format!("a table needs {FEWEST} points or more, not {}", points.len()));
         }
-        let wrong = |index: usize| {
-            let (x, y) = points[index];
-            !(x.is_finite() && y.is_finite()) || (index > 0 && x <= points[index - 1].0)
+        let wrong = |index: &usize| {
+            let (x, y) = points[*index];
+            !(x.is_finite() && y.is_finite()) || (*index > 0 && x <= points[index - 1].0)
         };
-        if let Some(index) = (0..points.len()).find(|&index| wrong(index)) {
+        if let Some(index) = (0..points.len()).find(wrong) {
+            let number = index + 1;
             return Err(format!(
-                "point {}: numbers must be finite, velocities must increase",
-                index + 1
+                "point {number}: numbers must be finite, velocities must increase"
             ));
         }
         let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
@@ -91,14 +83,8 @@ impl SmoothingSpline {
         let smoothing = system.smoothing(scatter);
         let (c, g) = system.solve(smoothing);
         let missed = quadratic_mean(&y, &g);
-        let third = third_derivatives(&x, &c);
-        let slopes = slopes(&x, &g, &third);
-        let piece = |((value, (first, second)), third)| Piece { value, first, second, third };
-        let pieces: Vec<_> = g.iter().copied().zip(slopes).zip(third).map(piece).collect();
-        let is_finite = |it: &Piece| {
-            it.third.iter().chain([&it.first, &it.second]).all(|number| number.is_finite())
-        };
-        if !(pieces.iter().all(is_finite) && g.iter().all(|value| value.is_finite())) {
+        let pieces = pieces(&x, &g, &bends(&x, &c));
+        if !pieces.iter().flatten().chain(&g).all(|number| number.is_finite()) {
             let gap = |index: &usize| x[index + 1] - x[*index];
             let closest = (0..x.len() - 1).min_by(|one, other| gap(one).total_cmp(&gap(other)));
             let one = closest.unwrap_or(0) + 1;
@@ -134,32 +120,17 @@ impl SmoothingSpline {
     }
 
     /// The pieces in order: their two ends, and the coefficients in powers of the distance from the left end.
-    pub fn polynomials(&self) -> impl Iterator<Item = (f64, f64, [f64; 6])> + '_ {
-        self.given.points.windows(2).zip(&self.pieces).map(|(ends, piece)| {
-            let Piece { value, first, second, third: [a, b, c] } = *piece;
-            (ends[0].0, ends[1].0, [value, first, second / 2.0, a / 6.0, b / 24.0, c / 60.0])
-        })
+    pub fn polynomials(&self) -> impl Iterator<Item = (f64, f64, Quintic)> + '_ {
+        let ends = self.given.points.windows(2);
+        ends.zip(&self.pieces).map(|(ends, piece)| (ends[0].0, ends[1].0, *piece))
     }
 
     /// The curve and its derivatives at `x`; beyond the ends the end pieces are continued.
     pub fn at(&self, x: f64) -> Derivatives {
         let after = self.given.points.partition_point(|knot| knot.0 <= x);
         let index = after.clamp(1, self.pieces.len()) - 1;
-        let t = x - self.given.points[index].0;
-        let Piece { value, first, second, third } = self.pieces[index];
-        let [a, b, c] = third;
-        Derivatives {
-            value: value + t * (first + t * second / 2.0) + thrice(third, t),
-            first: first + t * (second + t * (a / 2.0 + t * (b / 6.0 + t * c / 12.0))),
-            second: second + t * (a + t * (b / 2.0 + t * c / 3.0)),
-            third: a + t * (b + t * c),
-        }
+        derivatives(&self.pieces[index], x - self.given.points[index].0)
     }
-}
-
-/// The threefold integral of a quadratic from 0 to `t`.
-fn thrice([a, b, c]: [f64; 3], t: f64) -> f64 {
-    powi(t, 3) * (a / 6.0 + t * (b / 24.0 + t * c / 60.0))
 }
 
 fn quadratic_mean(one: &[f64], other: &[f64]) -> f64 {
@@ -291,62 +262,48 @@ fn solve(mut band: Band, mut b: Vec<f64>) -> Vec<f64> {
     b
 }
 
-/// The third derivative on each interval, from its B-spline coefficients.
-fn third_derivatives(x: &[f64], c: &[f64]) -> Vec<[f64; 3]> {
+/// What the third derivative contributes on each interval, from its B-spline coefficients: the polynomial that begins with
+/// value, slope and curvature zero.
+fn bends(x: &[f64], c: &[f64]) -> Vec<Quintic> {
     let third = |interval: usize, at: f64| -> f64 {
         let first = interval.saturating_sub(2);
         let last = interval.min(c.len() - 1);
         (first..=last).map(|i| c[i] * bump(&x[i..i + 4], at)).sum()
     };
-    let pieces = x.windows(2).enumerate();
-    pieces
-        .map(|(interval, ends)| {
-            let (left, h) = (ends[0], ends[1] - ends[0]);
-            // The quadratic through three points of the interval.
-            let [a, m, b] = [0.0, 0.5, 1.0].map(|part| third(interval, left + part * h));
-            [a, (4.0 * m - 3.0 * a - b) / h, 2.0 * (a - 2.0 * m + b) / (h * h)]
-        })
-        .collect()
+    let bend = |(interval, ends): (usize, &[f64])| {
+        let (left, h) = (ends[0], ends[1] - ends[0]);
+        // The quadratic through three points of the interval, integrated three times.
+        let [a, m, b] = [0.0, 0.5, 1.0].map(|part| third(interval, left + part * h));
+        let (slope, curvature) = ((4.0 * m - 3.0 * a - b) / h, 2.0 * (a - 2.0 * m + b) / (h * h));
+        [0.0, 0.0, 0.0, a / 6.0, slope / 24.0, curvature / 60.0]
+    };
+    x.windows(2).enumerate().map(bend).collect()
 }
 
-/// First and second derivatives at the left end of each interval, such that the curve takes the given values at
-/// both ends and at the neighbouring point.
-fn slopes(x: &[f64], g: &[f64], third: &[[f64; 3]]) -> Vec<(f64, f64)> {
-    (0..third.len())
-        .map(|interval| {
-            let (left, right) = (x[interval], x[interval + 1]);
-            // Position of the neighbouring point relative to the left end, and its value without the third derivative.
-            let (far, rise) = if interval > 0 {
-                let far = x[interval - 1] - left;
-                (far, g[interval - 1] - g[interval] - back(third[interval - 1], -far))
-            } else {
-                let far = x[2] - left;
-                (far, g[2] - g[0] - ahead(third[0], third[1], right - left, far))
-            };
-            let near = right - left;
-            let reach = g[interval + 1] - g[interval] - thrice(third[interval], near);
-            let second = 2.0 * (reach / near - rise / far) / (near - far);
-            (reach / near - second * near / 2.0, second)
-        })
-        .collect()
+/// The curve on each interval, such that it takes the given values at both ends and at the neighbouring point.
+fn pieces(x: &[f64], g: &[f64], bends: &[Quintic]) -> Vec<Quintic> {
+    let piece = |(interval, bend): (usize, &Quintic)| {
+        let (left, near) = (x[interval], x[interval + 1] - x[interval]);
+        // Position of the neighbouring point relative to the left end, and its value without the third derivative.
+        let (far, rise) = if interval > 0 {
+            let far = x[interval - 1] - left;
+            (far, g[interval - 1] - g[interval] + continued(&bends[interval - 1], -far, far))
+        } else {
+            let far = x[2] - left;
+            let ahead = continued(bend, near, far - near) + value(&bends[1], far - near);
+            (far, g[2] - g[0] - ahead)
+        };
+        let reach = g[interval + 1] - g[interval] - value(bend, near);
+        let second = 2.0 * (reach / near - rise / far) / (near - far);
+        let [.., a, b, c] = *bend;
+        [g[interval], reach / near - second * near / 2.0, second / 2.0, a, b, c]
+    };
+    bends.iter().enumerate().map(piece).collect()
 }
 
-/// Contribution of a third derivative on the interval of length `h` to the left to the value at its far end,
-/// seen from its right end.
-fn back([a, b, c]: [f64; 3], h: f64) -> f64 {
-    // The same quadratic in the distance from the right end.
-    let mirrored = [a + h * (b + h * c), -(b + 2.0 * h * c), c];
-    -thrice(mirrored, h)
-}
-
-/// Contribution of the third derivatives on two neighbouring intervals to the value at the end of the second,
-/// `far` from the left end of the first, whose length is `h`.
-fn ahead(first: [f64; 3], second: [f64; 3], h: f64, far: f64) -> f64 {
-    let [a, b, c] = first;
-    let slope = h * h * (a / 2.0 + h * (b / 6.0 + h * c / 12.0));
-    let bend = h * (a + h * (b / 2.0 + h * c / 3.0));
-    let rest = far - h;
-    thrice(first, h) + rest * (slope + rest * bend / 2.0) + thrice(second, rest)
+/// A polynomial continued beyond a place as the parabola that touches it there, by a distance.
+fn continued(bend: &Quintic, place: f64, by: f64) -> f64 {
+    Derivatives { third: 0.0, ..derivatives(bend, place) }.cubic(by)
 }
 
 #[cfg(test)]
@@ -435,11 +392,14 @@ mod tests {
     fn what_is_no_table_is_refused() {
         let refused = |points: &[(f64, f64)]| SmoothingSpline::new(points, 0.0).unwrap_err();
         assert_eq!(refused(&[(0.0, 1.0); 3]), "a table needs 4 points or more, not 3");
+        let point = |number: usize| {
+            format!("point {number}: numbers must be finite, velocities must increase")
+        };
         let twice = [(0.0, 1.0), (1.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
-        assert_eq!(refused(&twice), "point 3: numbers must be finite, velocities must increase");
+        assert_eq!(refused(&twice), point(3));
         let uneven = [(0.0, 0.4), (1.0, 0.3), (1.0 + 1e-15, 0.25), (1e300, 0.2)];
         assert!(refused(&uneven).starts_with("points 2 and 3 are too close together"));
         let missing = [(0.0, 1.0), (1.0, f64::NAN), (2.0, 2.0), (3.0, 1.0)];
-        assert_eq!(refused(&missing), "point 2: numbers must be finite, velocities must increase");
+        assert_eq!(refused(&missing), point(2));
     }
 }
