@@ -1,4 +1,4 @@
-//! What a computation may cost, what becomes of a motion, and why a computation may end without an answer.
+//! What a computation may cost, and what becomes of a motion.
 
 use crate::model::Reason;
 
