@@ -8,7 +8,7 @@ use hopfscope::flow::trajectory::trajectory;
 use hopfscope::flow::{Detail, Limits, Method, Outcome, Problem};
 use hopfscope::model::{Knob, Parameters, State};
 use hopfscope::portrait::basin::cycle::cycles;
-use hopfscope::portrait::basin::{SurveyedBasin, Window};
+use hopfscope::portrait::basin::{StartWindow, SurveyedBasin};
 
 fn main() {
     divan::main();
@@ -119,7 +119,7 @@ fn one_cycle(bencher: Bencher) {
 #[divan::bench]
 fn basin_by_ordering(bencher: Bencher) {
     let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
-    let window = Window { q: (-6.0, 6.0), v: (-6.0, 6.0) };
+    let window = StartWindow { q: (-6.0, 6.0), v: (-6.0, 6.0) };
     bencher
         .bench(|| SurveyedBasin::of(black_box(&parameters), &window, (320, 384), &Limits::PATIENT));
 }

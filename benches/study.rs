@@ -11,7 +11,7 @@ use hopfscope::branch::fold_graph::highest_cycle;
 use hopfscope::flow::{Limits, Problem};
 use hopfscope::model::{Knob, Parameters};
 use hopfscope::numerics::elementary::ln;
-use hopfscope::portrait::basin::Window;
+use hopfscope::portrait::basin::StartWindow;
 use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::portrait::closing::all::STEP;
 use hopfscope::portrait::closing::equation::{Equation, Route};
@@ -41,8 +41,8 @@ fn all_cycles() -> usize {
 #[divan::bench]
 fn all_cycles_by_a_dense_scan() -> usize {
     const GRID: u32 = 400;
-    let mut equation = Equation::new(black_box(&CASE), STEP);
-    let mut at = |u: f64| equation.at(Route::Mixed, u, LIMITS).unwrap().node;
+    let mut equation = Equation::new(black_box(&CASE), STEP, LIMITS);
+    let mut at = |u: f64| equation.at(Route::Mixed, u).unwrap().node;
     let place = |index: u32| ln(0.1) + 3.0 * f64::from(index) / f64::from(GRID);
     let mut found = 0;
     let mut before = at(place(0));
@@ -108,7 +108,7 @@ fn a_branch(bencher: Bencher, r: f64) {
 #[divan::bench(sample_count = 1, sample_size = 1)]
 fn a_scan_of_margins_and_cycles() -> usize {
     let sweep = Sweep::new(Knob::D, (-0.95, 0.0), 20_000, Spacing::Even).unwrap();
-    let window = Window { q: (-1.0, 1.0), v: (-1.0, 1.0) };
+    let window = StartWindow { q: (-1.0, 1.0), v: (-1.0, 1.0) };
     let problem = Problem { parameters: CASE, ..Problem::default() };
     let measures = vec![Measure::Margin, Measure::Cycles];
     let scan = Scan::new(problem, vec![sweep], measures, window).unwrap();

@@ -6,7 +6,7 @@ use hopfscope::model::{Parameters, State};
 use hopfscope::numerics::elementary::{hypot, pow};
 use hopfscope::portrait::Border;
 use hopfscope::portrait::basin::cycle::{cycles, cycles_drawn};
-use hopfscope::portrait::basin::{Basin, SurveyedBasin, Window, basin};
+use hopfscope::portrait::basin::{Basin, StartWindow, SurveyedBasin, basin};
 use hopfscope::scan::measure::{Measure, Value, measure};
 use hopfscope::session::fate::{End, fate};
 use proptest::prelude::*;
@@ -44,7 +44,7 @@ fn borders_are_those_computed_elsewhere() {
         .par_iter()
         .filter_map(|row| {
             let [left, right, low, high] = row.window;
-            let window = Window { q: (left, right), v: (low, high) };
+            let window = StartWindow { q: (left, right), v: (low, high) };
             let found = SurveyedBasin::of(&row.parameters, &window, (9, 9), &LIMITS);
             let right = found.as_ref().is_ok_and(|found| {
                 let near = |found: Option<f64>, expected: Option<f64>| match (found, expected) {
@@ -158,7 +158,7 @@ fn a_scan_measures_what_the_basin_has() {
     for row in rows() {
         let parameters = row.parameters;
         let [left, right, low, high] = row.window;
-        let window = Window { q: (left, right), v: (low, high) };
+        let window = StartWindow { q: (left, right), v: (low, high) };
         let problem = Problem { parameters, ..Problem::default() };
         let measures = [Measure::Margin, Measure::Area, Measure::Stability];
         let measured = measure(&problem.into(), &measures, &window.into(), &LIMITS).unwrap();
@@ -194,7 +194,7 @@ fn areas_are_those_of_the_captured_part_of_a_window() {
                 .max(row.parameters.r + cycle.lower.clearance().unwrap().value);
         let height =
             2.0 * found.borders[0].curve(8).iter().fold(0.0_f64, |top, it| top.max(it.v.abs()));
-        let window = Window { q: (-width, width), v: (-height, height) };
+        let window = StartWindow { q: (-width, width), v: (-height, height) };
         let share = found.captured_share(&window);
         let whole = 4.0 * width * height;
         let error = whole * (share.error + 1e-12) + 1e-10 * area;
@@ -230,7 +230,7 @@ fn the_motions_of_a_centre_are_neutral() {
         assert_eq!(found.fate(start), expected, "{start:?}");
     }
     assert_eq!(found.area(), None);
-    let window = Window { q: (-0.5, 0.5), v: (-0.5, 0.5) };
+    let window = StartWindow { q: (-0.5, 0.5), v: (-0.5, 0.5) };
     assert_eq!(found.captured_share(&window).part, 0.0);
 }
 
@@ -266,7 +266,7 @@ fn starts_of_a_hair_beside_the_sticking_set_go_where_they_belong() {
         assert_eq!(rests, captured, "{parameters:?} {start:?} {outcome:?}");
     }
     // For a start within rounding of the rim, a grid counts the rest and nothing beside it.
-    let window = Window { q: (1.0, 1.0), v: (-1e-9, 1e-9) };
+    let window = StartWindow { q: (1.0, 1.0), v: (-1e-9, 1e-9) };
     let counts = basin(&node, 3.0, &LIMITS).unwrap().count(&window, 1, 3, &LIMITS).unwrap();
     assert_eq!((counts.captured, counts.escaped), (1, 2));
 }

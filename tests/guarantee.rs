@@ -153,7 +153,7 @@ fn cases() -> [(ParameterBox, f64); 5] {
 /// Starts disturbed motions at a fraction of the margins, with parameters of the box. Returns how many leave
 /// the interior of the border.
 fn leaving(known: &ParameterBox, w: f64, motions: usize, random: &mut Random) -> u32 {
-    let margin = guarantee(known, w, &Limits::PATIENT).unwrap().guaranteed.margin;
+    let margin = guarantee(known, w, &Limits::PATIENT).unwrap().guaranteed.unwrap();
     // Values of r, each with the extent of the interior of the border that holds for it.
     let frictions = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| {
         let r = known.r.lower() + part * (known.r.upper() - known.r.lower());
@@ -200,7 +200,7 @@ fn the_margin_known_from_elsewhere() {
     let known = case([-0.3; 2], [0.2; 2], [0.5; 2], [0.1; 2], 0.0).0;
     for (w, expected) in [(0.0, 0.2190), (0.02, 0.1743)] {
         let found = guarantee(&known, w, &Limits::PATIENT).unwrap();
-        let displacement = found.guaranteed.margin.displacement.unwrap();
+        let displacement = found.guaranteed.unwrap().displacement.unwrap();
         assert!((displacement - expected).abs() < 5e-5, "w = {w}: {displacement}");
         assert!(displacement < found.nominal.displacement.unwrap());
     }
@@ -209,7 +209,7 @@ fn the_margin_known_from_elsewhere() {
 #[test]
 fn where_there_may_be_no_friction_nothing_is_guaranteed_and_no_number_is_below_zero() {
     let (known, w) = case([-0.1; 2], [0.0; 2], [0.0; 2], [0.0, 0.1], 0.0);
-    let margin = guarantee(&known, w, &Limits::PATIENT).unwrap().guaranteed.margin;
+    let margin = guarantee(&known, w, &Limits::PATIENT).unwrap().guaranteed.unwrap();
     assert_eq!(margin, Margin::ZERO);
 }
 
@@ -225,10 +225,10 @@ fn a_border_far_out_on_one_side_is_that_of_the_plain_system() {
         let (known, _) = case(exact[0], exact[1], exact[2], exact[3], 0.0);
         let found = guarantee(&known, 0.0, &Limits::PATIENT).unwrap();
         for (sure, one) in [
-            (found.guaranteed.margin.displacement, margin.displacement),
-            (found.guaranteed.margin.impulse, margin.impulse),
-            (found.guaranteed.margin.from_rest.displacement, margin.from_rest.displacement),
-            (found.guaranteed.margin.from_rest.impulse, margin.from_rest.impulse),
+            (found.guaranteed.unwrap().displacement, margin.displacement),
+            (found.guaranteed.unwrap().impulse, margin.impulse),
+            (found.guaranteed.unwrap().from_rest.displacement, margin.from_rest.displacement),
+            (found.guaranteed.unwrap().from_rest.impulse, margin.from_rest.impulse),
         ] {
             let (sure, one) = (sure.unwrap(), one.unwrap());
             assert!((-1e-9..1e-12).contains(&(sure / one - 1.0)), "{d3}: {sure} {one}");
@@ -236,7 +236,7 @@ fn a_border_far_out_on_one_side_is_that_of_the_plain_system() {
         // Uncertain parameters only reduce the margin.
         let (wide, w) = case(exact[0], [0.3143, 0.3517], [d3, -d3], [0.28, 0.3], 0.06);
         let found = guarantee(&wide, w, &Limits::PATIENT).unwrap();
-        let least = found.guaranteed.margin.displacement.unwrap();
+        let least = found.guaranteed.unwrap().displacement.unwrap();
         assert!(least < 1.001 * margin.displacement.unwrap() && least > 1.9, "{d3}: {least}");
     }
 }
@@ -255,7 +255,7 @@ fn no_parameters_of_a_box_have_a_smaller_margin() {
     let mut random = Random::new(4);
     let mut looked = 0;
     for (known, _) in cases() {
-        let guaranteed = guarantee(&known, 0.0, &Limits::PATIENT).unwrap().guaranteed.margin;
+        let guaranteed = guarantee(&known, 0.0, &Limits::PATIENT).unwrap().guaranteed.unwrap();
         let kicks = |Margin { displacement, impulse, from_rest }: Margin| {
             [displacement, impulse, from_rest.displacement, from_rest.impulse]
                 .map(|size| size.unwrap_or(f64::INFINITY))
@@ -278,7 +278,7 @@ fn no_parameters_of_a_box_have_a_smaller_margin() {
 fn the_worst_disturbance_leads_out_from_just_beyond() {
     let mut random = Random::new(3);
     for (known, w) in cases() {
-        let margin = guarantee(&known, w, &Limits::PATIENT).unwrap().guaranteed.margin;
+        let margin = guarantee(&known, w, &Limits::PATIENT).unwrap().guaranteed.unwrap();
         // The disturbance compensates for the friction that the worst system lacks.
         let worst = TwoSided::worst(&known, 0.0);
         let (q, v) = (margin.displacement.unwrap(), margin.impulse.unwrap());

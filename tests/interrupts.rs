@@ -13,7 +13,7 @@ use hopfscope::flow::{Cost, Detail, Limits, METHODS, Outcome, Problem, Reason};
 use hopfscope::model::{Knob, Parameters, State};
 use hopfscope::portrait::basin::capture::bands;
 use hopfscope::portrait::basin::cycle::cycles;
-use hopfscope::portrait::basin::{SurveyedBasin, Window};
+use hopfscope::portrait::basin::{StartWindow, SurveyedBasin};
 
 /// Maximum number of evaluations between two polls.
 const BETWEEN: u64 = 10_000;
@@ -133,7 +133,7 @@ fn a_fold_stops() {
 #[test]
 fn basins_stop_however_fine_the_grid() {
     let parameters = parameters()[0];
-    let window = Window { q: (-2.0, 2.0), v: (-2.0, 2.0) };
+    let window = StartWindow { q: (-2.0, 2.0), v: (-2.0, 2.0) };
     check("basin", |limits| match SurveyedBasin::of(&parameters, &window, (2_000, 50), limits) {
         Ok(found) => (None, Some(found.cost)),
         Err(reason) => (Some(reason), None),

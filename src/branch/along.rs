@@ -32,8 +32,9 @@ use crate::model::{Knob, Parameters, Side};
 use crate::numerics::count::real;
 use crate::numerics::elementary::{cbrt, ln, pow, powi};
 use crate::portrait::Cycle;
-use crate::portrait::closing::all::{STEP, other_closings};
+use crate::portrait::closing::all::{STEP, closings};
 use crate::portrait::closing::equation::{Equation, Route, first_side};
+use crate::portrait::closing::pair::Closing;
 use crate::portrait::closing::polish::polish_near;
 use crate::portrait::closing::weak::weak_closing;
 
@@ -227,12 +228,13 @@ impl CurveTracer<'_> {
     /// All cycles at one value outside of known intervals of u, as points of curves.
     fn seeds(&mut self, p: f64, known: &[(f64, f64)]) -> Result<Vec<CurvePoint>, Reason> {
         let parameters = self.curve.parameters_at(p);
-        let mut equation = Equation::on_side(&parameters, self.curve.side, self.curve.fineness());
         let rough = self.points == Points::Followed;
         let Limits { evaluations, interrupted } = *self.curve.limits();
         let evaluations = if rough { evaluations.min(SEED_BUDGET) } else { evaluations };
         let limits = Limits { evaluations, interrupted };
-        let closings = other_closings(&mut equation, known, &limits);
+        let mut equation =
+            Equation::on_side(&parameters, self.curve.side, self.curve.fineness(), &limits);
+        let closings = closings(&mut equation, known);
         self.curve.cost += equation.cost();
         let closings = match closings {
             Err(Reason::Budget { .. } | Reason::NoConvergence { .. }) if rough => Vec::new(),
@@ -443,9 +445,9 @@ fn polished(curve: &CycleCurve, place: &CurvePlace) -> Result<(Option<Cycle>, Co
     if let Some(closing) = weak_closing(&parameters) {
         return Ok((Some(closing.describe(&parameters, side)), Cost::default()));
     }
-    let mut equation = Equation::on_side(&parameters, side, STEP);
+    let mut equation = Equation::on_side(&parameters, side, STEP, curve.limits());
     let sharp = POLISHED * curve.tolerance();
-    let closing = polish_near(&mut equation, place.u, place.log_multiplier, sharp, curve.limits());
+    let closing = polish_near(&mut equation, place.u, place.log_multiplier, sharp);
     let cycle = match closing {
         Err(Reason::Interrupted) => return Err(Reason::Interrupted),
         Ok(Some(closing)) => Some(closing.describe(&parameters, side)),
@@ -477,7 +479,11 @@ fn linear_branch(r: f64, from: f64, to: f64, points: Points) -> Option<Vec<Branc
             _ => from * pow(to / from, fraction),
         };
         let cycle = LinearCycle::new(d, r)?;
-        Some(BranchPoint { value: d, cycle: Cycle::from(&cycle) })
+        let parameters = Parameters { d, d2: 0.0, d3: 0.0, r };
+        Some(BranchPoint {
+            value: d,
+            cycle: Closing::from(&cycle).describe(&parameters, Side::Upper),
+        })
     };
     Some((0..count).filter_map(point).collect())
 }

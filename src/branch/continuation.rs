@@ -117,10 +117,10 @@ impl<'a> CycleCurve<'a> {
     /// be computed, which ends a curve.
     fn closing(&mut self, route: Route, u: f64, p: f64) -> Result<Option<Closing>, Reason> {
         let step = STEP * self.tolerance;
-        let mut equation = Equation::on_side(&self.parameters_at(p), self.side, step);
-        equation.want_fastest(true);
         let limits = Limits { evaluations: SWING_BUDGET, ..*self.limits };
-        let closing = equation.at(route, u, &limits);
+        let mut equation = Equation::on_side(&self.parameters_at(p), self.side, step, &limits);
+        equation.want_fastest(true);
+        let closing = equation.at(route, u);
         self.cost += equation.cost();
         match closing {
             Err(Reason::Budget { .. } | Reason::OutOfRange) => Ok(None),
@@ -224,8 +224,9 @@ impl<'a> CycleCurve<'a> {
 
     /// The residual of the mixed route, infinite with its sign where a swing does not end.
     fn value(&mut self, u: f64, p: f64) -> Result<f64, Reason> {
-        let mut equation = Equation::on_side(&self.parameters_at(p), self.side, self.tolerance);
-        let closing = equation.at(Route::Mixed, u, self.limits);
+        let mut equation =
+            Equation::on_side(&self.parameters_at(p), self.side, self.tolerance, self.limits);
+        let closing = equation.at(Route::Mixed, u);
         self.cost += equation.cost();
         Ok(closing?.node.value())
     }

@@ -22,7 +22,7 @@ use crate::flow::{Cost, Limits, Reason};
 use crate::model::Parameters;
 use crate::numerics::elementary::ln;
 use crate::numerics::root::{PlaceTolerance, illinois};
-use crate::portrait::closing::balance::weighed_residual;
+use crate::portrait::closing::balance::weighed_closing;
 use crate::portrait::closing::equation::{Equation, Route};
 
 /// `D_c` at these values of D2 and r, or `None` where no cycle escapes (`D3 != 0`, `D2 = 0` or `r = 0`); and what it
@@ -100,14 +100,16 @@ fn excess_at_infinity(
     /// Excess below which a difference of logarithms has lost digits.
     const NEAR: f64 = 1e-2;
     let far = ln(FAR / parameters.d2.abs() + 2.0 * parameters.r);
-    let mut equation = Equation::new(parameters, f64::EPSILON);
-    let plain = equation.at(Route::Mixed, far, limits).map(|found| found.node.value());
+    let mut equation = Equation::new(parameters, f64::EPSILON, limits);
+    let plain = equation.at(Route::Mixed, far).map(|found| found.node.value());
     // Weighed as energy, it keeps the digits that the difference loses near `D_c`.
     let weighed = match plain {
-        Ok(plain) if plain.abs() < NEAR => weighed_residual(&mut equation, far, limits),
+        Ok(plain) if plain.abs() < NEAR => weighed_closing(&mut equation, far),
         _ => Ok(None),
     };
     *cost += equation.cost();
     let (plain, weighed) = (plain?, weighed?);
-    Ok(weighed.filter(|(_, noise)| *noise < f64::EPSILON).map_or(plain, |(weighed, _)| weighed))
+    Ok(weighed
+        .filter(|(_, (_, noise))| *noise < f64::EPSILON)
+        .map_or(plain, |(_, (weighed, _))| weighed))
 }

@@ -142,10 +142,10 @@ impl System<'_> {
     fn at(&mut self, [u, z]: [f64; 2], step: f64) -> Result<Option<Values>, Reason> {
         /// Evaluations of one swing, some dozens of times the usual.
         const BUDGET: u64 = 5_000;
-        let mut equation = Equation::on_side(&self.parameters_at(z), self.side, step);
-        equation.want_fastest(true);
         let limits = Limits { evaluations: BUDGET, ..*self.limits };
-        let closing = equation.at(Route::Mixed, u, &limits);
+        let mut equation = Equation::on_side(&self.parameters_at(z), self.side, step, &limits);
+        equation.want_fastest(true);
+        let closing = equation.at(Route::Mixed, u);
         self.cost += equation.cost();
         let closing = match closing {
             Err(Reason::Interrupted) => return Err(Reason::Interrupted),

@@ -200,8 +200,9 @@ fn grazing_cycle(
     const BESIDE: f64 = 1e-9;
     let Some((d, way)) = damping(parameters, limits, cost)? else { return Ok(None) };
     // Above it no motion leaves the end of the set: a cycle further out means that two meet.
-    let mut clear = Equation::new(&Parameters { d: (1.0 - BESIDE) * d, ..*parameters }, STEP);
-    let beyond = all_closings(&mut clear, limits);
+    let mut clear =
+        Equation::new(&Parameters { d: (1.0 - BESIDE) * d, ..*parameters }, STEP, limits);
+    let beyond = all_closings(&mut clear);
     *cost += clear.cost();
     if !beyond?.is_empty() {
         return Ok(None);
@@ -218,8 +219,8 @@ fn damping(
 ) -> Result<Option<(f64, WayFromRim)>, Reason> {
     const ROUNDING: f64 = 2.0 * f64::EPSILON;
     let mut way = |d: f64| {
-        let mut equation = Equation::new(&Parameters { d, ..*parameters }, STEP);
-        let way = equation.way_from_rim(limits);
+        let mut equation = Equation::new(&Parameters { d, ..*parameters }, STEP, limits);
+        let way = equation.way_from_rim();
         *cost += equation.cost();
         way
     };

@@ -11,8 +11,8 @@ use crate::flow::{Flow, Reason};
 use crate::model::{Model, Phase};
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::{PlaceTolerance, illinois, try_bisect};
+use crate::portrait::closing::search::Node;
 use crate::portrait::return_map::machine_return::Landmarks;
-use crate::portrait::return_map::zeros::GrowthSample;
 use crate::portrait::{Border, Cycle, Portrait};
 
 /// The numbers whose zeros are special, at one place; `None` where they do not exist.
@@ -195,17 +195,21 @@ fn fold(family: Family, left: (f64, Portrait), right: (f64, Portrait)) -> Option
     let gap = |pair: &&[Cycle]| pair[1].q_max / pair[0].q_max;
     let pair = pairs.min_by(|one, other| gap(one).total_cmp(&gap(other)))?;
     let (low, high) = (pair[0].q_max, pair[1].q_max);
-    let extremum = |value: f64| -> Option<GrowthSample> {
+    let extremum = |value: f64| -> Option<Node> {
         steepest(&family(value)?, (low * high).sqrt(), ln(high / low))
     };
     let ends = (extremum(with)?, extremum(without)?);
-    let value = zero(&|value| Some(extremum(value)?.f), (with, ends.0.f), (without, ends.1.f))?;
-    let q_max = Some(exp(extremum(value)?.u));
+    let value = zero(
+        &|value| Some(extremum(value)?.difference),
+        (with, ends.0.difference),
+        (without, ends.1.difference),
+    )?;
+    let q_max = Some(exp(extremum(value)?.at));
     Some(Special { q_max, ..Special::new(SpecialKind::Fold, value, None) })
 }
 
 /// The extremum of the growth `ln(image/x)` over `u = ln x` near a place, by secants on its exact slope.
-fn steepest(model: &Model, near: f64, width: f64) -> Option<GrowthSample> {
+fn steepest(model: &Model, near: f64, width: f64) -> Option<Node> {
     let mut flow = Flow::new(model);
     let mut growth = |u: f64| flow.growth(u, 1.0).ok();
     let mut one = growth(ln(near))?;
@@ -214,11 +218,11 @@ fn steepest(model: &Model, near: f64, width: f64) -> Option<GrowthSample> {
         if one.slope == other.slope {
             break;
         }
-        let next = other.u - other.slope * (other.u - one.u) / (other.slope - one.slope);
+        let next = other.at - other.slope * (other.at - one.at) / (other.slope - one.slope);
         one = other;
         // No further than the two cycles are apart.
-        other = growth(next.clamp(other.u - width, other.u + width))?;
-        if (other.u - one.u).abs() < 1e-9 {
+        other = growth(next.clamp(other.at - width, other.at + width))?;
+        if (other.at - one.at).abs() < 1e-9 {
             break;
         }
     }

@@ -11,7 +11,7 @@ use crate::figure::panels;
 use crate::flow::{Limits, Method, Reason};
 use crate::model::unit::WithTolerance;
 use crate::model::{Belt, Knob, MachineProblem, Source, Tolerances};
-use crate::portrait::basin::Window;
+use crate::portrait::basin::StartWindow;
 use crate::portrait::design::Kick;
 use crate::portrait::design::friction_of_guide;
 use crate::portrait::guarantee::machine::guaranteed;
@@ -42,7 +42,7 @@ pub struct BeltCommand {
     start: Vec<(Knob, WithTolerance)>,
     /// Window "XMIN:XMAX,VMIN:VMAX": reports the share of its starts that come to rest
     #[arg(long, value_name = "WINDOW", value_parser = |text: &str| MACHINE.window(text), allow_hyphen_values = true)]
-    window: Option<Window>,
+    window: Option<StartWindow>,
     /// Measures the window's displacements from the relaxed spring instead of the steady position
     #[arg(long, requires = "window")]
     elongation: bool,
@@ -150,7 +150,7 @@ impl BeltCommand {
     }
 
     fn share(&self, portrait: &Portrait) -> Option<RestShare> {
-        let Window { q: (from, to), v } = self.window?;
+        let StartWindow { q: (from, to), v } = self.window?;
         let steady = if self.elongation { portrait.model.pull } else { 0.0 };
         Some(portrait.rest_share((from - steady, to - steady), v))
     }

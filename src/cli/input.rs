@@ -10,7 +10,7 @@ use crate::figure::FileForm;
 use crate::flow::{METHODS, Method};
 use crate::model::unit::{Dimension, WithTolerance, measured};
 use crate::model::{Group, Knob, MachineProblem};
-use crate::portrait::basin::Window;
+use crate::portrait::basin::StartWindow;
 use crate::portrait::design::Kick;
 use crate::portrait::kicks::RandomKick;
 use crate::scan::sweep::{Spacing, Sweep};
@@ -53,7 +53,7 @@ pub const MACHINE: Numbers = Numbers {
 
 impl Numbers {
     /// `QMIN:QMAX,VMIN:VMAX`.
-    pub fn window(&self, text: &str) -> Result<Window, String> {
+    pub fn window(&self, text: &str) -> Result<StartWindow, String> {
         const FORM: &str =
             "expected QMIN:QMAX,VMIN:VMAX, such as -6:6,-6:6, or of a machine -2mm:2mm,0:1";
         let (q, v) = text.split_once(',').ok_or(FORM)?;
@@ -63,7 +63,7 @@ impl Numbers {
             let above = || format!("{part:?}: {low:?} is not below {high:?}");
             (low < high).then_some((low, high)).ok_or_else(above)
         };
-        Ok(Window { q: side(q, self.state[0])?, v: side(v, self.state[1])? })
+        Ok(StartWindow { q: side(q, self.state[0])?, v: side(v, self.state[1])? })
     }
 
     /// Random kicks.
@@ -178,7 +178,7 @@ pub fn physical_margin(text: &str) -> Result<(Kick, f64), String> {
 }
 
 /// The window where none is given.
-pub const WINDOW: Window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
+pub const WINDOW: StartWindow = StartWindow { q: (-3.0, 3.0), v: (-3.0, 3.0) };
 
 /// `WxH` of this kind, such as the one given.
 fn rectangle<T: FromStr + PartialOrd + Display>(

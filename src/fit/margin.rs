@@ -69,7 +69,7 @@ impl MarginQuestion {
             known.widen(knob, half_width);
         }
         let (found, _) = guaranteed(&known, self.disturbance / scale, limits)?;
-        Ok(if found.reason.is_none() { found.margin } else { Margin::ZERO })
+        Ok(found.unwrap_or(Margin::ZERO))
     }
 }
 
@@ -283,8 +283,8 @@ struct MarginOfDraw {
 }
 
 fn answer(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<MarginOfDraw, Reason> {
-    let mut equation = Equation::new(parameters, f64::EPSILON);
-    let found = all_closings(&mut equation, limits)?;
+    let mut equation = Equation::new(parameters, f64::EPSILON, limits);
+    let found = all_closings(&mut equation)?;
     let stable = found.iter().find(|closing| closing.log_multiplier(parameters) < 0.0);
     Ok(MarginOfDraw {
         margin: Basin::around(parameters, &found, reach, limits)?.margin(),

@@ -9,8 +9,8 @@
 //! musl's functions). Nothing that is called proved depends on them: see [`crate::numerics::Interval`].
 
 pub use libm::{
-    acos, acosh, asin, asinh, atan, atan2, cbrt, cos, cosh, exp, exp2, expm1 as exp_m1, hypot,
-    log as ln, log1p as ln_1p, log2, log10, pow, sin, sincos as sin_cos, sinh, tan, tanh,
+    acos, acosh, asin, asinh, atan, atan2, cbrt, cos, cosh, erfc, exp, exp2, expm1 as exp_m1,
+    hypot, log as ln, log1p as ln_1p, log2, log10, pow, sin, sincos as sin_cos, sinh, tan, tanh,
 };
 
 /// `base` to an integer power, by repeated squaring.

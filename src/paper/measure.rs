@@ -11,11 +11,11 @@ use crate::flow::trajectory::trajectory;
 use crate::flow::{Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
 use crate::model::{Knob, Parameters, Side, State};
 use crate::numerics::Interval;
-use crate::portrait::basin::arc::{Arc, Direction};
+use crate::portrait::basin::arc::Arc;
 use crate::portrait::basin::basin;
 use crate::portrait::closing::all::closings;
 use crate::portrait::closing::equation::Equation;
-use crate::portrait::closing::half_map::Length;
+use crate::portrait::closing::half_map::{Direction, Length};
 use crate::portrait::proved::matching;
 use crate::portrait::{Border, Cycle};
 use crate::proof::motion::{ProvedFate, ProvedMotion, follow};
@@ -239,8 +239,8 @@ pub fn captured(
 /// All cycles by the general search, smallest first, whether or not a closed form exists. Fails with the [`Reason`]
 /// why the search failed.
 pub fn cycles(parameters: &Parameters, limits: &Limits) -> Result<AllFound, Reason> {
-    let mut equation = Equation::new(parameters, 0.5 * f64::EPSILON);
-    let found = closings(&mut equation, limits)?;
+    let mut equation = Equation::new(parameters, 0.5 * f64::EPSILON, limits);
+    let found = closings(&mut equation, &[])?;
     let found = found.iter().map(|closing| closing.describe(parameters, equation.side)).collect();
     Ok(beside_proof(parameters, found))
 }

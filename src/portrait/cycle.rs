@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::numerics::elementary::{exp_m1, ln};
 
 /// A limit cycle: of the paper's oscillator without units, of a machine in SI units.
@@ -133,29 +132,7 @@ impl Cycle {
         const FAR: f64 = -1.0;
         self.log_multiplier < FAR
     }
-}
 
-impl From<&LinearCycle> for Cycle {
-    /// The cycle of the piecewise linear oscillator, in closed form.
-    fn from(cycle: &LinearCycle) -> Self {
-        Cycle {
-            stable: false,
-            q_min: -cycle.q_max,
-            q_max: cycle.q_max,
-            v_min: -cycle.v_max,
-            v_max: cycle.v_max,
-            period: cycle.period,
-            multiplier: cycle.multiplier,
-            log_multiplier: cycle.log_multiplier,
-            clearance: cycle.clearance,
-            log_clearance: cycle.log_clearance,
-            ..Cycle::default()
-        }
-        .rounded(CycleErrors::default())
-    }
-}
-
-impl Cycle {
     /// With these errors, the rounding of each number itself added, and the largest relative one.
     pub(crate) fn rounded(self, mut errors: CycleErrors) -> Self {
         let rounded = |value: f64| 2.0 * f64::EPSILON * value.abs();

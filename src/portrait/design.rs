@@ -117,26 +117,27 @@ pub fn friction_for(
         cost += found.cost;
         Ok(ln(kick.margin(&found.margin()) / wanted))
     };
-    let needed = least_friction(wanted, hardly_any(parameters, wanted), &mut excess)?;
-    Ok(Design { needed, cost })
+    let blurs = |reason: &Reason| matches!(reason, Reason::NoConvergence { .. });
+    let any = hardly_any(parameters, wanted);
+    let needed = least_friction(wanted, any, &mut excess, blurs)?;
+    let lost = Reason::NoConvergence { sought: "the friction for a margin", change: f64::NAN };
+    Ok(Design { needed: needed.ok_or(lost)?, cost })
 }
 
 /// The least friction at which an increasing function of it, which may jump, becomes positive; `any` is one
-/// that counts as none.
-///
-/// # Errors
-/// Those of the function, [`Reason::NoConvergence`] where no bracket is found.
-pub fn least_friction(
+/// that counts as none. `None` where no bracket is found.
+fn least_friction<E>(
     wanted: f64,
     any: Option<f64>,
-    excess: &mut impl FnMut(f64) -> Result<f64, Reason>,
-) -> Result<FrictionNeeded, Reason> {
+    excess: &mut impl FnMut(f64) -> Result<f64, E>,
+    blurs: impl Fn(&E) -> bool,
+) -> Result<Option<FrictionNeeded>, E> {
     if let Some(r) = any
         && excess(r)? >= 0.0
     {
-        return Ok(FrictionNeeded::Any);
+        return Ok(Some(FrictionNeeded::Any));
     }
-    smallest(wanted, excess)
+    smallest(wanted, excess, blurs)
 }
 
 /// The friction at which a margin of this size is the one without friction; `None` where that is none,
@@ -151,12 +152,13 @@ fn hardly_any(parameters: &Parameters, wanted: f64) -> Option<f64> {
     }
 }
 
-/// Encloses and narrows the r at which an increasing function, which may jump, becomes positive.
-fn smallest(
+/// Encloses and narrows the r at which an increasing function, which may jump, becomes positive; an error that `blurs`
+/// ends the search next to a fold.
+fn smallest<E>(
     wanted: f64,
-    excess: &mut impl FnMut(f64) -> Result<f64, Reason>,
-) -> Result<FrictionNeeded, Reason> {
-    let lost = Reason::NoConvergence { sought: "the friction for a margin", change: f64::NAN };
+    excess: &mut impl FnMut(f64) -> Result<f64, E>,
+    blurs: impl Fn(&E) -> bool,
+) -> Result<Option<FrictionNeeded>, E> {
     // A displacement within the sticking set is kept: the first is high enough, or nearly so.
     let mut high = (wanted, excess(wanted)?);
     let mut low = high;
@@ -172,7 +174,7 @@ fn smallest(
         }
     }
     if high.1 < 0.0 || low.1 >= 0.0 {
-        return Err(lost);
+        return Ok(None);
     }
     // In the logarithm of r, as a fraction of the first upper end.
     let unit = high.0;
@@ -181,23 +183,23 @@ fn smallest(
         let r = unit * exp(log);
         let here = match excess(r) {
             // The upper end is the safe one, and known: that ends the search where an error would.
-            Err(Reason::NoConvergence { .. }) if high.0 - low.0 <= BLUR * high.0 => Err(None),
+            Err(error) if blurs(&error) && high.0 - low.0 <= BLUR * high.0 => Err(None),
             here => here.map_err(Some),
         }?;
         *(if here < 0.0 { &mut low } else { &mut high }) = (r, here);
         Ok(here)
     });
-    if let Err(Some(reason)) = searched {
-        return Err(reason);
+    if let Err(Some(error)) = searched {
+        return Err(error);
     }
     if low.1 >= -WIDTH {
-        return Ok(FrictionNeeded::Friction { r: low.0 });
+        return Ok(Some(FrictionNeeded::Friction { r: low.0 }));
     }
-    Ok(if high.1.is_finite() {
+    Ok(Some(if high.1.is_finite() {
         FrictionNeeded::Friction { r: high.0 }
     } else {
         FrictionNeeded::Fold { r: high.0, below: wanted * exp(low.1) }
-    })
+    }))
 }
 
 // How much friction of the guide a margin needs, by the whole model.
@@ -228,14 +230,13 @@ pub fn friction_of_guide(
     wanted: f64,
 ) -> Result<Option<FrictionNeeded>, Reason> {
     let model = subject.model()?;
-    let mut trouble = None;
     let machine = |held: f64| subject.with_friction(held * model.stiffness);
     // As a length: what the guide holds at rest.
     let length = match kick {
         Kick::Displacement => wanted,
         Kick::Impulse => wanted / (model.mass * model.omega_0),
     };
-    let told = |held: f64| {
+    let mut excess = |held: f64| {
         let machine = machine(held);
         if !known.is_none() {
             return guaranteed_excess(&machine, known, kick, wanted);
@@ -250,23 +251,14 @@ pub fn friction_of_guide(
         // As much friction holds a displacement by itself; where even that guarantees nothing, no friction does.
         let half = known.half_widths.get("R").copied().unwrap_or(0.0);
         let ample = 8.0 * (length + (known.disturbance + half) / model.stiffness);
-        if told(ample)? < 0.0 {
+        if excess(ample)? < 0.0 {
             return Ok(None);
         }
     }
-    let mut excess = |held: f64| {
-        told(held).map_err(|found| {
-            trouble = Some(found);
-            Reason::NotApplicable { needs: "a portrait of the machine" }
-        })
-    };
     let without = (model.damping > 0.0 && known.is_none()).then_some(0.0);
-    let found = least_friction(length, without, &mut excess);
-    if let Some(trouble) = trouble {
-        return Err(trouble);
-    }
+    let found = least_friction(length, without, &mut excess, |_| false)?;
     let force = |r: f64| r * model.stiffness;
-    Ok(found.ok().map(|needed| match needed {
+    Ok(found.map(|needed| match needed {
         FrictionNeeded::Any => FrictionNeeded::Any,
         FrictionNeeded::Friction { r } => FrictionNeeded::Friction { r: force(r) },
         FrictionNeeded::Fold { r, below } => {

@@ -15,7 +15,7 @@ use crate::flow::{Fate, Flow, Reason};
 use crate::model::{Model, Phase};
 use crate::numerics::root::bisect;
 use crate::portrait::basin::orbit::{POINTS, filled, inner_radius};
-use crate::portrait::basin::{Basin, Counts, Window, between};
+use crate::portrait::basin::{Basin, Counts, StartWindow, between};
 use crate::portrait::return_map::machine_return::Landmarks;
 use crate::portrait::return_map::machine_return::MachineReturn;
 
@@ -370,7 +370,7 @@ impl Portrait {
 
     /// A window, in m and m/s, half as large again as the largest cycle, or as the margin where there is none.
     #[must_use]
-    pub fn surroundings(&self) -> Window {
+    pub fn surroundings(&self) -> StartWindow {
         const ROOM: f64 = 1.5;
         let far = |(low, high): (f64, f64)| low.abs().max(high.abs());
         let size = |it: &Cycle| (far((it.q_min, it.q_max)), far((it.v_min, it.v_max)));
@@ -381,12 +381,12 @@ impl Portrait {
         let (x, v) = sizes
             .reduce(|one, other| (one.0.max(other.0), one.1.max(other.1)))
             .unwrap_or((held, held * self.model.omega_0));
-        Window { q: (-ROOM * x, ROOM * x), v: (-ROOM * v, ROOM * v) }
+        StartWindow { q: (-ROOM * x, ROOM * x), v: (-ROOM * v, ROOM * v) }
     }
 
     /// Where the starts of a window end, evenly spaced, including both of its ends.
     #[must_use]
-    pub fn count(&self, window: &Window, (columns, rows): (usize, usize)) -> Counts {
+    pub fn count(&self, window: &StartWindow, (columns, rows): (usize, usize)) -> Counts {
         let of_row = |row| {
             let mut counts = Counts::default();
             for column in 0..columns {
@@ -407,7 +407,7 @@ impl Portrait {
         let window = PhaseWindow { x, y };
         match &self.traced {
             Traced::Basin(basin) => {
-                without_belt::rest_share(basin, &Window { q: window.x, v: window.y })
+                without_belt::rest_share(basin, &StartWindow { q: window.x, v: window.y })
             }
             Traced::Curve(curve) => {
                 Some(curve.area_within(&window, self.model.speed) / window.area())

@@ -3,7 +3,7 @@
 //! The two share no code but the parameters. Where both are sure and differ, one of them is wrong, and the
 //! answer is a [`Contradiction`] instead of either.
 
-use std::fmt;
+use thiserror::Error;
 
 use super::basin::SurveyedBasin;
 use super::basin::cycle::Cycles;
@@ -14,24 +14,14 @@ use crate::proof::kicks::{ProvedEdge, ProvedKicks};
 use crate::proof::{ParameterBox, Proof, prove};
 
 /// The search and the proof say different things: an error of this program.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error(
+    "search and proof contradict each other, so that one of them is wrong: {what}; please report these parameters"
+)]
 pub struct Contradiction {
     /// What differs.
     pub what: String,
 }
-
-impl fmt::Display for Contradiction {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            out,
-            "search and proof contradict each other, so that one of them is wrong: {}; please report these \
-             parameters",
-            self.what
-        )
-    }
-}
-
-impl std::error::Error for Contradiction {}
 
 /// Proves what the search found, for the parameters as the doubles that they are. Fails with a [`Contradiction`]
 /// where the proof excludes a cycle that was found, or proves one that was not.

@@ -57,9 +57,7 @@ impl Course {
         let motion = MachineMotion::new(model, x, v, until);
         Ok(Course { motion, fate, rest: rest.transpose()?, portrait, second: None })
     }
-}
 
-impl Course {
     /// Follows the motion once more by another method.
     pub fn follow_by(&mut self, method: Method, tolerance: f64, start: (f64, f64), until: f64) {
         let (model, asked) = (&self.portrait.model, (method, tolerance));

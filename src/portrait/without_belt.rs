@@ -10,7 +10,7 @@ use crate::flow::{Fate, Limits, Reason};
 use crate::model::{Model, State};
 use crate::portrait::basin::arc::Arc;
 use crate::portrait::basin::cycle::cycles_and_closings;
-use crate::portrait::basin::{Basin, Window, basin};
+use crate::portrait::basin::{Basin, StartWindow, basin};
 
 /// How far a separatrix is followed, in units of `1/abs(D2)`.
 const REACH: f64 = 20.0;
@@ -90,7 +90,7 @@ pub fn fate(basin: &Basin, x: f64, y: f64) -> Fate {
 }
 
 /// The fraction of a window, in m and `m omega_0`, from which the mass comes to rest.
-pub fn rest_share(found: &Basin, window: &Window) -> Option<f64> {
+pub fn rest_share(found: &Basin, window: &StartWindow) -> Option<f64> {
     if found.border != Border::Separatrix {
         return Some(found.captured_share(window).part);
     }

@@ -9,7 +9,7 @@ use crate::model::{Belt, ParameterBox, State, Tolerances};
 use crate::portrait::basin::Basin;
 use crate::portrait::basin::cycle::PICTURE_REACH;
 use crate::portrait::guarantee::machine::{best, kicks, worst};
-use crate::portrait::guarantee::oscillator::{guarantee, uncertain, zones};
+use crate::portrait::guarantee::oscillator::{guarantee, zones};
 use crate::portrait::{Margin, Portrait, survey};
 
 /// What is not known exactly, and disturbed.
@@ -73,15 +73,11 @@ pub(super) fn of_oscillator(
     let d2 = known.d2.lower().abs().min(known.d2.upper().abs());
     let found = guarantee(known, disturbance, limits)?;
     let drawn = zones(known, disturbance, PICTURE_REACH / d2.max(f64::MIN_POSITIVE), limits)?;
-    let guaranteed = match uncertain(known, disturbance) {
-        Some(why) => Err(why.to_string()),
-        None => Ok(found.guaranteed.margin),
-    };
     Ok(CertainZones {
         safe: extent(drawn.safe.as_ref(), Extent::Nothing, points),
         hopeful: extent(drawn.lost.as_ref(), Extent::Everything, points),
         nominal: found.nominal,
-        guaranteed,
+        guaranteed: found.guaranteed.map_err(|why| why.to_string()),
         cost: found.cost,
     })
 }

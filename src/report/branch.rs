@@ -304,12 +304,14 @@ mod tests {
     use super::*;
     use crate::branch::SpecialKind;
     use crate::closed_form::piecewise_linear::LinearCycle;
-    use crate::model::Parameters;
+    use crate::model::{Parameters, Side};
+    use crate::portrait::closing::pair::Closing;
     use crate::report::Format;
 
     #[test]
     fn a_branch_ends_where_two_cycles_meet_or_where_one_grazes_the_rest() {
-        let linear = Cycle::from(&LinearCycle::new(-0.3, 0.1).unwrap());
+        let linear = Closing::from(&LinearCycle::new(-0.3, 0.1).unwrap())
+            .describe(&Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 }, Side::Upper);
         let end = |log_multiplier| {
             let cycle = Cycle { log_multiplier, ..linear };
             let special = vec![Special::new(SpecialKind::Fold, -1.5, Some(cycle))];

@@ -7,8 +7,8 @@ use super::{About, Answer, Columns, Document, Quantity, Table, cycles};
 use crate::flow::Cost;
 use crate::model::{Interval, Knob, MachineProblem, ParameterBox};
 use crate::portrait::basin::{Counts, SurveyedBasin};
-use crate::portrait::guarantee::machine::MachineUncertain;
-use crate::portrait::guarantee::oscillator::{Guarantee, Guaranteed};
+use crate::portrait::guarantee::Uncertain;
+use crate::portrait::guarantee::oscillator::Guarantee;
 use crate::portrait::kicks::RandomKick;
 use crate::portrait::kicks::repeated::Repeated;
 use crate::portrait::{Border, Margin, Portrait, RestMargin};
@@ -33,11 +33,10 @@ pub struct MarginAnswer {
 impl From<&Guarantee> for MarginAnswer {
     fn from(found: &Guarantee) -> Self {
         let ParameterBox { d, d2, d3, r } = found.known;
-        let Guaranteed { margin, reason } = found.guaranteed;
         MarginAnswer {
             nominal: found.nominal,
-            guaranteed: margin,
-            reason: reason.map(|why| why.to_string()),
+            guaranteed: found.guaranteed.unwrap_or(Margin::ENDLESS),
+            reason: found.guaranteed.err().map(|why| why.to_string()),
             disturbance: found.disturbance,
             known: Knob::PARAMETERS.into_iter().zip([d, d2, d3, r]).collect(),
             notes: Vec::new(),
@@ -51,7 +50,7 @@ impl MarginAnswer {
     pub fn of_machine(
         MachineProblem { subject, tolerances, .. }: &MachineProblem,
         nominal: &Portrait,
-        certain: Result<Margin, MachineUncertain>,
+        certain: Result<Margin, Uncertain>,
     ) -> Self {
         let uncertain = subject.of_belt().map(|belt| tolerances.intervals(belt));
         let exact = subject.numbers().map(|(knob, value)| (knob, Interval::point(value)));

@@ -11,7 +11,7 @@ use super::sweep::Sweep;
 use crate::flow::{Cost, Limits, Problem, Reason};
 use crate::model::belt::FrictionLaw;
 use crate::model::{Interval, Knob, MachineProblem, ParameterBox, Parameters, State};
-use crate::portrait::basin::Window;
+use crate::portrait::basin::StartWindow;
 use crate::portrait::kicks::RandomKick;
 
 /// Most points of a scan.
@@ -137,7 +137,7 @@ impl Scan {
         };
         let Conditions { window, elongation, kicks, wanted, .. } = self.conditions;
         if self.measures.iter().any(|measure| measure.is_over_window()) {
-            let Window { q, v } = window;
+            let StartWindow { q, v } = window;
             inputs.extend(named([("q_from", q.0), ("q_to", q.1), ("v_from", v.0), ("v_to", v.1)]));
             if elongation {
                 inputs.push(("q_of".to_owned(), Value::Word("elongation")));
@@ -230,7 +230,7 @@ mod tests {
     fn scan(over: &[&str], measures: &[Measure]) -> Result<Scan, String> {
         let sweep = |text: &&str| Sweep::read(text, &[Group::Motion]);
         let over = over.iter().map(sweep).collect::<Result<_, _>>()?;
-        let window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
+        let window = StartWindow { q: (-3.0, 3.0), v: (-3.0, 3.0) };
         Scan::new(Problem::default(), over, measures.to_vec(), window)
     }
 

@@ -13,11 +13,11 @@ use hopfscope::accuracy::extremes::sets::{LatticeCycle, SetAnswer, SetVerdict, j
 use hopfscope::branch::SpecialKind;
 use hopfscope::branch::along::{Points, branch};
 use hopfscope::flow::trajectory::trajectory;
-use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Problem, Reason};
+use hopfscope::flow::{Detail, Fate, Limits, Method, Outcome, Problem};
 use hopfscope::model::{HalfPlane, Knob, Parameters, Side, State};
 use hopfscope::numerics::elementary::{exp, ln};
 use hopfscope::portrait::basin::cycle::cycles;
-use hopfscope::portrait::basin::{Basin, Counts, Window, basin};
+use hopfscope::portrait::basin::{Basin, Counts, StartWindow, basin};
 use hopfscope::portrait::closing::all::closings;
 use hopfscope::portrait::closing::equation::{Equation, Route};
 use hopfscope::portrait::closing::half_map::{HalfMap, Length};
@@ -46,13 +46,12 @@ fn turn_is_larger(parameters: Parameters, sides: [Side; 2], step: f64) -> impl F
     move |clearance: f64| {
         let mut length = Length::new(clearance);
         for map in &mut maps {
-            match map.swing(length, &Limits { evaluations: u64::MAX, ..LIMITS }) {
-                Err(Reason::Escapes) => return true,
-                Err(Reason::Settles) => return false,
-                Err(reason) => panic!("{parameters:?}: {reason}"),
-                Ok(swing) if swing.end.value <= 2.0 * parameters.r => return false,
-                Ok(swing) => length = Length::new(swing.end.value - 2.0 * parameters.r),
+            let swing = map.swing(length, &Limits { evaluations: u64::MAX, ..LIMITS });
+            let end = swing.unwrap_or_else(|reason| panic!("{parameters:?}: {reason}")).end.value;
+            if end.is_infinite() || end <= 2.0 * parameters.r {
+                return end.is_infinite();
             }
+            length = Length::new(end - 2.0 * parameters.r);
         }
         length.value > clearance
     }
@@ -113,7 +112,7 @@ fn brute_fate(parameters: &Parameters, initial: State) -> Fate {
 #[test]
 fn ordered_basins_agree_with_brute_force() {
     const GRID: usize = 13;
-    let window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
+    let window = StartWindow { q: (-3.0, 3.0), v: (-3.0, 3.0) };
     parameter_sets(60).into_par_iter().for_each(|parameters| {
         let ordered = basin(&parameters, 3.0, &LIMITS).expect("a basin");
         for index in 0..GRID * GRID {
@@ -151,7 +150,7 @@ fn near_a_border(basin: &Basin, start: State) -> bool {
 #[test]
 fn few_starts_of_a_wide_window_come_to_rest_beside_a_large_cycle() {
     let parameters = Parameters { d: -0.2, d2: 0.2, d3: 0.5, r: 0.1 };
-    let window = Window { q: (-6.0, 6.0), v: (-6.0, 6.0) };
+    let window = StartWindow { q: (-6.0, 6.0), v: (-6.0, 6.0) };
     let counts =
         basin(&parameters, 6.0, &LIMITS).unwrap().count(&window, 320, 384, &LIMITS).unwrap();
     assert_eq!(counts, Counts { captured: 358, cycle: 122_522, escaped: 0, undecided: 0 });
@@ -165,12 +164,13 @@ fn the_general_path_gives_the_piecewise_linear_cycle_to_twelve_digits() {
     for d in [-0.999_999, -0.999, -0.99, -0.7, -0.1, -1e-3, -1e-6, -1e-12] {
         let parameters = Parameters { d, d2: 0.0, d3: 0.0, r };
         let series = |field| HalfMap::integrating_above(1e-9, field, f64::EPSILON);
-        let mut equation = Equation::with(&parameters, Side::Upper, series);
-        let found = closings(&mut equation, &LIMITS).unwrap();
+        let fields = [Side::Upper, Side::Lower].map(|side| HalfPlane::new(&parameters, side));
+        let mut equation = Equation::on_fields(&parameters, Side::Upper, fields, &LIMITS, series);
+        let found = closings(&mut equation, &[]).unwrap();
         assert_eq!(found.len(), 1, "D = {d}");
         equation.want_fastest(true);
         let route = if d < -0.2 { Route::Backward } else { Route::Mixed };
-        let closing = equation.at(route, found[0].node.at, &LIMITS).unwrap();
+        let closing = equation.at(route, found[0].node.at).unwrap();
         let cycle = closing.describe(&parameters, Side::Upper);
         let exact = &cycles(&parameters, false, &LIMITS).unwrap().cycles[0];
         let compare = |name: &str, one: f64, other: f64| {

@@ -5,12 +5,12 @@ use super::*;
 #[test]
 fn one_cycle_costs_at_most_forty_half_swings() {
     let parameters = Parameters { d: -0.3, d2: 0.2, d3: 0.5, r: 0.1 };
-    let found = closings(&mut Equation::new(&parameters, f64::EPSILON), &LIMITS).unwrap();
-    let mut equation = Equation::new(&parameters, f64::EPSILON);
-    let mut at = |u: f64| equation.at(Route::Mixed, u, &LIMITS).unwrap().node;
+    let found = closings(&mut Equation::new(&parameters, f64::EPSILON, &LIMITS), &[]).unwrap();
+    let mut equation = Equation::new(&parameters, f64::EPSILON, &LIMITS);
+    let mut at = |u: f64| equation.at(Route::Mixed, u).unwrap().node;
     let near = found[0].node.at;
     let bracket = (at(near - 0.3), at(near + 0.3));
-    let closing = polish(&mut equation, bracket, &LIMITS).unwrap();
+    let closing = polish(&mut equation, bracket).unwrap();
     assert!((closing.node.at - near).abs() < 1e-14);
     assert!(equation.swings() <= 40, "{} half swings", equation.swings());
 }

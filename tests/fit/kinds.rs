@@ -52,8 +52,8 @@ fn outcome(kind: &'static str, seed: u64, draws: usize) -> Option<Outcome> {
 
 fn true_margin(truth: &[f64; 6], reach: f64) -> Option<f64> {
     let parameters = Parameters { d: truth[2], d2: truth[3], d3: truth[4], r: truth[5] };
-    let mut equation = Equation::new(&parameters, f64::EPSILON);
-    let closings = all_closings(&mut equation, &Limits::PATIENT).ok()?;
+    let mut equation = Equation::new(&parameters, f64::EPSILON, &Limits::PATIENT);
+    let closings = all_closings(&mut equation).ok()?;
     Basin::around(&parameters, &closings, reach, &Limits::PATIENT).ok()?.margin().displacement
 }
 

@@ -4,14 +4,14 @@ use hopfscope::fit::{Inertia, MarginQuestion, Margins, conditions, margins};
 use hopfscope::flow::Limits;
 use hopfscope::model::{Interval, ParameterBox, Parameters};
 use hopfscope::portrait::RestMargin;
-use hopfscope::portrait::guarantee::oscillator::{Uncertain, guaranteed};
+use hopfscope::portrait::guarantee::{Uncertain, oscillator::guaranteed};
 
 use super::simulator::{Simulation, simulated};
 use super::*;
 
 /// The smallest kicks that are lost from the worst rest position under a disturbance.
 pub fn rest_margin(known: &ParameterBox, disturbance: f64) -> RestMargin {
-    guaranteed(known, disturbance, &Limits::PATIENT).unwrap().0.margin.from_rest
+    guaranteed(known, disturbance, &Limits::PATIENT).unwrap().0.unwrap().from_rest
 }
 
 fn true_parameters(name: &str) -> Parameters {
@@ -153,7 +153,7 @@ fn a_force_beyond_the_friction_leaves_no_kick_and_what_is_unbounded_is_called_ex
     );
     // The library says why, and the friction is indeed smaller: 0.4 mm times 968 N/m.
     let known = ParameterBox::from(&true_parameters("near_fold"));
-    let reason = guaranteed(&known, 0.5 / 0.968, &Limits::PATIENT).unwrap().0.reason;
+    let reason = guaranteed(&known, 0.5 / 0.968, &Limits::PATIENT).unwrap().0.err();
     assert!(matches!(reason, Some(Uncertain::Disturbance { .. })));
 
     let ran = run(&["fit", &path("coulomb_rest"), "--confidence", "0.7", "--format", "json"]);

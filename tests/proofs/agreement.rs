@@ -7,7 +7,7 @@ use hopfscope::numerics::Interval;
 use hopfscope::numerics::elementary::pow;
 use hopfscope::numerics::random::Random;
 use hopfscope::portrait::basin::cycle::cycles;
-use hopfscope::portrait::basin::{SurveyedBasin, Window};
+use hopfscope::portrait::basin::{StartWindow, SurveyedBasin};
 use hopfscope::portrait::proved::{agreed, matching, proved};
 use hopfscope::proof::kicks::{ProvedEdge, kicks};
 use hopfscope::proof::{ParameterBox, prove};
@@ -60,7 +60,7 @@ fn next_to_a_fold_search_and_proof_agree() {
 #[test]
 fn a_proof_that_contradicts_the_basin_found_is_not_shown() {
     let all = |d: f64| Parameters { d, d2: 0.2, d3: 0.5, r: 0.1 };
-    let window = Window { q: (-1.0, 1.0), v: (-1.0, 1.0) };
+    let window = StartWindow { q: (-1.0, 1.0), v: (-1.0, 1.0) };
     let survey = |parameters| SurveyedBasin::of(&parameters, &window, (2, 2), &Limits::PATIENT);
     let kicks =
         |parameters: Parameters| kicks(&prove(&ParameterBox::from(&parameters), &[]), [None; 3]);

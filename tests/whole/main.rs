@@ -17,7 +17,7 @@ use hopfscope::model::{Belt, Group, Knob, Model};
 use hopfscope::numerics::elementary::{
     asin, atan, atan2, cos, exp, exp_m1, hypot, ln, powi, sin, tanh,
 };
-use hopfscope::portrait::basin::Window;
+use hopfscope::portrait::basin::StartWindow;
 use hopfscope::portrait::return_map::machine_return::MachineReturn;
 use hopfscope::portrait::{Border, Portrait};
 use serde_json::{Value, json};
@@ -154,7 +154,7 @@ fn the_area_of_a_basin_is_its_share_of_a_window_and_its_largest_circle_comes_to_
         // Of a family of periodic motions the border parts those that keep moving.
         let known = found.area().zip(found.inner_radius()).filter(|_| !found.neutral);
         let Some((area, radius)) = known else { continue };
-        let Window { q, v } = found.surroundings();
+        let StartWindow { q, v } = found.surroundings();
         let share = found.rest_share(q, v).unwrap();
         assert!(close(share * (q.1 - q.0) * (v.1 - v.0), area, 1e-12), "{name}: {share} {area}");
         let omega_0 = found.model.omega_0;

@@ -77,8 +77,8 @@ pub fn sets(thin: bool) -> impl Iterator<Item = Parameters> {
 /// Searches for all cycles at these parameters within [`BUDGET`].
 pub fn judge_set(parameters: &Parameters, limits: &Limits) -> SetVerdict {
     let limits = limits.up_to(BUDGET);
-    let mut equation = Equation::new(parameters, STEP);
-    let answer = match all_closings(&mut equation, &limits) {
+    let mut equation = Equation::new(parameters, STEP, &limits);
+    let answer = match all_closings(&mut equation) {
         Err(reason) => SetAnswer::GaveUp { reason },
         Ok(closings) => {
             let cycle = |closing: &Closing| LatticeCycle {
@@ -93,9 +93,9 @@ pub fn judge_set(parameters: &Parameters, limits: &Limits) -> SetVerdict {
 
 /// By how much a turn fails to close; infinite where it cannot be followed.
 fn residual(closing: &Closing, parameters: &Parameters, limits: &Limits) -> f64 {
-    let mut equation = Equation::new(parameters, AGAIN);
+    let mut equation = Equation::new(parameters, AGAIN, limits);
     let route = Route::contracting(closing.log_multiplier(parameters));
-    let again = equation.at(route, closing.node.at, limits);
+    let again = equation.at(route, closing.node.at);
     again.map_or(f64::INFINITY, |again| again.node.value().abs())
 }
 

@@ -15,7 +15,7 @@ use crate::model::{HalfPlane, Parameters, Side, State};
 use crate::numerics::quadrature::gauss;
 use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 use crate::numerics::scaling::times_power;
-use crate::portrait::closing::half_map::{HalfMap, HalfSwing, Length, linear_below};
+use crate::portrait::closing::half_map::{Direction, HalfMap, HalfSwing, Length, linear_below};
 
 /// Integration tolerance of an arc.
 const TOLERANCE: f64 = 1e-14;
@@ -25,24 +25,6 @@ const DETAIL: f64 = 1e-12;
 
 /// Maximum number of evaluations of an arc. All its steps are kept, and this many take some ten megabytes.
 const BUDGET: u64 = 400_000;
-
-/// The direction in which an arc is computed; as a curve it is the same.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direction {
-    /// From where the swing starts.
-    Forward,
-    /// From where the swing ends, backward in time.
-    Backward,
-}
-
-impl Direction {
-    fn sense(self) -> f64 {
-        match self {
-            Direction::Forward => 1.0,
-            Direction::Backward => -1.0,
-        }
-    }
-}
 
 /// One integration step of an arc.
 #[derive(Clone, Debug)]
@@ -61,7 +43,7 @@ pub struct Arc {
     r: f64,
     /// That in which the arc was computed.
     field: HalfPlane,
-    /// Computed backward, positions are those of `y = -x`.
+    /// As a curve the arc is the same in both. Computed backward, positions are those of `y = -x`.
     direction: Direction,
     /// Of the swing (forward), or of the next one (backward).
     clearance: Length,
@@ -70,8 +52,8 @@ pub struct Arc {
     pieces: Vec<ArcStep>,
     /// From where the motion is linear to its end, if it was not followed there.
     rest: Option<ArcStep>,
-    /// The swing, or why it has no end.
-    pub swing: Result<HalfSwing, Reason>,
+    /// The swing.
+    pub swing: HalfSwing,
     pub cost: Cost,
 }
 
@@ -100,12 +82,7 @@ impl Arc {
             let step = stepper.last_step();
             let end = times_power(step.at(duration).x, unit);
             pieces.push(ArcStep { step, unit, duration, end });
-        });
-        if let Err(reason) = swing
-            && !reason.is_an_end()
-        {
-            return Err(reason);
-        }
+        })?;
         Ok(Arc {
             side,
             r: parameters.r,
@@ -139,8 +116,7 @@ impl Arc {
         let index = self.pieces.partition_point(|piece| piece.end < target);
         let rest = self.rest.as_ref().filter(|rest| target <= rest.end);
         let Some(piece) = self.pieces.get(index).or(rest) else {
-            let gone = matches!(self.swing, Err(Reason::Escapes));
-            return gone.then_some(f64::INFINITY);
+            return (self.swing.end == Length::INFINITE).then_some(f64::INFINITY);
         };
         Some(piece.speed_at(target))
     }
@@ -167,11 +143,7 @@ impl Arc {
         if self.direction == Direction::Forward {
             return Some(self.clearance);
         }
-        match &self.swing {
-            Ok(swing) => Some(swing.end),
-            Err(Reason::Settles) => Some(Length::ZERO),
-            Err(_) => None,
-        }
+        Some(self.swing.end).filter(|end| *end != Length::INFINITE)
     }
 
     /// Area between the arc and `v = 0`: the integral of `v dq`, which is that of `v^2 dtau`.

@@ -5,10 +5,10 @@
 //! points of the sticking set, that is, the motions that end exactly there, followed backward. In each
 //! half plane they are graphs over the displacement, like the borders of the basin ([`crate::portrait::basin`]).
 
-use super::arc::{Arc, Direction};
+use super::arc::Arc;
 use crate::flow::{Cost, Limits, Reason};
 use crate::model::{HalfPlane, Parameters, Side, State};
-use crate::portrait::closing::half_map::Length;
+use crate::portrait::closing::half_map::{Direction, Length};
 
 /// The bands: in each half plane the borders between one arrival more and one less, innermost first.
 #[derive(Clone, Debug)]
@@ -62,8 +62,8 @@ pub fn bands(
             let arc = Arc::new(parameters, side, Direction::Backward, clearance, limits)?;
             bands.cost += arc.cost;
             let before = starts[index].map_or(0.0, |start| start.value);
-            from_infinity[index] = arc.swing == Err(Reason::Escapes);
-            next[index] = arc.swing.ok().map(|swing| swing.end).filter(|start| {
+            from_infinity[index] = arc.swing.end == Length::INFINITE;
+            next[index] = Some(arc.swing.end).filter(|start| {
                 start.value < reach && start.value - before > RESOLVED * start.value
             });
             match side {

@@ -74,8 +74,8 @@ pub(crate) fn cycles_and_closings(
     parameters: &Parameters,
     limits: &Limits,
 ) -> Result<(Cycles, Vec<Closing>), Reason> {
-    let mut equation = Equation::new(parameters, STEP);
-    let closings = all_closings(&mut equation, limits)?;
+    let mut equation = Equation::new(parameters, STEP, limits);
+    let closings = all_closings(&mut equation)?;
     let describe = |closing: &Closing| closing.describe(parameters, equation.side);
     let stable: Vec<bool> =
         closings.iter().map(|closing| closing.log_multiplier(parameters) < 0.0).collect();
@@ -120,15 +120,17 @@ impl Closing {
         let log_multiplier = self.log_multiplier(parameters);
         let multiplier = exp(log_multiplier);
         let spread = self.spread();
-        let turning = [(self.first, spread.clearance[0]), (self.second, spread.clearance[1])];
-        let fastest = [(self.fastest[0], spread.fastest[0]), (self.fastest[1], spread.fastest[1])];
+        let turning = [(self.first, spread[0].length), (self.second, spread[1].length)];
+        let fastest = [0, 1].map(|index| (self.fastest[index], spread[index].fastest));
+        let duration = spread[0].duration + spread[1].duration;
+        let square = spread[0].square + spread[1].square;
         // The first swing starts on the far side of the half plane that it crosses.
         let ([left, right], [up, down]) = match side {
             Side::Upper => (turning, fastest),
             Side::Lower => ([turning[1], turning[0]], [fastest[1], fastest[0]]),
         };
         let unshared = turning.map(|(clearance, error)| error * (1.0 - share(clearance, 2.0 * r)));
-        let dampings = 2.0 * d.abs() * spread.duration + 3.0 * (d3.abs() * spread.square);
+        let dampings = 2.0 * d.abs() * duration + 3.0 * (d3.abs() * square);
         Cycle {
             stable: log_multiplier < 0.0,
             q_min: -(r + left.0.value),
@@ -147,7 +149,7 @@ impl Closing {
             q_max: right.1 * right.0.value,
             v_min: down.1,
             v_max: up.1,
-            period: spread.duration,
+            period: duration,
             log_multiplier: unshared[0]
                 + unshared[1]
                 + dampings

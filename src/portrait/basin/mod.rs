@@ -56,7 +56,7 @@ pub struct Basin {
 
 /// A rectangle of starts, both ends included.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Window {
+pub struct StartWindow {
     /// Smallest and largest displacement.
     pub q: (f64, f64),
     /// Smallest and largest velocity.
@@ -104,8 +104,8 @@ impl Counts {
 /// # Errors
 /// The [`Reason`] why a border could not be computed.
 pub fn basin(parameters: &Parameters, reach: f64, limits: &Limits) -> Result<Basin, Reason> {
-    let mut equation = Equation::new(parameters, STEP);
-    let found = all_closings(&mut equation, limits)?;
+    let mut equation = Equation::new(parameters, STEP, limits);
+    let found = all_closings(&mut equation)?;
     let mut basin = Basin::around(parameters, &found, reach, limits)?;
     basin.cost += equation.cost();
     Ok(basin)
@@ -200,7 +200,7 @@ impl Basin {
     /// [`Reason::Interrupted`], asked for at each column.
     pub fn count(
         &self,
-        window: &Window,
+        window: &StartWindow,
         columns: usize,
         rows: usize,
         limits: &Limits,
@@ -262,7 +262,7 @@ impl SurveyedBasin {
     /// The [`Reason`] why a border could not be computed.
     pub fn of(
         parameters: &Parameters,
-        window: &Window,
+        window: &StartWindow,
         (columns, rows): (usize, usize),
         limits: &Limits,
     ) -> Result<Self, Reason> {

@@ -12,7 +12,7 @@
 //! the captured clearances are `c0 = B0(2 r + c1)` and `c1 = B1(2 r + c0)`: a cycle where both are positive
 //! and finite, a separatrix where not.
 
-use super::arc::{Arc, Direction};
+use super::arc::Arc;
 use crate::flow::step::Powers;
 use crate::flow::{Limits, Reason, Trajectory};
 use crate::model::parameters::energy;
@@ -20,7 +20,7 @@ use crate::model::{Ledger, Parameters, Side, State};
 use crate::numerics::elementary::hypot;
 use crate::numerics::root::maximum;
 use crate::portrait::closing::equation::first_side;
-use crate::portrait::closing::half_map::{HalfSwing, Length};
+use crate::portrait::closing::half_map::{Direction, HalfSwing, Length};
 use crate::portrait::closing::pair::Closing;
 
 /// An orbit that parts the plane: an upper and a lower arc over the displacement.
@@ -70,29 +70,37 @@ impl Orbit {
     }
 
     /// The border between capture and the rest where no cycle is one; `reach` is the largest displacement
-    /// of interest.
+    /// of interest. Fails with the [`Reason`] why an arc could not be computed, or [`Reason::NoConvergence`].
     ///
-    /// With `D > -1` escape is the alternative, on the side in whose frame `D2 < 0` (`D3 = 0`): there the
-    /// border goes out along the parabola `v^2 = 1/(2 D2^2) - q/D2` forever, and before it came from
-    /// infinity on the other side. With `D <= -1` the end points of the sticking set are nodes that repel,
-    /// and on one side at least the border comes out of one. Fails with the [`Reason`] why an arc could not be
-    /// computed, or [`Reason::NoConvergence`].
+    /// With `D <= -1` the end points of the sticking set are nodes that repel, and on one side at least the border
+    /// comes out of one.
     pub fn separatrix(
         parameters: &Parameters,
         reach: f64,
         limits: &Limits,
     ) -> Result<Self, Reason> {
-        /// Clearance, in units of `1/abs(D2)`, within which a motion has forgotten where it came from.
-        const FORGETS: f64 = 40.0;
-        let far = Length::new(reach + 2.0 * parameters.r + FORGETS / parameters.d2.abs());
-        let braking = first_side(parameters);
-        let arc = |side, next| Arc::new(parameters, side, Direction::Backward, next, limits);
+        let reach = reach + 2.0 * parameters.r;
         if parameters.d <= -1.0 {
-            return Self::around_nodes(parameters, far, limits);
+            return Self::around_nodes(parameters, forgotten(parameters, reach), limits);
         }
-        let out = arc(braking.opposite(), far)?;
-        let before = arc(braking, out.clearance().unwrap_or(Length::ZERO))?;
-        Ok(Orbit::of(braking, [before, out], false))
+        Self::from_infinity([parameters; 2], first_side(parameters), reach, limits)
+    }
+
+    /// The border between capture and escape where rest attracts and cubic damping is none, with parameters of its own
+    /// for each of the two arcs, the first on the side in whose frame D2 brakes.
+    ///
+    /// On the other side the border goes out along the parabola `v^2 = 1/(2 D2^2) - q/D2` forever, and before it came
+    /// from infinity on the first. Fails with the [`Reason`] why an arc could not be computed.
+    pub fn from_infinity(
+        [braking, other]: [&Parameters; 2],
+        side: Side,
+        reach: f64,
+        limits: &Limits,
+    ) -> Result<Self, Reason> {
+        let arc = |of, side, next| Arc::new(of, side, Direction::Backward, next, limits);
+        let out = arc(other, side.opposite(), forgotten(other, reach))?;
+        let before = arc(braking, side, out.clearance().unwrap_or(Length::ZERO))?;
+        Ok(Orbit::of(side, [before, out], false))
     }
 
     /// The border where the end points of the sticking set repel: from the clearances 0 outwards, until
@@ -152,6 +160,14 @@ impl Orbit {
     }
 }
 
+/// A clearance so far beyond a reach that a motion has forgotten there where it came from: run backward, the one that
+/// goes out along the parabola forever attracts.
+fn forgotten(parameters: &Parameters, reach: f64) -> Length {
+    /// Such a clearance in units of `1/abs(D2)`.
+    const FORGETS: f64 = 40.0;
+    Length::new(reach + FORGETS / parameters.d2.abs())
+}
+
 /// The half swing from the clearance `start` to that of the next one, `next`, followed in the direction in
 /// which it attracts; `backward` is tried first. Fails with the [`Reason`] why it could not be computed, or
 /// [`Reason::NoConvergence`] where it ends elsewhere.
@@ -177,7 +193,10 @@ fn attracting(
         };
         let arc = Arc::new(parameters, side, direction, from, limits)?;
         // Traced the wrong way, a border may be left for good.
-        let Ok(HalfSwing { end, log_elasticity, .. }) = arc.swing else { continue };
+        if !arc.swing.arrives() {
+            continue;
+        }
+        let HalfSwing { end, log_elasticity, .. } = arc.swing;
         let apart = end.apart(to);
         if apart < change {
             (best, change) = (Some(arc), apart);

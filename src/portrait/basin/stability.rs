@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 use serde::Serialize;
 
 use super::orbit::Span;
-use super::{Basin, Window};
+use super::{Basin, StartWindow};
 use crate::flow::Fate;
 use crate::numerics::elementary::{asin, cos, powi, sin};
 use crate::numerics::quadrature::{Integral, integrate};
@@ -38,7 +38,7 @@ impl Basin {
     ///
     /// Adaptive Gauss-Kronrod quadrature over the displacements inside the edge. The error is ten times the sum of the
     /// differences between its two rules.
-    pub fn captured_share(&self, window: &Window) -> Share {
+    pub fn captured_share(&self, window: &StartWindow) -> Share {
         let whole = |part| Share { part, error: 0.0 };
         if self.fates.first() != Some(&Fate::Rest) {
             return whole(0.0);
@@ -106,13 +106,13 @@ mod tests {
     use crate::model::Parameters;
     use crate::portrait::basin::basin;
 
-    fn share(parameters: Parameters, window: Window) -> Share {
+    fn share(parameters: Parameters, window: StartWindow) -> Share {
         let reach = window.q.0.abs().max(window.q.1.abs());
         basin(&parameters, reach, &Limits::PATIENT).unwrap().captured_share(&window)
     }
 
-    fn square(half: f64) -> Window {
-        Window { q: (-half, half), v: (-half, half) }
+    fn square(half: f64) -> StartWindow {
+        StartWindow { q: (-half, half), v: (-half, half) }
     }
 
     #[test]
@@ -123,7 +123,7 @@ mod tests {
         let mut sum = Share { part: 0.0, error: 0.0 };
         for q in quarters {
             for v in quarters {
-                let quarter = share(parameters, Window { q, v });
+                let quarter = share(parameters, StartWindow { q, v });
                 sum = Share {
                     part: sum.part + quarter.part / 4.0,
                     error: sum.error + quarter.error / 4.0,
@@ -142,11 +142,11 @@ mod tests {
             for half in [1e3, 1e5, 1e7] {
                 let v = (-0.5, 0.4);
                 let found = basin(&parameters, half, &Limits::PATIENT).unwrap();
-                let whole = found.captured_share(&Window { q: (-half, half), v });
+                let whole = found.captured_share(&StartWindow { q: (-half, half), v });
                 let ends = [-half, -300.0, -10.0, -3.0, -1.0, 0.0, 1.0, 3.0, 10.0, 300.0, half];
                 let (mut sum, mut error) = (0.0, whole.error);
                 for q in ends.windows(2) {
-                    let share = found.captured_share(&Window { q: (q[0], q[1]), v });
+                    let share = found.captured_share(&StartWindow { q: (q[0], q[1]), v });
                     let weight = (q[1] - q[0]) / (2.0 * half);
                     (sum, error) = (sum + weight * share.part, error + weight * share.error);
                 }
@@ -164,7 +164,7 @@ mod tests {
         let inside = Parameters { d: 0.1, d2: 0.0, d3: 0.0, r: 0.1 };
         assert_eq!(share(inside, square(3.0)), Share { part: 1.0, error: 0.0 });
         let outside = Parameters { d: -0.3, d2: 0.0, d3: 0.0, r: 0.1 };
-        let far = Window { q: (2.0, 3.0), v: (-1.0, 1.0) };
+        let far = StartWindow { q: (2.0, 3.0), v: (-1.0, 1.0) };
         assert_eq!(share(outside, far), Share { part: 0.0, error: 0.0 });
         let frictionless = Parameters { d: -0.3, d2: 0.0, d3: 0.1, r: 0.0 };
         assert_eq!(share(frictionless, square(3.0)), Share { part: 0.0, error: 0.0 });
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn a_counted_grid_comes_near_the_integral() {
         let parameters = Parameters { d: -0.05, d2: 0.5, d3: 0.0, r: 0.1 };
-        let window = Window { q: (-2.0, 2.0), v: (-1.0, 3.0) };
+        let window = StartWindow { q: (-2.0, 2.0), v: (-1.0, 3.0) };
         let found = basin(&parameters, 2.0, &Limits::PATIENT).unwrap();
         let share = found.captured_share(&window);
         let counts = found.count(&window, 2001, 2001, &Limits::PATIENT).unwrap();

@@ -4,7 +4,7 @@
 //! clearance that a swing past the sticking set can have and the edge of escape ([`super::search`]), then polished
 //! ([`super::polish`]).
 
-use super::balance::weighed_residual;
+use super::balance::weighed_closing;
 use super::equation::{Equation, Route};
 use super::half_map::Length;
 use super::pair::Closing;
@@ -13,7 +13,7 @@ use super::precise::{FINER, PreciseEquation};
 use super::search::{Bracket, Node, search};
 use super::weak::{has_cycle, is_one_way, weak_closing};
 use crate::closed_form::piecewise_linear::LinearCycle;
-use crate::flow::{Limits, Reason};
+use crate::flow::Reason;
 use crate::model::Parameters;
 use crate::numerics::elementary::ln;
 use crate::numerics::twofold::Twofold;
@@ -21,35 +21,30 @@ use crate::numerics::twofold::Twofold;
 /// Tolerance of the integration steps of the search and the polish: rounding.
 pub const STEP: f64 = 1e-16;
 
-/// All closings, from the closed form where there is one.
-pub fn all_closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
-    some_closings(equation, usize::MAX, limits)
+/// All closings, by amplitude, from the closed form where there is one.
+pub fn all_closings(equation: &mut Equation) -> Result<Vec<Closing>, Reason> {
+    match closed_form(&equation.parameters) {
+        Some(known) => Ok(known),
+        None => closings(equation, &[]),
+    }
 }
 
 /// The closing of the smallest amplitude, from the closed form where there is one: half the work of
 /// finding all.
-pub fn innermost_closing(
-    equation: &mut Equation,
-    limits: &Limits,
-) -> Result<Option<Closing>, Reason> {
-    Ok(some_closings(equation, 1, limits)?.pop())
+pub fn innermost_closing(equation: &mut Equation) -> Result<Option<Closing>, Reason> {
+    match closed_form(&equation.parameters) {
+        Some(known) => Ok(known.into_iter().next()),
+        None => Ok(searched(equation, 1, &[])?.pop()),
+    }
 }
 
-/// As many closings as are wanted, by amplitude, from the closed form where there is one.
-fn some_closings(
-    equation: &mut Equation,
-    most: usize,
-    limits: &Limits,
-) -> Result<Vec<Closing>, Reason> {
-    let parameters = equation.parameters;
+/// All closings where there is a closed form of them.
+fn closed_form(parameters: &Parameters) -> Option<Vec<Closing>> {
     if parameters.is_piecewise_linear() {
         let cycle = LinearCycle::new(parameters.d, parameters.r);
-        return Ok(cycle.iter().map(Closing::from).collect());
+        return Some(cycle.iter().map(Closing::from).collect());
     }
-    if let Some(closing) = weak_closing(&parameters) {
-        return Ok(vec![closing]);
-    }
-    searched(equation, most, &[], limits)
+    weak_closing(parameters).map(|closing| vec![closing])
 }
 
 impl From<&LinearCycle> for Closing {
@@ -59,18 +54,9 @@ impl From<&LinearCycle> for Closing {
     }
 }
 
-/// All closings, by amplitude.
-pub fn closings(equation: &mut Equation, limits: &Limits) -> Result<Vec<Closing>, Reason> {
-    searched(equation, usize::MAX, &[], limits)
-}
-
-/// All closings outside of the intervals of `ln c0` in which all are known, by amplitude.
-pub fn other_closings(
-    equation: &mut Equation,
-    known: &[(f64, f64)],
-    limits: &Limits,
-) -> Result<Vec<Closing>, Reason> {
-    searched(equation, usize::MAX, known, limits)
+/// All closings outside of the `known` intervals of `ln c0`, in which all are known, by amplitude, from the search.
+pub fn closings(equation: &mut Equation, known: &[(f64, f64)]) -> Result<Vec<Closing>, Reason> {
+    searched(equation, usize::MAX, known)
 }
 
 /// As many closings as are wanted, by amplitude, from the search outside of the `known` intervals.
@@ -78,13 +64,11 @@ fn searched(
     equation: &mut Equation,
     most: usize,
     known: &[(f64, f64)],
-    limits: &Limits,
 ) -> Result<Vec<Closing>, Reason> {
     /// A search takes some tens of thousands of evaluations; where it takes this many on one half map,
     /// the flow is too stiff for it.
     const BUDGET: u64 = 40_000_000;
-    let budget = limits.evaluations.min(BUDGET);
-    let limits = &Limits { evaluations: budget, interrupted: limits.interrupted };
+    equation.limits.evaluations = equation.limits.evaluations.min(BUDGET);
     let Parameters { d, .. } = equation.parameters;
     // No swing of an overdamped linear motion comes back.
     let never_back = equation.parameters.is_piecewise_linear() && d <= -1.0;
@@ -92,15 +76,15 @@ fn searched(
         return Ok(Vec::new());
     }
     let sought = "a limit cycle";
-    let low = lower_end(equation, limits)?;
+    let low = lower_end(equation)?;
     equation.want_fastest(true);
     let brackets = match low {
-        Some(low) => brackets(equation, low, most, known, limits)?,
+        Some(low) => brackets(equation, low, most, known)?,
         None => Vec::new(),
     };
     let mut found = Vec::new();
     for bracket in brackets {
-        let closing = polish(equation, bracket, limits)?;
+        let closing = polish(equation, bracket)?;
         // Where the second swing would have to start at the very end of the sticking set, nothing closes.
         if closing.duration.is_finite() && found.len() < most {
             let log_multiplier = closing.log_multiplier(&equation.parameters);
@@ -139,10 +123,10 @@ fn loses_square(closing: &Closing, parameters: &Parameters) -> bool {
 ///
 /// Where rounding reaches it, the works are weighed; where they are not decisive either, the swings are
 /// computed in twice the working precision.
-fn resolved(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Node, Reason> {
+fn resolved(equation: &mut Equation, u: f64) -> Result<Node, Reason> {
     /// How far beyond its error bound a residual is smooth enough to be interpolated.
     const SMOOTH: f64 = 32.0;
-    let closing = equation.at(Route::Mixed, u, limits)?;
+    let closing = equation.at(Route::Mixed, u)?;
     let node = closing.node;
     let decided = |value: f64, noise: f64| value.is_nan() || value.abs() >= SMOOTH * noise;
     let known = decided(node.value(), closing.noise) || !closing.duration.is_finite();
@@ -150,15 +134,16 @@ fn resolved(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Node, Re
         return Ok(node);
     }
     let (mut difference, mut noise) = (node.value(), closing.noise);
-    if let Some((weighed, bound)) = weighed_residual(equation, u, limits)?
+    if let Some((weighed, bound)) = weighed_closing(equation, u)?.map(|(_, weighed)| weighed)
         && bound < noise
     {
         (difference, noise) = (weighed, bound);
     }
     if !decided(difference, noise) && FINER * closing.noise < noise {
-        let mut precise = PreciseEquation::new(&equation.parameters, equation.side);
+        let mut precise =
+            PreciseEquation::new(&equation.parameters, equation.side, &equation.limits);
         let start = Twofold::of(closing.first.value);
-        let found = precise.at(Route::Mixed, start, limits);
+        let found = precise.at(Route::Mixed, start);
         equation.charge(precise.cost());
         match found {
             Ok(found) => difference = found.map_or(difference, |found| found.value),
@@ -171,31 +156,28 @@ fn resolved(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Node, Re
 }
 
 /// Where the search begins, or `None` where no swing passes the sticking set.
-fn lower_end(equation: &mut Equation, limits: &Limits) -> Result<Option<f64>, Reason> {
+fn lower_end(equation: &mut Equation) -> Result<Option<f64>, Reason> {
     /// Without friction the linear terms alone decide about amplitudes this much below balance.
     const SMALL: f64 = 1e-4;
     /// A step down in the logarithm that no rounding bridges.
     const CLEARLY: f64 = 0.125;
     let Parameters { d, d2, d3, r } = equation.parameters;
-    let smallest = equation.smallest_clearance(limits)?;
-    let mut rim = f64::NEG_INFINITY;
-    if d <= -1.0 && r > 0.0 {
-        let Some(bound) = equation.rim(limits)? else { return Ok(None) };
-        rim = bound;
+    let smallest = equation.smallest_clearance()?.log;
+    let beyond_node = d <= -1.0 && r > 0.0;
+    let rim = if beyond_node { equation.rim()? } else { Some(f64::NEG_INFINITY) };
+    let rim = rim.unwrap_or(f64::INFINITY);
+    if smallest.max(rim) == f64::INFINITY {
+        return Ok(None);
     }
-    Ok(smallest.map(|smallest| {
-        if rim > smallest.log {
-            rim - CLEARLY
-        } else if smallest.log.is_finite() {
-            // A cycle of large multiplier lies within rounding of it: begin clearly below.
-            smallest.log - CLEARLY
-        } else if r > 0.0 {
-            // Beyond critical damping a swing passes from any clearance, however small.
-            ln(SMALL * f64::EPSILON * r)
-        } else {
-            let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
-            ln(SMALL * d.abs().sqrt().min(1.0) * natural)
-        }
+    Ok(Some(if smallest.max(rim).is_finite() {
+        // A cycle of large multiplier lies within rounding of it: begin clearly below.
+        smallest.max(rim) - CLEARLY
+    } else if r > 0.0 {
+        // Beyond critical damping a swing passes from any clearance, however small.
+        ln(SMALL * f64::EPSILON * r)
+    } else {
+        let natural = (1.0 / d2.abs()).min(1.0 / d3.abs().sqrt());
+        ln(SMALL * d.abs().sqrt().min(1.0) * natural)
     }))
 }
 
@@ -220,7 +202,6 @@ fn brackets(
     low: f64,
     most: usize,
     known: &[(f64, f64)],
-    limits: &Limits,
 ) -> Result<Vec<Bracket>, Reason> {
     /// Tolerance of the steps of the search where the polish needs no coarser ones, and the blur of a
     /// residual that comes of it, in units of the tolerance; weak damping makes residuals that small and
@@ -237,11 +218,7 @@ fn brackets(
     let (step, blur) = if parameters.d.abs() < WEAK { (fine, 0.0) } else { (rough, BLUR * rough) };
     let mut rough = equation.again(step);
     let mut function = |u: f64, fine: bool| {
-        if fine {
-            resolved(equation, u, limits)
-        } else {
-            Ok(rough.at(Route::Mixed, u, limits)?.node)
-        }
+        if fine { resolved(equation, u) } else { Ok(rough.at(Route::Mixed, u)?.node) }
     };
     let mut found = Vec::new();
     // Where the next unknown interval begins, at or beyond a place.
@@ -273,10 +250,7 @@ fn brackets(
 
 /// The bracket of the innermost closing, without any use of closed forms or of the parameters' D2: it serves an
 /// equation whose damping differs by side.
-pub(crate) fn innermost_bracket(
-    equation: &mut Equation,
-    limits: &Limits,
-) -> Result<Option<Bracket>, Reason> {
-    let Some(low) = lower_end(equation, limits)? else { return Ok(None) };
-    Ok(brackets(equation, low, 1, &[], limits)?.into_iter().next())
+pub(crate) fn innermost_bracket(equation: &mut Equation) -> Result<Option<Bracket>, Reason> {
+    let Some(low) = lower_end(equation)? else { return Ok(None) };
+    Ok(brackets(equation, low, 1, &[])?.into_iter().next())
 }

@@ -9,8 +9,8 @@
 //!
 //! `integral of x exp(2 D2 x) over [c1, c1 + 2 r] + integral of x exp(-2 D2 x) over [c0, c0 + 2 r] = W`
 
-use super::equation::{Equation, Route};
-use super::half_map::{HalfMap, HalfSwing, Length};
+use super::equation::Equation;
+use super::half_map::{Direction, HalfMap, HalfSwing, Length};
 use super::pair::Closing;
 use super::roundoff::UNIT;
 use crate::flow::step::Stepper;
@@ -23,34 +23,35 @@ use crate::numerics::scaling::{exponent, times_power};
 /// A residual weighed as energy, and a bound on its error.
 pub type Weighed = (f64, f64);
 
-/// The residual of [`Route::Mixed`] at `u = ln c0`, with the digits that a difference would lose.
+/// The pair of swings at `u = ln c0`, and its residual on [`super::equation::Route::Mixed`] with the digits that a
+/// difference would lose.
 ///
-/// Beside it a bound on its error: each work is known to rounding. `None` where a swing does not end.
-pub fn weighed_residual(
-    equation: &mut Equation,
-    u: f64,
-    limits: &Limits,
-) -> Result<Option<Weighed>, Reason> {
-    Ok(weighed_closing(equation, u, limits)?.map(|(_, weighed)| weighed))
-}
-
-/// The same with the pair of swings that was weighed.
+/// Beside it a bound on its error: each work is known to rounding. `None` where a swing does not end, or where D2
+/// differs by side: it then does not give in one swing what it takes in the other.
 pub fn weighed_closing(
     equation: &mut Equation,
     u: f64,
-    limits: &Limits,
 ) -> Result<Option<(Closing, Weighed)>, Reason> {
+    if !equation.is_of_one_motion() {
+        return Ok(None);
+    }
     let gap = 2.0 * equation.parameters.r;
     let start = Length::from_log(u);
     // Squares of lengths leave the range of numbers long before lengths do: all in units of the start.
     let unit = exponent(start.value);
-    let [forward, backward] = equation.maps(Route::Mixed);
-    let Some((first, gained_first)) = weigh(forward, start, unit, limits)? else { return Ok(None) };
-    // Run backward, positions and damping change their signs; the work is that of the motion forward.
-    let Some((second, lost_second)) = weigh(backward, start.plus(gap), unit, limits)? else {
-        return Ok(None);
-    };
+    let limits = equation.limits;
+    let forward = equation.map(0, Direction::Forward);
     let d2 = times_power(forward.field().d2, unit);
+    let (first, gained_first) = weigh(forward, start, unit, &limits)?;
+    if !first.arrives() {
+        return Ok(None);
+    }
+    // Run backward, positions and damping change their signs; the work is that of the motion forward.
+    let backward = equation.map(1, Direction::Backward);
+    let (second, lost_second) = weigh(backward, start.plus(gap), unit, &limits)?;
+    if !second.arrives() {
+        return Ok(None);
+    }
     let closing = equation.pair(start, first, second);
     let [start, second, gap] =
         [start.value, second.end.value, gap].map(|length| times_power(length, -unit));
@@ -69,7 +70,7 @@ fn weigh(
     start: Length,
     measure: i32,
     limits: &Limits,
-) -> Result<Option<(HalfSwing, f64)>, Reason> {
+) -> Result<(HalfSwing, f64), Reason> {
     let HalfPlane { d, d2, d3 } = map.field().in_units(measure);
     let mut gained = 0.0;
     // Every part of the swing counts: none may be skipped by a closed form.
@@ -85,11 +86,7 @@ fn weigh(
         }
     });
     map.set_linear_below(skipped);
-    match swing {
-        Ok(swing) => Ok(Some((swing, gained))),
-        Err(Reason::Escapes | Reason::Settles) => Ok(None),
-        Err(reason) => Err(reason),
-    }
+    Ok((swing?, gained))
 }
 
 /// The integral of `x exp(2 d2 x)` over `[start, start + gap]`: what friction takes between two swings.

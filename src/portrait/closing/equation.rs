@@ -12,8 +12,8 @@
 //! The first swing is the one in whose frame `D2 >= 0`, so that with `D3 = 0` neither it nor the
 //! second swing run backward can escape.
 
-use super::half_map::{HalfMap, HalfSwing, Length};
-use super::pair::{Closing, Spread, rounding, share};
+use super::half_map::{Direction, HalfMap, HalfSwing, Length};
+use super::pair::{Closing, rounding, share};
 use super::roundoff::Errors;
 use super::search::Node;
 use crate::flow::{Cost, Limits, Reason};
@@ -60,9 +60,11 @@ impl Route {
 }
 
 /// The half maps of both swings in both directions.
-#[derive(Clone, Debug)]
-pub struct Equation {
+#[derive(Clone)]
+pub struct Equation<'a> {
     pub parameters: Parameters,
+    /// What the answer to its question may cost.
+    pub(crate) limits: Limits<'a>,
     /// The side of the first swing.
     pub side: Side,
     pub(crate) forward: [HalfMap; 2],
@@ -75,35 +77,38 @@ pub fn first_side(parameters: &Parameters) -> Side {
     if parameters.d2 < 0.0 { Side::Lower } else { Side::Upper }
 }
 
-impl Equation {
+impl<'a> Equation<'a> {
     /// The equation at these parameters, each integration step within the relative `tolerance`.
-    pub fn new(parameters: &Parameters, tolerance: f64) -> Self {
-        Self::on_side(parameters, first_side(parameters), tolerance)
+    pub fn new(parameters: &Parameters, tolerance: f64, limits: &Limits<'a>) -> Self {
+        Self::on_side(parameters, first_side(parameters), tolerance, limits)
     }
 
     /// The same with the first swing on a given side.
-    pub fn on_side(parameters: &Parameters, side: Side, tolerance: f64) -> Self {
-        Self::with(parameters, side, |field| HalfMap::new(field, tolerance))
-    }
-
-    /// The same with half maps made by `map`.
-    pub fn with(parameters: &Parameters, side: Side, map: impl Fn(HalfPlane) -> HalfMap) -> Self {
+    pub fn on_side(
+        parameters: &Parameters,
+        side: Side,
+        tolerance: f64,
+        limits: &Limits<'a>,
+    ) -> Self {
         let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
-        Self::on_fields(parameters, side, fields, map)
+        Self::on_fields(parameters, side, fields, limits, |field| HalfMap::new(field, tolerance))
     }
 
-    /// The same with damping that differs by side: the fields of the first and of the second swing.
+    /// The same with half maps made by `map`, and with damping that may differ by side: the fields of the first and of
+    /// the second swing.
     ///
-    /// Only the search for brackets and [`Self::at`] serve such an equation; whatever else takes D2 from its
-    /// parameters does not.
+    /// Only the search for brackets, the polish and [`Self::at`] serve an equation whose damping differs; whatever else
+    /// takes D2 from its parameters does not.
     pub fn on_fields(
         parameters: &Parameters,
         side: Side,
         fields: [HalfPlane; 2],
+        limits: &Limits<'a>,
         map: impl Fn(HalfPlane) -> HalfMap,
     ) -> Self {
         Equation {
             parameters: *parameters,
+            limits: *limits,
             side,
             forward: fields.map(&map),
             backward: fields.map(|field| map(field.reversed())),
@@ -114,7 +119,8 @@ impl Equation {
     /// The same equation, each integration step within another relative tolerance.
     pub fn again(&self, tolerance: f64) -> Self {
         let fields = [&self.forward[0], &self.forward[1]].map(|map| *map.field());
-        Self::on_fields(&self.parameters, self.side, fields, |field| HalfMap::new(field, tolerance))
+        let map = |field| HalfMap::new(field, tolerance);
+        Self::on_fields(&self.parameters, self.side, fields, &self.limits, map)
     }
 
     /// Whether both fields are those of its parameters.
@@ -131,14 +137,11 @@ impl Equation {
         }
     }
 
-    /// The maps of the first and the second swing along a route.
-    pub fn maps(&mut self, route: Route) -> [&mut HalfMap; 2] {
-        let ([forward0, forward1], [backward0, backward1]) =
-            (&mut self.forward, &mut self.backward);
-        match route {
-            Route::Mixed => [forward0, backward1],
-            Route::Forward => [forward0, forward1],
-            Route::Backward => [backward0, backward1],
+    /// The map of the first swing, or of the second one, in a direction.
+    pub(crate) fn map(&mut self, index: usize, direction: Direction) -> &mut HalfMap {
+        match direction {
+            Direction::Forward => &mut self.forward[index],
+            Direction::Backward => &mut self.backward[index],
         }
     }
 
@@ -166,183 +169,195 @@ impl Equation {
         self.forward.iter().chain(&self.backward).map(|map| map.swings).sum()
     }
 
+    /// A swing of one of the maps. From nowhere, and from beyond all lengths, it leads to the same again.
+    pub(crate) fn swing(
+        &mut self,
+        index: usize,
+        direction: Direction,
+        start: Length,
+    ) -> Result<HalfSwing, Reason> {
+        if start.log.is_infinite() {
+            return Ok(HalfSwing::lost(start, start));
+        }
+        let limits = self.limits;
+        self.map(index, direction).swing(start, &limits)
+    }
+
     /// The smallest clearance whose first swing passes the sticking set: the preimage of its far end.
     ///
-    /// No cycle starts with less. `None` where no swing of any clearance passes it: every motion is
+    /// No cycle starts with less. It is infinite where no swing of any clearance passes it: every motion is
     /// captured.
-    pub fn smallest_clearance(&mut self, limits: &Limits) -> Result<Option<Length>, Reason> {
+    pub fn smallest_clearance(&mut self) -> Result<Length, Reason> {
         let end = Length::new(2.0 * self.parameters.r);
-        match self.backward[0].swing(end, limits) {
-            Ok(swing) => Ok(Some(swing.end)),
-            Err(Reason::Settles) => Ok(Some(Length { value: 0.0, log: f64::NEG_INFINITY })),
-            Err(Reason::Escapes) => Ok(None),
-            Err(reason) => Err(reason),
-        }
+        Ok(self.swing(0, Direction::Backward, end)?.end)
     }
 
     /// The two swings for `u = ln c0`.
-    pub fn at(&mut self, route: Route, u: f64, limits: &Limits) -> Result<Closing, Reason> {
-        self.from(route, Length::from_log(u), limits)
+    pub fn at(&mut self, route: Route, u: f64) -> Result<Closing, Reason> {
+        self.from(route, Length::from_log(u))
     }
 
-    /// The two swings for `c0`.
-    pub fn from(
-        &mut self,
-        route: Route,
-        start: Length,
-        limits: &Limits,
-    ) -> Result<Closing, Reason> {
+    /// The two swings for `c0`. Where one of them has no end, one of both functions of the node is infinite, and the
+    /// other still bounds what lies further in or out.
+    pub fn from(&mut self, route: Route, start: Length) -> Result<Closing, Reason> {
+        use Direction::{Backward, Forward};
+        let here = Place::start(start);
         match route {
-            Route::Mixed => self.mixed(start, limits),
-            Route::Forward => self.both_forward(start, limits),
-            Route::Backward => self.both_backward(start, limits),
+            Route::Mixed => {
+                // The second swing first: with D3 > 0 it is the one that escapes, and quickly, where the first
+                // one would be stiff.
+                let target = start.plus(2.0 * self.parameters.r);
+                let second = self.swing(1, Backward, target)?;
+                let first = if second.end == Length::INFINITE {
+                    self.reach(start)?
+                } else {
+                    self.swing(0, Forward, start)?
+                };
+                Ok(self.pair(start, first, second))
+            }
+            Route::Forward => {
+                let (first, between) = self.stage(0, Forward, here)?;
+                let (second, back) = self.stage(1, Forward, between)?;
+                Ok(self.closing(start, [back, here], [here.rounded(), between], [first, second]))
+            }
+            Route::Backward => {
+                let (second, between) = self.stage(1, Backward, here)?;
+                let (first, back) = self.stage(0, Backward, between)?;
+                Ok(self.closing(start, [here, back], [back, between], [first, second]))
+            }
         }
-    }
-
-    fn mixed(&mut self, start: Length, limits: &Limits) -> Result<Closing, Reason> {
-        let gap = 2.0 * self.parameters.r;
-        // The second swing first: with D3 > 0 it is the one that escapes, and quickly, where the first
-        // one would be stiff.
-        let second = match self.backward[1].swing(start.plus(gap), limits) {
-            Err(Reason::Escapes) => {
-                return Ok(Closing::beyond(start, self.reach(start, limits)?, f64::INFINITY));
-            }
-            Err(Reason::Settles) => HalfSwing::collapsed(start.plus(gap)),
-            Err(reason) => return Err(reason),
-            Ok(swing) => swing,
-        };
-        let target = second.end.plus(gap);
-        let first = match self.forward[0].swing(start, limits) {
-            Err(Reason::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, target.log)),
-            Err(Reason::Settles) => {
-                return Ok(Closing::beyond(start, f64::NEG_INFINITY, target.log));
-            }
-            Err(reason) => return Err(reason),
-            Ok(swing) => swing,
-        };
-        Ok(self.pair(start, first, second))
     }
 
     /// The pair of a first swing, run forward from `start`, and a second one, run backward.
     pub(crate) fn pair(&self, start: Length, first: HalfSwing, second: HalfSwing) -> Closing {
         let gap = 2.0 * self.parameters.r;
-        let target = second.end.plus(gap);
-        let pull = exp(second.log_elasticity) * share(second.end, gap) * share(start, gap);
-        let slope = exp(first.log_elasticity) - pull;
-        let node = Node::new(start.log, first.end.log, target.log, slope);
-        let shares = [share(start, gap), share(second.end, gap)];
-        let [(own, gain), (late, late_gain)] =
-            [first, second].map(|it| (it.errors[0], it.errors[1]));
-        let late = late.plus(late_gain, f64::EPSILON);
-        let errors = [
-            Spread::new([rounding(start), late.end], [own, late]),
-            Spread::new(
-                [1.0, shares[0] * late_gain.end],
-                [gain, Errors::default().plus(late_gain, shares[0])],
-            ),
-        ];
-        let noise = own.end + shares[1] * late.end + rounding(first.end) + rounding(target);
-        let growth =
-            [first.log_elasticity - ln(shares[1]), -(second.log_elasticity + ln(shares[0]))];
-        let closing = Closing::of(node, [start, second.end], [first, second]);
-        closing.with_errors(growth, noise, errors)
+        let here = Place::start(start);
+        let first = Stage::new(first, Direction::Forward, here);
+        let second = Stage::new(second, Direction::Backward, here.plus(gap));
+        let ends = [first.end, second.end.plus(gap)];
+        self.closing(start, ends, [here.rounded(), second.end], [first, second])
     }
 
-    /// Logarithm of where the first swing from `start` ends, or a bound on it: the largest number where that
-    /// is not known at little cost.
-    fn reach(&mut self, start: Length, limits: &Limits) -> Result<f64, Reason> {
+    /// One swing from a clearance, and the next clearance in this direction.
+    fn stage(
+        &mut self,
+        index: usize,
+        direction: Direction,
+        from: Place,
+    ) -> Result<(Stage, Place), Reason> {
+        let gap = 2.0 * self.parameters.r;
+        let backward = direction == Direction::Backward;
+        let from = if backward { from.plus(gap) } else { from };
+        let swing = self.swing(index, direction, from.length)?;
+        let stage = Stage::new(swing, direction, from);
+        Ok((stage, if backward { stage.end } else { stage.end.minus(gap) }))
+    }
+
+    /// The closing of two swings that start with these clearances; `rise` and `fall` are equal where it closes.
+    fn closing(
+        &self,
+        start: Length,
+        [rise, fall]: [Place; 2],
+        clearances: [Place; 2],
+        stages: [Stage; 2],
+    ) -> Closing {
+        let gap = 2.0 * self.parameters.r;
+        let slope = exp(rise.log_gain) - exp(fall.log_gain);
+        let node = Node::new(start.log, rise.length.log, fall.length.log, slope);
+        let noise = [rise, fall].map(|end| end.error + rounding(end.length));
+        let noise = noise[0] + noise[1];
+        let next = [clearances[1], clearances[0]];
+        let growth = [0, 1].map(|index| stages[index].growth(share(next[index].length, gap)));
+        let errors = [0, 1].map(|index| {
+            let [own, gain] = stages[index].errors;
+            let Place { error, log_gain, .. } = clearances[index];
+            [Errors { length: error, ..own }, Errors { length: exp(log_gain), ..gain }]
+        });
+        let uncertainty = (node.value().abs() + noise) / node.slope.abs();
+        let lengths = clearances.map(|clearance| clearance.length);
+        let found = Closing::new(node, lengths, stages.map(|stage| stage.swing));
+        Closing { growth, noise, uncertainty, errors, ..found }
+    }
+
+    /// The first swing from `start`, or a bound on where it ends: the largest number where that is not known at
+    /// little cost.
+    fn reach(&mut self, start: Length) -> Result<HalfSwing, Reason> {
         /// Evaluations that this is worth.
         const LITTLE: u64 = 1_000;
-        let map = &mut self.forward[0];
+        let (map, limits) = (&mut self.forward[0], self.limits);
         let evaluations = limits.evaluations.min(map.cost().evaluations + map.swings + LITTLE);
         match map.swing(start, &Limits { evaluations, interrupted: limits.interrupted }) {
-            Ok(swing) => Ok(swing.end.log),
+            Ok(swing) if swing.arrives() => Ok(swing),
             Err(Reason::Interrupted) => Err(Reason::Interrupted),
-            Err(_) => Ok(f64::MAX),
+            _ => Ok(HalfSwing::lost(start, Length { log: f64::MAX, ..Length::INFINITE })),
         }
     }
+}
 
-    fn both_forward(&mut self, start: Length, limits: &Limits) -> Result<Closing, Reason> {
-        let gap = 2.0 * self.parameters.r;
-        let (mut clearance, mut swings) = (start, [HalfSwing::collapsed(start); 2]);
-        let mut seconds = start;
-        for (index, map) in self.forward.iter_mut().enumerate() {
-            let swing = match map.swing(clearance, limits) {
-                Err(Reason::Escapes) => return Ok(Closing::beyond(start, f64::INFINITY, f64::MAX)),
-                Err(Reason::Settles) => {
-                    return Ok(Closing::beyond(start, f64::NEG_INFINITY, f64::MIN));
-                }
-                Err(reason) => return Err(reason),
-                Ok(swing) => swing,
-            };
-            let passed = swing.end.value - gap;
-            if passed <= 0.0 {
-                return Ok(Closing::beyond(start, f64::NEG_INFINITY, f64::MIN));
-            }
-            clearance = if gap == 0.0 { swing.end } else { Length::new(passed) };
-            swings[index] = swing;
-            if index == 0 {
-                seconds = clearance;
-            }
-        }
-        let stretch = exp(swings[0].log_elasticity + swings[1].log_elasticity)
-            / (share(seconds, gap) * share(clearance, gap));
-        let node = Node::new(start.log, clearance.log, start.log, stretch - 1.0);
-        let shares = [share(clearance, gap), share(seconds, gap)];
-        let [(own, gain), (late, late_gain)] = swings.map(|it| (it.errors[0], it.errors[1]));
+/// A length on the way along both swings.
+#[derive(Clone, Copy)]
+struct Place {
+    length: Length,
+    /// Logarithm of what a relative error 1 of the first clearance makes of it.
+    log_gain: f64,
+    /// Its own relative error.
+    error: f64,
+}
+
+impl Place {
+    fn start(length: Length) -> Self {
+        Place { length, log_gain: 0.0, error: 0.0 }
+    }
+
+    /// The same with the error of its rounded logarithm.
+    fn rounded(self) -> Self {
+        Place { error: rounding(self.length), ..self }
+    }
+
+    fn plus(self, gap: f64) -> Self {
+        let share = share(self.length, gap);
+        let error = share * self.error + f64::EPSILON;
+        Place { length: self.length.plus(gap), log_gain: self.log_gain + ln(share), error }
+    }
+
+    /// What is left beyond the sticking set; nothing where it ends within.
+    fn minus(self, gap: f64) -> Self {
+        let left = (self.length.value - gap).max(0.0);
+        let length = if gap == 0.0 { self.length } else { Length::new(left) };
+        let share = share(length, gap);
         // A difference of two lengths keeps their absolute errors.
-        let passed = [own.end + f64::EPSILON, gain.end].map(|error| error / shares[1]);
-        let late = late.plus(late_gain, passed[0]);
-        let errors = [
-            Spread::new([rounding(start), passed[0]], [own, late]),
-            Spread::new([1.0, passed[1]], [gain, Errors::default().plus(late_gain, passed[1])]),
-        ];
-        let noise = (late.end + f64::EPSILON) / shares[0] + rounding(clearance) + rounding(start);
-        let growth =
-            [swings[0].log_elasticity - ln(shares[1]), swings[1].log_elasticity - ln(shares[0])];
-        Ok(Closing::of(node, [start, seconds], swings).with_errors(growth, noise, errors))
+        let error = (self.error + f64::EPSILON) / share;
+        Place { length, log_gain: self.log_gain - ln(share), error }
+    }
+}
+
+/// A swing on the way.
+#[derive(Clone, Copy)]
+struct Stage {
+    swing: HalfSwing,
+    direction: Direction,
+    end: Place,
+    /// Its errors at exactly this first clearance, and those that a relative error 1 of it makes.
+    errors: [Errors; 2],
+}
+
+impl Stage {
+    fn new(swing: HalfSwing, direction: Direction, from: Place) -> Self {
+        let [own, gain] = swing.errors;
+        let own = own.plus(gain, from.error);
+        let gain = Errors::default().plus(gain, exp(from.log_gain));
+        let log_gain = from.log_gain + swing.log_elasticity;
+        let end = Place { length: swing.end, log_gain, error: own.length };
+        Stage { swing, direction, end, errors: [own, gain] }
     }
 
-    fn both_backward(&mut self, start: Length, limits: &Limits) -> Result<Closing, Reason> {
-        let gap = 2.0 * self.parameters.r;
-        let (mut length, mut swings) = (start, [HalfSwing::collapsed(start); 2]);
-        let mut ends = [start; 2];
-        let mut shrink = 1.0;
-        for index in [1, 0] {
-            shrink *= share(length, gap);
-            let swing = match self.backward[index].swing(length.plus(gap), limits) {
-                Err(Reason::Escapes) => return Ok(Closing::beyond(start, f64::MAX, f64::INFINITY)),
-                Err(Reason::Settles) => HalfSwing::collapsed(length.plus(gap)),
-                Err(reason) => return Err(reason),
-                Ok(swing) => swing,
-            };
-            shrink *= exp(swing.log_elasticity);
-            (length, ends[index], swings[index]) = (swing.end, swing.end, swing);
+    /// Logarithm of what it makes, run forward, of a relative error of its clearance; `share` is that of the gap in
+    /// the clearance after it.
+    fn growth(&self, share: f64) -> f64 {
+        match self.direction {
+            Direction::Forward => self.swing.log_elasticity - ln(share),
+            Direction::Backward => -(self.swing.log_elasticity + ln(share)),
         }
-        let [back, second] = ends;
-        let node = Node::new(start.log, start.log, back.log, 1.0 - shrink);
-        let shares = [share(start, gap), share(second, gap)];
-        let [(last, last_gain), (own, gain)] = swings.map(|it| (it.errors[0], it.errors[1]));
-        let own = own.plus(gain, f64::EPSILON);
-        let last = last.plus(last_gain, shares[1] * own.end + f64::EPSILON);
-        let carried = shares[0] * gain.end * shares[1];
-        let errors = [
-            Spread::new([last.end, own.end], [last, own]),
-            Spread::new(
-                [shrink, shares[0] * gain.end],
-                [
-                    Errors::default().plus(last_gain, carried),
-                    Errors::default().plus(gain, shares[0]),
-                ],
-            ),
-        ];
-        let noise = last.end + rounding(start) + rounding(back);
-        // Where the way back contracts, its end is known better than its start.
-        let growth = [
-            -(swings[0].log_elasticity + ln(shares[1])),
-            -(swings[1].log_elasticity + ln(shares[0])),
-        ];
-        Ok(Closing::of(node, [back, second], swings).with_errors(growth, noise, errors))
     }
 }
 
@@ -357,30 +372,25 @@ pub struct WayFromRim {
     pub q_max: f64,
 }
 
-impl Equation {
+impl Equation<'_> {
     /// Logarithm of the clearance below which no first swing of a cycle starts where the end of the sticking set
     /// is a node that repels (`D <= -1`); `None` where no swing from there comes back.
     ///
     /// Every second swing, however close to the sticking set it starts, ends beyond the one that creeps out
     /// from its rim, and the next first swing starts there.
-    pub fn rim(&mut self, limits: &Limits) -> Result<Option<f64>, Reason> {
-        let r = self.parameters.r;
+    pub fn rim(&mut self) -> Result<Option<f64>, Reason> {
         let rim = self.rim_start();
-        let mut bound = f64::NEG_INFINITY;
-        for map in &mut self.forward {
-            match map.swing(rim, limits) {
-                Ok(swing) => bound = ln(swing.end.value - 2.0 * r),
-                Err(Reason::Escapes) => return Ok(None),
-                Err(Reason::Settles) => bound = f64::NEG_INFINITY,
-                Err(reason) => return Err(reason),
-            }
+        let mut ends = [0.0; 2];
+        for (index, end) in ends.iter_mut().enumerate() {
+            *end = self.swing(index, Direction::Forward, rim)?.end.value;
         }
-        Ok(Some(if bound.is_nan() { f64::NEG_INFINITY } else { bound }))
+        let comes_back = ends.iter().all(|end| end.is_finite());
+        Ok(comes_back.then(|| ln((ends[1] - 2.0 * self.parameters.r).max(0.0))))
     }
 
     /// The way of motions that leave the end of the sticking set, a node that repels (`D < -1`), on the side on which
     /// they come further.
-    pub fn way_from_rim(&mut self, limits: &Limits) -> Result<WayFromRim, Reason> {
+    pub fn way_from_rim(&mut self) -> Result<WayFromRim, Reason> {
         let Parameters { r, .. } = self.parameters;
         let gap = 2.0 * r;
         let rim = self.rim_start();
@@ -389,12 +399,7 @@ impl Equation {
             let (mut start, mut excess) = (rim, f64::INFINITY);
             let mut turning = 0.0;
             for map in [index, 1 - index] {
-                let end = match self.forward[map].swing(start, limits) {
-                    Ok(swing) => swing.end.value,
-                    Err(Reason::Settles) => 0.0,
-                    Err(Reason::Escapes) => f64::INFINITY,
-                    Err(reason) => return Err(reason),
-                };
+                let end = self.swing(map, Direction::Forward, start)?.end.value;
                 excess = excess.min(ln(end / gap));
                 if map == index {
                     turning = end - gap;
@@ -439,9 +444,9 @@ mod tests {
         let limits = &Limits::PATIENT;
         for (d3, finite) in [(0.5, true), (-0.5, false)] {
             let parameters = Parameters { d: -0.2, d2: 0.2, d3, r: 0.1 };
-            let mut equation = Equation::new(&parameters, 1e-10);
-            let beyond = equation.at(Route::Mixed, 3.0, limits).unwrap().node;
-            let within = equation.at(Route::Mixed, 0.0, limits).unwrap().node;
+            let mut equation = Equation::new(&parameters, 1e-10, limits);
+            let beyond = equation.at(Route::Mixed, 3.0).unwrap().node;
+            let within = equation.at(Route::Mixed, 0.0).unwrap().node;
             let (known, escaped) =
                 if finite { (beyond.rise, beyond.fall) } else { (beyond.fall, beyond.rise) };
             assert_eq!(escaped, f64::INFINITY);
@@ -455,9 +460,10 @@ mod tests {
         let field = HalfPlane { d: 0.2, d2: 0.2, d3: -0.5 };
         let mut map = HalfMap::new(field, 1e-16);
         let start = Length::new(10.0);
-        assert_eq!(map.swing(start, &Limits::PATIENT), Err(Reason::Escapes));
+        assert_eq!(map.swing(start, &Limits::PATIENT).unwrap().end, Length::INFINITE);
         let short = map.cost().evaluations;
-        assert_eq!(map.swing_watched(start, &Limits::PATIENT, |_, _, _| {}), Err(Reason::Escapes));
+        let whole = map.swing_watched(start, &Limits::PATIENT, |_, _, _| {}).unwrap();
+        assert_eq!(whole.end, Length::INFINITE);
         assert!(3 * short < map.cost().evaluations, "{short} {:?}", map.cost());
     }
 }

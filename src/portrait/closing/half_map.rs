@@ -49,6 +49,8 @@ pub struct Length {
 impl Length {
     /// No length at all.
     pub const ZERO: Length = Length { value: 0.0, log: f64::NEG_INFINITY };
+    /// Beyond all lengths.
+    pub const INFINITE: Length = Length { value: f64::INFINITY, log: f64::INFINITY };
 
     /// From a length.
     pub fn new(value: f64) -> Self {
@@ -71,11 +73,31 @@ impl Length {
     }
 }
 
+/// The direction in which a swing is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// From where it starts.
+    Forward,
+    /// From where it ends, backward in time.
+    Backward,
+}
+
+impl Direction {
+    /// The direction of time.
+    pub fn sense(self) -> f64 {
+        match self {
+            Direction::Forward => 1.0,
+            Direction::Backward => -1.0,
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSwing {
     /// Clearance at which it starts: at `(-start, 0)`.
     pub start: Length,
-    /// Position at which it ends: at `(end, 0)`.
+    /// Position at which it ends: at `(end, 0)`. Infinite where the velocity runs to infinity; zero where the motion
+    /// creeps towards the centre of its spiral and never arrives at `v = 0`.
     pub end: Length,
     /// How long it takes.
     pub duration: f64,
@@ -90,6 +112,26 @@ pub struct HalfSwing {
     pub log_elasticity: f64,
     /// What rounding does to these numbers, and a relative error 1 of the start; zero unless asked for.
     pub errors: [Errors; 2],
+}
+
+impl HalfSwing {
+    /// A swing that never arrives anywhere but at this `end`, zero or infinite.
+    pub(crate) fn lost(start: Length, end: Length) -> Self {
+        HalfSwing {
+            start,
+            end,
+            duration: f64::INFINITY,
+            square: 0.0,
+            fastest: 0.0,
+            log_elasticity: if end == Length::ZERO { f64::NEG_INFINITY } else { f64::NAN },
+            errors: [Errors::default(); 2],
+        }
+    }
+
+    /// Whether it arrives at `v = 0`.
+    pub fn arrives(&self) -> bool {
+        self.end.log.is_finite()
+    }
 }
 
 /// The half-swing map of one field.
@@ -142,7 +184,7 @@ impl HalfMap {
     }
 
     /// Swings from `(-start, 0)`, handing each step to `watch` as (stepper, unit exponent, duration). Fails with
-    /// [`Reason`] if the motion does not come back to `v = 0`.
+    /// the [`Reason`] why the motion could not be followed.
     pub fn swing_watched(
         &mut self,
         start: Length,
@@ -169,20 +211,22 @@ impl HalfMap {
         if spent > limits.evaluations {
             return Err(Reason::Budget { evaluations: spent });
         }
-        let mut leg = SwingLeg { point: StepPoint { x: -start.value, v: 0.0 }, duration: 0.0 };
+        let spiral = Spiral::of(self.field.d);
+        let mut reached = (StepPoint { x: -start.value, v: 0.0 }, 0.0);
         if self.linear_below > 0.0 && self.field.d < 1.0 {
-            match Spiral::of(self.field.d).grow(start, self.linear_below) {
-                Growth::Whole(end, duration) => {
-                    let fastest = Spiral::of(self.field.d).fastest(start);
+            match spiral.grow(start, self.linear_below) {
+                Ok((end, duration)) => {
+                    let fastest = spiral.fastest(start);
                     let errors = Roundoff::closed(end.log, duration, fastest);
                     return Ok(self.finish(start, end, duration, 0.0, fastest, errors));
                 }
-                Growth::Until(grown) => leg = grown,
+                Err(grown) => reached = grown,
             }
         }
+        let (from, skipped) = reached;
         let (mut square, mut fastest) = (0.0, 0.0_f64);
-        let skipped = (start.log, leg.point, leg.duration);
-        let mut roundoff = self.fastest.then(|| Roundoff::new(self.field, self.tolerance, skipped));
+        let begun = (start.log, from, skipped);
+        let mut roundoff = self.fastest.then(|| Roundoff::new(self.field, self.tolerance, begun));
         let nonlinear = !self.field.is_linear();
         let (field, mut escapes) = (self.field, false);
         // Once small, a decaying motion stays small and is linear to its end.
@@ -211,28 +255,34 @@ impl HalfMap {
             ControlFlow::Continue(())
         };
         let stepper = &mut self.stepper;
-        let done = swing(stepper, &self.field, (leg.point, 0), (LONGEST, true), limits, &mut see);
+        let done = swing(stepper, &self.field, (from, 0), (LONGEST, true), limits, &mut see);
         self.steps += done.steps;
-        let duration = leg.duration + done.duration;
-        let point = done.end?;
+        let duration = skipped + done.duration;
+        let lost = |end| Ok(HalfSwing::lost(start, end));
+        let point = match done.end {
+            Err(Reason::Escapes) => return lost(Length::INFINITE),
+            end => end?,
+        };
         let (end, rest) = if done.crossed {
             (Length::new(point.x), 0.0)
         } else if escapes {
-            return Err(Reason::Escapes);
+            return lost(Length::INFINITE);
         } else if point.size() >= small {
-            return Err(Reason::Settles);
+            return lost(Length::ZERO);
         } else if self.field.d < 1.0 {
-            Spiral::of(self.field.d).arrive(point)
+            spiral.arrive(point)
         } else {
-            let end = Linear::new(self.field.d).first_standstill(point.x, point.v);
-            end.map(|end| (Length::new(end.x), end.time)).ok_or(Reason::Settles)?
+            match Linear::new(self.field.d).first_standstill(point.x, point.v) {
+                Some(end) => (Length::new(end.x), end.time),
+                None => return lost(Length::ZERO),
+            }
         };
         let errors = roundoff.map(|roundoff| roundoff.done(&self.field, end.log, rest));
         let errors = errors.unwrap_or_default();
         Ok(self.finish(start, end, duration + rest, square, fastest, errors))
     }
 
-    /// Swings from `(-start, 0)`. Fails with [`Reason`] if the motion does not come back to `v = 0`.
+    /// Swings from `(-start, 0)`. Fails with the [`Reason`] why the motion could not be followed.
     pub fn swing(&mut self, start: Length, limits: &Limits) -> Result<HalfSwing, Reason> {
         self.run(start, false, limits, |_, _, _| {})
     }
@@ -254,20 +304,6 @@ impl HalfMap {
     }
 }
 
-/// A state and when it was reached.
-struct SwingLeg {
-    point: StepPoint,
-    duration: f64,
-}
-
-/// How far the linear part of a swing goes.
-enum Growth {
-    /// To its end: position and duration.
-    Whole(Length, f64),
-    /// Until the state is no longer small.
-    Until(SwingLeg),
-}
-
 /// The linear spiral about the centre of a half plane, `abs(D) < 1`.
 struct Spiral {
     d: f64,
@@ -284,26 +320,23 @@ impl Spiral {
         exp(start.log - self.d * atan2(self.omega, self.d) / self.omega)
     }
 
-    /// Follows the spiral from `(-start, 0)` while it is smaller than `bound`.
-    fn grow(&self, start: Length, bound: f64) -> Growth {
+    /// Follows the spiral from `(-start, 0)`: position and duration at its end, or, where it does not stay smaller than
+    /// `bound`, the state at which it no longer is, and when.
+    fn grow(&self, start: Length, bound: f64) -> Result<(Length, f64), (StepPoint, f64)> {
         let half_turn = std::f64::consts::PI / self.omega;
         // The spiral scales as e^(-D t); beside this factor it is at most 1 + t in size.
         let room = ln(bound) - start.log - ln_1p(half_turn);
         if room <= 0.0 {
-            return Growth::Until(SwingLeg {
-                point: StepPoint { x: -start.value, v: 0.0 },
-                duration: 0.0,
-            });
+            return Err((StepPoint { x: -start.value, v: 0.0 }, 0.0));
         }
         if -self.d * half_turn <= room {
-            return Growth::Whole(Length::from_log(start.log - self.d * half_turn), half_turn);
+            return Ok((Length::from_log(start.log - self.d * half_turn), half_turn));
         }
         let time = room / -self.d;
         let (sine, cosine) = sin_cos(self.omega * time);
         let size = exp(start.log + room);
         let velocity = sine / self.omega;
-        let point = StepPoint { x: -size * (cosine + self.d * velocity), v: size * velocity };
-        Growth::Until(SwingLeg { point, duration: time })
+        Err((StepPoint { x: -size * (cosine + self.d * velocity), v: size * velocity }, time))
     }
 
     /// Follows the spiral from a point with `v > 0` to `v = 0`: position there, and duration.

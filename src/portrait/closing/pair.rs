@@ -27,57 +27,13 @@ pub struct Closing {
     pub noise: f64,
     /// See `noise`.
     pub uncertainty: f64,
-    /// Errors of the other numbers at exactly this unknown, and those that a relative error 1 of it makes.
-    errors: [Spread; 2],
-}
-
-/// Errors of what a closing gives: of the clearances relative, of all others absolute.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spread {
-    /// Of the clearances at which the swings start.
-    pub clearance: [f64; 2],
-    pub duration: f64,
-    /// Of the integral of `v^2`.
-    pub square: f64,
-    /// Of the largest speeds.
-    pub fastest: [f64; 2],
-}
-
-impl Spread {
-    /// From the relative errors of the clearances and the errors of the two swings.
-    pub(crate) fn new(clearance: [f64; 2], [first, second]: [Errors; 2]) -> Self {
-        Spread {
-            clearance,
-            duration: first.duration + second.duration,
-            square: first.square + second.square,
-            fastest: [first.fastest, second.fastest],
-        }
-    }
+    /// Of each swing, the errors at exactly this unknown, and those that a relative error 1 of it makes.
+    pub(crate) errors: [[Errors; 2]; 2],
 }
 
 /// `d ln(c + gap) / d ln(c)`.
 pub fn share(clearance: Length, gap: f64) -> f64 {
     if gap == 0.0 { 1.0 } else { clearance.value / (clearance.value + gap) }
-}
-
-impl HalfSwing {
-    /// The swing that creeps back to the centre forever: its end is 0.
-    pub(crate) fn collapsed(start: Length) -> Self {
-        HalfSwing { duration: f64::INFINITY, ..HalfSwing::nothing(start) }
-    }
-
-    /// No swing at all.
-    pub(crate) fn nothing(start: Length) -> Self {
-        HalfSwing {
-            start,
-            end: Length { value: 0.0, log: f64::NEG_INFINITY },
-            duration: 0.0,
-            square: 0.0,
-            fastest: 0.0,
-            log_elasticity: f64::NEG_INFINITY,
-            errors: [Errors::default(); 2],
-        }
-    }
 }
 
 /// Relative error that a rounded logarithm leaves of a length.
@@ -86,24 +42,19 @@ pub(crate) fn rounding(length: Length) -> f64 {
 }
 
 impl Closing {
-    pub(crate) fn of(node: Node, [first, second]: [Length; 2], swings: [HalfSwing; 2]) -> Self {
+    pub(crate) fn new(node: Node, [first, second]: [Length; 2], swings: [HalfSwing; 2]) -> Self {
         Closing {
             node,
             first,
             second,
             duration: swings[0].duration + swings[1].duration,
             square: swings[0].square + swings[1].square,
-            fastest: [swings[0].fastest, swings[1].fastest],
+            fastest: swings.map(|swing| swing.fastest),
             growth: [f64::NAN; 2],
             noise: 0.0,
             uncertainty: 0.0,
-            errors: [Spread::default(); 2],
+            errors: Default::default(),
         }
-    }
-
-    pub(crate) fn with_errors(self, growth: [f64; 2], noise: f64, errors: [Spread; 2]) -> Self {
-        let uncertainty = (self.node.value().abs() + noise) / self.node.slope.abs();
-        Closing { growth, noise, uncertainty, errors, ..self }
     }
 
     /// The same with clearances and duration known to all digits of a double, beyond the relative errors given.
@@ -112,32 +63,19 @@ impl Closing {
         (first, second, duration): (f64, f64, f64),
         [uncertainty, passed]: [f64; 2],
     ) -> Self {
-        let [mut own, mut gain] = self.errors;
-        (own.clearance, own.duration) = ([0.0, passed], f64::EPSILON * duration);
-        // A plain relative error of the first clearance.
-        gain.clearance[0] = 1.0;
-        let (first, second) = (Length::new(first), Length::new(second));
-        Closing { first, second, duration, uncertainty, errors: [own, gain], ..self }
-    }
-
-    /// How errors of rounding and of the first clearance reach the others.
-    pub fn errors(&self) -> &[Spread; 2] {
-        &self.errors
-    }
-
-    /// Bounds on the errors of its numbers.
-    pub fn spread(&self) -> Spread {
-        let [own, gain] = &self.errors;
-        let sum =
-            |own: f64, gain: f64| own + if gain == 0.0 { 0.0 } else { gain * self.uncertainty };
-        let pair =
-            |of: fn(&Spread) -> [f64; 2]| [0, 1].map(|index| sum(of(own)[index], of(gain)[index]));
-        Spread {
-            clearance: pair(|it| it.clearance),
-            duration: sum(own.duration, gain.duration),
-            square: sum(own.square, gain.square),
-            fastest: pair(|it| it.fastest),
+        let mut errors = self.errors;
+        for ([own, _], error) in errors.iter_mut().zip([0.0, passed]) {
+            (own.length, own.duration) = (error, 0.5 * f64::EPSILON * duration);
         }
+        // A plain relative error of the first clearance.
+        errors[0][1].length = 1.0;
+        let (first, second) = (Length::new(first), Length::new(second));
+        Closing { first, second, duration, uncertainty, errors, ..self }
+    }
+
+    /// Bounds on the errors of each swing, its length being the clearance at which it starts.
+    pub fn spread(&self) -> [Errors; 2] {
+        self.errors.map(|[own, gain]| own.plus(gain, self.uncertainty))
     }
 
     /// The cycle of two swings equally fast, known in closed form to a few units in the last place.
@@ -147,34 +85,23 @@ impl Closing {
         square: f64,
         fastest: f64,
     ) -> Self {
-        let [first, second] = clearances;
-        let node = Node::new(first.log, 0.0, 0.0, f64::NAN);
-        let own = Spread {
-            clearance: clearances.map(|clearance| UNIT + rounding(clearance)),
-            duration: UNIT * duration,
-            square: UNIT * square,
-            fastest: [UNIT * fastest; 2],
-        };
-        Closing {
-            node,
-            first,
-            second,
+        let node = Node::new(clearances[0].log, 0.0, 0.0, f64::NAN);
+        let (duration, square) = (0.5 * duration, 0.5 * square);
+        let swing = HalfSwing {
             duration,
             square,
-            fastest: [fastest; 2],
-            growth: [f64::NAN; 2],
-            noise: 0.0,
-            uncertainty: own.clearance[0],
-            errors: [own, Spread::default()],
-        }
-    }
-
-    /// Outside the domain of one of the two functions: it is infinite, the other still bounds what lies further
-    /// in or out.
-    pub(crate) fn beyond(start: Length, rise: f64, fall: f64) -> Self {
-        let node = Node::new(start.log, rise, fall, f64::NAN);
-        let nothing = HalfSwing::nothing(start);
-        Closing::of(node, [start, nothing.end], [nothing; 2])
+            fastest,
+            ..HalfSwing::lost(clearances[0], clearances[1])
+        };
+        let own = |clearance| Errors {
+            length: UNIT + rounding(clearance),
+            duration: UNIT * duration,
+            square: UNIT * square,
+            fastest: UNIT * fastest,
+        };
+        let errors = clearances.map(|clearance| [own(clearance), Errors::default()]);
+        let uncertainty = errors[0][0].length;
+        Closing { uncertainty, errors, ..Closing::new(node, clearances, [swing; 2]) }
     }
 
     /// Logarithm of the Floquet multiplier if this closing is a cycle.
@@ -189,9 +116,7 @@ impl Closing {
         let cubic = 3.0 * (parameters.d3 * self.square);
         past_friction - 2.0 * parameters.d * self.duration - cubic
     }
-}
 
-impl Closing {
     /// Sum of the magnitudes of the terms of [`Closing::log_multiplier`].
     pub fn log_terms(&self, parameters: &Parameters) -> f64 {
         let Parameters { d, d3, r, .. } = *parameters;

@@ -10,7 +10,7 @@ use super::half_map::Length;
 use super::pair::Closing;
 use super::precise::{FINER, PreciseEquation};
 use super::search::{Bracket, Node};
-use crate::flow::{Limits, Reason};
+use crate::flow::Reason;
 use crate::numerics::elementary::exp_m1;
 use crate::numerics::root::{self, try_newton};
 use crate::numerics::twofold::Twofold;
@@ -34,42 +34,28 @@ pub(crate) fn is_exact(equation: &Equation) -> bool {
 
 /// The closing in a bracket, to rounding where doubles allow it, else in twice the working precision. Fails with
 /// the [`Reason`] why a swing failed, or [`Reason::NoConvergence`].
-pub fn polish(
-    equation: &mut Equation,
-    bracket: Bracket,
-    limits: &Limits,
-) -> Result<Closing, Reason> {
-    polish_within(equation, bracket, SHARP, limits)
-}
-
-/// The same, to more digits only where doubles leave a larger relative error than `sharp`.
-fn polish_within(
-    equation: &mut Equation,
-    bracket: Bracket,
-    sharp: f64,
-    limits: &Limits,
-) -> Result<Closing, Reason> {
-    let start = near_root(equation, &bracket, limits)?;
-    polish_from(equation, start, bracket, sharp, limits)
+pub fn polish(equation: &mut Equation, bracket: Bracket) -> Result<Closing, Reason> {
+    let start = near_root(equation, &bracket)?;
+    polish_from(equation, start, bracket, SHARP)
 }
 
 /// A place to begin with, and whether the residual is so flat there that it is weighed as energy.
 type Guess = (f64, bool);
 
-/// The same by Newton's method from `start`.
+/// The same by Newton's method from `start`, to more digits only where doubles leave a larger relative error than
+/// `sharp`.
 fn polish_from(
     equation: &mut Equation,
     start: Guess,
     bracket: Bracket,
     sharp: f64,
-    limits: &Limits,
 ) -> Result<Closing, Reason> {
-    let rough = newton(equation, start, bracket, limits)?;
-    let worst = rough.spread().clearance.into_iter().fold(rough.uncertainty, f64::max);
+    let rough = newton(equation, start, bracket)?;
+    let worst = rough.spread().iter().fold(rough.uncertainty, |worst, it| worst.max(it.length));
     if worst <= sharp || !is_exact(equation) {
         return Ok(rough);
     }
-    Ok(sharpen(equation, &rough, bracket, limits)?.unwrap_or(rough))
+    Ok(sharpen(equation, &rough, bracket)?.unwrap_or(rough))
 }
 
 /// The closing next to `u`, known to have a multiplier near this one, by [`polish`]; `None` where doubles and thirty
@@ -79,7 +65,6 @@ pub fn polish_near(
     u: f64,
     log_multiplier: f64,
     sharp: f64,
-    limits: &Limits,
 ) -> Result<Option<Closing>, Reason> {
     /// How far in `ln c0` the guess may be off: where another cycle may be near, and where none is.
     const WIDTHS: (f64, f64) = (0.05, 0.5);
@@ -89,19 +74,14 @@ pub fn polish_near(
     equation.want_fastest(true);
     let bracket = (end(sign, -1.0), end(sign, 1.0));
     let start = (u, log_multiplier.abs() < FLAT);
-    let closing = polish_from(equation, start, bracket, sharp, limits)?;
+    let closing = polish_from(equation, start, bracket, sharp)?;
     let moved = (closing.node.at - u).abs();
     Ok(Some(closing)
         .filter(|it| it.uncertainty <= VAGUE && moved < 0.9 * width && it.duration.is_finite()))
 }
 
 /// Newton's method on the contracting route, inside the bracket.
-fn newton(
-    equation: &mut Equation,
-    start: Guess,
-    bracket: Bracket,
-    limits: &Limits,
-) -> Result<Closing, Reason> {
+fn newton(equation: &mut Equation, start: Guess, bracket: Bracket) -> Result<Closing, Reason> {
     /// How far off coarse steps may put a cliff of the residual, such as the edge of an escape, and its slope.
     const SLACK: f64 = 1e-6;
     const STEEP: f64 = 1e3;
@@ -114,8 +94,7 @@ fn newton(
     }
     let ends = root::Bracket { low, high, rising };
     let mut steps = Steps::new(equation, beyond_the_end(&bracket), start.1);
-    let found =
-        try_newton(ends, start.0, root::PlaceTolerance::Absolute(NEVER), |u| steps.at(u, limits));
+    let found = try_newton(ends, start.0, root::PlaceTolerance::Absolute(NEVER), |u| steps.at(u));
     let Steps { settled, change, .. } = steps;
     let lost = Reason::NoConvergence { sought: "a limit cycle", change };
     match found {
@@ -124,14 +103,14 @@ fn newton(
         Ok(root) => {
             let width = root.bracket.high - root.bracket.low;
             let narrow = width <= 2.0 * f64::EPSILON * root.at.abs();
-            if narrow { closest(equation, root.at, limits) } else { Err(lost) }
+            if narrow { closest(equation, root.at) } else { Err(lost) }
         }
     }
 }
 
 /// The evaluations of Newton's method, and what they tell about where it ends.
-struct Steps<'a> {
-    equation: &'a mut Equation,
+struct Steps<'a, 'l> {
+    equation: &'a mut Equation<'l>,
     route: Route,
     /// Whether the residual is to be weighed as energy next time.
     weigh: bool,
@@ -142,19 +121,19 @@ struct Steps<'a> {
     settled: Option<Closing>,
 }
 
-impl<'a> Steps<'a> {
-    fn new(equation: &'a mut Equation, route: Route, weigh: bool) -> Self {
+impl<'a, 'l> Steps<'a, 'l> {
+    fn new(equation: &'a mut Equation<'l>, route: Route, weigh: bool) -> Self {
         Steps { equation, route, weigh, change: f64::INFINITY, stalls: 0, settled: None }
     }
 
     /// The residual and its slope at `u`; an error without a reason once the closing there is settled.
-    fn at(&mut self, u: f64, limits: &Limits) -> Result<(f64, f64), Option<Reason>> {
-        let (mut closing, mut energy) = self.closing(u, limits).map_err(Some)?;
+    fn at(&mut self, u: f64) -> Result<(f64, f64), Option<Reason>> {
+        let (mut closing, mut energy) = self.closing(u).map_err(Some)?;
         let ends = closing.duration.is_finite();
         let flat = self.route == Route::Mixed && closing.node.slope.abs() < FLAT;
         self.weigh = flat && ends;
         if self.weigh && energy.is_none() {
-            let weighed = weighed_closing(self.equation, u, limits).map_err(Some)?;
+            let weighed = weighed_closing(self.equation, u).map_err(Some)?;
             energy = weighed.map(|(_, energy)| energy);
         }
         // The closing keeps the plain residual.
@@ -186,22 +165,18 @@ impl<'a> Steps<'a> {
     }
 
     /// The closing at `u` along the route that contracts, and what it is weighed as.
-    fn closing(
-        &mut self,
-        u: f64,
-        limits: &Limits,
-    ) -> Result<(Closing, Option<(f64, f64)>), Reason> {
+    fn closing(&mut self, u: f64) -> Result<(Closing, Option<(f64, f64)>), Reason> {
         let mut switched = false;
         loop {
             let route = self.route;
             let weighed = if self.weigh && route == Route::Mixed {
-                weighed_closing(self.equation, u, limits)?
+                weighed_closing(self.equation, u)?
             } else {
                 None
             };
             let (closing, energy) = match weighed {
                 Some((closing, energy)) => (closing, Some(energy)),
-                None => (self.equation.at(route, u, limits)?, None),
+                None => (self.equation.at(route, u)?, None),
             };
             // Where two routes contract alike each may say that the other is better: move on regardless.
             if switched {
@@ -242,10 +217,10 @@ fn beyond_the_end((low, high): &Bracket) -> Route {
 ///
 /// A swing that magnifies rounding beyond its own size, such as one along the border of escape, is of no
 /// use forward: backward it contracts.
-fn closest(equation: &mut Equation, u: f64, limits: &Limits) -> Result<Closing, Reason> {
+fn closest(equation: &mut Equation, u: f64) -> Result<Closing, Reason> {
     let mut best: Option<Closing> = None;
     for route in [Route::Mixed, Route::Backward, Route::Forward] {
-        let closing = equation.at(route, u, limits)?;
+        let closing = equation.at(route, u)?;
         let worst =
             |it: &Closing| if it.node.value().is_finite() { it.uncertainty } else { f64::INFINITY };
         if best.as_ref().is_none_or(|best| worst(&closing) < worst(best)) {
@@ -262,15 +237,14 @@ fn sharpen(
     equation: &mut Equation,
     rough: &Closing,
     bracket: Bracket,
-    limits: &Limits,
 ) -> Result<Option<Closing>, Reason> {
     /// Steps, and the relative change of the last one.
     const STEPS: usize = 20;
     const SETTLED: f64 = 1e-17;
     let route = Route::steadiest(rough.growth);
     let rising = bracket.1.value() > bracket.0.value();
-    let mut precise = PreciseEquation::new(&equation.parameters, equation.side);
-    let seen = equation.at(route, rough.node.at, limits)?;
+    let mut precise = PreciseEquation::new(&equation.parameters, equation.side, &equation.limits);
+    let seen = equation.at(route, rough.node.at)?;
     let mut slope = seen.node.slope;
     // The unknown is the start of the rough closing times e^s.
     let start = Twofold::of(Length::from_log(rough.node.at).value);
@@ -282,7 +256,7 @@ fn sharpen(
     let (mut s, mut before, mut found) = (0.0_f64, None::<(f64, f64)>, None);
     for _ in 0..STEPS {
         let here = start.plus(start.times(exp_m1(s)));
-        let residual = match precise.at(route, here, limits) {
+        let residual = match precise.at(route, here) {
             Err(Reason::Interrupted) => return Err(Reason::Interrupted),
             Ok(Some(residual)) => residual,
             Ok(None) | Err(_) => break,
@@ -302,16 +276,16 @@ fn sharpen(
     }
     equation.charge(precise.cost());
     let Some((first, residual, change)) = found else { return Ok(None) };
-    let closing = equation.from(route, Length::new(first.value()), limits)?;
+    let closing = equation.from(route, Length::new(first.value()))?;
     let uncertainty = change + FINER * closing.noise / slope.abs();
-    let passed = FINER * closing.errors()[0].clearance[1];
+    let passed = FINER * closing.errors[1][0].length;
     let numbers = (first.value(), residual.second, residual.duration);
     Ok(Some(closing.sharpened(numbers, [uncertainty, passed])))
 }
 
 /// A place near the root in a bracket, by Newton's method with integration steps that are coarser than those of the
 /// equation and cost half as much.
-fn near_root(equation: &mut Equation, bracket: &Bracket, limits: &Limits) -> Result<Guess, Reason> {
+fn near_root(equation: &mut Equation, bracket: &Bracket) -> Result<Guess, Reason> {
     /// Tolerance of the coarse steps, how many of them, and the change of the unknown that is theirs.
     const COARSE: f64 = 1e-8;
     const STEPS: usize = 3;
@@ -322,7 +296,7 @@ fn near_root(equation: &mut Equation, bracket: &Bracket, limits: &Limits) -> Res
     }
     let (mut coarse, route) = (equation.again(COARSE), beyond_the_end(bracket));
     for _ in 0..STEPS {
-        let node = coarse.at(route, u, limits)?.node;
+        let node = coarse.at(route, u)?.node;
         let change = -node.value() / node.slope;
         let inside = u + change > bracket.0.at && u + change < bracket.1.at;
         if !inside {

@@ -6,6 +6,7 @@
 //! on which side of each such place a double lies, and fix the cycle itself to all digits of a double.
 
 use super::equation::Route;
+use super::half_map::Direction;
 use crate::flow::precise::{Grain, half_swing};
 use crate::flow::trajectory::Cost;
 use crate::flow::{Limits, Reason};
@@ -26,8 +27,8 @@ const COSTLIER: u64 = 100;
 const BUDGET: u64 = 20_000;
 
 /// Both swings of a turn, in either direction.
-#[derive(Clone, Debug)]
-pub struct PreciseEquation {
+pub struct PreciseEquation<'a> {
+    limits: Limits<'a>,
     fields: [HalfPlane; 2],
     gap: Twofold,
     cost: Cost,
@@ -44,11 +45,16 @@ pub struct ClosingResidual {
     pub duration: f64,
 }
 
-impl PreciseEquation {
+impl<'a> PreciseEquation<'a> {
     /// The equation with the first swing on a given side.
-    pub fn new(parameters: &Parameters, side: Side) -> Self {
+    pub fn new(parameters: &Parameters, side: Side, limits: &Limits<'a>) -> Self {
         let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
-        PreciseEquation { fields, gap: Twofold::of(2.0 * parameters.r), cost: Cost::default() }
+        PreciseEquation {
+            limits: *limits,
+            fields,
+            gap: Twofold::of(2.0 * parameters.r),
+            cost: Cost::default(),
+        }
     }
 
     /// What it cost, in evaluations of a double.
@@ -56,64 +62,64 @@ impl PreciseEquation {
         Cost { evaluations: COSTLIER * self.cost.evaluations, ..self.cost }
     }
 
+    /// Where a swing ends, and when; an error without a reason where it escapes.
     fn swing(
         &mut self,
         index: usize,
-        forward: bool,
+        direction: Direction,
         start: Twofold,
-        limits: &Limits,
-    ) -> Result<Option<(Twofold, Twofold)>, Reason> {
+    ) -> Result<(Twofold, Twofold), Option<Reason>> {
         let field = self.fields[index];
-        let field = if forward { field } else { field.reversed() };
+        let field = if direction == Direction::Forward { field } else { field.reversed() };
         let mut cost = Cost::default();
-        let limits = Limits { evaluations: BUDGET, interrupted: limits.interrupted };
+        let limits = Limits { evaluations: BUDGET, interrupted: self.limits.interrupted };
         let found = half_swing(field, start, GRAIN, &mut cost, &limits);
         self.cost += cost;
-        found
+        found.map_err(Some)?.ok_or(None)
     }
 
     /// The residual at a clearance of the first swing; `None` where a swing escapes or is captured.
-    pub fn at(
+    pub fn at(&mut self, route: Route, start: Twofold) -> Result<Option<ClosingResidual>, Reason> {
+        match self.residual(route, start) {
+            Ok(residual) => Ok(Some(residual)),
+            Err(None) => Ok(None),
+            Err(Some(reason)) => Err(reason),
+        }
+    }
+
+    /// The same; an error without a reason where there is none.
+    fn residual(
         &mut self,
         route: Route,
         start: Twofold,
-        limits: &Limits,
-    ) -> Result<Option<ClosingResidual>, Reason> {
+    ) -> Result<ClosingResidual, Option<Reason>> {
+        use Direction::{Backward, Forward};
         let gap = self.gap;
-        let positive = |length: Twofold| Some(length).filter(|length| length.high > 0.0);
+        let positive = |length: Twofold| Some(length).filter(|it| it.high > 0.0).ok_or(None);
         let (second, times, difference, unit) = match route {
-            Route::Mixed | Route::Backward => {
-                let back = self.swing(1, false, start.plus(gap), limits)?;
-                let Some((second, time)) = back else { return Ok(None) };
-                let target = second.plus(gap);
-                if route == Route::Mixed {
-                    let Some((end, other)) = self.swing(0, true, start, limits)? else {
-                        return Ok(None);
-                    };
-                    (second, [time, other], end.minus(target), target)
-                } else {
-                    let Some((end, other)) = self.swing(0, false, target, limits)? else {
-                        return Ok(None);
-                    };
-                    (second, [time, other], start.minus(end), end)
-                }
-            }
             Route::Forward => {
-                let Some((end, time)) = self.swing(0, true, start, limits)? else {
-                    return Ok(None);
-                };
-                let Some(second) = positive(end.minus(gap)) else { return Ok(None) };
-                let Some((end, other)) = self.swing(1, true, second, limits)? else {
-                    return Ok(None);
-                };
-                let Some(end) = positive(end.minus(gap)) else { return Ok(None) };
+                let (end, time) = self.swing(0, Forward, start)?;
+                let second = positive(end.minus(gap))?;
+                let (end, other) = self.swing(1, Forward, second)?;
+                let end = positive(end.minus(gap))?;
                 (second, [time, other], end.minus(start), start)
+            }
+            Route::Mixed => {
+                let (second, time) = self.swing(1, Backward, start.plus(gap))?;
+                let (end, other) = self.swing(0, Forward, start)?;
+                let target = second.plus(gap);
+                (second, [time, other], end.minus(target), target)
+            }
+            Route::Backward => {
+                let (second, time) = self.swing(1, Backward, start.plus(gap))?;
+                let (end, other) = self.swing(0, Backward, second.plus(gap))?;
+                (second, [time, other], start.minus(end), end)
             }
         };
         let value = ln_1p(difference.over(unit).value());
         let duration = times[0].plus(times[1]).value();
         let residual = ClosingResidual { value, second: second.value(), duration };
         let sound = value.is_finite() && residual.second > 0.0;
-        Ok(sound.then_some(residual))
+        sound.then_some(residual).ok_or(None)
     }
 }

@@ -7,9 +7,10 @@
 //!
 //! With D2 = D3 = 0 every half swing is the closed form (29), and nothing is integrated.
 
-use super::half_map::{HalfMap, Length};
+use super::equation::Equation;
+use super::half_map::{Direction, Length};
 use crate::flow::{Cost, Limits, Reason};
-use crate::model::{HalfPlane, Parameters, Side};
+use crate::model::{Parameters, Side};
 
 /// Tolerance of the integration steps.
 const STEP: f64 = 1e-13;
@@ -52,108 +53,80 @@ pub fn return_map(
             Side::Lower => range,
             Side::Upper => (-range.1, -range.0),
         };
-        let mut turns = Turns::new(parameters, side);
-        let found = turns.between(near.max(parameters.r), far, count, limits);
-        cost += turns.cost();
+        let mut equation = Equation::on_side(parameters, side, STEP, limits);
+        let found = equation.returns_between(near.max(parameters.r), far, count);
+        cost += equation.cost();
         found
     };
     let sides = [side(Side::Upper)?, side(Side::Lower)?];
     Ok(ReturnMap { parameters: *parameters, sides, cost })
 }
 
-/// The two half swings that lead from a turning point on one side back to that side.
-struct Turns {
-    r: f64,
-    /// The side of the first half swing.
-    side: Side,
-    forward: [HalfMap; 2],
-    backward: [HalfMap; 2],
-}
-
-impl Turns {
-    fn new(parameters: &Parameters, side: Side) -> Self {
-        let fields = [side, side.opposite()].map(|side| HalfPlane::new(parameters, side));
-        Turns {
-            r: parameters.r,
-            side,
-            forward: fields.map(|field| HalfMap::new(field, STEP)),
-            backward: fields.map(|field| HalfMap::new(field.reversed(), STEP)),
-        }
-    }
-
-    fn cost(&self) -> Cost {
-        let mut cost = Cost::default();
-        for map in self.forward.iter().chain(&self.backward) {
-            cost += map.cost();
-        }
-        cost
-    }
-
+// Both half swings lead from a turning point on one side back to that side.
+impl Equation<'_> {
     /// The map at evenly spaced distances from zero, both ends included, and at its kinks.
-    fn between(
-        &mut self,
-        near: f64,
-        far: f64,
-        count: u16,
-        limits: &Limits,
-    ) -> Result<Vec<Return>, Reason> {
+    fn returns_between(&mut self, near: f64, far: f64, count: u16) -> Result<Vec<Return>, Reason> {
         if near >= far {
             return Ok(Vec::new());
         }
         let part = |index: u16| f64::from(index) / f64::from(count.max(2) - 1);
         let mut starts: Vec<f64> =
             (0..count.max(2)).map(|index| near + (far - near) * part(index)).collect();
-        starts.extend(self.kinks(limits)?.into_iter().filter(|kink| near < *kink && *kink < far));
+        starts.extend(self.kinks()?.into_iter().filter(|kink| near < *kink && *kink < far));
         starts.sort_by(f64::total_cmp);
         starts.dedup();
         let outward = -self.side.sign();
         let at = |start: f64| {
-            let to = self.next(start - self.r, limits)?;
+            let to = self.next(start - self.parameters.r)?;
             Ok(Return { from: outward * start, to })
         };
         starts.into_iter().map(at).collect()
     }
 
     /// The next turning point of a motion that starts with this clearance.
-    fn next(&mut self, clearance: f64, limits: &Limits) -> Result<Option<f64>, Reason> {
-        let (r, side) = (self.r, self.side);
+    fn next(&mut self, clearance: f64) -> Result<Option<f64>, Reason> {
+        let (r, side) = (self.parameters.r, self.side);
         if clearance <= 0.0 {
             return Ok(Some(-side.sign() * r));
         }
-        let Some(first) = end(&mut self.forward[0], Length::new(clearance), limits)? else {
+        let Some(first) = self.arrival(0, Direction::Forward, Length::new(clearance))? else {
             return Ok(None);
         };
-        if first.value <= 2.0 * r {
-            return Ok(Some(side.displacement(first.value, r)));
-        }
-        let second = end(&mut self.forward[1], Length::new(first.value - 2.0 * r), limits)?;
-        Ok(second.map(|second| side.opposite().displacement(second.value, r)))
+        let Some(passed) = Some(first - 2.0 * r).filter(|passed| *passed > 0.0) else {
+            return Ok(Some(side.displacement(first, r)));
+        };
+        let second = self.arrival(1, Direction::Forward, Length::new(passed))?;
+        Ok(second.map(|second| side.opposite().displacement(second, r)))
     }
 
     /// Distances from zero of the turning points that are captured on an end of the sticking set: by the
     /// first half swing, and by the second.
-    fn kinks(&mut self, limits: &Limits) -> Result<Vec<f64>, Reason> {
-        let r = self.r;
+    fn kinks(&mut self) -> Result<Vec<f64>, Reason> {
+        let r = self.parameters.r;
         if r == 0.0 {
             return Ok(Vec::new());
         }
         let whole = Length::new(2.0 * r);
-        let [first, second] = &mut self.backward;
-        let once = end(first, whole, limits)?;
-        let twice = match end(second, whole, limits)? {
-            Some(clearance) => end(first, clearance.plus(2.0 * r), limits)?,
+        let once = self.arrival(0, Direction::Backward, whole)?;
+        let twice = match self.arrival(1, Direction::Backward, whole)? {
+            Some(clearance) => {
+                let start = Length::new(clearance + 2.0 * r);
+                self.arrival(0, Direction::Backward, start)?
+            }
             None => None,
         };
-        Ok(once.into_iter().chain(twice).map(|clearance| r + clearance.value).collect())
+        Ok(once.into_iter().chain(twice).map(|clearance| r + clearance).collect())
     }
-}
 
-/// Where a half swing ends, if it does.
-fn end(map: &mut HalfMap, start: Length, limits: &Limits) -> Result<Option<Length>, Reason> {
-    match map.swing(start, limits) {
-        Ok(swing) => Ok(Some(swing.end)),
-        Err(Reason::Escapes | Reason::Settles) => Ok(None),
-        Err(reason) => Err(reason),
+    /// Where a half swing arrives, if it does.
+    fn arrival(
+        &mut self,
+        index: usize,
+        direction: Direction,
+        start: Length,
+    ) -> Result<Option<f64>, Reason> {
+        let swing = self.swing(index, direction, start)?;
+        Ok(swing.arrives().then_some(swing.end.value))
     }
 }
 
@@ -171,7 +144,10 @@ mod tests {
     /// The next turning point of one that need not be a point of a map.
     fn next(parameters: &Parameters, q: f64) -> f64 {
         let side = if q > 0.0 { Side::Lower } else { Side::Upper };
-        Turns::new(parameters, side).next(q.abs() - parameters.r, &LIMITS).unwrap().unwrap()
+        Equation::on_side(parameters, side, STEP, &LIMITS)
+            .next(q.abs() - parameters.r)
+            .unwrap()
+            .unwrap()
     }
 
     #[test]

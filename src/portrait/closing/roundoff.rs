@@ -20,8 +20,8 @@ pub const UNIT: f64 = 6.0 * f64::EPSILON;
 /// Bounds on the errors of what a swing gives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Errors {
-    /// Relative error of the end.
-    pub end: f64,
+    /// Relative error of a length: of the end, in a pair of swings of the clearance at the start.
+    pub length: f64,
     /// Error of the duration.
     pub duration: f64,
     /// Error of the integral of `v^2`.
@@ -34,9 +34,9 @@ impl Errors {
     /// These errors and `factor` times others.
     pub fn plus(self, other: Errors, factor: f64) -> Errors {
         // Nothing times an infinite sensitivity is nothing.
-        let times = |value: f64| if factor == 0.0 { 0.0 } else { factor * value };
+        let times = |value: f64| if factor == 0.0 || value == 0.0 { 0.0 } else { factor * value };
         Errors {
-            end: self.end + times(other.end),
+            length: self.length + times(other.length),
             duration: self.duration + times(other.duration),
             square: self.square + times(other.square),
             fastest: self.fastest + times(other.fastest),
@@ -81,7 +81,7 @@ impl Roundoff {
     /// The errors of a swing in closed form.
     pub fn closed(log_end: f64, duration: f64, fastest: f64) -> [Errors; 2] {
         let rounding = UNIT * log_end.abs().max(1.0);
-        let gain = Errors { end: 1.0, duration: 0.0, square: 0.0, fastest };
+        let gain = Errors { length: 1.0, fastest, ..Errors::default() };
         let duration = Errors { duration, ..Errors::default() };
         [Errors::default().plus(gain, rounding).plus(duration, UNIT), gain]
     }
@@ -135,9 +135,9 @@ impl Roundoff {
         let log_size = f64::from(self.unit) * std::f64::consts::LN_2;
         let log_growth = 2.0 * (log_size - field.d * rest - log_end);
         for (errors, area) in self.errors.iter_mut().zip(self.area) {
-            errors.end = exp(ln(area) + log_growth);
+            errors.length = exp(ln(area) + log_growth);
         }
-        self.errors[0].end += self.tolerance;
+        self.errors[0].length += self.tolerance;
         self.errors
     }
 }

@@ -17,6 +17,9 @@ use crate::numerics::root::{PlaceTolerance, illinois};
 /// Intervals of this length are not halved any more.
 const FINEST: f64 = 1e-4;
 
+/// Relative width to which an extremum is sought: rounding.
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
+
 /// How far the cubic must stay from zero, in units of its error at the middle.
 const SAFETY: f64 = 8.0;
 
@@ -39,6 +42,11 @@ impl Node {
     /// From the values of both functions.
     pub fn new(at: f64, rise: f64, fall: f64, slope: f64) -> Self {
         Node { at, rise, fall, difference: rise - fall, slope }
+    }
+
+    /// Of the growth of an increasing map over its argument: the map less the argument.
+    pub fn of_growth(at: f64, difference: f64, slope: f64) -> Self {
+        Node { at, rise: at + difference, fall: at, difference, slope }
     }
 
     /// `rise - fall`: positive outside the domain of `rise`, negative outside that of `fall`.
@@ -84,9 +92,7 @@ pub fn search<E>(
     if width <= FINEST {
         if changes {
             found.push((low, high));
-        } else if let Some(extremum) = extremum_towards_zero(low, high, function)?
-            && (extremum.value() > 0.0) != (low.value() > 0.0)
-        {
+        } else if let Some(extremum) = beyond_zero(low, high, ROUNDED, function)? {
             found.extend([(low, extremum), (extremum, high)]);
         }
         return Ok(());
@@ -139,10 +145,12 @@ fn is_monotone(low: &Node, high: &Node, error: f64) -> bool {
     bounded(low.slope) && bounded(high.slope) && error < mean * (high.at - low.at)
 }
 
-/// The extremum between two nodes of one sign, if their slopes say that it lies towards zero.
-fn extremum_towards_zero<E>(
+/// Where a function has the other sign between two nodes of one sign whose slopes point at an extremum towards zero; the
+/// extremum is sought to within this `width`.
+pub fn beyond_zero<E>(
     low: Node,
     high: Node,
+    width: f64,
     function: &mut impl FnMut(f64, bool) -> Result<Node, E>,
 ) -> Result<Option<Node>, E> {
     let sign = low.value().signum();
@@ -150,19 +158,17 @@ fn extremum_towards_zero<E>(
     if !(towards_zero && low.is_finite() && high.is_finite()) {
         return Ok(None);
     }
-    let mut best = if low.value().abs() < high.value().abs() { low } else { high };
     // A value beyond zero ends the search where an error would.
     let slope = |at| {
-        let node = function(at, true).map_err(Some)?;
-        if sign * node.value() < sign * best.value() {
-            best = node;
-        }
-        if sign * node.value() < 0.0 { Err(None) } else { Ok(node.slope) }
+        let node = function(at, true).map_err(Err)?;
+        let beyond = (node.value() > 0.0) != (low.value() > 0.0);
+        if beyond { Err(Ok(node)) } else { Ok(node.slope) }
     };
-    let width = PlaceTolerance::Absolute(4.0 * f64::EPSILON * high.at.abs().max(1.0));
+    let width = PlaceTolerance::Absolute(width * high.at.abs().max(1.0));
     match illinois([(low.at, low.slope), (high.at, high.slope)], 0.0, width, slope) {
-        Err(Some(error)) => Err(error),
-        Ok(_) | Err(None) => Ok(Some(best)),
+        Err(Err(error)) => Err(error),
+        Err(Ok(beyond)) => Ok(Some(beyond)),
+        Ok(_) => Ok(None),
     }
 }
 

@@ -9,8 +9,7 @@
 //! every velocity, and need no addition; with these alone the border may touch the belt's line, where the worst
 //! machine is held longest.
 
-use std::fmt;
-
+use super::Uncertain;
 use crate::flow::Reason;
 use crate::model::source::{MONOTONE, set};
 use crate::model::{Belt, Knob, Model, Phase, Tolerances};
@@ -18,57 +17,9 @@ use crate::numerics::root::try_bisect;
 use crate::portrait::survey::portrait;
 use crate::portrait::{Margin, Portrait};
 
-/// Why no kick is survived for certain.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum MachineUncertain {
-    /// The disturbance moves the mass from its rest by itself.
-    Disturbance {
-        /// The disturbance, in N.
-        disturbance: f64,
-        /// The smallest friction, in N.
-        friction: f64,
-    },
-    /// The tolerances leave no friction to count on.
-    Tolerances,
-    /// More numbers are uncertain than are looked at together.
-    TooMany,
-    /// No border below the belts' lines bounds all machines.
-    Unbounded,
-    /// The border leaves the friction law of one of the machines.
-    OutsideLaw,
-}
-
-impl fmt::Display for MachineUncertain {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            MachineUncertain::Disturbance { disturbance, friction } => write!(
-                out,
-                "the disturbance of {disturbance} N is not below the smallest friction R = {friction} N"
-            ),
-            MachineUncertain::Tolerances => {
-                write!(out, "the tolerances change the forces by more than the friction holds")
-            }
-            MachineUncertain::TooMany => write!(
-                out,
-                "tolerances of more than {MOST} numbers beside R, R_static, d1 and d3 are not looked at together"
-            ),
-            MachineUncertain::Unbounded => write!(
-                out,
-                "no motion slower than the belt bounds the basins of all machines within the tolerances"
-            ),
-            MachineUncertain::OutsideLaw => {
-                write!(out, "within the tolerances the border leaves the friction law")
-            }
-        }
-    }
-}
-
 /// The kicks that a machine survives for certain, or why none is. Fails with [`Reason`] where a machine within the
 /// tolerances has no model, or one that bounds them has no portrait.
-pub fn guaranteed(
-    belt: &Belt,
-    known: &Tolerances,
-) -> Result<Result<Margin, MachineUncertain>, Reason> {
+pub fn guaranteed(belt: &Belt, known: &Tolerances) -> Result<Result<Margin, Uncertain>, Reason> {
     Ok(worst(belt, known)?.map(|(corners, portrait)| kicks(&corners, &portrait)))
 }
 
@@ -76,15 +27,12 @@ pub fn guaranteed(
 pub fn worst(
     belt: &Belt,
     known: &Tolerances,
-) -> Result<Result<(Corners, Portrait), MachineUncertain>, Reason> {
-    let corners = match Corners::new(belt, known)? {
-        Ok(corners) => corners,
-        Err(TooMany) => return Ok(Err(MachineUncertain::TooMany)),
-    };
+) -> Result<Result<(Corners, Portrait), Uncertain>, Reason> {
+    let Some(corners) = Corners::new(belt, known)? else { return Ok(Err(Uncertain::TooMany)) };
     let least = corners.friction;
     if least < 0.0 || known.disturbance > 0.0 && least == 0.0 {
-        let friction = corners.belts[0].friction;
-        return Ok(Err(MachineUncertain::Disturbance { disturbance: known.disturbance, friction }));
+        let (disturbance, friction) = (known.disturbance, corners.belts[0].friction);
+        return Ok(Err(Uncertain::Disturbance { disturbance, friction, unit: " N" }));
     }
     let found = if corners.numbers == 0 {
         Ok(portrait(&corners.worst(0, 0.0))?)
@@ -122,7 +70,7 @@ fn slip_border(portrait: &Portrait) -> Option<(f64, f64)> {
 
 impl Corners {
     /// A machine whose border bounds all others at its own velocities.
-    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, MachineUncertain>, Reason> {
+    fn bounded(&self, belt: &Belt) -> Result<Result<Portrait, Uncertain>, Reason> {
         /// Ranges of velocities that are tried, each larger than the border of the one before.
         const ROUNDS: usize = 8;
         const ROOM: f64 = 1.2;
@@ -131,14 +79,14 @@ impl Corners {
         let mut range = (ROOM * middle.0, (ROOM * middle.1).min(slowest));
         for _ in 0..ROUNDS {
             if self.models.iter().any(|model| model.least_velocity() > range.0) {
-                return Ok(Err(MachineUncertain::OutsideLaw));
+                return Ok(Err(Uncertain::OutsideLaw));
             }
             let (corner, less) = self.bound(range.0, range.1);
             if less * self.stiffest >= self.friction {
-                return Ok(Err(MachineUncertain::Tolerances));
+                return Ok(Err(Uncertain::Tolerances));
             }
             let Some(found) = self.below_the_line(corner, less)? else {
-                return Ok(Err(MachineUncertain::Unbounded));
+                return Ok(Err(Uncertain::Unbounded));
             };
             let (low, high) = found.velocities;
             if low >= range.0 && high <= range.1 {
@@ -146,7 +94,7 @@ impl Corners {
             }
             range = (range.0.min(ROOM * low), range.1.max(ROOM * high).min(slowest));
         }
-        Ok(Err(MachineUncertain::Unbounded))
+        Ok(Err(Uncertain::Unbounded))
     }
 
     /// The portrait of a worst machine whose border stays below the line of every belt, with as much friction
@@ -200,16 +148,12 @@ pub struct Corners {
     pub farthest_rest: f64,
 }
 
-/// More numbers than can be uncertain together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TooMany;
-
 impl Corners {
-    /// The corners of a machine's tolerances, unless there are [`TooMany`].
+    /// The corners of a machine's tolerances, unless more than [`MOST`] of its other numbers are uncertain.
     ///
     /// # Errors
     /// [`Reason`] where one of them has no model.
-    pub fn new(belt: &Belt, known: &Tolerances) -> Result<Result<Self, TooMany>, Reason> {
+    pub fn new(belt: &Belt, known: &Tolerances) -> Result<Option<Self>, Reason> {
         let mut worst = belt.clone();
         let (monotone, others): (Vec<_>, Vec<_>) =
             known.intervals(belt).into_iter().partition(|(varied, _)| MONOTONE.contains(varied));
@@ -217,7 +161,7 @@ impl Corners {
             set(&mut worst, varied, interval.lower());
         }
         if others.len() > MOST {
-            return Ok(Err(TooMany));
+            return Ok(None);
         }
         let mut belts = vec![worst];
         for (varied, interval) in &others {
@@ -244,7 +188,7 @@ impl Corners {
         let more = holds.map_or(0.0, |holds| holds.upper() - holds.lower()) + known.disturbance;
         let softest = belts.iter().map(|belt| belt.stiffness).fold(f64::INFINITY, f64::min);
         let farthest_rest = if more > 0.0 { (held + more / softest).next_up() } else { held };
-        Ok(Ok(Corners {
+        Ok(Some(Corners {
             models,
             belts,
             numbers: u32::try_from(others.len()).unwrap_or(u32::MAX),

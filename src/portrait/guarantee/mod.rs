@@ -1,6 +1,48 @@
 //! Kicks that are survived for certain, whatever is not known exactly and whatever disturbs.
 
+use thiserror::Error;
+
 #[doc(hidden)]
 pub mod machine;
 #[warn(clippy::missing_errors_doc)]
 pub mod oscillator;
+
+/// Why no kick is survived for certain.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum Uncertain {
+    /// The disturbance moves the mass from its rest by itself.
+    #[error(
+        "the disturbance of {disturbance}{unit} is not below the smallest friction of {friction}{unit}"
+    )]
+    Disturbance {
+        /// The disturbance.
+        disturbance: f64,
+        /// The smallest friction.
+        friction: f64,
+        /// The unit of both with a blank before it, if they have one.
+        unit: &'static str,
+    },
+    /// The end of the sticking set repels.
+    #[error("at the smallest D = {d} the ends of the sticking set repel")]
+    Repels {
+        /// The smallest D.
+        d: f64,
+    },
+    /// The tolerances leave no friction to count on.
+    #[error("the tolerances change the forces by more than the friction holds")]
+    Tolerances,
+    /// More numbers are uncertain than are looked at together.
+    #[error(
+        "tolerances of more than {} numbers beside R, R_static, d1 and d3 are not looked at together",
+        machine::MOST
+    )]
+    TooMany,
+    /// No border below the belts' lines bounds all machines.
+    #[error(
+        "no motion slower than the belt bounds the basins of all machines within the tolerances"
+    )]
+    Unbounded,
+    /// The border leaves the friction law of one of the machines.
+    #[error("within the tolerances the border leaves the friction law")]
+    OutsideLaw,
+}

@@ -10,20 +10,17 @@
 //! An extreme system has a D2 of its own on each side, so it is a [`TwoSided`] one; half maps and arcs are
 //! computed side by side anyway.
 
-use serde::Serialize;
-
+use super::Uncertain;
 use crate::closed_form::piecewise_linear::LinearCycle;
 use crate::flow::{Cost, Fate, Limits, Reason};
 use crate::model::{HalfPlane, ParameterBox, Parameters, Side};
-use crate::numerics::root::{PlaceTolerance, illinois};
-use crate::portrait::basin::arc::{Arc, Direction};
 use crate::portrait::basin::orbit::Orbit;
 use crate::portrait::basin::{Basin, basin};
 use crate::portrait::closing::all::{STEP, innermost_bracket};
-use crate::portrait::closing::equation::{Equation, Route};
-use crate::portrait::closing::half_map::{HalfMap, Length};
+use crate::portrait::closing::equation::Equation;
+use crate::portrait::closing::half_map::HalfMap;
 use crate::portrait::closing::pair::Closing;
-use crate::portrait::closing::search::Bracket;
+use crate::portrait::closing::polish::polish;
 use crate::portrait::closing::weak::has_cycle;
 use crate::portrait::{Border, Margin, RestMargin};
 
@@ -76,27 +73,18 @@ impl TwoSided {
         if self.upper.d <= -1.0 {
             return Err(Reason::NotApplicable { needs: "D above -1" });
         }
-        let mut equation = self.equation();
+        let mut equation = self.equation(limits);
         let (first, second) = (equation.side, equation.side.opposite());
-        let arc = |side: Side, next: Length| {
-            Arc::new(self.on(side), side, Direction::Backward, next, limits)
+        let own = [self.on(first), self.on(second)];
+        let (border, orbit, error) = if let Some((closing, error)) = self.closing(&mut equation)? {
+            let orbit = Orbit::of_closing(own, first, &closing, true, limits)?;
+            (Border::Cycle, Some(orbit), error)
+        } else if self.upper.d3 == 0.0 && self.field(second).d2 < 0.0 {
+            let orbit = Orbit::from_infinity(own, first, reach, limits)?;
+            (Border::Separatrix, Some(orbit), NOISE)
+        } else {
+            (Border::None, None, 0.0)
         };
-        let escaping = self.field(second).d2;
-        let (border, orbit, error) =
-            if let Some((closing, error)) = self.closing(&mut equation, limits)? {
-                let own = [self.on(first), self.on(second)];
-                let orbit = Orbit::of_closing(own, first, &closing, true, limits)?;
-                (Border::Cycle, Some(orbit), error)
-            } else if self.upper.d3 == 0.0 && escaping < 0.0 {
-                // Run backward, the motion that goes out along the parabola forever attracts, to rounding after
-                // this clearance in units of 1/abs(D2).
-                const FORGETS: f64 = 40.0;
-                let out = arc(second, Length::new(reach + FORGETS / escaping.abs()))?;
-                let before = arc(first, out.clearance().unwrap_or(Length::ZERO))?;
-                (Border::Separatrix, Some(Orbit::of(first, [before, out], false)), NOISE)
-            } else {
-                (Border::None, None, 0.0)
-            };
         let mut cost = equation.cost();
         let mut fates = vec![Fate::Rest];
         if let Some(orbit) = &orbit {
@@ -109,31 +97,24 @@ impl TwoSided {
     }
 
     /// The innermost closed pair of swings, and the relative error of its clearances: from the closed form where
-    /// there is one, else just inside of where the search closes.
-    fn closing(
-        &self,
-        equation: &mut Equation,
-        limits: &Limits,
-    ) -> Result<Option<(Closing, f64)>, Reason> {
+    /// there is one, else where the search closes.
+    fn closing(&self, equation: &mut Equation) -> Result<Option<(Closing, f64)>, Reason> {
         if self.upper == self.lower && self.upper.is_piecewise_linear() {
             let cycle = LinearCycle::new(self.upper.d, self.upper.r);
             return Ok(cycle.map(|cycle| (Closing::from(&cycle), NOISE)));
         }
-        let Some(bracket) = innermost_bracket(equation, limits)? else {
+        let Some(bracket) = innermost_bracket(equation)? else {
             return if has_cycle(&self.upper) { Err(Reason::OutOfRange) } else { Ok(None) };
         };
-        let (inside, error) = refine(equation, bracket, limits)?;
-        let mut closing = equation.at(Route::Mixed, inside, limits)?;
-        if !closing.node.value().is_finite() {
-            // The first swing escapes from within rounding of the border.
-            closing = equation.at(Route::Backward, inside, limits)?;
-        }
+        equation.want_fastest(true);
+        let closing = polish(equation, bracket)?;
+        let error = closing.uncertainty + NOISE / closing.node.slope.abs().min(1.0);
         Ok(Some((closing, error)))
     }
 
     /// The closing equation, and with it the side of its first swing: that on which D2 brakes more, because a
     /// swing of the other one, run backward, does not escape.
-    fn equation(&self) -> Equation {
+    fn equation<'a>(&self, limits: &Limits<'a>) -> Equation<'a> {
         let first = if self.field(Side::Upper).d2 >= self.field(Side::Lower).d2 {
             Side::Upper
         } else {
@@ -143,109 +124,12 @@ impl TwoSided {
         // How far out a search goes follows from the weaker D2.
         let weaker = fields.map(|field| field.d2.abs()).into_iter().fold(f64::INFINITY, f64::min);
         let parameters = Parameters { d2: weaker, ..self.upper };
-        Equation::on_fields(&parameters, first, fields, |field| HalfMap::new(field, STEP))
+        Equation::on_fields(&parameters, first, fields, limits, |field| HalfMap::new(field, STEP))
     }
 }
 
 /// Relative error of a clearance, of rounding and of steps, where the closing equation is not flat.
 const NOISE: f64 = 1e-12;
-
-/// An error of the clearance beyond which the other way of closing is asked.
-const FLAT: f64 = 1e-10;
-
-/// The inner end of a bracket as narrow as rounding allows, and the relative error of the clearance there.
-fn refine(
-    equation: &mut Equation,
-    (low, high): Bracket,
-    limits: &Limits,
-) -> Result<(f64, f64), Reason> {
-    /// A value of 0 does not end the search, which is for both ends of the bracket.
-    const BOTH_ENDS: f64 = -1.0;
-    let mut slope = low.slope;
-    let width = PlaceTolerance::Absolute(4.0 * f64::EPSILON * low.at.abs().max(1.0));
-    let ends = [(low.at, low.value()), (high.at, high.value())];
-    let [one, other] = illinois(ends, BOTH_ENDS, width, |at| {
-        let node = equation.at(Route::Mixed, at, limits)?.node;
-        if node.slope.is_finite() {
-            slope = node.slope;
-        }
-        if node.value().is_nan() { Err(Reason::OutOfRange) } else { Ok(node.value()) }
-    })?;
-    let width = (other.0 - one.0).abs();
-    let (inside, error) = (one.0.min(other.0), width + NOISE / slope.abs().min(1.0));
-    let again = if error > FLAT { settled(equation, inside, limits)? } else { None };
-    Ok(again.unwrap_or((inside, error)))
-}
-
-/// A border whose far end lies where both swings, the first forward and the second backward, have forgotten their starts:
-/// the closing equation is flat there, and says little of that end. Run backward, both swings forget where they started
-/// and tell both ends.
-fn settled(
-    equation: &mut Equation,
-    inside: f64,
-    limits: &Limits,
-) -> Result<Option<(f64, f64)>, Reason> {
-    const ROUNDS: usize = 40;
-    let mut at = inside;
-    for _ in 0..ROUNDS {
-        let node = equation.at(Route::Backward, at, limits)?.node;
-        let (value, slope) = (node.value(), node.slope);
-        if !value.is_finite() || slope.is_nan() || slope <= 0.0 {
-            break;
-        }
-        if value.abs() <= 4.0 * f64::EPSILON * at.abs().max(1.0) {
-            return Ok(Some((at, NOISE / slope.min(1.0))));
-        }
-        at -= value;
-    }
-    Ok(None)
-}
-
-/// Margins that hold for certain.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Guaranteed {
-    /// The margin, rounded down by its error; `None` where no kick is lost, or nothing is certain.
-    #[serde(flatten)]
-    pub margin: Margin,
-    /// Why nothing is certain.
-    pub reason: Option<Uncertain>,
-}
-
-/// Why no kick is survived for certain.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Uncertain {
-    /// The disturbance moves the mass from its rest by itself.
-    Disturbance {
-        /// The disturbance.
-        w: f64,
-        /// The smallest friction.
-        r: f64,
-    },
-    /// The end of the sticking set repels.
-    Repels {
-        /// The smallest D.
-        d: f64,
-    },
-}
-
-impl std::fmt::Display for Uncertain {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Uncertain::Disturbance { w, r } => {
-                write!(out, "the disturbance w = {w} is not below the smallest friction r = {r}")
-            }
-            Uncertain::Repels { d } => {
-                write!(out, "at the smallest D = {d} the ends of the sticking set repel")
-            }
-        }
-    }
-}
-
-impl Serialize for Uncertain {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
-    }
-}
 
 /// What is known for certain, beside what holds at the middle of the box without a disturbance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -256,8 +140,8 @@ pub struct Guarantee {
     pub disturbance: f64,
     /// The margin at the middle of the box, undisturbed.
     pub nominal: Margin,
-    /// The margin that holds for certain.
-    pub guaranteed: Guaranteed,
+    /// The margin that holds for certain, rounded down by its error, or why nothing is certain.
+    pub guaranteed: Result<Margin, Uncertain>,
     /// What it cost.
     pub cost: Cost,
 }
@@ -268,7 +152,7 @@ pub fn uncertain(known: &ParameterBox, disturbance: f64) -> Option<Uncertain> {
     let (d, r) = (known.d.lower(), known.r.lower());
     let worst = TwoSided::worst(known, disturbance).upper;
     if disturbance > 0.0 && worst.r <= 0.0 {
-        Some(Uncertain::Disturbance { w: disturbance, r })
+        Some(Uncertain::Disturbance { disturbance, friction: r, unit: "" })
     } else {
         (d <= -1.0).then_some(Uncertain::Repels { d })
     }
@@ -297,7 +181,7 @@ pub fn guarantee(
     Ok(Guarantee { known: *known, disturbance, nominal: nominal.margin(), guaranteed, cost })
 }
 
-/// The margin that holds for certain, and what it cost.
+/// The margin that holds for certain, or why nothing is certain, and what it cost.
 ///
 /// # Errors
 /// The [`Reason`] why the border could not be computed.
@@ -305,9 +189,9 @@ pub fn guaranteed(
     known: &ParameterBox,
     disturbance: f64,
     limits: &Limits,
-) -> Result<(Guaranteed, Cost), Reason> {
+) -> Result<(Result<Margin, Uncertain>, Cost), Reason> {
     if let Some(reason) = uncertain(known, disturbance) {
-        return Ok((Guaranteed { margin: Margin::ENDLESS, reason: Some(reason) }, Cost::default()));
+        return Ok((Err(reason), Cost::default()));
     }
     let worst = TwoSided::worst(known, disturbance);
     let (basin, error) = worst.basin(0.0, limits)?;
@@ -318,7 +202,7 @@ pub fn guaranteed(
         });
     }
     let margin = rounded_down(&basin, farthest_rest(known, disturbance), error);
-    Ok((Guaranteed { margin, reason: None }, basin.cost))
+    Ok((Ok(margin), basin.cost))
 }
 
 /// How far out a mass may rest before the kick: at the smallest friction, because the gap to the border only grows

@@ -17,7 +17,7 @@ use super::basin::orbit::Span;
 use super::basin::stability::{Share, over_scales, support};
 use crate::flow::Fate;
 use crate::model::unit::quantity;
-use crate::numerics::elementary::exp;
+use crate::numerics::elementary::{erfc, exp};
 use crate::numerics::quadrature::Integral;
 
 /// How a random number is spread.
@@ -199,37 +199,13 @@ impl RandomKick {
     }
 }
 
-/// The complementary error function, to some 1e-13 of itself.
-///
-/// The series of erf for small arguments, the continued fraction beyond (DLMF 7.6.1 and 7.9.1).
-fn erfc(x: f64) -> f64 {
-    /// Where the fraction of `DEPTH` terms is as good as the series.
-    const SMALL: f64 = 2.0;
-    const DEPTH: i32 = 60;
-    if x < 0.0 {
-        return 2.0 - erfc(-x);
-    }
-    let square = x * x;
-    if x < SMALL {
-        let (mut term, mut sum, mut index) = (x, x, 0.0);
-        while term.abs() > f64::EPSILON * 0.01 * sum.abs() {
-            index += 1.0;
-            term *= 2.0 * square / (2.0 * index + 1.0);
-            sum += term;
-        }
-        return 1.0 - 2.0 / PI.sqrt() * exp(-square) * sum;
-    }
-    let fraction = (1..=DEPTH).rev().fold(x, |rest, index| x + 0.5 * f64::from(index) / rest);
-    exp(-square) / (PI.sqrt() * fraction)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::flow::Limits;
     use crate::model::{Parameters, State};
     use crate::numerics::root::bisect;
-    use crate::portrait::basin::{Window, basin};
+    use crate::portrait::basin::{StartWindow, basin};
 
     #[test]
     fn erfc_has_the_digits_of_the_tables() {
@@ -264,7 +240,7 @@ mod tests {
         for (d, d2, d3) in [(-0.2, 0.0, 0.0), (-0.3, 0.4, 0.2), (-0.05, 0.5, 0.0)] {
             let parameters = Parameters { d, d2, d3, r: 0.1 };
             let found = basin(&parameters, 2.0, &Limits::PATIENT).unwrap();
-            let window = Window { q: (-0.5, 0.7), v: (-0.6, 0.4) };
+            let window = StartWindow { q: (-0.5, 0.7), v: (-0.6, 0.4) };
             let kicks = RandomKick { law: Distribution::Uniform, q: (0.1, 0.6), v: (-0.1, 0.5) };
             let (lost, held) = (kicks.lost(&found), found.captured_share(&window));
             assert!((lost.part + held.part - 1.0).abs() <= lost.error + held.error + 1e-12);

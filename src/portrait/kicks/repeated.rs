@@ -65,9 +65,8 @@ pub fn repeated(
         }
         rest_of(parameters, start, limits)
     };
-    let lost = |kicks: &RandomKick| kicks.lost(&basin).part;
-    let kicked = Kicked { half: parameters.r, rest: &rest, lost: &lost };
-    let mut found = kicked.repeated(kicks, kicks.lost(&basin))?;
+    let kicked = Kicked { half: parameters.r, rest: &rest, lost: &|kicks| kicks.lost(&basin) };
+    let mut found = kicked.repeated(kicks)?;
     found.cost += basin.cost;
     Ok(found)
 }
@@ -81,13 +80,13 @@ pub struct Kicked<'a> {
     pub half: f64,
     pub rest: RestOf<'a>,
     /// The fraction of kicks from the middle that is lost.
-    pub lost: &'a dyn Fn(&RandomKick) -> f64,
+    pub lost: &'a dyn Fn(&RandomKick) -> Share,
 }
 
 impl Kicked<'_> {
-    /// Follows kicks until one is lost, `first` being the fraction of the first ones that is. Fails with the [`Reason`]
-    /// why a motion could not be followed; [`Reason::NotApplicable`] without friction.
-    pub fn repeated(&self, kicks: &RandomKick, first: Share) -> Result<Repeated, Reason> {
+    /// Follows kicks until one is lost. Fails with the [`Reason`] why a motion could not be followed;
+    /// [`Reason::NotApplicable`] without friction.
+    pub fn repeated(&self, kicks: &RandomKick) -> Result<Repeated, Reason> {
         if self.half == 0.0 {
             return Err(WITHOUT);
         }
@@ -101,7 +100,7 @@ impl Kicked<'_> {
         let relative =
             |one: f64, other: f64| if one == other { 0.0 } else { (one / other - 1.0).abs() };
         let error = relative(before, later).max(relative(coarse.mean(before), mean));
-        Ok(Repeated { first, later, mean, error, density, cost })
+        Ok(Repeated { first: (self.lost)(kicks), later, mean, error, density, cost })
     }
 }
 
@@ -162,7 +161,7 @@ impl Chain {
                 }
             }
         }
-        let lost = centres.iter().map(|&centre| (kicked.lost)(&from(kicks, centre)));
+        let lost = centres.iter().map(|&centre| (kicked.lost)(&from(kicks, centre)).part);
         let lost = DVector::from_iterator(cells, lost);
         for (row, lost) in lost.iter().enumerate() {
             let sum: f64 = steps.row(row).sum();
@@ -306,7 +305,7 @@ pub fn part_lost(portrait: &Portrait, kicks: &RandomKick) -> Result<Share, Reaso
 pub fn repeated_by(portrait: &Portrait, kicks: &RandomKick) -> Result<Repeated, Reason> {
     /// Error of a place of rest that matters to no cell.
     const TOLERANCE: f64 = 1e-7;
-    part_lost(portrait, kicks)?;
+    let first = part_lost(portrait, kicks)?;
     let mut model = portrait.model.clone();
     model.tolerance = TOLERANCE;
     let rest = |State { q, v }: State| {
@@ -317,9 +316,9 @@ pub fn repeated_by(portrait: &Portrait, kicks: &RandomKick) -> Result<Repeated, 
         let place = flow.rest_of(q, model.scaled_velocity(v)).ok();
         Ok((place, Cost { steps: flow.steps, ..Cost::default() }))
     };
-    let part = |kicks: &RandomKick| part_lost(portrait, kicks).map_or(1.0, |share| share.part);
-    let kicked = Kicked { half: model.guide_static, rest: &rest, lost: &part };
-    let mut found = kicked.repeated(kicks, part_lost(portrait, kicks)?)?;
+    let lost = |kicks: &RandomKick| part_lost(portrait, kicks).unwrap_or(first);
+    let kicked = Kicked { half: model.guide_static, rest: &rest, lost: &lost };
+    let mut found = kicked.repeated(kicks)?;
     found.cost.steps += portrait.steps;
     Ok(found)
 }

@@ -2,7 +2,7 @@
 
 use super::machine_return::Landmarks;
 use super::machine_return::{Image, MachineReturn};
-use super::zeros::{GrowthSample, NOTHING, zeros};
+use super::zeros::{NOTHING, zeros};
 use crate::flow::machine::arc::{SeriesStep, Watch};
 use crate::flow::machine::ledger::StepWorks;
 use crate::flow::machine::turn::ContactState;
@@ -11,6 +11,7 @@ use crate::model::{Model, Phase};
 use crate::numerics::elementary::{exp, ln, pow};
 use crate::numerics::root::bisect;
 use crate::numerics::scaling::{exponent, times_power};
+use crate::portrait::closing::search::Node;
 use crate::portrait::{Cycle, Ride};
 
 /// Extremes of the velocity, and durations, along a motion.
@@ -68,13 +69,13 @@ const FAR: f64 = 1e3;
 
 impl Flow<'_> {
     /// `ln(image/x)` of the return map over `u = ln(x/unit)`.
-    pub(crate) fn growth(&mut self, u: f64, unit: f64) -> Result<GrowthSample, Reason> {
+    pub(crate) fn growth(&mut self, u: f64, unit: f64) -> Result<Node, Reason> {
         let x = unit * exp(u);
-        let lost = |f| Ok(GrowthSample { u, f, slope: 0.0 });
+        let lost = |f| Ok(Node::of_growth(u, f, 0.0));
         match self.returned(x) {
             Ok(MachineReturn::Turns(image)) => {
                 let slope = exp(image.log_slope) * x / image.x - 1.0;
-                Ok(GrowthSample { u, f: ln(image.x / x), slope })
+                Ok(Node::of_growth(u, ln(image.x / x), slope))
             }
             Ok(MachineReturn::Rests(_)) => lost(-FAR),
             Err(Reason::Escapes) => lost(FAR),
@@ -94,9 +95,9 @@ impl Flow<'_> {
         let caught = match self.smallest(scale) {
             // Every motion comes to rest at once, or leaves the law.
             Err(stop @ Reason::BeyondLaw { .. }) => {
-                let held = GrowthSample { u: at(self.model.guide_static), f: -FAR, slope: 0.0 };
+                let held = Node::of_growth(at(self.model.guide_static), -FAR, 0.0);
                 found.stop = Some(stop);
-                found.end = scale * exp(self.edge(held, at(scale), scale).u);
+                found.end = scale * exp(self.edge(held, at(scale), scale).at);
                 return Ok(found);
             }
             smallest => smallest?,
@@ -112,7 +113,7 @@ impl Flow<'_> {
         smallest = beyond(smallest);
         let touches_before = touch.is_some_and(|touch| touch > held && touch <= smallest);
         if held > 0.0 && smallest.is_finite() && !touches_before && found.points.is_empty() {
-            let grows = self.growth(at(smallest), scale)?.f > 0.0;
+            let grows = self.growth(at(smallest), scale)?.difference > 0.0;
             found.capture = grows.then_some(caught);
         }
         let slipping = match touch {
@@ -120,11 +121,8 @@ impl Flow<'_> {
             Some(touch) if touch > smallest => {
                 let grazing = marks.map_or(touch, |marks| marks.grazing.image);
                 let slope = marks.map_or(0.0, |marks| exp(marks.grazing.log_slope));
-                Some(GrowthSample {
-                    u: at(touch),
-                    f: if grazing > 0.0 { ln(grazing / touch) } else { -FAR },
-                    slope: slope * touch / grazing - 1.0,
-                })
+                let image = if grazing > 0.0 { ln(grazing / touch) } else { -FAR };
+                Some(Node::of_growth(at(touch), image, slope * touch / grazing - 1.0))
             }
             Some(_) => None,
             None => Some(self.farthest(smallest, scale, &mut found)?),
@@ -132,7 +130,7 @@ impl Flow<'_> {
         let mut roots = Vec::new();
         if let Some(last) = slipping {
             let first = self.growth(at(smallest), scale)?;
-            found.end = scale * exp(last.u);
+            found.end = scale * exp(last.at);
             found.neutral = self.is_neutral(first, last, scale)?;
             if !found.neutral {
                 roots = self.zeros_between(first, last, scale, &mut found)?;
@@ -155,7 +153,7 @@ impl Flow<'_> {
                 let start = if smallest.is_finite() { start.max(smallest) } else { start };
                 if let Ok(first) = self.growth(at(start), scale) {
                     let last = self.farthest(start, scale, &mut found)?;
-                    found.end = scale * exp(last.u);
+                    found.end = scale * exp(last.at);
                     roots.extend(self.zeros_between(first, last, scale, &mut found)?);
                 }
             }
@@ -164,7 +162,7 @@ impl Flow<'_> {
             // Motions that come to ride on the belt are known as far as the law reaches.
             let from = if smallest.is_finite() { smallest } else { beyond(held) };
             let last = self.farthest(from.max(found.end), scale, &mut found)?;
-            found.end = found.end.max(scale * exp(last.u));
+            found.end = found.end.max(scale * exp(last.at));
         }
         for u in roots {
             found.points.extend(self.sharpened(scale * exp(u))?);
@@ -205,7 +203,8 @@ impl Flow<'_> {
         let linear = self.model.linear_growth();
         for _ in 0..12 {
             let here = self.growth(ln(x / scale), scale)?;
-            let settled = (here.f - linear).abs() <= 0.1 * linear.abs() || here.f.abs() < WEAK;
+            let settled = (here.difference - linear).abs() <= 0.1 * linear.abs()
+                || here.difference.abs() < WEAK;
             if settled || !linear.is_finite() {
                 break;
             }
@@ -217,8 +216,8 @@ impl Flow<'_> {
     /// The zeros of the growth between two samples.
     fn zeros_between(
         &mut self,
-        first: GrowthSample,
-        last: GrowthSample,
+        first: Node,
+        last: Node,
         scale: f64,
         found: &mut FixedPoints,
     ) -> Result<Vec<f64>, Reason> {
@@ -271,12 +270,7 @@ impl Flow<'_> {
     }
 
     /// A right turning point far beyond `scale`, or as far as motions can be followed.
-    fn farthest(
-        &mut self,
-        from: f64,
-        scale: f64,
-        found: &mut FixedPoints,
-    ) -> Result<GrowthSample, Reason> {
+    fn farthest(&mut self, from: f64, scale: f64, found: &mut FixedPoints) -> Result<Node, Reason> {
         /// Factor by which it lies beyond.
         const DOUBLINGS: u32 = 10;
         /// Doublings after which the shrinking of motions counts.
@@ -297,8 +291,10 @@ impl Flow<'_> {
                     return Ok(if dear { last } else { self.edge(last, at(x), scale) });
                 }
             }
-            let shrinks = doubling > ENOUGH && last.f < CONTRACTS && last.f < before.f;
-            if shrinks || last.f >= FAR {
+            let shrinks = doubling > ENOUGH
+                && last.difference < CONTRACTS
+                && last.difference < before.difference;
+            if shrinks || last.difference >= FAR {
                 break;
             }
             x *= 2.0;
@@ -307,22 +303,19 @@ impl Flow<'_> {
     }
 
     /// The last point up to which the map is known, between one where it is and one where it is not.
-    fn edge(&mut self, known: GrowthSample, unknown: f64, unit: f64) -> GrowthSample {
+    fn edge(&mut self, known: Node, unknown: f64, unit: f64) -> Node {
         let mut last = known;
-        bisect(known.u, unknown, 40, |u| self.growth(u, unit).map(|sample| last = sample).is_err());
+        bisect(known.at, unknown, 40, |u| {
+            self.growth(u, unit).map(|sample| last = sample).is_err()
+        });
         last
     }
 
     /// Whether all motions between two samples are periodic.
-    fn is_neutral(
-        &mut self,
-        first: GrowthSample,
-        last: GrowthSample,
-        unit: f64,
-    ) -> Result<bool, Reason> {
-        let middle = self.growth(0.5 * (first.u + last.u), unit)?;
-        let other = self.growth(0.3 * first.u + 0.7 * last.u, unit)?;
-        Ok([first, middle, other, last].iter().all(|sample| sample.f.abs() < NOTHING))
+    fn is_neutral(&mut self, first: Node, last: Node, unit: f64) -> Result<bool, Reason> {
+        let middle = self.growth(0.5 * (first.at + last.at), unit)?;
+        let other = self.growth(0.3 * first.at + 0.7 * last.at, unit)?;
+        Ok([first, middle, other, last].iter().all(|sample| sample.difference.abs() < NOTHING))
     }
 
     /// The description of the cycle through a right turning point.

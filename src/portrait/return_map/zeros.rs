@@ -8,18 +8,8 @@
 
 use crate::flow::Reason;
 use crate::numerics::polynomial::Hermite;
-use crate::numerics::root::{Bracket, PlaceTolerance, illinois, try_newton};
-
-/// A value of the function.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GrowthSample {
-    /// Argument.
-    pub u: f64,
-    /// The value.
-    pub f: f64,
-    /// The derivative.
-    pub slope: f64,
-}
+use crate::numerics::root::{Bracket, PlaceTolerance, try_newton};
+use crate::portrait::closing::search::{Node, beyond_zero};
 
 /// Maximum number of times that an interval is halved.
 const DEPTH: u32 = 12;
@@ -29,6 +19,9 @@ const PREDICTED: f64 = 0.05;
 
 /// Values below this count as zero.
 pub const NOTHING: f64 = 1e-12;
+
+/// Relative width to which an extremum is sought.
+const WIDTH: f64 = 1e-9;
 
 /// Rounding error of one evaluation.
 const ROUNDING: f64 = 1e-14;
@@ -44,15 +37,15 @@ pub struct Zeros {
 
 /// The zeros of a function between two samples. Fails with the [`Reason`] of an evaluation.
 pub fn zeros(
-    ends: (GrowthSample, GrowthSample),
-    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Reason>,
+    ends: (Node, Node),
+    evaluate: &mut impl FnMut(f64) -> Result<Node, Reason>,
 ) -> Result<Zeros, Reason> {
     /// Initial number of intervals.
     const FIRST: i32 = 8;
     let mut found = Zeros::default();
     let mut left = ends.0;
     for part in 1..=FIRST {
-        let at = ends.0.u + (ends.1.u - ends.0.u) * f64::from(part) / f64::from(FIRST);
+        let at = ends.0.at + (ends.1.at - ends.0.at) * f64::from(part) / f64::from(FIRST);
         let right = if part == FIRST { ends.1 } else { evaluate(at)? };
         within(left, right, DEPTH, evaluate, &mut found)?;
         left = right;
@@ -61,21 +54,21 @@ pub fn zeros(
 }
 
 fn within(
-    left: GrowthSample,
-    right: GrowthSample,
+    left: Node,
+    right: Node,
     depth: u32,
-    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Reason>,
+    evaluate: &mut impl FnMut(f64) -> Result<Node, Reason>,
     found: &mut Zeros,
 ) -> Result<(), Reason> {
-    let h = right.u - left.u;
-    if left.f > h || right.f < -h {
+    let h = right.at - left.at;
+    if left.difference > h || right.difference < -h {
         return Ok(());
     }
-    let middle = evaluate(0.5 * (left.u + right.u))?;
+    let middle = evaluate(0.5 * (left.at + right.at))?;
     let slopes = (h * left.slope, h * right.slope);
-    let foretold = Hermite { values: (left.f, right.f), slopes }.at(0.5);
-    let least = left.f.abs().min(right.f.abs()).min(middle.f.abs());
-    let error = (foretold - middle.f).abs();
+    let foretold = Hermite { values: (left.difference, right.difference), slopes }.at(0.5);
+    let least = left.difference.abs().min(right.difference.abs()).min(middle.difference.abs());
+    let error = (foretold - middle.difference).abs();
     // If all values have one sign and all slopes another, there is no room for zeros, however rough the function.
     let monotone = left.slope * middle.slope > 0.0 && middle.slope * right.slope > 0.0;
     let settled = error <= PREDICTED * least || error <= NOTHING || (monotone && error < 0.5 * h);
@@ -84,7 +77,7 @@ fn within(
         return within(middle, right, depth - 1, evaluate, found);
     }
     if !settled {
-        found.unresolved.push((left.u, right.u));
+        found.unresolved.push((left.at, right.at));
     }
     leaf(left, middle, evaluate, &mut found.found)?;
     leaf(middle, right, evaluate, &mut found.found)
@@ -92,26 +85,22 @@ fn within(
 
 /// The zeros where the function is nearly a cubic.
 fn leaf(
-    left: GrowthSample,
-    right: GrowthSample,
-    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Reason>,
+    left: Node,
+    right: Node,
+    evaluate: &mut impl FnMut(f64) -> Result<Node, Reason>,
     found: &mut Vec<f64>,
 ) -> Result<(), Reason> {
     // If all motions are periodic to rounding, zeros cannot be distinguished.
-    if left.f.abs() < ROUNDING || right.f.abs() < ROUNDING {
+    if left.difference.abs() < ROUNDING || right.difference.abs() < ROUNDING {
         return Ok(());
     }
-    if (left.f > 0.0) != (right.f > 0.0) {
+    if (left.difference > 0.0) != (right.difference > 0.0) {
         found.push(zero(left, right, evaluate)?);
         return Ok(());
     }
-    let sign = if left.f > 0.0 { 1.0 } else { -1.0 };
-    if sign * left.slope < 0.0 && sign * right.slope > 0.0 {
-        let lowest = extremum(left, right, evaluate)?;
-        if sign * lowest.f <= 0.0 {
-            found.push(zero(left, lowest, evaluate)?);
-            found.push(zero(lowest, right, evaluate)?);
-        }
+    if let Some(beyond) = beyond_zero(left, right, WIDTH, &mut |u, _| evaluate(u))? {
+        found.push(zero(left, beyond, evaluate)?);
+        found.push(zero(beyond, right, evaluate)?);
     }
     Ok(())
 }
@@ -119,44 +108,20 @@ fn leaf(
 /// The zero between two samples of different sign: Newton's method inside a bracket. Fails with the [`Reason`]
 /// of an evaluation.
 pub fn zero(
-    left: GrowthSample,
-    right: GrowthSample,
-    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Reason>,
+    left: Node,
+    right: Node,
+    evaluate: &mut impl FnMut(f64) -> Result<Node, Reason>,
 ) -> Result<f64, Reason> {
-    let best = if left.f.abs() < right.f.abs() { left } else { right };
-    if best.f == 0.0 {
-        return Ok(best.u);
+    let best = if left.difference.abs() < right.difference.abs() { left } else { right };
+    if best.difference == 0.0 {
+        return Ok(best.at);
     }
-    let rising = (right.f > 0.0) == (left.u < right.u);
-    let bracket = Bracket { low: left.u.min(right.u), high: left.u.max(right.u), rising };
-    let settled = PlaceTolerance::Absolute(2.0 * f64::EPSILON * (1.0 + best.u.abs()).min(2.0));
-    let start = bracket.inside(best.u - best.f / best.slope);
+    let rising = (right.difference > 0.0) == (left.at < right.at);
+    let bracket = Bracket { low: left.at.min(right.at), high: left.at.max(right.at), rising };
+    let settled = PlaceTolerance::Absolute(2.0 * f64::EPSILON * (1.0 + best.at.abs()).min(2.0));
+    let start = bracket.inside(best.at - best.difference / best.slope);
     let root = try_newton(bracket, start, settled, |u| {
-        evaluate(u).map(|sample| (sample.f, sample.slope))
+        evaluate(u).map(|sample| (sample.difference, sample.slope))
     })?;
     Ok(root.at)
-}
-
-/// Where the slope vanishes between two samples with slopes of different sign, or a place on the way there at which
-/// the function has another sign than at both. Fails with the [`Reason`] of an evaluation.
-fn extremum(
-    left: GrowthSample,
-    right: GrowthSample,
-    evaluate: &mut impl FnMut(f64) -> Result<GrowthSample, Reason>,
-) -> Result<GrowthSample, Reason> {
-    const WIDTH: PlaceTolerance = PlaceTolerance::Absolute(1e-9);
-    let mut best = if left.f.abs() < right.f.abs() { left } else { right };
-    // The result of an early end is passed on in place of an error.
-    let slope = |u| {
-        let here = evaluate(u).map_err(Err)?;
-        if here.f.abs() < best.f.abs() {
-            best = here;
-        }
-        let crossed = (here.f > 0.0) != (left.f > 0.0);
-        if crossed { Err(Ok(here)) } else { Ok(here.slope) }
-    };
-    match illinois([(left.u, left.slope), (right.u, right.slope)], 0.0, WIDTH, slope) {
-        Err(found) => found,
-        Ok(_) => Ok(best),
-    }
 }

@@ -8,7 +8,7 @@ use crate::flow::machine::motion::MachineState;
 use crate::flow::{Fate, MachineMotion};
 use crate::model::Group;
 use crate::model::belt::{Derivatives, FrictionLaw};
-use crate::portrait::guarantee::machine::MachineUncertain;
+use crate::portrait::guarantee::Uncertain;
 use crate::portrait::{Course, CubicExpansion, Cycle, Margin, Portrait};
 use crate::report::Document;
 use crate::report::cycle_numbers::NUMBERS;
@@ -65,7 +65,7 @@ fn quantities(CubicExpansion { belt, reduced, .. }: &CubicExpansion) -> Document
 
 /// The kicks that are survived for certain, with what they allow for: the disturbance in N, and the intervals of the
 /// numbers that are not known exactly. Null if every kick is survived or nothing is certain.
-fn guaranteed(belt: &OnBelt, certain: &Result<Margin, MachineUncertain>) -> Document {
+fn guaranteed(belt: &OnBelt, certain: &Result<Margin, Uncertain>) -> Document {
     let tolerances = belt.uncertain().into_iter().map(|(knob, value)| (knob.spec().name, value));
     Document::default()
         .and(&certain.unwrap_or(Margin::ENDLESS))

@@ -6,7 +6,7 @@ use crate::flow::{Fate, MachineMotion};
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::model::{Interval, Knob, Tolerances};
 use crate::portrait::design::{FrictionNeeded, Kick};
-use crate::portrait::guarantee::machine::MachineUncertain;
+use crate::portrait::guarantee::Uncertain;
 use crate::portrait::{Course, CubicExpansion, Cycle, Margin, Portrait};
 use crate::report::answer::{PLACES, interval};
 use crate::report::cycle_numbers::NUMBERS;
@@ -39,7 +39,7 @@ pub struct OnBelt<'a> {
     pub expansion: CubicExpansion,
     pub tolerances: &'a Tolerances,
     /// The kicks that are survived for certain, or why none is; `None` if not asked for.
-    pub certain: Option<Result<Margin, MachineUncertain>>,
+    pub certain: Option<Result<Margin, Uncertain>>,
 }
 
 impl OnBelt<'_> {

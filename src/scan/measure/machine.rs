@@ -9,7 +9,7 @@ use crate::flow::machine::motion::turns;
 use crate::flow::{Fate, MachineMotion, Reason};
 use crate::model::{MachineProblem, State};
 use crate::portrait::Portrait;
-use crate::portrait::basin::Window;
+use crate::portrait::basin::StartWindow;
 use crate::portrait::design::friction_of_guide;
 use crate::portrait::guarantee::machine::guaranteed;
 use crate::portrait::kicks::repeated::{part_lost, repeated_by};
@@ -95,7 +95,7 @@ impl<'a> MachinePoint<'a> {
         cells.cycles(&portrait.cycles);
         cells.edge(portrait.border, portrait.margin);
         cells.fill(Measure::Stability, || {
-            let Window { q, v } = conditions.about(&portrait.model);
+            let StartWindow { q, v } = conditions.about(&portrait.model);
             portrait.rest_share(q, v)
         });
         cells.share(Measure::Lost, || part_lost(&portrait, &conditions.kicks).ok());

@@ -52,10 +52,7 @@ impl<'a> OscillatorPoint<'a> {
                 let known = cells.conditions.around(parameters);
                 let (found, cost) = guaranteed(&known, cells.conditions.disturbance, limits)?;
                 cells.cost += cost;
-                cells.margin(Measure::Guaranteed, found.margin);
-                if let Some(uncertain) = found.reason {
-                    return Err(uncertain.to_string().into());
-                }
+                cells.margin(Measure::Guaranteed, found.map_err(|why| why.to_string())?);
             }
             Measure::Settling => self.settling(cells)?,
             Measure::Proved => self.proof(cells)?,
@@ -107,8 +104,8 @@ impl<'a> OscillatorPoint<'a> {
         let inner = if let Some((_, closings)) = &self.cycles {
             closings.first().copied()
         } else {
-            let mut equation = Equation::new(parameters, STEP);
-            let inner = innermost_closing(&mut equation, self.limits);
+            let mut equation = Equation::new(parameters, STEP, self.limits);
+            let inner = innermost_closing(&mut equation);
             cells.cost += equation.cost();
             inner?
         };

@@ -1,7 +1,7 @@
 //! How long starts over a window take to come to rest.
 
 use crate::model::State;
-use crate::portrait::basin::Window;
+use crate::portrait::basin::StartWindow;
 
 /// Starts along each side of the window, evenly spaced in the middles of as many cells.
 const SIDE: u16 = 32;
@@ -16,7 +16,7 @@ pub struct Settling {
 impl Settling {
     /// Asks when the motion from each start is at rest, if it is in the end. Fails with why one of them was given up.
     pub fn of<Why>(
-        window: &Window,
+        window: &StartWindow,
         mut rests: impl FnMut(State) -> Result<Option<f64>, Why>,
     ) -> Result<Self, Why> {
         let cell = |(from, to): (f64, f64), index: u16| {

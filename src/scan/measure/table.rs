@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::model::{Knob, Model, ParameterBox, Parameters};
 use crate::numerics::count::real;
-use crate::portrait::basin::Window;
+use crate::portrait::basin::StartWindow;
 use crate::portrait::design::Kick;
 use crate::portrait::kicks::RandomKick;
 
@@ -308,7 +308,7 @@ impl Value {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Conditions {
     /// Starts whose part or times are measured.
-    pub window: Window,
+    pub window: StartWindow,
     /// Half widths of parameters, each given once.
     pub half_widths: Vec<(Knob, f64)>,
     /// Bound on the disturbance.
@@ -321,8 +321,8 @@ pub struct Conditions {
     pub wanted: Option<(Kick, f64)>,
 }
 
-impl From<Window> for Conditions {
-    fn from(window: Window) -> Self {
+impl From<StartWindow> for Conditions {
+    fn from(window: StartWindow) -> Self {
         Conditions { window, ..Conditions::default() }
     }
 }
@@ -338,10 +338,10 @@ impl Conditions {
     }
 
     /// The window of a machine, from its steady position.
-    pub fn about(&self, model: &Model) -> Window {
+    pub fn about(&self, model: &Model) -> StartWindow {
         let steady = if self.elongation { model.pull } else { 0.0 };
-        let Window { q: (from, to), v } = self.window;
-        Window { q: (from - steady, to - steady), v }
+        let StartWindow { q: (from, to), v } = self.window;
+        StartWindow { q: (from - steady, to - steady), v }
     }
 
     /// How far the edge of the basin matters.

@@ -1,10 +1,10 @@
 use super::*;
 use crate::flow::Problem;
 use crate::model::{Knob, Parameters, State};
-use crate::portrait::basin::Window;
+use crate::portrait::basin::StartWindow;
 use crate::portrait::design::Kick;
 
-const WINDOW: Window = Window { q: (-3.0, 3.0), v: (-3.0, 3.0) };
+const WINDOW: StartWindow = StartWindow { q: (-3.0, 3.0), v: (-3.0, 3.0) };
 
 fn problem(d: f64, d2: f64, d3: f64, r: f64) -> Problem {
     Problem { parameters: Parameters { d, d2, d3, r }, ..Problem::default() }

@@ -262,7 +262,7 @@ fn scan_of(session: &Session, over: Vec<Sweep>, measures: &str) -> Result<Scan, 
     let plane = session.plots.iter().find(|plot| plot.view == View::Phase);
     let window = plane.map_or(View::Phase.spec().window, |plot| plot.window);
     let ends = |span: Span| (span.from(), span.to());
-    let window = basin::Window { q: ends(window.x), v: ends(window.y) };
+    let window = basin::StartWindow { q: ends(window.x), v: ends(window.y) };
     Scan::new(session.problem, over, measures, window)
 }
 
