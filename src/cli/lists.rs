@@ -15,7 +15,7 @@ use crate::model::Parameters;
 use crate::paper::examine_all;
 use crate::report::extremes::{extreme_cycles, extremes};
 use crate::report::scenes::{costs, scenes};
-use crate::report::{Columns, Format, claims, json};
+use crate::report::{Answer, Columns, Format, claims};
 use crate::runtime::standard::tell;
 use crate::scene::library;
 use crate::session::commands;
@@ -59,6 +59,7 @@ pub struct KeysCommand {
 }
 
 /// A command in a context.
+#[derive(Clone)]
 struct KeyRow {
     context: &'static str,
     command: &'static str,
@@ -86,11 +87,8 @@ impl KeysCommand {
             // A document lists them.
             .field("keys", |row| row.keys.clone())
             .word("meaning", |row| row.meaning);
-        print(&match self.list.format {
-            Format::Table => on_terminal(&columns.table(rows).aligned_left()),
-            Format::Json => json::text(&columns.objects(rows)),
-            Format::Csv => columns.csv(rows),
-        })?;
+        let told = Answer::list_of(columns, rows).told(self.list.format);
+        print(&if self.list.format == Format::Table { on_terminal(&told) } else { told })?;
         if let (Some(path), Format::Table) = (self.settings.path(), self.list.format) {
             let there = if path.exists() { "" } else { " (not there)" };
             tell(format!("settings file: {}{there}", path.display()));

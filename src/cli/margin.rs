@@ -16,7 +16,7 @@ use crate::portrait::proved::agreed;
 use crate::proof;
 use crate::proof::{ParameterBox, prove};
 use crate::report::About;
-use crate::report::margin::{BasinAnswer, MarginAnswer, kicks};
+use crate::report::margin::{basin, basin_of_machine, kicks, margins, margins_of_machine};
 
 /// Finds how large a kick is survived under every bounded disturbance, at all parameters in a box
 #[derive(Debug, Args)]
@@ -42,8 +42,7 @@ impl MarginCommand {
         let (known, bound) = (self.source.start.known()?, bound.unwrap_or(0.0));
         let ask = || guarantee(&known, bound, &Limits::PATIENT);
         let (found, seconds) = self.output.timed("the margin could not be computed", ask)?;
-        let about = About::oscillator(&known.middle());
-        self.output.print(MarginAnswer::from(&found).answer(&about, seconds))
+        self.output.print(margins(&About::boxed(&known), &found, seconds))
     }
 
     /// Answers about a machine; what is known exactly has its own margin for certain.
@@ -58,8 +57,10 @@ impl MarginCommand {
                 certain.map_err(troubled)?
             }
         };
-        let answer = MarginAnswer::of_machine(&case.problem, &found, certain);
-        self.output.print(answer.answer(&case.about(), seconds))
+        let uncertain = subject.of_belt().map(|belt| tolerances.intervals(belt));
+        let about = case.about().within(&uncertain.unwrap_or_default());
+        let bound = tolerances.disturbance;
+        self.output.print(margins_of_machine(&about, &found, certain, bound, seconds))
     }
 }
 
@@ -90,8 +91,9 @@ impl BasinCommand {
             let window = window.unwrap_or_else(|| found.surroundings());
             let (counts, seconds) = timed(self.output.repeat, || found.count(&window, self.grid));
             let captured = found.rest_share(window.q, window.v);
-            let answer = BasinAnswer::of_machine(&found, counts, captured);
-            return self.output.print(answer.answer(&case.about(), before + seconds));
+            let seconds = before + seconds;
+            let answer = basin_of_machine(&case.about(), &found, counts, captured, seconds);
+            return self.output.print(answer);
         }
         let parameters = self.source.start.scene(None)?.problem.parameters;
         let window = window.unwrap_or(WINDOW);
@@ -105,7 +107,7 @@ impl BasinCommand {
         };
         let certified = self.certify.ask(enclose);
         let about = About::oscillator(&parameters);
-        self.output.print(BasinAnswer::new(&found, certified.as_ref()).answer(&about, seconds))
+        self.output.print(basin(&about, &found, certified.as_ref(), seconds))
     }
 }
 

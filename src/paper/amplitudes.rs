@@ -8,7 +8,7 @@ use super::measure::{
     amplitude, beside_proof, cycles, everywhere, extent, largest, last_cycle, missing, oscillator,
     over, place, smallest, towards,
 };
-use super::{Claim, Finding};
+use super::{Check, Finding};
 use crate::branch::fold::fold;
 use crate::branch::special::FoldPoint;
 use crate::closed_form::harmonic::{self, amplitudes};
@@ -17,311 +17,158 @@ use crate::model::Parameters;
 use crate::numerics::elementary::{cbrt, powi};
 use crate::portrait::basin::cycle::cycles as cycles_of;
 
-pub const CLAIMS: &[Claim] = &[
-    Claim {
-        equation: "(42)",
-        section: "6.2",
-        statement: "the stationary amplitudes are those of the cycles: the unstable one, over D = -0.9 .. -0.18",
-        basis: "cycle",
-        scene: Some("fig12"),
-        check: |limits| {
-            over(BRANCH.map(both_cycles), |parameters| {
-                let cycle = smallest(parameters, limits)?;
-                Ok(Finding::near(amplitudes(parameters)[0].amplitude, amplitude(&cycle)))
-            })
-        },
-    },
-    Claim {
-        equation: "(42)",
-        section: "6.2",
-        statement: "the stationary amplitudes are those of the cycles: the stable one, over D = -0.9 .. -0.18",
-        basis: "cycle",
-        scene: Some("fig12"),
-        check: |limits| {
-            over(BRANCH.map(both_cycles), |parameters| {
-                let cycle = largest(parameters, limits)?;
-                Ok(Finding::near(largest_amplitude(parameters)?, amplitude(&cycle)))
-            })
-        },
-    },
-    Claim {
-        equation: "(43, 47)",
-        section: "6.2.1",
-        statement: "discriminant of (42): (47) is (43) written out",
-        basis: "(43)",
-        scene: Some("fig10"),
-        check: |_| {
-            over(both_sides(), |parameters| {
-                let Parameters { d, d3, r, .. } = *parameters;
-                let (a, b) = (8.0 * d / (3.0 * d3), 16.0 * r / (3.0 * PI * d3));
-                let (cube, square) = (-4.0 * a * a * a, 27.0 * b * b);
-                // What is left of the difference of two terms is uncertain by their rounding.
-                let error = 32.0 * f64::EPSILON * (cube.abs() + square);
-                let computed = Known::new(cube - square, error);
-                let scale = powi(16.0 / (3.0 * d3), 2) / 3.0;
-                let formula = scale * (-8.0 * d * d * (d / d3) - powi(9.0 / PI, 2) * r * r);
-                Ok(Finding::equal(formula, computed))
-            })
-        },
-    },
-    Claim {
-        equation: "(44-46)",
-        section: "6.2.1",
-        statement: "its sign tells the number of real roots of (42): three or one",
-        basis: "(42)",
-        scene: Some("fig10"),
-        check: |_| {
-            everywhere(both_sides(), |parameters| {
-                let positive = harmonic::discriminant(parameters).is_some_and(|value| value > 0.0);
-                Ok(real_roots(parameters) == if positive { 3 } else { 1 })
-            })
-        },
-    },
-    Claim {
-        equation: "Fig. 10",
-        section: "6.2.1",
-        statement: "for D3 > 0 there are two cycles for D < D_F and none for D > D_F, by (48)",
-        basis: "cycle",
-        scene: Some("fig10"),
-        check: |limits| {
-            // Up to strong friction, and next to the border, where it matters: r^2 D3 = 1e-3 .. 0.25.
-            const PARTS: [f64; 8] = [0.2, 0.8, 0.95, 1.0025, 1.05, 1.3, 2.0, 3.0];
-            let cases = [0.1, 0.5, 2.0, 25.0].into_iter().flat_map(|d3| {
-                let fold = printed_fold(d3, 0.1);
-                PARTS.map(|part| oscillator(part * fold, 0.0, d3, 0.1))
-            });
-            let between = oscillator(-0.637, 0.0, 0.25, 1.0);
-            let cases = std::iter::once(between).chain(cases).filter(|it| it.d.abs() <= 1.0);
-            counted(limits, cases, |it| 2 * usize::from(it.d < printed_fold(it.d3, it.r)))
-        },
-    },
-    Claim {
-        equation: "Fig. 10",
-        section: "6.2.1",
-        statement: "for D3 < 0 there is one cycle for all D",
-        basis: "cycle",
-        scene: Some("fig10"),
-        check: |limits| {
-            const DAMPINGS: [f64; 9] = [-1.0, -0.99, -0.75, -0.2, -0.02, 0.0, 0.2, 0.75, 1.0];
-            let cases = [-0.1, -0.5, -2.0].map(|d3| DAMPINGS.map(|d| oscillator(d, 0.0, d3, 0.1)));
-            counted(limits, cases.into_iter().flatten(), |_| 1)
-        },
-    },
-    Claim {
-        equation: "Fig. 10",
-        section: "6.2.1",
-        statement: "for D3 = 0 there is one cycle for D <= 0, and none for D > 0",
-        basis: "cycle",
-        scene: Some("fig10"),
-        check: |limits| {
-            let dampings = [-1.0, -0.9, -0.5, -0.1, -1e-3, 0.0, 0.1, 0.5];
-            let cases = dampings.map(|d| oscillator(d, 0.0, 0.0, 0.1));
-            counted(limits, cases, |it| usize::from(it.d <= 0.0))
-        },
-    },
-    Claim {
-        equation: "(48)",
-        section: "6.2.1",
-        statement: "fold at D_F = -(1/2) cbrt((9/pi)^2 r^2 D3), for D2 = 0: the worst of r^2 D3 = 1e-4 .. \
-                    0.25",
-        basis: "cycle",
-        scene: Some("fig11"),
-        check: |limits| {
-            Finding::worst(
-                [1e-4, 1e-3, 0.01, 0.05, 0.1, 0.25].map(|d3| fold_against(limits, 0.0, d3, 1.0)),
-            )
-        },
-    },
-    Claim {
-        equation: "(48)",
-        section: "6.2.1",
-        statement: "the fold does not depend on D2: over D2 = 0.2 .. 0.5",
-        basis: "cycle",
-        scene: Some("asymmetry"),
-        check: |limits| Finding::worst([0.2, 0.5].map(|d2| fold_against(limits, d2, 0.01, 0.1))),
-    },
-    Claim {
-        equation: "Fig. 11",
-        section: "6.2.1",
-        statement: "beyond (48) the rest attracts from everywhere, below it the basin is finite, whatever D2",
-        basis: "cycle",
-        scene: Some("fig11"),
-        check: |limits| {
-            let cases = [0.0, 0.2, 0.5, 1.0].into_iter().flat_map(|d2| [(d2, 0.9), (d2, 1.1)]);
-            Finding::always(cases.map(|(d2, part)| {
-                let d = part * printed_fold(0.01, 0.1);
-                let found = cycles(&oscillator(d, d2, 0.01, 0.1), limits)?;
-                let finite = found.map(|found| !found.is_empty());
-                let case = format!("D = {part} D_F, D2 = {d2}, D3 = 0.01, r = 0.1");
-                Ok((case, finite.is(part > 1.0)))
-            }))
-        },
-    },
-    Claim {
-        equation: "(49)",
-        section: "6.2.1",
-        statement: "amplitude at the fold, A_F = cbrt(8 r/(3 pi D3)): its half extent, over r^2 D3 = 1e-4 .. 0.25",
-        basis: "cycle",
-        scene: Some("fig12"),
-        check: |limits| {
-            Finding::worst([1e-4, 1e-3, 0.01, 0.05, 0.1, 0.25].map(|d3| {
-                let parameters = oscillator(0.0, 0.0, d3, 1.0);
-                let found = found_fold(&parameters, limits)?;
-                let formula = cbrt(8.0 * parameters.r / (3.0 * PI * parameters.d3));
-                // Next to a fold an amplitude is known to the root of what D is.
-                let computed = Known::relative(found.q_max, 1e-7);
-                Ok(Finding::near(formula, computed).at(format!("D3 = {d3}, r = 1")))
-            }))
-        },
-    },
-    Claim {
-        equation: "(50)",
-        section: "6.2.1",
-        statement: "for D3 < 0 the cycle at D = 0 has the amplitude A_Z = cbrt(-16 r/(3 pi D3)): over r^2 D3 = -0.25 .. -1e-4",
-        basis: "cycle",
-        scene: Some("fig12"),
-        check: |limits| {
-            let cases = [-0.01, -0.1, -1.0, -10.0, -25.0].map(|d3| oscillator(0.0, 0.0, d3, 0.1));
-            over(cases, |parameters| {
-                let cycle = smallest(parameters, limits)?;
-                let formula = cbrt(-16.0 * parameters.r / (3.0 * PI * parameters.d3));
-                Ok(Finding::near(formula, amplitude(&cycle)))
-            })
-        },
-    },
-    Claim {
-        equation: "(51)",
-        section: "6.2.1",
-        statement: "A_1 = -2 r/(pi D) is the exact solution of (42) for D3 = 0",
-        basis: "(42)",
-        scene: Some("fig09"),
-        check: |_| {
-            over([-0.9, -0.4, -0.01].map(|d| oscillator(d, 0.0, 0.0, 0.1)), |parameters| {
-                let (d, root) = (parameters.d, largest_amplitude(parameters)?);
-                let left = 4.0 * parameters.r / PI + 2.0 * d * root;
-                let computed = Known::new(root - left / (2.0 * d), f64::EPSILON * root);
-                Ok(Finding::equal(small(parameters), computed))
-            })
-        },
-    },
-    Claim {
-        equation: "(51)",
-        section: "6.2.2",
-        statement: "for D3 = 0 that is the exact amplitude of the cycle, over D = -0.9 .. -0.01",
-        basis: "cycle",
-        scene: Some("fig09"),
-        check: |limits| {
-            let cases = [-0.9, -0.7, -0.4, -0.1, -0.01].map(|d| oscillator(d, 0.0, 0.0, 0.1));
-            over(cases, |parameters| {
-                Ok(Finding::equal(small(parameters), extent(&smallest(parameters, limits)?)))
-            })
-        },
-    },
-    Claim {
-        equation: "(51)",
-        section: "6.2.1",
-        statement: "A_1 approximates the small amplitude where D3 acts, over D = -0.9 .. -0.18",
-        basis: "cycle",
-        scene: Some("fig12"),
-        check: |limits| {
-            over(BRANCH.map(both_cycles), |parameters| {
-                Ok(Finding::near(small(parameters), amplitude(&smallest(parameters, limits)?)))
-            })
-        },
-    },
-    Claim {
-        equation: "after (51)",
-        section: "6.2.1",
-        statement: "A_1 is about -0.6 r/D",
-        basis: "(51)",
-        scene: Some("fig12"),
-        check: |_| {
-            let parameters = oscillator(-1.0, 0.0, 0.0, 1.0);
-            Ok(Finding::near(0.6, Known::relative(largest_amplitude(&parameters)?, 1e-15)))
-        },
-    },
-    Claim {
-        equation: "before (52)",
-        section: "6.2.1",
-        statement: "(42) divided by 2 D reads 2 r/(pi D) + A + 8 D3/(3 D) A^3 = 0: the last two terms",
-        basis: "(42)",
-        scene: Some("fig12"),
-        check: |_| {
-            let parameters = both_cycles(-0.3);
-            let Parameters { d, d3, r, .. } = parameters;
-            let root = largest_amplitude(&parameters)?;
-            let computed = Known::relative(-2.0 * r / (PI * d), 1e-14);
-            let terms = |factor: f64| root + factor * d3 / d * powi(root, 3);
-            let finding = Finding::equal(terms(8.0 / 3.0), computed).corrected(terms(3.0 / 8.0));
-            Ok(finding.at(place(&parameters)))
-        },
-    },
-    Claim {
-        equation: "(52)",
-        section: "6.2.1",
-        statement: "A_2 = sqrt(-8 D/(3 D3)) approximates the large amplitude, over D = -0.9 .. -0.18",
-        basis: "cycle",
-        scene: Some("fig12"),
-        check: |limits| {
-            over(BRANCH.map(both_cycles), |parameters| {
-                Ok(Finding::near(large(parameters), amplitude(&largest(parameters, limits)?)))
-            })
-        },
-    },
-    Claim {
-        equation: "Fig. 12a",
-        section: "6.2.2",
-        statement: "for D3 > 0 the solutions of (42) approach A_1 and A_2 as D goes to -1",
-        basis: "(42)",
-        scene: Some("fig12"),
-        check: |_| {
-            let smallest = |it: &Parameters| amplitudes(it).first().map(|root| root.amplitude);
-            Finding::worst([
-                approached(0.5, -1.0, smallest, small),
-                approached(0.5, -1.0, |it| largest_amplitude(it).ok(), large),
-            ])
-        },
-    },
-    Claim {
-        equation: "Fig. 12a",
-        section: "6.2.2",
-        statement: "for D3 > 0 the lower branch is unstable and the upper one stable",
-        basis: "cycle",
-        scene: Some("fig12"),
-        check: |limits| {
-            everywhere([-0.9, -0.5, -0.3, -0.2].map(both_cycles), |parameters| {
-                let found = cycles(parameters, limits)?;
-                Ok(found.map(|found| found.iter().map(|cycle| cycle.stable).eq([false, true])))
-            })
-        },
-    },
-    Claim {
-        equation: "Fig. 12b",
-        section: "6.2.2",
-        statement: "for D3 < 0 all cycles are unstable",
-        basis: "cycle",
-        scene: Some("fig12"),
-        check: |limits| {
-            let cases = [-0.8, -0.3, 0.0, 0.3, 0.8].map(|d| oscillator(d, 0.0, -0.5, 0.1));
-            everywhere(cases, |parameters| {
-                Ok(cycles(parameters, limits)?.map(|found| found.iter().all(|it| !it.stable)))
-            })
-        },
-    },
-    Claim {
-        equation: "Fig. 12b",
-        section: "6.2.2",
-        statement: "for D3 < 0 the solution of (42) approaches A_1 as D goes to -1, and A_2 as it goes to 1",
-        basis: "(42)",
-        scene: Some("fig12"),
-        check: |_| {
-            let solution = |it: &Parameters| largest_amplitude(it).ok();
-            Finding::worst([
-                approached(-0.5, -1.0, solution, small),
-                approached(-0.5, 1.0, solution, large),
-            ])
-        },
-    },
+pub const CHECKS: &[Check] = &[
+    ("unstable amplitude", |limits| {
+        over(BRANCH.map(both_cycles), |parameters| {
+            let cycle = smallest(parameters, limits)?;
+            Ok(Finding::near(amplitudes(parameters)[0].amplitude, amplitude(&cycle)))
+        })
+    }),
+    ("stable amplitude", |limits| {
+        over(BRANCH.map(both_cycles), |parameters| {
+            let cycle = largest(parameters, limits)?;
+            Ok(Finding::near(largest_amplitude(parameters)?, amplitude(&cycle)))
+        })
+    }),
+    ("discriminant", |_| {
+        over(both_sides(), |parameters| {
+            let Parameters { d, d3, r, .. } = *parameters;
+            let (a, b) = (8.0 * d / (3.0 * d3), 16.0 * r / (3.0 * PI * d3));
+            let (cube, square) = (-4.0 * a * a * a, 27.0 * b * b);
+            // What is left of the difference of two terms is uncertain by their rounding.
+            let error = 32.0 * f64::EPSILON * (cube.abs() + square);
+            let computed = Known::new(cube - square, error);
+            let scale = powi(16.0 / (3.0 * d3), 2) / 3.0;
+            let formula = scale * (-8.0 * d * d * (d / d3) - powi(9.0 / PI, 2) * r * r);
+            Ok(Finding::equal(formula, computed))
+        })
+    }),
+    ("number of roots", |_| {
+        everywhere(both_sides(), |parameters| {
+            let positive = harmonic::discriminant(parameters).is_some_and(|value| value > 0.0);
+            Ok(real_roots(parameters) == if positive { 3 } else { 1 })
+        })
+    }),
+    ("cycles for D3 > 0", |limits| {
+        // Up to strong friction, and next to the border, where it matters: r^2 D3 = 1e-3 .. 0.25.
+        const PARTS: [f64; 8] = [0.2, 0.8, 0.95, 1.0025, 1.05, 1.3, 2.0, 3.0];
+        let cases = [0.1, 0.5, 2.0, 25.0].into_iter().flat_map(|d3| {
+            let fold = printed_fold(d3, 0.1);
+            PARTS.map(|part| oscillator(part * fold, 0.0, d3, 0.1))
+        });
+        let between = oscillator(-0.637, 0.0, 0.25, 1.0);
+        let cases = std::iter::once(between).chain(cases).filter(|it| it.d.abs() <= 1.0);
+        counted(limits, cases, |it| 2 * usize::from(it.d < printed_fold(it.d3, it.r)))
+    }),
+    ("cycles for D3 < 0", |limits| {
+        const DAMPINGS: [f64; 9] = [-1.0, -0.99, -0.75, -0.2, -0.02, 0.0, 0.2, 0.75, 1.0];
+        let cases = [-0.1, -0.5, -2.0].map(|d3| DAMPINGS.map(|d| oscillator(d, 0.0, d3, 0.1)));
+        counted(limits, cases.into_iter().flatten(), |_| 1)
+    }),
+    ("cycles for D3 = 0", |limits| {
+        let dampings = [-1.0, -0.9, -0.5, -0.1, -1e-3, 0.0, 0.1, 0.5];
+        let cases = dampings.map(|d| oscillator(d, 0.0, 0.0, 0.1));
+        counted(limits, cases, |it| usize::from(it.d <= 0.0))
+    }),
+    ("fold", |limits| {
+        Finding::worst(
+            [1e-4, 1e-3, 0.01, 0.05, 0.1, 0.25].map(|d3| fold_against(limits, 0.0, d3, 1.0)),
+        )
+    }),
+    ("fold with D2", |limits| {
+        Finding::worst([0.2, 0.5].map(|d2| fold_against(limits, d2, 0.01, 0.1)))
+    }),
+    ("basin about the fold", |limits| {
+        let cases = [0.0, 0.2, 0.5, 1.0].into_iter().flat_map(|d2| [(d2, 0.9), (d2, 1.1)]);
+        Finding::always(cases.map(|(d2, part)| {
+            let d = part * printed_fold(0.01, 0.1);
+            let found = cycles(&oscillator(d, d2, 0.01, 0.1), limits)?;
+            let finite = found.map(|found| !found.is_empty());
+            let case = format!("D = {part} D_F, D2 = {d2}, D3 = 0.01, r = 0.1");
+            Ok((case, finite.is(part > 1.0)))
+        }))
+    }),
+    ("amplitude at the fold", |limits| {
+        Finding::worst([1e-4, 1e-3, 0.01, 0.05, 0.1, 0.25].map(|d3| {
+            let parameters = oscillator(0.0, 0.0, d3, 1.0);
+            let found = found_fold(&parameters, limits)?;
+            let formula = cbrt(8.0 * parameters.r / (3.0 * PI * parameters.d3));
+            // Next to a fold an amplitude is known to the root of what D is.
+            let computed = Known::relative(found.q_max, 1e-7);
+            Ok(Finding::near(formula, computed).at(format!("D3 = {d3}, r = 1")))
+        }))
+    }),
+    ("amplitude at D = 0", |limits| {
+        let cases = [-0.01, -0.1, -1.0, -10.0, -25.0].map(|d3| oscillator(0.0, 0.0, d3, 0.1));
+        over(cases, |parameters| {
+            let cycle = smallest(parameters, limits)?;
+            let formula = cbrt(-16.0 * parameters.r / (3.0 * PI * parameters.d3));
+            Ok(Finding::near(formula, amplitude(&cycle)))
+        })
+    }),
+    ("A_1 as a root", |_| {
+        over([-0.9, -0.4, -0.01].map(|d| oscillator(d, 0.0, 0.0, 0.1)), |parameters| {
+            let (d, root) = (parameters.d, largest_amplitude(parameters)?);
+            let left = 4.0 * parameters.r / PI + 2.0 * d * root;
+            let computed = Known::new(root - left / (2.0 * d), f64::EPSILON * root);
+            Ok(Finding::equal(small(parameters), computed))
+        })
+    }),
+    ("A_1 as an amplitude", |limits| {
+        let cases = [-0.9, -0.7, -0.4, -0.1, -0.01].map(|d| oscillator(d, 0.0, 0.0, 0.1));
+        over(cases, |parameters| {
+            Ok(Finding::equal(small(parameters), extent(&smallest(parameters, limits)?)))
+        })
+    }),
+    ("A_1 with D3", |limits| {
+        over(BRANCH.map(both_cycles), |parameters| {
+            Ok(Finding::near(small(parameters), amplitude(&smallest(parameters, limits)?)))
+        })
+    }),
+    ("A_1 in short", |_| {
+        let parameters = oscillator(-1.0, 0.0, 0.0, 1.0);
+        Ok(Finding::near(0.6, Known::relative(largest_amplitude(&parameters)?, 1e-15)))
+    }),
+    ("divided equation", |_| {
+        let parameters = both_cycles(-0.3);
+        let Parameters { d, d3, r, .. } = parameters;
+        let root = largest_amplitude(&parameters)?;
+        let computed = Known::relative(-2.0 * r / (PI * d), 1e-14);
+        let terms = |factor: f64| root + factor * d3 / d * powi(root, 3);
+        let finding = Finding::equal(terms(8.0 / 3.0), computed).corrected(terms(3.0 / 8.0));
+        Ok(finding.at(place(&parameters)))
+    }),
+    ("A_2", |limits| {
+        over(BRANCH.map(both_cycles), |parameters| {
+            Ok(Finding::near(large(parameters), amplitude(&largest(parameters, limits)?)))
+        })
+    }),
+    ("asymptotes for D3 > 0", |_| {
+        let smallest = |it: &Parameters| amplitudes(it).first().map(|root| root.amplitude);
+        Finding::worst([
+            approached(0.5, -1.0, smallest, small),
+            approached(0.5, -1.0, |it| largest_amplitude(it).ok(), large),
+        ])
+    }),
+    ("stability of branches", |limits| {
+        everywhere([-0.9, -0.5, -0.3, -0.2].map(both_cycles), |parameters| {
+            let found = cycles(parameters, limits)?;
+            Ok(found.map(|found| found.iter().map(|cycle| cycle.stable).eq([false, true])))
+        })
+    }),
+    ("stability for D3 < 0", |limits| {
+        let cases = [-0.8, -0.3, 0.0, 0.3, 0.8].map(|d| oscillator(d, 0.0, -0.5, 0.1));
+        everywhere(cases, |parameters| {
+            Ok(cycles(parameters, limits)?.map(|found| found.iter().all(|it| !it.stable)))
+        })
+    }),
+    ("asymptotes for D3 < 0", |_| {
+        let solution = |it: &Parameters| largest_amplitude(it).ok();
+        Finding::worst([
+            approached(-0.5, -1.0, solution, small),
+            approached(-0.5, 1.0, solution, large),
+        ])
+    }),
 ];
 
 /// Dampings from a strong one to next to the fold.

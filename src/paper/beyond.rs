@@ -7,7 +7,7 @@ use super::measure::{
     BoundedCycle, arcs, at_rest, cycles, enclosed, half_swing, last_cycle, missing, motion,
     of_cycle, oscillator, place, smallest, state_at, towards,
 };
-use super::{Claim, Finding, UNSAID, belt};
+use super::{Check, Finding, belt};
 use crate::branch::escape::escape_point;
 use crate::flow::{Limits, Outcome, Reason};
 use crate::model::{Parameters, State};
@@ -16,189 +16,114 @@ use crate::numerics::elementary::exp;
 use crate::portrait::basin::basin;
 use crate::proof::motion::ProvedFate;
 
-pub const CLAIMS: &[Claim] = &[
-    Claim {
-        equation: "x' < v0",
-        section: UNSAID,
-        statement: "below this speed of the belt the stable cycle overtakes it, and the mass sticks: where the \
-                    amplitude of one harmonic is v0/(omega_0 x_0)",
-        basis: "cycle",
-        scene: Some("belt-speed"),
-        check: belt::contact,
-    },
-    Claim {
-        equation: "multiplier",
-        section: UNSAID,
-        statement: "mu = (a - r)/(a + r) (b - r)/(b + r) exp(- integral of 2 D + 2 D2 v + 3 D3 v^2): slope of \
-                    the return map",
-        basis: "motion",
-        scene: Some("supercritical"),
-        check: |limits| {
-            let parameters = oscillator(-0.3, 0.2, 0.5, 0.1);
-            Finding::worst(cycles(&parameters, limits)?.value.into_iter().map(|cycle| {
-                let Parameters { d, d3, r, .. } = parameters;
-                let [rise, fall] = arcs(&parameters, &cycle, limits)?;
-                let square = rise.area() + fall.area();
-                let share = |turning: f64| (turning - r) / (turning + r);
-                // On a closed curve the integral of v vanishes.
-                let formula = share(-cycle.q_min)
-                    * share(cycle.q_max)
-                    * exp(-2.0 * d * cycle.period - 3.0 * d3 * square);
-                let computed = return_slope(&parameters, &cycle, limits)?;
-                let at = format!("{}, q_max = {:.6}", place(&parameters), cycle.q_max);
-                Ok(Finding::equal(formula, computed).at(at))
-            }))
-        },
-    },
-    Claim {
-        equation: "multiplier",
-        section: UNSAID,
-        statement: "for D2 = D3 = 0 it is e^(-2 pi D/omega)",
-        basis: "motion",
-        scene: Some("linear"),
-        check: |limits| {
-            let parameters = oscillator(-0.4, 0.0, 0.0, 0.1);
-            let cycle = smallest(&parameters, limits)?;
-            let omega = (1.0 - parameters.d * parameters.d).sqrt();
+pub const CHECKS: &[Check] = &[
+    ("contact with the belt", belt::contact),
+    ("multiplier", |limits| {
+        let parameters = oscillator(-0.3, 0.2, 0.5, 0.1);
+        Finding::worst(cycles(&parameters, limits)?.value.into_iter().map(|cycle| {
+            let Parameters { d, d3, r, .. } = parameters;
+            let [rise, fall] = arcs(&parameters, &cycle, limits)?;
+            let square = rise.area() + fall.area();
+            let share = |turning: f64| (turning - r) / (turning + r);
+            // On a closed curve the integral of v vanishes.
+            let formula = share(-cycle.q_min)
+                * share(cycle.q_max)
+                * exp(-2.0 * d * cycle.period - 3.0 * d3 * square);
             let computed = return_slope(&parameters, &cycle, limits)?;
-            let formula = exp(-2.0 * PI * parameters.d / omega);
-            Ok(Finding::equal(formula, computed).at(place(&parameters)))
-        },
-    },
-    Claim {
-        equation: "h",
-        section: UNSAID,
-        statement: "h = (v^2/2 + q/(2 D2) - 1/(4 D2^2)) e^(2 D2 q) is conserved where only D2 acts",
-        basis: "motion",
-        scene: None,
-        check: |limits| {
-            let parameters = oscillator(0.0, 0.4, 0.0, 0.0);
-            let start = State { q: 0.3, v: 0.6 };
-            let [q, v] = state_at(&parameters, start, 4.0, limits)?;
-            let before = first_integral(parameters.d2, start);
-            let after = first_integral(parameters.d2, State { q: q.value, v: v.value });
-            let error = 4.0 * (q.error + v.error) + 64.0 * f64::EPSILON;
-            let at = format!("{}, from (0.3, 0.6) until tau = 4", place(&parameters));
-            let bounds =
-                q.bounds.zip(v.bounds).map(|(q, v)| enclosed_integral(parameters.d2, q, v));
-            Ok(Finding::equal(before, Known::new(after, error).within(bounds)).at(at))
-        },
-    },
-    Claim {
-        equation: "h",
-        section: UNSAID,
-        statement: "so no motion comes back to where it was for D >= 0, D3 >= 0, whatever D2",
-        basis: "motion",
-        scene: Some("asymmetry"),
-        check: |limits| {
-            let oscillators = [
-                oscillator(0.0, 0.5, 0.0, 0.1),
-                oscillator(0.0, 2.0, 0.5, 0.01),
-                oscillator(0.01, -1.0, 0.0, 0.1),
-                oscillator(0.3, 0.3, 0.3, 0.0),
-            ];
-            let cases = oscillators.iter().flat_map(|it| [0.2, 1.0, 3.0].map(|q| (it, q)));
-            Finding::always(cases.map(|(parameters, q)| {
-                let returned = returns_to(parameters, q, limits)?;
-                Ok((format!("{}, q = {q}", place(parameters)), returned.is(false)))
-            }))
-        },
-    },
-    Claim {
-        equation: "escape",
-        section: UNSAID,
-        statement: "with D3 = 0 motions beyond the parabola v^2 = 1/(2 D2^2) - q/D2 escape, as D and r go to 0: impulse that is \
-                    not survived",
-        basis: "border",
-        scene: Some("escape"),
-        check: |limits| {
-            let impulse = |part: f64| {
-                let parameters = oscillator(-1e-3 * part, 0.5, 0.0, 1e-2 * part);
-                let margin = basin(&parameters, 10.0, limits)?.margin();
-                let impulse = margin.impulse.ok_or(missing("the separatrix"))?;
-                let formula = (0.5 / (parameters.d2 * parameters.d2)).sqrt();
-                Ok((formula, Known::relative(impulse, 1e-12)))
-            };
-            let finding = Finding::tends(impulse(1.0)?, impulse(0.01)?);
-            Ok(finding.at("D = -1e-5, D2 = 0.5, r = 1e-4"))
-        },
-    },
-    Claim {
-        equation: "escape",
-        section: UNSAID,
-        statement: "with D3 < 0 every motion outside the unstable cycle escapes in finite time",
-        basis: "motion",
-        scene: Some("subcritical"),
-        check: |limits| {
-            let mut cases = Vec::new();
-            for d in [-0.3, 0.0, 0.3] {
-                let parameters = oscillator(d, 0.2, -0.5, 0.1);
-                let cycle = smallest(&parameters, limits)?;
-                for part in [1.001, 1.5, 10.0] {
-                    let start = at_rest(part * cycle.q_max);
-                    let end = motion(&parameters, start, 1e3, limits)?.outcome;
-                    let case = format!("{}, q = {:.6}", place(&parameters), start.q);
-                    let fate = enclosed(&parameters, start, 1e3).fate;
-                    let value = matches!(end, Outcome::Escaped { .. });
-                    let certain = value && matches!(fate, ProvedFate::Escaped { .. });
-                    cases.push(Ok((case, Certain { value, certain })));
-                }
+            let at = format!("{}, q_max = {:.6}", place(&parameters), cycle.q_max);
+            Ok(Finding::equal(formula, computed).at(at))
+        }))
+    }),
+    ("linear multiplier", |limits| {
+        let parameters = oscillator(-0.4, 0.0, 0.0, 0.1);
+        let cycle = smallest(&parameters, limits)?;
+        let omega = (1.0 - parameters.d * parameters.d).sqrt();
+        let computed = return_slope(&parameters, &cycle, limits)?;
+        let formula = exp(-2.0 * PI * parameters.d / omega);
+        Ok(Finding::equal(formula, computed).at(place(&parameters)))
+    }),
+    ("first integral", |limits| {
+        let parameters = oscillator(0.0, 0.4, 0.0, 0.0);
+        let start = State { q: 0.3, v: 0.6 };
+        let [q, v] = state_at(&parameters, start, 4.0, limits)?;
+        let before = first_integral(parameters.d2, start);
+        let after = first_integral(parameters.d2, State { q: q.value, v: v.value });
+        let error = 4.0 * (q.error + v.error) + 64.0 * f64::EPSILON;
+        let at = format!("{}, from (0.3, 0.6) until tau = 4", place(&parameters));
+        let bounds = q.bounds.zip(v.bounds).map(|(q, v)| enclosed_integral(parameters.d2, q, v));
+        Ok(Finding::equal(before, Known::new(after, error).within(bounds)).at(at))
+    }),
+    ("no return", |limits| {
+        let oscillators = [
+            oscillator(0.0, 0.5, 0.0, 0.1),
+            oscillator(0.0, 2.0, 0.5, 0.01),
+            oscillator(0.01, -1.0, 0.0, 0.1),
+            oscillator(0.3, 0.3, 0.3, 0.0),
+        ];
+        let cases = oscillators.iter().flat_map(|it| [0.2, 1.0, 3.0].map(|q| (it, q)));
+        Finding::always(cases.map(|(parameters, q)| {
+            let returned = returns_to(parameters, q, limits)?;
+            Ok((format!("{}, q = {q}", place(parameters)), returned.is(false)))
+        }))
+    }),
+    ("parabola of escape", |limits| {
+        let impulse = |part: f64| {
+            let parameters = oscillator(-1e-3 * part, 0.5, 0.0, 1e-2 * part);
+            let margin = basin(&parameters, 10.0, limits)?.margin();
+            let impulse = margin.impulse.ok_or(missing("the separatrix"))?;
+            let formula = (0.5 / (parameters.d2 * parameters.d2)).sqrt();
+            Ok((formula, Known::relative(impulse, 1e-12)))
+        };
+        let finding = Finding::tends(impulse(1.0)?, impulse(0.01)?);
+        Ok(finding.at("D = -1e-5, D2 = 0.5, r = 1e-4"))
+    }),
+    ("escape beyond the cycle", |limits| {
+        let mut cases = Vec::new();
+        for d in [-0.3, 0.0, 0.3] {
+            let parameters = oscillator(d, 0.2, -0.5, 0.1);
+            let cycle = smallest(&parameters, limits)?;
+            for part in [1.001, 1.5, 10.0] {
+                let start = at_rest(part * cycle.q_max);
+                let end = motion(&parameters, start, 1e3, limits)?.outcome;
+                let case = format!("{}, q = {:.6}", place(&parameters), start.q);
+                let fate = enclosed(&parameters, start, 1e3).fate;
+                let value = matches!(end, Outcome::Escaped { .. });
+                let certain = value && matches!(fate, ProvedFate::Escaped { .. });
+                cases.push(Ok((case, Certain { value, certain })));
             }
-            Finding::always(cases)
-        },
-    },
-    Claim {
-        equation: "D_c",
-        section: UNSAID,
-        statement: "with D3 = 0 the cycle goes to infinity at D_c = -sqrt(2/pi) r abs(D2): the worst of \
-                    r D2 = 0.02 .. 1",
-        basis: "cycle",
-        scene: Some("escape"),
-        check: |limits| {
-            Finding::worst([0.02, 0.05, 0.1, 0.25, 0.5, 1.0].map(|d2| {
-                let parameters = oscillator(0.0, d2, 0.0, 1.0);
-                let end = end_of_cycle(&parameters, limits)?;
-                let computed = last_cycle(&parameters, end, 1e-12);
-                let formula = -(2.0 / PI).sqrt() * d2;
-                Ok(Finding::near(formula, computed).at(format!("D2 = {d2}, r = 1")))
-            }))
-        },
-    },
-    Claim {
-        equation: "D_c",
-        section: UNSAID,
-        statement: "there is one cycle below D_c and none above",
-        basis: "cycle",
-        scene: Some("escape"),
-        check: |limits| {
-            let mut cases = Vec::new();
-            for d2 in [0.1, 0.5, 2.0] {
-                let end = end_of_cycle(&oscillator(0.0, d2, 0.0, 0.3), limits)?;
-                for (part, expected) in [(1.5, 1), (1.01, 1), (0.99, 0), (0.5, 0)] {
-                    let parameters = oscillator(part * end, d2, 0.0, 0.3);
-                    let case = format!("D = {part} D_c, D2 = {d2}, r = 0.3");
-                    cases.push(Ok((case, cycles(&parameters, limits)?.map(Vec::len).is(expected))));
-                }
+        }
+        Finding::always(cases)
+    }),
+    ("end of the cycle", |limits| {
+        Finding::worst([0.02, 0.05, 0.1, 0.25, 0.5, 1.0].map(|d2| {
+            let parameters = oscillator(0.0, d2, 0.0, 1.0);
+            let end = end_of_cycle(&parameters, limits)?;
+            let computed = last_cycle(&parameters, end, 1e-12);
+            let formula = -(2.0 / PI).sqrt() * d2;
+            Ok(Finding::near(formula, computed).at(format!("D2 = {d2}, r = 1")))
+        }))
+    }),
+    ("cycles about D_c", |limits| {
+        let mut cases = Vec::new();
+        for d2 in [0.1, 0.5, 2.0] {
+            let end = end_of_cycle(&oscillator(0.0, d2, 0.0, 0.3), limits)?;
+            for (part, expected) in [(1.5, 1), (1.01, 1), (0.99, 0), (0.5, 0)] {
+                let parameters = oscillator(part * end, d2, 0.0, 0.3);
+                let case = format!("D = {part} D_c, D2 = {d2}, r = 0.3");
+                cases.push(Ok((case, cycles(&parameters, limits)?.map(Vec::len).is(expected))));
             }
-            Finding::always(cases)
-        },
-    },
-    Claim {
-        equation: "D_c",
-        section: UNSAID,
-        statement: "on the way there its left turning point goes to infinity: 1/abs(q_min)",
-        basis: "cycle",
-        scene: Some("escape"),
-        check: |limits| {
-            let end = end_of_cycle(&oscillator(0.0, 0.5, 0.0, 0.1), limits)?;
-            let cases = [2.0, 1.000_001].map(|part| oscillator(part * end, 0.5, 0.0, 0.1));
-            let finding = towards(cases, |parameters| {
-                let (cycle, minus) = (smallest(parameters, limits)?, Interval::point(-1.0));
-                Ok((0.0, of_cycle(&cycle, -1.0 / cycle.q_min, |it| minus / it.q_min)))
-            })?;
-            Ok(finding.at("D = 1.000001 D_c, D2 = 0.5, r = 0.1"))
-        },
-    },
+        }
+        Finding::always(cases)
+    }),
+    ("left turning point", |limits| {
+        let end = end_of_cycle(&oscillator(0.0, 0.5, 0.0, 0.1), limits)?;
+        let cases = [2.0, 1.000_001].map(|part| oscillator(part * end, 0.5, 0.0, 0.1));
+        let finding = towards(cases, |parameters| {
+            let (cycle, minus) = (smallest(parameters, limits)?, Interval::point(-1.0));
+            Ok((0.0, of_cycle(&cycle, -1.0 / cycle.q_min, |it| minus / it.q_min)))
+        })?;
+        Ok(finding.at("D = 1.000001 D_c, D2 = 0.5, r = 0.1"))
+    }),
 ];
 
 /// Whether a motion from rest at `q` is at rest there, or further out, one turn later.

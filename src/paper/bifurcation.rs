@@ -9,7 +9,7 @@ use super::measure::{
     amplitude, at_rest, beside_proof, captured, cycles, edge, energy_change, everywhere, extent,
     largest, mean, missing, of_cycle, oscillator, over, smallest, towards,
 };
-use super::{Claim, Finding};
+use super::{Check, Finding};
 use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
 use crate::flow::{Limits, Reason};
 use crate::model::Parameters;
@@ -17,281 +17,146 @@ use crate::numerics::elementary::{ln, log2};
 use crate::portrait::Border;
 use crate::portrait::basin::cycle::cycles as all;
 
-pub const CLAIMS: &[Claim] = &[
-    Claim {
-        equation: "6.3",
-        section: "6.3",
-        statement: "the mean displacement goes as the square of the amplitude: exponent",
-        basis: "cycle",
-        scene: Some("fig14"),
-        check: |limits| {
-            let at = |d: f64| {
-                let parameters = oscillator(d, 0.2, 0.0, 0.01);
-                let cycle = smallest(&parameters, limits)?;
-                Ok((mean(&parameters, &cycle, limits)?, amplitude(&cycle)))
-            };
-            let ((small, size), (large, double)) = (at(-0.1)?, at(-0.05)?);
-            let exponent = ln(large.value / small.value) / ln(double.value / size.value);
-            let error = large.error / large.value.abs() + small.error / small.value.abs();
-            let computed = Known::new(exponent, 2.0 * error);
-            Ok(Finding::near(2.0, computed).at("D = -0.1 .. -0.05, D2 = 0.2, r = 0.01"))
-        },
-    },
-    Claim {
-        equation: "(53)",
-        section: "6.3",
-        statement: "A_01 = (2 r^2/pi) D2/D, the mean displacement (40) with the amplitude A_1 of (51)",
-        basis: "(40, 51)",
-        scene: Some("fig14"),
-        check: |_| {
-            over([-0.9, -0.3, -0.01].map(shifted), |parameters| {
-                let Parameters { d, d2, r, .. } = *parameters;
-                let computed = Known::relative(harmonic_mean(d2, -2.0 * r / (PI * d)), 1e-15);
-                let finding = Finding::equal(2.0 * r * r / PI * d2 / d, computed);
-                Ok(finding.corrected(asymptotes(parameters)[0]))
+pub const CHECKS: &[Check] = &[
+    ("exponent of the mean", |limits| {
+        let at = |d: f64| {
+            let parameters = oscillator(d, 0.2, 0.0, 0.01);
+            let cycle = smallest(&parameters, limits)?;
+            Ok((mean(&parameters, &cycle, limits)?, amplitude(&cycle)))
+        };
+        let ((small, size), (large, double)) = (at(-0.1)?, at(-0.05)?);
+        let exponent = ln(large.value / small.value) / ln(double.value / size.value);
+        let error = large.error / large.value.abs() + small.error / small.value.abs();
+        let computed = Known::new(exponent, 2.0 * error);
+        Ok(Finding::near(2.0, computed).at("D = -0.1 .. -0.05, D2 = 0.2, r = 0.01"))
+    }),
+    ("A_01", |_| {
+        over([-0.9, -0.3, -0.01].map(shifted), |parameters| {
+            let Parameters { d, d2, r, .. } = *parameters;
+            let computed = Known::relative(harmonic_mean(d2, -2.0 * r / (PI * d)), 1e-15);
+            let finding = Finding::equal(2.0 * r * r / PI * d2 / d, computed);
+            Ok(finding.corrected(asymptotes(parameters)[0]))
+        })
+    }),
+    ("A_02", |_| {
+        over([-0.9, -0.3, -0.01].map(shifted), |parameters| {
+            let amplitude = (-8.0 * parameters.d / (3.0 * parameters.d3)).sqrt();
+            let computed = Known::relative(harmonic_mean(parameters.d2, amplitude), 1e-15);
+            Ok(Finding::equal(asymptotes(parameters)[1], computed))
+        })
+    }),
+    ("asymptotes of the mean", |_| {
+        Finding::worst([0, 1].map(|which| {
+            towards([-0.1, -0.9].map(shifted), |parameters| {
+                let found = amplitudes(parameters);
+                let solution = [found.first(), found.last()][which];
+                let shift = solution.map(|it| harmonic_mean(parameters.d2, it.amplitude));
+                let shift = shift.ok_or(missing("a stationary amplitude"))?;
+                Ok((asymptotes(parameters)[which], Known::relative(shift, 1e-14)))
             })
-        },
-    },
-    Claim {
-        equation: "(54)",
-        section: "6.3",
-        statement: "A_02 = 4 D2 D/(3 D3), the mean displacement (40) with the amplitude A_2 of (52)",
-        basis: "(40, 52)",
-        scene: Some("fig14"),
-        check: |_| {
-            over([-0.9, -0.3, -0.01].map(shifted), |parameters| {
-                let amplitude = (-8.0 * parameters.d / (3.0 * parameters.d3)).sqrt();
-                let computed = Known::relative(harmonic_mean(parameters.d2, amplitude), 1e-15);
-                Ok(Finding::equal(asymptotes(parameters)[1], computed))
-            })
-        },
-    },
-    Claim {
-        equation: "Fig. 14",
-        section: "6.3",
-        statement: "the shifts by (40) and (42) approach A_01, as it should read, and A_02 as D goes to -1",
-        basis: "(40, 42)",
-        scene: Some("fig14"),
-        check: |_| {
-            Finding::worst([0, 1].map(|which| {
-                towards([-0.1, -0.9].map(shifted), |parameters| {
-                    let found = amplitudes(parameters);
-                    let solution = [found.first(), found.last()][which];
-                    let shift = solution.map(|it| harmonic_mean(parameters.d2, it.amplitude));
-                    let shift = shift.ok_or(missing("a stationary amplitude"))?;
-                    Ok((asymptotes(parameters)[which], Known::relative(shift, 1e-14)))
-                })
-            }))
-        },
-    },
-    Claim {
-        equation: "6.4, Fig. 13",
-        section: "6.4",
-        statement: "D2 merely distorts the phase portrait: number of cycles, as for D2 = 0, over D",
-        basis: "cycle",
-        scene: Some("fig13"),
-        check: |limits| {
-            // Those of Fig. 13 are -0.7 and -0.2; its friction with the D2 of Fig. 14, the only one that the paper names.
-            let dampings = [-0.9, -0.7, -0.4, -0.2, -0.1, -0.07, -0.02];
-            everywhere(dampings.map(|d| oscillator(d, 0.2, 0.0, 0.5)), |with| {
-                let without = cycles(&Parameters { d2: 0.0, ..*with }, limits)?;
-                let found = cycles(with, limits)?;
-                let value = found.value.len() == without.value.len();
-                Ok(Certain { value, certain: found.certain && without.certain })
-            })
-        },
-    },
-    Claim {
-        equation: "6.4",
-        section: "6.4",
-        statement: "D and D3 decide whether the basin is finite: with D2 as without, for D > 0, D3 = 0",
-        basis: "border",
-        scene: Some("escape"),
-        check: |limits| {
-            let cases = [0.2, 1.0].map(|d2| [0.01, 0.1, 0.5].map(|d| oscillator(d, d2, 0.0, 0.1)));
-            everywhere(cases.into_iter().flatten(), |parameters| {
-                Ok(edge(parameters, limits)?.is(Border::None))
-            })
-        },
-    },
-    Claim {
-        equation: "6.4",
-        section: "6.4",
-        statement: "without friction D3 > 0 makes the bifurcation supercritical, D3 < 0 subcritical",
-        basis: "cycle",
-        scene: Some("hopf"),
-        check: |limits| {
-            let cases = [(-0.1, 0.5), (0.1, 0.5), (-0.1, -0.5), (0.1, -0.5)];
-            everywhere(cases.map(|(d, d3)| oscillator(d, 0.0, d3, 0.0)), |parameters| {
-                // One that attracts where the steady state does not, and the other way round.
-                let Parameters { d, d3, .. } = *parameters;
-                let expected = (d * d3 < 0.0).then_some(d3 > 0.0);
-                let found = cycles(parameters, limits)?;
-                Ok(found.map(|found| found.iter().map(|cycle| cycle.stable).eq(expected)))
-            })
-        },
-    },
-    Claim {
-        equation: "6.4",
-        section: "6.4",
-        statement: "without friction and D3 there are no cycles, whatever D2",
-        basis: "cycle",
-        scene: Some("hopf"),
-        check: |limits| {
-            let cases = [(-0.5, 0.0), (-0.1, 0.0), (-0.5, 0.3), (-0.1, 0.3), (-0.01, 1.0)];
-            everywhere(cases.map(|(d, d2)| oscillator(d, d2, 0.0, 0.0)), |parameters| {
-                let found = beside_proof(parameters, all(parameters, false, limits)?.cycles);
-                Ok(found.map(Vec::is_empty))
-            })
-        },
-    },
-    Claim {
-        equation: "6.4",
-        section: "6.4",
-        statement: "with friction the set attracts for all values of D",
-        basis: "motion",
-        scene: Some("linear"),
-        check: |limits| {
-            Finding::always([0.5, 0.1, 0.0, -0.5, -0.9, -0.99, -1.0].map(|d| {
-                let parameters = oscillator(d, 0.0, 0.0, 1.0);
-                let rests = captured(&parameters, at_rest(1.0 + 1e-10), 100.0, limits)?;
-                Ok((format!("D = {d}"), rests))
-            }))
-        },
-    },
-    Claim {
-        equation: "Fig. 16",
-        section: "6.4",
-        statement: "the new unstable cycle at D < 0 borders the basin, whatever D2",
-        basis: "border",
-        scene: Some("fig16"),
-        check: |limits| {
-            let nonlinear = [0.0, 1.0].map(|d2| [-0.5, 0.0, 0.5].map(|d3| (d2, d3)));
-            let cases = nonlinear.into_iter().flatten().flat_map(|(d2, d3)| {
-                [-0.8, -0.4, -0.05, -0.01].map(|d| oscillator(d, d2, d3, 0.1))
-            });
-            everywhere(cases, |it| Ok(edge(it, limits)?.is(Border::Separatrix).is(false)))
-        },
-    },
-    Claim {
-        equation: "Fig. 15",
-        section: "6.4",
-        statement: "as r goes to 0 the basin shrinks to nothing: its extent",
-        basis: "cycle",
-        scene: Some("fig15"),
-        check: |limits| {
-            let cases = [1e-2, 1e-6].map(|r| oscillator(-0.3, 0.0, 0.5, r));
-            let extents = |it: &Parameters| Ok((0.0, extent(&smallest(it, limits)?)));
-            Ok(towards(cases, extents)?.at("q_max at D = -0.3, D3 = 0.5, r = 1e-6"))
-        },
-    },
-    Claim {
-        equation: "Fig. 17",
-        section: "6.4",
-        statement: "as r goes to 0 the fold goes to (0, 0) as r^(2/3): exponent of D_F",
-        basis: "cycle",
-        scene: Some("fig17"),
-        check: |limits| {
-            let place = |r: f64| found_fold(&oscillator(0.0, 0.0, 0.5, r), limits);
-            let (far, near) = (place(1e-3)?.d, place(1e-6)?.d);
-            let exponent = ln(far / near) / ln(1e3);
-            Ok(Finding::near(2.0 / 3.0, Known::new(exponent, 1e-11))
-                .at("D3 = 0.5, r = 1e-6 .. 1e-3"))
-        },
-    },
-    Claim {
-        equation: "Fig. 17",
-        section: "6.4",
-        statement: "as r goes to 0 the crossing Z goes to (0, 0) as r^(1/3): exponent of A_Z",
-        basis: "cycle",
-        scene: Some("fig17"),
-        check: |limits| {
-            let crossing = |r: f64| smallest(&oscillator(0.0, 0.0, -0.5, r), limits);
-            let (far, near) = (crossing(1e-3)?.q_max, crossing(1e-6)?.q_max);
-            let exponent = ln(far / near) / ln(1e3);
-            Ok(Finding::near(1.0 / 3.0, Known::new(exponent, 1e-12))
-                .at("D3 = -0.5, r = 1e-6 .. 1e-3"))
-        },
-    },
-    Claim {
-        equation: "after Fig. 17",
-        section: "6.4",
-        statement: "what viscous damping dissipates goes as the square of the amplitude: exponent",
-        basis: "motion",
-        scene: None,
-        check: |limits| {
-            let [_, linear, _] = exponents(limits)?;
-            Ok(Finding::near(2.0, linear).at("D = 1e-3, r = 1e-3, from q = 1 and 2"))
-        },
-    },
-    Claim {
-        equation: "after Fig. 17",
-        section: "6.4",
-        statement: "what Coulomb friction dissipates is proportional to the amplitude: exponent",
-        basis: "motion",
-        scene: None,
-        check: |limits| {
-            let [_, _, friction] = exponents(limits)?;
-            Ok(Finding::near(1.0, friction).at("D = 1e-3, r = 1e-3, from q = 1 and 2"))
-        },
-    },
-    Claim {
-        equation: "7",
-        section: "7",
-        statement: "friction mainly affects small amplitudes: that of the stable cycle tends to what it is for \
-                    r = 0 as it grows",
-        basis: "cycle",
-        scene: Some("supercritical"),
-        check: |limits| {
-            towards([-0.3, -0.9].map(|d| oscillator(d, 0.0, 0.5, 0.1)), |parameters| {
-                let smooth = largest(&Parameters { r: 0.0, ..*parameters }, limits)?;
-                Ok((smooth.q_max, amplitude(&largest(parameters, limits)?)))
-            })
-        },
-    },
-    Claim {
-        equation: "7",
-        section: "7",
-        statement: "as r goes to 0 the scenario of the smooth system returns: amplitude of the stable cycle",
-        basis: "cycle",
-        scene: Some("supercritical"),
-        check: |limits| {
-            towards([0.1, 1e-3].map(|r| oscillator(-0.3, 0.0, 0.5, r)), |parameters| {
-                let smooth = largest(&Parameters { r: 0.0, ..*parameters }, limits)?;
-                Ok((smooth.q_max, extent(&largest(parameters, limits)?)))
-            })
-        },
-    },
-    Claim {
-        equation: "7",
-        section: "7",
-        statement: "for D > 0 the basin is finite or infinite, as nonlinear damping has it: D3 decides",
-        basis: "border",
-        scene: Some("subcritical"),
-        check: |limits| {
-            let cases =
-                [-0.5, 0.0, 0.5].map(|d3| [0.01, 0.1, 0.5].map(|d| oscillator(d, 0.0, d3, 0.1)));
-            everywhere(cases.into_iter().flatten(), |parameters| {
-                Ok(edge(parameters, limits)?.is(Border::None).is(parameters.d3 >= 0.0))
-            })
-        },
-    },
-    Claim {
-        equation: "6.2.2",
-        section: "6.2.2",
-        statement: "for small D < 0 very little friction stabilises the rest: size of the basin over r",
-        basis: "cycle",
-        scene: Some("marginal"),
-        check: |limits| {
-            let cases = [-1e-2, -1e-4].map(|d| oscillator(d, 0.0, 0.0, 1e-6));
-            let finding = towards(cases, |parameters| {
-                let Parameters { d, r, .. } = *parameters;
-                let cycle = smallest(parameters, limits)?;
-                Ok((2.0 / PI, of_cycle(&cycle, -d * cycle.q_max / r, |it| it.q_max * -d / r)))
-            })?;
-            Ok(finding.at("times abs(D), which makes it 2/pi, at D = -1e-4"))
-        },
-    },
+        }))
+    }),
+    ("number of cycles with D2", |limits| {
+        // Those of Fig. 13 are -0.7 and -0.2; its friction with the D2 of Fig. 14, the only one that the paper names.
+        let dampings = [-0.9, -0.7, -0.4, -0.2, -0.1, -0.07, -0.02];
+        everywhere(dampings.map(|d| oscillator(d, 0.2, 0.0, 0.5)), |with| {
+            let without = cycles(&Parameters { d2: 0.0, ..*with }, limits)?;
+            let found = cycles(with, limits)?;
+            let value = found.value.len() == without.value.len();
+            Ok(Certain { value, certain: found.certain && without.certain })
+        })
+    }),
+    ("border with D2", |limits| {
+        let cases = [0.2, 1.0].map(|d2| [0.01, 0.1, 0.5].map(|d| oscillator(d, d2, 0.0, 0.1)));
+        everywhere(cases.into_iter().flatten(), |parameters| {
+            Ok(edge(parameters, limits)?.is(Border::None))
+        })
+    }),
+    ("smooth bifurcation", |limits| {
+        let cases = [(-0.1, 0.5), (0.1, 0.5), (-0.1, -0.5), (0.1, -0.5)];
+        everywhere(cases.map(|(d, d3)| oscillator(d, 0.0, d3, 0.0)), |parameters| {
+            // One that attracts where the steady state does not, and the other way round.
+            let Parameters { d, d3, .. } = *parameters;
+            let expected = (d * d3 < 0.0).then_some(d3 > 0.0);
+            let found = cycles(parameters, limits)?;
+            Ok(found.map(|found| found.iter().map(|cycle| cycle.stable).eq(expected)))
+        })
+    }),
+    ("smooth motion without D3", |limits| {
+        let cases = [(-0.5, 0.0), (-0.1, 0.0), (-0.5, 0.3), (-0.1, 0.3), (-0.01, 1.0)];
+        everywhere(cases.map(|(d, d2)| oscillator(d, d2, 0.0, 0.0)), |parameters| {
+            let found = beside_proof(parameters, all(parameters, false, limits)?.cycles);
+            Ok(found.map(Vec::is_empty))
+        })
+    }),
+    ("attraction of the set", |limits| {
+        Finding::always([0.5, 0.1, 0.0, -0.5, -0.9, -0.99, -1.0].map(|d| {
+            let parameters = oscillator(d, 0.0, 0.0, 1.0);
+            let rests = captured(&parameters, at_rest(1.0 + 1e-10), 100.0, limits)?;
+            Ok((format!("D = {d}"), rests))
+        }))
+    }),
+    ("cycle as the border", |limits| {
+        let nonlinear = [0.0, 1.0].map(|d2| [-0.5, 0.0, 0.5].map(|d3| (d2, d3)));
+        let cases = nonlinear
+            .into_iter()
+            .flatten()
+            .flat_map(|(d2, d3)| [-0.8, -0.4, -0.05, -0.01].map(|d| oscillator(d, d2, d3, 0.1)));
+        everywhere(cases, |it| Ok(edge(it, limits)?.is(Border::Separatrix).is(false)))
+    }),
+    ("vanishing basin", |limits| {
+        let cases = [1e-2, 1e-6].map(|r| oscillator(-0.3, 0.0, 0.5, r));
+        let extents = |it: &Parameters| Ok((0.0, extent(&smallest(it, limits)?)));
+        Ok(towards(cases, extents)?.at("q_max at D = -0.3, D3 = 0.5, r = 1e-6"))
+    }),
+    ("exponent of the fold", |limits| {
+        let place = |r: f64| found_fold(&oscillator(0.0, 0.0, 0.5, r), limits);
+        let (far, near) = (place(1e-3)?.d, place(1e-6)?.d);
+        let exponent = ln(far / near) / ln(1e3);
+        Ok(Finding::near(2.0 / 3.0, Known::new(exponent, 1e-11)).at("D3 = 0.5, r = 1e-6 .. 1e-3"))
+    }),
+    ("exponent of A_Z", |limits| {
+        let crossing = |r: f64| smallest(&oscillator(0.0, 0.0, -0.5, r), limits);
+        let (far, near) = (crossing(1e-3)?.q_max, crossing(1e-6)?.q_max);
+        let exponent = ln(far / near) / ln(1e3);
+        Ok(Finding::near(1.0 / 3.0, Known::new(exponent, 1e-12)).at("D3 = -0.5, r = 1e-6 .. 1e-3"))
+    }),
+    ("work of damping", |limits| {
+        let [_, linear, _] = exponents(limits)?;
+        Ok(Finding::near(2.0, linear).at("D = 1e-3, r = 1e-3, from q = 1 and 2"))
+    }),
+    ("work of friction", |limits| {
+        let [_, _, friction] = exponents(limits)?;
+        Ok(Finding::near(1.0, friction).at("D = 1e-3, r = 1e-3, from q = 1 and 2"))
+    }),
+    ("large amplitudes", |limits| {
+        towards([-0.3, -0.9].map(|d| oscillator(d, 0.0, 0.5, 0.1)), |parameters| {
+            let smooth = largest(&Parameters { r: 0.0, ..*parameters }, limits)?;
+            Ok((smooth.q_max, amplitude(&largest(parameters, limits)?)))
+        })
+    }),
+    ("vanishing friction", |limits| {
+        towards([0.1, 1e-3].map(|r| oscillator(-0.3, 0.0, 0.5, r)), |parameters| {
+            let smooth = largest(&Parameters { r: 0.0, ..*parameters }, limits)?;
+            Ok((smooth.q_max, extent(&largest(parameters, limits)?)))
+        })
+    }),
+    ("border for D > 0", |limits| {
+        let cases =
+            [-0.5, 0.0, 0.5].map(|d3| [0.01, 0.1, 0.5].map(|d| oscillator(d, 0.0, d3, 0.1)));
+        everywhere(cases.into_iter().flatten(), |parameters| {
+            Ok(edge(parameters, limits)?.is(Border::None).is(parameters.d3 >= 0.0))
+        })
+    }),
+    ("little friction", |limits| {
+        let cases = [-1e-2, -1e-4].map(|d| oscillator(d, 0.0, 0.0, 1e-6));
+        let finding = towards(cases, |parameters| {
+            let Parameters { d, r, .. } = *parameters;
+            let cycle = smallest(parameters, limits)?;
+            Ok((2.0 / PI, of_cycle(&cycle, -d * cycle.q_max / r, |it| it.q_max * -d / r)))
+        })?;
+        Ok(finding.at("times abs(D), which makes it 2/pi, at D = -1e-4"))
+    }),
 ];
 
 /// An oscillator whose cycles are shifted.

@@ -6,7 +6,7 @@ use super::known::{Certain, Known};
 use super::measure::{
     at_rest, captured, enclosed, energy_change, half_swing, motion, oscillator, over, place,
 };
-use super::{Claim, Finding};
+use super::{Check, Finding};
 use crate::closed_form::lyapunov::{self, Disk};
 use crate::flow::{Limits, Outcome, Reason};
 use crate::model::{HalfPlane, Parameters, Side, State};
@@ -18,191 +18,92 @@ use crate::proof::kicks::kicks;
 use crate::proof::motion::ProvedFate;
 use crate::proof::{ParameterBox, prove};
 
-pub const CLAIMS: &[Claim] = &[
-    Claim {
-        equation: "(10)",
-        section: "4",
-        statement: "rest is possible where abs(q) <= r, and nowhere else",
-        basis: "motion",
-        scene: Some("fig03"),
-        check: |limits| {
-            Finding::always(displacements().map(|q| {
-                let rests = captured(&PLAIN, at_rest(q), 1e-3, limits)?;
-                Ok((format!("q = {q}"), rests.is(q.abs() <= PLAIN.r)))
-            }))
-        },
-    },
-    Claim {
-        equation: "(11)",
-        section: "4",
-        statement: "motions cross v = 0 where (n f+)(n f+) > 0: the number of places that cross",
-        basis: "motion",
-        scene: Some("fig03"),
-        check: |limits| {
-            crossings(limits, |upper, lower| (upper * upper > 0.0, upper * lower > 0.0), true)
-        },
-    },
-    Claim {
-        equation: "(12)",
-        section: "4",
-        statement: "motions stop where (n f+)(n f+) < 0: the number of places that stop",
-        basis: "motion",
-        scene: Some("fig03"),
-        check: |limits| {
-            crossings(limits, |upper, lower| (upper * upper < 0.0, upper * lower < 0.0), false)
-        },
-    },
-    Claim {
-        equation: "(13)",
-        section: "4.1",
-        statement: "next to the set the terms of higher order may be left out: where a swing ends, as it gets shorter",
-        basis: "motion",
-        scene: Some("fig03"),
-        check: |limits| {
-            let parameters = oscillator(-0.3, 0.5, 0.5, 0.1);
-            let swing = |clearance: f64| {
-                let start = at_rest(-(parameters.r + clearance));
-                let [full, _] = half_swing(&parameters, start, limits)?;
-                let [simple, _] = half_swing(&linear(-0.3), start, limits)?;
-                Ok((simple.plus(parameters.r).value, full.plus(parameters.r)))
-            };
-            let finding = Finding::tends(swing(0.1)?, swing(0.001)?);
-            Ok(finding.at(format!("{}, from q = -0.101", place(&parameters))))
-        },
-    },
-    Claim {
-        equation: "(14)",
-        section: "4.1",
-        statement: "above v = 0 the motion is linear in q + r: where a half swing ends",
-        basis: "motion",
-        scene: Some("linear"),
-        check: |limits| shifted(limits, -1.0),
-    },
-    Claim {
-        equation: "4.1",
-        section: "4.1",
-        statement: "for abs(D) < 1 the set is stable: motions that start close to it come to rest",
-        basis: "motion",
-        scene: Some("linear"),
-        check: |limits| {
-            Finding::always([-0.99, -0.9, -0.5, -0.1, 0.0, 0.5, 0.99].map(|d| {
-                let parameters = oscillator(d, 0.3, -0.5, 1.0);
-                // At D = -0.99 the clearance of the basin is some 1e-10.
-                let rests = captured(&parameters, at_rest(1.0 + 1e-12), 1e3, limits)?;
-                Ok((format!("D = {d}"), rests))
-            }))
-        },
-    },
-    Claim {
-        equation: "4.1",
-        section: "4.1",
-        statement: "no single equilibrium attracts: motions that start beside one end beside it",
-        basis: "motion",
-        scene: Some("capture"),
-        check: |limits| {
-            Finding::always([-0.8, -0.3, 0.0, 0.5].map(|part| {
-                let q = part * PLAIN.r;
-                let start = State { q, v: 1e-3 };
-                let end = motion(&PLAIN, start, 10.0, limits)?.outcome;
-                let value = matches!(end, Outcome::Captured { q: end, .. } if end != q);
-                let fate = enclosed(&PLAIN, start, 10.0).fate;
-                let certain =
-                    matches!(fate, ProvedFate::Captured { q: end, .. } if !end.contains(q));
-                Ok((format!("q = {q}"), Certain { value, certain: certain && value }))
-            }))
-        },
-    },
-    Claim {
-        equation: "(18)",
-        section: "4.2",
-        statement: "V' = -2 D v^2 - v f_R, with f_R of (5): change of the energy over a motion",
-        basis: "motion",
-        scene: Some("fig04"),
-        check: |limits| energy(limits, -1.0),
-    },
-    Claim {
-        equation: "(19)",
-        section: "4.2",
-        statement: "V' = -2 D v^2 - r abs(v): change of the energy over a motion",
-        basis: "motion",
-        scene: Some("fig04"),
-        check: |limits| energy(limits, 1.0),
-    },
-    Claim {
-        equation: "(17-19)",
-        section: "4.2",
-        statement: "for small v the terms of higher order are negligible in V'",
-        basis: "V'",
-        scene: Some("fig04"),
-        check: |_| {
-            let parameters = oscillator(-0.3, 0.2, 0.5, 0.1);
-            let rates = |v: f64| {
-                let rate = |it: &Parameters| lyapunov::energy_rate(it, State { q: 0.0, v });
-                (rate(&linear(-0.3)), Known::relative(rate(&parameters), 1e-15))
-            };
-            let finding = Finding::tends(rates(0.1), rates(0.001));
-            Ok(finding.at(format!("{}, v = 0.001", place(&parameters))))
-        },
-    },
-    Claim {
-        equation: "(20-23)",
-        section: "4.2",
-        statement: "the energy of the linearised system falls for abs(v) < -r/(2 D) and grows beyond",
-        basis: "V'",
-        scene: Some("fig04"),
-        check: |_| {
-            let cases = [-0.9, -0.5, -0.1, -0.01].into_iter().flat_map(|d| {
-                [0.5, 0.999, 1.001, 2.0, -0.5, -0.999, -1.001, -2.0].map(|part: f64| {
-                    let v = -part * linear(d).r / (2.0 * d);
-                    let rate = lyapunov::energy_rate(&linear(d), State { q: 0.0, v });
-                    Ok((format!("D = {d}, v = {v}"), (rate < 0.0) == (part.abs() < 1.0)))
-                })
-            });
-            Finding::always(cases)
-        },
-    },
-    Claim {
-        equation: "(24)",
-        section: "4.2",
-        statement: "the circle of radius l = -r/(2 D) belongs to the basin: the smallest kick out of it",
-        basis: "border",
-        scene: Some("fig04"),
-        check: |limits| {
-            over([-0.95, -0.7, -0.4, -0.1, -0.01].map(linear), |parameters| {
-                Ok(Finding::at_most(circle(parameters), least_kick(parameters, limits)?))
+pub const CHECKS: &[Check] = &[
+    ("rest", |limits| {
+        Finding::always(displacements().map(|q| {
+            let rests = captured(&PLAIN, at_rest(q), 1e-3, limits)?;
+            Ok((format!("q = {q}"), rests.is(q.abs() <= PLAIN.r)))
+        }))
+    }),
+    ("crossing", |limits| {
+        crossings(limits, |upper, lower| (upper * upper > 0.0, upper * lower > 0.0), true)
+    }),
+    ("stopping", |limits| {
+        crossings(limits, |upper, lower| (upper * upper < 0.0, upper * lower < 0.0), false)
+    }),
+    ("short swings", |limits| {
+        let parameters = oscillator(-0.3, 0.5, 0.5, 0.1);
+        let swing = |clearance: f64| {
+            let start = at_rest(-(parameters.r + clearance));
+            let [full, _] = half_swing(&parameters, start, limits)?;
+            let [simple, _] = half_swing(&linear(-0.3), start, limits)?;
+            Ok((simple.plus(parameters.r).value, full.plus(parameters.r)))
+        };
+        let finding = Finding::tends(swing(0.1)?, swing(0.001)?);
+        Ok(finding.at(format!("{}, from q = -0.101", place(&parameters))))
+    }),
+    ("shift of the centre", |limits| shifted(limits, -1.0)),
+    ("stability of the set", |limits| {
+        Finding::always([-0.99, -0.9, -0.5, -0.1, 0.0, 0.5, 0.99].map(|d| {
+            let parameters = oscillator(d, 0.3, -0.5, 1.0);
+            // At D = -0.99 the clearance of the basin is some 1e-10.
+            let rests = captured(&parameters, at_rest(1.0 + 1e-12), 1e3, limits)?;
+            Ok((format!("D = {d}"), rests))
+        }))
+    }),
+    ("single equilibria", |limits| {
+        Finding::always([-0.8, -0.3, 0.0, 0.5].map(|part| {
+            let q = part * PLAIN.r;
+            let start = State { q, v: 1e-3 };
+            let end = motion(&PLAIN, start, 10.0, limits)?.outcome;
+            let value = matches!(end, Outcome::Captured { q: end, .. } if end != q);
+            let fate = enclosed(&PLAIN, start, 10.0).fate;
+            let certain = matches!(fate, ProvedFate::Captured { q: end, .. } if !end.contains(q));
+            Ok((format!("q = {q}"), Certain { value, certain: certain && value }))
+        }))
+    }),
+    ("energy with friction (5)", |limits| energy(limits, -1.0)),
+    ("energy", |limits| energy(limits, 1.0)),
+    ("energy of slow motions", |_| {
+        let parameters = oscillator(-0.3, 0.2, 0.5, 0.1);
+        let rates = |v: f64| {
+            let rate = |it: &Parameters| lyapunov::energy_rate(it, State { q: 0.0, v });
+            (rate(&linear(-0.3)), Known::relative(rate(&parameters), 1e-15))
+        };
+        let finding = Finding::tends(rates(0.1), rates(0.001));
+        Ok(finding.at(format!("{}, v = 0.001", place(&parameters))))
+    }),
+    ("sign of V'", |_| {
+        let cases = [-0.9, -0.5, -0.1, -0.01].into_iter().flat_map(|d| {
+            [0.5, 0.999, 1.001, 2.0, -0.5, -0.999, -1.001, -2.0].map(|part: f64| {
+                let v = -part * linear(d).r / (2.0 * d);
+                let rate = lyapunov::energy_rate(&linear(d), State { q: 0.0, v });
+                Ok((format!("D = {d}, v = {v}"), (rate < 0.0) == (part.abs() < 1.0)))
             })
-        },
-    },
-    Claim {
-        equation: "(24)",
-        section: "4.2",
-        statement: "that circle is a quite good conservative estimate of the basin: as -0.5 r/D to -0.6 r/D, a part",
-        basis: "border",
-        scene: Some("fig04"),
-        check: |limits| {
-            over([-0.9, -0.7, -0.4, -0.1, -0.01].map(linear), |parameters| {
-                let least = least_kick(parameters, limits)?;
-                let part = circle(parameters) / least.value;
-                Ok(Finding::near(0.5 / 0.6, Known::relative(part, least.error / least.value)))
-            })
-        },
-    },
-    Claim {
-        equation: "(24)",
-        section: "4.2",
-        statement: "the same circle where D2 acts too; corrected by all terms of V'",
-        basis: "border",
-        scene: Some("escape"),
-        check: |limits| {
-            let parameters = oscillator(-0.02, 0.5, 0.0, 0.1);
-            let least = least_kick(&parameters, limits)?;
-            let finding = Finding::at_most(circle(&parameters), least).at(place(&parameters));
-            Ok(match lyapunov::full_disk(&parameters) {
-                Disk::Radius(radius) => finding.corrected(radius),
-                Disk::Plane => finding,
-            })
-        },
-    },
+        });
+        Finding::always(cases)
+    }),
+    ("Lyapunov's circle", |limits| {
+        over([-0.95, -0.7, -0.4, -0.1, -0.01].map(linear), |parameters| {
+            Ok(Finding::at_most(circle(parameters), least_kick(parameters, limits)?))
+        })
+    }),
+    ("size of the circle", |limits| {
+        over([-0.9, -0.7, -0.4, -0.1, -0.01].map(linear), |parameters| {
+            let least = least_kick(parameters, limits)?;
+            let part = circle(parameters) / least.value;
+            Ok(Finding::near(0.5 / 0.6, Known::relative(part, least.error / least.value)))
+        })
+    }),
+    ("circle with D2", |limits| {
+        let parameters = oscillator(-0.02, 0.5, 0.0, 0.1);
+        let least = least_kick(&parameters, limits)?;
+        let finding = Finding::at_most(circle(&parameters), least).at(place(&parameters));
+        Ok(match lyapunov::full_disk(&parameters) {
+            Disk::Radius(radius) => finding.corrected(radius),
+            Disk::Plane => finding,
+        })
+    }),
 ];
 
 /// The plain oscillator.

@@ -7,7 +7,7 @@ use super::measure::{
     amplitude, at_rest, enclosed, extent, half_swing, largest, mean, missing, of_cycle, oscillator,
     over, place, smallest, speed, towards,
 };
-use super::{Claim, Finding, UNSAID};
+use super::{Check, Finding};
 use crate::accuracy::harmonic_error::harmonic_balance;
 use crate::closed_form::harmonic::{amplitudes, mean as harmonic_mean};
 use crate::closed_form::harmonics::HarmonicCycle;
@@ -17,171 +17,88 @@ use crate::numerics::Interval;
 use crate::numerics::elementary::{powi, sin};
 use crate::numerics::interval::PI as PI_BOUNDS;
 
-pub const CLAIMS: &[Claim] = &[
-    Claim {
-        equation: "(34)",
-        section: "5.2",
-        statement: "periodic solutions are approximated by Fourier series: the amplitude by 31 harmonics",
-        basis: "cycle",
-        scene: Some("linear"),
-        check: |limits| {
-            let parameters = linear(-0.7);
-            let [few, many] = [3, 31].map(|number| by_harmonics(&parameters, number, limits));
-            let computed = amplitude(&smallest(&parameters, limits)?);
-            Ok(Finding::tends((few?, computed), (many?, computed)).at(place(&parameters)))
-        },
-    },
-    Claim {
-        equation: "(36)",
-        section: "5.2",
-        statement: "the second derivative of A cos(psi) at psi = 0 contains - A eta^2 sin(psi)",
-        basis: "A cos(psi)",
-        scene: None,
-        check: |_| {
-            // Central differences of the velocity - A eta sin(eta tau), two of them.
-            let (size, eta) = (0.7, 1.3);
-            let velocity = |tau: f64| -size * eta * sin(eta * tau);
-            let slope = |h: f64| {
-                (8.0 * (velocity(h) - velocity(-h)) - velocity(2.0 * h) + velocity(-2.0 * h))
-                    / (12.0 * h)
-            };
-            let computed = Known::twice(slope(1e-3), slope(2e-3));
-            let finding = Finding::equal(0.0, computed).corrected(-size * eta * eta);
-            Ok(finding.at("A = 0.7, eta = 1.3"))
-        },
-    },
-    Claim {
-        equation: "(39)",
-        section: "5.2",
-        statement: "cycles have the frequency 1: over D = -0.9 .. -0.01",
-        basis: "cycle",
-        scene: Some("fig09"),
-        check: |limits| {
-            over(DAMPINGS.map(linear), |parameters| {
-                let cycle = smallest(parameters, limits)?;
-                let frequency =
-                    of_cycle(&cycle, TAU / cycle.period, |it| PI_BOUNDS.twice() / it.period);
-                Ok(Finding::near(1.0, frequency))
-            })
-        },
-    },
-    Claim {
-        equation: "5.2",
-        section: "5.2",
-        statement: "cycles of small amplitude tend to be harmonic (Fig. 7), v_max equal to q_max: D = -0.999",
-        basis: "cycle",
-        scene: Some("linear"),
-        check: |limits| {
-            towards([-0.9, -0.999].map(units_of_friction), |parameters| {
-                let cycle = smallest(parameters, limits)?;
-                let ratio = cycle.v_max / cycle.q_max;
-                Ok((1.0, of_cycle(&cycle, ratio, |it| it.v_max / it.q_max)))
-            })
-        },
-    },
-    Claim {
-        equation: "(40)",
-        section: "5.2",
-        statement: "mean displacement A0 = -(D2/2) A^2 of a cycle: the stable one, over D = -0.4 .. -0.02",
-        basis: "cycle",
-        scene: Some("fig14"),
-        check: |limits| {
-            let cases = [-0.4, -0.2, -0.1, -0.05, -0.02].map(|d| oscillator(d, 0.2, 0.2, 1e-3));
-            over(cases, |parameters| {
-                let cycle = largest(parameters, limits)?;
-                let formula = harmonic_mean(parameters.d2, largest_amplitude(parameters)?);
-                Ok(Finding::near(formula, mean(parameters, &cycle, limits)?))
-            })
-        },
-    },
-    Claim {
-        equation: "(41)",
-        section: "5.2",
-        statement: "A' = -4 r/pi - 2 D A - (3/4) D3 A^3: change of the amplitude in a turn, over A = 0.5 .. 2",
-        basis: "motion",
-        scene: Some("fig09"),
-        check: |limits| {
-            Finding::worst([0.5, 1.0, 2.0].map(|size| {
-                let parameters = oscillator(-1e-3, 0.0, 2e-3, 1e-3);
-                let [left, _] = half_swing(&parameters, at_rest(size), limits)?;
-                let [right, _] = half_swing(&parameters, at_rest(left.value), limits)?;
-                let turns = enclosed(&parameters, at_rest(size), 10.0).turns;
-                let bounds = turns.get(1).map(|turn| turn.q - Interval::point(size));
-                let computed =
-                    Known::new(right.value - size, right.error + left.error).within(bounds);
-                let Parameters { d, d3, r, .. } = parameters;
-                let printed = -4.0 * r / PI - 2.0 * d * size - 0.75 * d3 * powi(size, 3);
-                let finding = Finding::near(TAU * printed, computed).corrected(PI * printed);
-                Ok(finding.at(format!("{}, A = {size}", place(&parameters))))
-            }))
-        },
-    },
-    Claim {
-        equation: "(41)",
-        section: "6.1",
-        statement: "the amplitude A of (41) may be used for the size of the basin: over D = -0.9 .. -0.01",
-        basis: "cycle",
-        scene: Some("fig09"),
-        check: |limits| {
-            over(DAMPINGS.map(linear), |parameters| {
-                let cycle = smallest(parameters, limits)?;
-                Ok(Finding::near(largest_amplitude(parameters)?, amplitude(&cycle)))
-            })
-        },
-    },
-    Claim {
-        equation: "Fig. 8",
-        section: "6.1",
-        statement: "as D goes to -1 the extent A_q shrinks to that of the sticking set",
-        basis: "cycle",
-        scene: Some("fig08"),
-        check: |limits| {
-            towards([-0.7, -0.9].map(units_of_friction), |parameters| {
-                Ok((1.0, extent(&smallest(parameters, limits)?)))
-            })
-        },
-    },
-    Claim {
-        equation: "Fig. 9",
-        section: "6.1",
-        statement: "as D goes to 0 the extents A_q and A_v tend to the same value",
-        basis: "cycle",
-        scene: Some("fig09"),
-        check: |limits| {
-            towards([-0.4, -0.02].map(linear), |parameters| {
-                let cycle = smallest(parameters, limits)?;
-                Ok((cycle.v_max, extent(&cycle)))
-            })
-        },
-    },
-    Claim {
-        equation: "Fig. 9",
-        section: "6.1",
-        statement: "the harmonic amplitude A lies between A_q and A_v",
-        basis: "cycle",
-        scene: Some("fig09"),
-        check: |limits| harmonic_against_extents(limits, |a, low, high| low <= a && a <= high),
-    },
-    Claim {
-        equation: "Fig. 9",
-        section: UNSAID,
-        statement: "the harmonic amplitude A lies below both A_q and A_v",
-        basis: "cycle",
-        scene: Some("fig09"),
-        check: |limits| harmonic_against_extents(limits, |a, low, _| a < low),
-    },
-    Claim {
-        equation: "Fig. 8",
-        section: UNSAID,
-        statement: "as D goes to -1 the extent A_v shrinks to 2 r/e, less than the sticking set",
-        basis: "cycle",
-        scene: Some("fig08"),
-        check: |limits| {
-            towards([-0.9, -0.999].map(units_of_friction), |parameters| {
-                Ok((2.0 / E, speed(&smallest(parameters, limits)?)))
-            })
-        },
-    },
+pub const CHECKS: &[Check] = &[
+    ("Fourier series", |limits| {
+        let parameters = linear(-0.7);
+        let [few, many] = [3, 31].map(|number| by_harmonics(&parameters, number, limits));
+        let computed = amplitude(&smallest(&parameters, limits)?);
+        Ok(Finding::tends((few?, computed), (many?, computed)).at(place(&parameters)))
+    }),
+    ("second derivative", |_| {
+        // Central differences of the velocity - A eta sin(eta tau), two of them.
+        let (size, eta) = (0.7, 1.3);
+        let velocity = |tau: f64| -size * eta * sin(eta * tau);
+        let slope = |h: f64| {
+            (8.0 * (velocity(h) - velocity(-h)) - velocity(2.0 * h) + velocity(-2.0 * h))
+                / (12.0 * h)
+        };
+        let computed = Known::twice(slope(1e-3), slope(2e-3));
+        let finding = Finding::equal(0.0, computed).corrected(-size * eta * eta);
+        Ok(finding.at("A = 0.7, eta = 1.3"))
+    }),
+    ("frequency of cycles", |limits| {
+        over(DAMPINGS.map(linear), |parameters| {
+            let cycle = smallest(parameters, limits)?;
+            let frequency =
+                of_cycle(&cycle, TAU / cycle.period, |it| PI_BOUNDS.twice() / it.period);
+            Ok(Finding::near(1.0, frequency))
+        })
+    }),
+    ("harmonic cycles", |limits| {
+        towards([-0.9, -0.999].map(units_of_friction), |parameters| {
+            let cycle = smallest(parameters, limits)?;
+            let ratio = cycle.v_max / cycle.q_max;
+            Ok((1.0, of_cycle(&cycle, ratio, |it| it.v_max / it.q_max)))
+        })
+    }),
+    ("mean displacement", |limits| {
+        let cases = [-0.4, -0.2, -0.1, -0.05, -0.02].map(|d| oscillator(d, 0.2, 0.2, 1e-3));
+        over(cases, |parameters| {
+            let cycle = largest(parameters, limits)?;
+            let formula = harmonic_mean(parameters.d2, largest_amplitude(parameters)?);
+            Ok(Finding::near(formula, mean(parameters, &cycle, limits)?))
+        })
+    }),
+    ("slow change of amplitude", |limits| {
+        Finding::worst([0.5, 1.0, 2.0].map(|size| {
+            let parameters = oscillator(-1e-3, 0.0, 2e-3, 1e-3);
+            let [left, _] = half_swing(&parameters, at_rest(size), limits)?;
+            let [right, _] = half_swing(&parameters, at_rest(left.value), limits)?;
+            let turns = enclosed(&parameters, at_rest(size), 10.0).turns;
+            let bounds = turns.get(1).map(|turn| turn.q - Interval::point(size));
+            let computed = Known::new(right.value - size, right.error + left.error).within(bounds);
+            let Parameters { d, d3, r, .. } = parameters;
+            let printed = -4.0 * r / PI - 2.0 * d * size - 0.75 * d3 * powi(size, 3);
+            let finding = Finding::near(TAU * printed, computed).corrected(PI * printed);
+            Ok(finding.at(format!("{}, A = {size}", place(&parameters))))
+        }))
+    }),
+    ("amplitude as size", |limits| {
+        over(DAMPINGS.map(linear), |parameters| {
+            let cycle = smallest(parameters, limits)?;
+            Ok(Finding::near(largest_amplitude(parameters)?, amplitude(&cycle)))
+        })
+    }),
+    ("A_q at D = -1", |limits| {
+        towards([-0.7, -0.9].map(units_of_friction), |parameters| {
+            Ok((1.0, extent(&smallest(parameters, limits)?)))
+        })
+    }),
+    ("A_q and A_v at D = 0", |limits| {
+        towards([-0.4, -0.02].map(linear), |parameters| {
+            let cycle = smallest(parameters, limits)?;
+            Ok((cycle.v_max, extent(&cycle)))
+        })
+    }),
+    ("amplitude between extents", |limits| {
+        harmonic_against_extents(limits, |a, low, high| low <= a && a <= high)
+    }),
+    ("amplitude below extents", |limits| harmonic_against_extents(limits, |a, low, _| a < low)),
+    ("A_v at D = -1", |limits| {
+        towards([-0.9, -0.999].map(units_of_friction), |parameters| {
+            Ok((2.0 / E, speed(&smallest(parameters, limits)?)))
+        })
+    }),
 ];
 
 /// Dampings at which the first-order answer is compared with the cycle.

@@ -9,173 +9,89 @@ use super::measure::{
     at_rest, cycles, edge, extent, half_swing, of_cycle, oscillator, over, place, smallest, speed,
     state_at,
 };
-use super::{Claim, Finding};
+use super::{Check, Finding};
 use crate::flow::{Limits, Reason};
 use crate::model::{Parameters, State};
 use crate::numerics::Interval;
 use crate::numerics::elementary::{atan, atan2, exp, sin, sin_cos};
 use crate::portrait::Border;
 
-pub const CLAIMS: &[Claim] = &[
-    Claim {
-        equation: "5",
-        section: "5",
-        statement: "in the plane the border of a basin must be a periodic solution: cycles on the border",
-        basis: "border",
-        scene: Some("escape"),
-        check: |limits| {
-            let parameters = oscillator(-0.02, 0.5, 0.0, 0.1);
-            let found = edge(&parameters, limits)?;
-            let cycles = f64::from(u8::from(found.value == Border::Cycle));
-            let at = format!("{}, where starts beyond a finite border escape", place(&parameters));
-            // A basin without a border would need none.
-            let needed = f64::from(u8::from(found.value != Border::None));
-            let bounds = found.certain.then_some(Interval::point(cycles));
-            Ok(Finding::equal(needed, Known::exact(cycles).within(bounds)).at(at))
-        },
-    },
-    Claim {
-        equation: "5.1",
-        section: "5.1",
-        statement: "for D < 0 there is one cycle, and it reaches further than r",
-        basis: "cycle",
-        scene: Some("linear"),
-        check: |limits| {
-            Finding::always(DAMPINGS.map(|d| {
-                let found = cycles(&units_of_friction(d), limits)?;
-                let further = found.map(|found| found.len() == 1 && found[0].clearance > 0.0);
-                Ok((format!("D = {d}"), further))
-            }))
-        },
-    },
-    Claim {
-        equation: "5.1",
-        section: "5.1",
-        statement: "motions that start within a circle of radius r are trapped: the smallest kick out of \
-                    the basin",
-        basis: "border",
-        scene: Some("linear"),
-        check: |limits| {
-            over(DAMPINGS.map(units_of_friction), |parameters| {
-                Ok(Finding::at_most(parameters.r, least_kick(parameters, limits)?))
-            })
-        },
-    },
-    Claim {
-        equation: "after (27)",
-        section: "5.1",
-        statement: "a half swing takes pi/omega_d",
-        basis: "motion",
-        scene: Some("fig06"),
-        check: |limits| over_swings(limits, |swing| PI / swing.omega, |[_, tau]| tau),
-    },
-    Claim {
-        equation: "(25)",
-        section: "5.1",
-        statement: "above v = 0 the motion is linear in q - r: where a half swing ends",
-        basis: "motion",
-        scene: Some("fig06"),
-        check: |limits| shifted(limits, 1.0),
-    },
-    Claim {
-        equation: "(25-28)",
-        section: "5.1",
-        statement: "with A = -c, B = -c D/omega_d the velocity on the way is (26, 27)",
-        basis: "motion",
-        scene: Some("fig06"),
-        check: |limits| {
-            over(DAMPINGS.map(units_of_friction), |parameters| {
-                let swing = LinearSwing::of(parameters);
-                let tau = 0.4 * PI / swing.omega;
-                let start = at_rest(-parameters.r - 1.0);
-                let [_, velocity] = state_at(parameters, start, tau, limits)?;
-                let (d, a, b) = (swing.d, -1.0, -swing.d / swing.omega);
-                let (sine, cosine) = sin_cos(swing.omega * tau);
-                let formula =
-                    -(a * d - b * swing.omega) * cosine - (b * d + a * swing.omega) * sine;
-                let at = format!("{}, from q = -2, at tau = {tau:.4}", place(parameters));
-                Ok(Finding::equal(formula * exp(-d * tau), velocity).at(at))
-            })
-        },
-    },
-    Claim {
-        equation: "(29)",
-        section: "5.1",
-        statement: "a half swing that starts with clearance c ends at c e^(-pi D/omega_d), counted from -r",
-        basis: "motion",
-        scene: Some("fig06"),
-        check: |limits| over_swings(limits, |swing| swing.growth, |[end, _]| end.plus(1.0)),
-    },
-    Claim {
-        equation: "(30)",
-        section: "5.1",
-        statement: "clearance c of the cycle: how far it passes the sticking set, down to D = -0.999 of Fig. 7",
-        basis: "cycle",
-        scene: Some("fig07"),
-        check: |limits| {
-            over(std::iter::once(-0.999).chain(DAMPINGS).map(units_of_friction), |parameters| {
-                let (cycle, swing) = (smallest(parameters, limits)?, LinearSwing::of(parameters));
-                // An exponential has as many times the relative error of its exponent, 70 at D = -0.999.
-                let exponent = 1.0 + PI * swing.d.abs() / swing.omega;
-                let error = cycle.error.unwrap_or(f64::INFINITY) + exponent * 1e-14;
-                let bounds = cycle.bounds.map(|it| it.clearance);
-                let computed = Known::relative(cycle.clearance, error).within(bounds);
-                Ok(Finding::equal(swing.clearance(), computed))
-            })
-        },
-    },
-    Claim {
-        equation: "(31)",
-        section: "5.1",
-        statement: "the border as a curve over the angle phi: displacement and velocity at phi = 2",
-        basis: "motion",
-        scene: Some("fig07"),
-        check: on_the_curve,
-    },
-    Claim {
-        equation: "(32)",
-        section: "5.1",
-        statement: "largest displacement A_q of the cycle",
-        basis: "cycle",
-        scene: Some("fig08"),
-        check: |limits| {
-            over(DAMPINGS.map(units_of_friction), |parameters| {
-                let LinearSwing { growth, .. } = LinearSwing::of(parameters);
-                let formula = (growth + 1.0) / (growth - 1.0);
-                Ok(Finding::equal(formula, extent(&smallest(parameters, limits)?)))
-            })
-        },
-    },
-    Claim {
-        equation: "(33)",
-        section: "5.1",
-        statement: "largest velocity A_v of the cycle",
-        basis: "cycle",
-        scene: Some("fig08"),
-        check: |limits| {
-            over(DAMPINGS.map(units_of_friction), |parameters| {
-                let swing = LinearSwing::of(parameters);
-                let computed = speed(&smallest(parameters, limits)?);
-                let printed = Finding::equal(swing.printed_velocity(), computed);
-                Ok(printed.corrected(swing.largest_velocity()))
-            })
-        },
-    },
-    Claim {
-        equation: "Fig. 7",
-        section: "6.1",
-        statement: "the cycle scales with r: its extent for r = 3 in terms of that for r = 1",
-        basis: "cycle",
-        scene: Some("fig07"),
-        check: |limits| {
-            let cycle = |r: f64| smallest(&oscillator(-0.4, 0.0, 0.0, r), limits);
-            let (one, three) = (cycle(1.0)?, cycle(3.0)?);
-            let ratio = three.q_max / one.q_max;
-            let unit = one.bounds.map_or(Interval::ALL, |it| it.q_max);
-            let ratio = of_cycle(&three, ratio, |it| it.q_max / unit);
-            Ok(Finding::equal(3.0, ratio).at("D = -0.4, D2 = D3 = 0"))
-        },
-    },
+pub const CHECKS: &[Check] = &[
+    ("periodic border", |limits| {
+        let parameters = oscillator(-0.02, 0.5, 0.0, 0.1);
+        let found = edge(&parameters, limits)?;
+        let cycles = f64::from(u8::from(found.value == Border::Cycle));
+        let at = format!("{}, where starts beyond a finite border escape", place(&parameters));
+        // A basin without a border would need none.
+        let needed = f64::from(u8::from(found.value != Border::None));
+        let bounds = found.certain.then_some(Interval::point(cycles));
+        Ok(Finding::equal(needed, Known::exact(cycles).within(bounds)).at(at))
+    }),
+    ("one cycle", |limits| {
+        Finding::always(DAMPINGS.map(|d| {
+            let found = cycles(&units_of_friction(d), limits)?;
+            let further = found.map(|found| found.len() == 1 && found[0].clearance > 0.0);
+            Ok((format!("D = {d}"), further))
+        }))
+    }),
+    ("circle of radius r", |limits| {
+        over(DAMPINGS.map(units_of_friction), |parameters| {
+            Ok(Finding::at_most(parameters.r, least_kick(parameters, limits)?))
+        })
+    }),
+    ("duration of a swing", |limits| over_swings(limits, |swing| PI / swing.omega, |[_, tau]| tau)),
+    ("centre with a false sign", |limits| shifted(limits, 1.0)),
+    ("velocity on the way", |limits| {
+        over(DAMPINGS.map(units_of_friction), |parameters| {
+            let swing = LinearSwing::of(parameters);
+            let tau = 0.4 * PI / swing.omega;
+            let start = at_rest(-parameters.r - 1.0);
+            let [_, velocity] = state_at(parameters, start, tau, limits)?;
+            let (d, a, b) = (swing.d, -1.0, -swing.d / swing.omega);
+            let (sine, cosine) = sin_cos(swing.omega * tau);
+            let formula = -(a * d - b * swing.omega) * cosine - (b * d + a * swing.omega) * sine;
+            let at = format!("{}, from q = -2, at tau = {tau:.4}", place(parameters));
+            Ok(Finding::equal(formula * exp(-d * tau), velocity).at(at))
+        })
+    }),
+    ("end of a swing", |limits| {
+        over_swings(limits, |swing| swing.growth, |[end, _]| end.plus(1.0))
+    }),
+    ("clearance", |limits| {
+        over(std::iter::once(-0.999).chain(DAMPINGS).map(units_of_friction), |parameters| {
+            let (cycle, swing) = (smallest(parameters, limits)?, LinearSwing::of(parameters));
+            // An exponential has as many times the relative error of its exponent, 70 at D = -0.999.
+            let exponent = 1.0 + PI * swing.d.abs() / swing.omega;
+            let error = cycle.error.unwrap_or(f64::INFINITY) + exponent * 1e-14;
+            let bounds = cycle.bounds.map(|it| it.clearance);
+            let computed = Known::relative(cycle.clearance, error).within(bounds);
+            Ok(Finding::equal(swing.clearance(), computed))
+        })
+    }),
+    ("border over the angle", on_the_curve),
+    ("A_q", |limits| {
+        over(DAMPINGS.map(units_of_friction), |parameters| {
+            let LinearSwing { growth, .. } = LinearSwing::of(parameters);
+            let formula = (growth + 1.0) / (growth - 1.0);
+            Ok(Finding::equal(formula, extent(&smallest(parameters, limits)?)))
+        })
+    }),
+    ("A_v", |limits| {
+        over(DAMPINGS.map(units_of_friction), |parameters| {
+            let swing = LinearSwing::of(parameters);
+            let computed = speed(&smallest(parameters, limits)?);
+            let printed = Finding::equal(swing.printed_velocity(), computed);
+            Ok(printed.corrected(swing.largest_velocity()))
+        })
+    }),
+    ("scale of friction", |limits| {
+        let cycle = |r: f64| smallest(&oscillator(-0.4, 0.0, 0.0, r), limits);
+        let (one, three) = (cycle(1.0)?, cycle(3.0)?);
+        let ratio = three.q_max / one.q_max;
+        let unit = one.bounds.map_or(Interval::ALL, |it| it.q_max);
+        let ratio = of_cycle(&three, ratio, |it| it.q_max / unit);
+        Ok(Finding::equal(3.0, ratio).at("D = -0.4, D2 = D3 = 0"))
+    }),
 ];
 
 /// Dampings at which formulas of the piecewise linear oscillator are tested.

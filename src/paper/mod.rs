@@ -1,8 +1,8 @@
 //! The paper against computation: every claim that can be tested, tested.
 //!
-//! [`SECTIONS`] is the table. A [`Claim`] says where it stands, what it says, and holds a function that
-//! evaluates the paper's formula and computes the same thing without it: by integrating motions, by
-//! searching cycles, by differentiating the physical law. That function returns a [`Finding`], numbers
+//! `assets/claims.txt` is the table. A [`Claim`] says where it stands, what it says, and holds a function, by its name in the
+//! files of this folder, that evaluates the paper's formula and computes the same thing without it: by integrating
+//! motions, by searching cycles, by differentiating the physical law. That function returns a [`Finding`], numbers
 //! and nothing else; the [`Verdict`] follows from the numbers by one rule for all claims
 //! ([`Finding::verdict`]). Where a proof encloses what was computed, a [`Certainty`] says what is certain.
 
@@ -20,6 +20,8 @@ mod verdict;
 
 pub use known::{Certainty, POOR, Sense};
 pub use verdict::{Finding, Verdict};
+
+use std::sync::LazyLock;
 
 use crate::flow::{Limits, Reason};
 
@@ -40,6 +42,9 @@ pub struct Claim {
     /// Evaluates the formula and computes the same thing otherwise.
     pub check: fn(&Limits) -> Result<Finding, Reason>,
 }
+
+/// The function that puts a claim to the test, by the name that the table has for it.
+type Check = (&'static str, fn(&Limits) -> Result<Finding, Reason>);
 
 /// Stands for the section of what the paper does not say.
 pub const UNSAID: &str = "-";
@@ -65,20 +70,37 @@ impl ClaimResult {
     }
 }
 
-/// All claims, section by section, then what the paper does not say.
-pub const SECTIONS: [&[Claim]; 7] = [
-    model::CLAIMS,
-    equilibria::CLAIMS,
-    linear::CLAIMS,
-    harmonic::CLAIMS,
-    amplitudes::CLAIMS,
-    bifurcation::CLAIMS,
-    beyond::CLAIMS,
+/// The functions that put claims to the test, section by section.
+const SECTIONS: [&[Check]; 7] = [
+    model::CHECKS,
+    equilibria::CHECKS,
+    linear::CHECKS,
+    harmonic::CHECKS,
+    amplitudes::CHECKS,
+    bifurcation::CHECKS,
+    beyond::CHECKS,
 ];
+
+static CLAIMS: LazyLock<Vec<Claim>> = LazyLock::new(|| {
+    const TABLE: &str = include_str!("../../assets/claims.txt");
+    let lines = TABLE.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
+    lines.filter_map(claim).collect()
+});
+
+/// A line of the table; `None` if there is no function of its name.
+fn claim(line: &'static str) -> Option<Claim> {
+    let mut cells = line.split(" | ");
+    let mut cell = || cells.next();
+    let (name, equation, section) = (cell()?, cell()?, cell()?);
+    let (basis, scene, statement) = (cell()?, cell()?, cell()?);
+    let (_, check) = SECTIONS.into_iter().flatten().find(|(known, _)| *known == name)?;
+    let scene = Some(scene).filter(|scene| *scene != "-");
+    Some(Claim { equation, section, statement, basis, scene, check: *check })
+}
 
 /// Every claim, in the order of the paper.
 pub fn claims() -> impl Iterator<Item = &'static Claim> {
-    SECTIONS.iter().copied().flatten()
+    CLAIMS.iter()
 }
 
 /// Puts all claims to the test. Fails with [`Reason::Interrupted`] and no other.
@@ -95,5 +117,20 @@ pub fn examine(claim: &'static Claim, limits: &Limits) -> Result<ClaimResult, Re
             Ok(ClaimResult { claim, finding: Ok(finding.unsaid()) })
         }
         finding => Ok(ClaimResult { claim, finding }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_line_of_the_table_has_a_function_and_every_function_a_line() {
+        let functions: Vec<_> = SECTIONS.into_iter().flatten().map(|(name, _)| *name).collect();
+        let sections: Vec<&str> = claims().map(|claim| claim.section).collect();
+        assert_eq!(sections.len(), functions.len());
+        let lines = include_str!("../../assets/claims.txt").lines();
+        let names = lines.filter_map(|line| line.split_once(" | ")).map(|(name, _)| name);
+        assert_eq!(names.collect::<Vec<_>>(), functions);
     }
 }

@@ -2,147 +2,68 @@
 
 use super::known::Known;
 use super::measure::{at_rest, half_swing, oscillator};
-use super::{Claim, Finding, belt};
+use super::{Check, Finding, belt};
 use crate::closed_form::linear::Linear;
 use crate::flow::{Limits, Reason};
 use crate::model::Parameters;
 use crate::numerics::elementary::{exp, ln, powi};
 use crate::numerics::interval::PI;
 
-pub const CLAIMS: &[Claim] = &[
-    Claim {
-        equation: "after (2)",
-        section: "2",
-        statement: "x' < v0, so that the mass does not stick to the belt: its vibrations stay slower",
-        basis: "motion",
-        scene: Some("belt-speed"),
-        check: belt::stays_slower,
-    },
-    Claim {
-        equation: "after (3)",
-        section: "2",
-        statement: "the frequency of the undamped mass is c/m",
-        basis: "law",
-        scene: None,
-        check: |_| {
-            let stiffness = derivatives(|x| -acceleration(x, 0.0, 0.0))[0];
-            let value = stiffness.value.sqrt();
-            let computed = Known::new(value, 0.5 * stiffness.error / value);
-            Ok(Finding::equal(C / M, computed).corrected(omega()).at(MASS))
-        },
-    },
-    Claim {
-        equation: "(6)",
-        section: "2",
-        statement: "2 D = (d1 + F mu_1)/(m omega_0), with mu_1 of (3): the derivative by x', so that a \
-                    falling friction characteristic damps",
-        basis: "law",
-        scene: None,
-        check: |_| {
-            let computed = coefficient(0, -0.5);
-            let form = |mu: f64| (D1 + NORMAL * mu) / (2.0 * M * omega());
-            Ok(Finding::equal(form(falling()), computed).corrected(form(-falling())).at(MASS))
-        },
-    },
-    Claim {
-        equation: "(6)",
-        section: "2",
-        statement: "D2 = F mu_2 x_0/(2 m)",
-        basis: "law",
-        scene: None,
-        check: |_| {
-            let computed = coefficient(1, -0.5);
-            let form = NORMAL * falling() * shift() / (2.0 * M);
-            Ok(Finding::equal(form, computed).corrected(-form).at(MASS))
-        },
-    },
-    Claim {
-        equation: "(7)",
-        section: "2",
-        statement: "D3 = (d3 + F mu_3/6) omega_0 x_0^2/m, with mu_3 the derivative by x'",
-        basis: "law",
-        scene: None,
-        check: |_| {
-            let computed = coefficient(2, -1.0 / 6.0);
-            let unit = omega() * shift() * shift() / M;
-            let form = |mu: f64| (D3 + NORMAL * mu / 6.0) * unit;
-            Ok(Finding::equal(form(falling()), computed).corrected(form(-falling())).at(MASS))
-        },
-    },
-    Claim {
-        equation: "(7)",
-        section: "2",
-        statement: "r = R/(m omega_0^2): half the jump of the acceleration at v = 0",
-        basis: "law",
-        scene: None,
-        check: |_| {
-            let jump = dimensionless(0.0, JOINT) - dimensionless(0.0, -JOINT);
-            let printed = JOINT / (M * powi(omega(), 2));
-            let computed = Known::relative(0.5 * jump, 1e-14);
-            Ok(Finding::equal(printed, computed).corrected(printed / shift()).at(MASS))
-        },
-    },
-    Claim {
-        equation: "after (7)",
-        section: "2",
-        statement: "for abs(D) <= 1 the linear system oscillates",
-        basis: "motion",
-        scene: None,
-        check: |_| {
-            let cases = [-1.0, -0.999_999, -0.5, 0.0, 0.5, 0.999_999, 1.0];
-            let returns = |d: f64| Linear::new(d).first_standstill(-1.0, 0.0).is_some();
-            Finding::always(cases.map(|d| Ok((format!("D = {d}"), returns(d)))))
-        },
-    },
-    Claim {
-        equation: "(8)",
-        section: "2",
-        statement: "v' contains - f_R: friction as in (5) would feed the motion, by 2 r in a half swing at \
-                    D = 0",
-        basis: "motion",
-        scene: Some("capture"),
-        check: |limits| {
-            let parameters = oscillator(0.0, 0.0, 0.0, 0.1);
-            let [end, _] = half_swing(&parameters, at_rest(1.0), limits)?;
-            let gained = (-end).plus(-1.0);
-            let fed = 2.0 * parameters.r;
-            Ok(Finding::equal(fed, gained).corrected(-fed).at("D = 0, r = 0.1, from q = 1"))
-        },
-    },
-    Claim {
-        equation: "(9)",
-        section: "3",
-        statement: "without friction small motions grow as e^(-D tau)",
-        basis: "motion",
-        scene: Some("fig02"),
-        check: |limits| over_damping(limits, |d, growth, _| Finding::equal(-d, growth)),
-    },
-    Claim {
-        equation: "(9)",
-        section: "3",
-        statement: "without friction small motions have the frequency 1",
-        basis: "motion",
-        scene: Some("fig02"),
-        check: |limits| {
-            over_damping(limits, |d, _, frequency| {
-                Finding::equal(1.0, frequency).corrected((1.0 - d * d).sqrt())
-            })
-        },
-    },
-    Claim {
-        equation: "Fig. 2",
-        section: "3",
-        statement: "without friction the steady state is unstable for D < 0 and attracts for D > 0",
-        basis: "motion",
-        scene: Some("fig02"),
-        check: |limits| {
-            Finding::always([-0.9, -0.1, -1e-3, 1e-3, 0.1, 0.9].map(|d| {
-                let parameters = oscillator(d, 0.2, 0.5, 0.0);
-                let [end, _] = half_swing(&parameters, at_rest(-1e-6), limits)?;
-                Ok((format!("D = {d}"), end.exceeds(1e-6).is(d < 0.0)))
-            }))
-        },
-    },
+pub const CHECKS: &[Check] = &[
+    ("slower than the belt", belt::stays_slower),
+    ("undamped frequency", |_| {
+        let stiffness = derivatives(|x| -acceleration(x, 0.0, 0.0))[0];
+        let value = stiffness.value.sqrt();
+        let computed = Known::new(value, 0.5 * stiffness.error / value);
+        Ok(Finding::equal(C / M, computed).corrected(omega()).at(MASS))
+    }),
+    ("linear damping", |_| {
+        let computed = coefficient(0, -0.5);
+        let form = |mu: f64| (D1 + NORMAL * mu) / (2.0 * M * omega());
+        Ok(Finding::equal(form(falling()), computed).corrected(form(-falling())).at(MASS))
+    }),
+    ("quadratic damping", |_| {
+        let computed = coefficient(1, -0.5);
+        let form = NORMAL * falling() * shift() / (2.0 * M);
+        Ok(Finding::equal(form, computed).corrected(-form).at(MASS))
+    }),
+    ("cubic damping", |_| {
+        let computed = coefficient(2, -1.0 / 6.0);
+        let unit = omega() * shift() * shift() / M;
+        let form = |mu: f64| (D3 + NORMAL * mu / 6.0) * unit;
+        Ok(Finding::equal(form(falling()), computed).corrected(form(-falling())).at(MASS))
+    }),
+    ("friction", |_| {
+        let jump = dimensionless(0.0, JOINT) - dimensionless(0.0, -JOINT);
+        let printed = JOINT / (M * powi(omega(), 2));
+        let computed = Known::relative(0.5 * jump, 1e-14);
+        Ok(Finding::equal(printed, computed).corrected(printed / shift()).at(MASS))
+    }),
+    ("oscillation", |_| {
+        let cases = [-1.0, -0.999_999, -0.5, 0.0, 0.5, 0.999_999, 1.0];
+        let returns = |d: f64| Linear::new(d).first_standstill(-1.0, 0.0).is_some();
+        Finding::always(cases.map(|d| Ok((format!("D = {d}"), returns(d)))))
+    }),
+    ("sign of friction", |limits| {
+        let parameters = oscillator(0.0, 0.0, 0.0, 0.1);
+        let [end, _] = half_swing(&parameters, at_rest(1.0), limits)?;
+        let gained = (-end).plus(-1.0);
+        let fed = 2.0 * parameters.r;
+        Ok(Finding::equal(fed, gained).corrected(-fed).at("D = 0, r = 0.1, from q = 1"))
+    }),
+    ("rate of growth", |limits| over_damping(limits, |d, growth, _| Finding::equal(-d, growth))),
+    ("frequency of growth", |limits| {
+        over_damping(limits, |d, _, frequency| {
+            Finding::equal(1.0, frequency).corrected((1.0 - d * d).sqrt())
+        })
+    }),
+    ("smooth stability", |limits| {
+        Finding::always([-0.9, -0.1, -1e-3, 1e-3, 0.1, 0.9].map(|d| {
+            let parameters = oscillator(d, 0.2, 0.5, 0.0);
+            let [end, _] = half_swing(&parameters, at_rest(-1e-6), limits)?;
+            Ok((format!("D = {d}"), end.exceeds(1e-6).is(d < 0.0)))
+        }))
+    }),
 ];
 
 /// Rate and frequency of small motions without friction, at some values of D.

@@ -1,12 +1,16 @@
 //! An answer, made in the form that is asked for, and what it is about: the oscillator of the paper without units, or a
 //! machine in SI units.
 
-use clap::ValueEnum;
+use std::borrow::Borrow;
 
-use super::columns::Quantity;
-use super::json::Document;
+use clap::ValueEnum;
+use serde::Serialize;
+
+use super::columns::{Columns, Quantity};
+use super::json::{self, Document};
+use super::table::Table;
 use crate::flow::Cost;
-use crate::model::{Body, Group, Interval, Knob, Parameters, Source, State};
+use crate::model::{Body, Group, Interval, Knob, ParameterBox, Parameters, Source};
 use crate::words::number::exact;
 use crate::words::{duration, with_unit};
 
@@ -22,38 +26,184 @@ pub enum Format {
     Csv,
 }
 
-/// Makes one form of an answer.
-type Form<'a> = Box<dyn FnOnce() -> String + 'a>;
-
 /// An answer in every form, of which only the one that is asked for is made.
+#[derive(Default)]
 pub struct Answer<'a> {
-    json: Form<'a>,
-    csv: Form<'a>,
-    table: Form<'a>,
+    /// What it is about, in two parts of a line.
+    pub(super) head: [String; 2],
+    /// Its tables and lines, for reading.
+    pub(super) parts: Vec<Part<'a>>,
+    /// What it cost, for reading.
+    cost: Option<String>,
+    /// Whether its steps are all that was counted.
+    by_steps: bool,
+    csv: Option<Box<dyn FnOnce() -> String + 'a>>,
+    fields: Vec<Box<dyn FnOnce(Document) -> Document + 'a>>,
+    /// What its document consists of, if that is a list.
+    array: Option<Box<dyn FnOnce() -> Vec<Document> + 'a>>,
+}
+
+/// What stands in an answer for reading.
+pub(super) enum Part<'a> {
+    /// A heading of a page, which text leaves out.
+    Heading(&'static str),
+    /// The sentence that is signed, and whether all that it rests on holds.
+    Statement {
+        text: String,
+        holds: bool,
+    },
+    Line(String),
+    /// A table and what it shows.
+    Table {
+        caption: String,
+        table: Box<dyn FnOnce() -> Table + 'a>,
+    },
 }
 
 impl<'a> Answer<'a> {
-    /// An answer from what makes its document, its rows and its text.
-    pub fn new(
-        json: impl FnOnce() -> String + 'a,
-        csv: impl FnOnce() -> String + 'a,
-        table: impl FnOnce() -> String + 'a,
-    ) -> Self {
-        Answer { json: Box::new(json), csv: Box::new(csv), table: Box::new(table) }
+    /// An answer about a thing with a name, and what there is to say of it.
+    pub(super) fn new(name: &str, subject: String) -> Self {
+        Answer { head: [name.to_owned(), subject], ..Answer::default() }
     }
 
-    /// The same with more below its text.
-    pub(super) fn below(self, more: impl FnOnce() -> String + 'a) -> Self {
-        let table = self.table;
-        Answer { table: Box::new(move || table() + &more()), ..self }
+    /// With fields of its document.
+    pub(super) fn fields(mut self, more: impl FnOnce(Document) -> Document + 'a) -> Self {
+        self.fields.push(Box::new(more));
+        self
+    }
+
+    /// An answer that is a list in every form.
+    pub fn list_of<R: Clone + 'a>(columns: Columns<'a, R>, rows: Vec<R>) -> Self {
+        let (listed, objects) = (columns.clone(), rows.clone());
+        Answer::default()
+            .array(move || listed.objects(objects))
+            .csv(columns.clone(), rows.clone())
+            .captioned("", move || columns.table(rows).unbroken())
+    }
+
+    /// With a document that is a list.
+    pub(super) fn array(self, objects: impl FnOnce() -> Vec<Document> + 'a) -> Self {
+        Answer { array: Some(Box::new(objects)), ..self }
+    }
+
+    /// With these rows in files.
+    pub(super) fn csv<R: 'a>(
+        mut self,
+        columns: Columns<'a, R>,
+        rows: impl IntoIterator<Item: Borrow<R>> + 'a,
+    ) -> Self {
+        self.csv = Some(Box::new(move || columns.csv(rows)));
+        self
+    }
+
+    /// With these rows for reading; nothing if there are none.
+    pub(super) fn table<R: 'a>(
+        self,
+        columns: Columns<'a, R>,
+        rows: impl IntoIterator<Item: Borrow<R>> + 'a,
+    ) -> Self {
+        self.captioned("", move || columns.table(rows))
+    }
+
+    /// With these rows in files and for reading.
+    pub(super) fn rows<R: 'a>(
+        self,
+        columns: Columns<'a, R>,
+        rows: impl IntoIterator<Item: Borrow<R>> + Clone + 'a,
+    ) -> Self {
+        self.csv(columns.clone(), rows.clone()).table(columns, rows)
+    }
+
+    /// With a table for reading, and what it shows.
+    pub(super) fn captioned(
+        mut self,
+        caption: impl Into<String>,
+        table: impl FnOnce() -> Table + 'a,
+    ) -> Self {
+        self.parts.push(Part::Table { caption: caption.into(), table: Box::new(table) });
+        self
+    }
+
+    /// With a heading of a page.
+    pub(super) fn heading(mut self, heading: &'static str) -> Self {
+        self.parts.push(Part::Heading(heading));
+        self
+    }
+
+    /// With the sentence that is signed, and whether all that it rests on holds.
+    pub(super) fn statement(mut self, text: String, holds: bool) -> Self {
+        self.parts.push(Part::Statement { text, holds });
+        self
+    }
+
+    /// With lines for reading.
+    pub(super) fn lines<S: Into<String>>(mut self, lines: impl IntoIterator<Item = S>) -> Self {
+        self.parts.extend(lines.into_iter().map(|line| Part::Line(line.into())));
+        self
+    }
+
+    /// With its cost: of a machine, the steps.
+    pub(super) fn cost(self, cost: Cost, seconds: f64) -> Self {
+        let (line, counted) = if self.by_steps {
+            (format!("{} steps", cost.steps), Document::default().with("steps", cost.steps))
+        } else {
+            (format!("{} evaluations", cost.evaluations), Document::default().and(&cost))
+        };
+        self.costing(format!("{line}, {}", duration(seconds)), counted, seconds)
+    }
+
+    /// With a line about its cost, and the same as fields.
+    pub(super) fn costing(self, line: String, counted: Document, seconds: f64) -> Self {
+        let answer = self.fields(move |all| all.with("cost", counted.with("seconds", seconds)));
+        Answer { cost: Some(line), ..answer }
     }
 
     /// The answer in a form.
     pub fn told(self, format: Format) -> String {
         match format {
-            Format::Table => (self.table)(),
-            Format::Json => (self.json)(),
-            Format::Csv => (self.csv)(),
+            Format::Table => self.text(),
+            Format::Json => match self.array {
+                Some(objects) => json::text(&objects()),
+                None => {
+                    let fields = self.fields.into_iter();
+                    json::text(&fields.fold(Document::default(), |all, more| more(all)))
+                }
+            },
+            Format::Csv => self.csv.map(|rows| rows()).unwrap_or_default(),
+        }
+    }
+
+    /// The answer for reading: around tables are empty lines.
+    fn text(self) -> String {
+        let head = self.head.iter().filter(|part| !part.is_empty()).map(String::as_str);
+        let mut out = head.collect::<Vec<_>>().join(": ");
+        out += if out.is_empty() { "" } else { "\n" };
+        let mut after_table = false;
+        for part in self.parts.into_iter().chain(self.cost.map(Part::Line)) {
+            let is_table = matches!(part, Part::Table { .. });
+            let text = part.text();
+            if text.is_empty() {
+                continue;
+            }
+            let apart = !out.is_empty() && (is_table || after_table);
+            out += if apart { "\n" } else { "" };
+            out += &text;
+            after_table = is_table;
+        }
+        out
+    }
+}
+
+impl Part<'_> {
+    fn text(self) -> String {
+        let line = |text: String| if text.is_empty() { text } else { text + "\n" };
+        match self {
+            Part::Heading(_) => String::new(),
+            Part::Statement { text, .. } | Part::Line(text) => line(text),
+            Part::Table { caption, table } => match table() {
+                table if table.is_empty() => String::new(),
+                table => table.to_string() + &line(caption),
+            },
         }
     }
 }
@@ -64,23 +214,23 @@ pub(super) const PLACES: usize = 5;
 /// What an answer is about.
 pub struct About {
     /// Name and title of a machine; `None` for the oscillator of the paper.
-    pub(super) machine: Option<(String, String)>,
-    /// Name and value of each number, as text shows them.
-    pub(super) numbers: Vec<(String, String)>,
-    /// The same as fields of a document.
-    fields: Document,
+    machine: Option<(String, String)>,
+    /// Every number, where it lies, and whether text shows it.
+    numbers: Vec<(Knob, Interval, bool)>,
 }
 
 impl About {
     /// The oscillator of the paper.
     pub fn oscillator(parameters: &Parameters) -> Self {
-        let initial = State { q: 0.0, v: 0.0 };
-        let number = |knob: Knob| (knob.to_string(), exact(knob.get(parameters, &initial), 24));
-        About {
-            machine: None,
-            numbers: Knob::PARAMETERS.map(number).to_vec(),
-            fields: Document::default().with("parameters", parameters),
-        }
+        About::boxed(&ParameterBox::from(parameters))
+    }
+
+    /// The oscillator of the paper at all parameters in a box.
+    pub fn boxed(known: &ParameterBox) -> Self {
+        let ParameterBox { d, d2, d3, r } = *known;
+        let numbers = Knob::PARAMETERS.into_iter().zip([d, d2, d3, r]);
+        let numbers = numbers.map(|(knob, known)| (knob, known, true)).collect();
+        About { machine: None, numbers }
     }
 
     /// A machine, by the name under which it is opened, and its title.
@@ -92,35 +242,61 @@ impl About {
             (Knob::StaticGuide, Body::Mode(mode)) => mode.static_guide.is_some(),
             _ => knob.spec().group != Group::Law,
         };
-        let number =
-            |(knob, value): (Knob, f64)| (knob.to_string(), with_unit(value, 12, knob.spec().unit));
-        let parameters = subject
-            .numbers()
-            .fold(Document::default(), |all, (knob, value)| all.with(knob.spec().name, value));
-        About {
-            machine: Some((name.to_owned(), title.to_owned())),
-            numbers: subject.numbers().filter(|(knob, _)| is_own(*knob)).map(number).collect(),
-            fields: Document::default().with("machine", name).with("parameters", parameters),
+        let number = |(knob, value): (Knob, f64)| (knob, Interval::point(value), is_own(knob));
+        let machine = Some((name.to_owned(), title.to_owned()));
+        About { machine, numbers: subject.numbers().map(number).collect() }
+    }
+
+    /// The same with numbers that are not known exactly.
+    pub fn within(mut self, known: &[(Knob, Interval)]) -> Self {
+        for (knob, own, _) in &mut self.numbers {
+            let interval = known.iter().find(|(known, _)| known == knob);
+            *own = interval.map_or(*own, |(_, interval)| *interval);
         }
+        self
     }
 
     /// The same without the numbers that vary in the answer.
     pub fn but(mut self, varied: &[Knob]) -> Self {
-        self.numbers.retain(|(name, _)| varied.iter().all(|knob| knob.spec().name != name));
+        for (knob, _, is_shown) in &mut self.numbers {
+            *is_shown &= !varied.contains(knob);
+        }
         self
     }
 
-    /// What stands above an answer in text, with the intervals of the numbers that are not known exactly.
-    pub(super) fn heading(&self, known: &[(Knob, Interval)]) -> String {
-        let number = |(name, value): &(String, String)| {
-            let known = known.iter().find(|(knob, _)| knob.spec().name == name);
-            let known = known.filter(|(_, interval)| !interval.is_point());
-            known.map_or_else(|| format!("{name} = {value}"), interval)
+    /// Its numbers on a line.
+    pub(super) fn heading(&self) -> String {
+        let number = |(knob, known, _): &(Knob, Interval, bool)| match &self.machine {
+            _ if !known.is_point() => interval(&(*knob, *known)),
+            Some(_) => format!("{knob} = {}", with_unit(known.lower(), 12, knob.spec().unit)),
+            None => format!("{knob} = {}", exact(known.lower(), 24)),
         };
-        let numbers = self.numbers.iter().map(number).collect::<Vec<_>>().join(", ");
-        match &self.machine {
-            Some((name, title)) => format!("{name}: {title}\n{numbers}"),
-            None => numbers,
+        let shown = self.numbers.iter().filter(|(.., is_shown)| *is_shown);
+        shown.map(number).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Its numbers as fields of a document.
+    pub(super) fn parameters<T: Serialize>(&self, value: impl Fn(Interval) -> T) -> Document {
+        let numbers = self.numbers.iter();
+        numbers.fold(Document::default(), |all, (knob, known, _)| {
+            all.with(knob.spec().name, value(*known))
+        })
+    }
+
+    /// An answer about it.
+    pub(super) fn answer<'a>(&self) -> Answer<'a> {
+        self.answer_to("")
+    }
+
+    /// An answer about it, and more about the question.
+    pub(super) fn answer_to<'a>(&self, question: &str) -> Answer<'a> {
+        let numbers = self.heading() + question;
+        let parameters = self.parameters(|known| known.lower());
+        match self.machine.clone() {
+            Some((name, title)) => Answer { by_steps: true, ..Answer::new(&name, title) }
+                .lines([numbers])
+                .fields(move |all| all.with("machine", name).with("parameters", parameters)),
+            None => Answer::new("", numbers).fields(|all| all.with("parameters", parameters)),
         }
     }
 
@@ -130,37 +306,6 @@ impl About {
             Some(_) => Quantity::of(unit, PLACES),
             None => Quantity::pure(digits),
         }
-    }
-
-    /// The quantities of the two kinds of kicks: a displacement and an impulse.
-    pub(super) fn kicks(&self, digits: usize) -> [Quantity; 2] {
-        ["m", "N s"].map(|unit| self.quantity(unit, digits))
-    }
-
-    /// An answer about it and its cost, from what makes its fields, its rows, and its text.
-    pub(super) fn answer<'a>(
-        &'a self,
-        cost: Cost,
-        seconds: f64,
-        document: impl FnOnce() -> Document + 'a,
-        csv: impl FnOnce() -> String + 'a,
-        table: impl FnOnce() -> String + 'a,
-    ) -> Answer<'a> {
-        let line = match &self.machine {
-            Some(_) => format!("{} steps, {}\n", cost.steps, duration(seconds)),
-            None => format!("{} evaluations, {}\n", cost.evaluations, duration(seconds)),
-        };
-        let json = move || self.json(&document(), &cost, seconds);
-        Answer::new(json, csv, move || table() + &line)
-    }
-
-    /// A document about it, with its cost: of a machine, the steps.
-    pub(super) fn json(&self, document: &Document, cost: &Cost, seconds: f64) -> String {
-        let counted = match &self.machine {
-            Some(_) => Document::default().with("steps", cost.steps),
-            None => Document::default().and(cost),
-        };
-        self.fields.clone().and(document).cost(&counted, seconds).text()
     }
 }
 

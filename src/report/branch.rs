@@ -2,10 +2,9 @@
 
 use super::answer::PLACES;
 use super::certified::{
-    BorderProof, border_columns, border_lines, decided, piece_columns, range_table,
+    BorderProof, border_columns, decided, piece_columns, range_changes, range_pieces,
 };
-use super::cycle_numbers::{cycle_fields, number_columns};
-use super::cycles::machine_cycles;
+use super::cycle_numbers::{cycle_fields, machine_cycles, number_columns};
 use super::table::digits;
 use super::{About, Answer, Columns, Document, Quantity};
 use crate::branch::fold::{Boundary, BoundaryPoint};
@@ -15,11 +14,12 @@ use crate::branch::{Branch, BranchPoint, Special, SpecialKind};
 use crate::flow::{Cost, Fate};
 use crate::model::Knob;
 use crate::portrait::Cycle;
-use crate::proof::range::{Range, RangePiece};
+use crate::proof::range::{MOST_STEPS, Range, RangePiece};
 use crate::words::{significant, stability, with_unit};
 
 /// A point with the number of the connected piece to which it belongs, or a part of the range of which something is
 /// proved.
+#[derive(Clone, Copy)]
 enum PieceRow<'a> {
     Point(usize, &'a BranchPoint),
     Proved(&'a RangePiece),
@@ -37,17 +37,22 @@ impl<'a> PieceRow<'a> {
 }
 
 /// The columns of points; `value` names the number that varies.
-fn piece_fields<'a>(value: &str) -> Columns<'a, PieceRow<'a>> {
-    Columns::default()
+fn point_columns<'a>(value: &'static str, digits: usize) -> Columns<'a, PieceRow<'a>> {
+    let columns = Columns::default()
         .file("piece", |row: &PieceRow| row.of(|piece, _| piece))
-        .file(value, |row| row.of(|_, point| point.value))
+        .number(value, Quantity::pure(digits), |row| row.of(|_, point| point.value))
         .and(cycle_fields(|row: &PieceRow| row.of(|_, point| point.cycle)))
+        .text("piece", |row| row.of(|piece, _| piece.to_string()).unwrap_or_default())
+        .text("cycle", |row| row.of(|_, it| stability(it.cycle.stable)).unwrap_or("").to_owned());
+    number_columns(columns, move |row, number| {
+        row.of(|_, point| number.text(&point.cycle, digits)).unwrap_or_default()
+    })
 }
 
 /// The branch of the oscillator of the paper: one row for each point, and for each part of the range in which the number
-/// of cycles is proved or open; in text a table for each connected piece, then the special points.
+/// of cycles is proved or open; then the special points.
 pub fn branch<'a>(
-    about: &'a About,
+    about: &About,
     branch: &'a Branch,
     certified: Option<&'a Range>,
     tolerance: f64,
@@ -57,56 +62,48 @@ pub fn branch<'a>(
         let pieces = branch.pieces.iter().enumerate();
         pieces.flat_map(|(piece, points)| points.iter().map(move |it| PieceRow::Point(piece, it)))
     };
-    let document = move || {
-        Document::default()
-            .with("parameter", branch.parameter)
-            .with("points", piece_fields("value").objects(rows()))
-            .with("special", &branch.special)
-            .with("vague", &branch.vague)
-            .with_any("certified", certified.map(decided))
-    };
-    let csv = move || {
-        let name = branch.parameter.spec().name;
-        let proved = certified.map(|range| {
-            Columns::default().part("certified", piece_columns(range, name), PieceRow::proved)
-        });
-        let parts = certified.into_iter().flat_map(|range| &range.pieces).map(PieceRow::Proved);
-        piece_fields(name).and(proved).csv(rows().chain(parts))
-    };
-    let text = move || text(about, branch, tolerance);
-    let proved = move || certified.map(|it| range_table(it, branch.parameter)).unwrap_or_default();
-    about.answer(branch.cost, seconds, document, csv, text).below(proved)
+    let name = branch.parameter.spec().name;
+    let shown = digits(tolerance).min(10);
+    let proved = certified.map(|range| {
+        Columns::default().part("certified", piece_columns(range, name), PieceRow::proved)
+    });
+    let parts = certified.into_iter().flat_map(|range| &range.pieces).map(PieceRow::Proved);
+    let special = Quantity::pure(digits(tolerance));
+    let special = Columns::default()
+        .text("special point", |it: &Special| it.kind.name(it.cycle.as_ref()).to_owned())
+        .number(name, special, |it| it.value)
+        .number("q_max", special, |it| it.q_max);
+    let answer = about
+        .answer()
+        .fields(move |all| {
+            all.with("parameter", branch.parameter)
+                .with("points", point_columns("value", shown).objects(rows()))
+                .with("special", &branch.special)
+                .with("vague", &branch.vague)
+                .with_any("certified", certified.map(decided))
+        })
+        .csv(point_columns(name, shown).and(proved), rows().chain(parts))
+        .table(point_columns(name, shown), rows())
+        .lines(branch.pieces.is_empty().then_some("no limit cycle"))
+        .table(special, &branch.special)
+        .lines(vague(branch));
+    match certified {
+        Some(range) => answer
+            .table(range_pieces(), &range.pieces)
+            .table(range_changes(), &range.changes)
+            .lines(range.exhausted.then(|| {
+                format!("open after {MOST_STEPS} steps: a narrower range may be decided")
+            })),
+        None => answer,
+    }
+    .cost(branch.cost, seconds)
 }
 
-fn text(about: &About, branch: &Branch, tolerance: f64) -> String {
-    let places = digits(tolerance).min(10);
-    let name = branch.parameter.spec().name;
-    let columns = Columns::default()
-        .text(name, |point: &&BranchPoint| significant(point.value, places))
-        .text("cycle", |point| stability(point.cycle.stable).to_owned());
-    let columns = number_columns(columns, |point, number| number.text(&point.cycle, places));
-    let mut out = format!("{}\n", about.heading(&[]));
-    for (number, piece) in branch.pieces.iter().enumerate() {
-        out += &format!("\npiece {}\n{}", number + 1, columns.table(piece));
-    }
-    if branch.pieces.is_empty() {
-        out += "\nno limit cycle\n";
-    }
-    let number = Quantity::pure(digits(tolerance));
-    let special = Columns::default()
-        .text("special point", |it: &&Special| it.kind.name(it.cycle.as_ref()).to_owned())
-        .number(name, number, |it| it.value)
-        .number("q_max", number, |it| it.q_max)
-        .table(&branch.special);
-    if !special.is_empty() {
-        out += &format!("\n{special}");
-    }
-    if let (Some(&first), Some(&last)) = (branch.vague.first(), branch.vague.last()) {
-        let [first, last] = [first, last].map(|value| significant(value, 6));
-        let count = branch.vague.len();
-        out += &format!("\nleft out, too vague: {count}, {name} = {first} .. {last}\n");
-    }
-    out + "\n"
+/// How many points are left out, and between which values.
+fn vague(branch: &Branch) -> Option<String> {
+    let [first, last] = [branch.vague.first()?, branch.vague.last()?].map(|it| significant(*it, 6));
+    let (count, name) = (branch.vague.len(), branch.parameter);
+    Some(format!("left out, too vague: {count}, {name} = {first} .. {last}"))
 }
 
 /// The fold and the escape point at one value of the second parameter, and what is proved of them.
@@ -114,59 +111,51 @@ type BorderRow<'a> = (&'a BoundaryPoint, Option<&'a BorderProof>);
 
 /// The fold and the escape point of the oscillator of the paper, one row for each value of the second parameter.
 pub fn border<'a>(
-    about: &'a About,
+    about: &About,
     found: &'a Boundary,
     certified: Option<&'a [BorderProof]>,
     seconds: f64,
 ) -> Answer<'a> {
     const EXACT: Quantity = Quantity::pure(12);
     const SHORT: Quantity = Quantity::pure(8);
-    let kind = |grazes: bool| if grazes { "grazing" } else { "fold" };
-    let columns = move || {
-        let proved =
-            || Columns::default().part("certified", border_columns(), |row: &BorderRow<'a>| row.1);
-        Columns::default()
-            .number(found.second.spec().name, Quantity::pure(10), |(point, _): &BorderRow<'a>| {
-                point.value
-            })
-            .number("D_F", EXACT, |(point, _)| point.fold.map(|fold| fold.d))
-            .text("is a", move |(point, _)| {
-                point.fold.map_or("-", |fold| kind(fold.grazes)).to_owned()
-            })
-            .number("q_max", SHORT, |(point, _)| point.fold.map(|fold| fold.q_max))
-            .titled("q_max there")
-            .file("period", |(point, _)| point.fold.map(|fold| fold.period))
-            .number("D_F_harmonic", SHORT, |(point, _)| point.harmonic_fold)
-            .titled("D_F of (48)")
-            .number("D_c", EXACT, |(point, _)| point.escape)
-            .file("reason", |(point, _)| point.reason.clone())
-            .and(certified.map(|_| proved()))
+    let kind = |point: &BoundaryPoint| {
+        point.fold.map_or("-", |fold| if fold.grazes { "grazing" } else { "fold" })
     };
+    let name = found.second.spec().name;
+    let proved =
+        Columns::default().part("certified", border_columns(), |row: &BorderRow<'a>| row.1);
+    let columns = Columns::default()
+        .number(name, Quantity::pure(10), |(point, _): &BorderRow<'a>| point.value)
+        .number("D_F", EXACT, |(point, _)| point.fold.map(|fold| fold.d))
+        .text("is a", move |(point, _)| kind(point).to_owned())
+        .number("q_max", SHORT, |(point, _)| point.fold.map(|fold| fold.q_max))
+        .number("period", SHORT, |(point, _)| point.fold.map(|fold| fold.period))
+        .number("D_F_harmonic", SHORT, |(point, _)| point.harmonic_fold)
+        .titled("D_F of (48)")
+        .number("D_c", EXACT, |(point, _)| point.escape)
+        .file("reason", |(point, _)| point.reason.clone())
+        .and(certified.map(|_| proved));
     let proof = move |index| certified.and_then(|all| all.get(index));
-    let rows =
-        move || found.points.iter().enumerate().map(move |(index, point)| (point, proof(index)));
-    let document = move || {
-        let certified =
-            certified.map(|all| all.iter().map(BorderProof::document).collect::<Vec<_>>());
-        Document::default()
-            .with("parameter", found.second)
-            .with("points", &found.points)
-            .with_any("certified", certified)
-    };
-    let csv = move || columns().csv(rows());
-    let text = move || {
-        let given_up = found.points.iter().filter_map(|point| {
-            let reason = point.reason.as_ref()?;
-            Some(format!("\n{} = {}: {reason}", found.second, significant(point.value, 10)))
-        });
-        let given_up: String = given_up.collect();
-        format!("{}\n\n{}{given_up}\n", about.heading(&[]), columns().table(rows()))
-    };
-    let lines = move || certified.map(|all| border_lines(all, found.second)).unwrap_or_default();
-    about.answer(found.cost, seconds, document, csv, text).below(lines)
+    let rows = found.points.iter().enumerate().map(move |(index, point)| (point, proof(index)));
+    let given_up = found.points.iter().filter_map(|point| {
+        let reason = point.reason.as_ref()?;
+        Some(format!("{name} = {}: {reason}", significant(point.value, 10)))
+    });
+    let document = |all: &[BorderProof]| all.iter().map(BorderProof::document).collect::<Vec<_>>();
+    about
+        .answer()
+        .fields(move |all| {
+            all.with("parameter", found.second)
+                .with("points", &found.points)
+                .with_any("certified", certified.map(document))
+        })
+        .rows(columns, rows)
+        .lines(given_up)
+        .cost(found.cost, seconds)
 }
 
 /// A cycle of a machine at a value; a value without an answer has one row, with the reason.
+#[derive(Clone)]
 struct MachineBranchRow {
     value: f64,
     cycle: Option<Cycle>,
@@ -175,7 +164,7 @@ struct MachineBranchRow {
 
 /// The branch of a machine: a row for each cycle at each value; below them in text, each change in a sentence.
 pub fn of_machine<'a>(
-    about: &'a About,
+    about: &About,
     varied: Knob,
     found: &'a MachineBranch,
     seconds: f64,
@@ -196,28 +185,27 @@ pub fn of_machine<'a>(
             }
         })
     };
-    let document = move || {
-        Document::default()
-            .with("parameter", name)
-            .with("unit", unit)
-            .with("points", columns("value").objects(rows()))
-            .with("special", &found.special)
-    };
-    let text = move || {
-        let changes = Columns::default()
-            .text("", |it: &&Special| with_unit(it.value, 13, unit))
-            .text("", |it| it.q_max.map_or_else(String::new, |x| with_unit(x, PLACES, "m")))
-            .text("", |it| format!("{}{}", words(it.kind), jumps(it)))
-            .table(&found.special)
-            .aligned_left();
-        let changes: String = changes.split_inclusive('\n').skip(1).collect();
-        let table = columns(name).table(rows());
-        let table =
-            if table.is_empty() { String::new() } else { format!("{}\n", table.aligned_left()) };
-        format!("{}\n\n{table}{changes}", about.heading(&[]))
-    };
     let cost = Cost { steps: found.cost.steps, ..Cost::default() };
-    about.answer(cost, seconds, document, move || columns(name).csv(rows()), text)
+    about
+        .answer()
+        .fields(move |all| {
+            all.with("parameter", name)
+                .with("unit", unit)
+                .with("points", columns("value").objects(rows()))
+                .with("special", &found.special)
+        })
+        .rows(columns(name), rows().collect::<Vec<_>>())
+        .table(special_columns(varied, |special| special), &found.special)
+        .cost(cost, seconds)
+}
+
+/// The columns of the changes of a machine along a number.
+fn special_columns<'a, R: 'a>(along: Knob, of: fn(&R) -> &Special) -> Columns<'a, R> {
+    Columns::default()
+        .number(along.spec().name, Quantity::of(along.spec().unit, 13), move |row| of(row).value)
+        .file("kind", move |row| of(row).kind)
+        .number("q_max", Quantity::of("m", PLACES), move |row| of(row).q_max)
+        .text("what happens", move |row| words(of(row).kind).to_owned() + &jumps(of(row)))
 }
 
 /// What happens at a change, in a few words.
@@ -257,46 +245,33 @@ fn jumps(special: &Special) -> String {
 
 /// The changes of a machine along one number, a row for each, at each value of the other.
 pub fn border_of_machine<'a>(
-    about: &'a About,
+    about: &About,
     (along, over): (Knob, Knob),
     found: &'a [(f64, Vec<Special>)],
     seconds: f64,
 ) -> Answer<'a> {
-    let number = |knob: Knob| (knob.spec().name, Quantity::of(knob.spec().unit, 13));
-    let ((over_name, value), (along_name, at)) = (number(over), number(along));
-    let columns = move || {
-        Columns::default()
-            .number(over_name, value, |(value, _): &(f64, &Special)| *value)
-            .number(along_name, at, |(_, special)| special.value)
-            .file("kind", |(_, special)| special.kind)
-            .number("q_max", Quantity::of("m", PLACES), |(_, special)| special.q_max)
-            .text("what happens", |(_, special)| words(special.kind).to_owned())
-    };
-    let rows = move || {
-        found.iter().flat_map(|(value, all)| all.iter().map(move |special| (*value, special)))
-    };
-    let document = move || {
-        let point = |(value, special): &(f64, Vec<Special>)| {
-            Document::default().with("value", value).with("special", special)
-        };
-        Document::default()
-            .with("parameter", over_name)
-            .with("along", along_name)
-            .with("points", found.iter().map(point).collect::<Vec<_>>())
-    };
-    about.answer(
-        Cost::default(),
-        seconds,
-        document,
-        move || columns().csv(rows()),
-        move || {
-            let (heading, table) = (about.heading(&[]), columns().table(rows()));
-            if table.is_empty() {
-                return format!("{heading}\n\nnothing changes along {along_name}\n\n");
-            }
-            format!("{heading}\n\n{}\n", table.aligned_left())
-        },
-    )
+    let [over_name, along_name] = [over, along].map(|knob| knob.spec().name);
+    let columns = Columns::default()
+        .number(over_name, Quantity::of(over.spec().unit, 13), |(value, _): &(f64, _)| *value)
+        .and(special_columns(along, |(_, special): &(f64, &Special)| special));
+    let rows: Vec<_> = found
+        .iter()
+        .flat_map(|(value, all)| all.iter().map(move |special| (*value, special)))
+        .collect();
+    let nothing = rows.is_empty().then(|| format!("nothing changes along {along_name}"));
+    about
+        .answer()
+        .fields(move |all| {
+            let point = |(value, special): &(f64, Vec<Special>)| {
+                Document::default().with("value", value).with("special", special)
+            };
+            all.with("parameter", over_name)
+                .with("along", along_name)
+                .with("points", found.iter().map(point).collect::<Vec<_>>())
+        })
+        .rows(columns, rows)
+        .lines(nothing)
+        .cost(Cost::default(), seconds)
 }
 
 #[cfg(test)]

@@ -20,14 +20,14 @@ fn found<T>(examined: &ClaimResult, part: impl Fn(&Finding) -> T) -> Option<T> {
     examined.finding.as_ref().ok().map(part)
 }
 
-fn columns<'a>() -> Columns<'a, &'a ClaimResult> {
+fn columns<'a>() -> Columns<'a, ClaimResult> {
     const NUMBER: Quantity = Quantity::pure(6);
     let place = |it: &Finding| Some(it.place.clone()).filter(|place| !place.is_empty());
     let end = |it: &ClaimResult, end: fn(Interval) -> f64| {
         found(it, |it| it.computed.bounds).flatten().map(end).filter(|end| end.is_finite())
     };
     Columns::default()
-        .word("equation", |it: &&ClaimResult| it.claim.equation)
+        .word("equation", |it: &ClaimResult| it.claim.equation)
         .titled("where")
         .file("section", |it| it.claim.section)
         .file("claim", |it| it.claim.statement)
@@ -55,20 +55,18 @@ fn columns<'a>() -> Columns<'a, &'a ClaimResult> {
         .text("claim", |it| sentence(it))
 }
 
-/// Every claim, and the reason if nothing could be computed; in text words stand at the left and numbers at the right.
+/// Every claim, and the reason if nothing could be computed.
 pub fn claims(examined: &[ClaimResult], seconds: f64) -> Answer<'_> {
-    let json = move || {
-        let reason = |it: &&ClaimResult| it.finding.as_ref().err().map(ToString::to_string);
-        Document::default()
-            .with("claims", columns().field("reason", reason).objects(examined))
-            .cost(&Document::default(), seconds)
-            .text()
-    };
-    let text = move || {
-        let table = columns().table(examined).aligned(|column| !(5..8).contains(&column));
-        format!("{table}\n{}, {}\n", claim::summary(examined), duration(seconds))
-    };
-    Answer::new(json, move || columns().csv(examined), text)
+    let reason = |it: &ClaimResult| it.finding.as_ref().err().map(ToString::to_string);
+    Answer::default()
+        .fields(move |all| all.with("claims", columns().field("reason", reason).objects(examined)))
+        .csv(columns(), examined)
+        .captioned("", move || columns().table(examined).unbroken())
+        .costing(
+            format!("{}, {}", claim::summary(examined), duration(seconds)),
+            Document::default(),
+            seconds,
+        )
 }
 
 /// What is certain: `proved`, `refuted` or `enclosed`.

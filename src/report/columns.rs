@@ -1,12 +1,14 @@
 //! The columns of an answer, each told once: its name in files, its title in text, its quantity, and its value in a
 //! row. The aligned table, the comma-separated values and the objects of a document follow.
 
+use std::borrow::Borrow;
 use std::rc::Rc;
 
 use csv::Writer;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
+use super::enclosure::certain;
 use super::json::{self, Document};
 use super::table::Table;
 use crate::numerics::Interval;
@@ -52,8 +54,8 @@ impl Quantity {
 
 /// Columns of rows `R`, in their order.
 pub struct Columns<'a, R> {
-    files: Vec<FileColumns<'a, R>>,
-    texts: Vec<TextColumn<'a, R>>,
+    files: Vec<Rc<FileColumns<'a, R>>>,
+    texts: Vec<Rc<TextColumn<'a, R>>>,
 }
 
 /// What a row tells.
@@ -70,8 +72,14 @@ struct FileColumns<'a, R> {
 }
 
 struct TextColumn<'a, R> {
-    title: &'static str,
+    title: String,
     cell: Part<'a, R, String>,
+}
+
+impl<R> Clone for Columns<'_, R> {
+    fn clone(&self) -> Self {
+        Columns { files: self.files.clone(), texts: self.texts.clone() }
+    }
 }
 
 impl<R> Default for Columns<'_, R> {
@@ -98,8 +106,9 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// A column of text alone.
-    pub fn text(mut self, title: &'static str, cell: impl Fn(&R) -> String + 'a) -> Self {
-        self.texts.push(TextColumn { title, cell: Box::new(cell) });
+    pub fn text(mut self, title: &str, cell: impl Fn(&R) -> String + 'a) -> Self {
+        let title = title.to_owned();
+        self.texts.push(Rc::new(TextColumn { title, cell: Box::new(cell) }));
         self
     }
 
@@ -126,20 +135,24 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// The last column with another title in text.
-    pub fn titled(mut self, title: &'static str) -> Self {
-        if let Some(column) = self.texts.last_mut() {
-            column.title = title;
+    pub fn titled(mut self, title: &str) -> Self {
+        if let Some(column) = self.texts.last_mut().and_then(Rc::get_mut) {
+            column.title = title.to_owned();
         }
         self
     }
 
-    /// Both ends of an interval, as `name_lower` and `name_upper`, in files alone.
+    /// Both ends of an interval that is proved, as `name_lower` and `name_upper`; in text its certain digits.
     pub fn bounds(self, name: &str, value: impl Fn(&R) -> Option<Interval> + 'a) -> Self {
-        let field = name.to_owned();
+        let value = Rc::new(value);
+        let (ends, field) = (Rc::clone(&value), name.to_owned());
         self.together(ENDS.map(|end| format!("{name}_{end}")).to_vec(), move |row| {
-            let value = value(row);
+            let value = ends(row);
             let cells = value.map_or(vec![], |it| vec![it.lower().into(), it.upper().into()]);
             (cells, Document::default().with(&field, value.map(bounds)))
+        })
+        .text(&format!("{name}, proved"), move |row| {
+            value(row).map_or_else(|| "-".to_owned(), certain)
         })
     }
 
@@ -154,14 +167,20 @@ impl<'a, R: 'a> Columns<'a, R> {
         })
     }
 
-    /// The columns of files that describe a part of a row; in a document they are the field `name`, which is left
-    /// out of a row without that part.
+    /// The columns that describe a part of a row; in a document they are the field `name`, which is left out of a row
+    /// without that part.
     pub fn part<P: 'a>(
-        self,
+        mut self,
         name: &'static str,
-        columns: Columns<'a, P>,
-        part: impl Fn(&R) -> Option<P> + 'a,
+        mut columns: Columns<'a, P>,
+        part: impl Fn(&R) -> Option<P> + Copy + 'a,
     ) -> Self {
+        for text in std::mem::take(&mut columns.texts) {
+            let title = text.title.clone();
+            self = self.text(&title, move |row| {
+                part(row).map_or_else(|| "-".to_owned(), |it| (text.cell)(&it))
+            });
+        }
         self.together(columns.names(), move |row| {
             let part = part(row);
             let object = part.as_ref().map(|part| columns.object(part));
@@ -179,21 +198,22 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     fn together(mut self, names: Vec<String>, told: impl Fn(&R) -> Told + 'a) -> Self {
-        self.files.push(FileColumns { names, told: Box::new(told) });
+        self.files.push(Rc::new(FileColumns { names, told: Box::new(told) }));
         self
     }
 
     /// The rows as text.
-    pub fn table(&self, rows: impl IntoIterator<Item = R>) -> Table {
-        let titles = self.texts.iter().map(|column| column.title).collect();
-        let cells = |row| self.texts.iter().map(|column| (column.cell)(&row)).collect();
-        Table { titles, rows: rows.into_iter().map(cells).collect() }
+    pub fn table(&self, rows: impl IntoIterator<Item: Borrow<R>>) -> Table {
+        let titles = self.texts.iter().map(|column| column.title.clone()).collect();
+        let cells = |row: &R| self.texts.iter().map(|column| (column.cell)(row)).collect();
+        Table::new(titles, rows.into_iter().map(|row| cells(row.borrow())).collect())
     }
 
     /// The rows below a line of names.
-    pub fn csv(&self, rows: impl IntoIterator<Item = R>) -> String {
-        let cells = |row| self.cells(&row).iter().map(cell).collect();
-        lines(std::iter::once(self.names()).chain(rows.into_iter().map(cells)))
+    pub fn csv(&self, rows: impl IntoIterator<Item: Borrow<R>>) -> String {
+        let cells = |row: &R| self.cells(row).iter().map(cell).collect();
+        let rows = rows.into_iter().map(|row| cells(row.borrow()));
+        lines(std::iter::once(self.names()).chain(rows))
     }
 
     /// A row as an object.
@@ -203,8 +223,8 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// An object for each row.
-    pub fn objects(&self, rows: impl IntoIterator<Item = R>) -> Vec<Document> {
-        rows.into_iter().map(|row| self.object(&row)).collect()
+    pub fn objects(&self, rows: impl IntoIterator<Item: Borrow<R>>) -> Vec<Document> {
+        rows.into_iter().map(|row| self.object(row.borrow())).collect()
     }
 
     fn names(&self) -> Vec<String> {
@@ -212,7 +232,7 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     fn cells(&self, row: &R) -> Vec<Value> {
-        let filled = |columns: &FileColumns<R>| {
+        let filled = |columns: &Rc<FileColumns<R>>| {
             let mut cells = (columns.told)(row).0;
             cells.resize(columns.names.len(), Value::Null);
             cells

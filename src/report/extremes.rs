@@ -3,7 +3,7 @@
 
 use super::cycle_numbers::cycle_fields;
 use super::motion::ending;
-use super::{Answer, Columns, Document, Quantity};
+use super::{Answer, Columns, Quantity, Table};
 use crate::accuracy::extremes::sets::{
     BUDGET as BUDGET_OF_SET, LatticeCycle, SetAnswer, SetVerdict,
 };
@@ -14,56 +14,56 @@ use crate::model::Parameters;
 use crate::words::number::exact as short;
 use crate::words::{significant, stability};
 
+/// Few digits of what has more in files.
+const FEW: Quantity = Quantity::pure(4);
+
 /// The answers of all methods; `named` computes the extremes that have a name.
 pub fn extremes<'a>(
     verdicts: &'a [MethodsVerdict],
     named: impl Fn() -> Vec<NamedExtreme> + Copy + 'a,
     tolerance: f64,
 ) -> Answer<'a> {
-    let json = move || {
-        Document::default()
-            .with("tolerance", tolerance)
-            .with("budget", BUDGET)
-            .with("motions", verdicts)
-            .with("named", named())
-            .text()
-    };
-    Answer::new(json, move || csv(verdicts), move || table(verdicts, &named(), tolerance))
-}
-
-/// As a readable table: the answer of `auto` and its cost, then the digits that each method lost.
-fn table(verdicts: &[MethodsVerdict], named: &[NamedExtreme], tolerance: f64) -> String {
-    let columns = parameter_texts(|it: &&MethodsVerdict| it.case.parameters)
+    let columns = parameter_columns(|it: &MethodsVerdict| it.case.parameters)
         .text("start", |it| it.case.start.to_string())
-        .text("answer", |it| short_sentence(&it.answers[0].outcome))
+        .text("answer", |it| ending(&it.answers[0].outcome).0.to_owned())
+        .text("tau", |it| FEW.text(ending(&it.answers[0].outcome).1))
+        .text("q", |it| FEW.text(ending(&it.answers[0].outcome).2))
+        .text("v", |it| FEW.text(ending(&it.answers[0].outcome).3))
         .text("evaluations", |it| it.answers[0].cost.evaluations.to_string())
         .text("sensitive", |it| significant(it.sensitivity, 2));
     let columns = METHODS.into_iter().fold(columns, |columns, method| {
         let name = method.spec().name;
         columns.text(name, move |it| it.answer(method).map_or_else(String::new, mark))
     });
-    let rows = columns.table(verdicts);
-    format!(
-        "Below the name of a method: digits lost of those that the tolerance {tolerance:e} asks for,\n\
-         or why there is no number: gave up within {BUDGET} evaluations, wrong (contradicts the \
-         reference),\n? (nothing to compare with), nothing (it does not serve these parameters).\n\
-         Sensitive: digits by which the answer magnifies a change of the damping (where a digit was \
-         lost).\n\n{rows}\n{}\n{}",
-        summary(verdicts),
-        names(named)
-    )
+    let answers = verdicts.iter().flat_map(|it| it.answers.iter().map(move |answer| (it, answer)));
+    Answer::default()
+        .fields(move |all| {
+            all.with("tolerance", tolerance)
+                .with("budget", BUDGET)
+                .with("motions", verdicts)
+                .with("named", named())
+        })
+        .csv(method_columns(), answers)
+        .lines([format!(
+            "Below the name of a method: digits lost of those that the tolerance {tolerance:e} asks for,\n\
+             or why there is no number: gave up within {BUDGET} evaluations, wrong (contradicts the \
+             reference),\n? (nothing to compare with), nothing (it does not serve these parameters).\n\
+             Sensitive: digits by which the answer magnifies a change of the damping (where a digit was \
+             lost)."
+        )])
+        .captioned("", move || columns.table(verdicts).unbroken())
+        .captioned("", || summary(verdicts))
+        .captioned("", move || named_columns().table(named()))
 }
 
-/// As comma-separated values: one row for each motion and method, all digits.
-fn csv(verdicts: &[MethodsVerdict]) -> String {
+/// The columns of files, one row for each motion and method.
+fn method_columns<'a>() -> Columns<'a, (&'a MethodsVerdict, &'a MethodAnswer)> {
     type MethodRow<'a> = (&'a MethodsVerdict, &'a MethodAnswer);
-    let example = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
     let reason = |outcome: Outcome| match outcome {
         Outcome::GaveUp { reason, .. } => Some(reason.to_string()),
         _ => None,
     };
-    let columns = Columns::default()
-        .fields(&example, |(verdict, _): &MethodRow| Some(verdict.case.parameters))
+    parameter_columns(|(verdict, _): &MethodRow| verdict.case.parameters)
         .file("start", |(verdict, _)| verdict.case.start.to_string())
         .file("q0", |(verdict, _)| verdict.case.initial.q)
         .file("v0", |(verdict, _)| verdict.case.initial.v)
@@ -77,33 +77,18 @@ fn csv(verdicts: &[MethodsVerdict]) -> String {
         .file("sensitivity", |(verdict, _)| verdict.sensitivity)
         .file("contradicts", |(_, answer)| answer.contradicts)
         .file("evaluations", |(_, answer)| answer.cost.evaluations)
-        .file("steps", |(_, answer)| answer.cost.steps);
-    columns.csv(verdicts.iter().flat_map(|it| it.answers.iter().map(move |answer| (it, answer))))
+        .file("steps", |(_, answer)| answer.cost.steps)
 }
 
-/// Columns of text for the parameters, in the order of the lattice.
-fn parameter_texts<'a, R: 'a>(parameters: fn(&R) -> Parameters) -> Columns<'a, R> {
+/// The columns of parameters; text has them in the order of the lattice.
+fn parameter_columns<'a, R: 'a>(parameters: fn(&R) -> Parameters) -> Columns<'a, R> {
+    let example = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
     Columns::default()
+        .fields(&example, move |row| Some(parameters(row)))
         .text("D", move |row| short(parameters(row).d, 12))
         .text("r", move |row| short(parameters(row).r, 12))
         .text("D2", move |row| short(parameters(row).d2, 12))
         .text("D3", move |row| short(parameters(row).d3, 12))
-}
-
-/// How a motion ended, in a few words.
-fn short_sentence(outcome: &Outcome) -> String {
-    match outcome {
-        Outcome::Captured { tau, q } => {
-            format!("captured at {} after {}", significant(*q, 4), significant(*tau, 4))
-        }
-        Outcome::Moving { q, v, .. } => {
-            format!("moving at {}, {}", significant(*q, 4), significant(*v, 4))
-        }
-        Outcome::Escaped { tau } => format!("escaped after {}", significant(*tau, 4)),
-        Outcome::GaveUp { tau, reason } => {
-            format!("gave up after {}: {reason}", significant(*tau, 4))
-        }
-    }
 }
 
 /// How well a method answered.
@@ -117,7 +102,7 @@ fn mark(answer: &MethodAnswer) -> String {
 }
 
 /// How often each method answered, and how well.
-fn summary(verdicts: &[MethodsVerdict]) -> String {
+fn summary(verdicts: &[MethodsVerdict]) -> Table {
     type Asked<'a> = (Method, Vec<&'a MethodAnswer>);
     let asked = |method| (method, verdicts.iter().filter_map(|it| it.answer(method)).collect());
     let count = |answers: &[&MethodAnswer], which: &dyn Fn(&MethodAnswer) -> bool| {
@@ -141,57 +126,42 @@ fn summary(verdicts: &[MethodsVerdict]) -> String {
         .text("gave up", move |(_, answers)| count(answers, &gave_up))
         .text("evaluations", move |(_, answers)| format!("<= {}", most(answers).unwrap_or(0)))
         .table(METHODS.map(asked))
-        .to_string()
 }
 
-fn names(named: &[NamedExtreme]) -> String {
+fn named_columns<'a>() -> Columns<'a, NamedExtreme> {
     const NUMBER: Quantity = Quantity::pure(2);
     Columns::default()
-        .text("extreme", |it: &&NamedExtreme| it.what.to_owned())
+        .text("extreme", |it: &NamedExtreme| it.what.to_owned())
         .text("method", |it| it.method.to_string())
         .text("what is measured", |it| it.measure.to_owned())
         .number("measured", NUMBER, |it| it.measured)
         .number("allowed", NUMBER, |it| it.allowed)
         .text("evaluations", |it| it.cost.evaluations.to_string())
-        .table(named)
-        .to_string()
 }
 
-/// The limit cycles at the extremes.
+/// The limit cycles at the extremes: one row for each cycle, and one for a set without cycles.
 pub fn extreme_cycles(verdicts: &[SetVerdict]) -> Answer<'_> {
-    let json =
-        move || Document::default().with("budget", BUDGET_OF_SET).with("sets", verdicts).text();
-    Answer::new(json, move || cycles_csv(verdicts), move || cycles_table(verdicts))
+    let rows = verdicts.iter().flat_map(|verdict| {
+        let cycles = verdict.cycles().iter().map(Some);
+        let none = verdict.cycles().is_empty().then_some(None);
+        cycles.chain(none).map(move |cycle| (verdict, cycle))
+    });
+    Answer::default()
+        .fields(move |all| all.with("budget", BUDGET_OF_SET).with("sets", verdicts))
+        .csv(set_columns(), rows.clone())
+        .lines([format!(
+            "Every limit cycle by amplitude, or why the search gave up within {BUDGET_OF_SET} evaluations of a half \
+             map.\nResidual: by what fraction of the clearance a turn fails to close, followed again by other \
+             steps."
+        )])
+        .captioned("", || set_columns().table(rows).unbroken())
+        .captioned("", || sets_summary(verdicts))
 }
 
-/// Residual above which the summary counts a cycle as not closed.
-const CLOSED: f64 = 1e-11;
+/// A set of parameters, and a cycle of it.
+type SetRow<'a> = (&'a SetVerdict, Option<&'a LatticeCycle>);
 
-/// As a readable table.
-fn cycles_table(verdicts: &[SetVerdict]) -> String {
-    let list = |verdict: &SetVerdict, digits: usize, value: fn(&LatticeCycle) -> f64| {
-        let values = verdict.cycles().iter().map(|it| significant(value(it), digits));
-        values.collect::<Vec<_>>().join(", ")
-    };
-    let rows = parameter_texts(|it: &&SetVerdict| it.parameters)
-        .text("cycles", |it| sentence(&it.answer))
-        .text("q_max", move |it| list(it, 4, |found| found.cycle.q_max))
-        .text("ln multiplier", move |it| list(it, 3, |found| found.cycle.log_multiplier))
-        .text("residual", move |it| list(it, 2, |found| found.residual))
-        .text("evaluations", |it| it.cost.evaluations.to_string())
-        .table(verdicts);
-    format!(
-        "Every limit cycle by amplitude, or why the search gave up within {BUDGET_OF_SET} evaluations of a half \
-         map.\nResidual: by what fraction of the clearance a turn fails to close, followed again by other \
-         steps.\n\n{}\n{}",
-        rows.aligned_left(),
-        sets_summary(verdicts)
-    )
-}
-
-/// As comma-separated values: one row for each cycle, and one for a set without cycles.
-fn cycles_csv(verdicts: &[SetVerdict]) -> String {
-    type SetRow<'a> = (&'a SetVerdict, Option<&'a LatticeCycle>);
+fn set_columns<'a>() -> Columns<'a, SetRow<'a>> {
     let kind = |(verdict, cycle): &SetRow| match &verdict.answer {
         SetAnswer::GaveUp { .. } => "gave-up",
         SetAnswer::Found { .. } if cycle.is_none() => "none",
@@ -201,36 +171,23 @@ fn cycles_csv(verdicts: &[SetVerdict]) -> String {
         SetAnswer::GaveUp { reason } => Some(reason.to_string()),
         SetAnswer::Found { .. } => None,
     };
-    let example = Parameters { d: 0.0, d2: 0.0, d3: 0.0, r: 0.0 };
-    let columns = Columns::default()
-        .fields(&example, |(verdict, _): &SetRow| Some(verdict.parameters))
-        .file("answer", kind)
-        .file("reason", reason)
-        .file("evaluations", |(verdict, _)| verdict.cost.evaluations)
-        .file("residual", |(_, cycle)| cycle.map(|found| found.residual))
-        .and(cycle_fields(|(_, cycle): &SetRow| cycle.map(|found| found.cycle)));
-    let rows = verdicts.iter().flat_map(|verdict| {
-        let cycles = verdict.cycles().iter().map(Some);
-        let none = verdict.cycles().is_empty().then_some(None);
-        cycles.chain(none).map(move |cycle| (verdict, cycle))
-    });
-    columns.csv(rows)
+    let shown = |(_, cycle): &SetRow, value: fn(&LatticeCycle) -> f64| FEW.text(cycle.map(value));
+    parameter_columns(|(verdict, _): &SetRow| verdict.parameters)
+        .word("answer", kind)
+        .text("stability", |(_, cycle)| cycle.map_or("-", |it| stability(it.cycle.stable)).into())
+        .text("q_max", move |row| shown(row, |it| it.cycle.q_max))
+        .text("ln multiplier", move |row| shown(row, |it| it.cycle.log_multiplier))
+        .word("reason", reason)
+        .word("evaluations", |(verdict, _)| verdict.cost.evaluations)
+        .number("residual", Quantity::pure(2), |(_, cycle)| cycle.map(|found| found.residual))
+        .and(cycle_fields(|(_, cycle): &SetRow| cycle.map(|found| found.cycle)))
 }
 
-/// The answer in a few words.
-fn sentence(answer: &SetAnswer) -> String {
-    match answer {
-        SetAnswer::GaveUp { reason } => format!("gave up: {reason}"),
-        SetAnswer::Found { cycles } if cycles.is_empty() => "none".into(),
-        SetAnswer::Found { cycles } => {
-            let kinds = cycles.iter().map(|found| stability(found.cycle.stable));
-            kinds.collect::<Vec<_>>().join(", ")
-        }
-    }
-}
+/// Residual above which the summary counts a cycle as not closed.
+const CLOSED: f64 = 1e-11;
 
 /// How often each answer occurred.
-fn sets_summary(verdicts: &[SetVerdict]) -> String {
+fn sets_summary(verdicts: &[SetVerdict]) -> Table {
     let gave_up = |it: &&SetVerdict| matches!(it.answer, SetAnswer::GaveUp { .. });
     let with = |count: usize| {
         verdicts.iter().filter(|it| !gave_up(it) && it.cycles().len() == count).count()
@@ -253,5 +210,4 @@ fn sets_summary(verdicts: &[SetVerdict]) -> String {
         })
         .text("evaluations", move |()| format!("<= {}", most.unwrap_or(0)))
         .table([()])
-        .to_string()
 }

@@ -34,14 +34,10 @@ impl Document {
         self
     }
 
-    /// The document with the cost of the answer: what was counted, and wall-clock seconds inside the process.
-    pub fn cost(self, counted: &impl Serialize, seconds: f64) -> Self {
-        self.with("cost", Document::default().and(counted).with("seconds", seconds))
-    }
-
-    /// The document on one line, with a newline.
-    pub fn text(&self) -> String {
-        text(self)
+    /// The names and values of its numbers.
+    pub(super) fn numbers(&self) -> Vec<(String, f64)> {
+        let number = |(name, value): (&String, &Value)| Some((name.clone(), value.as_f64()?));
+        self.0.iter().filter_map(number).collect()
     }
 }
 

@@ -10,6 +10,7 @@ pub mod claims;
 pub mod columns;
 mod cycle_numbers;
 pub mod cycles;
+mod enclosure;
 pub mod extremes;
 pub mod fit;
 pub mod json;

@@ -1,6 +1,6 @@
 //! One motion: its turning points, how it ends, and where its energy goes.
 
-use super::certified::{PointBounds, followed, motion_line, point_columns};
+use super::certified::{PointBounds, followed, point_columns};
 use super::table::digits;
 use super::{About, Answer, Columns, Document, Quantity};
 use crate::flow::machine::motion::{Leg, turns};
@@ -9,11 +9,11 @@ use crate::flow::{Crossing, Fate, MachineLedger, MachineMotion, Outcome, Problem
 use crate::model::{MachineProblem, State};
 use crate::numerics::Interval;
 use crate::proof::motion::ProvedMotion;
-use crate::words::duration;
 use crate::words::motion::{Writing, sentence};
 use crate::words::number::exact;
 
 /// A point of a motion: its start, every arrival at `v = 0`, or its end.
+#[derive(Clone)]
 struct MotionRow {
     what: &'static str,
     tau: f64,
@@ -29,8 +29,8 @@ impl MotionRow {
 }
 
 /// The columns of points.
-fn point_of_motion<'a>(about: &About) -> Columns<'a, MotionRow> {
-    let [time, length, speed] = ["s", "m", "m/s"].map(|unit| about.quantity(unit, 10));
+fn columns_of_points<'a>(about: &About, digits: usize) -> Columns<'a, MotionRow> {
+    let [time, length, speed] = ["s", "m", "m/s"].map(|unit| about.quantity(unit, digits));
     Columns::default()
         .word("what", |row: &MotionRow| row.what)
         .number("tau", time, |row| row.tau)
@@ -50,30 +50,49 @@ pub(super) fn ending(outcome: &Outcome) -> (&'static str, f64, Option<f64>, Opti
 
 /// The motion of the oscillator of the paper; one row for each of its points.
 pub fn motion<'a>(
-    about: &'a About,
+    about: &About,
     motion: &'a Trajectory,
     certified: Option<&'a ProvedMotion>,
     seconds: f64,
 ) -> Answer<'a> {
     let problem = &motion.problem;
-    let document = move || {
-        Document::default()
-            .with("initial", problem.initial)
-            .with("method", motion.method)
-            .with("tolerance", problem.tolerance)
-            .with("outcome", motion.outcome)
-            .with("events", &motion.crossings)
-            .with("energy", motion.ledger)
-            .with_any("certified", certified.map(|certified| followed(certified, problem.until)))
-    };
-    let csv = move || {
-        let proved =
-            Columns::default().part("certified", point_columns(), |row: &MotionRow| row.bounds);
-        point_of_motion(about).and(certified.map(|_| proved)).csv(points(motion, certified))
-    };
-    let line = move || certified.map(|it| motion_line(it, problem.until)).unwrap_or_default();
-    let json = move || about.json(&document(), &motion.cost, seconds);
-    Answer::new(json, csv, move || text(about, motion, seconds)).below(line)
+    let proved =
+        Columns::default().part("certified", point_columns(), |row: &MotionRow| row.bounds);
+    let columns = columns_of_points(about, digits(problem.tolerance));
+    let energy = motion.ledger.map(|ledger| Document::default().and(&ledger));
+    let (steps, rejected) = (motion.cost.steps, motion.cost.rejected);
+    about
+        .answer_to(&from(problem))
+        .lines([sentence(motion, Writing::default())])
+        .fields(move |all| {
+            all.with("initial", problem.initial)
+                .with("method", motion.method)
+                .with("tolerance", problem.tolerance)
+                .with("outcome", motion.outcome)
+                .with("events", &motion.crossings)
+                .with("energy", motion.ledger)
+                .with_any("certified", certified.map(|it| followed(it, problem.until)))
+        })
+        .rows(columns.and(certified.map(|_| proved)), points(motion, certified))
+        .table(
+            energy_columns(Quantity::pure(6)),
+            energy.iter().flat_map(Document::numbers).collect::<Vec<_>>(),
+        )
+        .lines([format!(
+            "method {}, tolerance {}: {steps} steps, {rejected} rejected",
+            motion.method,
+            exact(problem.tolerance, 24)
+        )])
+        .cost(motion.cost, seconds)
+}
+
+/// The columns of an energy ledger.
+fn energy_columns<'a>(amount: Quantity) -> Columns<'a, (String, f64)> {
+    Columns::default().text("energy", |(name, _): &(String, f64)| name.clone()).number(
+        "amount",
+        amount,
+        |(_, amount)| *amount,
+    )
 }
 
 /// The start of a motion, its turning points and its end, with what is proved of each.
@@ -94,57 +113,15 @@ fn points(motion: &Trajectory, certified: Option<&ProvedMotion>) -> Vec<MotionRo
     std::iter::once(start).chain(turns).chain([end]).collect()
 }
 
-/// The parameters and the start of a motion.
-pub(super) fn question(about: &About, problem: &Problem) -> String {
+/// The start of a motion.
+pub(super) fn from(problem: &Problem) -> String {
     let State { q, v } = problem.initial;
-    format!("{}; from q = {}, v = {}", about.heading(&[]), exact(q, 24), exact(v, 24))
-}
-
-/// The problem, every turning point, the outcome, the energy balance and the cost.
-fn text(about: &About, motion: &Trajectory, seconds: f64) -> String {
-    let problem = &motion.problem;
-    let number = Quantity::pure(digits(problem.tolerance));
-    let turns = Columns::default()
-        .text("half swing", |(count, _): &(usize, &Crossing)| count.to_string())
-        .number("tau", number, |(_, crossing)| crossing.tau)
-        .number("q", number, |(_, crossing)| crossing.q)
-        .table((1..).zip(&motion.crossings));
-    let told = sentence(motion, Writing::default());
-    let mut out = format!("{}\n{told}\n\n", question(about, problem));
-    if !turns.is_empty() {
-        out += &format!("{turns}\n");
-    }
-    if let Some(energy) = &motion.ledger {
-        let amounts = [
-            ("at the start", energy.start),
-            ("from linear damping", energy.linear),
-            ("from quadratic damping", energy.quadratic),
-            ("from cubic damping", energy.cubic),
-            ("from friction", energy.friction),
-            ("at the end", energy.end),
-            ("unaccounted for", energy.residual),
-        ];
-        let ledger = Columns::default()
-            .text("energy", |(name, _): &(&str, f64)| (*name).to_owned())
-            .number("amount", Quantity::pure(6), |(_, amount)| *amount)
-            .table(amounts);
-        out += &format!("{ledger}\n");
-    }
-    let cost = motion.cost;
-    out + &format!(
-        "method {}, tolerance {}: {} evaluations, {} steps, {} rejected, {}\n",
-        motion.method,
-        exact(problem.tolerance, 24),
-        cost.evaluations,
-        cost.steps,
-        cost.rejected,
-        duration(seconds),
-    )
+    format!("; from q = {}, v = {}", exact(q, 24), exact(v, 24))
 }
 
 /// A motion of a machine: every standstill, how it ends, where it rides on the belt, and where its energy goes.
 pub fn of_machine<'a>(
-    about: &'a About,
+    about: &About,
     MachineProblem { start: (q, v), .. }: &'a MachineProblem,
     found: &'a MachineMotion,
     seconds: f64,
@@ -152,34 +129,32 @@ pub fn of_machine<'a>(
     let MachineMotion { legs, end, outcome, .. } = found;
     let kind = outcome.word();
     let reason = if let Fate::Unknown(why) = outcome { Some(why.to_string()) } else { None };
-    let points = move || {
-        let start = MotionRow::new("start", 0.0, *q, *v);
-        let turned = turns(legs).map(|leg| MotionRow::new("turn", leg.t, leg.x, 0.0));
-        let points = std::iter::once(start).chain(turned);
-        points.chain([MotionRow::new(kind, end.t, end.x, end.v)])
-    };
+    let turned = turns(legs).map(|leg| MotionRow::new("turn", leg.t, leg.x, 0.0));
+    let points = std::iter::once(MotionRow::new("start", 0.0, *q, *v)).chain(turned);
+    let points: Vec<_> = points.chain([MotionRow::new(kind, end.t, end.x, end.v)]).collect();
+    let energy = found.ledger.as_ref().map(energy);
+    let amounts: Vec<_> = energy.iter().flat_map(Document::numbers).collect();
     let told = reason.clone();
-    let document = move || {
-        let place = |q: f64, v: f64| Document::default().with("q", q).with("v", v);
-        let known = matches!(kind, "captured" | "moving").then(|| place(end.x, end.v));
-        let outcome = Document::default().with("kind", kind).with("tau", end.t);
-        let events = turns(legs).map(|leg| Document::default().with("tau", leg.t).with("q", leg.x));
-        Document::default()
-            .with("initial", place(*q, *v))
-            .with("method", found.method)
-            .with("tolerance", found.tolerance)
-            .with("outcome", known.iter().fold(outcome, Document::and).with_any("reason", told))
-            .with("events", events.collect::<Vec<_>>())
-            .with("phases", phases(legs, ["tau", "q"]))
-            .with("energy", found.ledger.as_ref().map(energy))
-            .with("evaluations", found.cost.evaluations)
-    };
-    let csv = move || point_of_motion(about).csv(points());
-    about.answer(found.cost, seconds, document, csv, move || {
-        let table = point_of_motion(about).table(points()).aligned_left();
-        let reason = reason.map(|why| format!("{why}\n")).unwrap_or_default();
-        format!("{}\n\n{table}\n{reason}", about.heading(&[]))
-    })
+    about
+        .answer()
+        .fields(move |all| {
+            let place = |q: f64, v: f64| Document::default().with("q", q).with("v", v);
+            let known = matches!(kind, "captured" | "moving").then(|| place(end.x, end.v));
+            let outcome = Document::default().with("kind", kind).with("tau", end.t);
+            let event = |leg: &Leg| Document::default().with("tau", leg.t).with("q", leg.x);
+            all.with("initial", place(*q, *v))
+                .with("method", found.method)
+                .with("tolerance", found.tolerance)
+                .with("outcome", known.iter().fold(outcome, Document::and).with_any("reason", told))
+                .with("events", turns(legs).map(event).collect::<Vec<_>>())
+                .with("phases", phases(legs, ["tau", "q"]))
+                .with("energy", energy)
+                .with("evaluations", found.cost.evaluations)
+        })
+        .rows(columns_of_points(about, 10), points)
+        .table(energy_columns(about.quantity("J", 6)), amounts)
+        .lines(reason)
+        .cost(found.cost, seconds)
 }
 
 /// When and where the mass begins to slip, to stick or to rest, under these names.

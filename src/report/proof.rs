@@ -1,76 +1,138 @@
 //! Proofs about limit cycles, for tables and documents.
 
-use super::cycle_numbers::NUMBERS;
-use super::{Answer, Columns, Document};
+use super::cycle_numbers::{CycleNumber, NUMBERS, cycle_fields, number_columns};
+use super::enclosure::{certain, ends};
+use super::{About, Answer, Columns, Document, Format};
 use crate::check::{Bounds, Certificate, StepKind};
+use crate::model::ParameterBox;
 use crate::numerics::Interval;
-use crate::numerics::elementary::{log10, pow};
 use crate::portrait::Cycle;
 use crate::portrait::proved::matching;
 use crate::proof::cycles::{OpenGap, ProvedCycle};
 use crate::proof::{Enclosure, Proof};
-use crate::words::{cycles, significant, stability};
+use crate::words::{counted, cycles, significant, stability};
 
-/// Digits of enclosures.
-pub(super) const PLACES: usize = 12;
-
-/// What is proved about a cycle, or an interval of clearances that is open.
-#[derive(Clone, Copy)]
-pub(super) enum CycleBounds<'a> {
-    Cycle(Option<Enclosure>),
-    Open(&'a OpenGap),
+/// A cycle with what is proved about it, or an interval of clearances that is open.
+#[derive(Default)]
+pub(super) struct ProvedRow<'a> {
+    stable: Option<bool>,
+    /// `None` if it is one for each of many parameters.
+    cycle: Option<&'a Cycle>,
+    enclosure: Option<Enclosure>,
+    open: Option<&'a OpenGap>,
 }
 
-/// The columns of what is proved, one for each bound.
-pub(super) fn cycle_columns<'a>() -> Columns<'a, CycleBounds<'a>> {
+impl<'a> ProvedRow<'a> {
+    /// Every cycle that was found.
+    pub(super) fn found(found: &'a [Cycle], proof: &Proof) -> Vec<Self> {
+        let enclosure = |cycle| matching(proof, cycle).and_then(|proved| proved.enclosure);
+        let row = |cycle: &'a Cycle| ProvedRow {
+            stable: Some(cycle.stable),
+            cycle: Some(cycle),
+            enclosure: enclosure(cycle),
+            open: None,
+        };
+        found.iter().map(row).collect()
+    }
+
+    fn proved(cycle: &ProvedCycle) -> Self {
+        let ProvedCycle { stable, enclosure, .. } = *cycle;
+        ProvedRow { stable: Some(stable), enclosure, ..ProvedRow::default() }
+    }
+
+    /// Where a number is proved to lie; of an open interval, the clearance.
+    fn bounds(&self, CycleNumber { name, bounds, .. }: &CycleNumber) -> Option<Interval> {
+        let open = self.open.filter(|_| *name == "clearance");
+        let open = open.map(|it| Interval::new(it.lower, it.upper));
+        open.or(self.enclosure.as_ref().map(bounds))
+    }
+
+    /// Whether it exists, is the only one nearby, and lies in its enclosure.
+    fn document(&self) -> Document {
+        let own = match self.cycle {
+            Some(cycle) => Document::default().and(cycle),
+            None => Document::default().with("stable", self.stable),
+        };
+        own.with("proved", self.cycle.is_none() || self.enclosure.is_some())
+            .with_any("enclosure", self.enclosure)
+    }
+
+    /// A number to the digits that are certain, or as it was found.
+    fn text(&self, number: &CycleNumber) -> String {
+        /// Cycles are computed to rounding error.
+        const FOUND: usize = 10;
+        match (self.bounds(number), self.cycle) {
+            (Some(bounds), Some(_)) => certain(bounds),
+            (Some(bounds), None) => ends(bounds),
+            (None, Some(cycle)) => number.text(cycle, FOUND),
+            (None, None) => "?".to_owned(),
+        }
+    }
+}
+
+/// The columns of files for what is proved.
+fn bound_columns<'a>() -> Columns<'a, ProvedRow<'a>> {
     let columns = Columns::default()
-        .file("proved", |it| matches!(it, CycleBounds::Cycle(Some(_))))
-        .file("open", |it| if let CycleBounds::Open(open) = it { Some(open.reason) } else { None });
-    let of = |it: &CycleBounds, name: &str, bounds: fn(&Enclosure) -> Interval| match it {
-        CycleBounds::Cycle(enclosure) => enclosure.as_ref().map(bounds),
-        CycleBounds::Open(it) if name == "clearance" => Some(Interval::new(it.lower, it.upper)),
-        CycleBounds::Open(_) => None,
-    };
-    ["q_max", "q_min", "v_max", "v_min", "period", "multiplier", "clearance"]
+        .file("proved", |row: &ProvedRow| row.enclosure.is_some())
+        .file("open", |row| row.open.map(|open| open.reason));
+    [1, 0, 3, 2, 4, 5, 6]
+        .map(|at| &NUMBERS[at])
         .into_iter()
-        .filter_map(|name| NUMBERS.iter().find(|number| number.name == name))
-        .filter_map(|number| Some((number.name, number.bounds?)))
-        .fold(columns, |all, (name, bounds)| all.bounds(name, move |it| of(it, name, bounds)))
+        .fold(columns, |all, number| all.bounds(number.name, move |row| row.bounds(number)))
 }
 
-/// Every cycle with what is proved about it: whether it exists, is the only one nearby, and lies in its enclosure.
-pub(super) fn documents(cycles: &[Cycle], proof: &Proof) -> Vec<Document> {
-    let document = |cycle| {
-        let enclosure = enclosure(proof, cycle);
-        Document::default()
-            .and(cycle)
-            .with("proved", enclosure.is_some())
-            .with_any("enclosure", enclosure)
+/// An answer with its cycles and what is proved about them: a row for each, and in files for each interval of clearances
+/// that is open; the parameters for which this holds are the doubles nearest to the decimal numbers given.
+pub(super) fn with_proof<'a>(
+    answer: Answer<'a>,
+    rows: impl Fn() -> Vec<ProvedRow<'a>> + Copy + 'a,
+    proof: &'a Proof,
+) -> Answer<'a> {
+    let open = proof.open.iter().map(|open| ProvedRow { open: Some(open), ..Default::default() });
+    let is_box = !proof.parameters.is_point();
+    let own = if is_box {
+        Columns::default().file("stable", |row: &ProvedRow| row.stable)
+    } else {
+        cycle_fields(|row: &ProvedRow| row.cycle.copied())
     };
-    cycles.iter().map(document).collect()
+    let kind = |row: &ProvedRow| {
+        let is_open = row.cycle.is_some() && row.enclosure.is_none();
+        let not_proved = if is_open { ", not proved" } else { "" };
+        row.stable.map_or("", stability).to_owned() + not_proved
+    };
+    let texts = Columns::default().text("cycle", kind);
+    let is_unknown = |row: &ProvedRow| NUMBERS.iter().any(|number| row.text(number) == "?");
+    let unknown = rows().iter().any(is_unknown).then_some(UNKNOWN);
+    answer
+        .fields(move |all| {
+            let cycles: Vec<_> = rows().iter().map(ProvedRow::document).collect();
+            let count = Document::default()
+                .with("proved", proof.is_complete())
+                .with("open", &proof.open)
+                .with("parameters", proof.parameters);
+            all.with("cycles", cycles).with("count", count)
+        })
+        .csv(own.and(bound_columns()), rows().into_iter().chain(open))
+        .table(number_columns(texts, ProvedRow::text), rows())
+        .lines(unknown)
+        .lines(sentences(rows().len(), proof, if is_box { BOX } else { POINT }))
 }
 
-pub(super) fn enclosure(proof: &Proof, cycle: &Cycle) -> Option<Enclosure> {
-    matching(proof, cycle).and_then(|proved| proved.enclosure)
-}
+/// What `?` means.
+const UNKNOWN: &str =
+    "?: no digit of it is certain; bounds of half swings as stiff as these say little of it";
 
-/// Whether it is proved that there are these cycles and no others, the intervals of clearances about which nothing is
-/// known, and the parameters for which this holds: the doubles nearest to the decimal numbers given.
-pub(super) fn count(proof: &Proof) -> Document {
-    Document::default()
-        .with("proved", proof.is_complete())
-        .with("open", &proof.open)
-        .with("parameters", proof.parameters)
-}
+/// For which parameters a proof holds.
+const POINT: &str = "for the parameters as doubles";
+const BOX: &str = "for all of these parameters";
 
 /// `2 cycles, proved ..`, or what is open.
-pub(super) fn sentence(found: usize, proof: &Proof) -> String {
+fn sentences(found: usize, proof: &Proof, parameters: &str) -> Vec<String> {
     let cycles = cycles(found);
     if proof.is_complete() {
-        return format!("{cycles}, proved for the parameters as doubles\n");
+        return vec![format!("{cycles}, proved {parameters}")];
     }
-    let mut out = format!("{cycles} found; not proved that there are no others:\n");
-    for open in &proof.open {
+    let open = proof.open.iter().map(|open| {
         let (lower, upper) = (significant(open.lower, 6), significant(open.upper, 6));
         let range = if open.upper.is_finite() {
             let width = significant(open.upper - open.lower, 2);
@@ -78,159 +140,36 @@ pub(super) fn sentence(found: usize, proof: &Proof) -> String {
         } else {
             format!("from {lower} on")
         };
-        out += &format!("  clearances {range} are open: {}\n", open.reason);
-    }
-    out
-}
-
-/// The digits on which both ends of an enclosure agree, at most `most`. If there are none: a power of ten as a
-/// bound of a number that overflows or underflows, else `?`.
-pub(super) fn certain(value: Interval, most: usize) -> String {
-    let ends = |digits| [value.lower(), value.upper()].map(|end| significant(end, digits));
-    let agreed = (1..=most).rev().map(ends).find(|[lower, upper]| lower == upper);
-    agreed.map(|[digits, _]| digits).or_else(|| beyond(value)).unwrap_or_else(|| "?".to_owned())
-}
-
-/// `> 1e149` for an enclosure without an upper end that lies above 1e100, `< 1e-322` for one that reaches from 0
-/// to less than 1e-100.
-fn beyond(value: Interval) -> Option<String> {
-    const HUGE: f64 = 1e100;
-    let power = |of: f64| log10(of).floor();
-    if value.lower() > HUGE && value.upper() == f64::INFINITY {
-        return Some(format!("> 1e{}", power(value.lower()) - 1.0));
-    }
-    let tiny = value.lower() == 0.0 && value.upper() < 1.0 / HUGE;
-    tiny.then(|| format!("< 1e{}", power(value.upper()) + 2.0))
-}
-
-/// A line that explains `?`; empty if the table has none.
-pub(super) fn uncertain(table: &str) -> &'static str {
-    if table.contains('?') {
-        "?: no digit of it is certain; bounds of half swings as stiff as these say little of it\n"
-    } else {
-        ""
-    }
+        format!("  clearances {range} are open: {}", open.reason)
+    });
+    let first = format!("{cycles} found; not proved that there are no others:");
+    std::iter::once(first).chain(open).collect()
 }
 
 /// The cycles that exist for all parameters in a box.
 pub fn boxed(proof: &Proof) -> Answer<'_> {
-    let cycle = |cycle: &ProvedCycle| {
-        Document::default()
-            .with("stable", cycle.stable)
-            .with("proved", true)
-            .with_any("enclosure", cycle.enclosure)
-    };
-    let json = move || {
-        Document::default()
-            .with("cycles", proof.cycles.iter().map(cycle).collect::<Vec<_>>())
-            .with("count", count(proof))
-            .text()
-    };
-    let csv = || {
-        type BoxRow<'a> = (Option<bool>, CycleBounds<'a>);
-        let columns = Columns::default().file("stable", |(stable, _): &BoxRow| *stable).part(
-            "certified",
-            cycle_columns(),
-            |(_, bounds)| Some(*bounds),
-        );
-        let cycles = proof.cycles.iter();
-        let cycles = cycles.map(|cycle| (Some(cycle.stable), CycleBounds::Cycle(cycle.enclosure)));
-        let open = proof.open.iter().map(|open| (None, CycleBounds::Open(open)));
-        columns.csv(cycles.chain(open))
-    };
-    Answer::new(json, csv, || box_table(proof))
-}
-
-fn box_table(proof: &Proof) -> String {
-    let ends = |it: Interval| {
-        if !it.is_finite() {
-            return certain(it, PLACES);
-        }
-        let [lower, upper] = outward(it);
-        format!("{lower} .. {upper}")
-    };
-    let kind = |cycle: &&ProvedCycle| stability(cycle.stable).to_owned();
-    // Without the clearance, which is q_max but for r.
-    let bounded = NUMBERS.iter().filter(|number| number.name != "clearance");
-    let bounded = bounded.filter_map(|number| Some((number.name, number.bounds?)));
-    let table = bounded.fold(Columns::default().text("cycle", kind), |all, (name, bounds)| {
-        all.text(name, move |cycle| cycle.enclosure.map_or("?".to_owned(), |it| ends(bounds(&it))))
-    });
-    let table = table.table(&proof.cycles).aligned_left();
-    let p = proof.parameters;
-    let heading = [("D", p.d), ("D2", p.d2), ("D3", p.d3), ("r", p.r)].map(|(name, it)| {
-        if it.is_point() {
-            format!("{name} = {}", it.lower())
-        } else {
-            format!("{name} = {} .. {}", it.lower(), it.upper())
-        }
-    });
-    let text = if proof.cycles.is_empty() {
-        String::new()
-    } else {
-        format!("{table}\n{}", uncertain(&table))
-    };
-    let line = sentence(proof.cycles.len(), proof);
-    let line = line.replace("for the parameters as doubles", "for all of these parameters");
-    format!("{}\n\n{text}{line}", heading.join(", "))
-}
-
-/// The ends of an interval, rounded outward to six digits.
-fn outward(it: Interval) -> [String; 2] {
-    let step = |value: f64| {
-        let digits = pow(10.0, log10(value.abs()).floor() - 5.0);
-        if digits.is_finite() { digits } else { 0.0 }
-    };
-    let end = |value: f64, sign: f64| {
-        let near = significant(value, 6);
-        let read: f64 = near.parse().unwrap_or(f64::NAN);
-        let inside = sign * (value - read) > 0.0;
-        if inside { significant(value + sign * step(value), 6) } else { near }
-    };
-    [end(it.lower(), -1.0), end(it.upper(), 1.0)]
+    let rows = || proof.cycles.iter().map(ProvedRow::proved).collect();
+    with_proof(Answer::new("", About::boxed(&proof.parameters).heading()), rows, proof)
 }
 
 /// The statement of a certificate that has been checked.
 pub fn certificate_table(certificate: &Certificate) -> String {
     let interval = |[lower, upper]: Bounds| Interval::new(lower, upper);
-    let value = |(name, it): (&str, Bounds)| {
-        if it[0] == it[1] {
-            format!("{name} = {:?}", it[0])
-        } else {
-            format!("{name} in {}", interval(it))
-        }
-    };
-    let proved = certificate.steps.iter().filter_map(|step| Some((step.kind, step.clearance?)));
-    let table = Columns::default()
+    let steps = certificate.steps.iter();
+    let proved = steps.filter_map(|step| Some((step.kind, step.clearance?)));
+    let columns = Columns::default()
         .text("cycle", |(kind, _): &(StepKind, Bounds)| {
             stability(*kind == StepKind::Stable).to_owned()
         })
-        .text("right clearance", |(_, clearance)| certain(interval(*clearance), PLACES))
-        .table(proved);
+        .text("right clearance", move |(_, clearance)| certain(interval(*clearance)));
     let count = match certificate.cycles {
         0 => "no limit cycle".to_owned(),
-        1 => "1 limit cycle".to_owned(),
-        more => format!("{more} limit cycles"),
+        some => counted(some, "limit cycle"),
     };
-    let table = if table.is_empty() { String::new() } else { format!("{table}\n") };
     let steps = certificate.steps.len();
-    let values = ["D", "D2", "D3", "r"].into_iter().zip(certificate.parameters).map(value);
-    let values = values.collect::<Vec<_>>().join(", ");
-    format!("{values}\n\n{table}{count} and no other, at any amplitude: {steps} steps checked\n")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_digits_on_which_both_ends_agree_are_shown() {
-        assert_eq!(certain(Interval::new(0.123_449, 0.123_451), 10), "0.12345");
-        assert_eq!(certain(Interval::new(0.123_44, 0.123_46), 10), "0.123");
-        assert_eq!(certain(Interval::new(1.0, 3.0), 10), "?");
-        assert_eq!(certain(Interval::new(1.0, f64::INFINITY), 10), "?");
-        assert_eq!(certain(Interval::new(1.3e150, f64::INFINITY), 10), "> 1e149");
-        assert_eq!(certain(Interval::new(0.0, 5e-324), 10), "< 1e-322");
-        assert_eq!(certain(Interval::point(0.1), 10), "0.1");
-    }
+    let [d, d2, d3, r] = certificate.parameters.map(interval);
+    Answer::new("", About::boxed(&ParameterBox { d, d2, d3, r }).heading())
+        .table(columns, proved)
+        .lines([format!("{count} and no other, at any amplitude: {steps} steps checked")])
+        .told(Format::Table)
 }

@@ -7,10 +7,13 @@ use super::Format;
 use super::columns::lines;
 use crate::scan::grid::{Scan, ScanRow};
 use crate::scan::measure::Value;
-use crate::words::measured::{exact, rounded};
+use crate::words::number::measurement;
 
 /// Width of a column of the table: eight digits, sign, point and exponent.
 const WIDTH: usize = 14;
+
+/// Digits of a number in the table.
+const DIGITS: usize = 8;
 
 /// The rows of a scan: as JSON, an object on each line.
 impl Format {
@@ -23,74 +26,63 @@ impl Format {
 
     /// The line before the rows; empty if the form has none.
     pub fn heading(self, scan: &Scan) -> String {
-        let inputs = scan.inputs(0).into_iter().map(|(name, _)| name);
-        let measured = scan.measured().into_iter().chain(["reason"]).map(str::to_owned);
+        let inputs = self.inputs(scan, 0).into_iter().map(|(name, _)| name);
+        let names = inputs.chain(scan.measured().into_iter().map(str::to_owned));
         match self {
-            Format::Csv => inputs.chain(measured).collect::<Vec<_>>().join(",") + "\n",
+            Format::Csv => names.map(|name| name + ",").collect::<String>() + "reason\n",
             Format::Json => String::new(),
             Format::Table => {
-                let varied: Vec<_> =
-                    scan.over().iter().map(|sweep| sweep.symbol.spec().name).collect();
-                let names = varied.into_iter().chain(scan.measured());
-                names.map(column).collect::<String>().trim_end().to_owned() + "\n"
+                names.map(|name| column(&name)).collect::<String>().trim_end().to_owned() + "\n"
             }
         }
     }
 
     /// The beginning of the row of point `index`, which does not depend on what is measured there.
     pub fn beginning(self, scan: &Scan, index: usize) -> String {
-        let inputs = scan.inputs(index).into_iter();
-        match self {
-            Format::Csv => inputs.map(|(_, value)| exact(value) + ",").collect(),
-            Format::Json => {
-                let fields = inputs.map(|(name, value)| field(&name, value) + ",");
-                std::iter::once("{".to_owned()).chain(fields).collect()
-            }
-            Format::Table => {
-                let varies =
-                    |name: &str| scan.over().iter().any(|sweep| sweep.symbol.spec().name == name);
-                inputs
-                    .filter(|(name, _)| varies(name))
-                    .map(|(_, value)| column(&rounded(value)))
-                    .collect()
-            }
-        }
+        let inputs = self.inputs(scan, index).into_iter();
+        let cells = inputs.map(|(name, value)| self.cell(&name, value));
+        let open = if self == Format::Json { "{" } else { "" };
+        std::iter::once(open.to_owned()).chain(cells).collect()
     }
 
     /// The row of point `index`.
     pub fn line(self, scan: &Scan, index: usize, row: &ScanRow) -> String {
         let mut line = self.beginning(scan, index);
-        let values = row.values.iter().copied();
+        let values = scan.measured().into_iter().zip(&row.values);
+        line.extend(values.map(|(name, value)| self.cell(name, *value)));
+        let reason = row.reason.clone();
         match self {
+            // After another cell, as an empty one alone would be quoted.
             Format::Csv => {
-                let cells = values.map(exact).chain([row.reason.clone().unwrap_or_default()]);
-                line += &lines([cells.collect()]);
+                line + &lines([vec![String::new(), reason.unwrap_or_default()]]).split_off(1)
             }
             Format::Json => {
-                for (name, value) in scan.measured().into_iter().zip(values) {
-                    line += &(field(name, value) + ",");
-                }
-                let reason = serde_json::Value::from(row.reason.clone());
-                line += &format!("\"reason\":{reason}}}\n");
+                format!("{line}\"reason\":{}}}\n", serde_json::Value::from(reason))
             }
             Format::Table => {
-                line.extend(values.map(|value| column(&rounded(value))));
-                if let Some(reason) = &row.reason {
-                    line += &format!("  {reason}");
-                }
-                line.truncate(line.trim_end().len());
-                line.push('\n');
+                let reason = reason.map(|why| format!("  {why}")).unwrap_or_default();
+                (line + &reason).trim_end().to_owned() + "\n"
             }
         }
-        line
     }
-}
 
-fn field(name: &str, value: Value) -> String {
-    match value {
-        Value::Nothing => format!("\"{name}\":null"),
-        Value::Word(word) => format!("\"{name}\":\"{word}\""),
-        Value::Number(_) | Value::Count(_) => format!("\"{name}\":{}", exact(value)),
+    /// The inputs at a point, of which the table shows those that vary.
+    fn inputs(self, scan: &Scan, index: usize) -> Vec<(String, Value)> {
+        let varies = |name: &str| scan.over().iter().any(|it| it.symbol.spec().name == name);
+        let mut inputs = scan.inputs(index);
+        inputs.retain(|(name, _)| self != Format::Table || varies(name));
+        inputs
+    }
+
+    /// A value with its separator.
+    fn cell(self, name: &str, value: Value) -> String {
+        match (self, value) {
+            (Format::Table, _) => column(&measurement(value, Some(DIGITS))),
+            (Format::Csv, _) => measurement(value, None) + ",",
+            (Format::Json, Value::Nothing) => format!("\"{name}\":null,"),
+            (Format::Json, Value::Word(word)) => format!("\"{name}\":\"{word}\","),
+            (Format::Json, _) => format!("\"{name}\":{},", measurement(value, None)),
+        }
     }
 }
 

@@ -4,14 +4,12 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::json::{self};
-use super::{Answer, Columns, Document};
+use super::{Answer, Columns, Document, Quantity};
 use crate::flow::Cost;
 use crate::scene::said::said_by;
 use crate::scene::{Scene, Topic};
 use crate::session::Keymap;
 use crate::session::wants::named;
-use crate::words::duration;
 use crate::words::number::count;
 
 /// A name of a scene, and the scene.
@@ -23,8 +21,8 @@ fn columns<'a>() -> Columns<'a, SceneRow<'a>> {
         move |scene: &Scene, text: &str| keymap.fill(&said_by(scene, text), |key| key.to_string());
     let press = sentence.clone();
     Columns::default()
-        .file("name", |(name, _): &SceneRow| (*name).to_owned())
-        .file("title", |(_, scene)| scene.title.clone())
+        .word("name", |(name, _): &SceneRow| (*name).to_owned())
+        .word("title", |(_, scene)| scene.title.clone())
         .field("look", move |(_, scene)| sentence(scene, &scene.watch))
         .field("press", move |(_, scene)| press(scene, &scene.press))
         .field("parameters", |(_, scene)| scene.problem.parameters)
@@ -32,19 +30,11 @@ fn columns<'a>() -> Columns<'a, SceneRow<'a>> {
         .field("until", |(_, scene)| scene.problem.until)
 }
 
-/// Every scene; in rows one for each of its names.
+/// Every scene: one row for each of its names.
 pub fn scenes(scenes: &[Arc<Scene>]) -> Answer<'_> {
-    let rows = move || {
-        let scenes = scenes.iter().map(AsRef::as_ref);
-        scenes.flat_map(|scene: &Scene| scene.names().map(move |name| (name, scene)))
-    };
-    let text = move || {
-        let names = |scene: &Scene| scene.names().collect::<Vec<_>>().join(" ");
-        let width = scenes.iter().map(|scene| names(scene).chars().count()).max().unwrap_or(0);
-        let line = |scene: &Arc<Scene>| format!("{:width$}  {}\n", names(scene), scene.title);
-        scenes.iter().map(line).collect()
-    };
-    Answer::new(move || json::text(&columns().objects(rows())), move || columns().csv(rows()), text)
+    let scenes = scenes.iter().map(AsRef::as_ref);
+    let rows = scenes.flat_map(|scene: &Scene| scene.names().map(move |name| (name, scene)));
+    Answer::list_of(columns(), rows.collect())
 }
 
 /// A question that was answered, and what it cost.
@@ -87,10 +77,33 @@ fn sum(questions: &[QuestionCost]) -> (Cost, f64) {
     })
 }
 
-/// The costs of scenes: in rows one line for each question of each scene, when it opens and after each step.
+/// The costs of scenes: in rows one line for each question of each scene, when it opens and after each step; in text
+/// one table for each scene.
 pub fn costs(scenes: &[SceneCost]) -> Answer<'_> {
-    let json = move || json::text(&scenes.iter().map(document).collect::<Vec<_>>());
-    Answer::new(json, move || csv(scenes), move || table(scenes))
+    let asked = scenes.iter().flat_map(|found| {
+        let opening = found.questions.iter().map(|one| AskedRow::of_question(found, one));
+        let steps = found.steps.iter().flat_map(|step| {
+            let again = step.recomputed.chunks(1);
+            again.map(|asked| AskedRow::after(found, step, asked))
+        });
+        opening.chain(steps)
+    });
+    let answer = Answer::default()
+        .array(move || scenes.iter().map(document).collect::<Vec<_>>())
+        .csv(cost_columns(), asked);
+    scenes.iter().fold(answer, |answer, found| {
+        let opening = found.questions.iter().map(|one| AskedRow::of_question(found, one));
+        let steps = found.steps.iter().map(|step| AskedRow::after(found, step, &step.recomputed));
+        let formulas = format!("by formulas: {}", found.formulas.join(", "));
+        answer
+            .lines([format!("{}: {}", found.scene.name, found.scene.title)])
+            .captioned("", || {
+                cost_columns()
+                    .table(opening.chain([AskedRow::of_all(found)]).chain(steps))
+                    .unbroken()
+            })
+            .lines((!found.formulas.is_empty()).then_some(formulas))
+    })
 }
 
 fn document(found: &SceneCost) -> Document {
@@ -114,66 +127,56 @@ fn document(found: &SceneCost) -> Document {
         .with("steps", found.steps.iter().map(step).collect::<Vec<_>>())
 }
 
-fn csv(scenes: &[SceneCost]) -> String {
-    type QuestionRow<'a> = (&'a SceneCost, &'static str, &'a QuestionCost);
-    let columns = Columns::default()
-        .file("scene", |(found, ..): &QuestionRow| found.scene.name.clone())
-        .file("after", |(_, after, _)| *after)
-        .file("question", |(.., question)| question.topic)
-        .fields(&Cost::default(), |(.., question)| Some(question.cost))
-        .file("seconds", |(.., question)| question.seconds);
-    let rows = scenes.iter().flat_map(|found| {
-        let steps = found.steps.iter().map(|step| (step.name, &step.recomputed));
-        let asked = std::iter::once(("opening", &found.questions)).chain(steps);
-        asked.flat_map(move |(after, all)| all.iter().map(move |one| (found, after, one)))
-    });
-    columns.csv(rows)
-}
-
-/// A line of the table of a scene.
-struct PriceRow {
+/// Questions of a scene that are answered together.
+struct AskedRow<'a> {
+    scene: &'a str,
+    after: &'static str,
+    asked: &'a [QuestionCost],
     what: String,
-    cost: Cost,
-    seconds: f64,
     remark: String,
 }
 
-/// As readable text: one table for each scene.
-fn table(scenes: &[SceneCost]) -> String {
-    let one = |found: &SceneCost| {
-        let question = |question: &QuestionCost| PriceRow {
+impl<'a> AskedRow<'a> {
+    fn of_question(found: &'a SceneCost, question: &'a QuestionCost) -> Self {
+        AskedRow {
+            asked: std::slice::from_ref(question),
             what: question.topic.name().to_owned(),
-            cost: question.cost,
-            seconds: question.seconds,
             remark: format!("for {}", question.layers.join(", ")),
-        };
-        let summed = |what: String, questions: &[QuestionCost], remark: String| {
-            let (cost, seconds) = sum(questions);
-            PriceRow { what, cost, seconds, remark }
-        };
+            ..Self::of_all(found)
+        }
+    }
+
+    /// All that a scene asks when it opens.
+    fn of_all(found: &'a SceneCost) -> Self {
+        let what = "all of it".to_owned();
+        let (scene, asked) = (&found.scene.name, &found.questions);
+        AskedRow { scene, after: "opening", asked, what, remark: String::new() }
+    }
+
+    /// Some of what a step asks again.
+    fn after(found: &'a SceneCost, step: &'a StepCost, asked: &'a [QuestionCost]) -> Self {
         let part = |name: &str, topics: &[Topic]| {
             (!topics.is_empty()).then(|| format!("{name} {}", named(topics, ", ")))
         };
-        let step = |step: &StepCost| {
-            let again: Vec<Topic> = step.recomputed.iter().map(|asked| asked.topic).collect();
-            let [again, kept] = [part("recomputes", &again), part("reuses", &step.reused)];
-            let remark = again.into_iter().chain(kept).collect::<Vec<_>>().join("; ");
-            summed(format!("a step of {}", step.name), &step.recomputed, remark)
-        };
-        let all = summed("all of it".to_owned(), &found.questions, String::new());
-        let rows = found.questions.iter().map(question).chain([all]);
-        let table = Columns::default()
-            .text("", |row: &PriceRow| format!("{:<22}", row.what))
-            .text("evaluations", |row| count(row.cost.evaluations))
-            .text("steps", |row| count(row.cost.steps))
-            .text("time", |row| duration(row.seconds))
-            .text("", |row| row.remark.clone())
-            .table(rows.chain(found.steps.iter().map(step)));
-        let formulas = match &found.formulas[..] {
-            [] => String::new(),
-            formulas => format!("by formulas: {}\n", formulas.join(", ")),
-        };
-        format!("{}: {}\n{table}{formulas}", found.scene.name, found.scene.title)
-    };
-    scenes.iter().map(one).collect::<Vec<_>>().join("\n")
+        let again: Vec<Topic> = asked.iter().map(|asked| asked.topic).collect();
+        let [again, kept] = [part("recomputes", &again), part("reuses", &step.reused)];
+        let remark = again.into_iter().chain(kept).collect::<Vec<_>>().join("; ");
+        let what = format!("a step of {}", step.name);
+        AskedRow { after: step.name, asked, what, remark, ..Self::of_all(found) }
+    }
+}
+
+fn cost_columns<'a>() -> Columns<'a, AskedRow<'a>> {
+    let cost = |row: &AskedRow| sum(row.asked).0;
+    Columns::default()
+        .file("scene", |row: &AskedRow| row.scene.to_owned())
+        .file("after", |row| row.after)
+        .file("question", |row| row.asked.first().map(|asked| asked.topic))
+        .text("question", |row| row.what.clone())
+        .fields(&Cost::default(), move |row| Some(cost(row)))
+        .text("evaluations", move |row| count(cost(row).evaluations))
+        .text("steps", move |row| count(cost(row).steps))
+        .number("seconds", Quantity::of("s", 2), |row| sum(row.asked).1)
+        .titled("time")
+        .text("", |row| row.remark.clone())
 }

@@ -1,76 +1,170 @@
-//! Aligned columns of text, for reading.
+//! Aligned columns of text, for reading: on a screen, and on a page.
 
 use std::fmt;
 
 use crate::numerics::elementary::powi;
 
-/// A table: titles, and rows with at most as many cells. Numbers are aligned at their decimal points.
+/// Width of a screen that every table fits.
+const SCREEN: usize = 80;
+
+/// A table: titles, and rows with as many cells. Words begin, and the points of numbers stand, below each other.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table {
-    pub(super) titles: Vec<&'static str>,
+    pub(super) titles: Vec<String>,
     pub(super) rows: Vec<Vec<String>>,
+    /// Whether its lines may be longer than a screen is wide, as where they are wrapped.
+    is_unbroken: bool,
+}
+
+/// How the cells of a column are set.
+enum Alignment {
+    Words {
+        width: usize,
+    },
+    Numbers {
+        /// Characters before the decimal points, and from there on.
+        whole: usize,
+        part: usize,
+    },
 }
 
 impl Table {
+    /// A table of these titles and rows.
+    pub(super) fn new(titles: Vec<String>, rows: Vec<Vec<String>>) -> Self {
+        Table { titles, rows, is_unbroken: false }
+    }
+
+    /// The same with lines of any length.
+    pub(super) fn unbroken(self) -> Self {
+        Table { is_unbroken: true, ..self }
+    }
+
     /// Whether there is nothing to show.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty() || self.titles.is_empty()
     }
 
-    /// The table as text with left-aligned columns, for words.
-    pub fn aligned_left(&self) -> String {
-        self.aligned(|_| true)
+    /// The same with rows as columns; the first cell of a row becomes its title.
+    pub(super) fn transposed(&self) -> Table {
+        let lines = std::iter::once(&self.titles).chain(&self.rows);
+        let line = |at: usize| lines.clone().map(|line| line[at].clone()).collect::<Vec<_>>();
+        let mut lines = (0..self.titles.len()).map(line);
+        Table::new(lines.next().unwrap_or_default(), lines.collect())
     }
 
-    /// The table as text whose columns are aligned at the left or at the right.
-    pub(super) fn aligned(&self, is_left: impl Fn(usize) -> bool) -> String {
-        let titles = self.titles.iter().map(|title| (*title).to_owned()).collect();
-        let rows: Vec<&Vec<String>> = std::iter::once(&titles).chain(&self.rows).collect();
-        let width = |column: usize| {
-            let cells = rows.iter().filter_map(|row| row.get(column));
-            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
-        };
-        let widths: Vec<usize> = (0..titles.len()).map(width).collect();
-        let line = |row: &&Vec<String>| {
-            let cells = row.iter().zip(&widths).enumerate().map(|(column, (cell, &width))| {
-                if is_left(column) { format!("{cell:width$}") } else { format!("{cell:>width$}") }
-            });
-            cells.collect::<Vec<_>>().join("  ").trim_end().to_owned() + "\n"
-        };
-        rows.iter().map(line).collect()
+    /// The same without columns in which nothing stands.
+    pub(super) fn lean(&self) -> Table {
+        let stands = |at: &usize| self.rows.iter().any(|row| !["", "-"].contains(&&*row[*at]));
+        let columns: Vec<usize> = (0..self.titles.len()).filter(stands).collect();
+        self.of(&columns)
     }
 
-    /// Width of a column before the decimal points, and from there on.
-    fn widths(&self, column: usize) -> (usize, usize) {
-        let cells = self.rows.iter().filter_map(|row| row.get(column));
-        let (whole, part) = cells.map(|cell| split(cell)).fold((0, 0), |widest, (whole, part)| {
-            (widest.0.max(whole.chars().count()), widest.1.max(part.chars().count()))
+    /// Some of its columns.
+    fn of(&self, columns: &[usize]) -> Table {
+        let of = |line: &Vec<String>| columns.iter().map(|at| line[*at].clone()).collect();
+        Table::new(of(&self.titles), self.rows.iter().map(of).collect())
+    }
+
+    /// The titles and the rows, each cell padded to the width of its column.
+    pub(super) fn padded(&self) -> Vec<Vec<String>> {
+        let columns: Vec<_> = (0..self.titles.len()).map(|at| self.alignment(at)).collect();
+        let titles = self.titles.iter().zip(&columns);
+        let titles = titles.map(|(title, column)| column.title(title)).collect();
+        let cells = |row: &Vec<String>| {
+            row.iter().zip(&columns).map(|(cell, column)| column.cell(cell)).collect()
+        };
+        std::iter::once(titles).chain(self.rows.iter().map(cells)).collect()
+    }
+
+    pub(super) fn is_number(&self, at: usize) -> bool {
+        matches!(self.alignment(at), Alignment::Numbers { .. })
+    }
+
+    fn alignment(&self, at: usize) -> Alignment {
+        let length = |text: &str| text.chars().count();
+        let cells = || self.rows.iter().map(|row| row[at].as_str());
+        let title = length(&self.titles[at]);
+        if cells().all(is_gap) || !cells().all(|cell| is_gap(cell) || is_number(cell)) {
+            let width = cells().map(length).fold(title, usize::max);
+            return Alignment::Words { width };
+        }
+        let (whole, part) = cells().map(split).fold((0, 0), |widest, (whole, part)| {
+            (widest.0.max(length(whole)), widest.1.max(length(part)))
         });
-        let title = self.titles.get(column).map_or(0, |title| title.chars().count());
-        (whole.max(title.saturating_sub(part)), part)
+        Alignment::Numbers { whole: whole.max(title.saturating_sub(part)), part }
     }
+
+    /// The table on lines of any length.
+    fn lines(&self) -> String {
+        let lines = self.padded().into_iter();
+        lines.map(|line| line.join("  ").trim_end().to_owned() + "\n").collect()
+    }
+
+    /// Columns that fit a screen together, and those of the tables that continue it; each begins with the first. Words at
+    /// the end of a line may be long.
+    fn parts(&self) -> Vec<Vec<usize>> {
+        let titles = self.padded().swap_remove(0);
+        let width = |at: &usize| titles[*at].chars().count() + 2;
+        let mut parts = vec![vec![]];
+        for at in 0..titles.len() {
+            let last = parts.len() - 1;
+            let full = parts[last].iter().map(width).sum::<usize>() + width(&at) > SCREEN + 2;
+            let is_remark = at + 1 == titles.len() && !self.is_number(at);
+            if full && parts[last].len() > 1 && !is_remark {
+                parts.push(vec![0, at]);
+            } else {
+                parts[last].push(at);
+            }
+        }
+        parts
+    }
+}
+
+/// A table that is too wide for a screen is continued below itself.
+impl fmt::Display for Table {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_unbroken {
+            return out.write_str(&self.lines());
+        }
+        let parts = self.parts();
+        let parts = parts.iter().map(|columns| self.of(columns).lines());
+        out.write_str(&parts.collect::<Vec<_>>().join("\n"))
+    }
+}
+
+impl Alignment {
+    fn title(&self, title: &str) -> String {
+        match self {
+            Alignment::Words { width } => format!("{title:width$}"),
+            Alignment::Numbers { whole, part } => format!("{title:>0$}", whole + part),
+        }
+    }
+
+    fn cell(&self, cell: &str) -> String {
+        match self {
+            Alignment::Words { width } => format!("{cell:width$}"),
+            Alignment::Numbers { whole, part } => {
+                let (before, after) = split(cell);
+                format!("{before:>whole$}{after:part$}")
+            }
+        }
+    }
+}
+
+/// Whether a cell stands for a number that does not exist.
+fn is_gap(cell: &str) -> bool {
+    ["", "-", "?", "none", "any"].contains(&cell)
+}
+
+/// Whether a cell begins with a number.
+fn is_number(cell: &str) -> bool {
+    let cell = cell.trim_start_matches(['-', '<', '>', ' ']);
+    cell.starts_with(|char: char| char.is_ascii_digit()) || cell.starts_with("exp(")
 }
 
 /// A cell before its decimal point, and from there on.
 fn split(cell: &str) -> (&str, &str) {
     cell.split_at(cell.find('.').unwrap_or(cell.len()))
-}
-
-impl fmt::Display for Table {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let widths: Vec<_> = (0..self.titles.len()).map(|column| self.widths(column)).collect();
-        let titles = self.titles.iter().zip(&widths);
-        let titles = titles.map(|(title, (whole, part))| format!("{title:>0$}", whole + part));
-        writeln!(out, "{}", titles.collect::<Vec<_>>().join("  "))?;
-        for row in &self.rows {
-            let cells = row.iter().zip(&widths).map(|(cell, &(before, after))| {
-                let (whole, part) = split(cell);
-                format!("{whole:>before$}{part:<after$}")
-            });
-            writeln!(out, "{}", cells.collect::<Vec<_>>().join("  ").trim_end())?;
-        }
-        Ok(())
-    }
 }
 
 /// Number of digits to show for a tolerance, 3 to 16.
@@ -84,12 +178,31 @@ pub(super) fn digits(tolerance: f64) -> usize {
 mod tests {
     use super::*;
 
+    fn table(titles: &[&str], rows: &[&[&str]]) -> Table {
+        let owned = |cells: &&[&str]| cells.iter().map(|&cell| cell.to_owned()).collect();
+        Table::new(owned(&titles), rows.iter().map(owned).collect())
+    }
+
     #[test]
-    fn points_of_numbers_stand_above_each_other() {
-        let cells = [["1.5", "-0.25"], ["10.25", "1"], ["100", "-"]];
-        let rows = cells.map(|row| row.map(str::to_owned).to_vec()).to_vec();
-        let table = Table { titles: vec!["tau", "q"], rows };
-        assert_eq!(table.to_string(), "   tau      q\n  1.5   -0.25\n 10.25   1\n100      -\n");
+    fn points_of_numbers_and_beginnings_of_words_stand_above_each_other() {
+        let table = table(
+            &["tau", "q", "ends"],
+            &[&["1.5", "-0.25", "at rest"], &["10.25", "1", "-"], &["100", "-", "so"]],
+        );
+        let shown =
+            "   tau      q    ends\n  1.5   -0.25  at rest\n 10.25   1     -\n100      -     so\n";
+        assert_eq!(table.to_string(), shown);
+        assert_eq!(table.transposed().transposed(), table);
+    }
+
+    #[test]
+    fn a_wide_table_is_continued_below_itself() {
+        let cells = ["a"; 30].map(|cell| cell.repeat(3));
+        let cells: Vec<&str> = cells.iter().map(String::as_str).collect();
+        let shown = table(&cells, &[&cells]).to_string();
+        assert!(shown.lines().all(|line| line.len() <= SCREEN), "{shown}");
+        // Fifteen of the other columns, and fourteen.
+        assert_eq!((shown.matches("aaa").count(), shown.lines().count()), (2 * 31, 5));
     }
 
     #[test]

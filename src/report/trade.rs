@@ -1,7 +1,7 @@
 //! Error against cost, in every form of output: one row for each method and accuracy.
 
-use super::motion::question;
-use super::{About, Answer, Columns, Document, Quantity};
+use super::motion::{ending, from};
+use super::{About, Answer, Columns, Document, Quantity, Table};
 use crate::accuracy::machine_trade::MachineTrade;
 use crate::accuracy::reference::{Deviation, Reference, ReferenceSource};
 use crate::accuracy::trade;
@@ -73,36 +73,37 @@ fn dial_columns<'a>() -> Columns<'a, TradeRow<'a>> {
     })
 }
 
-/// The columns of rows that have an error.
+/// The columns of rows that have an error. The best choices are marked with `*`, the method in use with `<`.
 fn columns<'a>() -> Columns<'a, TradeRow<'a>> {
-    let own_marks = |row: &TradeRow| {
+    let marks = |row: &TradeRow| {
         let best = if row.front { "*" } else { "" };
         let own = if row.own { "<" } else { "" };
-        format!("{best} {own}").trim().to_owned()
+        format!("{best}{own}")
     };
     Columns::default()
         .word("method", |row: &TradeRow| row.point.problem.method)
         .text("set to", |row| row.setting().unwrap_or("-".to_owned()))
         .file("used", |row| row.answered().map(|it| it.method))
         .and(dial_columns())
-        .file("error", TradeRow::error)
-        .text("error", |row| row.error().map_or("-".to_owned(), |error| format!("{error:.1e}")))
-        .file("evaluations", |row| row.point.cost.evaluations)
-        .text("evaluations", |row| count(row.point.cost.evaluations))
-        .file("seconds", |row| row.deviation.map(|_| row.seconds))
-        .text("time", |row| duration(row.seconds))
+        .number("error", Quantity::pure(2), TradeRow::error)
+        .word("evaluations", |row| row.point.cost.evaluations)
+        .number("seconds", Quantity::of("s", 2), |row| row.deviation.map(|_| row.seconds))
+        .titled("time")
         .file("steps", |row| row.answered().map(|it| it.cost.steps))
         .file("rejected", |row| row.answered().map(|it| it.cost.rejected))
         .field("outcome", |row| row.point.outcome)
-        .file("turns", |row| row.answered().map(|it| it.turns))
-        .text("half swings", |row| row.point.turns.to_string())
+        .word("turns", |row| row.answered().map(|it| it.turns))
         .file("time_error", |row| row.deviation.map(|it| it.time))
         .file("agrees", |row| row.deviation.map(|it| it.agrees))
         .file("front", |row| row.deviation.map(|_| row.front))
         .file("front_by_evaluations", |row| row.deviation.map(|_| row.front_by_evaluations))
         .file("own", |row| row.deviation.map(|_| row.own))
-        .text("ends", |row| end_of(&row.point.outcome))
-        .text("", own_marks)
+        .text("ends", |row| ending(&row.point.outcome).0.to_owned())
+        .text("at", |row| {
+            let (_, tau, q, _) = ending(&row.point.outcome);
+            significant(q.unwrap_or(tau), 6)
+        })
+        .text("", marks)
 }
 
 impl TimedTrade {
@@ -151,59 +152,49 @@ fn reference(trade: &Trade) -> String {
 /// The trade-off of the oscillator of the paper, with a plot of it below the text: one line for each method and accuracy;
 /// those without an error come last.
 pub fn trade<'a>(
-    about: &'a About,
+    about: &About,
     timed: &'a TimedTrade,
-    plot: impl FnOnce() -> String + 'a,
+    plot: impl FnOnce() -> String,
 ) -> Answer<'a> {
-    let json = || {
-        let Trade { problem, reference: known, .. } = &timed.trade;
-        let (rows, unanswered) = timed.rows();
-        let without_error = Columns::default()
-            .file("method", |row: &TradeRow| row.point.problem.method)
-            .and(dial_columns())
-            .file("reason", TradeRow::reason)
-            .file("evaluations", |row| row.point.cost.evaluations);
-        Document::default()
-            .with("parameters", problem.parameters)
-            .with("initial", problem.initial)
-            .with("until", problem.until)
-            .with("reference", reference(&timed.trade))
-            .with("reference_error", known.error)
-            .with("scale", known.scale)
-            .with("turns", known.turns.len())
-            .with("rows", columns().objects(rows))
-            .with("unanswered", without_error.objects(unanswered))
-            .text()
-    };
-    let csv = || {
-        let (rows, unanswered) = timed.rows();
-        columns().file("reason", TradeRow::reason).csv(rows.into_iter().chain(unanswered))
-    };
-    Answer::new(json, csv, move || text(about, timed) + &plot() + "\n" + &digits(timed))
-}
-
-/// A table of all rows. The best choices are marked with `*`, the method in use with `<`.
-fn text(about: &About, timed: &TimedTrade) -> String {
     let Trade { problem, reference: known, .. } = &timed.trade;
-    let mut out = format!(
-        "{}; until tau = {}\n{}\nreference: {}\n\n",
-        question(about, problem),
-        significant(problem.until, 6),
-        ending(known),
-        reference(&timed.trade)
-    );
+    let until = format!("{}; until tau = {}", from(problem), significant(problem.until, 6));
     let (rows, unanswered) = timed.rows();
-    out += &columns().table(rows).to_string();
-    for row in unanswered {
+    let given_up = unanswered.iter().map(|row| {
         let setting = row.setting().map_or_else(String::new, |setting| format!(" at {setting}"));
-        let reason = row.reason().unwrap_or_default();
-        out += &format!("{}{setting}: {reason}\n", row.point.problem.method);
-    }
-    out + "\n*: nothing else is better for less time; <: the method in use\n\n"
+        format!("{}{setting}: {}", row.point.problem.method, row.reason().unwrap_or_default())
+    });
+    let given_up: Vec<_> = given_up.collect();
+    about
+        .answer_to(&until)
+        .fields(move |all| {
+            let without_error = Columns::default()
+                .file("method", |row: &TradeRow| row.point.problem.method)
+                .and(dial_columns())
+                .file("reason", TradeRow::reason)
+                .file("evaluations", |row| row.point.cost.evaluations);
+            all.with("initial", problem.initial)
+                .with("until", problem.until)
+                .with("reference", reference(&timed.trade))
+                .with("reference_error", known.error)
+                .with("scale", known.scale)
+                .with("turns", known.turns.len())
+                .with("rows", columns().objects(timed.rows().0))
+                .with("unanswered", without_error.objects(timed.rows().1))
+        })
+        .csv(
+            columns().file("reason", TradeRow::reason),
+            timed.rows().0.into_iter().chain(unanswered),
+        )
+        .lines([end_of(known), format!("reference: {}", reference(&timed.trade))])
+        .captioned("", || columns().table(rows).unbroken())
+        .lines(given_up)
+        .lines(["*: nothing else is better for less time; <: the method in use"])
+        .lines(["\n".to_owned() + &plot()])
+        .captioned("", || digits(timed))
 }
 
 /// How the motion ends, in a sentence.
-fn ending(reference: &Reference) -> String {
+fn end_of(reference: &Reference) -> String {
     let swings = counted(reference.turns.len(), "half swing");
     match reference.end {
         Outcome::Captured { q, .. } => {
@@ -219,22 +210,12 @@ fn ending(reference: &Reference) -> String {
     }
 }
 
-/// How a row ends, in a few words.
-fn end_of(outcome: &Outcome) -> String {
-    match outcome {
-        Outcome::Captured { q, .. } => format!("rests at {}", significant(*q, 6)),
-        Outcome::Moving { q, .. } => format!("moving at {}", significant(*q, 6)),
-        Outcome::Escaped { tau } => format!("escapes at {}", significant(*tau, 6)),
-        Outcome::GaveUp { .. } => "gave up".to_owned(),
-    }
-}
-
 /// The errors whose cost [`digits`] shows.
 const LEVELS: [(f64, &str); 5] =
     [(1e-2, "1e-2"), (1e-4, "1e-4"), (1e-6, "1e-6"), (1e-9, "1e-9"), (1e-12, "1e-12")];
 
 /// The cost of accuracy: for each method the cheapest row within each error, and the factor for one more digit.
-fn digits(timed: &TimedTrade) -> String {
+fn digits(timed: &TimedTrade) -> Table {
     type MethodRows<'a> = (&'a MethodSpec, Vec<TradeRow<'a>>);
     let (mut rows, _) = timed.rows();
     let of = |spec: &'static MethodSpec| {
@@ -256,8 +237,8 @@ fn digits(timed: &TimedTrade) -> String {
             some => format!("{some} of {}", rows.len()),
         }
     };
-    let columns = Columns::default()
-        .text("evaluations (time) for an error of", |(spec, _): &MethodRows| spec.name.to_owned());
+    let columns =
+        Columns::default().text("cost of an error", |(spec, _): &MethodRows| spec.name.to_owned());
     let columns = LEVELS.into_iter().fold(columns, |columns, (error, title)| {
         columns.text(title, move |(_, rows)| cheapest(rows, error).unwrap_or("-".to_owned()))
     });
@@ -267,7 +248,6 @@ fn digits(timed: &TimedTrade) -> String {
         })
         .text("ends right", move |(_, rows)| right(rows))
         .table(methods)
-        .to_string()
 }
 
 /// The factor by which one more digit multiplies the evaluations, from the least to the most accurate row; `None`
@@ -287,42 +267,39 @@ fn growth(rows: &[TradeRow]) -> Option<f64> {
 
 /// Error against cost of every method on one motion of a machine; `seconds` has the time of each row.
 pub fn of_machine<'a>(
-    about: &'a About,
+    about: &About,
     MachineProblem { start: (q, v), until, .. }: &'a MachineProblem,
     found: &'a MachineTrade,
     seconds: &'a [f64],
 ) -> Answer<'a> {
     type TimedRow<'a> = (&'a MachineMotion, f64, f64);
     const REFERENCE: &str = "Taylor series whose last terms are below rounding";
-    let columns = || {
-        Columns::default()
-            .word("method", |(motion, ..): &TimedRow| motion.method)
-            .number("tolerance", Quantity::pure(3), |(motion, ..)| motion.tolerance)
-            .number("error", Quantity::pure(3), |(_, error, _)| *error)
-            .word("evaluations", |(motion, ..)| motion.cost.evaluations)
-            .number("seconds", Quantity::of("s", 3), |(.., seconds)| *seconds)
-            .word("steps", |(motion, ..)| motion.cost.steps)
-    };
+    let columns = Columns::default()
+        .word("method", |(motion, ..): &TimedRow| motion.method)
+        .number("tolerance", Quantity::pure(3), |(motion, ..)| motion.tolerance)
+        .number("error", Quantity::pure(3), |(_, error, _)| *error)
+        .word("evaluations", |(motion, ..)| motion.cost.evaluations)
+        .number("seconds", Quantity::of("s", 3), |(.., seconds)| *seconds)
+        .word("steps", |(motion, ..)| motion.cost.steps);
     let rows = move || {
         let timed = found.points.iter().zip(seconds);
         timed.filter_map(|(point, &seconds)| Some((&point.motion, point.error?, seconds)))
     };
-    let document = move || {
-        Document::default()
-            .with("initial", Document::default().with("q", q).with("v", v))
-            .with("until", until)
-            .with("reference", REFERENCE)
-            .with("rows", columns().objects(rows()))
-    };
-    let text = move || {
-        let lost = found.points.iter().filter(|point| point.error.is_none()).map(|point| {
-            let MachineMotion { method, tolerance, .. } = point.motion;
-            format!("{method} at {tolerance:e}: not the same standstills\n")
-        });
-        let lost: String = lost.collect();
-        let table = columns().table(rows()).aligned_left();
-        format!("{}\n\n{table}\nerrors against {REFERENCE}\n{lost}", about.heading(&[]))
-    };
-    let (cost, seconds) = (found.reference.cost, seconds.iter().sum());
-    about.answer(cost, seconds, document, move || columns().csv(rows()), text)
+    let objects = columns.clone();
+    let lost = found.points.iter().filter(|point| point.error.is_none()).map(|point| {
+        let MachineMotion { method, tolerance, .. } = point.motion;
+        format!("{method} at {tolerance:e}: not the same standstills")
+    });
+    about
+        .answer()
+        .fields(move |all| {
+            all.with("initial", Document::default().with("q", q).with("v", v))
+                .with("until", until)
+                .with("reference", REFERENCE)
+                .with("rows", objects.objects(rows()))
+        })
+        .rows(columns, rows())
+        .lines([format!("errors against {REFERENCE}")])
+        .lines(lost)
+        .cost(found.reference.cost, seconds.iter().sum())
 }

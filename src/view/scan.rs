@@ -17,8 +17,7 @@ use crate::scan::measure::Value;
 use crate::scan::sweep::Sweep;
 use crate::scene::View;
 use crate::session::scan::{ScanOnShow, ScanProgress, WORDS};
-use crate::words::measured::rounded;
-use crate::words::number::remaining;
+use crate::words::number::{measurement, remaining};
 use crate::words::significant;
 
 /// Digits of a value, as many as fit; the first are those of a table.
@@ -89,7 +88,9 @@ fn reading(scanned: &ScanOnShow, width: usize) -> String {
     let found = |digits: usize| match (&row.reason, row.values.get(scanned.column)) {
         (Some(reason), _) => format!("- {reason}"),
         (None, Some(Value::Number(value))) => significant(*value, digits),
-        (None, Some(value)) => nothing(scanned, scanned.at).map_or(rounded(*value), str::to_owned),
+        (None, Some(value)) => {
+            nothing(scanned, scanned.at).map_or(measurement(*value, Some(8)), str::to_owned)
+        }
         (None, None) => String::new(),
     };
     let text = |digits: &usize| {
@@ -174,7 +175,9 @@ fn columns(scanned: &ScanOnShow, rows: Range<usize>) -> Vec<Vec<String>> {
     let found = |offset: usize| {
         let column = (scanned.column + offset) % measured.len();
         let value = |index: usize| scanned.rows[index].values.get(column);
-        let cells = rows.clone().map(|index| rounded(*value(index).unwrap_or(&Value::Nothing)));
+        let cells = rows
+            .clone()
+            .map(|index| measurement(*value(index).unwrap_or(&Value::Nothing), Some(8)));
         std::iter::once(measured[column].to_owned()).chain(cells).collect()
     };
     over.iter().enumerate().map(parameter).chain((0..measured.len()).map(found)).collect()

@@ -2,16 +2,13 @@
 
 pub mod claim;
 pub mod fit;
-pub mod measured;
 pub mod motion;
 pub mod number;
 pub mod printable;
 pub mod provenance;
-pub mod quantity;
 pub mod statement;
 
-pub use number::{duration, significant};
-pub use quantity::with_unit;
+pub use number::{duration, significant, with_unit};
 
 use std::borrow::Cow;
 

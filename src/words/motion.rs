@@ -2,7 +2,7 @@
 
 use super::counted;
 use super::number::significant;
-use super::quantity::with_unit;
+use super::number::with_unit;
 use crate::flow::{Outcome, Trajectory};
 use crate::model::belt::Units;
 

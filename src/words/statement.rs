@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 
+use super::number::with_unit;
 use super::number::{rounded_down, significant};
-use super::quantity::with_unit;
 use crate::fit::{
     Condition, D, Fitted, MarginQuestion, Margins, NAMES, Rival, StartKind, conditions,
 };

@@ -135,7 +135,7 @@ fn a_page_of_a_fit_says_what_its_document_says() {
         near(&cells[1], &it["value"], 0.05 * error);
         assert_eq!(cells[3], it["unit"].as_str().unwrap());
     }
-    let cells = row(&document, "smallest impulse not survived, from any rest position");
+    let cells = row(&document, "margin impulse from rest");
     let spread = &told["physical"]["from_rest"]["impulse"];
     for (cell, key) in [(1, "median"), (2, "lower"), (3, "upper")] {
         near(&cells[cell], &spread[key], 1e-3 * number(&spread[key]));

@@ -2,27 +2,25 @@
 
 use std::collections::BTreeMap;
 
-use super::expansion;
-use super::text::{DesignAnswer, MachineAnswer, OnBelt};
+use super::{DesignAnswer, MachineAnswer, OnBelt, expansion};
 use crate::flow::machine::motion::MachineState;
 use crate::flow::{Fate, MachineMotion};
 use crate::model::Group;
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::portrait::guarantee::Uncertain;
 use crate::portrait::{Course, CubicExpansion, Cycle, Margin, Portrait};
-use crate::report::Document;
-use crate::report::cycle_numbers::NUMBERS;
+use crate::report::cycle_numbers::of_machine;
 use crate::report::motion::{energy, phases};
+use crate::report::{Columns, Document};
 
 /// The whole answer about a machine as a document.
-pub(super) fn document(answer: &MachineAnswer) -> Document {
+pub(super) fn document(all: Document, answer: &MachineAnswer) -> Document {
     let MachineAnswer { course, on_belt, rest_share, .. } = answer;
     let on_belt = on_belt.as_ref();
     let certain = |belt: &OnBelt| Some(guaranteed(belt, belt.certain.as_ref()?));
     let expanded = |belt: &OnBelt| expansion::document(&belt.expansion, &course.portrait);
     let quantities = on_belt.map(|belt| quantities(&belt.expansion));
-    Document::default()
-        .with("model", "whole")
+    all.with("model", "whole")
         .and(&quantities.unwrap_or_default())
         .and(&motions(&course.portrait))
         .with("motion", motion(answer.start, course))
@@ -87,7 +85,7 @@ fn motions(portrait: &Portrait) -> Document {
         Document::default().with("displacement", portrait.known).with("reason", stop.to_string())
     });
     Document::default()
-        .with("cycles", portrait.cycles.iter().map(cycle_document).collect::<Vec<_>>())
+        .with("cycles", cycle_columns().objects(&portrait.cycles))
         .with("neutral", portrait.neutral)
         .with("border", Document::default().with("kind", portrait.border))
         .with("margin", margin)
@@ -154,15 +152,14 @@ fn design(designed: &DesignAnswer) -> Document {
         .with("message", designed.sentence())
 }
 
-/// A cycle as an object.
-fn cycle_document(cycle: &Cycle) -> Document {
-    let document = Document::default()
-        .with("kind", cycle.kind())
-        .with("overtakes", cycle.overtakes)
-        .with("stable", cycle.stable);
-    let shown = NUMBERS.iter().filter(|number| !number.title.is_empty());
-    shown
-        .fold(document, |all, number| all.with(&number.physical_name(), (number.value)(cycle)))
+/// The columns of a cycle, beside which `x` is the displacement.
+fn cycle_columns<'a>() -> Columns<'a, Cycle> {
+    let columns = Columns::default()
+        .field("kind", Cycle::kind)
+        .field("overtakes", |cycle| cycle.overtakes)
+        .field("stable", |cycle| cycle.stable);
+    of_machine()
+        .fold(columns, |all, number| all.file(&number.physical_name(), number.value))
         // Null for a multiplier of 0.
-        .with("log_multiplier", cycle.log_multiplier)
+        .field("log_multiplier", |cycle| cycle.log_multiplier)
 }

@@ -7,50 +7,36 @@ use crate::report::Document;
 use crate::report::answer::PLACES;
 use crate::words::{significant, with_unit};
 
-/// The margins of the expansion: dimensionless, physical, and by how much its displacement and its impulse exceed those
-/// of the whole model, where both exist.
-struct ExpandedMargin {
-    dimensionless: Margin,
-    physical: PhysicalMargin,
-    error: [Option<f64>; 2],
+/// The margin of an expansion, dimensionless and physical; `None` if it has no answer.
+fn margins(expansion: &CubicExpansion) -> Option<(Margin, PhysicalMargin)> {
+    let own = expansion.cycles.as_ref().ok()?.picture.as_ref()?.margin;
+    Some((own, PhysicalMargin::new(&own, &expansion.reduced.units)))
 }
 
-impl ExpandedMargin {
-    /// `None` if the expansion has no answer.
-    fn new(expansion: &CubicExpansion, portrait: &Portrait) -> Option<Self> {
-        let dimensionless = expansion.cycles.as_ref().ok()?.picture.as_ref()?.margin;
-        let physical = PhysicalMargin::new(&dimensionless, &expansion.reduced.units);
-        let whole = portrait.margin;
-        let excess = |own: Option<f64>, whole: Option<f64>| Some(own? - whole?);
-        let error = [
-            excess(physical.displacement, whole.displacement),
-            excess(physical.impulse, whole.impulse),
-        ];
-        Some(ExpandedMargin { dimensionless, physical, error })
-    }
+/// By how much a kick of the expansion exceeds that of the whole model, where both exist.
+fn excess(own: Option<f64>, whole: Option<f64>) -> Option<f64> {
+    Some(own? - whole?)
+}
 
-    fn document(&self) -> Document {
-        let [displacement, impulse] = self.error;
-        let error = Document::default().with("displacement", displacement).with("impulse", impulse);
-        Document::default()
-            .and(&self.physical)
-            .with("dimensionless", self.dimensionless)
-            .with("error", error)
-    }
+fn margin_document((own, physical): (Margin, PhysicalMargin), whole: &Margin) -> Document {
+    let error = Document::default()
+        .with("displacement", excess(physical.displacement, whole.displacement))
+        .with("impulse", excess(physical.impulse, whole.impulse));
+    Document::default().and(&physical).with("dimensionless", own).with("error", error)
+}
 
-    fn sentence(&self) -> String {
-        let Some(own) = self.physical.displacement else {
-            return "every kick is survived".to_owned();
-        };
-        let judged = match self.error[0] {
-            Some(error) if error != 0.0 && own != error => {
-                let percent = significant(100.0 * error.abs() / (own - error).abs(), 2);
-                format!(", {percent} % too {}", if error > 0.0 { "large" } else { "small" })
-            }
-            _ => String::new(),
-        };
-        format!("margin {}{judged}", with_unit(own, PLACES, "m"))
-    }
+fn margin_sentence(physical: &PhysicalMargin, whole: &Margin) -> String {
+    let Some(own) = physical.displacement else {
+        return "every kick is survived".to_owned();
+    };
+    let judged = match excess(Some(own), whole.displacement) {
+        Some(error) if error != 0.0 && own != error => {
+            let percent = significant(100.0 * error.abs() / (own - error).abs(), 2);
+            format!(", {percent} % too {}", if error > 0.0 { "large" } else { "small" })
+        }
+        _ => String::new(),
+    };
+    format!("margin {}{judged}", with_unit(own, PLACES, "m"))
 }
 
 /// The answer of the expansion, for a document.
@@ -58,13 +44,13 @@ pub(super) fn document(expansion: &CubicExpansion, portrait: &Portrait) -> Docum
     let found = expansion.cycles.as_ref();
     let cycles = found.iter().flat_map(|found| &found.cycles);
     let cycles: Vec<_> = cycles.map(|cycle| expanded(cycle, expansion, portrait)).collect();
-    let margin = ExpandedMargin::new(expansion, portrait);
+    let margin = margins(expansion).map(|found| margin_document(found, &portrait.margin));
     Document::default()
         .with("parameters", expansion.reduced.parameters)
         .with_any("reason", found.err().map(ToString::to_string))
         .with("cycles", cycles)
         .with("edge", found.ok().map(|found| found.border))
-        .with("margin", margin.map(|margin| margin.document()))
+        .with("margin", margin)
 }
 
 /// A cycle of the expansion in SI units, with the differences to the nearest cycle of the same stability of the whole
@@ -72,14 +58,7 @@ pub(super) fn document(expansion: &CubicExpansion, portrait: &Portrait) -> Docum
 fn expanded(cycle: &Cycle, expansion: &CubicExpansion, portrait: &Portrait) -> Document {
     let CubicExpansion { belt, reduced, .. } = expansion;
     let units = &reduced.units;
-    let physical = Cycle {
-        q_min: cycle.q_min * units.displacement,
-        q_max: cycle.q_max * units.displacement,
-        v_min: cycle.v_min * units.velocity,
-        v_max: cycle.v_max * units.velocity,
-        period: cycle.period * units.time,
-        ..*cycle
-    };
+    let physical = cycle.scaled(units.displacement, units.omega_0);
     let alike = portrait.cycles.iter().filter(|whole| whole.stable == cycle.stable);
     let distance = |whole: &Cycle| (whole.q_max - physical.q_max).abs();
     let nearest = alike.min_by(|one, other| distance(one).total_cmp(&distance(other)));
@@ -111,10 +90,11 @@ pub(super) fn sentence(expansion: &CubicExpansion, portrait: &Portrait) -> Strin
         Ok(found) => found,
         Err(reason) => return format!("{lead}nothing; {reason}"),
     };
-    let Some(margin) = ExpandedMargin::new(expansion, portrait) else {
+    let Some((_, physical)) = margins(expansion) else {
         return format!("{lead}nothing; ");
     };
+    let margin = margin_sentence(&physical, &portrait.margin);
     let count = |stable| found.cycles.iter().filter(|cycle| cycle.stable == stable).count();
     let (unstable, stable) = (count(false), count(true));
-    format!("{lead}{}; {unstable} unstable and {stable} stable cycles", margin.sentence())
+    format!("{lead}{margin}; {unstable} unstable and {stable} stable cycles")
 }

@@ -1,104 +1,88 @@
-//! The answer about a machine as readable text, and as rows of comma-separated values.
+//! The answer about a machine in sentences.
 
-use super::expansion;
+use super::{DesignAnswer, MachineAnswer, OnBelt, expansion};
 use crate::flow::machine::motion::MachineState;
 use crate::flow::{Fate, MachineMotion};
 use crate::model::belt::{Derivatives, FrictionLaw};
-use crate::model::{Interval, Knob, Tolerances};
+use crate::portrait::Course;
 use crate::portrait::design::{FrictionNeeded, Kick};
-use crate::portrait::guarantee::Uncertain;
-use crate::portrait::{Course, CubicExpansion, Cycle, Margin, Portrait};
 use crate::report::answer::{PLACES, interval};
-use crate::report::cycle_numbers::NUMBERS;
-use crate::report::cycles::{NO_CYCLE, known, machine_cycles};
-use crate::report::margin::margin_table;
-use crate::report::{About, Columns, Quantity, Table};
-use crate::words::{significant, stability, with_unit};
+use crate::words::number::rounded_down;
+use crate::words::{significant, with_unit};
 
-/// A part of a window; `None` if it is not known.
-pub type RestShare = Option<f64>;
-
-/// The whole answer about a mass on a belt or a vibration mode.
-pub struct MachineAnswer<'a> {
-    pub about: &'a About,
-    /// Displacement (m) and velocity (m/s) at the start.
-    pub start: (f64, f64),
-    pub course: Course,
-    /// The fraction of the starts in a window from which the mass comes to rest, if asked for; of that `None` where motions
-    /// from the window leave the range that is known.
-    pub rest_share: Option<RestShare>,
-    /// The friction needed for a margin, if asked for.
-    pub design: Option<DesignAnswer>,
-    /// `None` for a mode.
-    pub on_belt: Option<OnBelt<'a>>,
-    pub seconds: f64,
-}
-
-/// The part of the answer that only a mass on a belt has.
-pub struct OnBelt<'a> {
-    pub expansion: CubicExpansion,
-    pub tolerances: &'a Tolerances,
-    /// The kicks that are survived for certain, or why none is; `None` if not asked for.
-    pub certain: Option<Result<Margin, Uncertain>>,
-}
-
-impl OnBelt<'_> {
-    /// The numbers that are not known exactly, each with its interval in SI units.
-    pub(super) fn uncertain(&self) -> Vec<(Knob, Interval)> {
-        self.tolerances.intervals(&self.expansion.belt)
-    }
-}
-
-/// The friction needed for a margin.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DesignAnswer {
-    /// The kick that is to be survived.
-    pub kick: Kick,
-    /// Its size: m for a displacement, N s for an impulse.
-    pub wanted: f64,
-    /// The friction needed, in N.
-    pub needed: FrictionNeeded,
-    /// Speed of the belt in m/s; `None` for a mode.
-    pub at: Option<f64>,
-    /// The friction that the machine has, in N.
-    pub has: f64,
-}
-
-impl MachineAnswer<'_> {
-    /// The numbers, the margins, the cycles, the motion, and what else was asked for.
-    pub(super) fn text(&self) -> String {
-        let portrait = &self.course.portrait;
-        let known: String = known(portrait).into_iter().map(|line| line + "\n").collect();
-        let mut out = format!("{}\n", self.about.heading(&[]));
-        if let Some(OnBelt { expansion, .. }) = &self.on_belt {
-            let mu = friction(&expansion.belt.law, &expansion.reduced.mu);
-            out += &format!("{mu}\n\n{}", quantities(expansion, portrait));
+/// The sentence about the impulse that is survived from any rest position: the guaranteed one, if it was asked for. Its
+/// number is rounded down.
+pub(super) fn statement(answer: &MachineAnswer) -> (String, bool) {
+    let belt = answer.on_belt.as_ref();
+    let certain = belt.and_then(|belt| Some((belt, belt.certain.as_ref()?)));
+    let nominal = answer.course.portrait.margin;
+    let margin = match certain {
+        Some((belt, Err(reason))) => {
+            let text = format!("No kick is survived for certain, for {}: {reason}.", allowed(belt));
+            return (text, false);
         }
-        if self.on_belt.as_ref().is_none_or(|belt| belt.certain.is_some()) {
-            let (table, known) = margins(self);
-            out += &format!("\n{table}{}", known.map(|line| line + "\n").unwrap_or_default());
+        Some((_, Ok(margin))) => *margin,
+        None => nominal,
+    };
+    let kick = match margin.from_rest.impulse {
+        None => "every impulse".to_owned(),
+        Some(0.0) => "no impulse, however small,".to_owned(),
+        Some(least) => {
+            format!("an impulse below {}", with_unit(rounded_down(least, 3), 3, "N s"))
         }
-        out += &format!("\n{known}\n");
-        let cycles = cycles(&portrait.cycles);
-        out += &if cycles.is_empty() { NO_CYCLE.to_owned() } else { cycles.to_string() };
-        out + &self.remarks().into_iter().map(|line| line + "\n").collect::<String>()
-    }
+    };
+    let varying = belt.map(varying).unwrap_or_default();
+    let whichever = match varying[..] {
+        [] => String::new(),
+        _ => format!(", with {}", varying.join(", ")),
+    };
+    let whatever = belt.and_then(disturbance).map_or_else(
+        || "provided that no other force acts".to_owned(),
+        |force| format!("whatever a force of at most {force} does"),
+    );
+    let text = format!("From any rest position{whichever}, {kick} is survived, {whatever}.");
+    (text, margin.from_rest.impulse != Some(0.0))
+}
 
-    /// The motion, and what else was asked for, a line each.
-    pub(super) fn remarks(&self) -> Vec<String> {
-        let fate = fate(self.start, &self.course);
-        let mut all: Vec<String> = fate.lines().map(str::to_owned).collect();
-        all.extend(self.rest_share.map(|share| match share {
-            Some(share) => format!("of the window, {} comes to rest", significant(share, 10)),
-            None => "of the window, the part that comes to rest is not known: motions from its corners leave what \
-                     is known"
-                .to_owned(),
-        }));
-        let expansion = self.on_belt.as_ref().map(|belt| &belt.expansion);
-        all.extend(expansion.map(|it| expansion::sentence(it, &self.course.portrait)));
-        all.extend(self.design.as_ref().map(DesignAnswer::sentence));
-        all
-    }
+/// The numbers that are not known exactly, each with its interval.
+fn varying(belt: &OnBelt) -> Vec<String> {
+    belt.uncertain().iter().map(interval).collect()
+}
+
+/// The largest force of a disturbance, if there is one.
+fn disturbance(belt: &OnBelt) -> Option<String> {
+    let force = Some(belt.tolerances.disturbance).filter(|force| *force > 0.0);
+    force.map(|force| with_unit(force, 12, "N"))
+}
+
+/// What the guaranteed margins allow for.
+fn allowed(belt: &OnBelt) -> String {
+    let disturbance = disturbance(belt).map(|force| format!("disturbance {force}"));
+    varying(belt).into_iter().chain(disturbance).collect::<Vec<_>>().join(", ")
+}
+
+/// For what the margins are guaranteed, if that was asked for.
+pub(super) fn allowance(belt: &OnBelt) -> Option<String> {
+    Some(match belt.certain? {
+        Ok(_) => format!("guaranteed for {}", allowed(belt)),
+        Err(reason) => format!("nothing is guaranteed for {}: {reason}", allowed(belt)),
+    })
+}
+
+/// The motion, and what else was asked for, a line each.
+pub(super) fn remarks(found: &MachineAnswer) -> Vec<String> {
+    let fate = fate(found.start, &found.course);
+    let mut all: Vec<String> = fate.lines().map(str::to_owned).collect();
+    all.extend(found.rest_share.map(|share| match share {
+        Some(share) => format!("of the window, {} comes to rest", significant(share, 10)),
+        None => "of the window, the part that comes to rest is not known: motions from its corners leave what \
+                 is known"
+            .to_owned(),
+    }));
+    let expansion = found.on_belt.as_ref().map(|belt| &belt.expansion);
+    all.extend(expansion.map(|it| expansion::sentence(it, &found.course.portrait)));
+    all.extend(found.design.as_ref().map(DesignAnswer::sentence));
+    all
 }
 
 impl DesignAnswer {
@@ -137,75 +121,6 @@ impl DesignAnswer {
     }
 }
 
-/// A number of the answer: a label, the dimensionless value, and the physical value with its SI unit.
-struct QuantityRow {
-    what: String,
-    dimensionless: Option<f64>,
-    physical: Option<f64>,
-    unit: &'static str,
-}
-
-impl QuantityRow {
-    fn pure(what: &str, value: Option<f64>) -> Self {
-        QuantityRow { what: what.to_owned(), dimensionless: value, physical: None, unit: "" }
-    }
-
-    fn physical(what: &str, value: Option<f64>, unit: &'static str) -> Self {
-        QuantityRow { what: what.to_owned(), dimensionless: None, physical: value, unit }
-    }
-
-    /// With its dimensionless value, of which the physical one is `scale` times as large.
-    fn scaled(what: &str, value: Option<f64>, scale: f64, unit: &'static str) -> Self {
-        let dimensionless = value.map(|value| value / scale);
-        let unit = value.map_or("", |_| unit);
-        QuantityRow { what: what.to_owned(), dimensionless, physical: value, unit }
-    }
-}
-
-/// The columns of these numbers.
-fn quantity_columns<'a>() -> Columns<'a, QuantityRow> {
-    let physical = |row: &QuantityRow| Quantity::of(row.unit, PLACES).or("").text(row.physical);
-    Columns::default()
-        .word("what", |row: &QuantityRow| row.what.clone())
-        .titled("")
-        .number("dimensionless", Quantity::pure(10), |row| row.dimensionless)
-        .file("physical", |row| row.physical)
-        .text("physical", physical)
-        .file("unit", |row| row.unit)
-}
-
-/// The single numbers that describe a mass on a belt.
-fn rows(
-    CubicExpansion { belt, reduced, .. }: &CubicExpansion,
-    portrait: &Portrait,
-) -> Vec<QuantityRow> {
-    let (parameters, units) = (&reduced.parameters, &reduced.units);
-    let Margin { displacement, impulse, from_rest } = portrait.margin;
-    let (pure, scaled) = (QuantityRow::pure, QuantityRow::scaled);
-    let velocity = impulse.map(|impulse| impulse / belt.mass);
-    let held = belt.static_guide.unwrap_or(belt.friction) / belt.stiffness;
-    vec![
-        pure("D", Some(parameters.d)),
-        pure("D2", Some(parameters.d2)),
-        pure("D3", Some(parameters.d3)),
-        scaled("friction r", Some(belt.friction), units.force, "N"),
-        scaled("unit of displacement x0", Some(units.displacement), units.displacement, "m"),
-        scaled("unit of time", Some(units.time), units.time, "s"),
-        scaled("rests within +-", Some(held), units.displacement, "m"),
-        scaled("sticks to the belt at", Some(belt.belt_speed), units.velocity, "m/s"),
-        scaled("from rest: displacement", from_rest.displacement, units.displacement, "m"),
-        scaled("from rest: impulse", from_rest.impulse, units.impulse, "N s"),
-        scaled("margin: displacement", displacement, units.displacement, "m"),
-        scaled("margin: impulse", impulse, units.impulse, "N s"),
-        scaled("margin: velocity", velocity, units.velocity, "m/s"),
-    ]
-}
-
-/// The table of these numbers.
-pub(super) fn quantities(expansion: &CubicExpansion, portrait: &Portrait) -> Table {
-    quantity_columns().table(rows(expansion, portrait))
-}
-
 /// The friction law at the belt speed.
 pub(super) fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
     let Derivatives { value, first, second, third } = *mu;
@@ -225,42 +140,6 @@ pub(super) fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
         number(second),
         number(third)
     )
-}
-
-/// The table of cycles.
-pub(super) fn cycles(cycles: &[Cycle]) -> Table {
-    machine_cycles(|cycle: &Cycle| Some(*cycle)).table(cycles.iter().copied())
-}
-
-/// The nominal margins, the guaranteed ones rounded down, and the uncertainties for which these hold.
-pub(super) fn margins(answer: &MachineAnswer) -> (Table, Option<String>) {
-    let certain = answer.on_belt.as_ref().and_then(|belt| Some((belt, belt.certain?)));
-    let guaranteed = certain.and_then(|(_, found)| found.ok());
-    let title = "smallest kick that is not survived";
-    let nominal = answer.course.portrait.margin;
-    let table = margin_table(title, answer.about.kicks(PLACES), nominal, guaranteed);
-    let known = certain.map(|(belt, found)| match found {
-        Ok(_) => format!("guaranteed for {}", allowed(belt)),
-        Err(reason) => format!("nothing is guaranteed for {}: {reason}", allowed(belt)),
-    });
-    (table, known)
-}
-
-/// The numbers that are not known exactly, each with its interval.
-pub(super) fn varying(belt: &OnBelt) -> Vec<String> {
-    belt.uncertain().iter().map(interval).collect()
-}
-
-/// The largest force of a disturbance, if there is one.
-pub(super) fn disturbance(belt: &OnBelt) -> Option<String> {
-    let force = Some(belt.tolerances.disturbance).filter(|force| *force > 0.0);
-    force.map(|force| with_unit(force, 12, "N"))
-}
-
-/// What the guaranteed margins allow for.
-pub(super) fn allowed(belt: &OnBelt) -> String {
-    let disturbance = disturbance(belt).map(|force| format!("disturbance {force}"));
-    varying(belt).into_iter().chain(disturbance).collect::<Vec<_>>().join(", ")
 }
 
 /// How the motion ends, in a sentence.
@@ -303,37 +182,4 @@ fn by(second: &MachineMotion, course: &Course) -> String {
         ),
         Err(stop) => stop.to_string(),
     }
-}
-
-/// One row for each number, in SI units.
-pub(super) fn csv(answer: &MachineAnswer) -> String {
-    let portrait = &answer.course.portrait;
-    let mut rows = Vec::new();
-    if let Some(OnBelt { expansion, certain, .. }) = &answer.on_belt {
-        rows.extend(self::rows(expansion, portrait));
-        if let Some(certain) = certain {
-            let Margin { displacement, impulse, from_rest } = certain.unwrap_or(Margin::ENDLESS);
-            let physical = QuantityRow::physical;
-            rows.extend([
-                physical("guaranteed from rest: displacement", from_rest.displacement, "m"),
-                physical("guaranteed from rest: impulse", from_rest.impulse, "N s"),
-                physical("guaranteed: displacement", displacement, "m"),
-                physical("guaranteed: impulse", impulse, "N s"),
-            ]);
-        }
-    }
-    for (index, cycle) in portrait.cycles.iter().enumerate() {
-        let lead = format!("{} {} cycle {index}", stability(cycle.stable), cycle.kind());
-        let shown = NUMBERS.iter().filter(|number| !number.title.is_empty());
-        rows.extend(shown.map(|number| {
-            let what = format!("{lead}: {}", number.physical_name());
-            QuantityRow::physical(&what, (number.value)(cycle), number.unit)
-        }));
-    }
-    let share = |share| QuantityRow::pure("rest share of the window", share);
-    rows.extend(answer.rest_share.map(share));
-    if let Some(designed) = &answer.design {
-        rows.push(QuantityRow::physical("R for the margin", designed.force(), "N"));
-    }
-    quantity_columns().csv(rows)
 }

@@ -1,29 +1,77 @@
 //! The result of fitting a recorded motion.
 
-mod page;
-
 use std::collections::BTreeMap;
 
-pub use page::page;
-
+use super::page::SourceFile;
 use super::{Answer, Columns, Document, Table};
 use crate::fit::{
-    Combination, Condition, Data, Dropped, EstimatedNumber, Fitted, KickSpreads, LAST,
-    MarginSpread, NAMES, NameSpec, Q0, StartKind, combinations, kicks, left_out, rows,
+    Combination, Condition, Data, Dropped, EstimatedNumber, Fitted, KickSpreads, LAST, LeftOut,
+    MarginSpread, Margins, NAMES, NameSpec, Q0, StartKind, combinations, kicks, left_out, rows,
 };
-use crate::words::fit::{broken, sentences};
+use crate::words::fit::{broken, left_out as counts, sentences};
 use crate::words::number::resolved;
+use crate::words::provenance::Provenance;
 use crate::words::statement::{SignedStatement, signed};
 use crate::words::{duration, significant};
 
 /// The whole answer of a fit: in rows one for each estimated number, then the margins.
 pub fn fit(fitted: &Fitted) -> Answer<'_> {
-    Answer::new(|| json(fitted), || csv(fitted), || text(fitted))
+    let SignedStatement { statement, conditions } = signed(fitted);
+    let (broken, counts) = (broken(fitted), counts(fitted));
+    let mut remarks = sentences(fitted);
+    remarks
+        .retain(|it| Some(it) != broken.as_ref() && *it != statement.text && !counts.contains(it));
+    let (with, plain) = fitted.motions();
+    let motions = Document::default().with("with_derivatives", with).with("without", plain);
+    let seconds = fitted.seconds;
+    let name = Columns::default().file("name", |row: &EstimateRow| row.name.clone());
+    let numbers = || fitted.estimate.wanted().map(|row| EstimateRow::of_number(fitted, row));
+    let physical = || rows(fitted).into_iter().map(EstimateRow::physical);
+    Answer::new(&fitted.name, subject(fitted))
+        .fields(move |all| document(all, fitted))
+        .csv(name.and(estimate_columns()), numbers().chain(kick_rows(fitted)))
+        .lines(broken.clone())
+        .statement(statement.text, broken.is_none())
+        .captioned("what the sentence rests on", move || tested(&conditions))
+        .heading("Numbers")
+        .captioned("standard errors; 95 % lie from .. to", move || {
+            estimate_columns().table(numbers()).lean()
+        })
+        .captioned("in SI units, with standard errors", move || {
+            estimate_columns().table(physical()).lean()
+        })
+        .lines([start(fitted)])
+        .heading("Margin")
+        .captioned(draws(fitted), || margins(fitted))
+        .heading("Correlations")
+        .captioned("", || correlations(fitted))
+        .heading("Left out")
+        .lines(counts)
+        .lines([places(fitted)])
+        .heading("Remarks")
+        .lines(remarks)
+        .costing(
+            format!("{with} motions with derivatives, {plain} without, {}", duration(seconds)),
+            motions,
+            seconds,
+        )
 }
 
-fn json(fitted: &Fitted) -> String {
+/// The page of a fit: with its pictures, what computed it, and the file of the record.
+pub fn page(
+    fitted: &Fitted,
+    pictures: &[String],
+    provenance: &Provenance,
+    source: &SourceFile,
+) -> String {
+    let sources = std::slice::from_ref(source);
+    fit(fitted).page("Fit of a recorded motion", pictures, provenance, sources)
+}
+
+/// All that was found, as fields of a document.
+fn document(all: Document, fitted: &Fitted) -> Document {
     let Fitted { record, estimate, margins, .. } = fitted;
-    let number = |row: &NameSpec| number_columns().object(&EstimateRow::of_number(fitted, row));
+    let number = |row: &NameSpec| estimate_columns().object(&EstimateRow::of_number(fitted, row));
     let parameters = estimate.wanted().map(|row| (row.name, number(row)));
     let held = NAMES.iter().filter(|row| !estimate.free[row.place]);
     let held = held.filter_map(|row| Some((row.name, estimate.choice.held(row)?)));
@@ -34,12 +82,8 @@ fn json(fitted: &Fitted) -> String {
             .with("value", it.value)
             .with("standard_error", it.standard_error)
     };
-    let (with_derivatives, without) = fitted.motions();
-    let motions =
-        Document::default().with("with_derivatives", with_derivatives).with("without", without);
     let SignedStatement { statement, conditions } = signed(fitted);
-    Document::default()
-        .with("file", &fitted.name)
+    all.with("file", &fitted.name)
         .with("unit", &record.unit)
         .with("signal", record.signal)
         .with("parameters", parameters.collect::<BTreeMap<_, _>>())
@@ -66,8 +110,6 @@ fn json(fitted: &Fitted) -> String {
         .with("conditions", conditions)
         .with("draws", Document::default().with("effective", margins.effective))
         .with("sentences", sentences(fitted))
-        .cost(&motions, fitted.seconds)
-        .text()
 }
 
 fn start_document(fitted: &Fitted) -> Document {
@@ -113,6 +155,7 @@ fn physical(fitted: &Fitted) -> Option<Document> {
 }
 
 /// An estimated number or a margin.
+#[derive(Default)]
 struct EstimateRow {
     name: String,
     value: Option<f64>,
@@ -121,6 +164,10 @@ struct EstimateRow {
     upper: Option<f64>,
     /// Whether the interval follows from the curvature at the best fit alone.
     quadratic: bool,
+    /// The share of the draws without it; `None` for a number.
+    none: Option<f64>,
+    /// The factor and the unit with which text shows it.
+    unit: (f64, String),
 }
 
 impl EstimateRow {
@@ -134,116 +181,96 @@ impl EstimateRow {
             lower: interval.lower,
             upper: interval.upper,
             quadratic: interval.quadratic,
+            none: None,
+            unit: (1.0, fitted.unit_of(row)),
         }
     }
 
-    /// A margin from its draws.
-    fn of_kick(lead: &str, kick: &KickRow) -> Self {
-        let MarginSpread { median: value, lower, upper, .. } = kick.spread;
-        let name = format!("{lead} {}", kick.name);
-        EstimateRow { name, value, standard_error: None, lower, upper, quadratic: false }
+    /// A number in SI units.
+    fn physical(EstimatedNumber { name, value, standard_error, unit }: EstimatedNumber) -> Self {
+        EstimateRow {
+            name: name.to_owned(),
+            value: Some(value),
+            standard_error: Some(standard_error),
+            unit: (1.0, unit.to_owned()),
+            ..EstimateRow::default()
+        }
+    }
+
+    /// What follows from the numbers, from its draws.
+    fn of_draws(name: String, spread: MarginSpread, unit: (f64, &str)) -> Self {
+        let MarginSpread { median: value, lower, upper, none } = spread;
+        let (none, unit) = (Some(none), (unit.0, unit.1.to_owned()));
+        EstimateRow { name, value, lower, upper, none, unit, ..EstimateRow::default() }
+    }
+
+    /// The smallest kicks, from any rest position and from the middle.
+    fn of_kicks(fitted: &Fitted, lead: &str, kicks: &KickSpreads) -> [Self; 4] {
+        let KickSpreads { displacement, impulse, from_rest } = *kicks;
+        let length = (1.0, fitted.unit());
+        let momentum = self::kicks(fitted).map_or(length, |(_, scale)| (scale, "N s"));
+        let row =
+            |name, spread, unit| EstimateRow::of_draws(format!("{lead} {name}"), spread, unit);
+        [
+            row("displacement from rest", from_rest.displacement, length),
+            row("impulse from rest", from_rest.impulse, momentum),
+            row("displacement", displacement, length),
+            row("impulse", impulse, momentum),
+        ]
+    }
+
+    /// A value of it for reading, to the digits that count.
+    fn text(&self, value: Option<f64>) -> String {
+        match (value, self.standard_error) {
+            (Some(value), Some(error)) => {
+                let least = 1e-6 * self.value.unwrap_or(value).abs();
+                resolved(value, 0.05 * error.max(least))
+            }
+            (Some(value), None) => significant(value * self.unit.0, 4),
+            (None, _) if self.none.is_some() => "none".to_owned(),
+            (None, _) => "-".to_owned(),
+        }
     }
 }
 
-/// A kick that is not survived: its name in files, its kind and from where it comes in text, and its size with the factor
-/// and the unit in which text shows it.
-struct KickRow<'a> {
-    name: &'static str,
-    kind: &'static str,
-    from: &'static str,
-    spread: MarginSpread,
-    scale: f64,
-    unit: &'a str,
-}
-
-/// The smallest kicks, from any rest position and from the middle.
-fn kick_rows<'a>(fitted: &'a Fitted, kicks: &KickSpreads) -> [KickRow<'a>; 4] {
-    let KickSpreads { displacement, impulse, from_rest } = *kicks;
-    let length = fitted.unit();
-    let (kick, momentum) = match self::kicks(fitted) {
-        Some((_, scale)) => ("impulse", (scale, "N s")),
-        None => ("velocity/omega0", (1.0, length)),
-    };
-    let row =
-        |name, kind, from, spread, (scale, unit)| KickRow { name, kind, from, spread, scale, unit };
-    let (rest, length) = ("any rest position", (1.0, length));
-    [
-        row("displacement from rest", "displacement", rest, from_rest.displacement, length),
-        row("impulse from rest", kick, rest, from_rest.impulse, momentum),
-        row("displacement", "displacement", "q = 0", displacement, length),
-        row("impulse", kick, "q = 0", impulse, momentum),
-    ]
-}
-
-fn value_columns(columns: Columns<'_, EstimateRow>) -> Columns<'_, EstimateRow> {
-    columns
-        .file("value", |row| row.value)
-        .file("standard_error", |row| row.standard_error)
-        .file("lower", |row| row.lower)
-        .file("upper", |row| row.upper)
-}
-
-/// The columns of an estimated number.
-fn number_columns<'a>() -> Columns<'a, EstimateRow> {
-    value_columns(Columns::default()).field("quadratic", |row| row.quadratic)
-}
-
-fn csv(fitted: &Fitted) -> String {
-    let numbers = fitted.estimate.wanted().map(|row| EstimateRow::of_number(fitted, row));
-    let kicks = |lead: &'static str, kicks: &KickSpreads| {
-        kick_rows(fitted, kicks).map(|kick| EstimateRow::of_kick(lead, &kick))
-    };
-    let guaranteed = fitted.margins.guaranteed.iter();
-    let guaranteed = guaranteed.flat_map(|it| kicks("guaranteed", it));
-    let rows = numbers.chain(kicks("margin", &fitted.margins.kicks)).chain(guaranteed);
-    value_columns(Columns::default().file("name", |row: &EstimateRow| row.name.clone())).csv(rows)
-}
-
-fn text(fitted: &Fitted) -> String {
-    let broken = broken(fitted);
-    let first = broken.as_ref().map(|line| format!("{line}\n")).unwrap_or_default();
-    let mut out = format!("{first}{}: {}\n\n", fitted.name, subject(fitted));
-    out += &format!("{}{NUMBERS}\n\n", numbers(fitted));
-    out += &format!("{}\n\n", start(fitted));
-    out += &spaced(&correlations(fitted));
-    out += &spaced(&forces(fitted));
-    out += &format!("{}{}\n\n", margins(fitted), draws(fitted));
-    for sentence in sentences(fitted).into_iter().filter(|it| Some(it) != broken.as_ref()) {
-        out += &format!("{sentence}\n");
-    }
-    out += &format!("\n{}\n", states(&signed(fitted).conditions));
-    let (with, plain) = fitted.motions();
-    out + &format!(
-        "{with} motions with derivatives, {plain} without, {}\n",
-        duration(fitted.seconds)
-    )
-}
-
-/// A table with an empty line below it; nothing if it is empty.
-fn spaced(table: &Table) -> String {
-    if table.is_empty() { String::new() } else { format!("{table}\n") }
-}
-
-/// What the table of the numbers shows.
-const NUMBERS: &str = "standard errors; 95 % lie from .. to";
-
-/// The estimated numbers.
-fn numbers(fitted: &Fitted) -> Table {
-    let estimate = &fitted.estimate;
-    let error = |row: &NameSpec| estimate.covariance.error(row.place);
-    let known = move |value, row: &NameSpec| resolved(value, 0.05 * error(row));
-    let end =
-        move |end: Option<f64>, row: &NameSpec| end.map_or("-".to_owned(), |end| known(end, row));
-    let wanted =
-        NAMES.iter().filter(|row| estimate.free[row.place] && estimate.choice.is_wanted(row));
+/// The columns of an estimate.
+fn estimate_columns<'a>() -> Columns<'a, EstimateRow> {
+    let percent = |share: f64| format!("{} %", significant(100.0 * share, 2));
+    let shown = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
     Columns::default()
-        .text("number", |row: &&NameSpec| row.name.to_owned())
-        .text("value", move |row| known(estimate.p[row.place], row))
-        .text("error", move |row| significant(error(row), 2))
-        .text("from", move |row| end(estimate.intervals[row.place].lower, row))
-        .text("to", move |row| end(estimate.intervals[row.place].upper, row))
-        .text("unit", |row| fitted.unit_of(row))
-        .table(wanted)
+        .text("number", |row: &EstimateRow| row.name.clone())
+        .file("value", |row| row.value)
+        .text("value", |row| row.text(row.value))
+        .file("standard_error", |row| row.standard_error)
+        .text("error", move |row| shown(row.standard_error.map(|error| significant(error, 2))))
+        .file("lower", |row| row.lower)
+        .text("from", |row| row.text(row.lower))
+        .file("upper", |row| row.upper)
+        .text("to", |row| row.text(row.upper))
+        .field("quadratic", |row| row.quadratic)
+        .text("none", move |row| shown(row.none.map(percent)))
+        .text("unit", |row| row.unit.1.clone())
+}
+
+/// The smallest kicks that are not survived, and those that are guaranteed.
+fn kick_rows(fitted: &Fitted) -> Vec<EstimateRow> {
+    let Margins { kicks, guaranteed, .. } = &fitted.margins;
+    let kicks = EstimateRow::of_kicks(fitted, "margin", kicks);
+    let guaranteed = guaranteed.iter();
+    let guaranteed =
+        guaranteed.flat_map(|kicks| EstimateRow::of_kicks(fitted, "guaranteed", kicks));
+    kicks.into_iter().chain(guaranteed).collect()
+}
+
+/// The margins and what else follows from the numbers.
+fn margins(fitted: &Fitted) -> Table {
+    let Margins { cycle, fold, .. } = fitted.margins;
+    let mut all = kick_rows(fitted);
+    let name = "stable cycle, right turning point".to_owned();
+    all.push(EstimateRow::of_draws(name, cycle, (1.0, fitted.unit())));
+    let name = "D of the fold, above which all is survived".to_owned();
+    all.push(EstimateRow::of_draws(name, fold, (1.0, "")));
+    estimate_columns().table(all).lean()
 }
 
 /// What was measured, and how the motion goes.
@@ -305,62 +332,36 @@ fn correlations(fitted: &Fitted) -> Table {
     correlations.table(wanted.iter().copied())
 }
 
-/// The numbers in SI units; empty if neither mass nor stiffness is known.
-fn forces(fitted: &Fitted) -> Table {
-    let value = |row: &EstimatedNumber| {
-        resolved(row.value, 0.05 * row.standard_error.max(1e-6 * row.value.abs()))
-    };
+/// The conditions with their results.
+fn tested(conditions: &[Condition]) -> Table {
     Columns::default()
-        .text("physical", |row: &EstimatedNumber| row.name.to_owned())
-        .text("value", value)
-        .text("error", |row| significant(row.standard_error, 2))
-        .text("unit", |row| row.unit.to_owned())
-        .table(rows(fitted))
+        .text("condition", |it: &Condition| it.name.to_owned())
+        .text("result", |it| it.verdict().to_owned())
+        .text("what was found", |it| it.detail.clone())
+        .table(conditions)
 }
 
-fn states(conditions: &[Condition]) -> String {
-    let line = |it: &Condition| format!("  {:7}  {:12}  {}\n", it.verdict(), it.name, it.detail);
-    format!("conditions:\n{}", conditions.iter().map(line).collect::<String>())
-}
-
-/// The margins and what else follows from the numbers.
-fn margins(fitted: &Fitted) -> Table {
-    struct SpreadRow<'a> {
-        what: String,
-        spread: MarginSpread,
-        scale: f64,
-        unit: &'a str,
+/// Where the samples lie that do not count.
+fn places(fitted: &Fitted) -> String {
+    let time = |t| significant(t, 6);
+    let place = |it: &LeftOut| match it.samples {
+        1 => format!("{} s", time(it.from)),
+        several => format!("{} .. {} s ({several} samples)", time(it.from), time(it.to)),
+    };
+    let places: Vec<String> =
+        left_out(&fitted.record, &fitted.estimate).iter().map(place).collect();
+    if places.is_empty() {
+        return "every sample of the record that was read counts".to_owned();
     }
-    let margins = &fitted.margins;
-    let length = fitted.unit();
-    let row =
-        |what: &str, spread, scale, unit| SpreadRow { what: what.to_owned(), spread, scale, unit };
-    let kicks = |what: &str, kicks: &KickSpreads| {
-        kick_rows(fitted, kicks).map(|KickRow { kind, from, spread, scale, unit, .. }| {
-            row(&format!("{what} {kind} not survived, from {from}"), spread, scale, unit)
-        })
-    };
-    let shown = |value: Option<f64>, row: &SpreadRow| {
-        value.map_or("none".to_owned(), |value| significant(value * row.scale, 4))
-    };
-    let mut all = Vec::from(kicks("smallest", &margins.kicks));
-    all.extend(margins.guaranteed.iter().flat_map(|it| kicks("guaranteed, smallest", it)));
-    all.push(row("stable cycle, right turning point", margins.cycle, 1.0, length));
-    all.push(row("D of the fold, above which all is survived", margins.fold, 1.0, ""));
-    Columns::default()
-        .text("what follows", |row: &SpreadRow| row.what.clone())
-        .text("median", move |row| shown(row.spread.median, row))
-        .text("from", move |row| shown(row.spread.lower, row))
-        .text("to", move |row| shown(row.spread.upper, row))
-        .text("none", |row| format!("{} %", significant(100.0 * row.spread.none, 2)))
-        .text("unit", |row| row.unit.to_owned())
-        .table(all)
+    format!("samples at these times do not count: {}", places.join("; "))
 }
 
 /// What the table of the margins shows.
 fn draws(fitted: &Fitted) -> String {
+    let impulse = if kicks(fitted).is_none() { ", impulses as velocity/omega0" } else { "" };
     format!(
-        "95 % lie from .. to, by {} effective draws; none: the share of the draws without",
+        "smallest kicks that are not survived, from the worst rest position and from q = 0{impulse};\n\
+         95 % lie from .. to, by {} effective draws; none: the share of the draws without",
         significant(fitted.margins.effective, 3)
     )
 }
