@@ -58,7 +58,8 @@ pub struct ExploreCommand {
 }
 
 impl ExploreCommand {
-    pub fn run(&self) -> Result<(), Failure> {
+    /// `commands` are the names of the others, for who misspelt one.
+    pub fn run(&self, commands: &[&str]) -> Result<(), Failure> {
         let config = self.settings.read()?;
         let named = self.named.as_ref().or(self.start.scene.as_ref()).or(config.scene.as_ref());
         let name = named.map_or(PLAIN, String::as_str);
@@ -68,7 +69,7 @@ impl ExploreCommand {
             self.start.applied(scene.ok_or_else(no_belt)?)?
         } else {
             if self.named.is_some() {
-                find(name).map_err(|_| neither_scene_nor_command(name))?;
+                find(name).map_err(|_| neither_scene_nor_command(name, commands))?;
             }
             self.start.scene(Some(name))?
         };
@@ -207,13 +208,10 @@ fn welcome(session: &Session, memory: &Memory) -> Option<String> {
 }
 
 /// The error for a first word that is neither a scene nor a command, with names that are similar.
-fn neither_scene_nor_command(name: &str) -> Failure {
+fn neither_scene_nor_command(name: &str, commands: &[&str]) -> Failure {
     let scenes: Vec<String> = names().map(str::to_owned).collect();
-    let meant = similar(
-        name,
-        scenes.iter().cloned().chain(super::command_names().into_iter().map(str::to_owned)),
-    )
-    .into_iter();
+    let commands = commands.iter().map(|&command| command.to_owned());
+    let meant = similar(name, scenes.iter().cloned().chain(commands)).into_iter();
     let told = |found| if scenes.contains(&found) { found } else { format!("the command {found}") };
     let meant = meant.map(told);
     let meant = meant.collect::<Vec<_>>().join(" or ");
@@ -231,7 +229,7 @@ mod tests {
 
     #[test]
     fn a_word_that_names_nothing_is_answered_by_what_may_be_meant() {
-        let complaint = |name| neither_scene_nor_command(name).to_string();
+        let complaint = |name| neither_scene_nor_command(name, &["trajectory"]).to_string();
         for (name, said) in [
             ("trajectry", "did you mean the command trajectory?"),
             ("supercitical", "did you mean supercritical or subcritical?"),

@@ -40,7 +40,7 @@ use explore::ExploreCommand;
 use signal_hook::consts::SIGXFSZ;
 use signal_hook::flag;
 
-use crate::runtime::failure::Failure;
+pub(super) use crate::runtime::failure::Failure;
 pub(super) use input::{given, number, read};
 pub(super) use machine::{MachineCase, second, troubled};
 pub(super) use output::{Certify, Output, print, write};
@@ -162,7 +162,7 @@ fn run(given: &ArgMatches) -> Result<(), Failure> {
     });
     match named {
         Some((row, options)) => (row.run)(options),
-        None => parsed::<ExploreCommand>(given)?.run(),
+        None => parsed::<ExploreCommand>(given)?.run(&command_names()),
     }
 }
 

@@ -91,14 +91,14 @@ pub fn damping(fitted: &Fitted) -> Option<Picture<'static>> {
     let extent = window(found.extent)?;
     let mut picture =
         Picture::new("damping over amplitude", amplitude, "loss of amplitude", extent);
-    let parts: [(&str, Role, Dash, &dyn Fn(f64) -> f64); 3] = [
-        ("linear part D", Role::Asymptote, Dash::Sparse, &|_| p[D]),
-        ("friction 2 r/(pi A)", Role::Sticking, Dash::Dotted, &|a| 2.0 * p[R] / (PI * a)),
-        ("cubic part (3/8) D3 A^2", Role::Lyapunov, Dash::DashDot, &|a| 0.375 * p[D3] * a * a),
+    let parts = [
+        LineStyle::new("linear part D", Role::Asymptote, Dash::Sparse),
+        LineStyle::new("friction 2 r/(pi A)", Role::Sticking, Dash::Dotted),
+        LineStyle::new("cubic part (3/8) D3 A^2", Role::Lyapunov, Dash::DashDot),
     ];
-    for (name, role, dash, part) in parts {
-        let places = found.averaged.iter().map(|[a, _]| at(*a, part(*a)));
-        picture.curve(LineStyle::new(name, role, dash), places);
+    let values = |a: f64| [p[D], 2.0 * p[R] / (PI * a), 0.375 * p[D3] * a * a];
+    for (part, line) in parts.into_iter().enumerate() {
+        picture.curve(line, found.averaged.iter().map(|[a, _]| at(*a, values(*a)[part])));
     }
     let line = LineStyle::new("averaged", Role::Harmonic, Dash::Dashed);
     picture.curve(line, points(&found.averaged));

@@ -68,7 +68,9 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
     kicks::draw(picture, session, index);
     picture.level(LineStyle::guide(), 0.0);
     if shows(Layer::Lyapunov) {
-        shown.iter().for_each(|shown| circle(picture, shown));
+        for shown in &shown {
+            circle(picture, shown);
+        }
     }
     if let Some(fitted) = session.fitted().filter(|_| shows(Layer::Recorded)) {
         record(picture, fitted);

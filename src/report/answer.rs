@@ -162,13 +162,13 @@ impl<'a> Answer<'a> {
     pub fn told(self, format: Format) -> String {
         match format {
             Format::Table => self.text(),
-            Format::Json => match self.array {
-                Some(objects) => json::text(&objects()),
-                None => {
-                    let fields = self.fields.into_iter();
-                    json::text(&fields.fold(Document::default(), |all, more| more(all)))
+            Format::Json => {
+                if let Some(objects) = self.array {
+                    return json::text(&objects());
                 }
-            },
+                let fields = self.fields.into_iter();
+                json::text(&fields.fold(Document::default(), |all, more| more(all)))
+            }
             Format::Csv => self.csv.map(|rows| rows()).unwrap_or_default(),
         }
     }
@@ -291,7 +291,7 @@ impl About {
     /// An answer about it, and more about the question.
     pub(super) fn answer_to<'a>(&self, question: &str) -> Answer<'a> {
         let numbers = self.heading() + question;
-        let parameters = self.parameters(|known| known.lower());
+        let parameters = self.parameters(Interval::lower);
         match self.machine.clone() {
             Some((name, title)) => Answer { by_steps: true, ..Answer::new(&name, title) }
                 .lines([numbers])

@@ -35,7 +35,7 @@ fn columns<'a>() -> Columns<'a, ClaimResult> {
         .word("basis", |it| it.claim.basis)
         .file("sense", |it| found(it, |it| sense(it.sense)))
         .text("sense", |it| found(it, |it| claim::sense(it.sense)).unwrap_or("-".to_owned()))
-        .text("verdict", |it| claim::verdict(it))
+        .text("verdict", claim::verdict)
         .text("proof", |it| proof(it).unwrap_or("-").to_owned())
         .file("cases", |it| found(it, |it| it.cases))
         .file("held", |it| found(it, |it| it.held))
@@ -52,7 +52,7 @@ fn columns<'a>() -> Columns<'a, ClaimResult> {
         .file("lower", move |it| end(it, Interval::lower))
         .file("upper", move |it| end(it, Interval::upper))
         // Last in text, as its length varies.
-        .text("claim", |it| sentence(it))
+        .text("claim", sentence)
 }
 
 /// Every claim, and the reason if nothing could be computed.

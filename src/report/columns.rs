@@ -137,7 +137,7 @@ impl<'a, R: 'a> Columns<'a, R> {
     /// The last column with another title in text.
     pub fn titled(mut self, title: &str) -> Self {
         if let Some(column) = self.texts.last_mut().and_then(Rc::get_mut) {
-            column.title = title.to_owned();
+            title.clone_into(&mut column.title);
         }
         self
     }

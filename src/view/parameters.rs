@@ -1,5 +1,7 @@
 //! The parameter pane: what the model is, in numbers that the keys change, and what follows from them.
 
+use std::fmt::Write as _;
+
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
@@ -261,7 +263,11 @@ fn cycles(session: &Session, width: usize, look: &Look) -> Vec<Line<'static>> {
     let columns: Vec<_> =
         COLUMNS[usize::from(units.is_some())].iter().take_while(fits).copied().collect();
     let aligned = |cells: &[String]| -> String {
-        cells.iter().zip(&columns).map(|(cell, (_, width))| format!("{cell:>width$}")).collect()
+        let mut line = String::new();
+        for (cell, (_, width)) in cells.iter().zip(&columns) {
+            let _ = write!(line, "{cell:>width$}");
+        }
+        line
     };
     let title = " cycles";
     let headings: Vec<String> = columns.iter().map(|(name, _)| (*name).to_owned()).collect();

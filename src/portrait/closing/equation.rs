@@ -218,12 +218,12 @@ impl<'a> Equation<'a> {
             Route::Forward => {
                 let (first, between) = self.stage(0, Forward, here)?;
                 let (second, back) = self.stage(1, Forward, between)?;
-                Ok(self.closing(start, [back, here], [here.rounded(), between], [first, second]))
+                Ok(self.closing(start, [back, here], [here.rounded(), between], &[first, second]))
             }
             Route::Backward => {
                 let (second, between) = self.stage(1, Backward, here)?;
                 let (first, back) = self.stage(0, Backward, between)?;
-                Ok(self.closing(start, [here, back], [back, between], [first, second]))
+                Ok(self.closing(start, [here, back], [back, between], &[first, second]))
             }
         }
     }
@@ -235,7 +235,7 @@ impl<'a> Equation<'a> {
         let first = Stage::new(first, Direction::Forward, here);
         let second = Stage::new(second, Direction::Backward, here.plus(gap));
         let ends = [first.end, second.end.plus(gap)];
-        self.closing(start, ends, [here.rounded(), second.end], [first, second])
+        self.closing(start, ends, [here.rounded(), second.end], &[first, second])
     }
 
     /// One swing from a clearance, and the next clearance in this direction.
@@ -259,7 +259,7 @@ impl<'a> Equation<'a> {
         start: Length,
         [rise, fall]: [Place; 2],
         clearances: [Place; 2],
-        stages: [Stage; 2],
+        stages: &[Stage; 2],
     ) -> Closing {
         let gap = 2.0 * self.parameters.r;
         let slope = exp(rise.log_gain) - exp(fall.log_gain);
@@ -275,7 +275,7 @@ impl<'a> Equation<'a> {
         });
         let uncertainty = (node.value().abs() + noise) / node.slope.abs();
         let lengths = clearances.map(|clearance| clearance.length);
-        let found = Closing::new(node, lengths, stages.map(|stage| stage.swing));
+        let found = Closing::new(node, lengths, [0, 1].map(|index| stages[index].swing));
         Closing { growth, noise, uncertainty, errors, ..found }
     }
 

@@ -106,7 +106,7 @@ fn overlay(session: &Session, name: &str) -> Option<String> {
     };
     Some(match name {
         "open" => open,
-        "typed" => typed.unwrap_or_default().to_owned(),
+        "typed" => typed.unwrap_or_default(),
         "refused" => refused.unwrap_or_default(),
         "list" => overlay.and_then(Overlay::list).map_or(0, |list| list.selected).to_string(),
         _ => return None,
