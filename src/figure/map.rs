@@ -42,7 +42,7 @@ fn color(strength: f64) -> String {
     let [weak, strong] = ENDS;
     let mixed =
         [0, 1, 2].map(|index| truncated(weak[index] + part * (strong[index] - weak[index])));
-    format!("fill=\"#{:02x}{:02x}{:02x}\"", mixed[0], mixed[1], mixed[2])
+    format!("fill=\"#{:02x}{:02x}{:02x}\" fill-opacity=\"1\"", mixed[0], mixed[1], mixed[2])
 }
 
 /// The borders of cells around these places: in the middle between neighbours, and as far beyond the ends.

@@ -297,7 +297,8 @@ mod tests {
                 is_lost.then_some(Interval::new(0.0, f64::INFINITY))
             });
         let rows = || [(Some(0.012_345), true), (None, false)];
-        let table = "smallest kick  kind\n      12.3 mm   a,b\n     any        a,b\n";
+        let table =
+            "smallest kick  kind  loss, proved\n      12.3 mm  a,b   ?\n     any       a,b   -\n";
         assert_eq!(columns.table(rows()).to_string(), table);
         let csv = "margin,kind,q,v,loss_lower,loss_upper\n\
                    0.012345,\"a,b\",0.012345,1.0,0.0,\n,\"a,b\",,,,\n";

@@ -190,7 +190,7 @@ mod tests {
             &[&["1.5", "-0.25", "at rest"], &["10.25", "1", "-"], &["100", "-", "so"]],
         );
         let shown =
-            "   tau      q    ends\n  1.5   -0.25  at rest\n 10.25   1     -\n100      -     so\n";
+            "   tau      q  ends\n  1.5   -0.25  at rest\n 10.25   1     -\n100      -     so\n";
         assert_eq!(table.to_string(), shown);
         assert_eq!(table.transposed().transposed(), table);
     }

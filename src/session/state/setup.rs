@@ -19,7 +19,7 @@ pub struct Setup {
     #[serde(rename = "motion")]
     pub problem: Problem,
     /// Starts of the other motions, the oldest first.
-    #[serde(rename = "beside", default)]
+    #[serde(rename = "beside", default, skip_serializing_if = "Vec::is_empty")]
     pub others: Vec<State>,
     /// The setting of the machine; `None` if the scene has no machine.
     #[serde(rename = "belt", skip_serializing_if = "Option::is_none")]
