@@ -68,16 +68,16 @@ Examples:
 type Run = Box<dyn Fn(&ArgMatches) -> Result<(), Failure>>;
 
 /// A command that needs no terminal.
-struct CommandRow {
+struct Subcommand {
     name: &'static str,
     /// Adds its options to a command.
     options: fn(Command) -> Command,
     run: Run,
 }
 
-fn row<C: Args + 'static>(name: &'static str, run: fn(&C) -> Result<(), Failure>) -> CommandRow {
+fn row<C: Args + 'static>(name: &'static str, run: fn(&C) -> Result<(), Failure>) -> Subcommand {
     let run = move |given: &ArgMatches| run(&parsed(given)?);
-    CommandRow { name, options: C::augment_args, run: Box::new(run) }
+    Subcommand { name, options: C::augment_args, run: Box::new(run) }
 }
 
 /// The options of a command, of those that were given.
@@ -86,7 +86,7 @@ fn parsed<C: Args>(given: &ArgMatches) -> Result<C, Failure> {
 }
 
 /// The commands, in the order of the help.
-fn commands() -> [CommandRow; 22] {
+fn commands() -> [Subcommand; 22] {
     [
         row("tour", explore::TourCommand::run),
         row("scenes", lists::ScenesCommand::run),

@@ -7,7 +7,7 @@ use clap::Args;
 use super::{Failure, places};
 use crate::runtime::bounded;
 use crate::session::config::{Config, parse};
-use crate::session::settings::{Choice, Colors, DisplaySettings, Glyphs, Theme, choices};
+use crate::session::settings::{Colors, DisplaySettings, Glyphs, NamedValue, Theme, choices};
 use crate::words;
 
 /// Which settings file is read.
@@ -72,11 +72,11 @@ impl Looks {
     }
 }
 
-fn help<T: Choice>(what: &str) -> String {
+fn help<T: NamedValue>(what: &str) -> String {
     let names: Vec<_> = choices::<T>().map(|row| row.0).collect();
     format!("{what}: {}", names.join(", "))
 }
 
-fn one_of<T: Choice>(name: &str) -> Result<T, String> {
+fn one_of<T: NamedValue>(name: &str) -> Result<T, String> {
     words::one_of("", name, choices())
 }

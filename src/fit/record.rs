@@ -105,7 +105,7 @@ fn bad(line: usize, column: usize, problem: impl Into<String>) -> BadRecord {
 /// [`BadRecord`] with the line and column of what cannot be parsed.
 pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
     let text = decoded(bytes);
-    let table = Table::of(&text)?;
+    let table = RecordTable::of(&text)?;
     let (time, displacement) =
         table.columns(reading).map_err(|problem| bad(table.rows[0].0, 0, problem))?;
     let in_header = |column: usize, problem: String| bad(table.last_of_header, column + 1, problem);
@@ -150,7 +150,7 @@ pub fn parse(bytes: &[u8], reading: &Reading) -> Result<Record, BadRecord> {
 }
 
 /// The cells of a file.
-struct Table<'a> {
+struct RecordTable<'a> {
     header: Header,
     /// The number of the last line before the numbers, or of the first one.
     last_of_header: usize,
@@ -160,7 +160,7 @@ struct Table<'a> {
     comma_is_decimal: bool,
 }
 
-impl<'a> Table<'a> {
+impl<'a> RecordTable<'a> {
     fn of(text: &'a str) -> Result<Self, BadRecord> {
         let lines = lines(text);
         let Some(&(first_line, _)) = lines.first() else {
@@ -189,7 +189,7 @@ impl<'a> Table<'a> {
         let width = numbers[0].1.len();
         let header = header.filter(|it| separator.is_some() || it.names().len() <= width);
         let header = header.unwrap_or_default();
-        Ok(Table { header, last_of_header, rows: numbers, comma_is_decimal })
+        Ok(RecordTable { header, last_of_header, rows: numbers, comma_is_decimal })
     }
 
     /// The number in a cell; NaN where it is missing, as in a last row that is cut off.

@@ -102,7 +102,7 @@ fn both<'a>(
 }
 
 /// What is known of the starts of a window and of the kicks, whatever the oscillator.
-struct Window {
+struct WindowShare {
     border: Border,
     counts: Counts,
     margin: Margin,
@@ -110,7 +110,7 @@ struct Window {
     captured: Option<f64>,
 }
 
-impl Window {
+impl WindowShare {
     /// The answer, whose one row has more columns: an area before, and others after the part that comes to rest.
     fn answer<'a>(
         self,
@@ -119,7 +119,7 @@ impl Window {
         more: Columns<'a, MarginRow>,
         notes: Vec<String>,
     ) -> Answer<'a> {
-        let Window { border, counts, margin, captured } = self;
+        let WindowShare { border, counts, margin, captured } = self;
         let ending = Quantity::pure(10).or("not known");
         let columns = Columns::default()
             .text("starts of the window, smallest kicks not captured", |(name, _): &MarginRow| {
@@ -161,7 +161,7 @@ pub fn basin<'a>(
     seconds: f64,
 ) -> Answer<'a> {
     let SurveyedBasin { border, counts, margin, area, captured, lyapunov_share, .. } = *found;
-    let window = Window { border, counts, margin, captured: Some(captured) };
+    let window = WindowShare { border, counts, margin, captured: Some(captured) };
     let shown = Columns::default()
         .number("area", Quantity::pure(10), move |_: &MarginRow| area)
         .titled("area of the basin");
@@ -188,7 +188,7 @@ pub fn basin_of_machine<'a>(
     captured: Option<f64>,
     seconds: f64,
 ) -> Answer<'a> {
-    let window = Window { border: found.border, counts, margin: found.margin, captured };
+    let window = WindowShare { border: found.border, counts, margin: found.margin, captured };
     window
         .answer(about, Columns::default(), Columns::default(), cycles::known(found))
         .cost(cycles::steps(found), seconds)

@@ -18,7 +18,7 @@ use crate::numerics::similar::most_similar;
 use crate::scene::library::names;
 use crate::scene::misread::Complaint;
 use crate::scene::{Misread, misread};
-use crate::session::settings::{Choice, Colors, Glyphs, Theme, choices};
+use crate::session::settings::{Colors, Glyphs, NamedValue, Theme, choices};
 use crate::session::state::context::contexts;
 use crate::session::state::keymap::full_name;
 use crate::session::{Command, Context, Key, Keymap};
@@ -86,7 +86,7 @@ fn config(read: &SettingsFile) -> Result<Config, Complaint> {
 }
 
 /// The value with this name.
-fn one_of<T: Choice>(given: Option<&Spanned<String>>) -> Result<Option<T>, Complaint> {
+fn one_of<T: NamedValue>(given: Option<&Spanned<String>>) -> Result<Option<T>, Complaint> {
     let find = |given: &Spanned<String>| {
         let refused = |message| Complaint { at: given.span(), message };
         words::one_of("", given.get_ref(), choices()).map_err(refused)

@@ -7,7 +7,7 @@ use crate::flow::Problem;
 use crate::model::Knob;
 use crate::numerics::decimal::shortest;
 use crate::scene::{Scene, find};
-use crate::session::settings::{Choice, DisplaySettings};
+use crate::session::settings::{DisplaySettings, NamedValue};
 use crate::session::{Instruction, Msg, Session, save};
 
 /// The name under which a file embeds a session.
@@ -39,7 +39,7 @@ fn run(line: String) -> Instruction {
 
 /// The steps that set the user's wishes for the screen, where they differ from the defaults.
 fn display_lines(display: DisplaySettings) -> Vec<Instruction> {
-    fn line<T: Choice + Default>(name: &str, value: T) -> Option<String> {
+    fn line<T: NamedValue + Default>(name: &str, value: T) -> Option<String> {
         (value != T::default()).then(|| format!("{name} {}", value.into()))
     }
     let switched = |on: bool, line: &str| on.then(|| line.to_owned());

@@ -4,14 +4,14 @@
 use ratatui::layout::Rect;
 use ratatui::text::Line;
 
-use super::{Screen, keys, prose};
+use super::{Surface, keys, prose};
 use crate::picture::Role;
 use crate::session::{Session, overlay::SessionCaption};
 
 const WIDTH: u16 = 100;
 
 /// Draws the box at the bottom of `area`, if there is something to say and room for it.
-pub fn draw(area: Rect, session: &Session, screen: &mut Screen) {
+pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let filled = |text: &str| session.keymap.fill(text, |key| keys::name(key, look));
     let (heading, paragraphs) = match &session.caption {

@@ -17,7 +17,7 @@ use ratatui::layout::Rect;
 use ratatui::symbols::braille::BRAILLE;
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS};
 
-use super::Screen;
+use super::Surface;
 use crate::picture::{Dash, Role};
 use crate::session::settings::Glyphs;
 
@@ -201,7 +201,7 @@ impl Dots {
     }
 
     /// Writes the raster into the buffer; empty cells leave what is there.
-    pub fn paint(&self, Screen { look, buffer }: &mut Screen) {
+    pub fn paint(&self, Surface { look, buffer }: &mut Surface) {
         for (position, content) in self.area.positions().zip(&self.cells) {
             let (symbol, role) = match *content {
                 CellContent::Empty | CellContent::Ink(0, _) => continue,

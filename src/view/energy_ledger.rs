@@ -6,7 +6,7 @@
 
 use ratatui::layout::Rect;
 
-use super::Screen;
+use super::Surface;
 use super::pane::{self, Heading};
 use super::plot::{Canvas, rows};
 use crate::numerics::count::real;
@@ -25,7 +25,7 @@ pub fn draw(
     mut picture: Picture,
     mut heading: Heading,
     lines: &[LedgerLine],
-    screen: &mut Screen,
+    screen: &mut Surface,
 ) {
     let seats = Seats::of(area, lines, picture.window);
     picture.window = seats.window;

@@ -4,7 +4,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 use ratatui::text::Span;
 
-use super::{Look, Screen, keys, pane};
+use super::{Look, Surface, keys, pane};
 use crate::flow::QUALITIES;
 use crate::model::{Knob, KnobSpec};
 use crate::picture::Role;
@@ -19,7 +19,7 @@ const ALWAYS: [&str; 5] = ["help", "accept", "replay", "forget", "quit"];
 /// The hint that joins them while something is open.
 const CLOSE: &str = "close";
 
-pub fn draw(area: Rect, session: &Session, screen: &mut Screen) {
+pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let hints = session.hints();
     let (always, others): (Vec<&Hint>, Vec<&Hint>) = hints.iter().partition(|hint| {

@@ -9,7 +9,7 @@ use super::layout::{Layout, SMALLEST, layout};
 use super::pane::{self, Heading};
 use super::plot::{point_at, shown};
 use super::{
-    Look, Screen, caption, energy_ledger, footer, keys, legend, lists, paint::paint, parameters,
+    Look, Surface, caption, energy_ledger, footer, keys, legend, lists, paint::paint, parameters,
     prose, scan, scan_form, signs, status,
 };
 use crate::picture::{self, Picture, Role};
@@ -23,7 +23,7 @@ pub fn draw(frame: &mut Frame, session: &Session, look: &Look) {
 
 /// [`draw`] without a terminal.
 pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
-    let screen = &mut Screen { look, buffer };
+    let screen = &mut Surface { look, buffer };
     match layout(area, session) {
         None => card(area, screen),
         Some(parts) => {
@@ -46,7 +46,7 @@ pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
     }
 }
 
-fn panes(parts: &Layout, session: &Session, screen: &mut Screen) {
+fn panes(parts: &Layout, session: &Session, screen: &mut Surface) {
     status::title(parts.title, session, screen);
     let shown = parts.plots.iter().enumerate().filter(|(_, area)| !area.is_empty());
     let pictures = shown.clone().map(|(index, area)| framed(*area, session, index));
@@ -67,7 +67,7 @@ fn framed(area: Rect, session: &Session, index: usize) -> Picture<'_> {
     picture
 }
 
-fn plot(area: Rect, session: &Session, index: usize, picture: Picture, screen: &mut Screen) {
+fn plot(area: Rect, session: &Session, index: usize, picture: Picture, screen: &mut Surface) {
     let draws = match session.plots[index].view {
         View::EnergyLedger => !session.ledger().is_empty(),
         View::Scan => session.scanned.is_some(),
@@ -93,7 +93,7 @@ fn plot(area: Rect, session: &Session, index: usize, picture: Picture, screen: &
 }
 
 /// What a plot says in place of empty axes.
-fn nothing(area: Rect, text: String, screen: &mut Screen) {
+fn nothing(area: Rect, text: String, screen: &mut Surface) {
     let line = vec![screen.look.span(text, Role::Text).into()];
     let body = pane::below(area, 1);
     let width = area.width.saturating_sub(2);
@@ -103,7 +103,7 @@ fn nothing(area: Rect, text: String, screen: &mut Screen) {
 }
 
 /// What a screen too small for everything else shows.
-fn card(area: Rect, screen: &mut Screen) {
+fn card(area: Rect, screen: &mut Surface) {
     let Rect { width, height, .. } = area;
     let (columns, rows) = SMALLEST;
     let text = format!("hopfscope needs {columns} x {rows}\nthis screen is {width} x {height}");
@@ -117,7 +117,7 @@ pub fn panels(session: &Session, (width, height): (u16, u16), look: &Look) -> Ve
     let area = Rect { x: 0, y: 0, width, height };
     let panel = |index: usize| {
         let mut buffer = Buffer::empty(area);
-        let screen = &mut Screen { look, buffer: &mut buffer };
+        let screen = &mut Surface { look, buffer: &mut buffer };
         plot(area, session, index, framed(area, session, index), screen);
         buffer
     };

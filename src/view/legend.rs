@@ -2,7 +2,7 @@
 
 use ratatui::layout::Rect;
 
-use super::Screen;
+use super::Surface;
 use super::dots::{DotPen, Dots};
 use crate::picture::{Dash, LegendEntry, LegendSample, Mark, Picture, Role, legend::entries};
 
@@ -15,7 +15,7 @@ const MORE: u16 = 8;
 
 /// Draws the legend of some pictures, each entry in the first row with room, the main things first; what is
 /// left out is counted.
-pub fn draw(area: Rect, pictures: &[Picture], screen: &mut Screen) {
+pub fn draw(area: Rect, pictures: &[Picture], screen: &mut Surface) {
     let mut entries = entries(pictures);
     entries.sort_by_key(|entry| rank(entry.sample));
     let texts = entries.iter().map(|entry| entry.text.chars().count());
@@ -78,7 +78,7 @@ fn rank(sample: LegendSample) -> u8 {
     }
 }
 
-fn draw_sample(place: Rect, role: Role, sample: LegendSample, screen: &mut Screen) {
+fn draw_sample(place: Rect, role: Role, sample: LegendSample, screen: &mut Surface) {
     let look = screen.look;
     let mut dots = Dots::new(place, look.glyphs);
     let (width, height) = dots.size();

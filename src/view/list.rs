@@ -3,7 +3,7 @@
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::{Look, Screen, pane, prose};
+use super::{Look, Surface, pane, prose};
 use crate::picture::Role;
 use crate::session::List;
 
@@ -49,7 +49,7 @@ impl ListContent {
     }
 
     /// Draws it into the middle of the screen.
-    pub fn draw(self, area: Rect, list: &List, screen: &mut Screen) {
+    pub fn draw(self, area: Rect, list: &List, screen: &mut Surface) {
         let below = if self.about.is_empty() { 0 } else { self.below + 1 };
         let rows = u16::try_from(self.rows.len()).unwrap_or(u16::MAX);
         let wanted = rows.saturating_add(2 + below);

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use super::list::{ListContent, TEXT};
-use super::{Look, Screen, keys, paper};
+use super::{Look, Surface, keys, paper};
 use crate::picture::Role;
 use crate::scene::library::SceneGroup;
 use crate::scene::said::said_by;
@@ -19,7 +19,7 @@ use crate::words::number::count;
 const KEYS: usize = 16;
 
 /// Draws the open list, if there is one, into the middle of the screen.
-pub fn draw(area: Rect, session: &Session, screen: &mut Screen) {
+pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let Some(Overlay::List(listed, list)) = &session.overlay else { return };
     let content = match listed {

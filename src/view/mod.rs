@@ -34,4 +34,4 @@ mod verdict;
 
 pub use frame::{draw, panels, place};
 pub use look::Look;
-pub use pane::Screen;
+pub use pane::Surface;

@@ -2,7 +2,7 @@
 
 use ratatui::layout::Rect;
 
-use super::{Look, Screen, look::Symbols, pane::Heading, plot::Canvas, scan_map};
+use super::{Look, Surface, look::Symbols, pane::Heading, plot::Canvas, scan_map};
 use crate::picture::{Caption, Dash, Item, Mark, Marks, Picture, Role};
 use crate::scene::{Point, Window};
 
@@ -15,7 +15,7 @@ const LABELLED: u16 = 30;
 /// Columns between marks that are left out where they would touch.
 const APART: usize = 4;
 
-pub fn paint(area: Rect, picture: &Picture, mut heading: Heading, screen: &mut Screen) {
+pub fn paint(area: Rect, picture: &Picture, mut heading: Heading, screen: &mut Surface) {
     let look = screen.look;
     let Picture { window, cursor, items, .. } = picture;
     heading.reading.clone_from(&picture.reading);

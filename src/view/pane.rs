@@ -12,13 +12,13 @@ use super::{Look, look::Symbols};
 use crate::picture::Role;
 use crate::session::{AnswerState, Pane, Session};
 
-/// A screen to draw on, and how things look there.
-pub struct Screen<'a> {
+/// A surface to draw on, and how things look there.
+pub struct Surface<'a> {
     pub look: &'a Look,
     pub buffer: &'a mut Buffer,
 }
 
-impl Screen<'_> {
+impl Surface<'_> {
     /// Writes a row of `area` from its left end, as far as it fits.
     pub fn line(&mut self, area: Rect, row: u16, left: impl Into<Line<'static>>) {
         self.both_ends(area, row, left, "");

@@ -7,7 +7,7 @@ use ratatui::text::{Line, Span};
 
 use super::fitted::{fitted, spread};
 use super::pane::{self, Heading};
-use super::{Look, Screen, keys, margin, prose, verdict::multiplier};
+use super::{Look, Surface, keys, margin, prose, verdict::multiplier};
 use crate::accuracy::harmonic_error::BalanceResult;
 use crate::flow::Problem;
 use crate::model::Knob;
@@ -32,7 +32,7 @@ const FOLLOWING: usize = 5;
 /// Columns from which on what numbers mean stands beside their steps.
 const WITH_MEANINGS: u16 = 50;
 
-pub fn draw(area: Rect, session: &Session, screen: &mut Screen) {
+pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let heading = Heading::of(session, Pane::Parameters);
     let of = session.number(0).map_or_else(String::new, |number| format!("of motion {number}"));
@@ -63,7 +63,7 @@ pub fn first(session: &Session, height: u16) -> usize {
 
 /// What to look at in this scene and what to press. Where there is no room for both texts, the key that shows
 /// the second stands in its place.
-fn guide(area: Rect, session: &Session, screen: &mut Screen) {
+fn guide(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let quiet = |text: &str| look.span(text.to_owned(), Role::Quiet);
     let sentence = |text: &str| keys::sentence(text, &session.keymap, look);

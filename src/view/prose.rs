@@ -3,12 +3,12 @@
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-use super::Screen;
+use super::Surface;
 use crate::words::wrapped;
 
 /// Writes lines from the top of `area` down; those that are too long for a row go on in the next, in the
 /// style of their first words.
-pub fn write(area: Rect, lines: Vec<Line<'static>>, screen: &mut Screen) {
+pub fn write(area: Rect, lines: Vec<Line<'static>>, screen: &mut Surface) {
     let width = usize::from(area.width);
     let mut rows: Vec<Line> = lines.into_iter().flat_map(|line| broken(line, width)).collect();
     let height = usize::from(area.height);
@@ -61,7 +61,7 @@ mod tests {
         {
             let mut buffer = Buffer::empty(Rect::new(0, 0, 9, height));
             let area = buffer.area;
-            write(area, lines(), &mut Screen { look: &look, buffer: &mut buffer });
+            write(area, lines(), &mut Surface { look: &look, buffer: &mut buffer });
             assert_eq!(text(&buffer), expected);
         }
     }

@@ -10,7 +10,7 @@ use ratatui::layout::Rect;
 use ratatui::text::Line;
 
 use super::pane::{self, Heading};
-use super::{Screen, paint::paint, scan_map};
+use super::{Surface, paint::paint, scan_map};
 use crate::picture::map::{measured, nothing};
 use crate::picture::{Danger, Picture, Role};
 use crate::scan::measure::Value;
@@ -36,7 +36,7 @@ pub fn draw(
     picture: Picture,
     heading: Heading,
     scanned: &ScanOnShow,
-    screen: &mut Screen,
+    screen: &mut Surface,
 ) {
     let look = screen.look;
     let title = format!("{} {}", View::Scan.spec().title, progress(scanned));
@@ -123,7 +123,7 @@ fn meaning(scanned: &ScanOnShow, width: usize) -> String {
 
 /// Draws a table that scrolls: the names and the rows around the one that is looked at. The column that is plotted comes
 /// first of those that are measured, and the others follow as far as they fit whole.
-fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Screen) {
+fn table(area: Rect, scanned: &ScanOnShow, screen: &mut Surface) {
     let look = screen.look;
     let Some(room) = usize::from(area.height).checked_sub(1).filter(|room| *room > 0) else {
         return;

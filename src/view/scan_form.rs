@@ -2,7 +2,7 @@
 
 use ratatui::layout::Rect;
 
-use super::{Screen, footer::typed, pane};
+use super::{Surface, footer::typed, pane};
 use crate::picture::Role;
 use crate::scan::measure::MEASURES;
 use crate::session::overlay::{FIELDS, ScanForm};
@@ -14,7 +14,7 @@ const WIDTH: u16 = 74;
 const BELOW: u16 = 3;
 
 /// Draws the form, if it is open, into the middle of the screen.
-pub fn draw(area: Rect, session: &Session, screen: &mut Screen) {
+pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let Some(Overlay::Scan(form)) = &session.overlay else { return };
     let rows = u16::try_from(FIELDS.len()).unwrap_or(u16::MAX) + BELOW;

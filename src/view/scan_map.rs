@@ -5,7 +5,7 @@
 use ratatui::style::Style;
 use ratatui::text::{Line, Span};
 
-use super::{Look, Screen, pane, plot::Canvas};
+use super::{Look, Surface, pane, plot::Canvas};
 use crate::numerics::count::{real, truncated};
 use crate::picture::map::{measured, nothing};
 use crate::picture::{Danger, Dangerous, MapCell, Role, ScanMap};
@@ -56,7 +56,7 @@ impl Ramp {
 }
 
 /// Fills each cell with the shade of the point nearest to it.
-pub fn draw(plot: &Canvas, map: &ScanMap, screen: &mut Screen) {
+pub fn draw(plot: &Canvas, map: &ScanMap, screen: &mut Surface) {
     let look = screen.look;
     let ramp = map.scale.map(|scale| Ramp::of(scale, look));
     let quiet = look.style(Role::Quiet);

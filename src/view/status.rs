@@ -3,7 +3,7 @@
 
 use ratatui::layout::Rect;
 
-use super::{Look, Screen, fitted::UNRELIABLE, keys, margin, pane, verdict};
+use super::{Look, Surface, fitted::UNRELIABLE, keys, margin, pane, verdict};
 use crate::flow::Outcome;
 use crate::flow::trajectory::choice;
 use crate::picture::{Mark, Role};
@@ -15,14 +15,14 @@ use crate::words::number::count;
 use crate::words::{duration, significant};
 
 /// Draws the title line: what the scene is, and its name.
-pub fn title(area: Rect, session: &Session, screen: &mut Screen) {
+pub fn title(area: Rect, session: &Session, screen: &mut Surface) {
     let left = screen.look.span(format!(" {}", session.scene.title), Role::Title);
     let right = screen.look.span(format!("{} ", session.scene.name), Role::Quiet);
     screen.both_ends(area, 0, left, right);
 }
 
 /// Draws the status lines: the outcome first, then method, cost and error.
-pub fn draw(area: Rect, session: &Session, screen: &mut Screen) {
+pub fn draw(area: Rect, session: &Session, screen: &mut Surface) {
     let look = screen.look;
     let (text, role) = if let Some(held) = verdict::held_point(session, look, area.width) {
         (held, Role::Cursor)

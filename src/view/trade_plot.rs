@@ -3,7 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::{Look, Screen, pane::Heading, plot::Canvas, screen};
+use super::{Look, Surface, pane::Heading, plot::Canvas, screen};
 use crate::accuracy::trade::Trade;
 use crate::flow::Method;
 use crate::numerics::elementary::log10;
@@ -46,7 +46,7 @@ pub fn in_letters(trade: &Trade, seconds: &[f64]) -> String {
     let mut buffer = Buffer::empty(AREA);
     let heading = Heading::default();
     let picture = Picture::new("trade", "log10(time/ms)", "log10(error)", Window { x, y });
-    let screen = &mut Screen { look: &look, buffer: &mut buffer };
+    let screen = &mut Surface { look: &look, buffer: &mut buffer };
     let mut plot = Canvas::new(AREA, &picture, None, &heading, screen);
     for (point, letter) in points.into_iter().rev() {
         plot.mark(point, letter, Role::Text);

@@ -3,7 +3,7 @@
 use crate::accuracy::harmonic_error::ladder;
 use crate::scene::Layer;
 use crate::session::act::{inform, inform_of_keys};
-use crate::session::settings::{Choice, DisplaySettings, next_of};
+use crate::session::settings::{DisplaySettings, NamedValue, next_of};
 use crate::session::state::session::{LARGEST_COUNT, MOST_HARMONICS};
 use crate::session::{Done, Effect, Key, Overlay, Pending, Session};
 
@@ -51,7 +51,7 @@ pub(crate) fn balance(session: &mut Session, harmonics: usize) {
 }
 
 /// Takes the next value for a setting of the screen.
-pub(crate) fn turn<T: Choice>(
+pub(crate) fn turn<T: NamedValue>(
     session: &mut Session,
     what: &str,
     setting: fn(&mut DisplaySettings) -> &mut T,

@@ -9,7 +9,7 @@ use crate::session::act::{
     general, history, inform, parameters, plots, screen_setup, warn_of_units,
 };
 use crate::session::read::completion::{properties, rows};
-use crate::session::settings::{Choice, choices};
+use crate::session::settings::{NamedValue, choices};
 use crate::session::state::session::MOST_HARMONICS;
 use crate::session::{Done, Framing, Pane, Row, Session};
 use crate::words::one_of;
@@ -165,7 +165,7 @@ pub fn letter(text: &str) -> Result<char, String> {
 }
 
 /// The value with this name. Fails with a line that names all.
-pub(crate) fn choice<T: Choice>(name: &str) -> Result<T, String> {
+pub(crate) fn choice<T: NamedValue>(name: &str) -> Result<T, String> {
     one_of("", name, choices())
 }
 

@@ -70,17 +70,17 @@ pub struct DisplaySettings {
 }
 
 /// A value with a name, of an enumeration in the order in which a key cycles through it.
-pub trait Choice: VariantArray + Copy + PartialEq + Into<&'static str> {}
+pub trait NamedValue: VariantArray + Copy + PartialEq + Into<&'static str> {}
 
-impl<T: VariantArray + Copy + PartialEq + Into<&'static str>> Choice for T {}
+impl<T: VariantArray + Copy + PartialEq + Into<&'static str>> NamedValue for T {}
 
 /// All values with their names.
-pub fn choices<T: Choice>() -> impl Iterator<Item = (&'static str, T)> {
+pub fn choices<T: NamedValue>() -> impl Iterator<Item = (&'static str, T)> {
     T::VARIANTS.iter().map(|value| ((*value).into(), *value))
 }
 
 /// The value that follows `current`, and its name; the first one after the last.
-pub fn next_of<T: Choice>(current: T) -> (T, &'static str) {
+pub fn next_of<T: NamedValue>(current: T) -> (T, &'static str) {
     let after = T::VARIANTS.iter().skip_while(|value| **value != current).nth(1);
     let next = *after.unwrap_or(&T::VARIANTS[0]);
     (next, next.into())

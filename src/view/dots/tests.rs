@@ -17,7 +17,7 @@ fn painted(dots: &Dots) -> Vec<String> {
         ..settings::DisplaySettings::default()
     });
     let mut buffer = Buffer::empty(dots.area);
-    dots.paint(&mut Screen { look: &look, buffer: &mut buffer });
+    dots.paint(&mut Surface { look: &look, buffer: &mut buffer });
     let rows = buffer.content.chunks(usize::from(dots.area.width.max(1)));
     rows.map(|row| row.iter().map(ratatui::buffer::Cell::symbol).collect()).collect()
 }
@@ -107,7 +107,7 @@ fn a_later_stroke_takes_the_colour_of_a_shared_cell() {
     dots.stroke([(0.0, 0.0)], SOLID);
     dots.stroke([(1.0, 3.0)], DotPen { role: Role::Stable, dash: Dash::Solid });
     let mut buffer = Buffer::empty(dots.area);
-    dots.paint(&mut Screen { look: &look, buffer: &mut buffer });
+    dots.paint(&mut Surface { look: &look, buffer: &mut buffer });
     assert_eq!((buffer[(0, 0)].symbol(), buffer[(0, 0)].fg), ("⢁", Color::Green));
 }
 
@@ -123,7 +123,7 @@ fn a_curve_and_an_area_in_one_cell_have_the_colour_of_the_curve() {
             dots.stroke([(0.0, y), (11.9, y)], pen);
         }
         let mut buffer = Buffer::empty(dots.area);
-        dots.paint(&mut Screen { look: &look, buffer: &mut buffer });
+        dots.paint(&mut Surface { look: &look, buffer: &mut buffer });
         // Dashes of four dots and gaps of two: the third and the sixth cell have the area alone.
         let colours: Vec<Color> = buffer.content.iter().map(|cell| cell.fg).collect();
         let (red, yellow) = (Color::Red, Color::Yellow);

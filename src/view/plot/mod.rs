@@ -20,7 +20,7 @@ use geometry::{Geometry, along, centred, column};
 pub use geometry::{point_at, rows, shown};
 
 use super::dots::{Covering, DotPen, Dots};
-use super::{Look, Screen, pane};
+use super::{Look, Surface, pane};
 use crate::picture::{Dash, Picture, Role, Tick, Ticks};
 use crate::scene::{Point, Window};
 
@@ -41,7 +41,7 @@ impl<'a> Canvas<'a> {
         picture: &Picture,
         marks: Option<Ticks>,
         heading: &pane::Heading,
-        screen: &mut Screen<'a>,
+        screen: &mut Surface<'a>,
     ) -> Self {
         let look = screen.look;
         let (window, scales, has_marks) = (picture.window, picture.scales, marks.is_some());
@@ -172,7 +172,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// Puts the picture on the screen.
-    pub fn finish(self, screen: &mut Screen) {
+    pub fn finish(self, screen: &mut Surface) {
         self.dots.paint(screen);
         if let Some((rightward, upward)) = &self.inside {
             self.labels_inside(rightward, upward, screen.buffer);

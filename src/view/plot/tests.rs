@@ -13,7 +13,7 @@ fn look(glyphs: Glyphs) -> Look {
 }
 
 /// A canvas with unnamed axes.
-fn canvas<'a>(size: (u16, u16), window: Window, screen: &mut Screen<'a>) -> Canvas<'a> {
+fn canvas<'a>(size: (u16, u16), window: Window, screen: &mut Surface<'a>) -> Canvas<'a> {
     let picture = Picture::new("", "", "y", window);
     let area = Rect::new(0, 0, size.0, size.1);
     Canvas::new(area, &picture, None, &pane::Heading::default(), screen)
@@ -50,7 +50,7 @@ proptest! {
                 &|plot| plot.mark(ends[0], 'X', Role::Current),
             ];
             for draw in draws {
-                let mut plot = canvas((across, down), window, &mut Screen { look: &look, buffer: &mut buffer });
+                let mut plot = canvas((across, down), window, &mut Surface { look: &look, buffer: &mut buffer });
                 draw(&mut plot);
                 all.push(rows_drawn(&plot));
             }
@@ -71,7 +71,7 @@ proptest! {
         let area = Rect::new(0, 0, across, down);
         for tick in Geometry::of(area, window, [Scale::Even; 2], None).upward.ticks {
             let value: f64 = tick.label.parse().unwrap();
-            let mut plot = canvas((across, down), window, &mut Screen { look: &look, buffer: &mut buffer });
+            let mut plot = canvas((across, down), window, &mut Surface { look: &look, buffer: &mut buffer });
             plot.function(Role::Stable, Dash::Solid, |_| Some(value));
             prop_assert_eq!(rows_drawn(&plot), vec![plot.row(tick.fraction)], "{}", value);
         }
@@ -96,7 +96,7 @@ proptest! {
         }).collect();
         let look = look(Glyphs::Braille);
         let mut buffer = Buffer::empty(Rect::new(0, 0, across, down));
-        let mut screen = Screen { look: &look, buffer: &mut buffer };
+        let mut screen = Surface { look: &look, buffer: &mut buffer };
         let mut plot = canvas((across, down), window, &mut screen);
         for curve in &curves {
             plot.curve(curve.iter().copied(), Role::Stable, Dash::Solid);
