@@ -21,6 +21,7 @@
 
 use std::f64::consts::PI;
 
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::continuation::{CurvePlace, CurvePoint, CycleCurve, covers, is_beside, passes};
@@ -373,8 +374,10 @@ impl CurveTracer<'_> {
     fn keep_part(&mut self, points: &[CurvePoint]) -> Result<(), Reason> {
         let mut piece = Vec::new();
         if let Points::Even(count) = self.points {
-            for place in self.curve.spread(points, count.max(2))? {
-                let (cycle, cost) = polished(&self.curve, &place)?;
+            let (places, curve) = (self.curve.spread(points, count.max(2))?, &self.curve);
+            let polished = places.par_iter().map(|place| polished(curve, place));
+            let polished: Vec<_> = polished.collect::<Result<_, _>>()?;
+            for (place, (cycle, cost)) in places.iter().zip(polished) {
                 self.curve.cost += cost;
                 match cycle {
                     Some(cycle) => piece.push(BranchPoint { value: place.p, cycle }),
