@@ -129,10 +129,10 @@ impl<F: Field> Stiff<F> {
     fn guess(&self, h: f64) -> [f64; MOST] {
         let mut guess = [0.0; MOST];
         let rate = self.field.divergence(self.start.v).min(0.0);
-        for (guess, node) in guess.iter_mut().zip(self.scheme.nodes) {
+        for (guess, node) in guess.iter_mut().zip(&self.scheme.nodes) {
             *guess = if self.duration > 0.0 && h <= FORESEEN * self.duration {
                 let after = 1.0 + node * h / self.duration;
-                interpolated(self.scheme.nodes, &self.dense[1], after)
+                interpolated(&self.scheme.nodes, &self.dense[1], after)
             } else {
                 // One linearly implicit Euler step.
                 let t = node * h;
@@ -298,7 +298,7 @@ impl<F: Field> Stiff<F> {
     /// Keeps an attempt as the last step.
     fn keep(&mut self, duration: f64, end: StepPoint) {
         (self.duration, self.end) = (duration, end);
-        self.dense[1] = differences(self.scheme.nodes, self.start.v, &self.velocity);
+        self.dense[1] = differences(&self.scheme.nodes, self.start.v, &self.velocity);
     }
 
     /// The longest step that cannot pass two crossings; unlimited where damping is above critical.
@@ -357,12 +357,12 @@ impl<F: Field> Stepper<F> for Stiff<F> {
         for (x, row) in position.iter_mut().zip(&self.scheme.integrals) {
             *x = self.start.x + self.duration * weighted(row, &self.velocity);
         }
-        self.dense[0] = differences(self.scheme.nodes, self.start.x, &position);
+        self.dense[0] = differences(&self.scheme.nodes, self.start.x, &position);
     }
 
     fn at(&self, time: f64) -> StepPoint {
         let part = time / self.duration;
-        let value = |dense| interpolated(self.scheme.nodes, dense, part);
+        let value = |dense| interpolated(&self.scheme.nodes, dense, part);
         StepPoint { x: value(&self.dense[0]), v: value(&self.dense[1]) }
     }
 

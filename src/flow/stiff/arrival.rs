@@ -3,6 +3,7 @@
 use super::Stiff;
 use super::algebra::{MOST, interpolated};
 use crate::flow::step::{ErrorScale, Field, Step, StepPoint};
+use crate::flow::tableau::radau::Collocation;
 use crate::numerics::root::{Bracket, PlaceTolerance, bisect, try_newton};
 
 /// Relative change of the length of the last step below which it counts as settled; this takes about four attempts.
@@ -11,7 +12,7 @@ const SETTLED: f64 = 1e-9;
 impl<F: Field> Stiff<F> {
     /// Shortens the step just kept until it ends at the first `v = 0`; `None` where that fails.
     pub(super) fn arrive(&mut self) -> Option<Step> {
-        let nodes = self.scheme.nodes;
+        let Collocation { nodes, .. } = self.scheme;
         let (whole, polynomial) = (self.duration, self.dense[1]);
         let at = |length: f64| interpolated(nodes, &polynomial, length / whole);
         // The polynomial of the whole step locates the arrival roughly; steps that end there locate it exactly.

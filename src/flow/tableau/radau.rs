@@ -2,19 +2,20 @@
 //!
 //! Butcher and Ehle; Hairer and Wanner, *Solving Ordinary Differential Equations II*, 2nd edition
 //! (1996), section IV.8, and *Stiff differential equations solved by Radau methods*, Journal of
-//! Computational and Applied Mathematics 111 (1999). The nodes were computed with 60 digits; the other
-//! coefficients follow from the collocation conditions.
+//! Computational and Applied Mathematics 111 (1999). The nodes are known to twice the precision; the
+//! other coefficients follow from them, each to the last digit.
 
 use std::sync::LazyLock;
 
 use crate::numerics::count::real;
-use crate::numerics::quadrature::gauss;
+use crate::numerics::scalar::Scalar;
+use crate::numerics::twofold::Twofold;
 
 /// A collocation scheme.
 #[derive(Debug)]
 pub struct Collocation {
     /// Positions of the stages as fractions of the step; the last one is at its end.
-    pub nodes: &'static [f64],
+    pub nodes: Vec<f64>,
     /// Integrals of the Lagrange polynomials from 0 to each node; the last row gives the quadrature weights.
     pub integrals: Vec<Vec<f64>>,
     /// Difference from the embedded solution of order S, without the term with the weight below.
@@ -27,21 +28,15 @@ pub struct Collocation {
 }
 
 impl Collocation {
-    /// The scheme with these nodes. Gauss's rule is exact for its polynomials, and the difference from the embedded
-    /// solution vanishes for polynomials of degree below S.
-    fn new(nodes: &'static [f64], start: f64, stiff: f64) -> Self {
-        let lagrange = |own: usize, at: f64| -> f64 {
-            let others = nodes.iter().enumerate().filter(|(other, _)| *other != own);
-            others.map(|(_, node)| (at - node) / (nodes[own] - node)).product()
-        };
-        let row = |end: &f64| {
-            let integral = |own| end * gauss(|part| lagrange(own, part * end));
-            (0..nodes.len()).map(integral).collect()
-        };
+    /// The scheme with these nodes. The difference from the embedded solution vanishes for polynomials of degree below
+    /// S.
+    fn new(nodes: &[Twofold], start: f64, stiff: f64) -> Self {
+        let polynomials: Vec<_> = (0..nodes.len()).map(|own| lagrange(nodes, own)).collect();
+        let row = |end: &Twofold| polynomials.iter().map(|one| integral(one, *end)).collect();
         Collocation {
-            nodes,
+            nodes: nodes.iter().map(|node| node.value()).collect(),
             integrals: nodes.iter().map(row).collect(),
-            error: (0..nodes.len()).map(|own| -start * lagrange(own, 0.0)).collect(),
+            error: polynomials.iter().map(|one| -start * one[0].value()).collect(),
             start,
             stiff,
         }
@@ -59,45 +54,69 @@ impl Collocation {
     }
 }
 
+/// Coefficients of the polynomial that is 1 at a node and 0 at the others.
+fn lagrange(nodes: &[Twofold], own: usize) -> Vec<Twofold> {
+    let mut coefficients = vec![Twofold::of(1.0)];
+    for (_, &node) in nodes.iter().enumerate().filter(|(other, _)| *other != own) {
+        let distance = nodes[own] - node;
+        coefficients.push(Twofold::default());
+        for power in (0..coefficients.len()).rev() {
+            let shifted = if power == 0 { Twofold::default() } else { coefficients[power - 1] };
+            coefficients[power] = (shifted - node * coefficients[power]).over(distance);
+        }
+    }
+    coefficients
+}
+
+/// The integral of a polynomial from 0.
+fn integral(coefficients: &[Twofold], end: Twofold) -> f64 {
+    let terms = coefficients.iter().enumerate().rev();
+    terms
+        .fold(Twofold::default(), |sum, (power, coefficient)| {
+            (sum + coefficient.over_count(power + 1)) * end
+        })
+        .value()
+}
+
+/// A node between 0 and 1: the double next to it, and what that leaves out.
+const fn node(high: f64, low: f64) -> Twofold {
+    Twofold { high, low }
+}
+
 /// Three stages, order 5.
 pub static THREE: LazyLock<Collocation> = LazyLock::new(|| {
-    Collocation::new(
-        &[0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0],
-        0.274_888_829_595_677_34,
-        8.2,
-    )
+    let nodes = [
+        node(0.155_051_025_721_682_2, -5.032_819_811_655_113e-18),
+        node(0.644_948_974_278_317_8, 4.389_062_567_353_559e-17),
+        node(1.0, 0.0),
+    ];
+    Collocation::new(&nodes, 0.274_888_829_595_677_34, 8.2)
 });
 
 /// Five stages, order 9.
 pub static FIVE: LazyLock<Collocation> = LazyLock::new(|| {
-    Collocation::new(
-        &[
-            0.057_104_196_114_517_68,
-            0.276_843_013_638_123_8,
-            0.583_590_432_368_916_8,
-            0.860_240_135_656_219_5,
-            1.0,
-        ],
-        0.159_065_844_427_469_13,
-        11.0,
-    )
+    let nodes = [
+        node(0.057_104_196_114_517_68, -7.652_790_650_215_884e-19),
+        node(0.276_843_013_638_123_8, 2.498_013_745_992_455e-17),
+        node(0.583_590_432_368_916_8, -1.375_958_814_762_028e-17),
+        node(0.860_240_135_656_219_5, -3.666_886_943_982_11e-17),
+        node(1.0, 0.0),
+    ];
+    Collocation::new(&nodes, 0.159_065_844_427_469_13, 11.0)
 });
 
 /// Seven stages, order 13.
 pub static SEVEN: LazyLock<Collocation> = LazyLock::new(|| {
-    Collocation::new(
-        &[
-            0.029_316_427_159_784_893,
-            0.148_078_599_668_484_3,
-            0.336_984_690_281_154_3,
-            0.558_671_518_771_550_1,
-            0.769_233_862_030_054_5,
-            0.926_945_671_319_741_1,
-            1.0,
-        ],
-        0.111_896_465_300_035_08,
-        14.1,
-    )
+    let nodes = [
+        node(0.029_316_427_159_784_893, -7.477_235_308_989_243e-19),
+        node(0.148_078_599_668_484_3, -9.038_616_599_831_79e-18),
+        node(0.336_984_690_281_154_3, 1.410_725_035_691_059e-18),
+        node(0.558_671_518_771_550_1, 5.241_859_125_105_358e-17),
+        node(0.769_233_862_030_054_5, -3.982_229_183_965_062e-18),
+        node(0.926_945_671_319_741_1, -3.418_937_520_720_429e-17),
+        node(1.0, 0.0),
+    ];
+    Collocation::new(&nodes, 0.111_896_465_300_035_08, 14.1)
 });
 
 #[cfg(test)]
@@ -108,7 +127,7 @@ mod tests {
     use crate::numerics::elementary::powi;
 
     fn collocates(scheme: &Collocation) {
-        let nodes = scheme.nodes;
+        let nodes = &scheme.nodes;
         let stages = nodes.len();
         let error = scheme.start + scheme.error.iter().sum::<f64>();
         assert!(error.abs() < 1e-15, "{stages} stages: {error:e}");
