@@ -114,7 +114,7 @@ impl<F: Field> Stiff<F> {
         self.slope = self.field.acceleration(from.x, from.v);
         self.cost.evaluations += 1;
         // The last polynomial gives an initial guess only where this step continues it.
-        if from != self.end {
+        if !self.is_continued(from) {
             self.duration = 0.0;
         }
         self.start = from;
@@ -123,6 +123,13 @@ impl<F: Field> Stiff<F> {
             self.next =
                 if slope > 0.0 { (0.01 * from.size() / slope).min(LONGEST) } else { LONGEST };
         }
+    }
+
+    /// Whether a step from here continues the last one. Where rounding holds a motion in place, the swing moves it to the
+    /// next number.
+    fn is_continued(&self, from: StepPoint) -> bool {
+        let StepPoint { x, v } = self.end;
+        from.v == v && [x.next_down(), x, x.next_up()].contains(&from.x)
     }
 
     /// Initial guess of the stage velocities over a step of length `h`.
@@ -327,7 +334,7 @@ impl<F: Field> Stepper<F> for Stiff<F> {
     }
 
     fn advance(&mut self, from: StepPoint, longest: f64, arrives: bool) -> Result<Step, Reason> {
-        let continues = from == self.end;
+        let continues = self.is_continued(from);
         self.start_at(from);
         let mut longest = longest.min(self.longest());
         if arrives && !continues {
