@@ -254,12 +254,24 @@ impl<N: Scalar> Taylor<N> {
     /// Expands at a point; returns the step length that the tolerance allows, at most `longest`, in units of the
     /// coefficients.
     fn settle(&mut self, from: StepPoint<N>, longest: N, bound: f64) -> Result<N, Reason> {
+        /// Length of a step, in units of time as a power of two, up to which no coefficient underflows.
+        const WIDE: i32 = 32;
         self.time_exponent = self.next_time_exponent;
         loop {
             self.expand(from);
             if let Some(allowed) = self.allowed() {
-                let allowed = N::of(allowed.min(times_power(bound, -self.time_exponent)));
                 let longest = longest.times_power(-self.time_exponent);
+                let most = times_power(bound, -self.time_exponent).min(longest.value());
+                let wide = times_power(1.0, WIDE);
+                // Coefficients that underflow tell nothing: use a larger unit, unless all is at rest.
+                if allowed.min(most) > wide
+                    && self.v[1] != N::default()
+                    && self.time_exponent < 1000
+                {
+                    self.time_exponent += WIDE;
+                    continue;
+                }
+                let allowed = N::of(allowed.min(times_power(bound, -self.time_exponent)));
                 return Ok(if longest < allowed { longest } else { allowed });
             }
             // Coefficients that overflow belong to a time scale far below 1: use a smaller unit.
@@ -340,5 +352,27 @@ impl<N: Scalar> Stepper<HalfPlane, N> for Taylor<N> {
 
     fn cost(&self) -> Cost {
         self.cost
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In the unit of a much faster motion before, all late coefficients underflow; in that of a slower one they
+    /// overflow.
+    #[test]
+    fn a_step_does_not_depend_on_the_time_scale_of_the_motion_before() {
+        let from = StepPoint { x: -1.0, v: 0.0 };
+        let step = |left: i32| {
+            let mut stepper = Taylor::<f64>::new(1e-16);
+            stepper.begin(&HalfPlane { d: -0.1, d2: 0.3, d3: 0.5 });
+            stepper.next_time_exponent = left;
+            stepper.advance(from, f64::INFINITY, true).unwrap().duration
+        };
+        for left in [-900, -203, -63, -45, 30, 63, 203] {
+            let part = step(left) / step(0);
+            assert!((0.9..1.1).contains(&part), "2^{left}: {part}");
+        }
     }
 }
