@@ -16,7 +16,7 @@ use hopfscope::model::{Knob, Parameters};
 use hopfscope::numerics::elementary::hypot;
 use hopfscope::portrait::basin::cycle::cycles;
 use hopfscope::question::{NoAnswer, answer};
-use hopfscope::scene::{Answer, Request, TOPICS, Topic, library};
+use hopfscope::scene::{Finding, Request, TOPICS, Topic, library};
 use hopfscope::session::{Msg, Row, Session, Size, update};
 
 const LIMITS: &Limits = &Limits::PATIENT;
@@ -260,7 +260,7 @@ fn wherever_the_numbers_are_no_first_answer_takes_more_than_a_few_frames() {
 /// the largest.
 fn diagram(request: &Request, extent: Option<f64>) -> (Vec<Vec<(f64, f64)>>, f64) {
     let Request::Branch { range, .. } = request else { panic!("{request:?}") };
-    let Ok(Answer::Branch(Branch { pieces, .. })) = answer(request, &Limits::PATIENT) else {
+    let Ok(Finding::Branch(Branch { pieces, .. })) = answer(request, &Limits::PATIENT) else {
         panic!("no branch")
     };
     let largest = pieces.iter().flatten().fold(0.0, |most: f64, point| most.max(point.cycle.q_max));
@@ -316,7 +316,7 @@ fn what_a_scene_does_not_need_costs_nothing() {
         let Some(request) = trial.session.request(Topic::Trajectory, 0) else {
             panic!("no motion")
         };
-        let Ok(Answer::Trajectory(found)) = answer(&request, &Limits::PATIENT) else {
+        let Ok(Finding::Trajectory(found)) = answer(&request, &Limits::PATIENT) else {
             panic!("no motion")
         };
         found

@@ -13,7 +13,7 @@ use hopfscope::portrait::guarantee::oscillator::{TwoSided, guarantee, zones};
 use hopfscope::portrait::{Border, Margin};
 use hopfscope::question::answer;
 use hopfscope::question::zones::UncertainSubject;
-use hopfscope::scene::{Answer, Request, Topic};
+use hopfscope::scene::{Finding, Request, Topic};
 use hopfscope::session::{Row, Uncertainty};
 
 fn between(random: &mut Random, interval: Interval) -> f64 {
@@ -410,7 +410,7 @@ fn what_is_certain_is_asked_with_the_box_and_answers_the_reference() {
     let mut trial = Trial::open("plain");
     trial.press(":set<space>D=-0.3<space>D2=0.2<space>D3=0.5<space>r=0.1<space>w=0.02<enter>");
     let request = certainty(&trial).unwrap();
-    let Answer::Zones(found) = answer(&request, &hopfscope::flow::Limits::PATIENT).unwrap() else {
+    let Finding::Zones(found) = answer(&request, &hopfscope::flow::Limits::PATIENT).unwrap() else {
         panic!("{request:?}")
     };
     let margin = found.guaranteed.unwrap().displacement.unwrap();

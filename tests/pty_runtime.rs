@@ -13,7 +13,7 @@ use hopfscope::model::Parameters;
 use hopfscope::portrait::{Border, Cycles};
 use hopfscope::runtime::workers::Tell;
 use hopfscope::runtime::{Application, Options, launch};
-use hopfscope::scene::{Answer, Answered, Request};
+use hopfscope::scene::{Answered, Finding, Request};
 use hopfscope::session::{Code, Effect, Key, Msg};
 use ratatui::Frame;
 use rustix::process::Signal;
@@ -36,12 +36,12 @@ fn request(number: u32) -> Request {
 }
 
 /// The worker, which panics at 3.
-fn confirm(request: &Request, _: &Limits, _: &Tell) -> Result<Answer, Reason> {
+fn confirm(request: &Request, _: &Limits, _: &Tell) -> Result<Finding, Reason> {
     let Request::Cycles { parameters, .. } = *request else {
         return Err(Reason::OutOfRange);
     };
     assert!(parameters.d != 3.0, "three is too much");
-    Ok(Answer::Cycles(Cycles {
+    Ok(Finding::Cycles(Cycles {
         parameters,
         cycles: Vec::new(),
         harmonic: Vec::new(),

@@ -6,7 +6,7 @@ use hopfscope::model::{Group, Knob};
 use hopfscope::numerics::elementary::hypot;
 use hopfscope::portrait::{Border, Cycle, Return};
 use hopfscope::question::answer;
-use hopfscope::scene::{Answer, Request, Topic, find};
+use hopfscope::scene::{Finding, Request, Topic, find};
 use hopfscope::session::replay::{Action, Player, parse};
 use hopfscope::session::{Msg, Session, Size, run_line, settle, update};
 
@@ -397,8 +397,8 @@ fn a_machine_is_followed_by_the_method_that_is_chosen_and_as_exactly_as_the_dial
         let mut asked = session.wants().into_iter();
         let asked = asked.find(|request| request.topic() == Topic::Trajectory).unwrap();
         match answer(&asked, &Limits::PATIENT)? {
-            Answer::Whole(whole) => match whole.drawn {
-                Answer::Trajectory(found) => Ok::<_, Reason>((found, whole.motion.unwrap())),
+            Finding::Whole(whole) => match whole.drawn {
+                Finding::Trajectory(found) => Ok::<_, Reason>((found, whole.motion.unwrap())),
                 other => panic!("{other:?}"),
             },
             other => panic!("{other:?}"),

@@ -2,7 +2,7 @@
 
 use super::{Dash, LineStyle, Picture, Role, ellipse};
 use crate::portrait::kicks::{Distribution, RandomKick};
-use crate::scene::{Answer, Layer, Topic, rectangle};
+use crate::scene::{Finding, Layer, Topic, rectangle};
 use crate::session::Session;
 use crate::words::significant;
 
@@ -44,7 +44,7 @@ fn lost_part(session: &Session, index: usize) -> String {
         return format!("kicks lost: {failure}");
     }
     match session.answer(Topic::Kicks, index) {
-        Some(Answer::Kicks(found)) if !session.is_stale(Topic::Kicks, index) => {
+        Some(Finding::Kicks(found)) if !session.is_stale(Topic::Kicks, index) => {
             let [part, error] = [(found.share.part, 4), (found.share.error, 2)]
                 .map(|(value, digits)| significant(value, digits));
             let of = if session.variants(index).is_some() { " at the present values" } else { "" };

@@ -17,7 +17,7 @@ use crate::numerics::elementary::hypot;
 use crate::portrait::{Border, Cycle, Cycles, Ride};
 use crate::question::ShownFit;
 use crate::question::zones::Extent;
-use crate::scene::{Answer, Layer, Point, Topic};
+use crate::scene::{Finding, Layer, Point, Topic};
 use crate::session::{Session, ShownMotion, VariantTag};
 
 pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
@@ -41,7 +41,7 @@ pub fn draw<'a>(picture: &mut Picture<'a>, session: &'a Session, index: usize) {
         }
     }
     let all_cycles = session.found(Topic::Cycles, index).into_iter().filter_map(|it| match it {
-        (variant, Answer::Cycles(found)) => Some((variant, found)),
+        (variant, Finding::Cycles(found)) => Some((variant, found)),
         _ => None,
     });
     let all_cycles: Vec<(VariantTag, &Cycles)> = all_cycles.collect();
@@ -176,7 +176,7 @@ fn motions(picture: &mut Picture, session: &Session, index: usize) {
         found.reverse();
     }
     for (variant, answer) in found {
-        if let Answer::Trajectory(found) = answer {
+        if let Finding::Trajectory(found) = answer {
             let place = variant.index;
             let (line, variant) = if family {
                 (LineStyle::new("motion", Role::Trajectory, Dash::Solid), variant)
@@ -318,12 +318,12 @@ fn cycles(picture: &mut Picture, found: &Cycles, variant: &VariantTag, whole: bo
 fn ghost(picture: &mut Picture, session: &Session) {
     for answer in session.answers_left() {
         match answer {
-            Answer::Trajectory(found) => {
+            Finding::Trajectory(found) => {
                 let samples = found.samples.iter().map(|sample| Point::from(sample.state()));
                 let line = LineStyle::new("motion left", Role::Ghost, Dash::Dotted);
                 picture.curve(line.briefly("the point left"), samples);
             }
-            Answer::Cycles(found) => {
+            Finding::Cycles(found) => {
                 for (cycle, curve) in curves(found) {
                     let role = if cycle.stable { Role::GhostStable } else { Role::GhostUnstable };
                     let line = LineStyle::new("cycle left", role, Dash::Dashed);
@@ -340,7 +340,7 @@ fn ghost(picture: &mut Picture, session: &Session) {
 fn ends(picture: &mut Picture, session: &Session, index: usize, shown: &[ShownMotion]) {
     let family = session.variants(index).is_some();
     for (VariantTag { index: place, .. }, answer) in session.found(Topic::Trajectory, index) {
-        if let Answer::Trajectory(found) = answer
+        if let Finding::Trajectory(found) = answer
             && session.contact_of(found).is_none()
             && !(family && matches!(found.outcome, Outcome::Captured { tau: 0.0, .. }))
         {

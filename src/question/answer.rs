@@ -29,7 +29,7 @@ use crate::scan::grid::Scan;
 
 /// The answer of the worker.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Answer {
+pub enum Finding {
     Fit(Fit),
     Refit(Fit),
     Trajectory(Trajectory),
@@ -56,7 +56,7 @@ pub enum Answer {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Whole {
     /// The motion or the cycles in the form that views draw.
-    pub drawn: Answer,
+    pub drawn: Finding,
     /// Fate of the motion, and where it rides on the belt.
     pub motion: Option<WholeMotion>,
     /// Properties of the cycles; `None` where the whole model has no answer and its expansion is drawn.
@@ -81,29 +81,29 @@ pub struct Borders {
     pub cost: Cost,
 }
 
-impl Answer {
+impl Finding {
     /// Counted cost of the computation.
     pub fn cost(&self) -> Cost {
         match self {
-            Answer::Trajectory(found) => found.cost,
-            Answer::Cycles(found) => found.cost,
-            Answer::Zones(found) => found.cost,
-            Answer::Kicks(found) => found.cost,
-            Answer::Capture(found) => found.cost,
-            Answer::Branch(found) => found.cost,
-            Answer::Balance(found) => found.cost,
-            Answer::ReturnMap(found) => found.cost,
-            Answer::Regimes(found) => found.cost,
-            Answer::Speeds(found) => found.cost,
-            Answer::Trade(found) => found.cost(),
-            Answer::Scan(found) => found.cost(),
-            Answer::Reference(Ok(found)) => found.cost,
-            Answer::Whole(whole) => whole.drawn.cost(),
-            Answer::Fit(_)
-            | Answer::Refit(_)
-            | Answer::Claims(_)
-            | Answer::Proof(_)
-            | Answer::Reference(Err(_)) => Cost::default(),
+            Finding::Trajectory(found) => found.cost,
+            Finding::Cycles(found) => found.cost,
+            Finding::Zones(found) => found.cost,
+            Finding::Kicks(found) => found.cost,
+            Finding::Capture(found) => found.cost,
+            Finding::Branch(found) => found.cost,
+            Finding::Balance(found) => found.cost,
+            Finding::ReturnMap(found) => found.cost,
+            Finding::Regimes(found) => found.cost,
+            Finding::Speeds(found) => found.cost,
+            Finding::Trade(found) => found.cost(),
+            Finding::Scan(found) => found.cost(),
+            Finding::Reference(Ok(found)) => found.cost,
+            Finding::Whole(whole) => whole.drawn.cost(),
+            Finding::Fit(_)
+            | Finding::Refit(_)
+            | Finding::Claims(_)
+            | Finding::Proof(_)
+            | Finding::Reference(Err(_)) => Cost::default(),
         }
     }
 }
@@ -114,7 +114,7 @@ pub struct Answered {
     /// The question.
     pub request: Request,
     /// The answer, or why there is none.
-    pub result: Result<Answer, NoAnswer>,
+    pub result: Result<Finding, NoAnswer>,
     /// Wall-clock seconds taken so far.
     pub seconds: f64,
     /// Whether the answer is final; a long question is answered in pieces.
@@ -140,7 +140,7 @@ impl std::fmt::Display for NoAnswer {
 }
 
 /// Answers a request on this thread, with the fineness of the screen.
-pub fn answer(request: &Request, limits: &Limits) -> Result<Answer, Reason> {
+pub fn answer(request: &Request, limits: &Limits) -> Result<Finding, Reason> {
     answer_for(request, Fineness::SCREEN, limits)
 }
 
@@ -149,7 +149,7 @@ pub fn answer_for(
     request: &Request,
     fineness: Fineness,
     limits: &Limits,
-) -> Result<Answer, Reason> {
+) -> Result<Finding, Reason> {
     let rows = |scan: &Scan, first: usize| {
         let rows = (first..scan.points()).map(|index| scan.row(index, limits));
         Ok(Rows { first, rows: rows.collect::<Result<_, _>>()? })
@@ -164,12 +164,12 @@ const ROW: u64 = 1_000_000;
 const REFERENCE: u64 = 4_000_000;
 
 /// Answers a request: the only place where a question becomes a computation.
-pub fn answer_by(request: &Request, means: &Resources) -> Result<Answer, Reason> {
+pub fn answer_by(request: &Request, means: &Resources) -> Result<Finding, Reason> {
     let Resources { fineness, limits, rows } = *means;
     let points = fineness.points_per_step();
     Ok(match request {
-        Request::Fit { recording } => Answer::Fit(Fit::of(recording, limits, &|_| ())?),
-        Request::Refit { fit, held, drawn } => Answer::Refit(fit.held(*held, *drawn, limits)?),
+        Request::Fit { recording } => Finding::Fit(Fit::of(recording, limits, &|_| ())?),
+        Request::Refit { fit, held, drawn } => Finding::Refit(fit.held(*held, *drawn, limits)?),
         Request::Trajectory { problem, machine } => {
             motion(problem, machine.as_deref(), fineness.points(16), limits)?
         }
@@ -177,45 +177,49 @@ pub fn answer_by(request: &Request, means: &Resources) -> Result<Answer, Reason>
             cycles(parameters, machine.as_deref(), *whole, means)?
         }
         Request::Zones(UncertainSubject::Parameters { known, disturbance }) => {
-            Answer::Zones(zones::of_oscillator(known, *disturbance, points, limits)?)
+            Finding::Zones(zones::of_oscillator(known, *disturbance, points, limits)?)
         }
         Request::Zones(UncertainSubject::Machine { belt, tolerances }) => {
-            Answer::Zones(zones::of_machine(belt, tolerances, points)?)
+            Finding::Zones(zones::of_machine(belt, tolerances, points)?)
         }
         Request::Kicks { parameters, kicks } => {
             let found = basin(parameters, kicks.reach(), limits)?;
-            Answer::Kicks(LostShare { share: kicks.lost(&found), cost: found.cost })
+            Finding::Kicks(LostShare { share: kicks.lost(&found), cost: found.cost })
         }
         Request::Capture { parameters, reach, most } => {
             let found = bands(parameters, *reach, *most, limits)?;
-            Answer::Capture(Borders { curves: found.curves(points), cost: found.cost })
+            Finding::Capture(Borders { curves: found.curves(points), cost: found.cost })
         }
         Request::Branch { parameters, parameter, range, tolerance } => {
             let rough = *tolerance >= DRAFT.tolerance;
             let points =
                 if rough { Points::Followed } else { Points::Even(fineness.points(160).into()) };
-            Answer::Branch(branch(parameters, *parameter, *range, points, *tolerance, limits)?)
+            Finding::Branch(branch(parameters, *parameter, *range, points, *tolerance, limits)?)
         }
         Request::Balance { parameters, harmonics } => {
             let points = fineness.points(240).into();
-            Answer::Balance(harmonic_balance(parameters, *harmonics, points, limits)?)
+            Finding::Balance(harmonic_balance(parameters, *harmonics, points, limits)?)
         }
         Request::ReturnMap { parameters, range } => {
-            Answer::ReturnMap(return_map(parameters, *range, fineness.points(128), limits)?)
+            Finding::ReturnMap(return_map(parameters, *range, fineness.points(128), limits)?)
         }
         Request::Regimes { parameters, plane, rough } => {
-            Answer::Regimes(regimes(parameters, *plane, *rough, means)?)
+            Finding::Regimes(regimes(parameters, *plane, *rough, means)?)
         }
         Request::Speeds { belt, range, rough } => {
-            Answer::Speeds(speeds(belt, *range, *rough, limits)?)
+            Finding::Speeds(speeds(belt, *range, *rough, limits)?)
         }
-        Request::Trade(problem) => Answer::Trade(Box::new(Trade::of(problem, &limits.up_to(ROW))?)),
-        Request::Scan { scan, from } => Answer::Scan(rows(scan, *from)?),
-        Request::Claims => Answer::Claims(examine_all(limits)?),
-        Request::Proof { parameters } => Answer::Proof(prove(&ParameterBox::from(parameters), &[])),
+        Request::Trade(problem) => {
+            Finding::Trade(Box::new(Trade::of(problem, &limits.up_to(ROW))?))
+        }
+        Request::Scan { scan, from } => Finding::Scan(rows(scan, *from)?),
+        Request::Claims => Finding::Claims(examine_all(limits)?),
+        Request::Proof { parameters } => {
+            Finding::Proof(prove(&ParameterBox::from(parameters), &[]))
+        }
         Request::Reference(problem) => match Reference::of(problem, &limits.up_to(REFERENCE)) {
             Err(Reason::Interrupted) => return Err(Reason::Interrupted),
-            found => Answer::Reference(found.map(Box::new)),
+            found => Finding::Reference(found.map(Box::new)),
         },
     })
 }
@@ -226,16 +230,16 @@ fn motion(
     machine: Option<&Belt>,
     points: u16,
     limits: &Limits,
-) -> Result<Answer, Reason> {
+) -> Result<Finding, Reason> {
     let Some(belt) = machine else {
         // Without friction, nothing happens at v = 0, so crossings are not located.
         let crossings = problem.parameters.r > 0.0;
         let detail = Detail { crossings, samples_per_step: points.into(), energy: true };
-        return Ok(Answer::Trajectory(trajectory(problem, detail, limits)));
+        return Ok(Finding::Trajectory(trajectory(problem, detail, limits)));
     };
     let (drawn, motion) = whole::motion(belt, problem, points.into())?;
-    let (drawn, motion) = (Answer::Trajectory(drawn), Some(motion));
-    Ok(Answer::Whole(Box::new(Whole { drawn, motion, cycles: None })))
+    let (drawn, motion) = (Finding::Trajectory(drawn), Some(motion));
+    Ok(Finding::Whole(Box::new(Whole { drawn, motion, cycles: None })))
 }
 
 /// The cycles of the paper's oscillator, or those of a machine: by the `whole` model, or by its cubic expansion.
@@ -244,14 +248,14 @@ fn cycles(
     machine: Option<&Belt>,
     whole: bool,
     Resources { fineness, limits, .. }: &Resources,
-) -> Result<Answer, Reason> {
+) -> Result<Finding, Reason> {
     let points = fineness.points_per_step();
     let Some(belt) = machine else {
-        return Ok(Answer::Cycles(cycles_drawn(parameters, points, limits)?));
+        return Ok(Finding::Cycles(cycles_drawn(parameters, points, limits)?));
     };
     let (drawn, cycles) = whole::portrait(belt, parameters, whole, points, limits)?;
-    let drawn = Answer::Cycles(drawn);
-    Ok(Answer::Whole(Box::new(Whole { drawn, motion: None, cycles })))
+    let drawn = Finding::Cycles(drawn);
+    Ok(Finding::Whole(Box::new(Whole { drawn, motion: None, cycles })))
 }
 
 /// The chart over two parameters, of a few lines if it is a `rough` draft.

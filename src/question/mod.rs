@@ -12,7 +12,7 @@ pub mod speeds;
 pub mod whole;
 pub mod zones;
 
-pub use answer::{Answer, Answered, Borders, LostShare, NoAnswer, Whole};
+pub use answer::{Answered, Borders, Finding, LostShare, NoAnswer, Whole};
 pub use answer::{answer, answer_by, answer_for};
 pub use fit::{Fit, Opened, Recording, ShownFit};
 pub use request::{Request, TOPICS, Topic};

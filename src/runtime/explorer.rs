@@ -19,7 +19,7 @@ use crate::fit::Unfit;
 use crate::flow::{Limits, Reason};
 use crate::question::{self, Fineness, Fit, Recording, Resources};
 use crate::scan::grid::Scan;
-use crate::scene::{Answer, Request};
+use crate::scene::{Finding, Request};
 use crate::session::{Effect, Key, Msg, PointerTarget, Session, save, settings, update};
 use crate::terminal::Environment;
 use crate::view::{self, Look};
@@ -119,10 +119,10 @@ impl Application for Explorer {
 }
 
 /// Answers a request: a scan on all cores, everything else on this thread.
-pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Answer, Reason> {
+pub fn answer(request: &Request, limits: &Limits, tell: &Tell) -> Result<Finding, Reason> {
     let rows = |scan: &Scan, from| scanning::answer(scan, from, limits, tell);
     if let Request::Fit { recording } = request {
-        return fitted(recording, limits, tell).map(Answer::Fit);
+        return fitted(recording, limits, tell).map(Finding::Fit);
     }
     question::answer_by(request, &Resources { fineness: Fineness::SCREEN, limits, rows: &rows })
 }
@@ -134,7 +134,7 @@ fn fitted(recording: &Recording, limits: &Limits, tell: &Tell) -> Result<Fit, Re
     Fit::of(recording, limits, &|motions| {
         if told.get().elapsed() >= EVERY {
             told.set(Instant::now());
-            tell(Answer::Fit(Unfit::Underway { motions }.into()));
+            tell(Finding::Fit(Unfit::Underway { motions }.into()));
         }
     })
 }

@@ -15,7 +15,7 @@ use super::workers::Tell;
 use crate::flow::{Limits, Reason};
 use crate::question::Rows;
 use crate::scan::grid::{Scan, ScanRow};
-use crate::scene::Answer;
+use crate::scene::Finding;
 
 /// Rows that each thread may be ahead of the first unfinished one: enough that one slow row does not hold up
 /// the others, few enough to be held in memory.
@@ -114,7 +114,7 @@ pub fn answer(scan: &Scan, from: usize, limits: &Limits, tell: &Tell) -> Result<
         if !piece.rows.is_empty() && told.is_none_or(|told| told.elapsed() >= EVERY) {
             told = Some(Instant::now());
             let next = Rows { first: piece.first + piece.rows.len(), rows: Vec::new() };
-            tell(Answer::Scan(std::mem::replace(&mut piece, next)));
+            tell(Finding::Scan(std::mem::replace(&mut piece, next)));
         }
         ControlFlow::Continue(())
     })

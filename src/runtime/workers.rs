@@ -20,14 +20,14 @@ use super::new_file::Readers;
 use super::panics::caught;
 use crate::flow::{Limits, Reason};
 use crate::question::NoAnswer;
-use crate::scene::{Answer, Answered, Request};
+use crate::scene::{Answered, Finding, Request};
 use crate::session::{Msg, Notice};
 
 /// Called by a job with its results so far; its return value is the last piece.
-pub type Tell<'a> = dyn Fn(Answer) + 'a;
+pub type Tell<'a> = dyn Fn(Finding) + 'a;
 
 /// Computes the answer to a request.
-pub type Compute = dyn Fn(&Request, &Limits, &Tell) -> Result<Answer, Reason> + Send + Sync;
+pub type Compute = dyn Fn(&Request, &Limits, &Tell) -> Result<Finding, Reason> + Send + Sync;
 
 /// Takes the messages for the session.
 pub type Report = dyn Fn(Msg) + Send + Sync;

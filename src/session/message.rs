@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::model::Knob;
 use crate::question::NoAnswer;
-use crate::scene::{Answer, Answered, Point, Request};
+use crate::scene::{Answered, Finding, Point, Request};
 use crate::session::Key;
 
 /// A message: anything that can happen to a session.
@@ -46,7 +46,7 @@ pub enum Msg {
 
 impl Msg {
     /// The complete answer to a request, or why there is none, and the seconds that it took.
-    pub fn answered(request: Request, result: Result<Answer, NoAnswer>, seconds: f64) -> Self {
+    pub fn answered(request: Request, result: Result<Finding, NoAnswer>, seconds: f64) -> Self {
         Msg::Answered(Box::new(Answered { request, result, seconds, complete: true }))
     }
 }

@@ -9,7 +9,7 @@ use super::{Look, Surface, keys, paper};
 use crate::picture::Role;
 use crate::scene::library::SceneGroup;
 use crate::scene::said::said_by;
-use crate::scene::{Answer, Answered, Layer, Topic, letters};
+use crate::scene::{Answered, Finding, Layer, Topic, letters};
 use crate::session::wants::{CostRow, Requirement, named};
 use crate::session::{AnswerState, List, Listed, Overlay, PaletteRow, Session};
 use crate::words::duration;
@@ -185,7 +185,7 @@ fn asked(session: &Session, requirement: &Requirement) -> (&'static str, String)
 }
 
 fn price(answered: &Answered) -> String {
-    let cost = answered.result.as_ref().map(Answer::cost).unwrap_or_default();
+    let cost = answered.result.as_ref().map(Finding::cost).unwrap_or_default();
     let (evaluations, steps) = (count(cost.evaluations), count(cost.steps));
     format!("{evaluations:>6} ev {steps:>6} steps {:>8}", duration(answered.seconds))
 }

@@ -12,7 +12,7 @@ use hopfscope::portrait::Cycle;
 use hopfscope::portrait::survey::portrait;
 use hopfscope::question::answer;
 use hopfscope::scene::machine::library::machines;
-use hopfscope::scene::{Answer, Topic, View, find};
+use hopfscope::scene::{Finding, Topic, View, find};
 use hopfscope::session::{Msg, Session, Size, settle};
 
 fn machine(name: &str) -> Belt {
@@ -161,7 +161,7 @@ fn a_draft_is_quick_and_shows_every_kind_where_the_whole_answer_does() {
         let asked = asked.find(|request| request.topic() == Topic::Speeds).unwrap();
         let found = [asked.draft().unwrap(), asked].map(|request| {
             match answer(&request, &Limits::PATIENT).unwrap() {
-                Answer::Speeds(found) => found,
+                Finding::Speeds(found) => found,
                 other => panic!("{other:?}"),
             }
         });

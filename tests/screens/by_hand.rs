@@ -22,7 +22,7 @@ use hopfscope::question::zones::{CertainZones, Extent};
 use hopfscope::question::{Borders, Rows};
 use hopfscope::scan::grid::ScanRow;
 use hopfscope::scan::measure::Value;
-use hopfscope::scene::{Answer, Layer, Request, find};
+use hopfscope::scene::{Finding, Layer, Request, find};
 use hopfscope::session::{Key, Msg, Session, Size, update};
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
@@ -40,7 +40,7 @@ pub fn settle(session: &mut Session) {
 }
 
 /// The same with other answers.
-pub fn settle_with(session: &mut Session, answer: impl Fn(&Request) -> Answer) {
+pub fn settle_with(session: &mut Session, answer: impl Fn(&Request) -> Finding) {
     hopfscope::session::settle(session, |_, request| {
         Some(Msg::answered(request.clone(), Ok(answer(request)), 0.000_25))
     });
@@ -80,13 +80,13 @@ pub fn drawn_over(layer: Layer) -> bool {
     )
 }
 
-pub fn by_hand(request: &Request) -> Answer {
+pub fn by_hand(request: &Request) -> Finding {
     match request {
-        Request::Trajectory { problem, .. } => Answer::Trajectory(spiral(*problem)),
+        Request::Trajectory { problem, .. } => Finding::Trajectory(spiral(*problem)),
         Request::Cycles { parameters, .. } => {
             let cycles = vec![cycle(0.5, false), cycle(1.2, true)];
             let curves: Vec<Vec<State>> = vec![circle(0.5), circle(1.2)];
-            Answer::Cycles(Cycles {
+            Finding::Cycles(Cycles {
                 parameters: *parameters,
                 border: Border::Cycle,
                 harmonic: Vec::new(),
@@ -112,23 +112,23 @@ pub fn by_hand(request: &Request) -> Answer {
                 cost: Cost::default(),
             };
             let rows = (*from..scan.points()).map(row).collect();
-            Answer::Scan(Rows { first: *from, rows })
+            Finding::Scan(Rows { first: *from, rows })
         }
-        Request::Zones(_) => Answer::Zones(CertainZones {
+        Request::Zones(_) => Finding::Zones(CertainZones {
             safe: Extent::Within(circle(0.4)),
             hopeful: Extent::Within(circle(0.6)),
             nominal: margin(0.5),
             guaranteed: Ok(margin(0.4)),
             cost: Cost { evaluations: 400, steps: 20, rejected: 0 },
         }),
-        Request::Capture { .. } => Answer::Capture(Borders {
+        Request::Capture { .. } => Finding::Capture(Borders {
             curves: vec![circle(0.2), circle(0.35)],
             cost: Cost { evaluations: 800, steps: 40, rejected: 0 },
         }),
-        Request::Branch { parameter, .. } => Answer::Branch(folded(*parameter)),
-        Request::ReturnMap { parameters, .. } => Answer::ReturnMap(halving(*parameters)),
-        Request::Regimes { plane, .. } => Answer::Regimes(parted(*plane)),
-        Request::Trade(_) => Answer::Trade(compared()),
+        Request::Branch { parameter, .. } => Finding::Branch(folded(*parameter)),
+        Request::ReturnMap { parameters, .. } => Finding::ReturnMap(halving(*parameters)),
+        Request::Regimes { plane, .. } => Finding::Regimes(parted(*plane)),
+        Request::Trade(_) => Finding::Trade(compared()),
         // Of the cycles made up above.
         Request::Proof { parameters } => {
             let known = |low, high, stable| ProvedCycle {
@@ -136,7 +136,7 @@ pub fn by_hand(request: &Request) -> Answer {
                 stable,
                 enclosure: None,
             };
-            Answer::Proof(Proof {
+            Finding::Proof(Proof {
                 parameters: ParameterBox::from(parameters),
                 theorem: None,
                 cycles: vec![known(0.3, 0.5, false), known(1.0, 1.2, true)],
@@ -147,9 +147,9 @@ pub fn by_hand(request: &Request) -> Answer {
         // Of these the pictures show little more than that they were answered.
         Request::Kicks { .. } => {
             let share = Share { part: 0.125, error: 1e-11 };
-            Answer::Kicks(LostShare { share, cost: CHEAP })
+            Finding::Kicks(LostShare { share, cost: CHEAP })
         }
-        Request::Balance { parameters, harmonics } => Answer::Balance(HarmonicBalance {
+        Request::Balance { parameters, harmonics } => Finding::Balance(HarmonicBalance {
             parameters: *parameters,
             harmonics: *harmonics,
             balanced: Vec::new(),
@@ -157,11 +157,11 @@ pub fn by_hand(request: &Request) -> Answer {
             cost: CHEAP,
         }),
         Request::Speeds { .. } => {
-            Answer::Speeds(MachineBranch { cost: CHEAP, ..MachineBranch::default() })
+            Finding::Speeds(MachineBranch { cost: CHEAP, ..MachineBranch::default() })
         }
-        Request::Claims => Answer::Claims(Vec::new()),
+        Request::Claims => Finding::Claims(Vec::new()),
         // There is no reference for made-up answers.
-        Request::Reference(_) => Answer::Reference(Err(Reason::OutOfRange)),
+        Request::Reference(_) => Finding::Reference(Err(Reason::OutOfRange)),
         Request::Fit { .. } | Request::Refit { .. } => {
             question::answer(request, &Limits::PATIENT).expect("records can be fitted")
         }

@@ -16,7 +16,7 @@ use hopfscope::portrait::Return;
 use hopfscope::question::NoAnswer;
 use hopfscope::question::zones::Extent;
 use hopfscope::scene::{
-    Answer, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window, find, library,
+    Finding, LAYERS, Layer, PlotSetup, Point, Scene, Span, View, Window, find, library,
 };
 use hopfscope::session::settings::{Colors, Glyphs, Theme, choices};
 use hopfscope::session::{BranchStop, Msg, Notice, PointerTarget, Session, Size, settings, update};
@@ -270,7 +270,7 @@ fn without_colour_no_cell_has_any_and_stable_still_differs_from_unstable() {
         session.layers = [Layer::Cycles].into();
         settle_with(&mut session, |request| {
             let mut answer = by_hand(request);
-            if let Answer::Cycles(found) = &mut answer {
+            if let Finding::Cycles(found) = &mut answer {
                 found.cycles = vec![cycle(1.0, stable)];
                 found.picture = Some(picture(Vec::new(), vec![circle(1.0)]));
             }
@@ -394,34 +394,34 @@ proptest! {
         for request in session.wants() {
             let mut answer = by_hand(&request);
             match &mut answer {
-                Answer::Trajectory(found) => {
+                Finding::Trajectory(found) => {
                     found.samples = curve.iter().map(|(q, v)| Sample { tau: 0.0, q: *q, v: *v }).collect();
                     found.outcome = Outcome::Moving { tau: value, q: low, v: high };
                 }
-                Answer::Cycles(found) => {
+                Finding::Cycles(found) => {
                     found.picture = Some(picture(states.clone(), vec![states.clone(), states.clone()]));
                     found.cycles = vec![cycle(value, true), cycle(low, false)];
                 }
-                Answer::Branch(found) => {
+                Finding::Branch(found) => {
                     found.pieces = vec![curve.iter().map(|(value, q_max)| {
                         BranchPoint { value: *value, cycle: cycle(*q_max, *q_max > 0.0) }
                     }).collect()];
                     found.special[0].cycle = Some(cycle(value, true));
                     held = Some(BranchStop::at(0, &found.special[0]));
                 }
-                Answer::Balance(found) => found.balanced.clear(),
-                Answer::ReturnMap(found) => {
+                Finding::Balance(found) => found.balanced.clear(),
+                Finding::ReturnMap(found) => {
                     let turn = |(from, to): &(f64, f64)| Return { from: *from, to: Some(*to) };
                     found.sides = [curve.iter().map(turn).collect(), Vec::new()];
                 }
-                Answer::Regimes(found) => {
+                Finding::Regimes(found) => {
                     for (line, (at, fold)) in found.lines.iter_mut().zip(&curve) {
                         (line.at, line.fold, line.harmonic) = (*at, Some(*fold), Some(low));
                     }
                 }
-                Answer::Zones(found) => found.safe = Extent::Within(states.clone()),
-                Answer::Kicks(found) => found.share.part = value,
-                Answer::Capture(found) => found.curves = vec![states.clone()],
+                Finding::Zones(found) => found.safe = Extent::Within(states.clone()),
+                Finding::Kicks(found) => found.share.part = value,
+                Finding::Capture(found) => found.curves = vec![states.clone()],
                 _ => {}
             }
             update(&mut session, Msg::answered(request, Ok(answer), 0.0));

@@ -20,8 +20,8 @@ fn number(request: &Request) -> f64 {
     }
 }
 
-fn nothing(request: &Request) -> Answer {
-    Answer::Cycles(Cycles {
+fn nothing(request: &Request) -> Finding {
+    Finding::Cycles(Cycles {
         parameters: Parameters { d: number(request), d2: 0.0, d3: 0.0, r: 0.1 },
         cycles: Vec::new(),
         harmonic: Vec::new(),

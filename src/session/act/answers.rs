@@ -6,7 +6,7 @@ use crate::fit::Unfit;
 use crate::flow::{Problem, Reason};
 use crate::model::Knob;
 use crate::question::{NoAnswer, Rows};
-use crate::scene::{Answer, Answered, Fit, Topic};
+use crate::scene::{Answered, Finding, Fit, Topic};
 use crate::session::act::scan::refit;
 use crate::session::act::{inform, refuse};
 use crate::session::read::windows::{fitted, is_pending};
@@ -28,7 +28,7 @@ impl Session {
             if topic != Topic::Proof {
                 self.price.recomputed.push(Recomputation { topic, cost, seconds });
             }
-            if let Answer::Fit(fit) = answer
+            if let Finding::Fit(fit) = answer
                 && asked
             {
                 let fit = fit.clone();
@@ -81,7 +81,7 @@ impl Session {
         let Some(scanned) = &mut self.scanned else { return false };
         scanned.seconds = answered.seconds;
         match &answered.result {
-            Ok(Answer::Scan(Rows { first, rows })) if *first == scanned.rows.len() => {
+            Ok(Finding::Scan(Rows { first, rows })) if *first == scanned.rows.len() => {
                 scanned.rows.extend_from_slice(rows);
             }
             Ok(_) => return false,

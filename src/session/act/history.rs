@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::fit::Unfit;
 use crate::model::Knob;
-use crate::scene::{Answer, Answered, Layer, Scene, Topic};
+use crate::scene::{Answered, Finding, Layer, Scene, Topic};
 use crate::session::act::inform;
 use crate::session::act::parameters::put;
 use crate::session::act::screen_setup::set_up;
@@ -42,7 +42,7 @@ pub fn stop_fitting(session: &mut Session) {
     if session.scene.recording == recording
         && let Some(request) = session.request(Topic::Fit, session.plot)
     {
-        let result = Ok(Answer::Fit(Unfit::Interrupted.into()));
+        let result = Ok(Finding::Fit(Unfit::Interrupted.into()));
         session.answers.keep(Answered { request, result, seconds: 0.0, complete: true });
     }
     session.fitting = 0;

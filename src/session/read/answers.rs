@@ -15,7 +15,7 @@ use crate::proof::Proof;
 use crate::question::fit::Unsure;
 use crate::question::zones::CertainZones;
 use crate::question::{Borders, Fit, NoAnswer, ShownFit};
-use crate::scene::{Answer, Axes, Request, Topic};
+use crate::scene::{Axes, Finding, Request, Topic};
 use crate::session::{AnswerState, Session, Uncertainty};
 
 /// Why a motion has no measured error.
@@ -33,7 +33,7 @@ pub enum NoErrorReason {
 macro_rules! last {
     ($session:ident, $topic:ident, $plot:expr) => {
         match $session.answer(Topic::$topic, $plot)? {
-            Answer::$topic(found) => Some(found),
+            Finding::$topic(found) => Some(found),
             _ => None,
         }
     };
@@ -92,7 +92,7 @@ impl Session {
         // With the distribution of the margin once that is there.
         let held = self.refit(true).filter(|drawn| drawn.is_fresh()).or_else(|| self.refit(false));
         let held = match held.and_then(AnswerState::answer) {
-            Some(Answer::Refit(fit)) => fit.found().ok(),
+            Some(Finding::Refit(fit)) => fit.found().ok(),
             _ => None,
         };
         held.or_else(|| self.fit_of_all()?.found().ok())
@@ -117,7 +117,7 @@ impl Session {
     fn fit_of_all(&self) -> Option<&Fit> {
         let standing = self.standing(Topic::Fit, self.plot);
         match standing.answer()? {
-            Answer::Fit(fit) if standing.is_fresh() => Some(fit),
+            Finding::Fit(fit) if standing.is_fresh() => Some(fit),
             _ => None,
         }
     }
@@ -155,7 +155,7 @@ impl Session {
     }
 
     /// The answer on this topic for the present problem, as a plot asks it, stale or not.
-    pub fn answer(&self, topic: Topic, plot: usize) -> Option<&Answer> {
+    pub fn answer(&self, topic: Topic, plot: usize) -> Option<&Finding> {
         self.standing(topic, plot).answer()
     }
 
@@ -211,7 +211,7 @@ impl Session {
         if !self.measures() || stale(Topic::Reference) {
             return None;
         }
-        let Answer::Reference(reference) = self.answer(Topic::Reference, self.plot)? else {
+        let Finding::Reference(reference) = self.answer(Topic::Reference, self.plot)? else {
             return None;
         };
         let Ok(reference) = reference else { return Some(Err(NoErrorReason::TighterGaveUp)) };
@@ -226,7 +226,7 @@ impl Session {
     /// The examined claims of the paper; empty until they are there.
     pub fn examined(&self) -> &[ClaimResult] {
         match self.answer(Topic::Claims, self.plot) {
-            Some(Answer::Claims(examined)) => examined,
+            Some(Finding::Claims(examined)) => examined,
             _ => &[],
         }
     }

@@ -12,7 +12,7 @@ use crate::question::Whole;
 use crate::question::whole::{WholeCycles, WholeMotion};
 use crate::question::zones::UncertainSubject;
 use crate::scene::machine::unlikely::unlikely;
-use crate::scene::{Answer, Layer, Request, Running, ScaledMachine, Setting, Topic, View};
+use crate::scene::{Finding, Layer, Request, Running, ScaledMachine, Setting, Topic, View};
 use crate::session::state::setup::{ON_A_MACHINE, symbol_of};
 use crate::session::{Session, Setup, Uncertainty};
 
@@ -77,7 +77,7 @@ impl Session {
 
     fn whole(&self, topic: Topic) -> Option<&Whole> {
         let found = self.standing(topic, self.plot).answered()?.result.as_ref().ok()?;
-        let Answer::Whole(whole) = found else { return None };
+        let Finding::Whole(whole) = found else { return None };
         Some(whole)
     }
 

@@ -10,7 +10,7 @@ use crate::flow::{Method, Outcome, Problem, Sample, Trajectory};
 use crate::model::{Parameters, State};
 use crate::numerics::elementary::tanh;
 use crate::portrait::on_belt::FollowedOnBelt;
-use crate::scene::{Answer, Topic};
+use crate::scene::{Finding, Topic};
 use crate::session::{Pace, Session};
 
 impl Session {
@@ -105,7 +105,7 @@ impl Session {
         let found = asked.filter_map(|(place, problem)| {
             let request = self.request_for(Topic::Trajectory, self.plot, problem)?;
             let answer = self.answers.standing(&request).answer()?;
-            let Answer::Trajectory(found) = answer else { return None };
+            let Finding::Trajectory(found) = answer else { return None };
             Some((place, found))
         });
         found.collect()

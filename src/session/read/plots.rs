@@ -9,7 +9,7 @@ use crate::flow::Problem;
 use crate::model::Knob;
 use crate::numerics::elementary::hypot;
 use crate::scene::{
-    Answer, Height, Layer, Needs, PlotSetup, Point, Request, Topic, Variant, View, Window,
+    Finding, Height, Layer, Needs, PlotSetup, Point, Request, Topic, Variant, View, Window,
 };
 use crate::session::{AnswerState, Framing, Pane, Plot, ScreenSetup, Session};
 
@@ -178,7 +178,7 @@ impl Session {
     }
 
     /// The answers on this topic for the problems that a plot shows, stale or not.
-    pub fn found(&self, topic: Topic, plot: usize) -> Vec<(VariantTag, &Answer)> {
+    pub fn found(&self, topic: Topic, plot: usize) -> Vec<(VariantTag, &Finding)> {
         let starts = topic == Topic::Trajectory;
         let labels = self.variants(plot).map(|all| labels(all, &self.problem, starts));
         let label = |index: usize| labels.as_ref()?.get(index).cloned();
@@ -192,7 +192,7 @@ impl Session {
         &self,
         topic: Topic,
         plot: usize,
-    ) -> impl Iterator<Item = (usize, &Answer)> {
+    ) -> impl Iterator<Item = (usize, &Finding)> {
         let asked = self.requests(topic, plot).into_iter();
         asked.filter_map(|(index, asked)| Some((index, self.answers.standing(&asked).answer()?)))
     }
@@ -203,7 +203,7 @@ impl Session {
         let over = self.plots.get(plot).map(|plot| plot.axes.abscissa);
         self.answers_for_each(Topic::Branch, plot)
             .filter_map(|(index, answer)| match answer {
-                Answer::Branch(found) if Some(found.parameter) == over => Some((index, found)),
+                Finding::Branch(found) if Some(found.parameter) == over => Some((index, found)),
                 _ => None,
             })
             .collect()

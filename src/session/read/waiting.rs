@@ -18,7 +18,7 @@ use crate::session::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
     /// The answers on a topic for the plot in which the command runs, with its variants.
-    Answer(Topic),
+    Finding(Topic),
     /// The answer on a topic at the present numbers, whichever variants the plot shows.
     Present(Topic),
     /// The motion, if the command runs in a plot over time.
@@ -35,10 +35,10 @@ pub enum Need {
 #[rustfmt::skip]
 pub const NEEDS: [(Need, &[&str]); 9] = [
     (Need::Present(Topic::Cycles), &["start-inside", "start-outside"]),
-    (Need::Answer(Topic::Cycles), &["start-on-cycle"]),
-    (Need::Answer(Topic::Trajectory), &["play-motion", "motion-on", "motion-back"]),
-    (Need::Answer(Topic::Trade), &["use-method"]),
-    (Need::Answer(Topic::Branch), &[
+    (Need::Finding(Topic::Cycles), &["start-on-cycle"]),
+    (Need::Finding(Topic::Trajectory), &["play-motion", "motion-on", "motion-back"]),
+    (Need::Finding(Topic::Trade), &["use-method"]),
+    (Need::Finding(Topic::Branch), &[
         "walk", "walk-back", "walk-on", "walk-far-back", "walk-far-on", "walk-to-next",
         "walk-to-previous", "walk-to-first", "walk-to-last", "walk-take",
     ]),
@@ -122,7 +122,7 @@ impl Session {
         };
         let needs = NEEDS.iter().filter(|(_, names)| names.contains(&name));
         needs.into_iter().find_map(|(need, _)| match need {
-            Need::Answer(topic) => open(*topic),
+            Need::Finding(topic) => open(*topic),
             Need::Present(topic) => {
                 self.request(*topic, plot).filter(|request| self.is_open(request))
             }

@@ -11,7 +11,7 @@ use crate::branch::chart::Plane;
 use crate::flow::Problem;
 use crate::model::{Belt, Knob, Parameters, State};
 use crate::numerics::elementary::{exp2, hypot, log2};
-use crate::scene::{Answer, Axes, Layer, Request, Span, TOPICS, Topic, View, Window};
+use crate::scene::{Axes, Finding, Layer, Request, Span, TOPICS, Topic, View, Window};
 use crate::session::{AnswerState, Framing, List, Listed, Overlay, Pane, Row, Session};
 
 /// Number of evaluations above which answers on a topic may take longer than a quarter of a frame: further
@@ -87,7 +87,7 @@ impl Session {
     }
 
     /// The answers for the point that was left.
-    pub fn answers_left(&self) -> impl Iterator<Item = &Answer> {
+    pub fn answers_left(&self) -> impl Iterator<Item = &Finding> {
         self.compared().filter_map(|request| match self.answers.standing(request) {
             AnswerState::Fresh(found) => found.result.as_ref().ok(),
             _ => None,

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::flow::Reason;
 use crate::question::NoAnswer;
-use crate::scene::{Answer, Answered, Request};
+use crate::scene::{Answered, Finding, Request};
 
 /// Limit on the integration steps in answers to questions that are no longer asked: some ten megabytes of
 /// points.
@@ -40,9 +40,9 @@ impl<'a> AnswerState<'a> {
     }
 
     /// The answer that is there, in the form that views draw.
-    pub fn answer(self) -> Option<&'a Answer> {
+    pub fn answer(self) -> Option<&'a Finding> {
         let found = self.answered()?.result.as_ref().ok()?;
-        Some(if let Answer::Whole(whole) = found { &whole.drawn } else { found })
+        Some(if let Finding::Whole(whole) = found { &whole.drawn } else { found })
     }
 
     pub fn is_fresh(self) -> bool {
@@ -77,7 +77,7 @@ impl Answers {
     /// if there is none.
     pub fn cost(&self, request: &Request) -> u64 {
         let found = self.nearest(request, |held| held.request.draft().is_some());
-        let cost = found.and_then(|found| found.result.as_ref().ok()).map(Answer::cost);
+        let cost = found.and_then(|found| found.result.as_ref().ok()).map(Finding::cost);
         cost.unwrap_or_default().evaluations
     }
 

@@ -4,7 +4,7 @@ use super::{COST, Trial, answered, by_hand};
 use crate::accuracy::reference::Reference;
 use crate::flow::{Limits, Method, Reason};
 use crate::question::{NoAnswer, answer};
-use crate::scene::{Answer, Request, TOPICS, Topic, find};
+use crate::scene::{Finding, Request, TOPICS, Topic, find};
 use crate::session::NoErrorReason;
 use crate::session::{AnswerState, Msg, update};
 
@@ -39,8 +39,8 @@ fn the_dial_is_the_same_whatever_its_number_is_called() {
 fn costly(request: Request, evaluations: u64) -> Msg {
     let mut found = by_hand(&request);
     match &mut found {
-        Answer::Trajectory(motion) => motion.cost.evaluations = evaluations,
-        Answer::Branch(branch) => branch.cost.evaluations = evaluations,
+        Finding::Trajectory(motion) => motion.cost.evaluations = evaluations,
+        Finding::Branch(branch) => branch.cost.evaluations = evaluations,
         _ => {}
     }
     Msg::answered(request, Ok(found), 0.001)
@@ -206,7 +206,7 @@ fn why_there_is_no_measured_error_is_known() {
             let result = match topic {
                 Topic::Reference => {
                     let found = Reference::of(&problem, &Limits::PATIENT).unwrap();
-                    Answer::Reference(Ok(Box::new(found)))
+                    Finding::Reference(Ok(Box::new(found)))
                 }
                 _ => answer(&request, &Limits::PATIENT).unwrap(),
             };

@@ -6,7 +6,7 @@ use crate::flow::Limits;
 use crate::picture;
 use crate::picture::Item;
 use crate::portrait::kicks::repeated::repeated;
-use crate::question::{Answer, Request, answer};
+use crate::question::{Finding, Request, answer};
 use crate::scene::{Layer, Topic};
 use crate::session::Msg;
 
@@ -53,7 +53,9 @@ fn the_part_told_is_that_of_the_headless_command() {
     trial.press("<run \"set D=-0.3 D2=0.2 D3=0.5 r=0.1\"><run \"kicks q=0.02+-0.08,v=0+-0.1\">");
     let asked = trial.session.wants().into_iter().chain(trial.session.asks());
     let asked = asked.filter(|request| request.topic() == Topic::Kicks).collect::<Vec<Request>>();
-    let Ok(Answer::Kicks(found)) = answer(&asked[0], &Limits::PATIENT) else { panic!("{asked:?}") };
+    let Ok(Finding::Kicks(found)) = answer(&asked[0], &Limits::PATIENT) else {
+        panic!("{asked:?}")
+    };
     let parameters = trial.session.problem.parameters;
     let whole = repeated(&parameters, &trial.session.kicks, &Limits::PATIENT).unwrap();
     assert!(found.share.part > 0.02 && found.share.error < 1e-8, "{found:?}");

@@ -43,7 +43,7 @@ use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, ReturnMap};
 use crate::proof::{ParameterBox, Proof};
 use crate::question::zones::{CertainZones, Extent};
 use crate::question::{Borders, LostShare, Rows};
-use crate::scene::{Answer, Fit, Request, Scene, Topic, find};
+use crate::scene::{Finding, Fit, Request, Scene, Topic, find};
 
 /// A session whose questions are answered as soon as they are asked.
 struct Trial {
@@ -221,12 +221,12 @@ fn answered(request: Request) -> Msg {
 }
 
 /// A made-up answer: a motion that stays at its start, two cycles, and one fold.
-pub fn by_hand(request: &Request) -> Answer {
+pub fn by_hand(request: &Request) -> Finding {
     let cost = Cost { evaluations: COST, steps: 1, rejected: 0 };
     match request {
         Request::Trajectory { problem, .. } => {
             let Problem { initial: State { q, v }, until, .. } = *problem;
-            Answer::Trajectory(Trajectory {
+            Finding::Trajectory(Trajectory {
                 problem: *problem,
                 method: Method::Taylor,
                 implicit_steps: 0,
@@ -237,7 +237,7 @@ pub fn by_hand(request: &Request) -> Answer {
                 cost,
             })
         }
-        Request::Cycles { parameters, .. } => Answer::Cycles(Cycles {
+        Request::Cycles { parameters, .. } => Finding::Cycles(Cycles {
             parameters: *parameters,
             cycles: vec![cycle(false, parameters.r), cycle(true, parameters.r)],
             harmonic: Vec::new(),
@@ -252,55 +252,55 @@ pub fn by_hand(request: &Request) -> Answer {
             }),
             cost,
         }),
-        Request::Trade(_) => Answer::Trade(Box::new(trade(cost))),
+        Request::Trade(_) => Finding::Trade(Box::new(trade(cost))),
         // There is no reference for made-up answers.
-        Request::Reference(_) => Answer::Reference(Err(Reason::OutOfRange)),
-        Request::Zones(_) => Answer::Zones(zones()),
+        Request::Reference(_) => Finding::Reference(Err(Reason::OutOfRange)),
+        Request::Zones(_) => Finding::Zones(zones()),
         Request::Kicks { .. } => {
             let share = Share { part: 0.125, error: 1e-11 };
-            Answer::Kicks(LostShare { share, cost })
+            Finding::Kicks(LostShare { share, cost })
         }
-        Request::Capture { .. } => Answer::Capture(Borders { curves: Vec::new(), cost }),
-        Request::Balance { parameters, harmonics } => Answer::Balance(HarmonicBalance {
+        Request::Capture { .. } => Finding::Capture(Borders { curves: Vec::new(), cost }),
+        Request::Balance { parameters, harmonics } => Finding::Balance(HarmonicBalance {
             parameters: *parameters,
             harmonics: *harmonics,
             balanced: Vec::new(),
             unknown: None,
             cost,
         }),
-        Request::ReturnMap { parameters, .. } => Answer::ReturnMap(ReturnMap {
+        Request::ReturnMap { parameters, .. } => Finding::ReturnMap(ReturnMap {
             parameters: *parameters,
             sides: [Vec::new(), Vec::new()],
             cost,
         }),
-        Request::Proof { parameters } => Answer::Proof(Proof {
+        Request::Proof { parameters } => Finding::Proof(Proof {
             parameters: ParameterBox::from(parameters),
             theorem: None,
             cycles: Vec::new(),
             open: Vec::new(),
             swings: 0,
         }),
-        Request::Claims => Answer::Claims(Vec::new()),
+        Request::Claims => Finding::Claims(Vec::new()),
         Request::Fit { recording } => {
-            Answer::Fit(Fit::of(recording, &Limits::PATIENT, &|_| ()).expect("nobody interrupts"))
+            Finding::Fit(Fit::of(recording, &Limits::PATIENT, &|_| ()).expect("nobody interrupts"))
         }
         Request::Refit { fit, held, drawn } => {
-            Answer::Refit(fit.held(*held, *drawn, &Limits::PATIENT).expect("nobody interrupts"))
+            Finding::Refit(fit.held(*held, *drawn, &Limits::PATIENT).expect("nobody interrupts"))
         }
         Request::Speeds { .. } => {
-            Answer::Speeds(MachineBranch { cost, ..MachineBranch::default() })
+            Finding::Speeds(MachineBranch { cost, ..MachineBranch::default() })
         }
         Request::Regimes { plane, .. } => {
             let along = plane.along();
-            Answer::Regimes(Chart { plane: *plane, along, lines: Vec::new(), cost })
+            Finding::Regimes(Chart { plane: *plane, along, lines: Vec::new(), cost })
         }
         Request::Scan { scan, from } => {
-            Answer::Scan(Rows { first: *from, rows: scan::rows(scan, *from..scan.points()) })
+            Finding::Scan(Rows { first: *from, rows: scan::rows(scan, *from..scan.points()) })
         }
         Request::Branch { parameter, range: (from, to), parameters, .. } => {
             let fold = Cycle { q_max: 1.5, log_multiplier: 0.0, ..cycle(false, parameters.r) };
             let point = |stable| BranchPoint { value: *from, cycle: cycle(stable, parameters.r) };
-            Answer::Branch(Branch {
+            Finding::Branch(Branch {
                 parameter: *parameter,
                 pieces: vec![vec![point(false), point(true)]],
                 special: vec![Special::new(SpecialKind::Fold, *to, Some(fold))],

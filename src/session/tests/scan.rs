@@ -8,7 +8,7 @@ use crate::flow::Cost;
 use crate::question::Rows;
 use crate::scan::grid::{Scan, ScanRow};
 use crate::scan::measure::Value;
-use crate::scene::{Answer, Answered, Request, Topic, View};
+use crate::scene::{Answered, Finding, Request, Topic, View};
 use crate::session::scan::ScanProgress;
 use crate::session::{Effect, Msg, Pane, ScanOnShow, Session, update};
 
@@ -31,7 +31,7 @@ fn piece(session: &mut Session, request: &Request, points: Range<usize>) {
     let Request::Scan { scan, .. } = request else { panic!("{request:?}") };
     let complete = points.end == scan.points();
     let rows = Rows { first: points.start, rows: rows(scan, points) };
-    let (request, result) = (request.clone(), Ok(Answer::Scan(rows)));
+    let (request, result) = (request.clone(), Ok(Finding::Scan(rows)));
     let answered = Answered { request, result, seconds: 1.0, complete };
     update(session, Msg::Answered(Box::new(answered)));
 }
