@@ -10,13 +10,13 @@ use super::progress::{Outlet, StatusLine};
 use super::{Failure, Output, input, timed, write};
 use crate::figure::{self, Figure, FileForm};
 use crate::fit::{
-    Choice, Column, Curves, D, DRAWS, Estimate, Fitted, Inertia, LENGTHS, LossName, MarginQuestion,
-    NameSpec, Question, R, RISES, Reading, Record, Runs, Signal, Unfit, assigned, contour,
-    estimate, length_in_metres, listed, margins, parse, quantity,
+    Curves, D, DRAWS, Estimate, Fitted, Inertia, MarginQuestion, NameSpec, R, RISES, Record, Runs,
+    Unfit, assigned, contour, estimate, length_in_metres, margins,
 };
 use crate::flow::Limits;
 use crate::model::Knob;
 use crate::model::unit::{Dimension, Measured, measured};
+use crate::question::record::RecordOptions;
 use crate::report::fit as forms;
 use crate::runtime::{bounded, provenance_file, source_file};
 use crate::words::fit::broken;
@@ -28,33 +28,8 @@ pub struct FitCommand {
     /// Record: a column of times and one of displacements, as instruments write them
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Columns of times and displacements, by number from 1 or by name
-    #[arg(long, value_name = "t=1,x=2", value_parser = columns)]
-    columns: Option<(Option<Column>, Option<Column>)>,
-    /// Rows are successive turning points, with or without times
-    #[arg(long)]
-    peaks: bool,
-    /// Quantities to estimate: omega0, offset, D, D2, D3, r; damping and friction not listed are held (at 0 unless set)
-    #[arg(long, value_name = "NAMES", value_parser = names)]
-    free: Option<FreeNumbers>,
-    /// Holds a quantity at a value, such as D3=0; repeatable
-    #[arg(long, value_name = "NAME=VALUE", value_parser = assigned, allow_hyphen_values = true)]
-    set: Vec<(&'static NameSpec, f64)>,
-    /// How residuals are weighted
-    #[arg(long, value_enum, default_value_t = LossName::Auto, value_name = "LOSS")]
-    loss: LossName,
-    /// Mass of the oscillator, such as "2 kg": forces and damping in N, N s/m
-    #[arg(long, value_name = "MASS", value_parser = |text: &str| Knob::Mass.parse(text), conflicts_with = "stiffness")]
-    mass: Option<f64>,
-    /// Stiffness of the spring, such as "800 N/m", instead of the mass
-    #[arg(long, value_name = "STIFFNESS", value_parser = |text: &str| Knob::Stiffness.parse(text))]
-    stiffness: Option<f64>,
-    /// What the second column holds, if the file does not tell it by a unit
-    #[arg(long, value_enum, value_name = "SIGNAL")]
-    signal: Option<Signal>,
-    /// Unit of the displacements, velocities or accelerations, if the file does not name it, such as mm or m/s^2
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    unit: Option<String>,
+    #[command(flatten)]
+    record: RecordOptions,
     /// Largest force that may act beside the kick, such as "0.5 N"; without --mass or --stiffness over the stiffness, as a
     /// length
     #[arg(long, value_name = "FORCE", value_parser = not_negative, allow_hyphen_values = true)]
@@ -84,37 +59,6 @@ pub struct FitCommand {
     output: Output,
 }
 
-/// Numbers to estimate.
-#[derive(Clone, Debug)]
-struct FreeNumbers(Vec<&'static NameSpec>);
-
-fn names(text: &str) -> Result<FreeNumbers, String> {
-    listed(text).map(FreeNumbers)
-}
-
-fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
-    let form = || {
-        format!(
-            "{text:?} does not name columns; expected for example t=1,x=3, x=2, or t=time,x=position"
-        )
-    };
-    let mut chosen = (None, None);
-    for part in text.split(',') {
-        let (key, value) = part.split_once('=').ok_or_else(form)?;
-        let column = match value.trim().parse() {
-            Ok(0) => return Err(format!("{part:?}: columns are counted from 1")),
-            Ok(number) => Column::Number(number),
-            Err(_) => Column::Name(value.trim().to_owned()),
-        };
-        match key.trim() {
-            "t" => chosen.0 = Some(column),
-            "x" => chosen.1 = Some(column),
-            _ => return Err(form()),
-        }
-    }
-    Ok(chosen)
-}
-
 fn not_negative(text: &str) -> Result<Measured, String> {
     let read = measured(text)?;
     if read.value >= 0.0 { Ok(read) } else { Err(format!("{text:?} is negative")) }
@@ -127,16 +71,6 @@ fn half_width(text: &str) -> Result<(&'static NameSpec, f64), String> {
     } else {
         Err(format!("{text:?}: D, D2, D3 and r have half widths, of 0 or more, such as r=0.01"))
     }
-}
-
-fn unit(text: &str) -> Result<String, String> {
-    let known = || {
-        let lengths = LENGTHS.map(|it| it.0).join(", ");
-        format!(
-            "{text:?} is not a unit of length; there are {lengths}, each also with /s or /s^2, and g"
-        )
-    };
-    quantity(text).map(|_| text.to_owned()).ok_or_else(known)
 }
 
 impl FitCommand {
@@ -162,14 +96,12 @@ impl FitCommand {
 
     fn fitted(&self, bytes: &[u8]) -> Result<Fitted, Failure> {
         let name = self.file.display().to_string();
-        let (time, displacement) = self.columns.clone().unwrap_or_default();
-        let (peaks, signal, unit) = (self.peaks, self.signal, self.unit.clone());
-        let reading = Reading { time, displacement, peaks, signal, unit };
         let bad = |problem: &dyn std::fmt::Display| Failure::Usage(format!("{name}: {problem}"));
-        let record = parse(bytes, &reading).map_err(|error| bad(&error))?;
+        let record = self.record.read(bytes).map_err(|error| bad(&error))?;
         let asked = self.margin_question(&record).map_err(|problem| bad(&problem))?;
         let inertia = asked.inertia;
-        let question = self.question()?;
+        self.record.unambiguous().map_err(Failure::Usage)?;
+        let question = self.record.question();
         let place = if io::stderr().is_terminal() { Outlet::Line } else { Outlet::Nowhere };
         let counted = Mutex::new((0_u64, StatusLine::new(place)));
         let interrupted = || {
@@ -199,21 +131,8 @@ impl FitCommand {
         Ok(Fitted { name, record, estimate, margins, curves, contours, inertia, seconds })
     }
 
-    fn question(&self) -> Result<Question, Failure> {
-        let free = self.free.as_ref().map(|names| names.0.clone());
-        let both = self.set.iter().find(|(row, _)| free.iter().flatten().any(|free| free == row));
-        if let Some((row, _)) = both {
-            return Err(Failure::Usage(format!(
-                "{0} is both --free and --set; it can be one of them",
-                row.name
-            )));
-        }
-        let choice = Choice { free, held: self.set.clone() };
-        Ok(Question { choice, loss: self.loss, peaks: self.peaks })
-    }
-
     fn margin_question(&self, record: &Record) -> Result<MarginQuestion, String> {
-        let inertia = self.inertia(record)?;
+        let inertia = self.record.inertia(record)?;
         let mut half_widths = [0.0; 4];
         for (row, half) in &self.half_width {
             half_widths[row.place - D] = *half;
@@ -222,27 +141,6 @@ impl FitCommand {
             self.disturbance.map_or(Ok(0.0), |it| disturbance(it, inertia, record))?;
         let FitCommand { draws, confidence, .. } = *self;
         Ok(MarginQuestion { draws, confidence, disturbance, half_widths, inertia })
-    }
-
-    /// The mass or stiffness, if given, and the record's unit of length in metres.
-    fn inertia(&self, record: &Record) -> Result<Option<(Inertia, f64)>, String> {
-        let mass = self.mass.map(Inertia::Mass);
-        let Some(inertia) = mass.or(self.stiffness.map(Inertia::Stiffness)) else {
-            return Ok(None);
-        };
-        if record.t.is_none() {
-            return Err(
-                "without times there is no frequency: leave out --mass and --stiffness".to_owned()
-            );
-        }
-        let known = LENGTHS.map(|it| record.signal.unit(it.0)).join(", ");
-        let unit = record.unit.as_deref();
-        let unit =
-            unit.ok_or_else(|| format!("the file names no unit of length; --unit one of {known}"))?;
-        let metres = length_in_metres(unit).ok_or_else(|| {
-            format!("{unit:?} is not a known unit of length; --unit one of {known}")
-        })?;
-        Ok(Some((inertia, metres)))
     }
 }
 

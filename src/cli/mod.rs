@@ -8,7 +8,6 @@ mod belt;
 mod branch;
 mod cycles;
 mod explore;
-mod failure;
 mod figure;
 mod fit;
 mod input;
@@ -47,6 +46,8 @@ pub(super) use output::{Certify, Output, print, write};
 pub(super) use source::{SourceOptions, StartOptions};
 pub(super) use timing::{in_turn, timed};
 
+use crate::words::usage;
+
 /// What the program is about, for the help text.
 const LONG_ABOUT: &str = "\
 Explorer of one oscillator, q'' + 2 D q' + D2 q'^2 + D3 q'^3 + q = friction within -r .. r: \
@@ -82,7 +83,7 @@ fn row<C: Args + 'static>(name: &'static str, run: fn(&C) -> Result<(), Failure>
 
 /// The options of a command, of those that were given.
 fn parsed<C: Args>(given: &ArgMatches) -> Result<C, Failure> {
-    C::from_arg_matches(given).map_err(|error| Failure::from_parser(&error))
+    C::from_arg_matches(given).map_err(|error| Failure::Usage(usage::line(&error)))
 }
 
 /// The commands, in the order of the help.
@@ -149,7 +150,7 @@ pub fn main() -> ExitCode {
     let words = settings_last(std::env::args_os().collect());
     let result = match program().try_get_matches_from(words) {
         Ok(given) => run(&given),
-        Err(error) if error.use_stderr() => Err(Failure::from_parser(&error)),
+        Err(error) if error.use_stderr() => Err(Failure::Usage(usage::line(&error))),
         Err(help) => print(&help.render().to_string()),
     };
     result.map_or_else(|failure| failure.report(), |()| ExitCode::SUCCESS)

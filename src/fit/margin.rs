@@ -17,11 +17,11 @@ use crate::branch::fold::fold;
 use crate::flow::{Limits, Reason};
 use crate::model::{Knob, ParameterBox, Parameters};
 use crate::numerics::count::{real, truncated};
-use crate::portrait::Margin;
 use crate::portrait::basin::Basin;
 use crate::portrait::closing::all::all_closings;
 use crate::portrait::closing::equation::Equation;
 use crate::portrait::guarantee::oscillator::guaranteed;
+use crate::portrait::{Kicks, Margin};
 
 /// What is asked of the margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,62 +104,15 @@ impl MarginSpread {
     }
 }
 
-/// The distributions of the smallest kicks that are not survived.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct KickSpreads {
-    /// The smallest displacement from the middle of the sticking set.
-    pub displacement: MarginSpread,
-    /// The smallest impulse from there, as `velocity/omega0`.
-    pub impulse: MarginSpread,
-    /// Those from the worst rest position.
-    pub from_rest: RestSpreads,
-}
-
-/// The distributions of the smallest kicks that are not survived from the worst rest position.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct RestSpreads {
-    /// The smallest change of position.
-    pub displacement: MarginSpread,
-    /// The smallest impulse, as `velocity/omega0`.
-    pub impulse: MarginSpread,
-}
-
-impl KickSpreads {
-    fn of<'a>(margins: &(impl Iterator<Item = &'a Margin> + Clone)) -> Self {
-        let of = |pick: fn(&Margin) -> Option<f64>| MarginSpread::of(margins.clone().map(pick));
-        KickSpreads {
-            displacement: of(|it| it.displacement),
-            impulse: of(|it| it.impulse),
-            from_rest: RestSpreads {
-                displacement: of(|it| it.from_rest.displacement),
-                impulse: of(|it| it.from_rest.impulse),
-            },
-        }
-    }
-
-    /// The same in other units of displacement and impulse.
-    #[must_use]
-    pub fn scaled(&self, displacement: f64, impulse: f64) -> Self {
-        KickSpreads {
-            displacement: self.displacement.scaled(displacement),
-            impulse: self.impulse.scaled(impulse),
-            from_rest: RestSpreads {
-                displacement: self.from_rest.displacement.scaled(displacement),
-                impulse: self.from_rest.impulse.scaled(impulse),
-            },
-        }
-    }
-}
-
 /// The distribution of the margins.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Margins {
     /// The smallest kicks that are not survived.
     #[serde(flatten)]
-    pub kicks: KickSpreads,
+    pub kicks: Kicks<MarginSpread>,
     /// All of these whatever a disturbance and tolerances do, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub guaranteed: Option<KickSpreads>,
+    pub guaranteed: Option<Kicks<MarginSpread>>,
     /// `omega0` and the guaranteed margin of each draw; a margin that could not be computed counts as none.
     #[serde(skip)]
     pub each: Vec<(f64, Margin)>,
@@ -236,12 +189,11 @@ pub fn margins(
     let sure = computed.iter().map(|it| it.as_ref().map_or(Margin::ZERO, |(_, sure)| *sure));
     let each: Vec<(f64, Margin)> = drawn.iter().map(|p| p[OMEGA0]).zip(sure).collect();
     let known: Vec<MarginOfDraw> = computed.into_iter().flatten().map(|(found, _)| found).collect();
-    let kicks = KickSpreads::of(&known.iter().map(|it| &it.margin));
+    let kicks = Kicks::of(|pick| MarginSpread::of(known.iter().map(|it| pick(&it.margin))));
+    let guaranteed = || Kicks::of(|pick| MarginSpread::of(each.iter().map(|it| pick(&it.1))));
     Ok(Margins {
         kicks,
-        guaranteed: question
-            .is_disturbed()
-            .then(|| KickSpreads::of(&each.iter().map(|(_, margin)| margin))),
+        guaranteed: question.is_disturbed().then(guaranteed),
         question: *question,
         cycle: MarginSpread::of(known.iter().map(|it| it.cycle)),
         fold: MarginSpread::of(known.iter().map(|it| it.fold)),

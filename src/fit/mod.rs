@@ -69,7 +69,7 @@ pub use estimate::Estimate;
 pub use fitted::Fitted;
 pub use margin::{DRAWS, MarginQuestion, Margins, margins};
 pub use observation::parameters;
-pub use question::{Inertia, LOSSES, LossName, Question, Unfit};
+pub use question::{Inertia, LossName, Question, Unfit};
 pub use record::{BadRecord, Column, Reading, Record, parse};
 pub use signal::{LENGTHS, Signal, length_in_metres};
 
@@ -91,7 +91,7 @@ pub(crate) use {
     drift::FittedDrift,
     estimate::{LeftOut, left_out},
     fitted::{EstimatedNumber, kicks, rows},
-    margin::{KickSpreads, MarginSpread},
+    margin::MarginSpread,
     question::{assigned, listed},
     record::decoded,
     refit::{RISES, contour, held},

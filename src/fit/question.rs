@@ -1,9 +1,8 @@
 //! The question that a fit answers: which numbers are estimated, how residuals count, and what the record does not contain;
 //! and the reasons why there may be no answer.
 
-use std::fmt;
-
 use serde::{Deserialize, Serialize, Serializer};
+use thiserror::Error;
 
 use super::{BEND, D, D2, D3, OFFSET, OMEGA0, R, SLOPE, UNKNOWNS, Unknowns, range};
 use crate::model::{KNOBS, Knob, unknown};
@@ -24,14 +23,6 @@ pub enum LossName {
     /// `s^2 ln(1 + (e/s)^2)`: large ones hardly more than moderate ones.
     Cauchy,
 }
-
-/// The losses by their names on the command line.
-pub const LOSSES: [(&str, LossName); 4] = [
-    ("auto", LossName::Auto),
-    ("linear", LossName::Linear),
-    ("soft-l1", LossName::SoftL1),
-    ("cauchy", LossName::Cauchy),
-];
 
 /// A loss function: the square of a residual, or less if the residual is large.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -246,9 +237,10 @@ impl Inertia {
 }
 
 /// Why there is no estimate.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum Unfit {
     /// Too few samples or peaks for this many unknowns.
+    #[error("{measured} measured numbers cannot tell {unknowns} unknowns")]
     TooFew {
         /// Number of measured values.
         measured: usize,
@@ -256,19 +248,35 @@ pub enum Unfit {
         unknowns: usize,
     },
     /// The record shows no swings.
+    #[error(
+        "fewer than two turning points, a hold and a rest included, stand out from the noise: of a single swing friction \
+         and offset cannot be told apart"
+    )]
     NoSwings,
     /// Successive peaks do not lie on opposite sides.
+    #[error(
+        "peaks {peak} to {} do not alternate: successive turning points lie on opposite sides, and of magnitudes those on \
+         one side need their minus sign",
+        peak + 2
+    )]
     NotAlternating {
         /// Number of the first such peak, counted from 1.
         peak: usize,
     },
     /// No motion of the model comes near the record; that of a guess escapes.
+    #[error("no motion of the model comes near the record")]
     NoMotion,
     /// An unknown has no influence on the record.
+    #[error("the record does not depend on one of the unknowns; hold some with --set or --free")]
     Blind,
     /// The computation was interrupted.
+    #[error("interrupted")]
     Interrupted,
     /// The maximum number of motions was reached.
+    #[error(
+        "gave up after {motions} motions, the closest of which is off by {closest:.2e} in the unit of the record: no \
+         motion of the model explains it"
+    )]
     GaveUp {
         /// Number of motions computed.
         motions: u64,
@@ -276,46 +284,12 @@ pub enum Unfit {
         closest: f64,
     },
     /// The fit is still running.
+    #[error("fitting: {motions} motions so far")]
     Underway {
         /// Number of motions computed so far.
         motions: u64,
     },
 }
-
-impl fmt::Display for Unfit {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Unfit::TooFew { measured, unknowns } => {
-                write!(out, "{measured} measured numbers cannot tell {unknowns} unknowns")
-            }
-            Unfit::NoSwings => write!(
-                out,
-                "fewer than two turning points, a hold and a rest included, stand out from the noise: of a single \
-                 swing friction and offset cannot be told apart"
-            ),
-            Unfit::NotAlternating { peak } => write!(
-                out,
-                "peaks {peak} to {} do not alternate: successive turning points lie on opposite sides, and of \
-                 magnitudes those on one side need their minus sign",
-                peak + 2
-            ),
-            Unfit::NoMotion => write!(out, "no motion of the model comes near the record"),
-            Unfit::Blind => write!(
-                out,
-                "the record does not depend on one of the unknowns; hold some with --set or --free"
-            ),
-            Unfit::Interrupted => write!(out, "interrupted"),
-            Unfit::GaveUp { motions, closest } => write!(
-                out,
-                "gave up after {motions} motions, the closest of which is off by {closest:.2e} in the unit of the record: \
-                 no motion of the model explains it"
-            ),
-            Unfit::Underway { motions } => write!(out, "fitting: {motions} motions so far"),
-        }
-    }
-}
-
-impl std::error::Error for Unfit {}
 
 /// A guess in which held unknowns have their values.
 #[must_use]

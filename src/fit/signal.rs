@@ -70,12 +70,6 @@ impl Signal {
         (0..self.order()).fold(1.0, |scale, _| scale * omega0)
     }
 
-    /// The signal with this name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        SIGNALS.iter().find(|(_, known, _)| *known == name).map(|(signal, ..)| *signal)
-    }
-
     /// The names of all signals.
     #[must_use]
     pub fn names() -> String {

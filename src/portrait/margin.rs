@@ -2,67 +2,87 @@
 
 use serde::Serialize;
 
-/// The margins; `None` where every kick is survived.
+/// What is known of each of the smallest kicks that are not captured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Margin {
-    /// Smallest `abs(q)` at `v = 0` that is not captured.
-    pub displacement: Option<f64>,
-    /// Smallest `abs(v)` at `q = 0` that is not captured.
-    pub impulse: Option<f64>,
-    /// The smallest kicks out of rest that are not captured.
-    pub from_rest: RestMargin,
+pub struct Kicks<T> {
+    /// Of the smallest `abs(q)` at `v = 0`.
+    pub displacement: T,
+    /// Of the smallest `abs(v)` at `q = 0`.
+    pub impulse: T,
+    /// Of the smallest kicks out of rest.
+    pub from_rest: RestKicks<T>,
 }
 
-/// The smallest kicks that are not captured if the mass rests where they do most, anywhere in `-r .. r`; `None`
-/// where every kick is survived.
+/// What is known of the smallest kicks that are not captured if the mass rests where they do most, anywhere in
+/// `-r .. r`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct RestMargin {
-    /// Change of position.
-    pub displacement: Option<f64>,
-    /// Velocity.
-    pub impulse: Option<f64>,
+pub struct RestKicks<T> {
+    /// Of the change of position.
+    pub displacement: T,
+    /// Of the velocity.
+    pub impulse: T,
+}
+
+/// The sizes of the kicks; `None` where every kick is survived.
+pub type Margin = Kicks<Option<f64>>;
+
+/// The sizes of the kicks out of rest; `None` where every kick is survived.
+pub type RestMargin = RestKicks<Option<f64>>;
+
+impl<T> Kicks<T> {
+    /// What follows from each kick of margins, which a function picks.
+    pub fn of(told: impl Fn(fn(&Margin) -> Option<f64>) -> T) -> Self {
+        Kicks {
+            displacement: told(|it| it.displacement),
+            impulse: told(|it| it.impulse),
+            from_rest: RestKicks {
+                displacement: told(|it| it.from_rest.displacement),
+                impulse: told(|it| it.from_rest.impulse),
+            },
+        }
+    }
+
+    /// What follows from that of the displacements, and from that of the impulses.
+    pub fn each<U>(&self, displacement: impl Fn(&T) -> U, impulse: impl Fn(&T) -> U) -> Kicks<U> {
+        Kicks {
+            displacement: displacement(&self.displacement),
+            impulse: impulse(&self.impulse),
+            from_rest: RestKicks {
+                displacement: displacement(&self.from_rest.displacement),
+                impulse: impulse(&self.from_rest.impulse),
+            },
+        }
+    }
 }
 
 impl RestMargin {
     /// The margin with functions of its displacement and of its impulse in their place.
     #[must_use]
-    pub fn map(
-        &self,
-        displacement: impl Fn(f64) -> f64,
-        impulse: impl Fn(f64) -> f64,
-    ) -> RestMargin {
-        RestMargin {
-            displacement: self.displacement.map(displacement),
-            impulse: self.impulse.map(impulse),
-        }
+    pub fn map(&self, displacement: impl Fn(f64) -> f64, impulse: impl Fn(f64) -> f64) -> Self {
+        let [displacement, impulse] =
+            [self.displacement.map(displacement), self.impulse.map(impulse)];
+        RestMargin { displacement, impulse }
     }
 }
 
 impl Margin {
     /// Every kick is survived.
-    pub const ENDLESS: Margin = Margin {
-        displacement: None,
-        impulse: None,
-        from_rest: RestMargin { displacement: None, impulse: None },
-    };
+    pub const ENDLESS: Margin = Margin::same(None);
+
+    /// No kick is survived.
+    pub const ZERO: Margin = Margin::same(Some(0.0));
+
+    const fn same(size: Option<f64>) -> Self {
+        let from_rest = RestMargin { displacement: size, impulse: size };
+        Margin { displacement: size, impulse: size, from_rest }
+    }
 
     /// The margin with functions of its displacements and of its impulses in their place: in other units, or
     /// rounded.
     #[must_use]
-    pub fn map(&self, displacement: impl Fn(f64) -> f64, impulse: impl Fn(f64) -> f64) -> Margin {
-        Margin {
-            displacement: self.displacement.map(&displacement),
-            impulse: self.impulse.map(&impulse),
-            from_rest: self.from_rest.map(displacement, impulse),
-        }
+    pub fn map(&self, displacement: impl Fn(f64) -> f64, impulse: impl Fn(f64) -> f64) -> Self {
+        self.each(|size| size.map(&displacement), |size| size.map(&impulse))
     }
-
-    /// No kick is survived.
-    pub const ZERO: Margin = Margin {
-        displacement: Some(0.0),
-        impulse: Some(0.0),
-        from_rest: RestMargin { displacement: Some(0.0), impulse: Some(0.0) },
-    };
 }
 
 /// How far kicks out of the steady position may go in each direction so that the motion comes back to rest.

@@ -53,6 +53,6 @@ pub use basin::cycle::{BasinPicture, Cycles};
 pub use border::Border;
 pub use closing::return_map::{Return, ReturnMap};
 pub use cycle::{Cycle, CycleErrors, Ride};
-pub use margin::{Margin, Reach, RestMargin};
+pub use margin::{Kicks, Margin, Reach, RestMargin};
 pub use portrait::Portrait;
 pub use survey::{Course, CubicExpansion};

@@ -6,6 +6,7 @@
 
 pub mod answer;
 pub mod fit;
+pub mod record;
 pub mod request;
 pub mod resources;
 pub mod speeds;

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use super::page::SourceFile;
 use super::{Answer, Columns, Document, Table};
 use crate::fit::{
-    Combination, Condition, Data, Dropped, EstimatedNumber, Fitted, KickSpreads, LAST, LeftOut,
-    MarginSpread, Margins, NAMES, NameSpec, Q0, StartKind, combinations, kicks, left_out, rows,
+    Combination, Condition, Data, Dropped, EstimatedNumber, Fitted, LAST, LeftOut, MarginSpread,
+    Margins, NAMES, NameSpec, Q0, StartKind, combinations, kicks, left_out, rows,
 };
+use crate::portrait::Kicks;
 use crate::words::fit::{broken, left_out as counts, sentences};
 use crate::words::number::resolved;
 use crate::words::provenance::Provenance;
@@ -146,7 +147,9 @@ fn correlations_by_names(fitted: &Fitted) -> BTreeMap<String, f64> {
 
 fn physical(fitted: &Fitted) -> Option<Document> {
     let scales = kicks(fitted)?;
-    let scaled = |spreads: &KickSpreads| spreads.scaled(scales.0, scales.1);
+    let scaled = |spreads: &Kicks<MarginSpread>| {
+        spreads.each(|it| it.scaled(scales.0), |it| it.scaled(scales.1))
+    };
     let numbers: BTreeMap<_, _> =
         rows(fitted).into_iter().map(|number| (number.name, number)).collect();
     let guaranteed = fitted.margins.guaranteed.as_ref().map(scaled);
@@ -205,8 +208,8 @@ impl EstimateRow {
     }
 
     /// The smallest kicks, from any rest position and from the middle.
-    fn of_kicks(fitted: &Fitted, lead: &str, kicks: &KickSpreads) -> [Self; 4] {
-        let KickSpreads { displacement, impulse, from_rest } = *kicks;
+    fn of_kicks(fitted: &Fitted, lead: &str, kicks: &Kicks<MarginSpread>) -> [Self; 4] {
+        let Kicks { displacement, impulse, from_rest } = *kicks;
         let length = (1.0, fitted.unit());
         let momentum = self::kicks(fitted).map_or(length, |(_, scale)| (scale, "N s"));
         let row =

@@ -7,6 +7,7 @@ pub mod number;
 pub mod printable;
 pub mod provenance;
 pub mod statement;
+pub mod usage;
 
 pub use number::{duration, significant, with_unit};
 

@@ -277,8 +277,11 @@ fn what_stands_behind_the_file_is_checked_before_it_is_read() {
     for (line, why) in [
         ("fit a.csv mass=-2 kg", "m = -2 kg is outside its range 1e-12 .. 1e12 kg"),
         ("fit a.csv columns=0,1", "columns are counted from 1"),
-        ("fit a.csv loss=huber", "loss=huber; allowed are auto, linear, soft-l1, cauchy"),
-        ("fit a.csv signal=force", "allowed are displacement, velocity, acceleration"),
+        (
+            "fit a.csv loss=huber",
+            "'huber' for '--loss <LOSS>'; [possible values: auto, linear, soft-l1, cauchy]",
+        ),
+        ("fit a.csv signal=force", "[possible values: displacement, velocity, acceleration]"),
         ("fit a.csv r=-1", "r = -1 is outside its range 0 .. 1e150"),
         ("fit a.csv free=D,q", "no number \"q\"; there are omega0, offset, D"),
         ("fit a.csv mass=2 m", "m = 2 m has the wrong unit; it takes one such as kg"),

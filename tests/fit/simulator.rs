@@ -252,7 +252,11 @@ fn planned(kind: &str, a: f64, chance: &mut Chance) -> Plan {
 /// What a record of a kind measures.
 fn measured(kind: &str) -> Signal {
     let name = kind.split(' ').next().unwrap_or_default();
-    Signal::named(name).unwrap_or_default()
+    match name {
+        "velocity" => Signal::Velocity,
+        "acceleration" => Signal::Acceleration,
+        _ => Signal::Displacement,
+    }
 }
 
 /// A drift of the zero between three deviations of the noise and a fifth of the swing, about its mean.

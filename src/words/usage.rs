@@ -1,12 +1,8 @@
 //! What the parser of the command line says, as one line.
 
-use crate::runtime::failure::Failure;
-
-impl Failure {
-    /// An error of the command-line parser, as one line.
-    pub fn from_parser(error: &clap::Error) -> Self {
-        Failure::Usage(first_paragraphs(&error.render().to_string()))
-    }
+/// An error of the parser of options, as one line.
+pub fn line(error: &clap::Error) -> String {
+    first_paragraphs(&error.render().to_string())
 }
 
 /// The parser's message and its tips on one line, without the usage that follows.

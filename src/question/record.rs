@@ -1,0 +1,172 @@
+//! What a user says about a record beside its file: how it is read, and what is estimated from it. The command line and
+//! the explorer take the same options.
+
+use clap::{Arg, Args, Command};
+
+use crate::fit::{
+    BadRecord, Choice, Column, Inertia, LENGTHS, LossName, NameSpec, Question, Reading, Record,
+    Signal, assigned, length_in_metres, listed, named, parse, quantity,
+};
+use crate::model::Knob;
+use crate::words::usage;
+
+/// The options of a record.
+#[derive(Clone, Debug, Args)]
+pub struct RecordOptions {
+    /// Columns of times and displacements, by number from 1 or by name
+    #[arg(long, value_name = "t=1,x=2", value_parser = columns)]
+    columns: Option<(Option<Column>, Option<Column>)>,
+    /// Rows are successive turning points, with or without times
+    #[arg(long)]
+    peaks: bool,
+    /// Quantities to estimate: omega0, offset, D, D2, D3, r; damping and friction not listed are held (at 0 unless set)
+    #[arg(long, value_name = "NAMES", value_parser = names)]
+    free: Option<FreeNumbers>,
+    /// Holds a quantity at a value, such as D3=0; repeatable
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assigned, allow_hyphen_values = true)]
+    set: Vec<(&'static NameSpec, f64)>,
+    /// How residuals are weighted
+    #[arg(long, value_enum, default_value_t = LossName::Auto, value_name = "LOSS")]
+    loss: LossName,
+    /// Mass of the oscillator, such as "2 kg": forces and damping in N, N s/m
+    #[arg(long, value_name = "MASS", value_parser = |text: &str| Knob::Mass.parse(text), conflicts_with = "stiffness")]
+    mass: Option<f64>,
+    /// Stiffness of the spring, such as "800 N/m", instead of the mass
+    #[arg(long, value_name = "STIFFNESS", value_parser = |text: &str| Knob::Stiffness.parse(text))]
+    stiffness: Option<f64>,
+    /// What the second column holds, if the file does not tell it by a unit
+    #[arg(long, value_enum, value_name = "SIGNAL")]
+    signal: Option<Signal>,
+    /// Unit of the displacements, velocities or accelerations, if the file does not name it, such as mm or m/s^2
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    unit: Option<String>,
+}
+
+/// Numbers to estimate.
+#[derive(Clone, Debug)]
+struct FreeNumbers(Vec<&'static NameSpec>);
+
+fn names(text: &str) -> Result<FreeNumbers, String> {
+    listed(text).map(FreeNumbers)
+}
+
+/// `t=1,x=3`, `x=2`, `t=time,x=position`, or without the letters `1,3`.
+fn columns(text: &str) -> Result<(Option<Column>, Option<Column>), String> {
+    let mut chosen = (None, None);
+    for (index, part) in text.split(',').enumerate() {
+        let key = if index == 0 { "t" } else { "x" };
+        let bare = text.contains(',') && !text.contains('=');
+        let (key, value) = part.split_once('=').or(bare.then_some((key, part))).unwrap_or_default();
+        let column = match value.trim().parse() {
+            Ok(0) => return Err(format!("{part:?}: columns are counted from 1")),
+            Ok(number) => Column::Number(number),
+            Err(_) => Column::Name(value.trim().to_owned()),
+        };
+        match key.trim() {
+            "t" => chosen.0 = Some(column),
+            "x" => chosen.1 = Some(column),
+            _ => {
+                return Err(format!(
+                    "{text:?} does not name columns; expected for example t=1,x=3, x=2, or t=time,x=position"
+                ));
+            }
+        }
+    }
+    Ok(chosen)
+}
+
+fn unit(text: &str) -> Result<String, String> {
+    let known = || {
+        let lengths = LENGTHS.map(|it| it.0).join(", ");
+        format!(
+            "{text:?} is not a unit of length; there are {lengths}, each also with /s or /s^2, and g"
+        )
+    };
+    quantity(text).map(|_| text.to_owned()).ok_or_else(known)
+}
+
+/// The options as a command without a name.
+fn command() -> Command {
+    RecordOptions::augment_args(Command::new("fit").no_binary_name(true))
+}
+
+/// The name of the option that begins with this word, `mass=2` or `--mass=2`; of a number to be held, `D3=0`, its own.
+fn begun(word: &str) -> Option<&str> {
+    let word = word.trim_start_matches('-');
+    let name = word.split('=').next().unwrap_or_default();
+    let takes_value = |it: &Arg| it.get_long() == Some(name) && it.get_action().takes_values();
+    let may_have_value = named(name).is_some() || command().get_arguments().any(takes_value);
+    (word == "peaks" || may_have_value && word.contains('=')).then_some(name)
+}
+
+/// The file and the options of a line such as `my file.csv mass=2 kg columns=1,3 peaks`.
+pub fn apart(line: &str) -> (&str, &str) {
+    let mut blanks = line.match_indices(' ').map(|(at, _)| at);
+    let begins = |at: &usize| begun(line[at + 1..].split(' ').next().unwrap_or_default()).is_some();
+    let (file, words) = line.split_at(blanks.find(begins).unwrap_or(line.len()));
+    (file.trim(), words.trim())
+}
+
+impl RecordOptions {
+    /// The options of a line such as `mass=2 kg columns=1,3 D3=0 peaks`. Fails with one line.
+    pub fn of_words(line: &str) -> Result<Self, String> {
+        let mut given: Vec<String> = Vec::new();
+        for word in line.split_whitespace() {
+            match (begun(word), given.last_mut()) {
+                (Some(name), _) if named(name).is_some() => given.push(format!("--set={word}")),
+                (None, Some(last)) => *last = format!("{last} {word}"),
+                _ => given.push(format!("--{}", word.trim_start_matches('-'))),
+            }
+        }
+        let read = command().try_get_matches_from(given);
+        let read = read.and_then(|given| clap::FromArgMatches::from_arg_matches(&given));
+        read.map_err(|error| usage::line(&error))
+    }
+
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// [`BadRecord`] says what is wrong with it, and where.
+    pub fn read(&self, bytes: &[u8]) -> Result<Record, BadRecord> {
+        let (time, displacement) = self.columns.clone().unwrap_or_default();
+        let (peaks, signal, unit) = (self.peaks, self.signal, self.unit.clone());
+        parse(bytes, &Reading { time, displacement, peaks, signal, unit })
+    }
+
+    /// What is estimated; a number that is also held is not.
+    pub fn question(&self) -> Question {
+        let free = self.free.as_ref().map(|names| names.0.clone());
+        let choice = Choice { free, held: self.set.clone() };
+        Question { choice, loss: self.loss, peaks: self.peaks }
+    }
+
+    /// Fails with one line if a number is to be both estimated and held.
+    pub fn unambiguous(&self) -> Result<(), String> {
+        let Choice { free, held } = self.question().choice;
+        let both = held.iter().find(|(row, _)| free.iter().flatten().any(|free| free == row));
+        both.map_or(Ok(()), |(row, _)| {
+            Err(format!("{} is both --free and --set; it can be one of them", row.name))
+        })
+    }
+
+    /// The mass or stiffness, if given, and the record's unit of length in metres. Fails with one line if that is not known.
+    pub fn inertia(&self, record: &Record) -> Result<Option<(Inertia, f64)>, String> {
+        let mass = self.mass.map(Inertia::Mass);
+        let Some(inertia) = mass.or(self.stiffness.map(Inertia::Stiffness)) else {
+            return Ok(None);
+        };
+        if record.t.is_none() {
+            return Err(
+                "without times there is no frequency: leave out --mass and --stiffness".to_owned()
+            );
+        }
+        let known = LENGTHS.map(|it| record.signal.unit(it.0)).join(", ");
+        let unit = record.unit.as_deref();
+        let unit =
+            unit.ok_or_else(|| format!("the file names no unit of length; --unit one of {known}"))?;
+        let metres = length_in_metres(unit).ok_or_else(|| {
+            format!("{unit:?} is not a known unit of length; --unit one of {known}")
+        })?;
+        Ok(Some((inertia, metres)))
+    }
+}
