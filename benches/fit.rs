@@ -5,7 +5,7 @@
 
 use divan::{Bencher, black_box};
 use hopfscope::fit::{
-    Data, Observation, Question, R, Record, Runs, Signal, StartKind, Unknowns, estimate, following,
+    Data, Question, R, Record, Runs, Signal, StartKind, Unknowns, Way, estimate, following,
 };
 use hopfscope::numerics::random::Random;
 
@@ -27,15 +27,15 @@ fn zeros((_, _, seconds): (Unknowns, StartKind, f64), samples: u32) -> Data {
     Data { t, x, signal: Signal::Displacement, peaks: None }
 }
 
-fn observation(data: &Data, (_, start, _): (Unknowns, StartKind, f64)) -> Observation<'_> {
-    Observation { data, start, linear: false, reach: 1e9 }
+/// How a motion is followed.
+fn way(with_derivatives: bool) -> Way {
+    Way { with_derivatives, reach: 1e9, ..Way::default() }
 }
 
 fn record(motion: (Unknowns, StartKind, f64), samples: u32) -> Record {
     let data = zeros(motion, samples);
-    let observation = observation(&data, motion);
     let mut chance = Random::new(1);
-    let seen = observation.compare(&motion.0, false).expect("the motion stays");
+    let seen = data.compare(motion.1, &motion.0, way(false)).expect("the motion stays");
     let x = seen.residuals.iter().map(|it| 0.01 * chance.normal() - it.value).collect();
     Record { t: Some(data.t.clone()), x, ..Record::default() }
 }
@@ -43,8 +43,7 @@ fn record(motion: (Unknowns, StartKind, f64), samples: u32) -> Record {
 #[divan::bench(args = [("decay", DECAY), ("ringing", RINGING)])]
 fn gradient_by_sensitivities(bencher: Bencher, (_, motion): &(&str, (Unknowns, StartKind, f64))) {
     let data = zeros(*motion, 10_000);
-    let observation = observation(&data, *motion);
-    bencher.bench(|| observation.compare(black_box(&motion.0), true));
+    bencher.bench(|| data.compare(motion.1, black_box(&motion.0), way(true)));
 }
 
 #[divan::bench(args = [("decay", DECAY), ("ringing", RINGING)])]
@@ -53,15 +52,14 @@ fn gradient_by_forward_differences(
     (_, motion): &(&str, (Unknowns, StartKind, f64)),
 ) {
     let data = zeros(*motion, 10_000);
-    let observation = observation(&data, *motion);
     bencher.bench(|| {
         let mut moved = motion.0;
-        let base = observation.compare(black_box(&moved), false);
+        let base = data.compare(motion.1, black_box(&moved), way(false));
         let columns: Vec<_> = (0..moved.len())
             .map(|place| {
                 let kept = moved[place];
                 moved[place] += 1e-6 * kept.abs().max(1e-3);
-                let column = observation.compare(black_box(&moved), false);
+                let column = data.compare(motion.1, black_box(&moved), way(false));
                 moved[place] = kept;
                 column
             })

@@ -19,7 +19,7 @@ use crate::model::unit::{Dimension, Measured, measured};
 use crate::question::record::RecordOptions;
 use crate::report::fit as forms;
 use crate::runtime::{bounded, provenance_file, source_file};
-use crate::words::fit::broken;
+use crate::words::fit::signed;
 
 /// Estimates omega0, offset, D, D2, D3 and r of a recorded motion, with errors, and the margin that follows
 #[derive(Debug, Args)]
@@ -86,12 +86,13 @@ impl FitCommand {
         if let Some(path) = &self.report {
             let pictures = figure::panels(&Figure::of_fit(&fitted));
             let source = source_file::of(&self.file, &bytes);
-            let page = forms::page(&fitted, &pictures, &provenance, &source);
+            let title = "Fit of a recorded motion";
+            let page = forms::fit(&fitted).page(title, &pictures, &provenance, &[source]);
             write(path, page.as_bytes(), self.force)?;
         }
         self.output.print(forms::fit(&fitted))?;
         let failure = |line| Err(Failure::Unanswered(format!("{}: {line}", fitted.name)));
-        broken(&fitted).map_or(Ok(()), failure)
+        signed(&fitted).broken().map_or(Ok(()), failure)
     }
 
     fn fitted(&self, bytes: &[u8]) -> Result<Fitted, Failure> {

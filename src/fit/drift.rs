@@ -47,7 +47,7 @@ impl LeftDrift {
 
     /// The drift by the linear model about a minimum, with the step of all unknowns to it; none for peaks.
     pub fn with_step(task: &Task, optimum: &Optimum) -> Option<(Self, Unknowns)> {
-        if task.observation.data.has_peaks() || task.free[SLOPE] {
+        if task.data.has_peaks() || task.free[SLOPE] {
             return None;
         }
         let wider = task.with_drift();

@@ -179,7 +179,7 @@ fn assessed(
     found: &[Optimum],
     runs: &mut Runs,
 ) -> Result<(Estimate, Option<Box<Optimum>>), Unfit> {
-    let (data, best) = (task.observation.data, &found[0]);
+    let (data, best) = (task.data, &found[0]);
     let p = best.p;
     let kept = task.values(&best.seen);
     let samples_per_period = data.samples_per_period(p[OMEGA0]);
@@ -231,7 +231,7 @@ fn assessed(
         noise: Noise::default(),
         dropped: vec![None; data.x.len()],
         motions: (runs.with_derivatives, runs.plain),
-        reach: task.observation.reach,
+        reach: task.reach,
         left_drift,
         repeated: None,
     };

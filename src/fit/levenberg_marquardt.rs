@@ -32,7 +32,7 @@ impl Task<'_> {
             bounds.push((p[R], unit(R)));
         }
         if self.within.is_some() {
-            let rims = seen.clearances(p, self.observation).into_iter();
+            let rims = seen.clearances(p, self.data, self.start).into_iter();
             bounds.extend(rims.map(|(value, by)| (PART * value, by)));
         }
         bounds
@@ -115,7 +115,7 @@ impl Task<'_> {
             }
             model.renew(self, &seen);
         }
-        Ok(Optimum { start: self.observation.start, p, cost, seen })
+        Ok(Optimum { start: self.start, p, cost, seen })
     }
 }
 

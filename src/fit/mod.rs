@@ -77,9 +77,10 @@ pub use signal::{LENGTHS, Signal, length_in_metres};
 pub use {
     conditions::{Condition, conditions},
     estimate::{Dropped, Rival},
+    motion::Way,
     observation::{
-        BEND, D, D2, D3, Data, LAST, OFFSET, OMEGA0, Observation, Q0, R, Residual, SLOPE,
-        StartKind, UNKNOWNS, Unknowns,
+        BEND, D, D2, D3, Data, LAST, OFFSET, OMEGA0, Q0, R, Residual, SLOPE, StartKind, UNKNOWNS,
+        Unknowns,
     },
     question::{Choice, NAMES, NameSpec, named},
     refit::following,
@@ -109,7 +110,7 @@ pub(crate) use {
     guess::{Beginning, Guess, guess, period_of},
     half_swing::{Jet, Stretch, WAYS},
     header::{Header, TIME_UNITS, seconds_in},
-    motion::{FittedTurn, Gradient, MotionLost, Way, follow},
+    motion::{FittedTurn, Gradient, MotionLost, follow},
     noise::{
         IMPOSSIBLE, Noise, least_squares, median, range, rate, robust_deviation, within_scale,
     },

@@ -141,9 +141,9 @@ pub type Bound = (f64, Unknowns);
 
 impl Seen {
     /// The distances of the last turning points from the rims that bound the region.
-    pub fn clearances(&self, p: &Unknowns, of: Observation) -> Vec<Bound> {
+    pub fn clearances(&self, p: &Unknowns, data: &Data, start: StartKind) -> Vec<Bound> {
         // What follows the last of a list of peaks is not seen, so that it may lie on either side of the rim.
-        let unseen = usize::from(self.region.is_none() && of.data.has_peaks());
+        let unseen = usize::from(self.region.is_none() && data.has_peaks());
         let last = self.turns.iter().rev().skip(unseen);
         let last = last.take(if self.region.is_some() { 2 } else { 1 });
         let bound = |(index, turn): (usize, &FittedTurn)| {
@@ -151,7 +151,7 @@ impl Seen {
             let side = if self.region.is_some() && index == 0 { -1.0 } else { 1.0 };
             let mut by = unknowns(&turn.q_by).map(|by| side * turn.q.signum() * by);
             by[R] -= side;
-            if of.start == StartKind::Moving {
+            if start == StartKind::Moving {
                 by[LAST] = side * turn.q.signum() * turn.q_by[5];
             }
             (side * (turn.q.abs() - p[R]), by)
@@ -166,62 +166,48 @@ pub fn parameters(p: &Unknowns) -> Parameters {
     Parameters { d: p[D], d2: p[D2], d3: p[D3], r: p[R] }
 }
 
-/// A record and the model of its start.
-#[derive(Clone, Copy, Debug)]
-pub struct Observation<'a> {
-    /// What was measured.
-    pub data: &'a Data,
-    /// How the motion begins.
-    pub start: StartKind,
-    /// Whether D2 and D3 are held at zero.
-    pub linear: bool,
-    /// Displacement beyond which a motion counts as escaped.
-    pub reach: f64,
-}
-
-impl Observation<'_> {
-    /// Compares the record with the model.
+impl Data {
+    /// Compares them with the model of a motion that begins in this way.
     ///
     /// # Errors
     /// [`MotionLost`] if the motion of the model escapes before the record ends.
-    pub fn compare(&self, p: &Unknowns, with_derivatives: bool) -> Result<Seen, MotionLost> {
+    pub fn compare(&self, start: StartKind, p: &Unknowns, way: Way) -> Result<Seen, MotionLost> {
         if !(p[OMEGA0] > 0.0 && p.iter().all(|value| value.is_finite())) {
             return Err(MotionLost);
         }
-        let (reach, signal) = (self.reach, self.data.signal);
-        let linear = self.linear && p[D2] == 0.0 && p[D3] == 0.0;
-        let way = Way { linear, with_derivatives, reach, signal, ..Way::default() };
-        match self.data.peaks {
-            None => self.samples(p, way),
-            Some(ratio) => peaks(p, self.data, ratio, way),
+        let linear = way.linear && p[D2] == 0.0 && p[D3] == 0.0;
+        let way = Way { linear, signal: self.signal, ..way };
+        match self.peaks {
+            None => self.samples(start, p, way),
+            Some(ratio) => peaks(p, self, ratio, way),
         }
     }
 
     /// The number of samples before the motion, its first state, and the dimensionless times of the others since then.
-    fn begun(&self, p: &Unknowns) -> (usize, State, Vec<f64>) {
-        let t = &self.data.t;
-        let (origin, start) = self.start.beginning(p, t);
+    fn begun(&self, start: StartKind, p: &Unknowns) -> (usize, State, Vec<f64>) {
+        let t = &self.t;
+        let (origin, start) = start.beginning(p, t);
         let held = t.partition_point(|&t| t < origin);
         (held, start, t[held..].iter().map(|t| p[OMEGA0] * (t - origin)).collect())
     }
 
     /// Displacement and velocity over `omega0` at each sample; none for peaks, or if the motion escapes.
-    pub fn states(&self, p: &Unknowns) -> Vec<State> {
-        if self.data.has_peaks() {
+    pub fn states(&self, start: StartKind, p: &Unknowns, reach: f64) -> Vec<State> {
+        if self.has_peaks() {
             return Vec::new();
         }
-        let (held, start, times) = self.begun(p);
+        let (held, start, times) = self.begun(start, p);
         let mut states = vec![State { q: p[Q0], v: 0.0 }; held];
-        let way = Way { reach: self.reach, ..Way::default() };
+        let way = Way { reach, ..Way::default() };
         let followed = follow(&parameters(p), start, &times, way, |_, point| {
             states.push(State { q: point.q, v: point.v });
         });
         if followed.is_ok() { states } else { Vec::new() }
     }
 
-    fn samples(&self, p: &Unknowns, way: Way) -> Result<Seen, MotionLost> {
-        let Data { t, x, .. } = self.data;
-        let (held, start, times) = self.begun(p);
+    fn samples(&self, begin: StartKind, p: &Unknowns, way: Way) -> Result<Seen, MotionLost> {
+        let Data { t, x, .. } = self;
+        let (held, start, times) = self.begun(begin, p);
         let order = way.signal.order();
         let scale = way.signal.scale(p[OMEGA0]);
         let mut residuals = Vec::with_capacity(x.len());
@@ -236,7 +222,7 @@ impl Observation<'_> {
             by[Q0] = still;
             push(index, by, still * p[Q0]);
         }
-        let moving = self.start == StartKind::Moving;
+        let moving = begin == StartKind::Moving;
         let followed = follow(&parameters(p), start, &times, way, |index, point| {
             let mut by = unknowns(&point.by).map(|by| scale * by);
             let passed = times[index] / p[OMEGA0];

@@ -152,8 +152,8 @@ fn loss_of(name: LossName, noise: &Noise) -> Loss {
 fn smooth(task: &Task, found: &mut Vec<Optimum>, runs: &mut Runs) -> Result<Vec<bool>, Unfit> {
     /// The jumps move as the fit improves.
     const ROUNDS: usize = 2;
-    let mut smooth = vec![true; task.observation.data.residuals()];
-    let Data { t, signal, .. } = task.observation.data;
+    let mut smooth = vec![true; task.data.residuals()];
+    let Data { t, signal, .. } = task.data;
     if *signal != Signal::Acceleration {
         return Ok(smooth);
     }
@@ -216,7 +216,7 @@ fn alike_at_rest(
 /// Selects the samples held and those at rest except for `enough` (at least two) of each, evenly spread.
 fn all_but_some(task: &Task, best: &Optimum, enough: f64) -> Vec<bool> {
     const FEWEST: usize = 2;
-    let t = &task.observation.data.t;
+    let t = &task.data.t;
     let (release, _) = best.start.beginning(&best.p, t);
     let held = t.partition_point(|&t| t < release);
     let end = best.seen.turns.last().filter(|_| best.seen.rests);

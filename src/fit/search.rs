@@ -1,9 +1,9 @@
 //! The search for the best minimum from first guesses, with several starts and growing horizons.
 
 use super::{
-    Beginning, D2, D3, Data, Extreme, Guess, LAST, Loss, LossName, Noise, OFFSET, OMEGA0,
-    Observation, Optimum, Q0, R, Runs, StartKind, Task, UNKNOWNS, Unfit, Unknowns, WIDE, Way,
-    by_cost, follow, guess, interrupted, parameters, placed, through_the_valley,
+    Beginning, D2, D3, Data, Extreme, Guess, LAST, Loss, LossName, Noise, OFFSET, OMEGA0, Optimum,
+    Q0, R, Runs, StartKind, Task, UNKNOWNS, Unfit, Unknowns, WIDE, Way, by_cost, follow, guess,
+    interrupted, parameters, placed, through_the_valley,
 };
 use crate::model::State;
 use crate::numerics::count::real;
@@ -94,7 +94,7 @@ impl Task<'_> {
         const MOST: usize = 3;
         let fewer = self.holding(D2).holding(D3);
         let guesses = guesses.into_iter().map(|guess| self.without(guess, &[D2, D3])).collect();
-        let beginning = Beginning { start: self.observation.start, certain: true, guesses };
+        let beginning = Beginning { start: self.start, certain: true, guesses };
         let mut minima = Vec::new();
         for (_, guess, _) in fewer.ranked(&[beginning], runs)? {
             if let Some(found) = interrupted(fewer.solve(guess, runs))? {
@@ -136,7 +136,7 @@ impl Task<'_> {
     fn is_better(&self, found: &Optimum, best: &Optimum) -> bool {
         let unit = self.unit(best.cost);
         let needed = if found.start == StartKind::Release { 4.0 * unit } else { -4.0 * unit };
-        let needed = if self.observation.data.has_peaks() { 0.0 } else { needed };
+        let needed = if self.data.has_peaks() { 0.0 } else { needed };
         found.cost < best.cost - needed
     }
 
@@ -176,13 +176,13 @@ impl Task<'_> {
     /// Descends on a growing part of the record, with a robust loss that tolerates samples that are still far off.
     fn growing(&self, guess: Unknowns, runs: &mut Runs) -> Result<Optimum, Unfit> {
         let mut p = guess;
-        let t = &self.observation.data.t;
-        if self.observation.data.has_peaks() {
+        let t = &self.data.t;
+        if self.data.has_peaks() {
             return self.solve(p, runs);
         }
         let last = t[t.len() - 1];
         let shortest = real(FEWEST) * std::f64::consts::PI / p[OMEGA0];
-        let begin = self.observation.start.beginning(&p, t).0.max(t[0]);
+        let begin = self.start.beginning(&p, t).0.max(t[0]);
         let scale = 3.0 * self.noise.max(f64::MIN_POSITIVE);
         let robust = Task { loss: Loss { name: LossName::SoftL1, scale }, ..*self };
         for part in HORIZONS {
@@ -237,7 +237,7 @@ pub fn released_before(
     const PART: usize = 4;
     /// Number of swings between the release and the fitted motion, at most.
     const SWINGS: usize = 60;
-    let Data { t, x, signal, .. } = task.observation.data;
+    let Data { t, x, signal, .. } = task.data;
     if !signal.is_displacement() {
         return Ok(None);
     }
@@ -251,8 +251,8 @@ pub fn released_before(
     for guess in beginnings.iter_mut().flat_map(|beginning| &mut beginning.guesses) {
         *guess = placed(held, *guess);
     }
-    let data = Data { t: times.to_vec(), x: later.to_vec(), ..*task.observation.data };
-    let part = Task { observation: Observation { data: &data, ..task.observation }, ..*task };
+    let data = Data { t: times.to_vec(), x: later.to_vec(), ..*task.data };
+    let part = Task { data: &data, ..*task };
     let Some(found) = interrupted(part.search(&beginnings, runs))? else { return Ok(None) };
     let optimum = &found[0];
     let Some(turn) = optimum.seen.turns.first().filter(|_| part.explains(optimum)) else {
@@ -260,7 +260,7 @@ pub fn released_before(
     };
     let p = &optimum.p;
     let begin = State { q: extremes[0].x - p[OFFSET], v: 0.0 };
-    let way = Way { reach: task.observation.reach, turns: SWINGS, ..Way::default() };
+    let way = Way { reach: task.reach, turns: SWINGS, ..Way::default() };
     let Ok(motion) = follow(&parameters(p), begin, &[f64::MAX], way, |_, _| {}) else {
         return Ok(None);
     };

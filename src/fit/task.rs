@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    BEND, D2, D3, Data, IMPOSSIBLE, Loss, OMEGA0, Observation, Region, Residual, SLOPE, Seen,
-    StartKind, UNKNOWNS, Unfit, Unknowns, robust_deviation, whiteness,
+    BEND, D2, D3, Data, IMPOSSIBLE, Loss, OMEGA0, Region, Residual, SLOPE, Seen, StartKind,
+    UNKNOWNS, Unfit, Unknowns, Way, robust_deviation, whiteness,
 };
 use crate::numerics::count::real;
 
@@ -64,8 +64,12 @@ impl Optimum {
 /// What is estimated from a record, and how residuals are weighted.
 #[derive(Clone, Copy, Debug)]
 pub struct Task<'a> {
-    /// Record and model.
-    pub observation: Observation<'a>,
+    /// What was measured.
+    pub data: &'a Data,
+    /// How the motion begins.
+    pub start: StartKind,
+    /// Displacement beyond which a motion counts as escaped.
+    pub reach: f64,
     /// Which unknowns are free.
     pub free: [bool; UNKNOWNS],
     /// How residuals are weighted.
@@ -124,14 +128,13 @@ pub fn moved(p: &Unknowns, part: f64, step: &Unknowns) -> Unknowns {
 impl<'a> Task<'a> {
     /// All unknowns and residuals of a record, of which nothing else is known.
     pub fn new(data: &'a Data, start: StartKind, free: [bool; UNKNOWNS], reach: f64) -> Self {
-        let observation = Observation { data, start, linear: false, reach };
         let (loss, used, noise) = (Loss::LINEAR, &[][..], 0.0);
-        Task { observation, free, loss, used, noise, horizon: usize::MAX, within: None }
+        Task { data, start, reach, free, loss, used, noise, horizon: usize::MAX, within: None }
     }
 
     /// The same for a motion that begins in this way.
     pub fn starting(self, start: StartKind) -> Self {
-        Task { observation: Observation { start, ..self.observation }, ..self }
+        Task { start, ..self }
     }
 
     /// The same within the region of a motion.
@@ -173,7 +176,7 @@ impl<'a> Task<'a> {
 
     /// The loss of one residual of many.
     pub fn unit(&self, cost: f64) -> f64 {
-        cost / real(self.observation.data.residuals().max(1))
+        cost / real(self.data.residuals().max(1))
     }
 
     /// Compares the model with the record, and counts the motion.
@@ -183,7 +186,7 @@ impl<'a> Task<'a> {
     pub fn evaluated(
         &self,
         p: &Unknowns,
-        derivatives: bool,
+        with_derivatives: bool,
         runs: &mut Runs,
     ) -> Result<Seen, Unfit> {
         if (runs.interrupted)() {
@@ -192,10 +195,10 @@ impl<'a> Task<'a> {
         if runs.with_derivatives + runs.plain >= runs.most {
             return Err(Unfit::GaveUp { motions: runs.most, closest: runs.closest });
         }
-        *(if derivatives { &mut runs.with_derivatives } else { &mut runs.plain }) += 1;
+        *(if with_derivatives { &mut runs.with_derivatives } else { &mut runs.plain }) += 1;
         let linear = !self.free[D2] && !self.free[D3];
-        let observation = Observation { linear, ..self.observation };
-        observation.compare(p, derivatives).map_err(|_| Unfit::NoMotion)
+        let way = Way { linear, with_derivatives, reach: self.reach, ..Way::default() };
+        self.data.compare(self.start, p, way).map_err(|_| Unfit::NoMotion)
     }
 
     /// The places of the free unknowns.
@@ -240,14 +243,14 @@ impl<'a> Task<'a> {
 
     /// Whether the residuals look like noise.
     pub fn verdict(&self, optimum: &Optimum) -> FitVerdict {
-        if self.observation.data.has_peaks() {
+        if self.data.has_peaks() {
             return FitVerdict::Unexplained;
         }
         let residuals = self.values(&optimum.seen);
         let deviation = robust_deviation(residuals.iter().copied());
         // Outliers that a robust loss tolerates must not look like an oscillation.
         let within = residuals.iter().map(|value| value.clamp(-4.0 * deviation, 4.0 * deviation));
-        let period = self.observation.data.samples_per_period(optimum.p[OMEGA0]);
+        let period = self.data.samples_per_period(optimum.p[OMEGA0]);
         let found = whiteness(&within.collect::<Vec<_>>(), period);
         let is_far = |value: &f64| value.abs() > IMPOSSIBLE * deviation;
         let runs_off = longest_run(residuals.iter().map(is_far)) >= RUN;

@@ -62,7 +62,7 @@ impl Covariance {
             (sum + weight * value * value, influence + powi(weight * value, 2))
         });
         let variance = influence / freedom * powi(widening(task, optimum, influence / freedom), 2);
-        let data = task.observation.data;
+        let data = task.data;
         let freedoms = if data.residuals() > data.x.len() {
             of_two_kinds(&directions(), data.x.len(), &inverse)
         } else {

@@ -23,7 +23,7 @@ impl Task<'_> {
         let is_loose = |covariance: Covariance| covariance.error(R) > LOOSE * r;
         self.free[R]
             && (self.free[D2] || self.free[D3])
-            && !self.observation.data.has_peaks()
+            && !self.data.has_peaks()
             && (r == 0.0
                 || optimum.seen.rests && Covariance::white(self, optimum).is_none_or(is_loose))
     }
@@ -63,7 +63,7 @@ impl Task<'_> {
             }
             let verdict = self.verdict(&from);
             let mut guesses = beyond_the_rim(self, &from, &covariance, verdict, runs)?;
-            if from.cost == least && from.seen.rests && !self.observation.data.has_peaks() {
+            if from.cost == least && from.seen.rests && !self.data.has_peaks() {
                 guesses.extend(if verdict == FitVerdict::Noise {
                     along_the_valley(self, &from, &covariance, &valleys, runs)?
                 } else {
@@ -127,7 +127,7 @@ fn beyond_the_rim(
         is_near.then(|| scattered(columns, &(-size * lean)))
     };
     let is_possible = |p: &Unknowns| p[R] > 0.0 && p.iter().all(|value| value.is_finite());
-    let rims = optimum.seen.clearances(&optimum.p, task.observation);
+    let rims = optimum.seen.clearances(&optimum.p, task.data, task.start);
     let mut found = Vec::new();
     for step in rims.into_iter().filter_map(step) {
         for further in FURTHER {

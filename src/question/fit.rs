@@ -230,7 +230,7 @@ fn metric(recording: &Recording) -> Option<(Inertia, f64)> {
 fn points(record: &Record, estimate: &Estimate) -> Vec<RecordPoint> {
     let p = &estimate.p;
     let (origin, _) = estimate.start.beginning(p, &estimate.data.t);
-    let mut states = estimate.task(&[]).observation.states(p).into_iter();
+    let mut states = estimate.data.states(estimate.start, p, estimate.reach).into_iter();
     let all = record.t.iter().flatten().zip(&record.x).zip(&estimate.dropped);
     all.map(|((&t, &x), &dropped)| {
         let is_outside = dropped.is_some_and(Dropped::is_outside);

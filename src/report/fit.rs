@@ -2,26 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use super::page::SourceFile;
 use super::{Answer, Columns, Document, Table};
 use crate::fit::{
     Combination, Condition, Data, Dropped, EstimatedNumber, Fitted, LAST, LeftOut, MarginSpread,
     Margins, NAMES, NameSpec, Q0, StartKind, combinations, kicks, left_out, rows,
 };
 use crate::portrait::Kicks;
-use crate::words::fit::{broken, left_out as counts, sentences};
+use crate::words::fit::{left_out as counts, remarks, sentences, signed};
 use crate::words::number::resolved;
-use crate::words::provenance::Provenance;
-use crate::words::statement::{SignedStatement, signed};
 use crate::words::{duration, significant};
 
 /// The whole answer of a fit: in rows one for each estimated number, then the margins.
 pub fn fit(fitted: &Fitted) -> Answer<'_> {
-    let SignedStatement { statement, conditions } = signed(fitted);
-    let (broken, counts) = (broken(fitted), counts(fitted));
-    let mut remarks = sentences(fitted);
-    remarks
-        .retain(|it| Some(it) != broken.as_ref() && *it != statement.text && !counts.contains(it));
+    let statement = signed(fitted);
+    let broken = statement.broken();
     let (with, plain) = fitted.motions();
     let motions = Document::default().with("with_derivatives", with).with("without", plain);
     let seconds = fitted.seconds;
@@ -32,8 +26,8 @@ pub fn fit(fitted: &Fitted) -> Answer<'_> {
         .fields(move |all| document(all, fitted))
         .csv(name.and(estimate_columns()), numbers().chain(kick_rows(fitted)))
         .lines(broken.clone())
-        .statement(statement.text, broken.is_none())
-        .captioned("what the sentence rests on", move || tested(&conditions))
+        .statement(statement.text.clone(), broken.is_none())
+        .captioned("what the sentence rests on", move || tested(&statement.conditions))
         .heading("Numbers")
         .captioned("standard errors; 95 % lie from .. to", move || {
             estimate_columns().table(numbers()).lean()
@@ -47,26 +41,15 @@ pub fn fit(fitted: &Fitted) -> Answer<'_> {
         .heading("Correlations")
         .captioned("", || correlations(fitted))
         .heading("Left out")
-        .lines(counts)
+        .lines(counts(fitted))
         .lines([places(fitted)])
         .heading("Remarks")
-        .lines(remarks)
+        .lines(remarks(fitted))
         .costing(
             format!("{with} motions with derivatives, {plain} without, {}", duration(seconds)),
             motions,
             seconds,
         )
-}
-
-/// The page of a fit: with its pictures, what computed it, and the file of the record.
-pub fn page(
-    fitted: &Fitted,
-    pictures: &[String],
-    provenance: &Provenance,
-    source: &SourceFile,
-) -> String {
-    let sources = std::slice::from_ref(source);
-    fit(fitted).page("Fit of a recorded motion", pictures, provenance, sources)
 }
 
 /// All that was found, as fields of a document.
@@ -83,7 +66,7 @@ fn document(all: Document, fitted: &Fitted) -> Document {
             .with("value", it.value)
             .with("standard_error", it.standard_error)
     };
-    let SignedStatement { statement, conditions } = signed(fitted);
+    let statement = signed(fitted);
     all.with("file", &fitted.name)
         .with("unit", &record.unit)
         .with("signal", record.signal)
@@ -107,8 +90,8 @@ fn document(all: Document, fitted: &Fitted) -> Document {
         .with("residuals", &estimate.whiteness)
         .with("margin", margins)
         .with_any("physical", physical(fitted))
-        .with("statement", statement)
-        .with("conditions", conditions)
+        .with("statement", &statement)
+        .with("conditions", &statement.conditions)
         .with("draws", Document::default().with("effective", margins.effective))
         .with("sentences", sentences(fitted))
 }

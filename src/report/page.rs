@@ -22,7 +22,7 @@ pub struct SourceFile {
 impl Answer<'_> {
     /// The answer as a file, with its kind, pictures as SVG, the names of whose parts differ, what computed it, and from
     /// which files.
-    pub(super) fn page(
+    pub fn page(
         self,
         kind: &str,
         pictures: &[String],

@@ -5,7 +5,7 @@ use crate::fit::{OMEGA0, named, rows};
 use crate::model::Knob;
 use crate::scene::ShownFit;
 use crate::session::{Row, Session};
-use crate::words::statement::signed;
+use crate::words::fit::signed;
 use crate::words::{significant, with_unit};
 
 /// What a fitted number stands for with its standard error, and the error alone; or that it is held.
@@ -95,7 +95,7 @@ pub fn spread(session: &Session, width: usize, look: &Look) -> Vec<String> {
 /// What the record allows to be signed, in a line of this width if that is possible; a test that fails comes first.
 /// `None` until it is known for what is held and unsure.
 pub fn statement(session: &Session, width: usize) -> Option<String> {
-    Some(shortened(&signed(&session.drawn()?.fit).statement.text, width))
+    Some(shortened(&signed(&session.drawn()?.fit).text, width))
 }
 
 /// How a statement begins whose conditions fail.

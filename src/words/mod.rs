@@ -6,7 +6,6 @@ pub mod motion;
 pub mod number;
 pub mod printable;
 pub mod provenance;
-pub mod statement;
 pub mod usage;
 
 pub use number::{duration, significant, with_unit};

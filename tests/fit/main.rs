@@ -17,8 +17,8 @@ mod strange;
 use std::fs;
 
 use hopfscope::fit::{
-    Choice, Data, Estimate, NAMES, NameSpec, Observation, Question, Record, Residual, Signal,
-    StartKind, UNKNOWNS, estimate, named,
+    Choice, Data, Estimate, NAMES, NameSpec, Question, Record, Residual, Signal, StartKind,
+    UNKNOWNS, Way, estimate, named,
 };
 use hopfscope::numerics::elementary::powi;
 use hopfscope::numerics::random::Random;
@@ -144,8 +144,8 @@ impl Simulated {
     fn record(&self, seed: u64) -> Record {
         let t = self.times();
         let data = Data { x: vec![0.0; t.len()], t: t.clone(), signal: self.signal, peaks: None };
-        let observation = Observation { data: &data, start: self.start, linear: false, reach: 1e9 };
-        let motion = observation.compare(&without_drift(&self.p), false).unwrap().residuals;
+        let way = Way { reach: 1e9, ..Way::default() };
+        let motion = data.compare(self.start, &without_drift(&self.p), way).unwrap().residuals;
         let mut chance = Random::new(seed);
         let mut error = chance.normal();
         let fresh = (1.0 - self.memory * self.memory).sqrt();
@@ -366,12 +366,11 @@ fn peaks_continue_at_rest_so_that_intervals_do_not_end_there() {
     // The last two readings belong to a motion that has nearly died away.
     let decay = [1.0, 0.3, 0.012, 0.004, 0.0004, 0.1, 8.0, 0.0];
     let data = Data { t: vec![], x: vec![0.0; 24], signal: Signal::Displacement, peaks: Some(1.0) };
-    let observation =
-        Observation { data: &data, start: StartKind::Release, linear: false, reach: 1e9 };
+    let way = Way { reach: 1e9, ..Way::default() };
     let stronger = |r: f64| {
         let mut p = decay;
         p[5] = r;
-        observation.compare(&without_drift(&p), false).unwrap()
+        data.compare(StartKind::Release, &without_drift(&p), way).unwrap()
     };
     let last = |r: f64| stronger(r).residuals[23].value;
     assert!(stronger(0.13).turns.len() < 23);

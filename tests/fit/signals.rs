@@ -116,14 +116,17 @@ fn the_gradient_of_every_signal_is_that_of_differences() {
             (p[LAST], p[SLOPE], p[SLOPE + 1]) = (0.3, 0.7, -0.4);
             let t: Vec<f64> = (0..200_u8).map(|i| 0.013 + 0.02 * f64::from(i)).collect();
             let data = Data { x: vec![0.0; t.len()], t, signal, peaks: None };
-            let observation = Observation { data: &data, start, linear: false, reach: 1e9 };
-            let exact = observation.compare(&p, true).unwrap().residuals;
+            let compared = |p: &_, with_derivatives| {
+                let way = Way { with_derivatives, reach: 1e9, ..Way::default() };
+                data.compare(start, p, way).unwrap().residuals
+            };
+            let exact = compared(&p, true);
             for place in 0..UNKNOWNS {
                 let step = 1e-6 * p[place].abs().max(1e-2);
                 let moved = |by: f64| {
                     let mut p = p;
                     p[place] += by;
-                    observation.compare(&p, false).unwrap().residuals
+                    compared(&p, false)
                 };
                 let (above, below) = (moved(step), moved(-step));
                 let largest = exact.iter().map(|it| it.by[place].abs()).fold(0.0, f64::max);
