@@ -51,7 +51,7 @@ impl Needs {
             Needs::Oscillator => "",
             Needs::Machine => "needs a machine: {prompt}belt clutch opens one",
             Needs::Record => "needs a recorded motion: {prompt}fit FILE opens one",
-            Needs::Scan => "needs a scan: {scan-form} asks over what",
+            Needs::Scan => "needs a scan: {scan} opens the line for one",
         }
     }
 }

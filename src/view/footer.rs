@@ -142,7 +142,7 @@ fn prompt(prompt: &Prompt, keymap: &Keymap, look: &Look) -> Vec<Span<'static>> {
 }
 
 /// Text being typed, with its caret.
-pub(super) fn typed(input: &Input, look: &Look) -> [Span<'static>; 3] {
+fn typed(input: &Input, look: &Look) -> [Span<'static>; 3] {
     let mut rest = input.after.chars();
     let under = rest.next().unwrap_or(' ');
     let style = look.style(Role::Text);

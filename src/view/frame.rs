@@ -10,7 +10,7 @@ use super::pane::{self, Heading};
 use super::plot::{point_at, shown};
 use super::{
     Look, Surface, caption, energy_ledger, footer, keys, legend, lists, paint::paint, parameters,
-    prose, scan, scan_form, signs, status,
+    prose, scan, signs, status,
 };
 use crate::picture::{self, Picture, Role};
 use crate::scene::View;
@@ -31,7 +31,6 @@ pub fn render(area: Rect, session: &Session, look: &Look, buffer: &mut Buffer) {
             let body = Rect { height: parts.status.y.saturating_sub(area.y), ..area };
             caption::draw(body, session, screen);
             lists::draw(area, session, screen);
-            scan_form::draw(area, session, screen);
         }
     }
     match look.glyphs {

@@ -24,7 +24,6 @@ pub mod parameters;
 pub mod plot;
 mod prose;
 pub mod scan;
-pub mod scan_form;
 mod scan_map;
 pub mod screen;
 mod signs;

@@ -270,7 +270,7 @@ const MEANT: [(&str, &str); 59] = [
     ("save", "write"), ("zoom", "zoom-in"), ("undo", "undo"), ("amplitude", "diagram"), ("basin", "basin"),
     ("hopf", "hopf"), ("period", "axes"), ("quit", "quit"), ("exit", "quit"), ("copy", "copy-number"),
     ("theme", "theme"), ("help", "help"), ("keys", "help"), ("color", "color"), ("bifurcation", "diagram"),
-    ("phase plane", "phase"), ("friction", "friction"), ("sweep", "scan-form"), ("scan", "scan-form"),
+    ("phase plane", "phase"), ("friction", "friction"), ("sweep", "scan"), ("scan", "scan"),
     ("kick", "start-inside"), ("tolerance", "tol"), ("method", "next-method"), ("mouse", "mouse"),
     ("record", "record"), ("mark", "set-mark"), ("import", "fit"), ("load", "open"),
     ("open", "open"), ("print", "save-figure"), ("csv", "save-scan"), ("eigenvalue", "eigenvalues"),
@@ -291,7 +291,7 @@ fn what_a_person_types_finds_first_what_is_meant() {
 
 #[test]
 fn a_key_that_is_searched_for_comes_before_all_that_has_its_letter() {
-    for (key, name) in [("i", "start-inside"), ("%", "scan-form"), ("W", "add-plot")] {
+    for (key, name) in [("i", "start-inside"), ("%", "scan"), ("W", "add-plot")] {
         assert_eq!(found(key)[0].1, name, "{key}");
     }
 }

@@ -39,7 +39,7 @@ const SIZES: [(u16, u16); 11] = [
 const SHORT: [&str; 5] = ["ev", "of", "more", "says", "what"];
 
 /// The keys that make a map of a scan over two parameters.
-const MAP: &str = "% <up> <up> <up> <up> <up> <right> <right> <tab> 0 <tab> 1 <enter>";
+const MAP: &str = "% <space> D 3 = 0 : 1 : 2 0 <enter>";
 
 /// The keys that show a view in one large plot.
 fn alone(view: &str) -> String {

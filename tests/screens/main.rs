@@ -128,20 +128,9 @@ fn screens_look_as_they_were_approved() {
         ("regimes", (80, 24), "<tab> Q V / r e g <enter> <right>", braille()),
         ("views", (80, 24), "V", letters()),
         ("scan", (80, 24), "% <enter> z <right> <right>", braille()),
-        ("scan-form", (80, 24), "% <down> x <enter>", letters()),
         ("scan-table", (80, 24), "% <enter> z t <down> <down>", braille()),
-        (
-            "scan-map",
-            (100, 30),
-            "% <up> <up> <up> <up> <up> <right> <right> <tab> 0 <tab> 1 <enter> z",
-            braille(),
-        ),
-        (
-            "scan-map-letters",
-            (80, 24),
-            "% <up> <up> <up> <up> <up> <right> <right> <tab> 0 <tab> 1 <enter>",
-            letters(),
-        ),
+        ("scan-map", (100, 30), "% <space> D 3 = 0 : 1 : 2 0 <enter> z", braille()),
+        ("scan-map-letters", (80, 24), "% <space> D 3 = 0 : 1 : 2 0 <enter>", letters()),
     ];
     for (name, (width, height), keys, look) in cases {
         let mut session = Session::new(Arc::new(approved()), Size { width, height });

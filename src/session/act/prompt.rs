@@ -117,10 +117,6 @@ pub fn with(session: &mut Session, act: impl FnOnce(&mut Input)) {
             (prompt.refused, prompt.completion) = (None, None);
             act(&mut prompt.input);
         }
-        Some(Overlay::Scan(form)) => {
-            form.refused = None;
-            act(form.input_mut());
-        }
         _ => {}
     }
 }

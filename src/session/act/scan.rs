@@ -1,6 +1,6 @@
-//! Scans: the form, starting and stopping, moving over the points, and using one of them.
+//! Scans: starting and stopping, moving over the points, and using one of them.
 
-use crate::model::{Group, Knob};
+use crate::model::{Group, Knob, KnobSpec};
 use crate::numerics::decimal::shortest;
 use crate::portrait::basin;
 use crate::scan::grid::Scan;
@@ -12,7 +12,7 @@ use crate::session::act::screen_setup::{add, focus_on, show};
 use crate::session::act::{inform, inform_of_keys};
 use crate::session::scan::SCANNING;
 use crate::session::{
-    Done, Effect, Input, Overlay, Pane, Plot, ScanForm, ScanOnShow, ScanProgress, Session,
+    Done, Effect, Overlay, Pane, Plot, Prompt, ScanOnShow, ScanProgress, Session,
 };
 
 /// The file in which a key saves the rows; the command line takes any name.
@@ -21,80 +21,37 @@ pub const FILE: &str = "scan.csv";
 /// Number of rows that the page keys move by.
 pub const PAGE: isize = 10;
 
-/// Opens the form as it was last filled in, or a new one.
+/// Opens the command line with the last scan; before the first one, with one over the parameter of a diagram on show,
+/// otherwise over the selected parameter around its value.
 pub fn open(session: &mut Session) {
-    let form = session.scan_form.clone().unwrap_or_else(|| fresh(session));
-    session.overlay = Some(Overlay::Scan(ScanForm { refused: None, ..form }));
+    let last = session.scanned.as_ref().map(|scanned| typed(&scanned.scan));
+    let line = format!("scan {}", last.unwrap_or_else(|| usual(session)));
+    session.overlay = Some(Overlay::Prompt(Prompt::new(line)));
 }
 
-/// A new form, over the parameter of a diagram on show, otherwise over the selected parameter around its value.
-fn fresh(session: &Session) -> ScanForm {
+/// A scan as it is typed.
+fn typed(scan: &Scan) -> String {
+    let over = scan.over().iter().map(ToString::to_string);
+    let measures = scan.measures().iter().map(|measure| measure.spec().name);
+    over.chain([measures.collect::<Vec<_>>().join(",")]).collect::<Vec<_>>().join(" ")
+}
+
+fn usual(session: &Session) -> String {
+    let over = |knob: Knob, from: f64, to: f64| format!("{knob}={from:?}:{to:?}:100 from-rest");
     if let Some(diagram) = session.plots.iter().find(|plot| plot.view == View::Diagram) {
         let symbol = diagram.axes.abscissa;
-        let (spec, x) = (symbol.spec(), diagram.window.x);
-        if let Some(span) = x.within(spec.min, spec.max) {
-            return ScanForm::new(symbol, (span.from(), span.to()));
+        let KnobSpec { min, max, .. } = *symbol.spec();
+        if let Some(span) = diagram.window.x.within(min, max) {
+            return over(symbol, span.from(), span.to());
         }
     }
     let symbol = session.selected.knob_in(&session.problem);
     if !Knob::MOTION.contains(&symbol) {
-        return ScanForm::new(Knob::D, (-0.9, 0.0));
+        return over(Knob::D, -0.9, 0.0);
     }
-    let (spec, value) = (symbol.spec(), session.value(symbol));
-    let reach = 10.0 * spec.step;
-    ScanForm::new(symbol, ((value - reach).max(spec.min), (value + reach).min(spec.max)))
-}
-
-fn form(session: &mut Session) -> Option<&mut ScanForm> {
-    match &mut session.overlay {
-        Some(Overlay::Scan(form)) => Some(form),
-        _ => None,
-    }
-}
-
-/// Goes to another field, cycling.
-pub fn go_to_field(session: &mut Session, by: isize) {
-    if let Some(form) = form(session) {
-        let count = form.inputs.len();
-        form.at = form.at.checked_add_signed(by).unwrap_or(count - 1) % count;
-    }
-}
-
-/// Selects the next choice of a field that has choices; otherwise moves the caret.
-pub fn sideways(session: &mut Session, by: isize) {
-    let Some(form) = form(session) else { return };
-    let mut choices = ScanForm::choices(form.at);
-    // Both sweeps need different parameters.
-    let other = form.inputs[if form.at == 0 { ScanForm::SECOND } else { 0 }].text();
-    choices.retain(|choice| choice.is_empty() || *choice != other.trim());
-    if choices.is_empty() {
-        form.input_mut().move_caret(by);
-        return;
-    }
-    form.refused = None;
-    let now = choices.iter().position(|choice| *choice == form.input_mut().text());
-    let next = match now {
-        Some(now) => now.checked_add_signed(by).unwrap_or(choices.len() - 1) % choices.len(),
-        None => 0,
-    };
-    *form.input_mut() = Input::new(choices[next]);
-}
-
-/// Starts the scan described by the form, or says in the form why it cannot.
-pub fn accept(session: &mut Session) {
-    let Some(Overlay::Scan(filled)) = session.overlay.clone() else { return };
-    match typed(&filled, session) {
-        Ok(scan) => {
-            session.overlay = None;
-            session.scan_form = Some(filled);
-            start(session, scan);
-        }
-        Err(why) => {
-            if let Some(form) = form(session) {
-                form.refused = Some(why);
-            }
-        }
-    }
+    let KnobSpec { min, max, step, .. } = *symbol.spec();
+    let (value, reach) = (session.value(symbol), 10.0 * step);
+    over(symbol, (value - reach).max(min), (value + reach).min(max))
 }
 
 /// Starts a scan and shows it in a plot that already shows scans, otherwise beside the phase plane.
@@ -232,26 +189,6 @@ pub fn scan(session: &mut Session, rest: &str) -> Done {
     let scan = scan_of(session, over, &measures)?;
     start(session, scan);
     Ok(())
-}
-
-/// The scan of the motion on show that the form describes. Fails with one line that says what is wrong and what
-/// is allowed.
-fn typed(form: &ScanForm, session: &Session) -> Result<Scan, String> {
-    let texts = form.inputs.each_ref().map(|input| input.text().trim().replace('\u{2212}', "-"));
-    let [name, from, to, count, second, from2, to2, count2, measures] = &texts;
-    let sweep = |name: &str, from: &str, to: &str, count: &str| {
-        for (what, text) in [("from", from), ("to", to), ("count", count)] {
-            if text.is_empty() {
-                return Err(format!("{what} of {name} is empty"));
-            }
-        }
-        Sweep::read(&format!("{name}={from}:{to}:{count}"), &[Group::Motion])
-    };
-    let mut over = vec![sweep(name, from, to, count)?];
-    if !second.is_empty() {
-        over.push(sweep(second, from2, to2, count2)?);
-    }
-    scan_of(session, over, measures)
 }
 
 /// A scan of the motion on show; the window for `stability` is that of a phase plane on show. Fails with one

@@ -109,9 +109,14 @@ pub fn completion(session: &Session, text: &str) -> Option<Completion> {
     (!words.is_empty()).then(|| Completion { stem: stem.to_owned(), words, at: 0 })
 }
 
-/// The syntax and the explanation of the command with which a line begins.
+/// The syntax and the explanation of the command with which a line begins; of a measure at the end of a scan, its name
+/// and its meaning.
 pub fn described(keymap: &Keymap, text: &str) -> Option<(&'static str, &'static str)> {
     let name = text.split_whitespace().next()?;
+    let last = text.rsplit([' ', ',']).next().filter(|_| name == "scan");
+    if let Some(row) = MEASURES.iter().find(|row| Some(row.name) == last) {
+        return Some((row.name, row.meaning));
+    }
     let found = keymap.line(name).or(keymap.named(name))?;
     Some((found.arguments, found.doc))
 }

@@ -35,7 +35,6 @@ impl Session {
             Some(Overlay::List(Listed::Interrupted, _)) => Context::Interrupted,
             Some(Overlay::Entry(_)) => Context::Entry,
             Some(Overlay::Prompt(_)) => Context::Prompt,
-            Some(Overlay::Scan(_)) => Context::Form,
             Some(Overlay::Offer(_)) => Context::Offer,
         };
         chain(first)

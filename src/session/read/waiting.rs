@@ -47,7 +47,7 @@ pub const NEEDS: [(Need, &[&str]); 9] = [
         "walk", "use-method", "cursor-left", "cursor-right", "cursor-up", "cursor-down",
         "cursor-far-left", "cursor-far-right", "cursor-far-up", "cursor-far-down", "zoom-in", "zoom-out",
         "pan-left", "pan-right", "pan-up", "pan-down", "next-ordinate", "next-unit", "copy-command",
-        "scan-form",
+        "scan",
     ]),
     (Need::Comparison, &["goto"]),
     (Need::Everything, &["retry"]),

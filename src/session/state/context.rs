@@ -43,8 +43,6 @@ pub enum Context {
     Entry,
     /// A command is being typed.
     Prompt,
-    /// A scan is being typed.
-    Form,
     /// A pasted keystroke file waits for a yes.
     Offer,
     Always,
@@ -90,7 +88,7 @@ const fn row(
 
 /// All contexts other than those of the views.
 #[rustfmt::skip]
-const OTHERS: [ContextSpec; 20] = [
+const OTHERS: [ContextSpec; 19] = [
     row(Context::Parameters, "parameters", "Parameters", ContextKind::Pane),
     row(Context::Walk, "walk", "Walking along the branch", ContextKind::Held),
     row(Context::Plots, "plots", "Every plot", ContextKind::Shared),
@@ -108,7 +106,6 @@ const OTHERS: [ContextSpec; 20] = [
     row(Context::Search, "search", "While searching", ContextKind::Text),
     row(Context::Entry, "entry", "While typing a value", ContextKind::Text),
     row(Context::Prompt, "prompt", "On the command line", ContextKind::Text),
-    row(Context::Form, "form", "While typing a scan", ContextKind::Text),
     row(Context::Offer, "offer", "After pasting keystrokes", ContextKind::Question),
     row(Context::Always, "always", "At any time", ContextKind::Shared),
 ];

@@ -38,7 +38,7 @@ impl PartialEq for Command {
 /// Other names of commands and the names that they stand for: short ones from other programs, and former ones.
 ///
 /// Quitting keeps the session, so `wq` has nothing else to write.
-const OTHER_NAMES: [(&str, &str); 9] = [
+const OTHER_NAMES: [(&str, &str); 10] = [
     ("q", "quit"),
     ("q!", "quit"),
     ("wq", "quit"),
@@ -46,6 +46,7 @@ const OTHER_NAMES: [(&str, &str); 9] = [
     ("w", "write"),
     ("w!", "write!"),
     ("e", "open"),
+    ("scan-form", "scan"),
     ("toggle-borders", "toggle-boundaries"),
     ("toggle-harmonic-border", "toggle-harmonic-fold"),
 ];

@@ -1,8 +1,5 @@
-//! Overlays: what covers the panes and gets the keys while it is open, such as a list, a line of text being typed, and
-//! the form for typing a scan.
+//! Overlays: what covers the panes and gets the keys while it is open, such as a list or a line of text being typed.
 
-use crate::model::Knob;
-use crate::scan::measure::MEASURES;
 use crate::session::{Row, Script};
 
 /// An overlay over the panes.
@@ -14,8 +11,6 @@ pub enum Overlay {
     Entry(Entry),
     /// The line for typing commands by name.
     Prompt(Prompt),
-    /// The form for typing a scan.
-    Scan(ScanForm),
     /// A pasted keystroke file, waiting for confirmation.
     Offer(Script),
 }
@@ -186,65 +181,6 @@ impl Input {
         let text = self.text();
         (self.before, self.after) =
             (text.chars().take(caret).collect(), text.chars().skip(caret).collect());
-    }
-}
-
-const FROM: (&str, &str) = ("from", "first value; log: before it for equal ratios");
-const TO: (&str, &str) = ("to", "last value");
-const COUNT: (&str, &str) = ("count", "how many values");
-
-/// The fields of the form in their order on the screen: the name, and what may be typed.
-pub const FIELDS: [(&str, &str); 9] = [
-    ("over", "D, D2, D3, r, q0 or v0"),
-    FROM,
-    TO,
-    COUNT,
-    ("and over", "a second parameter, or nothing"),
-    FROM,
-    TO,
-    COUNT,
-    ("measure", "one or more, with commas between"),
-];
-
-/// The form of a scan being typed.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ScanForm {
-    /// The typed texts, one for each of [`FIELDS`].
-    pub inputs: [Input; 9],
-    /// Index of the field with the caret.
-    pub at: usize,
-    /// Why the form was refused, until it is changed.
-    pub refused: Option<String>,
-}
-
-impl ScanForm {
-    /// Index of the field for the second parameter.
-    pub const SECOND: usize = 4;
-
-    /// Index of the field for the measures.
-    pub const MEASURE: usize = 8;
-
-    /// The form as it opens the first time: for a sweep of this parameter over this range.
-    pub fn new(symbol: Knob, (from, to): (f64, f64)) -> Self {
-        let (name, from, to) = (symbol.spec().name, format!("{from:?}"), format!("{to:?}"));
-        let texts = [name, &from, &to, "100", "", "", "", "20", "from-rest"];
-        ScanForm { inputs: texts.map(Input::new), at: 0, refused: None }
-    }
-
-    /// The line of the field with the caret.
-    pub fn input_mut(&mut self) -> &mut Input {
-        &mut self.inputs[self.at]
-    }
-
-    /// The values that a field offers for selection.
-    pub fn choices(at: usize) -> Vec<&'static str> {
-        let parameters = Knob::MOTION.map(|knob| knob.spec().name);
-        match at {
-            0 => parameters.to_vec(),
-            Self::SECOND => std::iter::once("").chain(parameters).collect(),
-            Self::MEASURE => MEASURES.map(|row| row.name).to_vec(),
-            _ => Vec::new(),
-        }
     }
 }
 

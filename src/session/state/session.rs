@@ -17,7 +17,7 @@ use crate::scene::{Arrangement, Layer, Request, ScaledMachine, Scene, Setting, T
 use crate::session::settings::DisplaySettings;
 use crate::session::{
     Answers, Bookmarks, Context, Effect, History, Key, Keymap, Msg, Notice, Overlay, Pane, Plot,
-    Row, ScanForm, ScanOnShow, SessionCaption, Setup, StepSizes, Uncertainty,
+    Row, ScanOnShow, SessionCaption, Setup, StepSizes, Uncertainty,
 };
 
 /// Maximum number of harmonics: more would cost more than the picture can show.
@@ -141,8 +141,6 @@ pub struct Session {
     pub answers: Answers,
     /// The last scan, if any.
     pub scanned: Option<ScanOnShow>,
-    /// The form with which the last scan was started.
-    pub scan_form: Option<ScanForm>,
     /// Number of motions that a fit has computed so far.
     pub fitting: u64,
     /// Cost of the last key press.
@@ -199,7 +197,6 @@ impl Session {
             lines: Vec::new(),
             answers: Answers::default(),
             scanned: None,
-            scan_form: None,
             fitting: 0,
             price: Price::default(),
             measuring: false,

@@ -101,7 +101,6 @@ fn overlay(session: &Session, name: &str) -> Option<String> {
         Some(Overlay::Prompt(it)) => {
             ("prompt".to_owned(), Some(it.input.text()), it.refused.clone())
         }
-        Some(Overlay::Scan(form)) => ("scan".to_owned(), None, form.refused.clone()),
         Some(Overlay::Offer(script)) => (format!("offer of {} keys", script.keys()), None, None),
     };
     Some(match name {

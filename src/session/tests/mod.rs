@@ -144,7 +144,6 @@ impl Trial {
         let refused = match &self.session.overlay {
             Some(Overlay::Entry(entry)) => &entry.refused,
             Some(Overlay::Prompt(prompt)) => &prompt.refused,
-            Some(Overlay::Scan(form)) => &form.refused,
             other => panic!("it is taken: {other:?}"),
         };
         refused.clone().unwrap_or_default()

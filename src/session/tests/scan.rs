@@ -1,9 +1,10 @@
-//! Scans: the form, rows in pieces, stopping and continuing, moving over points.
+//! Scans: their line, rows in pieces, stopping and continuing, moving over points.
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use super::Trial;
+use super::facts::refuses;
 use crate::flow::Cost;
 use crate::question::Rows;
 use crate::scan::grid::{Scan, ScanRow};
@@ -36,14 +37,6 @@ fn piece(session: &mut Session, request: &Request, points: Range<usize>) {
     update(session, Msg::Answered(Box::new(answered)));
 }
 
-/// Replaces the text of the open field.
-fn field(trial: &mut Trial, text: &str) {
-    trial.press("<C-u>");
-    for char in text.chars() {
-        trial.press(&char.to_string());
-    }
-}
-
 /// A session that scans D over 6 values, without any row yet.
 fn begun() -> (Session, Request) {
     let mut session = Trial::open("plain").session;
@@ -53,57 +46,34 @@ fn begun() -> (Session, Request) {
 }
 
 #[test]
-fn the_form_starts_a_scan_with_keys_alone_and_shows_it() {
+fn a_key_opens_the_line_of_a_scan_that_makes_sense_and_later_that_of_the_last_one() {
     let mut trial = Trial::open("plain");
-    trial.press("%");
-    field(&mut trial, "D");
-    for text in ["-0.6", "-0.1", "6"] {
-        trial.press("<tab>");
-        field(&mut trial, text);
-    }
-    // The second parameter is selected with the arrows.
-    trial.press("<down> <right*2>");
-    for text in ["0.1", "0.3", "2"] {
-        trial.press("<down>");
-        field(&mut trial, text);
-    }
-    trial.press("<up*3> <left*2> <S-tab*5> <right*2>");
+    trial.goes(&[("%", "typed scan D=-0.5:0.1:100 from-rest")]);
     assert_eq!(trial.press("<enter>"), [Topic::Scan]);
     let session = &trial.session;
     assert!(session.overlay.is_none() && session.focuses_scan());
-    let found = scanned(session);
-    assert_eq!(found.scan.measures()[0].spec().name, "area");
-    assert_eq!(found.scan.over()[0].to_string(), "D=-0.6:-0.1:6");
-    assert_eq!(found.scan.points(), 6);
-    assert_eq!(found.progress, ScanProgress::Done);
+    assert_eq!(scanned(session).scan.points(), 100);
+    assert_eq!(scanned(session).progress, ScanProgress::Done);
+    trial.goes(&[
+        (": scan r=log:0.1:0.3:2 D=-0.6:-0.1:6 area,margin", "scanned 0"),
+        ("%", "typed scan r=log:0.1:0.3:2 D=-0.6:-0.1:6 area,margin"),
+    ]);
 }
 
 #[test]
-fn a_form_that_makes_no_sense_stays_open_and_says_why_until_it_changes() {
-    let mut trial = Trial::open("plain");
-    trial.press("%");
-    for (keys, text, said) in [
-        ("", "x", "no number \"x\"; there are D, D2"),
-        ("", "q0", "from-rest does not depend on q0"),
-        ("", "D", ""),
-        ("<tab>", "one", "\"one\" is not a number"),
-        ("", "-1e9", "D = -1000000000 is outside its range"),
-        ("", "", "from of D is empty"),
-        ("", "-0.5", ""),
-        ("<tab*2>", "1", "COUNT = 1 is not a whole number in 2 .. 1000000"),
-        ("", "5", ""),
-        ("<S-tab*4>", "margin,much", "there is no measure \"much\""),
-    ] {
-        trial.press(keys);
-        field(&mut trial, text);
-        trial.goes(&[("", "refused | open scan")]);
-        if !said.is_empty() {
-            trial.goes(&[("<enter>", &format!("refused ..{said}.."))]);
-            assert!(!trial.refused().contains('\n'));
-        }
-    }
-    trial.goes(&[("<esc>", "open none")]);
-    assert_eq!(trial.session.scanned, None);
+fn a_scan_that_makes_no_sense_leaves_its_line_open_and_says_why() {
+    refuses(
+        "plain",
+        &[
+            (": scan x=0:1:5 area", "scan: no number \"x\"; there are D, D2"),
+            (": scan q0=0:1:5 from-rest", "scan: from-rest does not depend on q0"),
+            (": scan D=one:1:5 area", "scan: \"one\" is not a number"),
+            (": scan D=-1e9:0:5 area", "scan: D = -1000000000 is outside its range"),
+            (": scan D=:0:5 area", "scan: \"\" is not a number"),
+            (": scan D=-0.5:0:1 area", "scan: COUNT = 1 is not a whole number in 2 .. 1000000"),
+            (": scan D=-0.5:0:5 margin,much", "scan: there is no measure \"much\""),
+        ],
+    );
 }
 
 #[test]

@@ -106,7 +106,7 @@ fn no_list_puts_a_view_that_can_show_nothing_in_place_of_a_plot() {
         ("V/speeds<enter>", "notice belt speeds needs a machine: :belt clutch opens one"),
         ("<space>residuals<enter>", "notice residuals needs a recorded motion: .."),
         ("V/margin<enter>", "notice margin needs a recorded motion: .."),
-        ("V/scan<enter>", "notice scan needs a scan: % asks over what"),
+        ("V/scan<enter>", "notice scan needs a scan: % opens the line for one"),
     ]);
     assert_eq!((&trial.session.plots, trial.session.history.depth()), (&opened, (0, 0)));
     for key in [";", ",", "W"] {
