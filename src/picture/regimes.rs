@@ -9,7 +9,7 @@ use crate::branch::chart::{BoundaryKind, Chart};
 use crate::branch::regime::{REGIMES, Regime};
 use crate::model::{Knob, Parameters, State};
 use crate::scene::machine::path::Station;
-use crate::scene::{Axes, Layer, Point, Running, Window};
+use crate::scene::{Axes, Layer, Point, ScaledMachine, Window};
 use crate::session::Session;
 use crate::words::with_unit;
 
@@ -152,12 +152,13 @@ fn path(picture: &mut Picture, session: &Session, right: Knob, up: Knob) {
     let line = LineStyle { varies: true, ..line.briefly("path of the belt") };
     picture.curve(line, running.path().into_iter().map(place));
     let here = at(&session.problem.parameters);
-    milestones(picture, &running, here, place);
+    milestones(picture, running, here, place);
     let present = at(&running.reduced.parameters);
-    let text = with_unit(running.speed, 4, "m/s");
+    let speed = running.machine.belt.belt_speed;
+    let text = with_unit(speed, 4, "m/s");
     if present != here {
         // Off the belt: where its speed would have the parameters.
-        picture.items.push(milestone(present, running.speed, Role::Current));
+        picture.items.push(milestone(present, speed, Role::Current));
     }
     picture.caption(present, text, Role::Current);
 }
@@ -165,7 +166,7 @@ fn path(picture: &mut Picture, session: &Session, right: Knob, up: Knob) {
 /// Marks round speeds with their numbers, as far apart as these are wide.
 fn milestones(
     picture: &mut Picture,
-    running: &Running,
+    running: &ScaledMachine,
     here: Point,
     place: impl Fn(Station) -> Point,
 ) {

@@ -36,7 +36,7 @@ pub fn draw(picture: &mut Picture, session: &Session, index: usize) {
     if let Some(running) = session.running() {
         picture.upright(
             LineStyle::new("present speed", Role::Current, Dash::Sparse).briefly("present value"),
-            running.speed,
+            running.machine.belt.belt_speed,
         );
     }
     if session.layers.contains(&Layer::Speeds)

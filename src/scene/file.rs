@@ -93,9 +93,8 @@ fn scene(name: &str, read: SceneFile) -> Result<Scene, String> {
 
 /// The built-in machine with this name, with its belt at this speed.
 fn scaled(name: &str, speed: Option<f64>) -> Result<ScaledMachine, String> {
-    let mut machine = machine::library::find(name)?.clone();
-    machine.belt.belt_speed = speed.unwrap_or(machine.belt.belt_speed);
-    ScaledMachine::new(machine).map_err(|error| error.to_string())
+    let machine = machine::library::find(name)?;
+    ScaledMachine::at(machine, speed.unwrap_or(machine.belt.belt_speed))
 }
 
 /// The motion with these values: a declared term without one has its default, all others are zero.

@@ -15,7 +15,7 @@ pub mod window;
 
 pub use crate::question::{Answered, Finding, Fit, Recording, Request, ShownFit, TOPICS, Topic};
 pub use library::{find, library, plain};
-pub use machine::{Machine, Running, ScaledMachine, Setting};
+pub use machine::{Machine, ScaledMachine, Setting};
 pub use misread::Misread;
 pub use ordinate::{Height, ORDINATES, Ordinate, Unit};
 pub use plot_setup::{Arrangement, Axes, MOST_PLOTS, PlotSetup};

@@ -123,7 +123,7 @@ fn runs_at(trial: &Trial, speed: f64) {
     assert_eq!(session.problem.parameters, at(speed).parameters);
     assert_eq!(session.is_on_the_belt(), Some(true));
     let running = session.running().unwrap();
-    assert_eq!((running.speed, running.reduced), (speed, at(speed)));
+    assert_eq!((running.machine.belt.belt_speed, running.reduced), (speed, at(speed)));
     let x = session.problem.initial.q * running.reduced.units.displacement;
     assert!((x / 1e-3 - 1.0).abs() < 1e-15, "the start is 1 mm, whatever the unit of length");
 }
@@ -348,7 +348,7 @@ fn tolerance_and_disturbance_of_a_machine_are_typed_in_newtons() {
     let session = &trial.session;
     let force = session.running().unwrap().reduced.units.force;
     assert!((session.doubt.disturbance * force / 0.1 - 1.0).abs() < 1e-12);
-    let known = session.doubt.on_machine(&session.running().unwrap(), &session.machine().unwrap());
+    let known = session.doubt.on_machine(session.running().unwrap(), &session.machine().unwrap());
     assert!((known.unwrap().half_widths["R"] / 0.2 - 1.0).abs() < 1e-12);
     // A number typed without a tolerance is exact, as everywhere.
     trial.press(":set<space>R=2<space>N<enter>");

@@ -113,7 +113,7 @@ impl ScaledMachine {
     pub fn problem(&self) -> Problem {
         Problem {
             parameters: self.reduced.parameters,
-            initial: self.running().start(),
+            initial: self.start(),
             until: self.machine.until / self.reduced.units.time,
             ..Problem::default()
         }
@@ -127,30 +127,12 @@ impl ScaledMachine {
         [Knob::D, Knob::R].into_iter().chain(varied).collect()
     }
 
-    /// The machine with its belt at its own speed.
-    pub fn running(&self) -> Running<'_> {
-        let ScaledMachine { machine, reduced } = self;
-        Running { machine, speed: machine.belt.belt_speed, reduced: *reduced }
-    }
-}
-
-/// A machine with its belt at a speed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Running<'a> {
-    pub machine: &'a Machine,
-    /// Speed v0 of the belt, in m/s.
-    pub speed: f64,
-    /// The dimensionless form of the machine at that speed.
-    pub reduced: ReducedBelt,
-}
-
-impl<'a> Running<'a> {
-    /// The machine with its belt at `speed` m/s instead of its own speed. Fails with one line that says what is
-    /// allowed: the range of speeds, or what the friction law lacks there.
-    pub fn at(machine: &'a Machine, speed: f64) -> Result<Self, String> {
-        let speed = Knob::BeltSpeed.check(speed)?;
-        let reduced = machine.belt.reduce_at(speed).map_err(|refused| refused.to_string())?;
-        Ok(Running { machine, speed, reduced })
+    /// A machine with its belt at `speed` m/s instead of its own speed. Fails with one line that says what is allowed: the
+    /// range of speeds, or what the friction law lacks there.
+    pub fn at(machine: &Machine, speed: f64) -> Result<Self, String> {
+        let mut machine = machine.clone();
+        machine.belt.belt_speed = Knob::BeltSpeed.check(speed)?;
+        ScaledMachine::new(machine).map_err(|refused| refused.to_string())
     }
 
     /// Whether these parameters equal those of the machine at this speed, to the last bit.
@@ -165,9 +147,9 @@ impl<'a> Running<'a> {
         State { q: displacement / units.displacement, v: velocity / units.velocity }
     }
 
-    /// Converts a motion at this speed to one at another speed: with the parameters of the machine there, and
+    /// Converts a motion of this machine to one at another speed: with the parameters of the machine there, and
     /// from the same start in metres and metres per second.
-    pub fn brought_to(&self, other: &Running, problem: Problem) -> Problem {
+    pub fn brought_to(&self, other: &Self, problem: Problem) -> Problem {
         let (own, others) = (self.start(), other.start());
         let (from, to) = (&self.reduced.units, &other.reduced.units);
         // The machine's own start is not rescaled, so no rounding accumulates from speed to speed.
@@ -219,7 +201,7 @@ impl<'a> Running<'a> {
     /// The pull of the belt on the mass at a dimensionless velocity, as a fraction of the pull at rest; `None`
     /// outside the range of the friction law.
     pub fn pull(&self, v: f64) -> Option<f64> {
-        let relative = self.speed - v * self.reduced.units.velocity;
+        let relative = self.machine.belt.belt_speed - v * self.reduced.units.velocity;
         Some(self.machine.belt.law.mu(relative)? / self.reduced.mu.value)
     }
 }
@@ -256,7 +238,7 @@ mod tests {
     fn numbers_mean_the_quantities_of_the_machine() {
         for machine in machines() {
             let scaled = ScaledMachine::new(machine.clone()).unwrap();
-            let (problem, running) = (scaled.problem(), scaled.running());
+            let problem = scaled.problem();
             for (symbol, expected) in [
                 (Knob::D, machine.belt.damping),
                 (Knob::D3, machine.belt.cubic_damping),
@@ -265,7 +247,7 @@ mod tests {
                 (Knob::V0, machine.velocity),
             ] {
                 let value = symbol.get(&problem.parameters, &problem.initial);
-                let (name, found) = running.meaning(symbol, value).unwrap();
+                let (name, found) = scaled.meaning(symbol, value).unwrap();
                 let size = match symbol {
                     Knob::D => machine.belt.normal_force * scaled.reduced.mu.first,
                     Knob::D3 => machine.belt.normal_force * scaled.reduced.mu.third,
@@ -287,7 +269,7 @@ mod tests {
         for machine in machines().iter().filter(|it| it.belt.cubic_damping == 0.0) {
             for percent in 50..150_u8 {
                 let speed = f64::from(percent) / 100.0 * machine.belt.belt_speed;
-                let Ok(running) = Running::at(machine, speed) else { continue };
+                let Ok(running) = ScaledMachine::at(machine, speed) else { continue };
                 let value = running.reduced.parameters.d3;
                 let (_, found) = running.meaning(Knob::D3, value).unwrap();
                 assert_eq!(found, 0.0, "{} at {speed} m/s", machine.name);
@@ -305,16 +287,16 @@ mod tests {
             let mut faster = machine.clone();
             faster.belt.belt_speed = speed;
             let faster = ScaledMachine::new(faster).unwrap();
-            let running = Running::at(machine, speed).unwrap();
-            let moved = own.running().brought_to(&running, own.problem());
+            let running = ScaledMachine::at(machine, speed).unwrap();
+            let moved = own.brought_to(&running, own.problem());
             assert_eq!(moved, faster.problem(), "{}", machine.name);
-            assert_eq!(running.brought_to(&own.running(), moved), own.problem());
+            assert_eq!(running.brought_to(&own, moved), own.problem());
             assert!(running.carries(&moved.parameters));
             // A start chosen by the user keeps its place in metres, up to rounding.
             let initial = State { q: 0.7, v: -0.3 };
-            let moved = own.running().brought_to(&running, Problem { initial, ..own.problem() });
+            let moved = own.brought_to(&running, Problem { initial, ..own.problem() });
             for (symbol, value) in [(Knob::Q0, 0.7), (Knob::V0, -0.3)] {
-                let before = own.running().meaning(symbol, value).unwrap().1;
+                let before = own.meaning(symbol, value).unwrap().1;
                 let after = symbol.get(&moved.parameters, &moved.initial);
                 let after = running.meaning(symbol, after).unwrap().1;
                 assert!((after / before - 1.0).abs() < 1e-15, "{}", machine.name);
@@ -332,7 +314,7 @@ mod tests {
             ("slideway", 10.0, "v0 = 10 m/s is outside the friction law; it reaches from"),
             ("straight", 1.25, "mu = 0 at v0 = 1.25 m/s; it must be positive"),
         ] {
-            let refused = Running::at(find(machine), speed).unwrap_err();
+            let refused = ScaledMachine::at(find(machine), speed).unwrap_err();
             assert!(refused.contains(words) && !refused.contains('\n'), "{machine}: {refused}");
         }
     }

@@ -9,5 +9,5 @@ pub mod unlikely;
 mod description;
 mod setting;
 
-pub use description::{Description, Machine, NO_BELT, Running, ScaledMachine};
+pub use description::{Description, Machine, NO_BELT, ScaledMachine};
 pub use setting::Setting;

@@ -2,8 +2,8 @@
 //!
 //! Everything here is a formula of the friction law: a path costs a few hundred evaluations and no motion.
 
-use super::Running;
-use crate::model::Parameters;
+use super::ScaledMachine;
+use crate::model::{Knob, Parameters};
 use crate::numerics::elementary::{exp, ln, log10};
 
 /// Slowest speed of a path, relative to the machine's own speed; the fastest is its reciprocal. The range of
@@ -19,7 +19,7 @@ const DIGITS: [&[u32]; 3] = [&[1], &[2, 5], &[3, 4, 7]];
 /// A speed of the belt, in m/s, and the parameters there; `None` where the machine has none.
 pub type Station = (f64, Option<Parameters>);
 
-impl Running<'_> {
+impl ScaledMachine {
     /// Points of the path at geometrically spaced speeds, from slow to fast.
     pub fn path(&self) -> Vec<Station> {
         let (slow, fast) = self.speeds();
@@ -55,7 +55,9 @@ impl Running<'_> {
     }
 
     fn station(&self, speed: f64) -> Station {
-        (speed, Running::at(self.machine, speed).ok().map(|running| running.reduced.parameters))
+        let reduced = |speed| self.machine.belt.reduce_at(speed).ok();
+        let allowed = Knob::BeltSpeed.check(speed).ok();
+        (speed, allowed.and_then(reduced).map(|reduced| reduced.parameters))
     }
 }
 
@@ -69,7 +71,7 @@ mod tests {
     fn a_path_leads_through_the_machine_as_it_is_and_within_its_law() {
         for machine in machines() {
             let scaled = ScaledMachine::new(machine.clone()).unwrap();
-            let (path, own) = (scaled.running().path(), machine.belt.belt_speed);
+            let (path, own) = (scaled.path(), machine.belt.belt_speed);
             assert!(path.windows(2).all(|pair| pair[0].0 < pair[1].0), "{}", machine.name);
             let (low, high) = machine.belt.law.range();
             assert!(path.iter().all(|(speed, _)| (low..=high).contains(speed)), "{}", machine.name);
@@ -86,7 +88,7 @@ mod tests {
     fn a_path_ends_where_friction_does() {
         let machine = machines().iter().find(|machine| machine.name == "straight").unwrap();
         let path = ScaledMachine::new(machine.clone()).unwrap();
-        let path = path.running().path();
+        let path = path.path();
         // mu = 0.5 - 0.4 v
         assert!(path.iter().all(|(speed, parameters)| parameters.is_some() == (*speed < 1.25)));
         assert!(path.iter().any(|(speed, _)| *speed > 1.25));
@@ -96,8 +98,7 @@ mod tests {
     fn milestones_are_the_numbers_that_one_would_type() {
         let machine = machines().iter().find(|machine| machine.name == "textbook").unwrap();
         let scaled = ScaledMachine::new(machine.clone()).unwrap();
-        let speeds: Vec<f64> =
-            scaled.running().milestones().into_iter().map(|(speed, _)| speed).collect();
+        let speeds: Vec<f64> = scaled.milestones().into_iter().map(|(speed, _)| speed).collect();
         assert_eq!(speeds[..5], [0.01, 0.1, 1.0, 0.02, 0.05]);
         assert!(
             speeds.contains(&0.3) && speeds.iter().all(|speed| (0.3 / 32.0..=9.6).contains(speed))

@@ -12,19 +12,19 @@ use crate::question::Whole;
 use crate::question::whole::{WholeCycles, WholeMotion};
 use crate::question::zones::UncertainSubject;
 use crate::scene::machine::unlikely::unlikely;
-use crate::scene::{Finding, Layer, Request, Running, ScaledMachine, Setting, Topic, View};
+use crate::scene::{Finding, Layer, Request, ScaledMachine, Setting, Topic, View};
 use crate::session::state::setup::{ON_A_MACHINE, symbol_of};
 use crate::session::{Session, Setup, Uncertainty};
 
 impl Session {
     /// The machine of the scene with its present setting.
-    pub fn running(&self) -> Option<Running<'_>> {
-        self.scaled.as_deref().map(ScaledMachine::running)
+    pub fn running(&self) -> Option<&ScaledMachine> {
+        self.scaled.as_deref()
     }
 
     /// One line about a number of the machine that is unlikely in its unit; `None` if there is none.
     pub fn unlikely_number(&self) -> Option<String> {
-        let Running { machine, .. } = self.running()?;
+        let machine = &self.running()?.machine;
         let body = Body::Belt(Box::new(machine.belt.clone()));
         unlikely(&body, (machine.displacement, machine.velocity))
     }
@@ -97,7 +97,7 @@ impl Session {
                 "{knob} has no tolerance here; R, d1 and d3 have, all of them in a machine's file"
             )
         })?;
-        let scale = self.machine_of(setup)?.running().scale(symbol);
+        let scale = self.machine_of(setup)?.scale(symbol);
         setup.doubt.with_half_width(symbol, half_width / scale)
     }
 
@@ -138,11 +138,10 @@ impl Session {
     }
 
     fn rebuilt(&self, setup: &Setup, knob: Knob, value: f64) -> Result<Setup, String> {
-        let was = self.machine_of(setup)?;
-        let setting = setup.setting.unwrap_or(Setting::of_speed(was.machine.belt.belt_speed));
+        let from = self.machine_of(setup)?;
+        let setting = setup.setting.unwrap_or(Setting::of_speed(from.machine.belt.belt_speed));
         let mut setup = Setup { setting: Some(setting.with(knob, value)), ..setup.clone() };
-        let is = self.machine_of(&setup)?;
-        let (from, to) = (was.running(), is.running());
+        let to = self.machine_of(&setup)?;
         let Setup { problem, others, doubt, .. } = &mut setup;
         for start in others {
             *start = from.brought_to(&to, Problem { initial: *start, ..*problem }).initial;
@@ -165,7 +164,7 @@ impl Session {
         let running = self.running().filter(|_| self.draws_whole());
         Some(Request::Zones(match running.zip(self.machine()) {
             Some((running, belt)) => UncertainSubject::Machine {
-                tolerances: self.doubt.on_machine(&running, &belt).ok()?,
+                tolerances: self.doubt.on_machine(running, &belt).ok()?,
                 belt: Arc::new(belt),
             },
             None => UncertainSubject::Parameters {

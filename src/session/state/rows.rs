@@ -157,7 +157,7 @@ impl StepSizes {
 /// that is zero, 1 in its SI unit.
 fn size(scaled: &ScaledMachine, knob: Knob) -> f64 {
     let size = knob.of_belt(&scaled.machine.belt).map_or(0.0, f64::abs);
-    let unit = symbol_of(knob).map(|symbol| scaled.running().scale(symbol));
+    let unit = symbol_of(knob).map(|symbol| scaled.scale(symbol));
     if size > 0.0 { size } else { unit.unwrap_or(1.0) }
 }
 

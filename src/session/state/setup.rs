@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::flow::Problem;
 use crate::model::{Belt, Knob, ParameterBox, Parameters, State, Tolerances};
-use crate::scene::{Running, Scene, Setting};
+use crate::scene::{ScaledMachine, Scene, Setting};
 
 /// Maximum number of motions on show, including the present one.
 pub const MOST_MOTIONS: usize = 8;
@@ -35,7 +35,7 @@ impl Setup {
         let alone = Setup::alone(scene.problem);
         let Some(scaled) = &scene.machine else { return alone };
         let setting = Some(Setting::of_speed(scaled.machine.belt.belt_speed));
-        Setup { setting, doubt: Uncertainty::of_machine(&scaled.running()), ..alone }
+        Setup { setting, doubt: Uncertainty::of_machine(scaled), ..alone }
     }
 
     /// A single motion without a machine, known exactly.
@@ -148,36 +148,36 @@ impl Uncertainty {
     }
 
     /// The tolerances from a machine's file, in the units of its oscillator.
-    pub fn of_machine(running: &Running) -> Self {
-        let Tolerances { half_widths, disturbance } = &running.machine.tolerances;
+    pub fn of_machine(scaled: &ScaledMachine) -> Self {
+        let Tolerances { half_widths, disturbance } = &scaled.machine.tolerances;
         let mut doubt = Uncertainty::default();
         for (symbol, quantity) in ON_A_MACHINE {
             let half = half_widths.get(quantity.spec().name).copied().unwrap_or(0.0);
-            let half = half / running.scale(symbol);
+            let half = half / scaled.scale(symbol);
             doubt = doubt.with_half_width(symbol, half).unwrap_or(doubt);
         }
-        Uncertainty { disturbance: disturbance / running.reduced.units.force, ..doubt }
+        Uncertainty { disturbance: disturbance / scaled.reduced.units.force, ..doubt }
     }
 
     /// The tolerances of the machine on show that correspond to this; those of its other numbers are from its
     /// file. Fails with one line if D2, which no single part of the machine determines, has a half width.
-    pub fn on_machine(&self, running: &Running, belt: &Belt) -> Result<Tolerances, String> {
+    pub fn on_machine(&self, scaled: &ScaledMachine, belt: &Belt) -> Result<Tolerances, String> {
         if self.half_width(Knob::D2) > 0.0 {
             return Err("no part of the machine sets D2 alone: it has no half width".to_owned());
         }
-        let mut half_widths = running.machine.tolerances.half_widths.clone();
+        let mut half_widths = scaled.machine.tolerances.half_widths.clone();
         for (symbol, quantity) in ON_A_MACHINE {
             let value = quantity.of_belt(belt).unwrap_or(0.0);
-            let half = self.half_width(symbol) * running.scale(symbol);
+            let half = self.half_width(symbol) * scaled.scale(symbol);
             // Friction and dampers are never negative, so a half width is limited.
             let half = half.min((value - quantity.spec().min).abs());
             half_widths.insert(quantity.spec().name.to_owned(), half);
         }
-        Ok(Tolerances { half_widths, disturbance: self.disturbance * running.reduced.units.force })
+        Ok(Tolerances { half_widths, disturbance: self.disturbance * scaled.reduced.units.force })
     }
 
     /// Converts this to the units of the machine at another speed of its belt.
-    pub fn brought_to(self, from: &Running, to: &Running) -> Self {
+    pub fn brought_to(self, from: &ScaledMachine, to: &ScaledMachine) -> Self {
         if self == Self::of_machine(from) {
             return Self::of_machine(to);
         }

@@ -21,7 +21,7 @@ fn runs_at(trial: &Trial, speed: f64) {
     assert_eq!(session.problem.parameters, at(speed).parameters);
     assert_eq!(session.is_on_the_belt(), Some(true));
     let running = session.running().unwrap();
-    assert_eq!((running.speed, running.reduced), (speed, at(speed)));
+    assert_eq!((running.machine.belt.belt_speed, running.reduced), (speed, at(speed)));
     let x = session.problem.initial.q * running.reduced.units.displacement;
     assert!((x / 1e-3 - 1.0).abs() < 1e-15, "the start is 1 mm, whatever the unit of length");
 }
