@@ -1,25 +1,29 @@
 //! Why there is no answer.
 
-use std::fmt;
+use thiserror::Error;
 
 use super::knob::OutOfRange;
 
 /// Why a computation has no answer, with the numbers that explain it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum Reason {
     /// A newer question replaced this one.
+    #[error("interrupted")]
     Interrupted,
     /// The budget of evaluations is spent.
+    #[error("budget of {evaluations} evaluations spent")]
     Budget {
         /// Evaluations spent.
         evaluations: u64,
     },
     /// The step that the tolerance requires is too small to advance the time.
+    #[error("step {step:.1e} is too small to move the time")]
     StepTooSmall {
         /// Size of that step.
         step: f64,
     },
     /// The fixed step is too long for the damping that the motion encounters.
+    #[error("step {step:.1e} is unstable here; at most {stable:.1e} would do")]
     StepTooLong {
         /// The step.
         step: f64,
@@ -27,18 +31,22 @@ pub enum Reason {
         stable: f64,
     },
     /// The motion has more half swings than are kept.
+    #[error("the motion has more than {most} half swings; ask for a shorter time")]
     HalfSwings {
         /// How many are.
         most: usize,
     },
     /// A number left the floating-point range.
+    #[error("left the range of floating-point numbers")]
     OutOfRange,
     /// The method does not apply to these parameters.
+    #[error("the method needs {needs}")]
     NotApplicable {
         /// What the method requires.
         needs: &'static str,
     },
     /// An iteration did not converge.
+    #[error("{sought} did not settle (last relative change {change:.1e})")]
     NoConvergence {
         /// The quantity sought.
         sought: &'static str,
@@ -46,17 +54,32 @@ pub enum Reason {
         change: f64,
     },
     /// The motion runs away.
+    #[error("the motion grows without bound")]
     Escapes,
     /// The motion comes to rest at the balance of its phase without another turn.
+    #[error("the motion turns no more")]
     Settles,
     /// The motion takes too many steps to its next turn.
+    #[error(
+        "the motion takes too many steps to turn: at the velocities that it reaches its damping is many times the \
+         critical one; less damping, or a smaller start, can be followed"
+    )]
     Steps,
     /// The slip leaves the velocities for which the friction law is known and not negative.
+    #[error(
+        "motions of this machine slip by more than {slip:.6} m/s, where the friction law ends or its coefficient falls \
+         below 0; it must be known and not negative there"
+    )]
     BeyondLaw {
         /// The slip, in m/s.
         slip: f64,
     },
     /// The friction law does not reach the belt's speed.
+    #[error(
+        "v0 = {v0} m/s is outside the friction law; it reaches from {} to {} m/s",
+        .range.0,
+        .range.1
+    )]
     OutsideLaw {
         /// Speed of the belt, in m/s.
         v0: f64,
@@ -64,6 +87,7 @@ pub enum Reason {
         range: (f64, f64),
     },
     /// The coefficient of friction at the belt's speed is not positive, or has no three derivatives.
+    #[error("{}", no_friction(*.v0, *.mu))]
     NoFriction {
         /// Speed of the belt, in m/s.
         v0: f64,
@@ -71,6 +95,9 @@ pub enum Reason {
         mu: f64,
     },
     /// The static coefficient is below the kinetic one at small slip.
+    #[error(
+        "mu_s = {mu_s} is below the coefficient {mu} of the law at rest; static friction is at least that"
+    )]
     StaticBelowKinetic {
         /// The static coefficient.
         mu_s: f64,
@@ -78,6 +105,9 @@ pub enum Reason {
         mu: f64,
     },
     /// The guide's static friction is below its kinetic one.
+    #[error(
+        "R_static = {at_rest} N is below R = {moving} N; static friction is at least the kinetic one"
+    )]
     GuideStatic {
         /// `R_static`, in N.
         at_rest: f64,
@@ -85,8 +115,13 @@ pub enum Reason {
         moving: f64,
     },
     /// A number that follows from others is beyond its range.
+    #[error(transparent)]
     Refused(OutOfRange),
     /// The branch of N harmonics that begins at a first-order answer could not be followed.
+    #[error(
+        "no cycle of {count} harmonics: the first-order answer was lost at {:.0} % of the damping and friction",
+        100.0 * .strength
+    )]
     Harmonics {
         /// Number of harmonics.
         count: usize,
@@ -109,66 +144,13 @@ impl Reason {
     }
 }
 
-impl fmt::Display for Reason {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Reason::Interrupted => write!(out, "interrupted"),
-            Reason::Budget { evaluations } => {
-                write!(out, "budget of {evaluations} evaluations spent")
-            }
-            Reason::StepTooSmall { step } => {
-                write!(out, "step {step:.1e} is too small to move the time")
-            }
-            Reason::StepTooLong { step, stable } => {
-                write!(out, "step {step:.1e} is unstable here; at most {stable:.1e} would do")
-            }
-            Reason::HalfSwings { most } => {
-                write!(out, "the motion has more than {most} half swings; ask for a shorter time")
-            }
-            Reason::OutOfRange => write!(out, "left the range of floating-point numbers"),
-            Reason::NotApplicable { needs } => write!(out, "the method needs {needs}"),
-            Reason::NoConvergence { sought, change } => {
-                write!(out, "{sought} did not settle (last relative change {change:.1e})")
-            }
-            Reason::Escapes => write!(out, "the motion grows without bound"),
-            Reason::Settles => write!(out, "the motion turns no more"),
-            Reason::Steps => write!(
-                out,
-                "the motion takes too many steps to turn: at the velocities that it reaches its damping is \
-                 many times the critical one; less damping, or a smaller start, can be followed"
-            ),
-            Reason::BeyondLaw { slip } => write!(
-                out,
-                "motions of this machine slip by more than {slip:.6} m/s, where the friction law ends or its \
-                 coefficient falls below 0; it must be known and not negative there"
-            ),
-            Reason::OutsideLaw { v0, range: (low, high) } => write!(
-                out,
-                "v0 = {v0} m/s is outside the friction law; it reaches from {low} to {high} m/s"
-            ),
-            Reason::NoFriction { v0, mu } if mu.is_finite() && *mu > 0.0 => {
-                write!(out, "the friction law has no three derivatives at v0 = {v0} m/s")
-            }
-            Reason::NoFriction { v0, mu } => write!(
-                out,
-                "mu = {mu} at v0 = {v0} m/s; it must be positive: x0 = F mu(v0)/c is the unit of length"
-            ),
-            Reason::StaticBelowKinetic { mu_s, mu } => write!(
-                out,
-                "mu_s = {mu_s} is below the coefficient {mu} of the law at rest; static friction is at least that"
-            ),
-            Reason::GuideStatic { at_rest, moving } => write!(
-                out,
-                "R_static = {at_rest} N is below R = {moving} N; static friction is at least the kinetic one"
-            ),
-            Reason::Refused(refused) => refused.fmt(out),
-            Reason::Harmonics { count, strength } => write!(
-                out,
-                "no cycle of {count} harmonics: the first-order answer was lost at {:.0} % of the damping and friction",
-                100.0 * strength
-            ),
-        }
+/// Why there is no friction at the belt's speed v0.
+fn no_friction(v0: f64, mu: f64) -> String {
+    if mu.is_finite() && mu > 0.0 {
+        format!("the friction law has no three derivatives at v0 = {v0} m/s")
+    } else {
+        format!(
+            "mu = {mu} at v0 = {v0} m/s; it must be positive: x0 = F mu(v0)/c is the unit of length"
+        )
     }
 }
-
-impl std::error::Error for Reason {}
