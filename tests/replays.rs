@@ -4,7 +4,7 @@
 use hopfscope::runtime::play;
 use hopfscope::scene::plain;
 use hopfscope::session::replay::{Action, Player, Recorder, parse, text};
-use hopfscope::session::{Instruction, Msg, Session, Size};
+use hopfscope::session::{Instruction, Msg, Notice, Session, Size};
 use hopfscope::terminal::Environment;
 
 /// Name and text of every file in `assets/replays`.
@@ -207,7 +207,7 @@ fn a_recording_is_short_and_readable() {
     for _ in 0..5 {
         recorder.note(&Msg::Key("<right>".parse().unwrap()));
     }
-    recorder.note(&Msg::Idle);
+    recorder.note(&Msg::Told(Notice { error: false, text: String::new() }));
     recorder.note(&Msg::Key("#".parse().unwrap_or("<hash>".parse().unwrap())));
     recorder.note(&Msg::Resize { width: 10, height: 10 });
     recorder.note(&Msg::Resize { width: 80, height: 24 });

@@ -26,7 +26,7 @@ fn of(scene: &Arc<Scene>) -> Result<SceneCost, Failure> {
     let rows = session.rows().into_iter().filter(|row| *row != Row::Method);
     let step = |row: Row| {
         let mut stepped = session.stepped(row, 1);
-        update(&mut stepped, Msg::Idle);
+        update(&mut stepped, Msg::Elapsed { seconds: 0.0 });
         let kept = stepped.requirements().into_iter().map(|part| part.request);
         let reused = kept.filter(|request| !stepped.is_open(request));
         let reused = reused.map(|request| request.topic()).collect();

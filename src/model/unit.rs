@@ -199,27 +199,11 @@ fn finite(text: &str, value: f64, dimension: Option<Dimension>) -> Result<Measur
     }
 }
 
-/// Length in bytes of the number at the start of a text.
+/// Length in bytes of the number at the start of a text: of its signs and digits as many as are one number.
 fn number_end(text: &str) -> usize {
-    let bytes = text.as_bytes();
-    let digits = |mut at: usize| {
-        while bytes.get(at).is_some_and(u8::is_ascii_digit) {
-            at += 1;
-        }
-        at
-    };
-    let sign = |at: usize| at + usize::from(matches!(bytes.get(at), Some(b'+' | b'-')));
-    let mut end = digits(sign(0));
-    if bytes.get(end) == Some(&b'.') {
-        end = digits(end + 1);
-    }
-    if matches!(bytes.get(end), Some(b'e' | b'E')) {
-        let exponent = sign(end + 1);
-        if digits(exponent) > exponent {
-            end = digits(exponent);
-        }
-    }
-    end
+    let belongs = |char: char| char.is_ascii_digit() || matches!(char, '+' | '-' | '.' | 'e' | 'E');
+    let longest = text.find(|char| !belongs(char)).unwrap_or(text.len());
+    (1..=longest).rev().find(|end| text[..*end].parse::<f64>().is_ok()).unwrap_or(0)
 }
 
 /// The value in SI units and the dimension of a unit.

@@ -20,8 +20,6 @@ pub enum Msg {
     Resize { width: u16, height: u16 },
     /// The worker answered a request, or failed to.
     Answered(Box<Answered>),
-    /// Nothing but what follows from the state: for programs that change it themselves.
-    Idle,
     /// A line of the command line, run without opening it: `<run "set D=-0.3">` in a keystroke file.
     Run(String),
     /// The present state is the start of the session; these parameters belong to its scene.
@@ -36,7 +34,8 @@ pub enum Msg {
         /// Its text, or one line that says why there is none.
         result: Result<String, String>,
     },
-    /// Time that has passed since the last such message, or since the motion began to play.
+    /// Time that has passed since the last such message, or since the motion began to play; none where only what follows from
+    /// the state is to be found.
     Elapsed { seconds: f64 },
     /// The outcome of writing a figure.
     Written(Notice),

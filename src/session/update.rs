@@ -99,7 +99,6 @@ fn take_in(session: &mut Session, message: Msg) {
         }
         Msg::Told(notice) => session.notice = Some(notice),
         Msg::Elapsed { seconds } => session.elapse(seconds),
-        Msg::Idle => {}
     }
     answers::follow_fit(session);
     keep_selection(session);

@@ -44,7 +44,7 @@ pub fn settle_with(session: &mut Session, answer: impl Fn(&Request) -> Finding) 
     hopfscope::session::settle(session, |_, request| {
         Some(Msg::answered(request.clone(), Ok(answer(request)), 0.000_25))
     });
-    update(session, Msg::Idle);
+    update(session, Msg::Elapsed { seconds: 0.0 });
 }
 
 /// A decay with D = 0.02 and r = 0.05 at 10/s, without noise except for rounding to three decimals.

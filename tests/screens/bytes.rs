@@ -61,7 +61,7 @@ impl Explorer {
             let result = answer(request, &Limits::default()).map_err(NoAnswer::Reason);
             Some(Msg::answered(request.clone(), result, 0.000_25))
         });
-        update(&mut self.session, Msg::Idle);
+        update(&mut self.session, Msg::Elapsed { seconds: 0.0 });
         *self.line.0.borrow_mut() = 0;
         self.terminal.draw(|frame| view::draw(frame, &self.session, &self.look)).unwrap();
         *self.line.0.borrow()

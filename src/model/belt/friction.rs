@@ -93,6 +93,23 @@ impl FrictionLaw {
         }
     }
 
+    /// The names of all laws in files.
+    pub const NAMES: [&str; 4] = ["constant", "polynomial", "stribeck", "table"];
+
+    /// The law of this name with all its numbers 0; `None` where it has not a number each in the table of them all, but a
+    /// list.
+    #[must_use]
+    pub fn blank(name: &str) -> Option<Self> {
+        let (rest, kinetic, velocity, exponent, viscous) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        match name {
+            "constant" => Some(FrictionLaw::Constant { mu: 0.0 }),
+            "stribeck" => {
+                Some(FrictionLaw::Stribeck { rest, kinetic, velocity, exponent, viscous })
+            }
+            _ => None,
+        }
+    }
+
     /// The name in files.
     #[must_use]
     pub fn name(&self) -> &'static str {

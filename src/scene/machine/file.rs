@@ -25,6 +25,9 @@ use crate::scene::misread::{Complaint, Misread};
 /// Maximum number of points of a table.
 const MOST_POINTS: usize = 10_000;
 
+/// The numbers of friction at rest, which are not those of a law.
+const AT_REST: [Knob; 2] = [Knob::StaticCoefficient, Knob::StaticGuide];
+
 /// A table of the file, and its place.
 struct Section<'a> {
     entries: &'a DeTable<'a>,
@@ -239,7 +242,7 @@ fn belt(
     let at_rest = friction.get("static")?;
     let static_coefficient =
         at_rest.map(|given| half_widths.read(Knob::StaticCoefficient, &given)).transpose()?;
-    let belt = Belt {
+    let mut belt = Belt {
         mass: 0.0,
         stiffness: 0.0,
         damping: 0.0,
@@ -247,10 +250,11 @@ fn belt(
         normal_force: 0.0,
         friction: 0.0,
         belt_speed: 0.0,
-        law: law(&friction, half_widths, fetch)?,
+        law: FrictionLaw::Constant { mu: 0.0 },
         static_coefficient,
         static_guide: None,
     };
+    set_law(&mut belt, &friction, half_widths, fetch)?;
     Ok((Body::Belt(Box::new(belt)), friction.at))
 }
 
@@ -284,45 +288,43 @@ fn set_numbers(
     Ok(())
 }
 
-/// The friction law: the one table beside the coefficient of static friction.
-fn law(
+/// Gives a mass its friction law: the one table beside the coefficient of static friction.
+fn set_law(
+    belt: &mut Belt,
     friction: &Section,
     half_widths: &mut HalfWidths,
     fetch: impl FnOnce(&str) -> Result<String, String>,
-) -> Result<FrictionLaw, Complaint> {
-    friction.has_only(&["static", "constant", "polynomial", "stribeck", "table"])?;
+) -> Result<(), Complaint> {
+    friction.has_only(&[&["static"], &FrictionLaw::NAMES[..]].concat())?;
     let unfit = |message: &str| Complaint { at: friction.at.clone(), message: message.to_owned() };
     let mut laws = friction.entries.keys().map(|name| name.get_ref().as_ref());
     let mut other = || laws.find(|name| *name != "static");
     let (Some(name), None) = (other(), other()) else {
-        return Err(unfit("friction takes one law: constant, polynomial, stribeck or table"));
+        let [others @ .., last] = FrictionLaw::NAMES;
+        return Err(unfit(&format!("friction takes one law: {} or {last}", others.join(", "))));
     };
     let Some(given) = friction.section(name)? else { return Err(unfit("no law")) };
     let mut read = |knob, number: &Spanned<Number>| half_widths.read(knob, number);
-    let mut number = |knob| given.number(knob, &mut read);
-    match name {
-        "constant" => {
-            given.has_only(&["mu"])?;
-            Ok(FrictionLaw::Constant { mu: number(Knob::Mu)? })
+    belt.law = match (FrictionLaw::blank(name), name) {
+        (Some(blank), _) => {
+            belt.law = blank;
+            let own = |knob: &Knob| !AT_REST.contains(knob) && knob.of_belt(belt).is_some();
+            let numbers: Vec<Knob> = Group::Law.knobs().filter(own).collect();
+            given.has_only(&numbers.iter().map(|knob| knob.spec().name).collect::<Vec<_>>())?;
+            for knob in numbers {
+                knob.set_in_belt(belt, given.number(knob, &mut read)?).map_err(lacks)?;
+            }
+            return Ok(());
         }
-        "stribeck" => {
-            given.has_only(&["rest", "kinetic", "velocity", "exponent", "viscous"])?;
-            Ok(FrictionLaw::Stribeck {
-                rest: number(Knob::Rest)?,
-                kinetic: number(Knob::Kinetic)?,
-                velocity: number(Knob::Velocity)?,
-                exponent: number(Knob::Exponent)?,
-                viscous: number(Knob::Viscous)?,
-            })
-        }
-        "polynomial" => {
+        (None, "polynomial") => {
             given.has_only(&["coefficients"])?;
             let listed = given.get::<Vec<_>>("coefficients")?;
             let listed = listed.ok_or_else(|| unfit("coefficients = [..] is missing"))?;
-            Ok(FrictionLaw::Polynomial { coefficients: polynomial("mu", listed.get_ref(), read)? })
+            FrictionLaw::Polynomial { coefficients: polynomial("mu", listed.get_ref(), read)? }
         }
-        _ => spline(&given, unfit, fetch),
-    }
+        _ => spline(&given, unfit, fetch)?,
+    };
+    Ok(())
 }
 
 fn spline(

@@ -92,9 +92,7 @@ impl Instruction {
             | Msg::Resize { .. }
             | Msg::Run(_)
             | Msg::Start(_) => Some(Instruction::Give(message.clone())),
-            Msg::Read { .. } | Msg::Answered(_) | Msg::Idle | Msg::Written(_) | Msg::Told(_) => {
-                None
-            }
+            Msg::Read { .. } | Msg::Answered(_) | Msg::Written(_) | Msg::Told(_) => None,
         }
     }
 

@@ -55,7 +55,7 @@ fn marks_scenes_and_saved_sessions_know_the_speed() {
         assert!(why.contains("is outside its range") && !why.contains('\n'), "{why}");
     }
     // The refused files changed nothing.
-    trial.give(Msg::Idle);
+    trial.give(Msg::Elapsed { seconds: 0.0 });
     runs_at(&trial, 0.35);
     assert_eq!(trial.session.scene.machine.as_ref().unwrap().reduced, at(0.3));
 }
