@@ -1,44 +1,122 @@
-//! The rows of the lists over the panes, and the search in them: synonyms, and the order of the rows found.
+//! The rows of the lists over the panes, everything that has a name among them, and the search in them: synonyms, and the
+//! order of the rows found.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock};
 
 use crate::paper::{Claim, ClaimResult, Verdict, claims};
 use crate::scene::library::SceneGroup;
-use crate::scene::{LAYERS, LayerSpec, Scene, VIEWS, View, ViewSpec, library};
-use crate::session::{Kept, List, Listed, Overlay, Session};
+use crate::scene::machine::library::machines;
+use crate::scene::{LAYERS, LayerSpec, Machine, Scene, VIEWS, View, ViewSpec, library};
+use crate::session::state::context::contexts;
+use crate::session::{Command, Context, Kept, List, Listed, Overlay, Session};
 
-impl List {
-    /// The rank of a row with these names and this meaning: the best matches for the search come first.
-    fn rank(&self, names: &[impl AsRef<str>], meaning: &str) -> usize {
-        let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
-        if self.search.is_empty() { 0 } else { rank(&self.search, &names, meaning) }
+#[derive(Clone, Copy, Debug)]
+pub enum PaletteRow {
+    /// A command of a key.
+    Command(&'static Command),
+    /// A command that takes words.
+    Line(&'static Command),
+    /// A scene, to open.
+    Scene(&'static Arc<Scene>),
+    /// A view, to show in the plot in use.
+    View(&'static ViewSpec),
+    /// A layer, to switch.
+    Layer(&'static LayerSpec),
+    /// A built-in machine, to open.
+    Machine(&'static Machine),
+    /// A claim of the paper, to show in its scene.
+    Claim(&'static Claim),
+}
+
+impl PaletteRow {
+    /// Its name, its other name if it has one, its explanation in one line, and the heading under which it stands,
+    /// unless that depends on the pane in focus.
+    fn texts(self) -> [&'static str; 4] {
+        match self {
+            PaletteRow::Command(command) => [command.name, "", command.doc, ""],
+            PaletteRow::Line(line) => [line.name, "", line.doc, "Typed after a colon"],
+            PaletteRow::Scene(scene) => {
+                let other = scene.also.as_deref().unwrap_or_default();
+                [&scene.name, other, &scene.title, "Scenes"]
+            }
+            PaletteRow::View(view) => [view.name, view.title, view.meaning, "Views of a plot"],
+            PaletteRow::Layer(layer) => [layer.name, "", layer.meaning, "Layers"],
+            PaletteRow::Machine(machine) => [&machine.name, "", &machine.title, "Machines"],
+            PaletteRow::Claim(claim) => {
+                [claim.equation, claim.section, claim.statement, "Claims of the paper"]
+            }
+        }
+    }
+
+    pub fn name(self) -> &'static str {
+        self.texts()[0]
+    }
+
+    /// Explanation in one line.
+    pub fn meaning(self) -> &'static str {
+        self.texts()[2]
+    }
+
+    /// All of its names.
+    fn names(self) -> Vec<&'static str> {
+        let [name, other, ..] = self.texts();
+        let own = [name, other].into_iter().filter(|name| !name.is_empty());
+        own.chain(aliases(name).iter().copied()).collect()
     }
 }
 
 impl Session {
+    /// All rows that contain all searched words. Without a search, the commands of the pane in focus come
+    /// first. Commands that work only inside a list or a line, or with a digit, are left out.
+    pub fn palette_rows(&self, list: &List) -> Vec<PaletteRow> {
+        let outside = |command: &&Command| home(command).is_some() && !takes_digit(command);
+        let commands = self.keymap.commands().filter(outside).map(PaletteRow::Command);
+        let lines = self.keymap.lines().map(PaletteRow::Line);
+        let scenes = library().iter().map(PaletteRow::Scene);
+        let views = VIEWS.iter().map(PaletteRow::View);
+        let layers = LAYERS.iter().map(PaletteRow::Layer);
+        let claims = claims().map(PaletteRow::Claim);
+        let machines = machines().iter().map(PaletteRow::Machine);
+        let all = commands.chain(lines).chain(scenes).chain(views).chain(layers);
+        let all = all.chain(machines).chain(claims);
+        let searches = !list.search.trim().is_empty();
+        self.matching(list, all, |row| row, |row| if searches { 0 } else { self.distance(row) })
+    }
+
+    /// The rows that contain all searched words: the best matches first, those alike in this order.
+    fn matching<T: Copy, Place: Ord>(
+        &self,
+        list: &List,
+        all: impl Iterator<Item = T>,
+        row: fn(T) -> PaletteRow,
+        order: impl Fn(T) -> Place,
+    ) -> Vec<T> {
+        let search = &list.search;
+        let rank = |row: PaletteRow| match search.trim() {
+            "" => 0,
+            _ if self.keys(row).contains(search) => 0,
+            _ => rank(search, &row.names(), row.meaning()),
+        };
+        let mut found: Vec<T> = all.filter(|it| list.matches(&self.words(row(*it)))).collect();
+        found.sort_by_cached_key(|it| (rank(row(*it)), order(*it)));
+        found
+    }
+
     /// The scenes that the picker lists, in groups.
     pub fn scene_rows(&self, list: &List) -> Vec<&'static Arc<Scene>> {
-        let found = library().iter().filter(|scene| {
-            let also = scene.also.as_deref().unwrap_or_default();
-            list.matches(&[scene.name.as_str(), also, &scene.title])
-        });
-        let mut rows: Vec<_> = found.collect();
-        let names = |scene: &Scene| [scene.name.clone(), scene.also.clone().unwrap_or_default()];
-        rows.sort_by_cached_key(|scene| {
-            (list.rank(&names(scene), &scene.title), SceneGroup::of(scene))
-        });
-        rows
+        self.matching(list, library().iter(), PaletteRow::Scene, |scene| SceneGroup::of(scene))
     }
 
     /// The layers that the list of layers shows, those of the plot in use first.
     pub fn layer_rows(&self, list: &List) -> Vec<&'static LayerSpec> {
-        let found = LAYERS.iter().filter(|row| list.matches(&[row.name, row.meaning]));
-        let mut rows: Vec<_> = found.collect();
-        rows.sort_by_key(|row| {
-            (list.rank(&[row.name], row.meaning), row.view != self.view_in_use(), row.view)
-        });
-        rows
+        let in_use = self.view_in_use();
+        self.matching(list, LAYERS.iter(), PaletteRow::Layer, |row| (row.view != in_use, row.view))
+    }
+
+    /// The views that the picker lists.
+    pub fn view_rows(&self, list: &List) -> Vec<&'static ViewSpec> {
+        self.matching(list, VIEWS.iter(), PaletteRow::View, |_| ())
     }
 
     /// The view of the plot in use.
@@ -46,14 +124,68 @@ impl Session {
         self.plots[self.plot].view
     }
 
-    /// The views that the picker lists.
-    pub fn view_rows(&self, list: &List) -> Vec<&'static ViewSpec> {
-        let found = VIEWS.iter().filter(|row| list.matches(&[row.name, row.title, row.meaning]));
-        let mut rows: Vec<_> = found.collect();
-        rows.sort_by_key(|row| list.rank(&[row.name, row.title], row.meaning));
-        rows
+    /// The selected row of a list, if it can be run.
+    pub(crate) fn selected_row(&self, listed: Listed, list: &List) -> Option<PaletteRow> {
+        let at = list.selected;
+        Some(match listed {
+            Listed::Scenes => PaletteRow::Scene(self.scene_rows(list).get(at)?),
+            Listed::Layers => PaletteRow::Layer(self.layer_rows(list).get(at)?),
+            Listed::Views => PaletteRow::View(self.view_rows(list).get(at)?),
+            Listed::Paper => PaletteRow::Claim(self.claim_rows(list).get(at)?.0),
+            Listed::Palette => *self.palette_rows(list).get(at)?,
+            Listed::Cost | Listed::Interrupted => return None,
+        })
     }
 
+    /// The heading under which a row stands.
+    pub fn heading(&self, row: PaletteRow) -> &'static str {
+        let PaletteRow::Command(command) = row else { return row.texts()[3] };
+        self.place_of(command).map_or("", Context::title)
+    }
+
+    /// The distance of a row's context from the pane in focus.
+    fn distance(&self, row: PaletteRow) -> usize {
+        let PaletteRow::Command(command) = row else { return usize::MAX };
+        let Some(place) = self.place_of(command) else { return usize::MAX };
+        let near = self.contexts_below().iter().position(|context| *context == place);
+        let far = || contexts().position(|row| row.context == place).unwrap_or(0);
+        near.unwrap_or_else(|| self.contexts_below().len() + far())
+    }
+
+    /// The context in which a command is run: that of the pane in focus if it has keys there.
+    pub fn place_of(&self, command: &Command) -> Option<Context> {
+        let mut here = self.contexts_below().iter();
+        let has_keys = |context: &&Context| command.keys.iter().any(|(at, _)| at == *context);
+        here.find(has_keys).copied().or(home(command))
+    }
+
+    /// The words by which a row is found: its names, its explanation and its keys.
+    fn words(&self, row: PaletteRow) -> Vec<String> {
+        let texts = row.names().into_iter().chain([row.meaning()]).map(str::to_owned);
+        texts.chain(self.keys(row)).collect()
+    }
+
+    /// The keys that run a row.
+    fn keys(&self, row: PaletteRow) -> Vec<String> {
+        let PaletteRow::Command(command) = row else { return Vec::new() };
+        let places = self.keymap.places(command);
+        places.iter().flat_map(|(_, keys)| keys).map(ToString::to_string).collect()
+    }
+}
+
+/// Whether a command depends on the digit that runs it.
+fn takes_digit(command: &Command) -> bool {
+    command.keys.iter().any(|(_, keys)| keys.contains(&"1"))
+}
+
+/// The first context outside of lists and lines in which a command has default keys; commands that switch
+/// layers have none.
+fn home(command: &Command) -> Option<Context> {
+    let outside = |(context, keys): &&(Context, &[&str])| !context.is_overlay() && !keys.is_empty();
+    command.keys.iter().find(outside).map(|(context, _)| *context)
+}
+
+impl Session {
     /// The claims that the page of the paper lists, each with the result of its examination, if known.
     pub fn claim_rows(&self, list: &List) -> Vec<(&'static Claim, Option<&ClaimResult>)> {
         let examined = self.examined();
