@@ -129,8 +129,7 @@ impl Auto {
     }
 
     /// A copy of the last step, to be kept.
-    pub fn last_step(&mut self) -> KeptStep {
-        self.prepare_dense();
+    pub fn last_step(&self) -> KeptStep {
         match self.implicit() {
             Some(stiff) => Arc::new(stiff.clone()),
             None if self.last == Taken::Closed => Arc::new(self.exact.clone()),
@@ -146,8 +145,7 @@ impl Auto {
     /// The largest v in the last step, which took this long, if the acceleration changes sign there.
     ///
     /// Newton's method on the acceleration. Since v is flat there, an error e in time costs only e^2 in v.
-    pub fn fastest(&mut self, duration: f64) -> Option<f64> {
-        self.prepare_dense();
+    pub fn fastest(&self, duration: f64) -> Option<f64> {
         let acceleration = |time: f64| {
             let StepPoint { x, v } = self.at(time);
             let acceleration = self.field.acceleration(x, v);
@@ -222,14 +220,6 @@ impl Stepper for Auto {
             stiff.expect_length(FIRST * step.duration);
         }
         Ok(step)
-    }
-
-    fn prepare_dense(&mut self) {
-        if self.last == Taken::Implicit
-            && let Some(stiff) = &mut self.stiff
-        {
-            stiff.prepare_dense();
-        }
     }
 
     fn at(&self, time: f64) -> StepPoint {

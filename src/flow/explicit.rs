@@ -4,6 +4,8 @@
 //! Wanner (sections II.4 and II.10 of their book). A step that passes `v = 0` is repeated with Newton's method
 //! on its length until it ends there, so a crossing is as accurate as a step.
 
+use std::cell::Cell;
+
 use super::motion::Cost;
 use super::step::{ErrorScale, Field, LONGEST, Powers, Step, StepPoint, Stepper, stopping_time};
 use super::tableau::{ErrorEstimate, Scheme};
@@ -14,12 +16,6 @@ use crate::numerics::scaling::{rough_exp2, rough_log2};
 /// Relative change of the length of the last step below which it counts as settled. This takes about four
 /// attempts; one more would change the length by the square of this.
 const SETTLED: f64 = 1e-9;
-
-/// Maximum number of slopes that a dense output combines.
-const MOST_SLOPES: usize = 16;
-
-/// Maximum number of coefficients of a dense output.
-const MOST_DENSE: usize = 7;
 
 /// A step of the classical method counts as stable below this many damping times. (The bound is 2.785 for real
 /// eigenvalues, but the eigenvalue may grow within the step.)
@@ -42,9 +38,9 @@ pub struct Explicit<const S: usize, const R: usize, F: Field = HalfPlane> {
     acceleration: [f64; S],
     /// Error estimates of the last attempt.
     errors: [(f64, f64); 2],
-    /// Coefficients of the dense output of x and v.
-    dense: [[f64; MOST_DENSE]; 2],
     cost: Cost,
+    /// Evaluations for points within steps.
+    within: Cell<u64>,
 }
 
 /// The pair of order 8.
@@ -69,8 +65,8 @@ impl<const S: usize, const R: usize, F: Field> Explicit<S, R, F> {
             velocity: [0.0; S],
             acceleration: [0.0; S],
             errors: [(0.0, 0.0); 2],
-            dense: [[0.0; MOST_DENSE]; 2],
             cost: Cost::default(),
+            within: Cell::default(),
         }
     }
 
@@ -253,54 +249,13 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
         }
     }
 
-    fn prepare_dense(&mut self) {
-        let h = self.duration;
-        let (mut velocity, mut acceleration) = ([0.0; MOST_SLOPES], [0.0; MOST_SLOPES]);
-        velocity[..S].copy_from_slice(&self.velocity);
-        acceleration[..S].copy_from_slice(&self.acceleration);
-        let last_slope = self.field.acceleration(self.end.x, self.end.v);
-        self.cost.evaluations += 1;
-        if !self.scheme.extra.is_empty() {
-            (velocity[S], acceleration[S]) = (self.end.v, last_slope);
-        }
-        let sum = |row: &[f64], slopes: &[f64; MOST_SLOPES]| {
-            row.iter().zip(slopes).map(|(weight, slope)| weight * slope).sum::<f64>()
-        };
-        for (row, index) in self.scheme.extra.iter().zip(S + 1..) {
-            let x = self.start.x + h * sum(row, &velocity);
-            let v = self.start.v + h * sum(row, &acceleration);
-            velocity[index] = v;
-            acceleration[index] = self.field.acceleration(x, v);
-            self.cost.evaluations += 1;
-        }
-        let components = [
-            (self.start.x, self.end.x, self.start.v, self.end.v, velocity),
-            (self.start.v, self.end.v, self.acceleration[0], last_slope, acceleration),
-        ];
-        for (dense, (from, to, first, last, slopes)) in self.dense.iter_mut().zip(components) {
-            let change = to - from;
-            *dense = [0.0; MOST_DENSE];
-            dense[..3].copy_from_slice(&[
-                change,
-                h * first - change,
-                2.0 * change - h * (first + last),
-            ]);
-            for (coefficient, row) in dense[3..].iter_mut().zip(self.scheme.dense) {
-                *coefficient = h * sum(row, &slopes);
-            }
-        }
-    }
-
+    /// A shorter step of the same method from the same start, which is at least as accurate.
     fn at(&self, time: f64) -> StepPoint {
-        let s = time / self.duration;
-        let value = |from: f64, dense: &[f64; MOST_DENSE]| {
-            // Nested alternately in s and 1 - s, as published.
-            let nested = dense.iter().enumerate().rev().fold(0.0, |sum, (index, coefficient)| {
-                (sum + coefficient) * if index % 2 == 0 { s } else { 1.0 - s }
-            });
-            from + nested
-        };
-        StepPoint { x: value(self.start.x, &self.dense[0]), v: value(self.start.v, &self.dense[1]) }
+        let mut shorter = self.clone();
+        shorter.cost.evaluations = 0;
+        let point = shorter.attempt(time);
+        self.within.set(self.within.get() + shorter.cost.evaluations);
+        point
     }
 
     /// The quadrature of the method: its stages are the nodes.
@@ -309,6 +264,6 @@ impl<const S: usize, const R: usize, F: Field> Stepper<F> for Explicit<S, R, F> 
     }
 
     fn cost(&self) -> Cost {
-        self.cost
+        Cost { evaluations: self.cost.evaluations + self.within.get(), ..self.cost }
     }
 }

@@ -360,7 +360,6 @@ fn sample<N: Scalar, F: Field, S: Stepper<F, N>>(
         }
     };
     let count = count * stepper.pieces();
-    stepper.prepare_dense();
     for index in 1..count {
         let offset = duration * (real(index) / real(count));
         keep_number(offset, stepper.at(offset));

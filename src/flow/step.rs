@@ -190,9 +190,6 @@ pub trait Stepper<F: Field = HalfPlane, N: Scalar = f64>: Debug {
     fn advance(&mut self, from: StepPoint<N>, longest: N, arrives: bool)
     -> Result<Step<N>, Reason>;
 
-    /// Prepares [`Stepper::at`] for the last step, if that takes any work.
-    fn prepare_dense(&mut self) {}
-
     /// The point at `time` after the start of the last step.
     fn at(&self, time: f64) -> StepPoint;
 

@@ -71,7 +71,7 @@ pub struct Stiff<F: Field = HalfPlane> {
     /// Velocities and accelerations of the stages.
     velocity: [f64; MOST],
     acceleration: [f64; MOST],
-    /// Divided differences of x and v over the start and the nodes; those of x only after [`Stepper::prepare_dense`].
+    /// Divided differences of x and v over the start and the nodes.
     dense: [[f64; MOST + 1]; 2],
     cost: Cost,
 }
@@ -305,7 +305,12 @@ impl<F: Field> Stiff<F> {
     /// Keeps an attempt as the last step.
     fn keep(&mut self, duration: f64, end: StepPoint) {
         (self.duration, self.end) = (duration, end);
-        self.dense[1] = differences(&self.scheme.nodes, self.start.v, &self.velocity);
+        let mut position = [0.0; MOST];
+        for (x, row) in position.iter_mut().zip(&self.scheme.integrals) {
+            *x = self.start.x + duration * weighted(row, &self.velocity);
+        }
+        let through = |first, values| differences(&self.scheme.nodes, first, values);
+        self.dense = [through(self.start.x, &position), through(self.start.v, &self.velocity)];
     }
 
     /// The longest step that cannot pass two crossings; unlimited where damping is above critical.
@@ -357,14 +362,6 @@ impl<F: Field> Stepper<F> for Stiff<F> {
             (self.end, self.duration) = (last, 0.0);
             longest = arrival.map_or(0.5 * duration, |arrival| SHORT_OF * arrival.duration);
         }
-    }
-
-    fn prepare_dense(&mut self) {
-        let mut position = [0.0; MOST];
-        for (x, row) in position.iter_mut().zip(&self.scheme.integrals) {
-            *x = self.start.x + self.duration * weighted(row, &self.velocity);
-        }
-        self.dense[0] = differences(&self.scheme.nodes, self.start.x, &position);
     }
 
     fn at(&self, time: f64) -> StepPoint {

@@ -7,7 +7,7 @@ use crate::flow::explicit::{Dop853, Dopri5};
 use crate::flow::step::{Field, Step, StepPoint, Stepper};
 use crate::flow::tableau::{dop853, dopri5};
 use crate::model::{Model, Phase, Reason};
-use crate::numerics::root::bisect;
+use crate::numerics::root::{Bracket, PlaceTolerance, newton};
 
 /// The methods that can follow a machine.
 pub const ALLOWED: &str = "auto, taylor, dop853 and dopri5";
@@ -49,9 +49,6 @@ pub(crate) fn stepper(model: &Model, method: Method) -> Option<PhaseStepper<'_>>
 /// Longest step, in `1/omega_0`: a small fraction of a swing, in which the velocity turns once at most.
 const LONGEST: f64 = 0.125;
 
-/// Halvings that narrow a turn to rounding.
-const HALVINGS: u32 = 60;
-
 /// Maximum number of steps of a motion.
 pub(crate) const STEPS: u64 = 2_000_000;
 
@@ -61,20 +58,15 @@ struct LastStep<'s, 'a> {
     field: PhaseField<'a>,
     from: StepPoint,
     step: Step,
-    prepared: bool,
 }
 
 impl LastStep<'_, '_> {
-    fn at(&mut self, t: f64) -> StepPoint {
+    fn at(&self, t: f64) -> StepPoint {
         if t == 0.0 {
             return self.from;
         }
         if t == self.step.duration {
             return self.step.end;
-        }
-        if !self.prepared {
-            self.stepper.prepare_dense();
-            self.prepared = true;
         }
         self.stepper.at(t)
     }
@@ -87,8 +79,12 @@ impl StepInside for LastStep<'_, '_> {
     }
 
     fn turning(&mut self, end: f64) -> f64 {
-        let rises = self.velocity(0.0).1 > 0.0;
-        bisect(0.0, end, HALVINGS, |t| (self.velocity(t).1 > 0.0) != rises).1
+        let bracket = Bracket { low: 0.0, high: end, rising: self.velocity(0.0).1 < 0.0 };
+        newton(bracket, 0.5 * end, PlaceTolerance::Absolute(1e-16 * end), |t| {
+            let (velocity, slope) = self.velocity(t);
+            (slope, self.field.divergence(velocity) * slope - velocity)
+        })
+        .at
     }
 }
 
@@ -114,7 +110,7 @@ pub(crate) fn stepped<'a>(
     for _ in 0..STEPS {
         let longest = LONGEST.min(watch.left());
         let mut step = stepper.advance(from, longest, false).map_err(|_| Reason::Escapes)?;
-        let inside = LastStep { stepper, field, from, step, prepared: false };
+        let inside = LastStep { stepper, field, from, step };
         let mut reached = None;
         if let Some((time, level)) = crossing(inside, phase, step.duration, (low, outer)).hit {
             step = stepper.advance(from, time, false).map_err(|_| Reason::Escapes)?;

@@ -96,7 +96,6 @@ fn dense_output_satisfies_the_equation_inside_a_step() {
     let mut point = StepPoint { x: -1.0, v: 0.2 };
     for _ in 0..6 {
         let step = stepper.advance(point, 10.0, true).unwrap();
-        stepper.prepare_dense();
         let time = 0.37 * step.duration;
         let (here, h) = (stepper.at(time), 1e-4 * step.duration);
         let (before, after) = (stepper.at(time - h), stepper.at(time + h));

@@ -1,7 +1,7 @@
-//! The pair of order 5 with an error estimate of order 4 and a dense output of order 4.
+//! The pair of order 5 with an error estimate of order 4.
 //!
 //! Dormand and Prince, *A family of embedded Runge-Kutta formulae*, Journal of Computational and Applied
-//! Mathematics 6 (1980); dense output by Shampine as in Hairer, Norsett and Wanner I, section II.6.
+//! Mathematics 6 (1980).
 
 use super::{ErrorEstimate, Scheme};
 
@@ -10,8 +10,6 @@ pub static SCHEME: Scheme<STAGES, 8> = Scheme {
     weights: WEIGHTS,
     estimate: ErrorEstimate::Embedded(5.0),
     last_is_end: true,
-    extra: &[],
-    dense: &DENSE,
 };
 
 /// Number of stages; the last one is at the end of the step.
@@ -40,11 +38,3 @@ const ERROR: [f64; STAGES] = [
     71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0,
     -1.0 / 40.0,
 ];
-
-/// Coefficient of the dense output beyond the cubic Hermite part.
-#[rustfmt::skip]
-const DENSE: [&[f64]; 1] = [&[
-    -12_715_105_075.0 / 11_282_082_432.0, 0.0, 87_487_479_700.0 / 32_700_410_799.0,
-    -10_690_763_975.0 / 1_880_347_072.0, 701_980_252_875.0 / 199_316_789_632.0,
-    -1_453_857_185.0 / 822_651_844.0, 69_997_945.0 / 29_380_423.0,
-]];

@@ -22,10 +22,6 @@ pub struct Scheme<const S: usize, const R: usize> {
     pub estimate: ErrorEstimate,
     /// Whether the last stage is evaluated at the end of the step, where the next one begins.
     pub last_is_end: bool,
-    /// Stages needed only for the dense output, after the slope at the end of the step.
-    pub extra: &'static [&'static [f64]],
-    /// Coefficients of the dense output beyond the cubic Hermite part.
-    pub dense: &'static [&'static [f64]],
 }
 
 /// How the error of a step is estimated.

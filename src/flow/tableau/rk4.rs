@@ -7,8 +7,6 @@ pub static SCHEME: Scheme<STAGES, 4> = Scheme {
     weights: WEIGHTS,
     estimate: ErrorEstimate::None,
     last_is_end: false,
-    extra: &[],
-    dense: &[],
 };
 
 const STAGES: usize = 4;

@@ -76,7 +76,6 @@ fn weigh(
     // Every part of the swing counts: none may be skipped by a closed form.
     let skipped = map.set_linear_below(0.0);
     let swing = map.swing_watched(start, limits, |stepper, unit, duration| {
-        stepper.prepare_dense();
         for &(node, weight) in &GAUSS {
             let point = stepper.at(node * duration);
             let (x, v) =
