@@ -7,7 +7,7 @@
 
 use divan::Bencher;
 use divan::black_box;
-use hopfscope::flow::MachineMotion;
+use hopfscope::flow::follow_by_series;
 use hopfscope::model::belt::FrictionLaw;
 use hopfscope::model::{Belt, Model};
 use hopfscope::numerics::elementary::exp;
@@ -65,7 +65,7 @@ fn share_of_a_window(bencher: Bencher) {
 #[divan::bench]
 fn motion_of_a_hundred_time_units(bencher: Bencher) {
     let model = portrait().model;
-    bencher.bench_local(|| MachineMotion::new(&model, black_box(1.4), black_box(0.0), 100.0).end);
+    bencher.bench_local(|| follow_by_series(&model, (black_box(1.4), black_box(0.0)), 100.0).end());
 }
 
 /// The same motion by the classical Runge-Kutta method with a fixed step of 1e-3.

@@ -123,8 +123,7 @@ fn the_energy_ledger_closes_to_eleven_digits_of_the_start() {
 fn the_explicit_pair_closes_it_to_eleven_digits_of_what_went_through() {
     for motion in motions() {
         let ledger = motion.compute(Method::Dop853, 1e-12).ledger.expect("no motion escapes");
-        let works = [ledger.linear, ledger.quadratic, ledger.cubic, ledger.friction];
-        let through = ledger.start + works.iter().map(|work| work.abs()).sum::<f64>();
+        let through = ledger.start + ledger.works.iter().map(|work| work.amount.abs()).sum::<f64>();
         assert!(ledger.residual.abs() <= 1e-11 * through, "{:?}: {ledger:?}", motion.parameters);
     }
 }

@@ -134,7 +134,7 @@ impl BeltCommand {
         let on_belt = subject.of_belt().map(on_belt).transpose()?;
         let mut course = Course::new(&subject.model()?, *start, *until)?;
         if let Some(way) = second {
-            course.follow_by(way, self.dial(), *start, *until);
+            course.follow_by(way, self.dial());
         }
         let rest_share = self.share(&course.portrait);
         let design = self.designed(subject, tolerances)?;

@@ -8,7 +8,7 @@ use super::{
 use crate::accuracy::machine_trade::MachineTrade;
 use crate::accuracy::trade::Trade;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Fate, Limits, MachineMotion, Method, Outcome, Problem};
+use crate::flow::{Detail, Limits, Method, MotionUnits, Outcome, Problem, follow};
 use crate::model::{Knob, MachineProblem, State};
 use crate::numerics::Interval;
 use crate::proof::ParameterBox;
@@ -61,7 +61,7 @@ pub struct TrajectoryCommand {
 impl TrajectoryCommand {
     pub fn run(&self) -> Result<(), Failure> {
         if let Some(case) = self.asked.of_machine()? {
-            return self.of_machine(&case);
+            return self.of_machine(case);
         }
         let output = &self.asked.output;
         let problem = self.asked.problem(None)?;
@@ -91,24 +91,22 @@ impl TrajectoryCommand {
         }
     }
 
-    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
+    fn of_machine(&self, case: MachineCase) -> Result<(), Failure> {
+        let about = case.about();
         let MotionOptions { source, output, .. } = &self.asked;
-        let MachineProblem { subject, start, until, .. } = &case.problem;
+        let MachineProblem { subject, start: (q, v), until, .. } = case.problem;
         let model = subject.model().map_err(troubled)?;
         let way = second(source.start.method)?;
         let own = if way.is_some() { Knob::Tolerance.usual() } else { model.tolerance };
-        let asked = (way.unwrap_or(Method::Taylor), source.start.tol.unwrap_or(own));
+        let tolerance = source.start.tol.unwrap_or(own);
+        let (method, initial) = (way.unwrap_or(Method::Taylor), State { q, v });
+        let problem = Problem { initial, until, method, tolerance, ..Problem::default() };
         let detail = Detail { energy: true, ..Detail::default() };
-        let follow = || MachineMotion::by(&model, asked, *start, *until, detail);
-        let (found, seconds) = timed(output.repeat, follow);
-        output.print(motion::of_machine(&case.about(), &case.problem, &found, seconds))?;
-        known(found.outcome)
+        let units = MotionUnits::physical(&model);
+        let (found, seconds) = timed(output.repeat, || follow(&model, &problem, units, detail));
+        output.print(motion::motion(&about, &found, None, seconds))?;
+        found.outcome.answered().map_err(troubled)
     }
-}
-
-/// Fails where the motion of a machine could not be followed.
-fn known(outcome: Fate) -> Result<(), Failure> {
-    if let Fate::Unknown(stop) = outcome { Err(troubled(stop)) } else { Ok(()) }
 }
 
 /// Shows what accuracy costs: every method at all its tolerances on the same motion
@@ -147,10 +145,10 @@ impl TradeCommand {
         let found = MachineTrade::new(&model, *start, *until);
         let output = &self.asked.output;
         let seconds = in_turn(output.repeat, found.points.len(), |index| {
-            let MachineMotion { method, tolerance, .. } = found.points[index].motion;
-            MachineMotion::by(&model, (method, tolerance), *start, *until, Detail::default())
+            let problem = &found.points[index].motion.problem;
+            follow(&model, problem, MotionUnits::physical(&model), Detail::default())
         });
         output.print(trade::of_machine(&case.about(), &case.problem, &found, &seconds))?;
-        known(found.reference.outcome)
+        found.reference.outcome.answered().map_err(troubled)
     }
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::machine::turn::ContactState;
 use super::method::Method;
 use crate::model::{Knob, Ledger, Parameters, Reason, State};
 use crate::numerics::polynomial::Hermite;
@@ -11,7 +12,7 @@ use crate::numerics::scalar::Scalar;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Problem {
-    /// Parameters of the oscillator.
+    /// Parameters of the oscillator; a machine has its model in their place.
     pub parameters: Parameters,
     /// Where the motion starts, at `tau = 0`.
     pub initial: State,
@@ -130,6 +131,16 @@ impl<N> Outcome<N> {
         if let Outcome::GaveUp { reason, .. } = self { Err(*reason) } else { Ok(()) }
     }
 
+    /// The word of files for it.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Outcome::Captured { .. } => "captured",
+            Outcome::Moving { .. } => "moving",
+            Outcome::Escaped { .. } => "escaped",
+            Outcome::GaveUp { .. } => "gave-up",
+        }
+    }
+
     /// The same outcome in other numbers.
     pub fn map<M>(self, number: impl Fn(N) -> M) -> Outcome<M> {
         match self {
@@ -144,6 +155,25 @@ impl<N> Outcome<N> {
 }
 
 impl<N: Scalar> Outcome<N> {
+    /// When the motion ended.
+    pub fn tau(self) -> N {
+        match self {
+            Outcome::Captured { tau, .. }
+            | Outcome::Moving { tau, .. }
+            | Outcome::Escaped { tau }
+            | Outcome::GaveUp { tau, .. } => tau,
+        }
+    }
+
+    /// When the motion came to rest, if it did.
+    ///
+    /// # Errors
+    /// Why it was given up.
+    pub fn rest(self) -> Result<Option<N>, Reason> {
+        self.answered()?;
+        Ok(if let Outcome::Captured { tau, .. } = self { Some(tau) } else { None })
+    }
+
     /// Displacement and velocity at the end, where these are known.
     pub fn state(self) -> Option<(N, N)> {
         match self {
@@ -185,6 +215,15 @@ impl Sample {
     }
 }
 
+/// A stretch of the motion of a machine in one phase, on the belt, or at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leg {
+    /// What the mass does.
+    pub place: ContactState,
+    /// Where it begins.
+    pub start: Sample,
+}
+
 /// Operation counts of a computation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Cost {
@@ -217,23 +256,41 @@ pub struct Trajectory<N = f64> {
     pub outcome: Outcome<N>,
     /// Every arrival at `v = 0` after the start, the last one included.
     pub crossings: Vec<Crossing<N>>,
-    /// The energy balance, if requested.
+    /// What the mass does one after the other, if it belongs to a machine.
+    pub legs: Vec<Leg>,
+    /// The smallest and the largest displacement, and those of the velocity, of a machine.
+    pub extremes: Option<[(f64, f64); 2]>,
+    /// The energy balance, if requested; of a machine only Taylor series count it.
     pub ledger: Option<Ledger>,
-    /// Points for drawing, if requested; the first is the start.
+    /// Points for drawing, if requested; the first is the start. Of a machine there are always its start and its end.
     pub samples: Vec<Sample>,
     /// Cost of the computation.
     pub cost: Cost,
 }
 
 impl Trajectory {
-    /// When the motion ended: the time of its outcome.
-    pub fn end(&self) -> f64 {
-        match self.outcome {
-            Outcome::Captured { tau, .. }
-            | Outcome::Moving { tau, .. }
-            | Outcome::Escaped { tau }
-            | Outcome::GaveUp { tau, .. } => tau,
-        }
+    /// When and where it ended; where that is not known, the last sample.
+    pub fn end(&self) -> Sample {
+        let last = self.samples.last();
+        let State { q, v } = last.map_or(self.problem.initial, Sample::state);
+        let (q, v) = self.outcome.state().unwrap_or((q, v));
+        Sample { tau: self.outcome.tau(), q, v }
+    }
+
+    /// The same, where it is known.
+    ///
+    /// # Errors
+    /// Why it is not: the motion escapes, or was given up.
+    pub fn known_end(&self) -> Result<Sample, Reason> {
+        self.outcome.answered()?;
+        self.outcome.state().map(|_| self.end()).ok_or(Reason::Escapes)
+    }
+
+    /// The stretches on which the mass rides on a belt, each from its first to its last point.
+    pub fn rides(&self) -> impl Iterator<Item = [Sample; 2]> {
+        let ends = self.legs.iter().skip(1).map(|leg| leg.start).chain([self.end()]);
+        let legs = self.legs.iter().zip(ends);
+        legs.filter(|(leg, _)| leg.place == ContactState::Sticks).map(|(leg, end)| [leg.start, end])
     }
 
     /// The motion at any time from its start: between two samples on the cubic through their displacements and
@@ -284,7 +341,7 @@ mod tests {
         let problem = Problem { parameters, ..Problem::default() };
         let detail = Detail { samples_per_step: 4, ..Detail::default() };
         let motion = trajectory(&problem, detail, &Limits::PATIENT);
-        let end = motion.end();
+        let end = motion.outcome.tau();
         let (one, other) = (motion.at(end).unwrap(), motion.at(end + 9.0).unwrap());
         assert_eq!((one.q, one.v, other.v), (other.q, 0.0, 0.0));
     }

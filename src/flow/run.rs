@@ -10,7 +10,7 @@ use super::stop::ComingToRest;
 use super::swing::{Swing, swing};
 use crate::model::parameters::energy;
 use crate::model::parameters::rests;
-use crate::model::{HalfPlane, Ledger, Reason, Side, State};
+use crate::model::{HalfPlane, Ledger, Parameters, Reason, Side, State};
 use crate::numerics::count::real;
 use crate::numerics::scalar::Scalar;
 use crate::numerics::scaling::times_power;
@@ -53,6 +53,8 @@ impl<N: Scalar> MotionRun<N> {
                 implicit_steps: 0,
                 outcome: Outcome::Moving { tau: N::of(0.0), q: N::of(q), v: N::of(v) },
                 crossings: Vec::new(),
+                legs: Vec::new(),
+                extremes: None,
                 ledger: None,
                 samples,
                 cost: Cost::default(),
@@ -95,7 +97,7 @@ impl<N: Scalar> MotionRun<N> {
             && let Some((q, v)) = outcome.state()
         {
             let end = State { q: q.value(), v: v.value() };
-            let ledger = self.works.balance(initial, end, parameters.r);
+            let ledger = self.works.balance(initial, end, &parameters);
             // Energies may overflow where states do not.
             self.found.ledger = ledger.residual.is_finite().then_some(ledger);
         }
@@ -327,19 +329,10 @@ impl Works {
         self.cubic += energy(-field.d3 * powers.fourth);
     }
 
-    fn balance(&self, start: State, end: State, r: f64) -> Ledger {
-        let (start, end) = (energy(start), energy(end));
-        let friction = -r * self.path;
-        let works = self.linear + self.quadratic + self.cubic + friction;
-        Ledger {
-            start,
-            end,
-            linear: self.linear,
-            quadratic: self.quadratic,
-            cubic: self.cubic,
-            friction,
-            residual: (end - start) - works,
-        }
+    fn balance(&self, start: State, end: State, parameters: &Parameters) -> Ledger {
+        let friction = -parameters.r * self.path;
+        let works = [self.linear, self.quadratic, self.cubic, friction];
+        Ledger::of_terms(parameters, (energy(start), energy(end)), works)
     }
 }
 

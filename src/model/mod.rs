@@ -50,7 +50,7 @@ pub(crate) use knob::unknown;
 pub use knob::{Group, KNOBS, Knob, KnobSpec, OutOfRange};
 pub use modal::Modal;
 pub use model::{Lines, Model, Phase};
-pub use parameters::Ledger;
+pub use parameters::{Ledger, Work};
 pub use parameters::{Parameters, State};
 pub use reason::Reason;
 pub use source::MachineProblem;

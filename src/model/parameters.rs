@@ -82,23 +82,73 @@ pub fn rests(state: State, r: f64) -> bool {
 // `V' = -2 D v^2 - D2 v^3 - D3 v^4 - r abs(v)`. The four integrals must add up to the change of `V`;
 // what is missing is an error estimate that costs almost nothing.
 
-/// Work done along a motion by each term of equation (4), and what remains unaccounted for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+/// Energy that a source supplied along a motion; negative if it took energy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Work {
+    /// Name of the source.
+    pub source: &'static str,
+    /// The energy.
+    pub amount: f64,
+    /// Whether the model has this source at all.
+    pub acts: bool,
+}
+
+/// Where the energy of a motion comes from and goes, and what remains unaccounted for.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ledger {
     /// Energy at the start.
     pub start: f64,
     /// Energy at the end.
     pub end: f64,
-    /// Work of `-2 D v`.
-    pub linear: f64,
-    /// Work of `-D2 v^2`.
-    pub quadratic: f64,
-    /// Work of `-D3 v^3`.
-    pub cubic: f64,
-    /// Work of dry friction, never positive.
-    pub friction: f64,
-    /// `end - start` minus the sum of the four works.
+    /// What each source did.
+    pub works: Vec<Work>,
+    /// `end - start` minus the sum of the works.
     pub residual: f64,
+}
+
+impl Ledger {
+    /// The ledger of these works between two energies.
+    #[must_use]
+    pub fn new((start, end): (f64, f64), works: Vec<Work>) -> Self {
+        let sum: f64 = works.iter().map(|work| work.amount).sum();
+        Ledger { start, end, works, residual: (end - start) - sum }
+    }
+
+    /// The ledger of the works of the terms of equation (4): of `-2 D v`, `-D2 v^2` and `-D3 v^3`, and of dry friction,
+    /// which is never positive.
+    #[must_use]
+    pub fn of_terms(parameters: &Parameters, energies: (f64, f64), works: [f64; 4]) -> Self {
+        let Parameters { d, d2, d3, r } = *parameters;
+        let terms = [("linear", d), ("quadratic", d2), ("cubic", d3), ("friction", r)];
+        let work = |((source, strength), amount)| Work { source, amount, acts: strength != 0.0 };
+        Ledger::new(energies, terms.into_iter().zip(works).map(work).collect())
+    }
+
+    /// The work of the source with this name; 0 if there is none.
+    #[must_use]
+    pub fn work(&self, source: &str) -> f64 {
+        self.works.iter().find(|work| work.source == source).map_or(0.0, |work| work.amount)
+    }
+
+    /// What does not add up, as a fraction of all that was exchanged; by rounding alone some 1e-15.
+    #[must_use]
+    pub fn imbalance(&self) -> f64 {
+        let exchanged: f64 = self.works.iter().map(|work| work.amount.abs()).sum();
+        let size = self.start.abs() + self.end.abs() + exchanged;
+        if size > 0.0 { self.residual / size } else { 0.0 }
+    }
+
+    /// The same in a unit in which 1 is this much.
+    #[must_use]
+    pub fn scaled(mut self, one: f64) -> Self {
+        self.works.iter_mut().for_each(|work| work.amount *= one);
+        Ledger {
+            start: self.start * one,
+            end: self.end * one,
+            residual: self.residual * one,
+            ..self
+        }
+    }
 }
 
 /// The energy `(q^2 + v^2)/2` of a state.

@@ -195,7 +195,8 @@ pub fn energy_change(
 ) -> Result<[Known; 3], Reason> {
     let sought = (limits, "an energy ledger");
     let [change, linear, friction] = motions((*parameters, initial, until), sought, |motion| {
-        motion.ledger.map(|ledger| [ledger.end - ledger.start, ledger.linear, ledger.friction])
+        let ledger = motion.ledger.as_ref()?;
+        Some([ledger.end - ledger.start, ledger.work("linear"), ledger.work("friction")])
     })?;
     let energy = |[q, v]: [Interval; 2]| (q.square() + v.square()) * 0.5;
     let start = energy([initial.q, initial.v].map(Interval::point));

@@ -95,8 +95,8 @@ fn machine(picture: &mut Picture, session: &Session, moment: &Sample) {
     picture.curve(part("mass", Role::Trajectory), rectangle([left, right], MASS.into()));
     let middle = Point { x: moment.q, y: 0.5 * (MASS.0 + MASS.1) };
     picture.caption(middle, "m", Role::Trajectory);
-    let rides = |ride: &&[Sample; 2]| (ride[0].tau..=ride[1].tau).contains(&moment.tau);
-    if let Some(ride) = session.course().and_then(|motion| motion.rides.iter().find(rides)) {
+    let rides = |ride: &[Sample; 2]| (ride[0].tau..=ride[1].tau).contains(&moment.tau);
+    if let Some(ride) = session.trajectory().and_then(|motion| motion.rides().find(rides)) {
         let [from, to] = [left, right].map(|x| Point { x, y: BELT.1 });
         picture.bar(part("sticks to the belt", Role::Current), from, to);
         let below = Point { x: ride[0].q.max(across.from()), y: 0.5 * (BELT.0 + BELT.1) };

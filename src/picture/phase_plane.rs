@@ -148,8 +148,8 @@ fn rides(picture: &mut Picture, session: &Session, y: f64) {
         let [from, to] = [from, to].map(|x| Point { x, y });
         picture.bar(LineStyle::new("cycle on the belt", Role::Stable, Dash::Solid), from, to);
     }
-    let motion = session.course().filter(|_| session.layers.contains(&Layer::Trajectory));
-    for ride in motion.iter().flat_map(|motion| &motion.rides) {
+    let motion = session.trajectory().filter(|_| session.layers.contains(&Layer::Trajectory));
+    for ride in motion.into_iter().flat_map(Trajectory::rides) {
         let [from, to] = ride.map(|end| Point { x: end.q, y });
         picture.bar(LineStyle::new("motion on the belt", Role::Trajectory, Dash::Solid), from, to);
     }

@@ -57,7 +57,7 @@ pub fn draw(picture: &mut Picture, session: &Session) {
     }
     if let Some(motion) = session.trajectory() {
         quantities(picture, session, motion, 0);
-        rides(picture, session);
+        rides(picture, session, motion);
         if shows(Layer::Events) {
             events(picture, motion);
         }
@@ -128,8 +128,8 @@ fn quantities(picture: &mut Picture, session: &Session, motion: &Trajectory, pla
 }
 
 /// Where the present motion rides on its belt.
-fn rides(picture: &mut Picture, session: &Session) {
-    for ride in session.course().iter().flat_map(|motion| &motion.rides) {
+fn rides(picture: &mut Picture, session: &Session, motion: &Trajectory) {
+    for ride in motion.rides() {
         for (.., read) in quantities_on_show(session) {
             let [from, to] = ride.map(|end| at(&end, read));
             let line = LineStyle::new("sticks to the belt", Role::Trajectory, Dash::Thick);

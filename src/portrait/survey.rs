@@ -1,7 +1,10 @@
 //! What a machine does: its portrait and one motion of it; and beside it what the oscillator of the paper says, which
 //! knows friction by its cubic expansion alone.
 
-use crate::flow::{Detail, Fate, Flow, Limits, MachineMotion, Method, Reason};
+use crate::flow::{
+    Detail, Fate, Flow, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow,
+    follow_by_series,
+};
 use crate::model::belt::ReducedBelt;
 use crate::model::{Belt, Model, Source};
 use crate::portrait::Portrait;
@@ -33,13 +36,13 @@ pub struct Course {
     /// All motions.
     pub portrait: Portrait,
     /// The one that was asked for.
-    pub motion: MachineMotion,
+    pub motion: Trajectory,
     /// What it ends as.
     pub fate: Fate,
     /// Where it comes to rest, in m.
     pub rest: Option<f64>,
     /// The same motion by another method, if asked for.
-    pub second: Option<MachineMotion>,
+    pub second: Option<Trajectory>,
 }
 
 impl Course {
@@ -54,14 +57,16 @@ impl Course {
         };
         let rest =
             (fate == Fate::Rest).then(|| Flow::new(model).rest_of(x, model.scaled_velocity(v)));
-        let motion = MachineMotion::new(model, x, v, until);
+        let motion = follow_by_series(model, start, until);
         Ok(Course { motion, fate, rest: rest.transpose()?, portrait, second: None })
     }
 
     /// Follows the motion once more by another method.
-    pub fn follow_by(&mut self, method: Method, tolerance: f64, start: (f64, f64), until: f64) {
-        let (model, asked) = (&self.portrait.model, (method, tolerance));
-        self.second = Some(MachineMotion::by(model, asked, start, until, Detail::default()));
+    pub fn follow_by(&mut self, method: Method, tolerance: f64) {
+        let model = &self.portrait.model;
+        let problem = Problem { method, tolerance, ..self.motion.problem };
+        let units = MotionUnits::physical(model);
+        self.second = Some(follow(model, &problem, units, Detail::default()));
     }
 }
 

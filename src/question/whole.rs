@@ -2,15 +2,11 @@
 //! motion or cycles draws these as well.
 
 use crate::flow::machine::curve::{CurvePiece, MachineCurve};
-use crate::flow::machine::motion;
-use crate::flow::machine::motion::MachineState;
 use crate::flow::machine::series::ORDER;
-use crate::flow::machine::turn::ContactState;
-use crate::flow::trajectory::{Crossing, Outcome, Sample, Trajectory};
 use crate::flow::{
-    Cost, Detail, Fate, Flow, Limits, MachineLedger, MachineMotion, Problem, Reason,
+    Cost, Detail, Fate, Flow, Limits, Method, MotionUnits, Problem, Reason, Trajectory, follow,
 };
-use crate::model::{Belt, Model, Parameters, State};
+use crate::model::{Belt, Ledger, Model, Parameters, State};
 use crate::portrait::basin::cycle::cycles_drawn;
 use crate::portrait::{BasinPicture, Border, Cycle, Cycles, Margin, Portrait, survey};
 
@@ -23,17 +19,13 @@ pub struct WholeMotion {
     pub cycle: Option<Cycle>,
     /// Kind of the border of the basin.
     pub border: Border,
-    /// First and last point of each stretch on which the mass rides on the belt.
-    pub rides: Vec<[Sample; 2]>,
-    /// Sources and sinks of its energy, in the units of the paper's oscillator.
-    pub ledger: MachineLedger,
 }
 
 /// What is known of a machine beside its cycles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WholeCycles {
     /// Sources and sinks of the energy over one turn of each cycle, in the units of the paper's oscillator.
-    pub works: Vec<MachineLedger>,
+    pub works: Vec<Ledger>,
     /// The kicks that are survived by the whole model and by the cubic expansion, without units; every kick where the
     /// expansion has no answer.
     pub margins: [Margin; 2],
@@ -44,21 +36,6 @@ pub struct WholeCycles {
 /// A cycle in the units of the drawing.
 fn cycle(model: &Model, cycle: &Cycle) -> Cycle {
     cycle.scaled(1.0 / model.pull, 1.0 / model.omega_0)
-}
-
-fn sample(model: &Model, MachineState { t, x, v }: MachineState) -> Sample {
-    Sample { tau: t * model.omega_0, q: x / model.pull, v: v / (model.pull * model.omega_0) }
-}
-
-fn ledger(model: &Model, ledger: &MachineLedger) -> MachineLedger {
-    let unit = model.stiffness * model.pull * model.pull;
-    MachineLedger {
-        start: ledger.start / unit,
-        end: ledger.end / unit,
-        belt: ledger.belt / unit,
-        damper: ledger.damper / unit,
-        guide: ledger.guide / unit,
-    }
 }
 
 /// A margin given in m and N s, in the units of the drawing.
@@ -81,13 +58,15 @@ pub fn motion(
             "to know both switching lines of a machine, as auto, taylor, dop853 and dopri5 do";
         return Err(Reason::NotApplicable { needs });
     }
-    let (x, v) = (problem.initial.q * model.pull, problem.initial.v * model.pull * model.omega_0);
-    let until = problem.until / model.omega_0;
     let detail =
         Detail { samples_per_step: between as usize + 1, energy: true, ..Detail::default() };
-    let asked = (problem.method, problem.tolerance);
-    let found = MachineMotion::by(&model, asked, (x, v), until, detail);
-    let known = found.ledger.or_else(|| MachineMotion::new(&model, x, v, until).ledger);
+    let mut found = follow(&model, problem, MotionUnits::of_paper(&model), detail);
+    if found.ledger.is_none() {
+        let by_series = Problem { method: Method::Taylor, ..*problem };
+        let detail = Detail { samples_per_step: 0, ..detail };
+        found.ledger = follow(&model, &by_series, MotionUnits::of_paper(&model), detail).ledger;
+    }
+    let (x, v) = (problem.initial.q * model.pull, problem.initial.v * model.pull * model.omega_0);
     let fate = match portrait.fate(x, v) {
         Err(stop @ Reason::BeyondLaw { .. }) => Fate::Unknown(stop),
         fate => fate?,
@@ -96,48 +75,9 @@ pub fn motion(
         Fate::Cycle(index) => portrait.cycles.get(index),
         _ => None,
     };
-    let course = WholeMotion {
-        fate,
-        cycle: tends.map(|it| cycle(&model, it)),
-        border: portrait.border,
-        rides: rides(&found, &model),
-        ledger: ledger(&model, &known.unwrap_or_default()),
-    };
-    Ok((trajectory(&found, problem, &model), course))
-}
-
-fn trajectory(found: &MachineMotion, problem: &Problem, model: &Model) -> Trajectory {
-    let start = Sample { tau: 0.0, q: problem.initial.q, v: problem.initial.v };
-    let sampled = found.samples.iter().skip(1).map(|at| sample(model, *at));
-    let samples: Vec<Sample> = std::iter::once(start).chain(sampled).collect();
-    let Sample { tau, q, v } = samples[samples.len() - 1];
-    let outcome = match found.outcome {
-        Fate::Rest => Outcome::Captured { tau, q },
-        Fate::Moving | Fate::Cycle(_) | Fate::Neutral => Outcome::Moving { tau, q, v },
-        Fate::Escapes => Outcome::Escaped { tau },
-        Fate::Unknown(reason) => Outcome::GaveUp { tau, reason },
-    };
-    let crossing =
-        |turn: &motion::Leg| Crossing { tau: turn.t * model.omega_0, q: turn.x / model.pull };
-    Trajectory {
-        problem: *problem,
-        method: found.method,
-        implicit_steps: 0,
-        outcome,
-        crossings: motion::turns(&found.legs).map(crossing).collect(),
-        ledger: None,
-        samples,
-        cost: found.cost,
-    }
-}
-
-/// The stretches on which a motion rides on the belt.
-fn rides(found: &MachineMotion, model: &Model) -> Vec<[Sample; 2]> {
-    let ends = found.legs.iter().skip(1).map(|leg| (leg.t, leg.x));
-    let ends = ends.chain(found.samples.last().map(|end| (end.t, end.x)));
-    let legs = found.legs.iter().zip(ends).filter(|(leg, _)| leg.place == ContactState::Sticks);
-    let at = |t, x| sample(model, MachineState { t, x, v: model.speed * model.omega_0 });
-    legs.map(|(leg, (t, x))| [at(leg.t, leg.x), at(t, x)]).collect()
+    let course =
+        WholeMotion { fate, cycle: tends.map(|it| cycle(&model, it)), border: portrait.border };
+    Ok((found, course))
 }
 
 /// The cycles of a machine with their curves, `points` on each step, and the border of the basin: by the whole
@@ -163,10 +103,12 @@ pub fn portrait(
 }
 
 /// The energy ledgers of the cycles over one turn, in drawing units.
-fn works(found: &Portrait) -> Vec<MachineLedger> {
-    let mut flow = Flow::new(&found.model);
-    let around = |cycle| flow.works_around(cycle).unwrap_or_default();
-    found.cycles.iter().map(around).map(|one| ledger(&found.model, &one)).collect()
+fn works(found: &Portrait) -> Vec<Ledger> {
+    let model = &found.model;
+    let unit = model.stiffness * model.pull * model.pull;
+    let mut flow = Flow::new(model);
+    let around = |cycle| flow.works_around(cycle).unwrap_or_default().scaled(1.0 / unit);
+    found.cycles.iter().map(around).collect()
 }
 
 fn drawn(found: &Portrait, parameters: &Parameters, points: u16) -> Result<Cycles, Reason> {

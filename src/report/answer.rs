@@ -247,6 +247,11 @@ impl About {
         About { machine, numbers: subject.numbers().map(number).collect() }
     }
 
+    /// Whether it is a machine.
+    pub(super) fn is_machine(&self) -> bool {
+        self.machine.is_some()
+    }
+
     /// The same with numbers that are not known exactly.
     pub fn within(mut self, known: &[(Knob, Interval)]) -> Self {
         for (knob, own, _) in &mut self.numbers {

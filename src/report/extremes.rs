@@ -2,7 +2,6 @@
 //! its limit cycles, and a summary.
 
 use super::cycle_numbers::cycle_fields;
-use super::motion::ending;
 use super::{Answer, Columns, Quantity, Table};
 use crate::accuracy::extremes::sets::{
     BUDGET as BUDGET_OF_SET, LatticeCycle, SetAnswer, SetVerdict,
@@ -25,10 +24,10 @@ pub fn extremes<'a>(
 ) -> Answer<'a> {
     let columns = parameter_columns(|it: &MethodsVerdict| it.case.parameters)
         .text("start", |it| it.case.start.to_string())
-        .text("answer", |it| ending(&it.answers[0].outcome).0.to_owned())
-        .text("tau", |it| FEW.text(ending(&it.answers[0].outcome).1))
-        .text("q", |it| FEW.text(ending(&it.answers[0].outcome).2))
-        .text("v", |it| FEW.text(ending(&it.answers[0].outcome).3))
+        .text("answer", |it| it.answers[0].outcome.word().to_owned())
+        .text("tau", |it| FEW.text(it.answers[0].outcome.tau()))
+        .text("q", |it| FEW.text(it.answers[0].outcome.state().map(|at| at.0)))
+        .text("v", |it| FEW.text(it.answers[0].outcome.state().map(|at| at.1)))
         .text("evaluations", |it| it.answers[0].cost.evaluations.to_string())
         .text("sensitive", |it| significant(it.sensitivity, 2));
     let columns = METHODS.into_iter().fold(columns, |columns, method| {
@@ -68,10 +67,10 @@ fn method_columns<'a>() -> Columns<'a, (&'a MethodsVerdict, &'a MethodAnswer)> {
         .file("q0", |(verdict, _)| verdict.case.initial.q)
         .file("v0", |(verdict, _)| verdict.case.initial.v)
         .file("method", |(_, answer)| answer.method)
-        .file("answer", |(_, answer)| ending(&answer.outcome).0)
-        .file("tau", |(_, answer)| ending(&answer.outcome).1)
-        .file("q", |(_, answer)| ending(&answer.outcome).2)
-        .file("v", |(_, answer)| ending(&answer.outcome).3)
+        .file("answer", |(_, answer)| answer.outcome.word())
+        .file("tau", |(_, answer)| answer.outcome.tau())
+        .file("q", |(_, answer)| answer.outcome.state().map(|at| at.0))
+        .file("v", |(_, answer)| answer.outcome.state().map(|at| at.1))
         .file("reason", move |(_, answer)| reason(answer.outcome))
         .file("digits_lost", |(_, answer)| answer.digits_lost)
         .file("sensitivity", |(verdict, _)| verdict.sensitivity)

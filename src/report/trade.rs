@@ -1,12 +1,12 @@
 //! Error against cost, in every form of output: one row for each method and accuracy.
 
-use super::motion::{ending, from};
+use super::motion::from;
 use super::{About, Answer, Columns, Document, Quantity, Table};
 use crate::accuracy::machine_trade::MachineTrade;
 use crate::accuracy::reference::{Deviation, Reference, ReferenceSource};
 use crate::accuracy::trade;
 use crate::accuracy::trade::{Trade, TradePoint};
-use crate::flow::{METHODS, MachineMotion, Method, MethodSpec, Outcome};
+use crate::flow::{METHODS, Method, MethodSpec, Outcome, Problem, Trajectory};
 use crate::model::{Knob, MachineProblem};
 use crate::numerics::elementary::{log10, pow};
 use crate::words::number::count;
@@ -98,10 +98,10 @@ fn columns<'a>() -> Columns<'a, TradeRow<'a>> {
         .file("front", |row| row.deviation.map(|_| row.front))
         .file("front_by_evaluations", |row| row.deviation.map(|_| row.front_by_evaluations))
         .file("own", |row| row.deviation.map(|_| row.own))
-        .text("ends", |row| ending(&row.point.outcome).0.to_owned())
+        .text("ends", |row| row.point.outcome.word().to_owned())
         .text("at", |row| {
-            let (_, tau, q, _) = ending(&row.point.outcome);
-            significant(q.unwrap_or(tau), 6)
+            let outcome = row.point.outcome;
+            significant(outcome.state().map_or(outcome.tau(), |(q, _)| q), 6)
         })
         .text("", marks)
 }
@@ -272,11 +272,11 @@ pub fn of_machine<'a>(
     found: &'a MachineTrade,
     seconds: &'a [f64],
 ) -> Answer<'a> {
-    type TimedRow<'a> = (&'a MachineMotion, f64, f64);
+    type TimedRow<'a> = (&'a Trajectory, f64, f64);
     const REFERENCE: &str = "Taylor series whose last terms are below rounding";
     let columns = Columns::default()
         .word("method", |(motion, ..): &TimedRow| motion.method)
-        .number("tolerance", Quantity::pure(3), |(motion, ..)| motion.tolerance)
+        .number("tolerance", Quantity::pure(3), |(motion, ..)| motion.problem.tolerance)
         .number("error", Quantity::pure(3), |(_, error, _)| *error)
         .word("evaluations", |(motion, ..)| motion.cost.evaluations)
         .number("seconds", Quantity::of("s", 3), |(.., seconds)| *seconds)
@@ -287,7 +287,7 @@ pub fn of_machine<'a>(
     };
     let objects = columns.clone();
     let lost = found.points.iter().filter(|point| point.error.is_none()).map(|point| {
-        let MachineMotion { method, tolerance, .. } = point.motion;
+        let Problem { method, tolerance, .. } = point.motion.problem;
         format!("{method} at {tolerance:e}: not the same standstills")
     });
     about

@@ -1,6 +1,6 @@
 //! The commands that take `--machine`: a machine by its own numbers, in the words of the oscillator of the paper.
 
-use hopfscope::flow::{Fate, MachineMotion};
+use hopfscope::flow::{Fate, Outcome, follow_by_series};
 use hopfscope::model::Model;
 use hopfscope::numerics::elementary::ln;
 use hopfscope::numerics::random::Random;
@@ -164,9 +164,9 @@ fn rest(model: &Model, portrait: &Portrait, (x, v): (f64, f64)) -> Option<f64> {
     if portrait.fate(x, v) != Ok(Fate::Rest) {
         return None;
     }
-    let motion = MachineMotion::new(model, x, v, 1e3);
-    assert_eq!(motion.outcome, Fate::Rest);
-    Some(motion.end.x)
+    let motion = follow_by_series(model, (x, v), 1e3);
+    let Outcome::Captured { q, .. } = motion.outcome else { panic!("{:?}", motion.outcome) };
+    Some(q)
 }
 
 /// Kicks one after the other, each drawn and followed, against the integral and the chain.

@@ -177,16 +177,9 @@ fn margin(radius: f64) -> Margin {
 
 pub fn picture(border: Vec<State>, curves: Vec<Vec<State>>) -> BasinPicture {
     let margin = margin(0.5);
-    let ledger = Ledger {
-        start: 0.72,
-        end: 0.72,
-        linear: 2.5,
-        quadratic: 0.25,
-        cubic: -2.0,
-        friction: -0.75,
-        residual: 3e-15,
-    };
-    let works = curves.iter().map(|_| ledger).collect();
+    let all = Parameters { d: 1.0, d2: 1.0, d3: 1.0, r: 1.0 };
+    let works = Ledger::of_terms(&all, (0.72, 0.72), [2.5, 0.25, -2.0, -0.75]);
+    let works = vec![Ledger { residual: 3e-15, ..works }; curves.len()];
     BasinPicture { curves, works, border, margin, area: Some(0.8), lyapunov_share: Some(0.3) }
 }
 
@@ -198,13 +191,16 @@ pub fn spiral(problem: Problem) -> Trajectory {
         let radius = q * (1.0 - tau / 10.0);
         Sample { tau, q: radius * cos(tau), v: -radius * sin(tau) }
     };
-    let ledger = Ledger { start: 0.5, residual: 2e-14, ..Ledger::default() };
+    let ledger = Ledger::of_terms(&problem.parameters, (0.5, 0.0), [0.0; 4]);
+    let ledger = Ledger { residual: 2e-14, ..ledger };
     Trajectory {
         problem,
         method: problem.method,
         implicit_steps: 0,
         outcome: Outcome::Captured { tau: 9.47, q: -0.053 },
         crossings: [3.1, 6.3, 9.47].map(|tau| Crossing { tau, q: 0.1 }).to_vec(),
+        legs: Vec::new(),
+        extremes: None,
         ledger: Some(ledger),
         samples: (0..=300).map(sample).collect(),
         cost: Cost { evaluations: 432, steps: 18, rejected: 0 },

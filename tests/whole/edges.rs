@@ -242,9 +242,10 @@ fn in_one_turn_of_a_cycle_the_belt_gives_what_damper_and_guide_take() {
         let found = portrait(&machine.belt);
         for cycle in &found.cycles {
             let ledger = Flow::new(&found.model).works_around(cycle).unwrap();
-            let size = ledger.belt.abs() + ledger.damper.abs() + ledger.guide;
-            let left = ledger.belt - ledger.damper - ledger.guide;
-            assert!(size > 0.0 && left.abs() < 1e-11 * size, "{}: {ledger:?}", machine.name);
+            let [belt, damper, guide] =
+                ["belt", "damper", "guide"].map(|source| ledger.work(source).abs());
+            let (size, left) = (belt + damper + guide, ledger.residual.abs());
+            assert!(size > 0.0 && left < 1e-11 * size, "{}: {ledger:?}", machine.name);
             looked += 1;
         }
     }

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 use hopfscope::branch::SpecialKind;
 use hopfscope::branch::machine::branch;
 use hopfscope::flow::machine::turn::ContactState;
-use hopfscope::flow::{Detail, Fate, Flow, MachineMotion, Method, Reason};
+use hopfscope::flow::{Fate, Flow, Outcome, Reason, follow_by_series};
 use hopfscope::model::belt::FrictionLaw;
 use hopfscope::model::{Belt, Group, Knob, Model};
 use hopfscope::numerics::elementary::{
@@ -294,13 +294,14 @@ fn the_ledger_of_a_motion_closes_with_the_work_of_the_belt() {
             (-0.2 * far, 1.7 * belt.belt_speed),
         ] {
             let period = 2.0 * PI / model.omega_0;
-            let motion = MachineMotion::new(&model, start.0, start.1, 5.3 * period);
+            let motion = follow_by_series(&model, start, 5.3 * period);
             assert!(
-                motion.ledger.unwrap().residual().abs() < 1e-13,
+                motion.ledger.as_ref().unwrap().imbalance().abs() < 1e-13,
                 "{name} {start:?}: {:?}",
                 motion.ledger
             );
-            assert!(motion.outcome == Fate::Rest || close(motion.end.t, 5.3 * period, 1e-13));
+            let rests = motion.outcome.rest().unwrap().is_some();
+            assert!(rests || close(motion.end().tau, 5.3 * period, 1e-13));
         }
     }
 }
@@ -391,7 +392,8 @@ fn a_law_that_ends_far_out_hides_no_margin() {
     let found = portrait(&damped);
     let margin = found.reach.unwrap();
     assert!(matches!(found.border, Border::Unknown(_)));
-    let slip = |x: f64| MachineMotion::new(&found.model, x, 0.0, 20.0).v.0.abs() + 1.2;
+    let slowest = |x: f64| follow_by_series(&found.model, (x, 0.0), 20.0).extremes.unwrap()[1].0;
+    let slip = |x: f64| slowest(x).abs() + 1.2;
     assert!(found.stop.is_some() && close(slip(margin.displacement.0), 1.25, 1e-9), "{margin:?}");
     assert_eq!(found.fate(0.999 * margin.displacement.0, 0.0), Ok(Fate::Rest));
     assert_eq!(found.fate(0.0, -0.999 * margin.velocity.1), Ok(Fate::Rest));

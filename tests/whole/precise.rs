@@ -1,7 +1,7 @@
 //! The whole model against an independent integration in twice the working precision: fixed Taylor steps, and
 //! switching lines located by a dense scan of every step.
 
-use hopfscope::flow::MachineMotion;
+use hopfscope::flow::follow_by_series;
 use hopfscope::flow::machine::turn::ContactState;
 use hopfscope::model::belt::FrictionLaw;
 use hopfscope::model::{Belt, Model, Phase};
@@ -235,12 +235,12 @@ fn phases_and_their_times_are_those_of_a_dense_scan_in_twice_the_precision() {
         let model = Model::new(&machine.belt()).unwrap();
         for (x, y) in starts {
             let until = 21.0;
-            let motion = MachineMotion::new(&model, x, y, until);
+            let motion = follow_by_series(&model, (x, y), until);
             let expected = machine.legs(x, y, until);
             assert_eq!(motion.legs.len(), expected.len(), "{machine:?} from {x}, {y}");
             for (leg, (place, t, x)) in motion.legs.iter().zip(expected) {
                 assert_eq!(leg.place, place, "{machine:?} at {t}");
-                let errors = ((leg.t - t).abs(), (leg.x - x).abs());
+                let errors = ((leg.start.tau - t).abs(), (leg.start.q - x).abs());
                 assert!(errors.0 < 1e-12 && errors.1 < 1e-12, "{machine:?} at {t}: {errors:?}");
                 compared += 1;
                 sticks += usize::from(place == ContactState::Sticks);

@@ -1,37 +1,9 @@
 //! Where the energy of a motion comes from and goes: the belt's work against the damper's and the guide's.
 
-use serde::Serialize;
-
 use super::arc::{SeriesStep, Watch};
-use crate::model::{Model, Phase};
+use crate::model::{Ledger, Model, Phase, Work};
 use crate::numerics::polynomial::value;
 use crate::numerics::quadrature::GAUSS;
-
-/// Works along a motion, in J.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct MachineLedger {
-    /// Energy of the mass and the spring at the start.
-    pub start: f64,
-    /// The same at the end.
-    pub end: f64,
-    /// Work of the belt on the mass.
-    pub belt: f64,
-    /// Energy that the dampers take.
-    pub damper: f64,
-    /// Energy that the guide takes.
-    pub guide: f64,
-}
-
-impl MachineLedger {
-    /// What does not add up, as a fraction of all that was exchanged; by rounding alone some 1e-15.
-    #[must_use]
-    pub fn residual(&self) -> f64 {
-        let MachineLedger { start, end, belt, damper, guide } = *self;
-        let sum = (end - start) - (belt - damper - guide);
-        let size = start.abs() + end.abs() + belt.abs() + damper.abs() + guide.abs();
-        if size > 0.0 { sum / size } else { 0.0 }
-    }
-}
 
 /// The works of the steps, divided by the stiffness.
 #[derive(Clone, Copy, Debug, Default)]
@@ -67,18 +39,13 @@ impl StepWorks {
         self.guide += guide;
     }
 
-    /// The whole ledger of a motion between two states.
-    pub fn ledger(&self, model: &Model, start: (f64, f64), end: (f64, f64)) -> MachineLedger {
-        let energy = |(x, y): (f64, f64)| {
-            0.5 * model.stiffness * ((x + model.pull) * (x + model.pull) + y * y)
-        };
-        MachineLedger {
-            start: energy(start),
-            end: energy(end),
-            belt: self.belt * model.stiffness,
-            damper: self.damper * model.stiffness,
-            guide: self.guide * model.stiffness,
-        }
+    /// The whole ledger of a motion between two states, in J.
+    pub fn ledger(&self, model: &Model, start: (f64, f64), end: (f64, f64)) -> Ledger {
+        let energy = |(x, y): (f64, f64)| 0.5 * ((x + model.pull) * (x + model.pull) + y * y);
+        let works = [("belt", self.belt), ("damper", -self.damper), ("guide", -self.guide)];
+        let work = |(source, amount)| Work { source, amount, acts: amount != 0.0 };
+        let works = works.into_iter().map(work).collect();
+        Ledger::new((energy(start), energy(end)), works).scaled(model.stiffness)
     }
 }
 

@@ -1,77 +1,138 @@
-//! A motion in time, by any of the methods that can follow a machine: its legs, points of it, and its ledger.
-
-use serde::Serialize;
+//! A motion of a machine in time, by any of the methods that can follow one.
 
 use super::arc::{Flow, SeriesStep, Watch};
-use super::ledger::{MachineLedger, StepWorks};
+use super::ledger::StepWorks;
 use super::series::ORDER;
 use super::stepped;
 use super::turn::ContactState;
-use crate::flow::{Cost, Detail, Fate, Method};
-use crate::model::{Model, Phase, Reason};
+use crate::flow::motion::Leg;
+use crate::flow::{Cost, Crossing, Detail, Method, Outcome, Problem, Sample, Trajectory};
+use crate::model::{Model, Phase, Reason, State};
 use crate::numerics::polynomial::value;
 
-/// A stretch of a motion in one phase, on the belt, or at rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Leg {
-    /// What the mass does.
-    pub place: ContactState,
-    /// When it begins, in s.
-    pub t: f64,
-    /// Displacement there, in m.
-    pub x: f64,
+/// The units in which a motion of a machine is told. The model itself computes in m and `1/omega_0`.
+#[derive(Clone, Copy, Debug)]
+pub struct MotionUnits {
+    /// The unit of length, in m.
+    length: f64,
+    /// The natural frequency in these units.
+    omega_0: f64,
+    /// The unit of energy, in J.
+    energy: f64,
 }
 
-/// The legs that begin where the mass comes to a standstill, after the start.
-pub fn turns(legs: &[Leg]) -> impl Iterator<Item = &Leg> {
-    let below = |leg: &Leg| leg.place == ContactState::Slips(Phase::Below);
-    let turns = move |pair: &&[Leg]| {
-        pair[1].place == ContactState::Rests || below(&pair[0]) != below(&pair[1])
+impl MotionUnits {
+    /// SI units.
+    #[must_use]
+    pub fn physical(model: &Model) -> Self {
+        MotionUnits { length: 1.0, omega_0: model.omega_0, energy: 1.0 }
+    }
+
+    /// Those of the paper's oscillator on a belt.
+    #[must_use]
+    pub fn of_paper(model: &Model) -> Self {
+        let energy = model.stiffness * model.pull * model.pull;
+        MotionUnits { length: model.pull, omega_0: 1.0, energy }
+    }
+}
+
+/// Follows a motion of a machine, given and told in these units, by a method that
+/// [follows machines](Method::follows_machines).
+#[must_use]
+pub fn follow(model: &Model, problem: &Problem, units: MotionUnits, detail: Detail) -> Trajectory {
+    let mut model = model.clone();
+    model.tolerance = problem.tolerance;
+    let model = &model;
+    let Problem { initial: State { q, v }, until, method, .. } = *problem;
+    let MotionUnits { length, omega_0, energy } = units;
+    let start = (q * length, v * length / omega_0);
+    let (mut x, mut y) = start;
+    let whole = until * omega_0;
+    let mut stepper = stepped::stepper(model, method);
+    let detail = Detail { energy: detail.energy && stepper.is_none(), ..detail };
+    let most = if stepper.is_some() { stepped::STEPS } else { MOST_STEPS };
+    let mut recorder = MotionRecorder {
+        units,
+        detail,
+        works: StepWorks::default(),
+        samples: vec![Sample { tau: 0.0, q, v }],
+        whole,
+        left: whole,
+        steps: 0,
+        state: start,
+        x: (x, x),
+        y: (y, y),
     };
-    legs.windows(2).filter(turns).map(|pair| &pair[1])
+    let mut flow = Flow::new(model);
+    let (mut legs, mut crossings) = (Vec::new(), Vec::new());
+    let mut place = model.place(x, y);
+    let ended = loop {
+        if recorder.left <= 0.0 {
+            break None;
+        }
+        if recorder.steps > most {
+            break Some(Reason::Steps);
+        }
+        let start = recorder.sample(0.0, (x, y));
+        if !legs.is_empty() && y == 0.0 {
+            crossings.push(Crossing { tau: start.tau, q: start.q });
+        }
+        legs.push(Leg { place, start });
+        match flow.leg(stepper.as_mut(), place, (x, y), &mut recorder) {
+            Ok(Some(leg)) => (place, x, y) = (leg.place, leg.x, leg.y),
+            _ if recorder.left <= 0.0 => break None,
+            Ok(None) => break Some(Reason::Settles),
+            Err(stop) => break Some(stop),
+        }
+    };
+    let end = recorder.sample(0.0, recorder.state);
+    if detail.samples_per_step == 0 {
+        recorder.samples.push(end);
+    }
+    let Sample { tau, q, v } = end;
+    let MotionRecorder { works, samples, steps, state, x, y, .. } = recorder;
+    let scaled = |(low, high): (f64, f64), one: f64| (low * one, high * one);
+    let evaluations =
+        stepper.as_ref().map_or(steps * ORDER as u64, |stepper| stepper.cost().evaluations);
+    let works = detail.energy.then(|| works.ledger(model, start, state));
+    Trajectory {
+        problem: *problem,
+        method: if stepper.is_some() { method } else { Method::Taylor },
+        implicit_steps: 0,
+        outcome: match ended {
+            None => Outcome::Moving { tau, q, v },
+            Some(Reason::Settles) => Outcome::Captured { tau, q },
+            Some(Reason::Escapes) => Outcome::Escaped { tau },
+            Some(reason) => Outcome::GaveUp { tau, reason },
+        },
+        crossings,
+        legs,
+        extremes: Some([scaled(x, 1.0 / length), scaled(y, omega_0 / length)]),
+        ledger: works.map(|works| works.scaled(1.0 / energy)),
+        samples,
+        cost: Cost { evaluations, steps, ..Cost::default() },
+    }
 }
 
-/// A state in SI units.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct MachineState {
-    /// Time, in s.
-    pub t: f64,
-    /// Displacement, in m.
-    pub x: f64,
-    /// Velocity, in m/s.
-    pub v: f64,
+/// Follows a motion from displacement and velocity (m, m/s) for `until` seconds by Taylor series, with its ledger.
+#[must_use]
+pub fn follow_by_series(model: &Model, (q, v): (f64, f64), until: f64) -> Trajectory {
+    let (method, tolerance) = (Method::Taylor, model.tolerance);
+    let initial = State { q, v };
+    let problem = Problem { initial, until, method, tolerance, ..Problem::default() };
+    let detail = Detail { energy: true, ..Detail::default() };
+    follow(model, &problem, MotionUnits::physical(model), detail)
 }
 
-/// A motion from a start, in SI units.
-#[derive(Clone, Debug)]
-pub struct MachineMotion {
-    /// The method that computed it; never `Auto`.
-    pub method: Method,
-    /// The error of a step, relative to the state.
-    pub tolerance: f64,
-    /// Its legs in their order.
-    pub legs: Vec<Leg>,
-    /// Points of it, if asked for; the first is the start.
-    pub samples: Vec<MachineState>,
-    /// Where it ends, or how far it was followed.
-    pub end: MachineState,
-    /// How it ends.
-    pub outcome: Fate,
-    /// Smallest and largest displacement, in m.
-    pub x: (f64, f64),
-    /// Smallest and largest velocity, in m/s.
-    pub v: (f64, f64),
-    /// Where the energy comes from and goes, if asked for; only Taylor series count it.
-    pub ledger: Option<MachineLedger>,
-    pub cost: Cost,
-}
+/// Maximum number of steps that are followed of a motion by Taylor series.
+const MOST_STEPS: u64 = 200_000;
 
 /// Collects a motion until its time is up.
-struct MotionRecorder<'a> {
-    model: &'a Model,
+struct MotionRecorder {
+    units: MotionUnits,
     detail: Detail,
     works: StepWorks,
-    samples: Vec<MachineState>,
+    samples: Vec<Sample>,
     whole: f64,
     left: f64,
     steps: u64,
@@ -80,17 +141,17 @@ struct MotionRecorder<'a> {
     y: (f64, f64),
 }
 
-impl MotionRecorder<'_> {
+impl MotionRecorder {
     fn reaches(&mut self, (x, y): (f64, f64)) {
         self.x = (self.x.0.min(x), self.x.1.max(x));
         self.y = (self.y.0.min(y), self.y.1.max(y));
     }
 
-    /// A state in SI units, `later` than the last one.
-    fn state_at(&self, later: f64, (x, y): (f64, f64)) -> MachineState {
-        let omega_0 = self.model.omega_0;
-        let t = (self.whole - (self.left - later).max(0.0)) / omega_0;
-        MachineState { t, x, v: y * omega_0 }
+    /// A state `later` than the last one.
+    fn sample(&self, later: f64, (x, y): (f64, f64)) -> Sample {
+        let MotionUnits { length, omega_0, .. } = self.units;
+        let tau = (self.whole - (self.left - later).max(0.0)) / omega_0;
+        Sample { tau, q: x / length, v: y * omega_0 / length }
     }
 
     /// Keeps points of a step, evenly spaced, including its end but not its start.
@@ -98,7 +159,7 @@ impl MotionRecorder<'_> {
         let count = u32::try_from(self.detail.samples_per_step).unwrap_or(u32::MAX);
         for part in 1..=count {
             let t = duration * f64::from(part) / f64::from(count);
-            self.samples.push(self.state_at(t, at(t)));
+            self.samples.push(self.sample(t, at(t)));
         }
     }
 
@@ -111,7 +172,7 @@ impl MotionRecorder<'_> {
     }
 }
 
-impl Watch for MotionRecorder<'_> {
+impl Watch for MotionRecorder {
     fn follows(&self) -> bool {
         true
     }
@@ -139,7 +200,7 @@ impl Watch for MotionRecorder<'_> {
 
     fn passes(&mut self, duration: f64, end: (f64, f64)) {
         if self.detail.samples_per_step > 0 {
-            self.samples.push(self.state_at(duration, end));
+            self.samples.push(self.sample(duration, end));
         }
         self.ends(duration, end);
     }
@@ -156,102 +217,6 @@ impl Watch for MotionRecorder<'_> {
         }
         self.keep(ride, |t| (from + t * model.speed, model.speed));
         self.ends(duration, (to, model.speed));
-    }
-}
-
-/// Maximum number of steps that are followed of a motion by Taylor series.
-const MOST_STEPS: u64 = 200_000;
-
-impl MachineMotion {
-    /// Follows a motion from displacement `x` (m) and velocity `v` (m/s) for `until` seconds by Taylor series, with
-    /// its ledger.
-    #[must_use]
-    pub fn new(model: &Model, x: f64, v: f64, until: f64) -> Self {
-        let detail = Detail { energy: true, ..Detail::default() };
-        Self::by(model, (Method::Taylor, model.tolerance), (x, v), until, detail)
-    }
-
-    /// The same by any method that [follows machines](Method::follows_machines), at a tolerance of its own.
-    #[must_use]
-    pub fn by(
-        model: &Model,
-        (method, tolerance): (Method, f64),
-        (x, v): (f64, f64),
-        until: f64,
-        detail: Detail,
-    ) -> Self {
-        let mut model = model.clone();
-        model.tolerance = tolerance;
-        let model = &model;
-        let omega_0 = model.omega_0;
-        let start = (x, model.scaled_velocity(v));
-        let (mut x, mut y) = start;
-        let whole = until * omega_0;
-        let mut stepper = stepped::stepper(model, method);
-        let detail = Detail { energy: detail.energy && stepper.is_none(), ..detail };
-        let most = if stepper.is_some() { stepped::STEPS } else { MOST_STEPS };
-        let first = MachineState { t: 0.0, x, v: y * omega_0 };
-        let mut recorder = MotionRecorder {
-            model,
-            detail,
-            works: StepWorks::default(),
-            samples: if detail.samples_per_step > 0 { vec![first] } else { Vec::new() },
-            whole,
-            left: whole,
-            steps: 0,
-            state: start,
-            x: (x, x),
-            y: (y, y),
-        };
-        let mut flow = Flow::new(model);
-        let mut legs = Vec::new();
-        let mut place = model.place(x, y);
-        let outcome = loop {
-            if recorder.left <= 0.0 {
-                break Fate::Moving;
-            }
-            if recorder.steps > most {
-                break Fate::Unknown(Reason::Steps);
-            }
-            legs.push(Leg { place, t: (whole - recorder.left) / omega_0, x });
-            match flow.leg(stepper.as_mut(), place, (x, y), &mut recorder) {
-                Ok(Some(leg)) => (place, x, y) = (leg.place, leg.x, leg.y),
-                _ if recorder.left <= 0.0 => break Fate::Moving,
-                Ok(None) => break Fate::Rest,
-                Err(stop) => break stop.into(),
-            }
-        };
-        let end = recorder.state_at(0.0, recorder.state);
-        let MotionRecorder { works, samples, steps, state, .. } = recorder;
-        let scaled = |(low, high): (f64, f64)| (low * omega_0, high * omega_0);
-        let evaluations =
-            stepper.as_ref().map_or(steps * ORDER as u64, |stepper| stepper.cost().evaluations);
-        MachineMotion {
-            method: if stepper.is_some() { method } else { Method::Taylor },
-            tolerance: model.tolerance,
-            legs,
-            samples,
-            end,
-            outcome,
-            x: recorder.x,
-            v: scaled(recorder.y),
-            ledger: detail.energy.then(|| works.ledger(model, start, state)),
-            cost: Cost { evaluations, steps, ..Cost::default() },
-        }
-    }
-
-    /// Where it ends. Fails with [`Reason`] where it leaves the law, escapes, or needs too many steps.
-    pub fn known_end(&self) -> Result<MachineState, Reason> {
-        match self.outcome {
-            Fate::Unknown(stop) => Err(stop),
-            Fate::Escapes => Err(Reason::Escapes),
-            _ => Ok(self.end),
-        }
-    }
-
-    /// The displacements of its standstills and of its end.
-    pub fn places(&self) -> impl Iterator<Item = f64> + '_ {
-        turns(&self.legs).map(|leg| leg.x).chain([self.end.x])
     }
 }
 

@@ -227,16 +227,8 @@ pub fn works(border: &Orbit, parameters: &Parameters) -> Option<Ledger> {
     let linear = -2.0 * d * (upper.second + lower.second);
     let quadratic = -d2 * (upper.third - lower.third);
     let cubic = -d3 * (upper.fourth + lower.fourth);
-    let friction = -r * path;
-    Some(Ledger {
-        start: stored,
-        end: stored,
-        linear,
-        quadratic,
-        cubic,
-        friction,
-        residual: -(linear + quadratic + cubic + friction),
-    })
+    let works = [linear, quadratic, cubic, -r * path];
+    Some(Ledger::of_terms(parameters, (stored, stored), works))
 }
 
 /// The ledger of a motion from its start until a time, by quadrature over its samples.
@@ -271,11 +263,9 @@ pub fn works_until(motion: &Trajectory, until: f64) -> Option<Ledger> {
         path += (end.q - before.q).abs();
         before = end;
     }
-    let (start, end) = (energy(motion.problem.initial), energy(State { q: now.q, v: now.v }));
-    let (linear, quadratic) = (-2.0 * d * powers.second, -d2 * powers.third);
-    let (cubic, friction) = (-d3 * powers.fourth, -r * path);
-    let residual = (end - start) - (linear + quadratic + cubic + friction);
-    Some(Ledger { start, end, linear, quadratic, cubic, friction, residual })
+    let energies = (energy(motion.problem.initial), energy(now.state()));
+    let works = [-2.0 * d * powers.second, -d2 * powers.third, -d3 * powers.fourth, -r * path];
+    Some(Ledger::of_terms(&motion.problem.parameters, energies, works))
 }
 
 /// The velocities between which the starts at a displacement lie inside a border; `None` where none does.
@@ -326,29 +316,25 @@ mod works_tests {
             };
             let detail = Detail { crossings: r > 0.0, samples_per_step: 16, energy: true };
             let motion = trajectory(&problem, detail, &Limits::PATIENT);
-            let whole = motion.ledger.unwrap();
-            let largest = [whole.linear, whole.quadratic, whole.cubic, whole.friction]
-                .into_iter()
-                .fold(0.0, |largest: f64, work| largest.max(work.abs()));
+            let whole = motion.ledger.clone().unwrap();
+            let sizes = whole.works.iter().map(|work| work.amount.abs());
+            let largest = sizes.fold(0.0, f64::max);
             let mut last = 0.0;
             for part in 0..=40 {
                 let found = works_until(&motion, 30.0 * f64::from(part) / 40.0).unwrap();
                 assert!(found.residual.abs() < 1e-6 * largest, "{found:?}");
-                assert!(found.friction <= last, "friction only takes");
-                last = found.friction;
+                assert!(found.work("friction") <= last, "friction only takes");
+                last = found.work("friction");
             }
             let end = works_until(&motion, 30.0).unwrap();
-            for (found, exact) in [
-                (end.linear, whole.linear),
-                (end.quadratic, whole.quadratic),
-                (end.cubic, whole.cubic),
-                (end.friction, whole.friction),
-                (end.end, whole.end),
-            ] {
+            let works = |of: &Ledger| of.works.iter().map(|work| work.amount).collect::<Vec<_>>();
+            let pairs = works(&end).into_iter().zip(works(&whole));
+            for (found, exact) in pairs.chain([(end.end, whole.end)]) {
                 assert!((found - exact).abs() < 1e-6 * largest, "{found} {exact}");
             }
             let start = works_until(&motion, 0.0).unwrap();
-            assert_eq!((start.linear, start.friction, start.end), (0.0, 0.0, start.start));
+            let works = ["linear", "friction"].map(|source| start.work(source));
+            assert_eq!((works, start.end), ([0.0; 2], start.start));
         }
     }
     use crate::flow::trajectory::trajectory;
@@ -374,9 +360,10 @@ mod works_tests {
             assert_eq!(ledgers.len(), found.cycles.len());
             assert!(!ledgers.is_empty());
             for (cycle, ledger) in found.cycles.iter().zip(ledgers) {
-                let Ledger { linear, quadratic, cubic, friction, residual, .. } = ledger;
+                let [linear, quadratic, cubic, friction] =
+                    ["linear", "quadratic", "cubic", "friction"].map(|source| ledger.work(source));
                 let turned = linear.abs().max(cubic.abs()).max(friction.abs());
-                assert!((residual / turned).abs() < 1e-12, "{parameters:?}: {ledger:?}");
+                assert!((ledger.residual / turned).abs() < 1e-12, "{parameters:?}: {ledger:?}");
                 assert!(linear > 0.0 || cubic > 0.0, "something feeds the cycle");
                 let path = 2.0 * (cycle.q_max - cycle.q_min);
                 assert!((friction + r * path).abs() <= 1e-12 * turned);

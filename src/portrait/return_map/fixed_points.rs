@@ -6,8 +6,8 @@ use super::zeros::{NOTHING, zeros};
 use crate::flow::machine::arc::{SeriesStep, Watch};
 use crate::flow::machine::ledger::StepWorks;
 use crate::flow::machine::turn::ContactState;
-use crate::flow::{Flow, MachineLedger, Reason};
-use crate::model::{Model, Phase};
+use crate::flow::{Flow, Reason};
+use crate::model::{Ledger, Model, Phase};
 use crate::numerics::elementary::{exp, ln, pow};
 use crate::numerics::root::bisect;
 use crate::numerics::scaling::{exponent, times_power};
@@ -373,7 +373,7 @@ impl Flow<'_> {
     ///
     /// # Errors
     /// [`Reason`], where rounding carries the motion off.
-    pub fn works_around(&mut self, cycle: &Cycle) -> Result<MachineLedger, Reason> {
+    pub fn works_around(&mut self, cycle: &Cycle) -> Result<Ledger, Reason> {
         let mut works = StepWorks::default();
         let start = (cycle.q_max, 0.0);
         self.around(cycle.q_max, cycle.is_followed_backward(), &mut works)?;

@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{DesignAnswer, MachineAnswer, OnBelt, expansion};
-use crate::flow::machine::motion::MachineState;
-use crate::flow::{Fate, MachineMotion};
+use crate::flow::{Fate, Sample, Trajectory};
 use crate::model::Group;
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::portrait::guarantee::Uncertain;
@@ -97,17 +96,24 @@ fn motions(portrait: &Portrait) -> Document {
 /// The motion from a start.
 fn motion((x, v): (f64, f64), course: &Course) -> Document {
     let motion = &course.motion;
-    let second = course.second.as_ref().map(|second| by_second(second, motion.end));
+    let end = motion.end();
+    let second = course.second.as_ref().map(|second| by_second(second, end));
+    let [displacement, velocity] = motion.extremes.unwrap_or_default();
     Document::default()
         .with("start", Document::default().with("x", x).with("v", v))
         .with("outcome", outcome(course))
-        .with("until", motion.end.t)
-        .with("displacement", motion.x)
-        .with("velocity", motion.v)
+        .with("until", end.tau)
+        .with("displacement", displacement)
+        .with("velocity", velocity)
         .with("phases", phases(&motion.legs, ["t", "x"]))
-        .with("energy", motion.ledger.as_ref().map(energy))
-        .with("end", motion.end)
+        .with("energy", motion.ledger.as_ref().map(|ledger| energy(ledger, true)))
+        .with("end", state(end))
         .with_any("second", second)
+}
+
+/// A moment of a motion in SI units.
+fn state(Sample { tau, q, v }: Sample) -> Document {
+    Document::default().with("t", tau).with("x", q).with("v", v)
 }
 
 /// What becomes of the motion: the index of its cycle, or where it rests, and when, if that is within the time followed.
@@ -115,7 +121,7 @@ fn outcome(Course { motion, fate, rest, .. }: &Course) -> Document {
     let named = |kind: &str| Document::default().with("kind", kind);
     match fate {
         Fate::Rest => {
-            let at = (motion.outcome == Fate::Rest).then_some(motion.end.t);
+            let at = motion.outcome.rest().ok().flatten();
             named("rest").with_any("x", *rest).with_any("t", at)
         }
         Fate::Cycle(index) => named("cycle").with("cycle", index),
@@ -127,18 +133,15 @@ fn outcome(Course { motion, fate, rest, .. }: &Course) -> Document {
 }
 
 /// The motion by a second method, and the difference between the ends.
-fn by_second(second: &MachineMotion, first: MachineState) -> Document {
+fn by_second(second: &Trajectory, first: Sample) -> Document {
     let end = second.known_end();
-    let less = |end: MachineState| MachineState {
-        t: end.t - first.t,
-        x: end.x - first.x,
-        v: end.v - first.v,
-    };
+    let less =
+        |end: Sample| Sample { tau: end.tau - first.tau, q: end.q - first.q, v: end.v - first.v };
     Document::default()
         .with("method", second.method)
-        .with("tolerance", second.tolerance)
-        .with_any("end", end.ok())
-        .with_any("difference", end.ok().map(less))
+        .with("tolerance", second.problem.tolerance)
+        .with_any("end", end.ok().map(state))
+        .with_any("difference", end.ok().map(less).map(state))
         .with_any("reason", end.err().map(|stop| stop.to_string()))
 }
 

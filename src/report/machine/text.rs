@@ -1,8 +1,7 @@
 //! The answer about a machine in sentences.
 
 use super::{DesignAnswer, MachineAnswer, OnBelt, expansion};
-use crate::flow::machine::motion::MachineState;
-use crate::flow::{Fate, MachineMotion};
+use crate::flow::{Fate, Sample, Trajectory};
 use crate::model::belt::{Derivatives, FrictionLaw};
 use crate::portrait::Course;
 use crate::portrait::design::{FrictionNeeded, Kick};
@@ -146,14 +145,14 @@ pub(super) fn friction(law: &FrictionLaw, mu: &Derivatives) -> String {
 fn fate((x, v): (f64, f64), course: &Course) -> String {
     let length = |x| with_unit(x, PLACES, "m");
     let from = format!("from x = {}, v = {}: ", length(x), with_unit(v, PLACES, "m/s"));
-    let end = &course.motion.end;
     from + &match course.fate {
         Fate::Rest => {
             let place = course.rest.map_or_else(String::new, |x| format!(" at x = {}", length(x)));
-            if course.motion.outcome == Fate::Rest {
-                format!("comes to rest{place}, at t = {}", with_unit(end.t, PLACES, "s"))
-            } else {
-                format!("comes to rest{place}")
+            match course.motion.outcome.rest() {
+                Ok(Some(t)) => {
+                    format!("comes to rest{place}, at t = {}", with_unit(t, PLACES, "s"))
+                }
+                _ => format!("comes to rest{place}"),
             }
         }
         Fate::Cycle(index) => {
@@ -168,16 +167,16 @@ fn fate((x, v): (f64, f64), course: &Course) -> String {
 }
 
 /// The motion by the second method, compared with the first, in a sentence.
-fn by(second: &MachineMotion, course: &Course) -> String {
-    let MachineState { t, x, v } = course.motion.end;
-    let lead = format!("\nby {} at {:e}: ", second.method, second.tolerance);
+fn by(second: &Trajectory, course: &Course) -> String {
+    let Sample { tau: t, q: x, v } = course.motion.end();
+    let lead = format!("\nby {} at {:e}: ", second.method, second.problem.tolerance);
     lead + &match second.known_end() {
         Ok(end) => format!(
             "at t = {} x = {}, v = {}; Taylor series differ by {} and {}",
             with_unit(t, PLACES, "s"),
-            with_unit(end.x, 12, "m"),
+            with_unit(end.q, 12, "m"),
             with_unit(end.v, 12, "m/s"),
-            with_unit((end.x - x).abs(), 2, "m"),
+            with_unit((end.q - x).abs(), 2, "m"),
             with_unit((end.v - v).abs(), 2, "m/s"),
         ),
         Err(stop) => stop.to_string(),

@@ -3,10 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::row::{Cells, Failed};
-use super::settling::Settling;
 use super::table::Measure;
-use crate::flow::machine::motion::turns;
-use crate::flow::{Fate, MachineMotion, Reason};
+use crate::flow::{Reason, follow_by_series};
 use crate::model::{MachineProblem, State};
 use crate::portrait::Portrait;
 use crate::portrait::basin::StartWindow;
@@ -38,15 +36,7 @@ impl<'a> MachinePoint<'a> {
         let MachineProblem { subject, tolerances, start, until } = self.problem;
         match measure {
             Measure::Outcome => {
-                let motion = MachineMotion::new(&subject.model()?, start.0, start.1, *until);
-                let (end, swings) = (motion.end, turns(&motion.legs).count());
-                let known = !matches!(motion.outcome, Fate::Unknown(_));
-                cells.outcome(motion.outcome.word(), known.then_some((end.t, swings)));
-                match motion.outcome {
-                    Fate::Rest => cells.fill(Measure::Rest, || [end.x, end.t]),
-                    Fate::Unknown(stop) => return Err(stop.into()),
-                    _ => {}
-                }
+                cells.motion(&follow_by_series(&subject.model()?, *start, *until))?;
             }
             Measure::Guaranteed => {
                 let Some(belt) = subject.of_belt() else { return Ok(()) };
@@ -59,7 +49,11 @@ impl<'a> MachinePoint<'a> {
                 let needed = needed.ok_or("no friction was found to suffice")?;
                 cells.fill(Measure::Design, || [needed.least()]);
             }
-            Measure::Settling => self.settling(cells)?,
+            Measure::Settling => {
+                let model = subject.model()?;
+                let follow = |State { q, v }| follow_by_series(&model, (q, v), *until);
+                cells.settling(&cells.conditions.about(&model), follow)?;
+            }
             Measure::Repeated => {
                 let Some(portrait) = &self.portrait else { return Ok(()) };
                 // Without friction there is no set of places to rest.
@@ -69,22 +63,6 @@ impl<'a> MachinePoint<'a> {
             }
             _ => self.portray(cells)?,
         }
-        Ok(())
-    }
-
-    fn settling(&self, cells: &mut Cells) -> Result<(), Reason> {
-        let model = self.problem.subject.model()?;
-        let cost = &mut cells.cost;
-        let found = Settling::of(&cells.conditions.about(&model), |State { q, v }| {
-            let motion = MachineMotion::new(&model, q, v, self.problem.until);
-            *cost += motion.cost;
-            match motion.outcome {
-                Fate::Rest => Ok(Some(motion.end.t)),
-                Fate::Unknown(stop) => Err(stop),
-                _ => Ok(None),
-            }
-        });
-        cells.settling(&found?);
         Ok(())
     }
 

@@ -1,12 +1,11 @@
 //! The computations at a point of a scan of the paper's oscillator.
 
 use super::row::{Cells, Failed};
-use super::settling::Settling;
 use super::table::{CYCLES, Measure, Value};
 use crate::branch::escape::escape_point;
 use crate::branch::fold::fold;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Limits, Outcome, Problem, Reason};
+use crate::flow::{Detail, Limits, Problem, Reason};
 use crate::numerics::Interval;
 use crate::portrait::Cycles;
 use crate::portrait::basin::Basin;
@@ -54,7 +53,12 @@ impl<'a> OscillatorPoint<'a> {
                 cells.cost += cost;
                 cells.margin(Measure::Guaranteed, found.map_err(|why| why.to_string())?);
             }
-            Measure::Settling => self.settling(cells)?,
+            Measure::Settling => {
+                let follow = |initial| {
+                    trajectory(&Problem { initial, ..*self.problem }, Detail::default(), limits)
+                };
+                cells.settling(&cells.conditions.window, follow)?;
+            }
             Measure::Proved => self.proof(cells)?,
             Measure::Design => {
                 let Some((kick, wanted)) = cells.conditions.wanted else { return Ok(()) };
@@ -77,17 +81,7 @@ impl<'a> OscillatorPoint<'a> {
     fn motion(&self, cells: &mut Cells) -> Result<(), Reason> {
         let motion = trajectory(self.problem, Detail::default(), self.limits);
         cells.cost += motion.cost;
-        let swings = motion.crossings.len();
-        match motion.outcome {
-            Outcome::Captured { tau, q } => {
-                cells.outcome("captured", Some((tau, swings)));
-                cells.fill(Measure::Rest, || [q, tau]);
-            }
-            Outcome::Moving { tau, .. } => cells.outcome("moving", Some((tau, swings))),
-            Outcome::Escaped { tau } => cells.outcome("escaped", Some((tau, swings))),
-            Outcome::GaveUp { .. } => cells.outcome("gave-up", None),
-        }
-        motion.outcome.answered()
+        cells.motion(&motion)
     }
 
     fn cycles(&mut self, cells: &mut Cells) -> Result<(), Reason> {
@@ -120,20 +114,6 @@ impl<'a> OscillatorPoint<'a> {
         cells.share(Measure::Lost, || Some(conditions.kicks.lost(&basin)));
         cells.fill(Measure::Area, || [basin.area()]);
         cells.fill(Measure::Integrity, || [basin.inner_radius(), basin.integrity()]);
-        Ok(())
-    }
-
-    fn settling(&self, cells: &mut Cells) -> Result<(), Reason> {
-        let cost = &mut cells.cost;
-        let found = Settling::of(&cells.conditions.window, |initial| {
-            let problem = Problem { initial, ..*self.problem };
-            let motion = trajectory(&problem, Detail::default(), self.limits);
-            *cost += motion.cost;
-            motion.outcome.answered()?;
-            let Outcome::Captured { tau, .. } = motion.outcome else { return Ok(None) };
-            Ok(Some(tau))
-        });
-        cells.settling(&found?);
         Ok(())
     }
 

@@ -5,7 +5,9 @@ use std::error::Error;
 
 use super::settling::Settling;
 use super::table::{CYCLES, Conditions, Measure, Value};
-use crate::flow::{Cost, Limits, Reason};
+use crate::flow::{Cost, Limits, Outcome, Reason, Trajectory};
+use crate::model::State;
+use crate::portrait::basin::StartWindow;
 use crate::portrait::basin::stability::Share;
 use crate::portrait::kicks::repeated::Repeated;
 use crate::portrait::{Border, Cycle, Margin};
@@ -84,12 +86,18 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// How a motion ended, when and after how many half swings.
-    pub fn outcome(&mut self, word: &'static str, ended: Option<(f64, usize)>) {
-        let (time, swings) = ended.unzip();
+    /// How a motion ended, when and after how many half swings, and where it rests. Fails with why it was given up.
+    pub fn motion(&mut self, found: &Trajectory) -> Result<(), Reason> {
+        let (outcome, swings) = (found.outcome, Value::Count(found.crossings.len()));
+        let ended = outcome.answered().map(|()| [outcome.tau().into(), swings]);
+        let word = Value::Word(outcome.word());
         self.fill(Measure::Outcome, || {
-            [Value::Word(word), time.into(), swings.map_or(Value::Nothing, Value::Count)]
+            std::iter::once(word).chain(ended.iter().flatten().cloned())
         });
+        if let Outcome::Captured { tau, q } = outcome {
+            self.fill(Measure::Rest, || [q, tau]);
+        }
+        outcome.answered()
     }
 
     /// The limit cycles, by amplitude.
@@ -127,9 +135,20 @@ impl<'a> Cells<'a> {
         self.fill(Measure::Repeated, || [found.mean, found.later, found.error]);
     }
 
-    /// When the starts of the window come to rest.
-    pub fn settling(&mut self, found: &Settling) {
+    /// When the starts of a window come to rest. Fails with why one of their motions was given up.
+    pub fn settling(
+        &mut self,
+        window: &StartWindow,
+        follow: impl Fn(State) -> Trajectory,
+    ) -> Result<(), Reason> {
+        let cost = &mut self.cost;
+        let found = Settling::of(window, |start| {
+            let motion = follow(start);
+            *cost += motion.cost;
+            motion.outcome.rest()
+        })?;
         self.fill(Measure::Settling, || found.times().into_iter().flatten());
         self.fill(Measure::FiniteTime, || found.rested());
+        Ok(())
     }
 }

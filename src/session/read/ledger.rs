@@ -3,8 +3,7 @@
 //! Line `i` lies between the heights `-i` and `-i - 1` of the view's world, so that the view draws the same
 //! lines at every size and the cursor points at one of them.
 
-use crate::flow::MachineLedger;
-use crate::model::{Ledger, Parameters, State};
+use crate::model::{Ledger, State};
 use crate::numerics::count::real;
 use crate::portrait::Cycle;
 use crate::portrait::basin::orbit::works_until;
@@ -46,27 +45,24 @@ impl Session {
         if self.layers.contains(&Layer::CycleWorks)
             && let Some(found) = self.cycles()
         {
-            let picture = found.picture.iter().filter(|_| !whole);
-            let works = picture.flat_map(|picture| &picture.works);
-            let works = works.map(|ledger| WorkTable::of(ledger, &found.parameters));
-            let kinds = self.kinds().into_iter().filter(|_| whole);
-            let by_machine = kinds.flat_map(|kinds| &kinds.works).map(WorkTable::of_machine);
-            for (cycle, works) in found.cycles.iter().zip(works.chain(by_machine)) {
-                works.add_to(&mut lines, Owner::Cycle(*cycle), None);
+            let kinds = self.kinds().filter(|_| whole).map(|kinds| &kinds.works);
+            let works = found.picture.as_ref().map(|picture| &picture.works).filter(|_| !whole);
+            let works = works.or(kinds).into_iter().flatten();
+            for (cycle, works) in found.cycles.iter().zip(works) {
+                add(&mut lines, Owner::Cycle(*cycle), works, None);
             }
         }
         if self.layers.contains(&Layer::MotionWorks) {
-            let owner = |place| Owner::Motion(place, self.number(place));
-            if let Some(course) = self.course().filter(|_| whole) {
-                WorkTable::of_machine(&course.ledger).add_to(&mut lines, owner(0), None);
-            }
-            for (place, found) in self.motions().into_iter().filter(|_| !whole) {
+            for (place, found) in self
+                .motions()
+                .into_iter()
+                .filter(|(place, _)| !whole || *place == 0 && self.course().is_some())
+            {
                 let Some(ledger) = &found.ledger else { continue };
-                let parameters = &found.problem.parameters;
-                let head = self.head().filter(|_| place == 0);
+                let head = self.head().filter(|_| place == 0 && !whole);
                 let until = head.and_then(|head| works_until(found, head.tau));
-                let until = until.map(|until| WorkTable::of(&until, parameters));
-                WorkTable::of(ledger, parameters).add_to(&mut lines, owner(place), until);
+                let owner = Owner::Motion(place, self.number(place));
+                add(&mut lines, owner, ledger, until.as_ref());
             }
         }
         lines
@@ -91,60 +87,21 @@ impl Session {
     }
 }
 
-/// The works of one owner.
-struct WorkTable {
-    /// The sources of energy that the model has, each with the energy that it supplied.
-    sources: Vec<(&'static str, f64)>,
-    /// The energy gained.
-    stored: f64,
-    /// The energy that the sources do not account for.
-    residual: f64,
-}
-
-impl WorkTable {
-    fn of(ledger: &Ledger, parameters: &Parameters) -> Self {
-        let Parameters { d, d2, d3, r } = *parameters;
-        let sources = [
-            (d, "linear", ledger.linear),
-            (d2, "quadratic", ledger.quadratic),
-            (d3, "cubic", ledger.cubic),
-            (r, "friction", ledger.friction),
-        ];
-        let there = sources.into_iter().filter(|(strength, ..)| *strength != 0.0);
-        WorkTable {
-            sources: there.map(|(_, source, work)| (source, work)).collect(),
-            stored: ledger.end - ledger.start,
-            residual: ledger.residual,
-        }
+/// Adds the lines of an owner, with the works until the present moment if these are given.
+fn add(lines: &mut Vec<LedgerLine>, owner: Owner, ledger: &Ledger, until: Option<&Ledger>) {
+    let sources = |ledger: &Ledger| {
+        let stored = ("stored", ledger.end - ledger.start, matches!(owner, Owner::Motion(..)));
+        let works = ledger.works.iter().map(|work| (work.source, work.amount, work.acts));
+        works.chain([stored]).filter(|(.., acts)| *acts).collect::<Vec<_>>()
+    };
+    let so_far = until.map(sources).unwrap_or_default();
+    let sources = sources(ledger);
+    let largest = sources.iter().map(|(_, work, _)| work.abs()).fold(0.0, f64::max);
+    let part = |work: f64| if largest > 0.0 { work / largest } else { 0.0 };
+    lines.push(LedgerLine::Title(owner));
+    for (index, (source, work, _)) in sources.into_iter().enumerate() {
+        let so_far = so_far.get(index).map(|(_, work, _)| part(*work));
+        lines.push(LedgerLine::Work { source, work, part: part(work), so_far });
     }
-
-    /// The works by the whole model of a machine.
-    fn of_machine(ledger: &MachineLedger) -> Self {
-        let MachineLedger { start, end, belt, damper, guide } = *ledger;
-        let sources = [("belt", belt), ("damper", -damper), ("guide", -guide)];
-        WorkTable {
-            sources: sources.into_iter().filter(|(_, work)| *work != 0.0).collect(),
-            stored: end - start,
-            residual: end - start - (belt - damper - guide),
-        }
-    }
-
-    /// Adds the lines of the owner, with the works until the present moment if these are given.
-    fn add_to(mut self, lines: &mut Vec<LedgerLine>, owner: Owner, until: Option<WorkTable>) {
-        let so_far = until.iter().flat_map(|until| &until.sources).map(|(_, work)| *work);
-        let mut so_far: Vec<f64> = so_far.collect();
-        if matches!(owner, Owner::Motion(..)) {
-            self.sources.push(("stored", self.stored));
-            so_far.extend(until.map(|until| until.stored));
-        }
-        let sizes = self.sources.iter().map(|(_, work)| work.abs());
-        let largest = sizes.fold(0.0, f64::max);
-        let part = |work: f64| if largest > 0.0 { work / largest } else { 0.0 };
-        lines.push(LedgerLine::Title(owner));
-        for (index, (source, work)) in self.sources.into_iter().enumerate() {
-            let so_far = so_far.get(index).copied().map(part);
-            lines.push(LedgerLine::Work { source, work, part: part(work), so_far });
-        }
-        lines.push(LedgerLine::Residual(part(self.residual)));
-    }
+    lines.push(LedgerLine::Residual(part(ledger.residual)));
 }

@@ -134,7 +134,7 @@ impl Session {
     /// The end of playback: the end of the motion, or where the mass would overtake its belt.
     pub fn last_moment(&self) -> f64 {
         let contact = self.contact().map(|(tau, _)| tau);
-        contact.or_else(|| self.trajectory().map(Trajectory::end)).unwrap_or(0.0)
+        contact.or_else(|| self.trajectory().map(|found| found.outcome.tau())).unwrap_or(0.0)
     }
 
     /// Time and displacement where the motion reaches the speed of the belt; `None` if it does not, or there is

@@ -231,6 +231,8 @@ pub fn by_hand(request: &Request) -> Finding {
                 implicit_steps: 0,
                 outcome: Outcome::Moving { tau: until, q, v },
                 crossings: Vec::new(),
+                legs: Vec::new(),
+                extremes: None,
                 ledger: None,
                 samples: vec![Sample { tau: 0.0, q, v }],
                 cost,
@@ -243,7 +245,7 @@ pub fn by_hand(request: &Request) -> Finding {
             border: Border::Cycle,
             picture: Some(BasinPicture {
                 curves: Vec::new(),
-                works: vec![Ledger { linear: 1.0, friction: -1.0, ..Ledger::default() }; 2],
+                works: vec![Ledger::of_terms(parameters, (0.0, 0.0), [1.0, 0.0, 0.0, -1.0]); 2],
                 border: Vec::new(),
                 margin: Margin::ENDLESS,
                 area: None,
