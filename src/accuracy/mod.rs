@@ -5,7 +5,6 @@ pub mod extremes;
 #[doc(hidden)]
 pub mod harmonic_error;
 #[doc(hidden)]
-pub mod machine_trade;
 pub(crate) mod reference;
 #[doc(hidden)]
 pub mod trade;

@@ -8,7 +8,12 @@
 
 use crate::flow::precise::{COARSE, FINE, precise};
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Crossing, Detail, Limits, Method, Outcome, Problem, Reason, Trajectory};
+use crate::flow::{
+    Cost, Crossing, Detail, Limits, Method, MotionUnits, Outcome, Problem, Reason, Trajectory,
+    follow,
+};
+use crate::model::Model;
+use crate::model::model::FINEST;
 use crate::numerics::scalar::Scalar;
 use crate::numerics::twofold::Twofold;
 
@@ -27,6 +32,8 @@ pub enum ReferenceSource {
     ClosedForm,
     /// The implicit method near rounding, and a Taylor series beside it.
     Implicit,
+    /// Taylor series of a machine whose last terms are below rounding, with nothing beside them.
+    Machine,
 }
 
 /// A motion known better than what is compared with it.
@@ -38,9 +45,9 @@ pub struct Reference {
     pub end: Outcome<Twofold>,
     /// Where it comes from.
     pub source: ReferenceSource,
-    /// Its own error: how far two independent computations of it differ.
+    /// Its own error: how far two independent computations of it differ; not a number if there is only one.
     pub error: f64,
-    /// The largest displacement of a turning point, the start and the end included.
+    /// The largest displacement of a turning point, the end and, unless it is of a machine, the start included.
     pub scale: f64,
     /// What both computations cost, counted as the methods count.
     pub cost: Cost,
@@ -52,7 +59,8 @@ pub struct Deviation {
     /// The error: the largest difference of `q` at the turning points, first with first, and of `q` and
     /// `v` at the end time; for a motion that escapes also that of the time at which it does.
     ///
-    /// Where one motion has more turning points than the other, they are compared with the other's end.
+    /// Where one motion has more turning points than the other, they are compared with the other's end. Of a machine
+    /// only displacements count, as fractions of the largest one.
     pub error: f64,
     /// The largest difference of the times of turning points that both have.
     pub time: f64,
@@ -67,6 +75,8 @@ pub enum NoComparison {
     GaveUp(Reason),
     /// It escapes where the reference does not, or the other way round.
     OtherFate,
+    /// The motion of a machine stands still more or less often than the reference.
+    OtherTurns,
 }
 
 impl std::fmt::Display for NoComparison {
@@ -76,6 +86,7 @@ impl std::fmt::Display for NoComparison {
             NoComparison::OtherFate => {
                 write!(out, "escapes where the motion does not, or misses it")
             }
+            NoComparison::OtherTurns => write!(out, "not the same standstills"),
         }
     }
 }
@@ -109,6 +120,13 @@ impl Reference {
         Ok(run(first, TIGHT.0)?.checked_by(&run(second, TIGHT.1)?))
     }
 
+    /// The reference for a motion of a machine in SI units. Fails with [`Reason`] where it cannot be followed.
+    pub fn of_machine(model: &Model, problem: &Problem) -> Result<Self, Reason> {
+        let best = Problem { method: Method::Taylor, tolerance: FINEST, ..*problem };
+        let found = follow(model, &best, MotionUnits::physical(model), Detail::default());
+        Ok(Reference { error: f64::NAN, ..Self::new(&found, ReferenceSource::Machine)? })
+    }
+
     /// What a method found, as a reference with an error unknown yet; or why it gave up.
     fn new<N>(found: &Trajectory<N>, source: ReferenceSource) -> Result<Self, Reason>
     where
@@ -118,7 +136,8 @@ impl Reference {
         let turn = |at: &Crossing<N>| Crossing { tau: at.tau.into(), q: at.q.into() };
         let last = found.outcome.state().map_or(0.0, |(q, _)| q.value());
         let places = found.crossings.iter().map(|turn| turn.q.value());
-        let places = places.chain([found.problem.initial.q, last]);
+        let start = Some(found.problem.initial.q).filter(|_| source != ReferenceSource::Machine);
+        let places = places.chain(start).chain([last]);
         Ok(Reference {
             turns: found.crossings.iter().map(turn).collect(),
             end: found.outcome.map(N::into),
@@ -146,7 +165,14 @@ impl Reference {
             // Where nothing happens at turning points they are not located: the ends are compared.
             other.turns.clone_from(&self.turns);
         }
+        if self.is_of_machine() && self.turns.len() != other.turns.len() {
+            return Err(NoComparison::OtherTurns);
+        }
         self.deviation(&other).ok_or(NoComparison::OtherFate)
+    }
+
+    fn is_of_machine(&self) -> bool {
+        self.source == ReferenceSource::Machine
     }
 
     /// How far another motion is from this one, where both escape or neither does.
@@ -154,6 +180,8 @@ impl Reference {
         let apart = |one: Twofold, other: Twofold| (one - other).value().abs();
         let ends = self.end.state().zip(other.end.state());
         let mut error = match (self.end, other.end, ends) {
+            (_, _, Some((one, other))) if self.is_of_machine() => apart(one.0, other.0),
+            (Outcome::Escaped { .. }, Outcome::Escaped { .. }, _) if self.is_of_machine() => 0.0,
             (_, _, Some((one, other))) => apart(one.0, other.0).max(apart(one.1, other.1)),
             (Outcome::Escaped { tau: one }, Outcome::Escaped { tau: other }, _) => {
                 apart(one, other)
@@ -169,6 +197,9 @@ impl Reference {
             let one = turns.0.map(|turn| turn.q).or(ends.map(|(one, _)| one.0));
             let other = turns.1.map(|turn| turn.q).or(ends.map(|(_, other)| other.0));
             error = error.max(apart(one?, other?));
+        }
+        if self.is_of_machine() {
+            error /= self.scale.max(f64::MIN_POSITIVE);
         }
         let same_kind = std::mem::discriminant(&self.end) == std::mem::discriminant(&other.end);
         let agrees = same_kind && self.turns.len() == other.turns.len();

@@ -5,8 +5,11 @@
 
 use super::reference::{Deviation, NoComparison, Reference};
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Cost, Detail, Limits, METHODS, Method, Outcome, Problem, Reason, Trajectory};
-use crate::model::Knob;
+use crate::flow::{
+    Cost, Detail, Limits, METHODS, Method, MotionUnits, Outcome, Problem, Reason, Trajectory,
+    follow,
+};
+use crate::model::{Knob, Model};
 use crate::numerics::elementary::{ln, log10};
 
 /// Tolerances, one for each digit.
@@ -138,6 +141,20 @@ impl Trade {
                 }
             }
         }
+        Ok(Trade { problem: *problem, reference, rows })
+    }
+
+    /// Computes every row of the methods that know a machine, for a motion in SI units. Fails with [`Reason`] where there
+    /// is no reference.
+    pub fn of_machine(model: &Model, problem: &Problem) -> Result<Self, Reason> {
+        let reference = Reference::of_machine(model, problem)?;
+        let row = |rung: &Problem| {
+            let found = follow(model, rung, MotionUnits::physical(model), Detail::default());
+            TradePoint::new(&found, &reference)
+        };
+        let methods = [Method::Taylor, Method::Dop853, Method::Dopri5];
+        let rungs = methods.iter().flat_map(|method| ladder(problem, *method));
+        let rows = rungs.map(|rung| row(&rung)).collect();
         Ok(Trade { problem: *problem, reference, rows })
     }
 

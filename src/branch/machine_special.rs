@@ -6,9 +6,8 @@
 
 use super::jump::{Family, Jumps};
 use super::special::{Special, SpecialKind};
-use crate::flow::machine::turn::ContactState;
 use crate::flow::{Flow, Reason};
-use crate::model::{Model, Phase};
+use crate::model::{ContactState, Model, Phase};
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::root::{PlaceTolerance, illinois, try_bisect};
 use crate::portrait::closing::search::Node;

@@ -5,10 +5,9 @@ use clap::Args;
 use super::{
     Certify, Failure, MachineCase, Output, SourceOptions, in_turn, number, second, timed, troubled,
 };
-use crate::accuracy::machine_trade::MachineTrade;
 use crate::accuracy::trade::Trade;
 use crate::flow::trajectory::trajectory;
-use crate::flow::{Detail, Limits, Method, MotionUnits, Outcome, Problem, follow};
+use crate::flow::{Detail, Limits, Method, MotionUnits, Outcome, Problem, Trajectory, follow};
 use crate::model::{Knob, MachineProblem, State};
 use crate::numerics::Interval;
 use crate::proof::ParameterBox;
@@ -121,34 +120,38 @@ pub struct TradeCommand {
 
 impl TradeCommand {
     pub fn run(&self) -> Result<(), Failure> {
+        let detail = Detail::default();
         if let Some(case) = self.asked.of_machine()? {
-            return self.of_machine(&case);
+            let about = case.about();
+            let MachineProblem { subject, start: (q, v), until, .. } = case.problem;
+            let model = subject.model().map_err(troubled)?;
+            let problem = Problem { initial: State { q, v }, until, ..Problem::default() };
+            let found = Trade::of_machine(&model, &problem).map_err(troubled)?;
+            let units = MotionUnits::physical(&model);
+            return self.tell(&about, found, |problem| follow(&model, problem, units, detail));
         }
         let problem = self.asked.problem(self.named.as_deref())?;
         let found = Trade::of(&problem, &Limits::PATIENT).map_err(|reason| {
             Failure::Unanswered(format!("there is nothing to measure errors against: {reason}"))
         })?;
-        let seconds = in_turn(self.asked.output.repeat, found.rows.len(), |index| {
-            // A row that was given up used its whole budget; it is not repeated.
-            let row = &found.rows[index];
-            row.error().map(|_| trajectory(&row.problem, Detail::default(), &Limits::PATIENT))
-        });
-        let timed = trade::TimedTrade { trade: found, seconds };
         let about = About::oscillator(&problem.parameters);
-        let plot = || in_letters(&timed.trade, &timed.seconds);
-        self.asked.output.print(trade::trade(&about, &timed, plot))
+        self.tell(&about, found, |problem| trajectory(problem, detail, &Limits::PATIENT))
     }
 
-    fn of_machine(&self, case: &MachineCase) -> Result<(), Failure> {
-        let MachineProblem { subject, start, until, .. } = &case.problem;
-        let model = subject.model().map_err(troubled)?;
-        let found = MachineTrade::new(&model, *start, *until);
+    /// Tells a trade with the times that its rows take when they are followed again.
+    fn tell(
+        &self,
+        about: &About,
+        found: Trade,
+        again: impl Fn(&Problem) -> Trajectory,
+    ) -> Result<(), Failure> {
         let output = &self.asked.output;
-        let seconds = in_turn(output.repeat, found.points.len(), |index| {
-            let problem = &found.points[index].motion.problem;
-            follow(&model, problem, MotionUnits::physical(&model), Detail::default())
+        let seconds = in_turn(output.repeat, found.rows.len(), |index| {
+            // A row that was given up used its whole budget; it is not repeated.
+            let row = &found.rows[index];
+            row.error().map(|_| again(&row.problem))
         });
-        output.print(trade::of_machine(&case.about(), &case.problem, &found, &seconds))?;
-        found.reference.outcome.answered().map_err(troubled)
+        let timed = trade::TimedTrade { trade: found, seconds };
+        output.print(trade::trade(about, &timed, || in_letters(&timed.trade, &timed.seconds)))
     }
 }

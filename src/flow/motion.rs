@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::machine::turn::ContactState;
 use super::method::Method;
-use crate::model::{Knob, Ledger, Parameters, Reason, State};
+use crate::model::{ContactState, Knob, Ledger, Parameters, Reason, State};
 use crate::numerics::polynomial::Hermite;
 use crate::numerics::scalar::Scalar;
 

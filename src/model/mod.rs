@@ -49,7 +49,7 @@ pub use interval::{Interval, ParameterBox};
 pub(crate) use knob::unknown;
 pub use knob::{Group, KNOBS, Knob, KnobSpec, OutOfRange};
 pub use modal::Modal;
-pub use model::{Lines, Model, Phase};
+pub use model::{ContactState, Lines, Model, Phase};
 pub use parameters::{Ledger, Work};
 pub use parameters::{Parameters, State};
 pub use reason::Reason;

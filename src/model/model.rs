@@ -18,6 +18,17 @@ use crate::numerics::elementary::powi;
 /// The last terms of a step are this small against the state where nothing else is asked for.
 pub const FINEST: f64 = 1e-17;
 
+/// The state of contact at a point of the phase plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactState {
+    /// It slips in this phase.
+    Slips(Phase),
+    /// It rides on the belt.
+    Sticks,
+    /// It rests, held by the guide.
+    Rests,
+}
+
 /// What the mass does on one side of the switching lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
@@ -225,6 +236,30 @@ impl Model {
             Phase::Below => (f64::NEG_INFINITY, 0.0),
             Phase::Between => (0.0, self.speed),
             Phase::Above => (self.speed, f64::INFINITY),
+        }
+    }
+
+    /// The state of contact at displacement `x` and velocity `y` (divided by the natural frequency).
+    pub fn place(&self, x: f64, y: f64) -> ContactState {
+        if y == 0.0 {
+            return if self.rests_at(x) {
+                ContactState::Rests
+            } else {
+                ContactState::Slips(if x > 0.0 { Phase::Below } else { Phase::Between })
+            };
+        }
+        match (self.lines, y.total_cmp(&self.speed)) {
+            (Some(lines), std::cmp::Ordering::Equal) => {
+                if x > lines.release {
+                    ContactState::Slips(Phase::Between)
+                } else if x < lines.low {
+                    ContactState::Slips(Phase::Above)
+                } else {
+                    ContactState::Sticks
+                }
+            }
+            (_, std::cmp::Ordering::Greater) => ContactState::Slips(Phase::Above),
+            _ => ContactState::Slips(if y < 0.0 { Phase::Below } else { Phase::Between }),
         }
     }
 

@@ -3,9 +3,8 @@
 use super::certified::{PointBounds, followed, point_columns};
 use super::table::digits;
 use super::{About, Answer, Columns, Document, Quantity};
-use crate::flow::machine::turn::ContactState;
 use crate::flow::{Crossing, Leg, Outcome, Problem, Sample, Trajectory};
-use crate::model::{Ledger, State, Work};
+use crate::model::{ContactState, Ledger, State, Work};
 use crate::numerics::Interval;
 use crate::proof::motion::ProvedMotion;
 use crate::words::motion::{Writing, sentence};

@@ -1,13 +1,12 @@
 //! Error against cost, in every form of output: one row for each method and accuracy.
 
 use super::motion::from;
-use super::{About, Answer, Columns, Document, Quantity, Table};
-use crate::accuracy::machine_trade::MachineTrade;
+use super::{About, Answer, Columns, Quantity, Table};
 use crate::accuracy::reference::{Deviation, Reference, ReferenceSource};
 use crate::accuracy::trade;
 use crate::accuracy::trade::{Trade, TradePoint};
-use crate::flow::{METHODS, Method, MethodSpec, Outcome, Problem, Trajectory};
-use crate::model::{Knob, MachineProblem};
+use crate::flow::{METHODS, Method, MethodSpec, Outcome};
+use crate::model::Knob;
 use crate::numerics::elementary::{log10, pow};
 use crate::words::number::count;
 use crate::words::{counted, duration, significant};
@@ -135,6 +134,9 @@ fn reference(trade: &Trade) -> String {
         ),
         ReferenceSource::ClosedForm => ("closed form", "taylor at 1e-13"),
         ReferenceSource::Implicit => ("stiff at 1e-14", "auto at 1e-13"),
+        ReferenceSource::Machine => {
+            return "Taylor series whose last terms are below rounding".to_owned();
+        }
     };
     let differs = if reference.error.is_finite() {
         format!("differs by {}", significant(reference.error, 1))
@@ -149,8 +151,7 @@ fn reference(trade: &Trade) -> String {
     format!("{first}; {second} {differs}{closed}")
 }
 
-/// The trade-off of the oscillator of the paper, with a plot of it below the text: one line for each method and accuracy;
-/// those without an error come last.
+/// The trade-off with a plot of it below the text: one line for each method and accuracy; those without an error come last.
 pub fn trade<'a>(
     about: &About,
     timed: &'a TimedTrade,
@@ -164,8 +165,8 @@ pub fn trade<'a>(
         format!("{}{setting}: {}", row.point.problem.method, row.reason().unwrap_or_default())
     });
     let given_up: Vec<_> = given_up.collect();
-    about
-        .answer_to(&until)
+    let answer = if about.is_machine() { about.answer() } else { about.answer_to(&until) };
+    let answer = answer
         .fields(move |all| {
             let without_error = Columns::default()
                 .file("method", |row: &TradeRow| row.point.problem.method)
@@ -190,7 +191,8 @@ pub fn trade<'a>(
         .lines(given_up)
         .lines(["*: nothing else is better for less time; <: the method in use"])
         .lines(["\n".to_owned() + &plot()])
-        .captioned("", || digits(timed))
+        .captioned("", || digits(timed));
+    if about.is_machine() { answer.cost(known.cost, timed.seconds.iter().sum()) } else { answer }
 }
 
 /// How the motion ends, in a sentence.
@@ -263,43 +265,4 @@ fn growth(rows: &[TradeRow]) -> Option<f64> {
     #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
     let factor = most as f64 / least as f64;
     (digits >= 1.0).then(|| pow(factor, 1.0 / digits))
-}
-
-/// Error against cost of every method on one motion of a machine; `seconds` has the time of each row.
-pub fn of_machine<'a>(
-    about: &About,
-    MachineProblem { start: (q, v), until, .. }: &'a MachineProblem,
-    found: &'a MachineTrade,
-    seconds: &'a [f64],
-) -> Answer<'a> {
-    type TimedRow<'a> = (&'a Trajectory, f64, f64);
-    const REFERENCE: &str = "Taylor series whose last terms are below rounding";
-    let columns = Columns::default()
-        .word("method", |(motion, ..): &TimedRow| motion.method)
-        .number("tolerance", Quantity::pure(3), |(motion, ..)| motion.problem.tolerance)
-        .number("error", Quantity::pure(3), |(_, error, _)| *error)
-        .word("evaluations", |(motion, ..)| motion.cost.evaluations)
-        .number("seconds", Quantity::of("s", 3), |(.., seconds)| *seconds)
-        .word("steps", |(motion, ..)| motion.cost.steps);
-    let rows = move || {
-        let timed = found.points.iter().zip(seconds);
-        timed.filter_map(|(point, &seconds)| Some((&point.motion, point.error?, seconds)))
-    };
-    let objects = columns.clone();
-    let lost = found.points.iter().filter(|point| point.error.is_none()).map(|point| {
-        let Problem { method, tolerance, .. } = point.motion.problem;
-        format!("{method} at {tolerance:e}: not the same standstills")
-    });
-    about
-        .answer()
-        .fields(move |all| {
-            all.with("initial", Document::default().with("q", q).with("v", v))
-                .with("until", until)
-                .with("reference", REFERENCE)
-                .with("rows", objects.objects(rows()))
-        })
-        .rows(columns, rows())
-        .lines([format!("errors against {REFERENCE}")])
-        .lines(lost)
-        .cost(found.reference.cost, seconds.iter().sum())
 }

@@ -10,10 +10,9 @@ use std::f64::consts::PI;
 
 use hopfscope::branch::SpecialKind;
 use hopfscope::branch::machine::branch;
-use hopfscope::flow::machine::turn::ContactState;
 use hopfscope::flow::{Fate, Flow, Outcome, Reason, follow_by_series};
 use hopfscope::model::belt::FrictionLaw;
-use hopfscope::model::{Belt, Group, Knob, Model};
+use hopfscope::model::{Belt, ContactState, Group, Knob, Model};
 use hopfscope::numerics::elementary::{
     asin, atan, atan2, cos, exp, exp_m1, hypot, ln, powi, sin, tanh,
 };

@@ -2,9 +2,8 @@
 //! switching lines located by a dense scan of every step.
 
 use hopfscope::flow::follow_by_series;
-use hopfscope::flow::machine::turn::ContactState;
 use hopfscope::model::belt::FrictionLaw;
-use hopfscope::model::{Belt, Model, Phase};
+use hopfscope::model::{Belt, ContactState, Model, Phase};
 use hopfscope::numerics::twofold::Twofold;
 
 /// Order of the series.

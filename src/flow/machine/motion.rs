@@ -4,10 +4,9 @@ use super::arc::{Flow, SeriesStep, Watch};
 use super::ledger::StepWorks;
 use super::series::ORDER;
 use super::stepped;
-use super::turn::ContactState;
 use crate::flow::motion::Leg;
 use crate::flow::{Cost, Crossing, Detail, Method, Outcome, Problem, Sample, Trajectory};
-use crate::model::{Model, Phase, Reason, State};
+use crate::model::{ContactState, Model, Phase, Reason, State};
 use crate::numerics::polynomial::value;
 
 /// The units in which a motion of a machine is told. The model itself computes in m and `1/omega_0`.

@@ -5,17 +5,7 @@
 
 use super::arc::{ArcEnd, Flow, Watch};
 use super::stepped::{PhaseField, PhaseStepper, stepped};
-use crate::model::{Model, Phase, Reason};
-
-/// The state of contact at a point of the phase plane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ContactState {
-    Slips(Phase),
-    /// It rides on the belt.
-    Sticks,
-    /// It rests, held by the guide.
-    Rests,
-}
+use crate::model::{ContactState, Phase, Reason};
 
 /// A turning point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,32 +28,6 @@ pub struct WayToTurn {
     pub sticks_from: Option<f64>,
     /// Displacement at which it left the belt's line upwards.
     pub overtakes_from: Option<f64>,
-}
-
-impl Model {
-    /// The state of contact at displacement `x` and velocity `y` (divided by the natural frequency).
-    pub fn place(&self, x: f64, y: f64) -> ContactState {
-        if y == 0.0 {
-            return if self.rests_at(x) {
-                ContactState::Rests
-            } else {
-                ContactState::Slips(if x > 0.0 { Phase::Below } else { Phase::Between })
-            };
-        }
-        match (self.lines, y.total_cmp(&self.speed)) {
-            (Some(lines), std::cmp::Ordering::Equal) => {
-                if x > lines.release {
-                    ContactState::Slips(Phase::Between)
-                } else if x < lines.low {
-                    ContactState::Slips(Phase::Above)
-                } else {
-                    ContactState::Sticks
-                }
-            }
-            (_, std::cmp::Ordering::Greater) => ContactState::Slips(Phase::Above),
-            _ => ContactState::Slips(if y < 0.0 { Phase::Below } else { Phase::Between }),
-        }
-    }
 }
 
 /// Where a leg ends: where the next begins.

@@ -6,9 +6,9 @@
 
 use crate::flow::machine::arc::{ArcEnd, SeriesStep, Watch};
 use crate::flow::machine::curve::{CurvePiece, MachineCurve};
-use crate::flow::machine::turn::{ContactState, Turn};
+use crate::flow::machine::turn::Turn;
 use crate::flow::{Flow, Reason};
-use crate::model::{Lines, Model, Phase};
+use crate::model::{ContactState, Lines, Model, Phase};
 use crate::numerics::elementary::ln;
 use crate::numerics::quadrature::gauss;
 

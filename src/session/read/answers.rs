@@ -219,7 +219,9 @@ impl Session {
         Some(match reference.compare(motion) {
             Ok(deviation) => Ok((deviation, reference)),
             Err(NoComparison::GaveUp(_)) => Err(NoErrorReason::GaveUp),
-            Err(NoComparison::OtherFate) => Err(NoErrorReason::OtherFate),
+            Err(NoComparison::OtherFate | NoComparison::OtherTurns) => {
+                Err(NoErrorReason::OtherFate)
+            }
         })
     }
 
